@@ -18,17 +18,17 @@ use core::fmt::Debug;
 )]
 pub trait Kernel<const D: usize>: Copy + Debug + Send + Sync + 'static {
     /// The kernel's name in reports.
-    const NAME: &'static str;
+    fn name(&self) -> &'static str;
     /// Radius of the support in units of h.
-    const SUPPORT: f64;
+    fn support(&self) -> f64;
     /// Normalisation σ_D such that W integrates to one.
-    const NORMALISATION: f64;
+    fn normalisation(&self) -> f64;
     /// Recommended ratio of smoothing length to spacing, h/dx.
-    const H_OVER_DX: f64;
+    fn h_over_dx(&self) -> f64;
     /// The ratios h/dx that the builder accepts; above the upper bound particles pair.
-    const H_OVER_DX_RANGE: (f64, f64);
+    fn h_over_dx_range(&self) -> (f64, f64);
     /// Stable step of an undamped leapfrog in units of h/c on a lattice at the recommended h/dx.
-    const STABLE_STEP: f64;
+    fn stable_step(&self) -> f64;
 
     /// The shape f(q), q ≥ 0.
     fn shape<L: Lane>(&self, q: L) -> L;

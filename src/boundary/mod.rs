@@ -1,0 +1,74 @@
+//! Boundaries: the trait, and one file for each kind.
+//! A boundary shows particles near it their images; the pair loop meets images like particles.
+
+mod mirror;
+mod periodic;
+
+use crate::sweep::{Interaction, Transform};
+use core::fmt::Debug;
+
+pub use mirror::MirrorPlane;
+pub use periodic::Periodic;
+
+use crate::scalar::Real;
+
+/// A boundary that acts through images of particles.
+///
+/// Where nothing is said a body ends freely; a free surface needs no boundary.
+///
+/// ```
+/// use meshfree::boundary::Boundary;
+/// use meshfree::sweep::Transform;
+/// use meshfree::tensor::{Matrix, Vector};
+///
+/// /// A glide: periodic along x, and turned over in y by every period.
+/// #[derive(Clone, Debug)]
+/// struct Glide { period: f64 }
+///
+/// impl Boundary<f64, 2> for Glide {
+///     fn name(&self) -> String { format!("glide of period {} m", self.period) }
+///     fn images(&self) -> usize { 2 }
+///     fn transform(&self, image: usize, _time: f64) -> Transform<f64, 2> {
+///         let shift = if image == 0 { self.period } else { -self.period };
+///         Transform {
+///             rotation: Matrix::<f64, 2>::new(1.0, 0.0, 0.0, -1.0),
+///             shift: Vector::<f64, 2>::new(shift, 0.0),
+///             velocity: Vector::<f64, 2>::zeros(),
+///         }
+///     }
+///     fn reaches(&self, image: usize, x: &[f64; 2], reach: f64, _time: f64) -> bool {
+///         if image == 0 { x[0] < reach } else { x[0] > self.period - reach }
+///     }
+/// }
+/// assert_eq!(Glide { period: 2.0 }.transform(0, 0.0).point(&[0.5, 0.1]), [2.5, -0.1]);
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a boundary in {D} dimensions",
+    note = "implement `Boundary<{T}, {D}>`: how many images a particle has, the transform of each, and which particles are near enough to need it"
+)]
+pub trait Boundary<T: Real, const D: usize>: Debug + Send + Sync {
+    /// Its name in reports.
+    fn name(&self) -> String;
+    /// How many images a particle can have.
+    fn images(&self) -> usize;
+    /// The transform that makes image `image` at `time` \[s\].
+    fn transform(&self, image: usize, time: f64) -> Transform<T, D>;
+    /// Whether image `image` of a particle at `x` \[m\] lies within `reach` \[m\] of the domain.
+    fn reaches(&self, image: usize, x: &[T; D], reach: f64, time: f64) -> bool;
+    /// Whether the boundary moves, so that transforms must be renewed in every step.
+    fn moves(&self) -> bool {
+        false
+    }
+    /// Where a particle that has left re-enters; `None` if it has not left.
+    fn wrap(&self, _x: &[T; D]) -> Option<Transform<T, D>> {
+        None
+    }
+    /// What particles and images do to each other.
+    fn interaction(&self) -> Interaction {
+        Interaction::Bonded
+    }
+    /// What is wrong with the boundary for a kernel that reaches `reach` \[m\].
+    fn problems(&self, _reach: f64) -> Vec<(&'static str, f64, &'static str)> {
+        Vec::new()
+    }
+}

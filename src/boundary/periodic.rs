@@ -1,0 +1,85 @@
+//! Periodic directions: what leaves on one side enters on the other.
+//! Images shifted by the period close the domain on itself.
+
+use super::Boundary;
+use crate::scalar::Real;
+use crate::sweep::Transform;
+use crate::tensor::Vector;
+
+/// Periodicity along one axis, from `low` to `high` \[m\].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Periodic {
+    axis: usize,
+    low: f64,
+    high: f64,
+}
+
+impl Periodic {
+    /// Periodic along `axis` (0 is x) between `low` and `high` \[m\].
+    #[must_use]
+    pub fn along(axis: usize, low: f64, high: f64) -> Self {
+        Self { axis, low, high }
+    }
+
+    fn shift<T: Real, const D: usize>(&self, periods: f64) -> Transform<T, D> {
+        let period = periods * (self.high - self.low);
+        let component = |d: usize| if d == self.axis { period } else { 0.0 };
+        Transform {
+            shift: Vector::from_fn(|d, _| T::from_f64(component(d))),
+            ..Transform::identity()
+        }
+    }
+}
+
+impl<T: Real, const D: usize> Boundary<T, D> for Periodic {
+    fn name(&self) -> String {
+        format!("period along axis {}", self.axis)
+    }
+    fn images(&self) -> usize {
+        2
+    }
+    fn transform(&self, image: usize, _time: f64) -> Transform<T, D> {
+        self.shift(if image == 0 { 1.0 } else { -1.0 })
+    }
+    fn reaches(&self, image: usize, x: &[T; D], reach: f64, _time: f64) -> bool {
+        let x = x[self.axis].to_f64();
+        if image == 0 {
+            x < self.low + reach
+        } else {
+            x > self.high - reach
+        }
+    }
+    fn wrap(&self, x: &[T; D]) -> Option<Transform<T, D>> {
+        let x = x[self.axis].to_f64();
+        let periods = ((x - self.low) / (self.high - self.low)).floor();
+        // NaN and points inside both stay where they are.
+        (periods != 0.0 && periods.is_finite()).then(|| self.shift(-periods))
+    }
+    fn problems(&self, reach: f64) -> Vec<(&'static str, f64, &'static str)> {
+        let period = self.high - self.low;
+        if self.axis >= D {
+            return vec![("axis", self.axis as f64, "must be below the dimension")];
+        }
+        if period >= 2.0 * reach {
+            return Vec::new();
+        }
+        vec![(
+            "period",
+            period,
+            "must be at least twice the kernel's reach: enlarge the domain or refine",
+        )]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_leaves_re_enters() {
+        let period = Periodic::along(1, -1.0, 1.0);
+        let back: Transform<f64, 2> = period.wrap(&[0.3, 1.25]).unwrap();
+        assert_eq!(back.point(&[0.3, 1.25]), [0.3, -0.75]);
+        assert!(Boundary::<f64, 2>::wrap(&period, &[5.0, 0.5]).is_none());
+    }
+}

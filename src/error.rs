@@ -1,0 +1,190 @@
+//! Errors for the person who reads them: what happened, where, the likely cause, and what to try.
+//! Building a scene reports every problem that it finds, not the first.
+
+use core::fmt;
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// One thing that is wrong with a scene.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum Problem {
+    /// A parameter outside its range.
+    #[error("{what} is {value}: {must_be}")]
+    Parameter {
+        /// The parameter, with the body or part it belongs to.
+        what: String,
+        /// The value given.
+        value: f64,
+        /// What it must be, and what to do.
+        must_be: &'static str,
+    },
+    /// A body without particles.
+    #[error(
+        "body `{body}` has no particles: give it a shape at least one spacing large, or leave it out"
+    )]
+    EmptyBody {
+        /// The body.
+        body: String,
+    },
+    /// A scene without bodies.
+    #[error("the scene has no bodies: add at least one with `Scene::body`")]
+    EmptyScene,
+    /// Two bodies share space.
+    #[error(
+        "bodies `{first}` and `{second}` overlap: two particles are {distance} m apart near {position:?}, \
+         less than half the spacing of {spacing} m; move one of them, or cut the shape"
+    )]
+    Overlap {
+        /// One body.
+        first: String,
+        /// The other.
+        second: String,
+        /// Smallest distance \[m\].
+        distance: f64,
+        /// Spacing \[m\].
+        spacing: f64,
+        /// Where \[m\].
+        position: Vec<f64>,
+    },
+    /// A material that the catalogue does not have.
+    #[error("no material is called `{name}`: the catalogue has {known}")]
+    UnknownMaterial {
+        /// The name asked for.
+        name: String,
+        /// The names that exist.
+        known: String,
+    },
+    /// A ratio of smoothing length to spacing at which the kernel misbehaves.
+    #[error(
+        "h/dx is {ratio} with the {kernel} kernel, outside {lowest}..{highest}: below it neighbours are \
+         lost, above it particles pair; take {recommended}"
+    )]
+    SmoothingRatio {
+        /// The kernel.
+        kernel: &'static str,
+        /// The ratio given.
+        ratio: f64,
+        /// Lowest accepted.
+        lowest: f64,
+        /// Highest accepted.
+        highest: f64,
+        /// Recommended.
+        recommended: f64,
+    },
+    /// A prescribed time step above the stability limit.
+    #[error(
+        "the time step is {step} s, above the stability limit of {limit} s ({criterion}): take a smaller \
+         one, or leave the choice to the simulation"
+    )]
+    StepAboveLimit {
+        /// The step asked for \[s\].
+        step: f64,
+        /// The limit \[s\].
+        limit: f64,
+        /// What sets the limit.
+        criterion: &'static str,
+    },
+    /// Parts that do not fit together.
+    #[error("{what}: {remedy}")]
+    Incompatible {
+        /// What does not fit.
+        what: String,
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// A name that the scene does not know.
+    #[error("there is no {kind} called `{name}`: the scene has {known}")]
+    UnknownName {
+        /// Body, boundary or probe.
+        kind: &'static str,
+        /// The name asked for.
+        name: String,
+        /// The names that exist.
+        known: String,
+    },
+}
+
+/// Everything that is wrong with a scene.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub struct BuildError {
+    /// The problems, in the order of the scene.
+    pub problems: Vec<Problem>,
+}
+
+impl fmt::Display for BuildError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.problems.as_slice() {
+            [one] => write!(f, "the scene cannot be built: {one}"),
+            many => {
+                write!(f, "the scene cannot be built; {} problems:", many.len())?;
+                many.iter()
+                    .try_for_each(|problem| write!(f, "\n  - {problem}"))
+            }
+        }
+    }
+}
+
+/// What can go wrong while a simulation is built, run or written.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The scene does not make sense.
+    #[error(transparent)]
+    Build(#[from] BuildError),
+    /// A number became infinite or undefined.
+    #[error(
+        "{quantity} of particle {particle} of body `{body}` is {value} at {position:?} m, t = {time} s, step \
+         {step}: the run has lost stability; try a smaller step factor, more artificial viscosity, or a finer \
+         spacing. What was written before stays readable"
+    )]
+    NotFinite {
+        /// The quantity.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+        /// The body.
+        body: String,
+        /// The particle's number in the body.
+        particle: usize,
+        /// Where \[m\].
+        position: Vec<f64>,
+        /// When \[s\].
+        time: f64,
+        /// In which step.
+        step: u64,
+    },
+    /// The time step collapsed.
+    #[error(
+        "the time step fell to {step} s at t = {time} s (criterion: {criterion}, particle {particle} of body \
+         `{body}`): something is about to break there; look at that particle, or set a smallest step"
+    )]
+    StepCollapsed {
+        /// The step \[s\].
+        step: f64,
+        /// When \[s\].
+        time: f64,
+        /// The criterion that set it.
+        criterion: &'static str,
+        /// The body.
+        body: String,
+        /// The particle's number in the body.
+        particle: usize,
+    },
+    /// A file could not be written or read.
+    #[error("cannot {action} {}: {source}", path.display())]
+    File {
+        /// Read or write.
+        action: &'static str,
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// An argument of a call after building makes no sense.
+    #[error("{0}")]
+    Argument(#[from] Problem),
+}
+
+/// The crate's result.
+pub type Result<T> = core::result::Result<T, Error>;

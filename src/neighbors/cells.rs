@@ -1,0 +1,217 @@
+//! Buckets: points sorted by the cell of a uniform grid they lie in, with a table from cell to run.
+//! The table is dense where the bounding box is well filled and hashed where it is not.
+
+use super::hilbert::hilbert_index;
+use crate::scalar::Real;
+use std::collections::HashMap;
+
+/// A uniform grid of cubic cells over a bounding box.
+#[derive(Clone, Debug)]
+pub struct Grid<const D: usize> {
+    origin: [f64; D],
+    inverse_size: f64,
+    size: f64,
+    counts: [u32; D],
+}
+
+impl<const D: usize> Grid<D> {
+    /// A grid with cells of edge `size` over all `points` that are finite.
+    #[must_use]
+    pub fn over<T: Real>(points: &[[T; D]], size: f64) -> Self {
+        let (mut low, mut high) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
+        for point in points {
+            for d in 0..D {
+                let x = point[d].to_f64();
+                if x.is_finite() {
+                    low[d] = low[d].min(x);
+                    high[d] = high[d].max(x);
+                }
+            }
+        }
+        let mut size = size;
+        // A box so long that a coordinate overflows gets coarser cells; the search stays correct.
+        for d in 0..D {
+            if low[d] > high[d] {
+                (low[d], high[d]) = (0.0, 0.0);
+            }
+            size = size.max((high[d] - low[d]) / f64::from(1 << 20));
+        }
+        let counts = core::array::from_fn(|d| ((high[d] - low[d]) / size) as u32 + 1);
+        Self {
+            origin: low,
+            inverse_size: 1.0 / size,
+            size,
+            counts,
+        }
+    }
+
+    /// Edge of a cell.
+    #[must_use]
+    pub fn size(&self) -> f64 {
+        self.size
+    }
+
+    /// The cell that holds a point; points outside belong to the nearest cell.
+    #[must_use]
+    pub fn cell<T: Real>(&self, point: &[T; D]) -> [u32; D] {
+        core::array::from_fn(|d| self.coordinate(point[d].to_f64(), d))
+    }
+
+    /// The cell coordinate along axis `d` of position `x`.
+    #[must_use]
+    pub fn coordinate(&self, x: f64, d: usize) -> u32 {
+        // The cast takes NaN and values below the origin to zero.
+        (((x - self.origin[d]) * self.inverse_size) as u32).min(self.counts[d] - 1)
+    }
+
+    fn bits(&self) -> u32 {
+        let most = self.counts.iter().copied().max().unwrap_or(1);
+        (32 - (most - 1).leading_zeros()).max(1)
+    }
+
+    /// Position of the point's cell along the Hilbert curve.
+    #[must_use]
+    pub fn order<T: Real>(&self, point: &[T; D]) -> u64 {
+        hilbert_index(self.cell(point), self.bits())
+    }
+
+    fn cells(&self) -> usize {
+        self.counts
+            .iter()
+            .fold(1, |n, &c| n.saturating_mul(c as usize))
+    }
+
+    fn linear(&self, cell: [u32; D]) -> usize {
+        (0..D)
+            .rev()
+            .fold(0, |n, d| n * self.counts[d] as usize + cell[d] as usize)
+    }
+}
+
+#[derive(Clone, Debug)]
+enum Table {
+    Dense(Vec<u32>),
+    Hashed(HashMap<u64, (u32, u32)>),
+}
+
+/// Points listed by cell.
+#[derive(Clone, Debug)]
+pub struct Cells<const D: usize> {
+    grid: Grid<D>,
+    points: Vec<u32>,
+    table: Table,
+}
+
+impl<const D: usize> Cells<D> {
+    /// Lists `points` (a subset of the slots, by index) in cells of edge `size`.
+    #[must_use]
+    pub fn build<T: Real>(positions: &[[T; D]], points: &[u32], size: f64) -> Self {
+        let chosen: Vec<[T; D]> = points.iter().map(|&p| positions[p as usize]).collect();
+        let grid = Grid::over(&chosen, size);
+        let dense = grid.cells() <= 4 * points.len() + 1024;
+        let keys: Vec<u64> = chosen
+            .iter()
+            .map(|x| grid.linear(grid.cell(x)) as u64)
+            .collect();
+        if dense {
+            let mut starts = vec![0_u32; grid.cells() + 1];
+            for &key in &keys {
+                starts[key as usize + 1] += 1;
+            }
+            for k in 1..starts.len() {
+                starts[k] += starts[k - 1];
+            }
+            let mut next = starts.clone();
+            let mut sorted = vec![0; points.len()];
+            for (&point, &key) in points.iter().zip(&keys) {
+                let place = &mut next[key as usize];
+                sorted[*place as usize] = point;
+                *place += 1;
+            }
+            return Self {
+                grid,
+                points: sorted,
+                table: Table::Dense(starts),
+            };
+        }
+        let mut pairs: Vec<(u64, u32)> = keys.into_iter().zip(points.iter().copied()).collect();
+        pairs.sort_unstable();
+        let mut runs = HashMap::new();
+        let mut start = 0;
+        for run in pairs.chunk_by(|a, b| a.0 == b.0) {
+            runs.insert(run[0].0, (start, start + run.len() as u32));
+            start += run.len() as u32;
+        }
+        let points = pairs.into_iter().map(|pair| pair.1).collect();
+        Self {
+            grid,
+            points,
+            table: Table::Hashed(runs),
+        }
+    }
+
+    /// Calls `visit` with the run of points of every cell that meets the box `low..high`.
+    pub fn for_each_run(&self, low: [f64; D], high: [f64; D], mut visit: impl FnMut(&[u32])) {
+        let first: [u32; D] = core::array::from_fn(|d| self.grid.coordinate(low[d], d));
+        let last: [u32; D] = core::array::from_fn(|d| self.grid.coordinate(high[d], d));
+        let mut cell = first;
+        loop {
+            let row = self.grid.linear(cell);
+            match &self.table {
+                // Cells along the first axis follow one another, and so do their points.
+                Table::Dense(starts) => {
+                    let end = row + (last[0] - first[0]) as usize + 1;
+                    visit(&self.points[starts[row] as usize..starts[end] as usize]);
+                }
+                Table::Hashed(runs) => {
+                    for k in 0..=u64::from(last[0] - first[0]) {
+                        if let Some(&(start, end)) = runs.get(&(row as u64 + k)) {
+                            visit(&self.points[start as usize..end as usize]);
+                        }
+                    }
+                }
+            }
+            let mut d = 1;
+            loop {
+                if d >= D {
+                    return;
+                }
+                if cell[d] < last[d] {
+                    cell[d] += 1;
+                    break;
+                }
+                cell[d] = first[d];
+                d += 1;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn finds_all_within_the_box(spread: f64) {
+        let positions: Vec<[f64; 2]> = (0..500)
+            .map(|k| {
+                let k = f64::from(k);
+                [spread * (k * 0.618).fract(), spread * (k * 0.414).fract()]
+            })
+            .collect();
+        let points: Vec<u32> = (0..500).collect();
+        let cells = Cells::build(&positions, &points, 0.07);
+        let (low, high) = ([0.2, 0.3], [0.45, 0.41]);
+        let mut found = Vec::new();
+        cells.for_each_run(low, high, |run| found.extend_from_slice(run));
+        let inside = |p: &[f64; 2]| (0..2).all(|d| p[d] >= low[d] && p[d] <= high[d]);
+        for (k, p) in positions.iter().enumerate() {
+            assert!(!inside(p) || found.contains(&(k as u32)));
+        }
+    }
+
+    #[test]
+    fn dense_and_hashed_tables_miss_nothing() {
+        finds_all_within_the_box(1.0);
+        finds_all_within_the_box(300.0);
+    }
+}

@@ -1,0 +1,139 @@
+//! Columns of particle data: one growable row of numbers for each field that a scene names.
+//! A field that nobody names is an empty column.
+
+use super::field::{Field, Fields};
+use crate::scalar::Real;
+
+/// The particles of a group, one column a field.
+///
+/// Particles stand in slots. Each body owns a run of slots whose length is a whole number of
+/// clusters; the slots behind its last particle repeat that particle, so the pair loop always works
+/// on full rows. Sums over particles use the body's own range and never see the repeats.
+#[derive(Clone, Debug)]
+pub struct Columns<T, const D: usize> {
+    data: Vec<Vec<T>>,
+    fields: Fields,
+    slots: usize,
+}
+
+impl<T: Real, const D: usize> Columns<T, D> {
+    /// Columns for `fields`, all zero.
+    #[must_use]
+    pub fn new(fields: Fields, slots: usize) -> Self {
+        let data = Field::ALL
+            .iter()
+            .map(|&field| {
+                let width = if fields.contains(field) {
+                    field.components(D)
+                } else {
+                    0
+                };
+                vec![T::zero(); width * slots]
+            })
+            .collect();
+        Self {
+            data,
+            fields,
+            slots,
+        }
+    }
+
+    /// Number of slots, repeats included.
+    #[must_use]
+    pub fn slots(&self) -> usize {
+        self.slots
+    }
+
+    /// The fields that have a column.
+    #[must_use]
+    pub fn fields(&self) -> Fields {
+        self.fields
+    }
+
+    /// Bytes of a particle in these columns.
+    #[must_use]
+    pub fn bytes_per_particle(&self) -> usize {
+        self.fields.width(D) * size_of::<T>()
+    }
+
+    /// The column of a field, `components` numbers a slot; empty if the scene does not name it.
+    #[inline]
+    #[must_use]
+    pub fn raw(&self, field: Field) -> &[T] {
+        &self.data[field as usize]
+    }
+
+    /// The column of a field, mutable.
+    #[inline]
+    #[must_use]
+    pub fn raw_mut(&mut self, field: Field) -> &mut [T] {
+        &mut self.data[field as usize]
+    }
+
+    /// A vector field as one array a slot.
+    #[inline]
+    #[must_use]
+    pub fn vectors(&self, field: Field) -> &[[T; D]] {
+        debug_assert_eq!(field.components(D), D);
+        self.data[field as usize].as_chunks::<D>().0
+    }
+
+    /// A vector field as one array a slot, mutable.
+    #[inline]
+    #[must_use]
+    pub fn vectors_mut(&mut self, field: Field) -> &mut [[T; D]] {
+        debug_assert_eq!(field.components(D), D);
+        self.data[field as usize].as_chunks_mut::<D>().0
+    }
+
+    /// Several different columns at once, mutable; all empty if a field is named twice.
+    #[must_use]
+    pub fn many_mut<const N: usize>(&mut self, fields: [Field; N]) -> [&mut [T]; N] {
+        match self
+            .data
+            .get_disjoint_mut(fields.map(|field| field as usize))
+        {
+            Ok(columns) => columns.map(Vec::as_mut_slice),
+            Err(_) => core::array::from_fn(|_| [].as_mut_slice()),
+        }
+    }
+
+    /// Rearranges the slots: slot k becomes what slot `order[k]` was.
+    pub fn permute(&mut self, order: &[u32]) {
+        self.slots = order.len();
+        let mut sorted = Vec::new();
+        for (field, column) in Field::ALL.iter().zip(&mut self.data) {
+            if !self.fields.contains(*field) {
+                continue;
+            }
+            let width = field.components(D);
+            sorted.clear();
+            sorted.reserve(width * order.len());
+            for &from in order {
+                let from = from as usize * width;
+                sorted.extend_from_slice(&column[from..from + width]);
+            }
+            core::mem::swap(column, &mut sorted);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn absent_fields_take_no_memory_and_permutation_moves_all() {
+        let fields = Fields::of(&[Field::Position, Field::Density]);
+        let mut columns = Columns::<f64, 2>::new(fields, 3);
+        assert!(columns.raw(Field::Energy).is_empty());
+        assert_eq!(columns.bytes_per_particle(), 24);
+        for k in 0..3 {
+            columns.vectors_mut(Field::Position)[k] = [k as f64, -(k as f64)];
+            columns.raw_mut(Field::Density)[k] = 10.0 * k as f64;
+        }
+        columns.permute(&[2, 0, 1]);
+        assert_eq!(columns.vectors(Field::Position)[0], [2.0, -2.0]);
+        assert_eq!(columns.raw(Field::Density), [20.0, 0.0, 10.0]);
+    }
+}

@@ -1,0 +1,551 @@
+//! A kernel and a tuple of terms, compiled into one loop for each way it can run.
+//! Behind [`PairSweep`] it is an object that is called a handful of times a step.
+
+use super::records::{Image, Records, Transform};
+use super::rows::{Reaction, Rows};
+use super::{InstructionSet, Interaction, SmoothingMode};
+use crate::kernel::Kernel;
+use crate::neighbors::{Block, CHUNK, ChunkList, ClusterLists, Segment};
+use crate::particles::{Columns, Field, Fields, Output, Outputs};
+use crate::scalar::{Lane, Real};
+use crate::term::{Layout, MOST_READS, MOST_SUMS, Pair, Sums, TermDoc, Terms};
+use core::fmt::Debug;
+use core::marker::PhantomData;
+use rayon::prelude::*;
+
+/// What a sweep is run for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pass {
+    /// The sums that the terms write.
+    Rates,
+    /// The work of all pair forces with the mean velocity of a kick (Owen 2014).
+    Work,
+}
+
+/// What a sweep works on.
+#[derive(Debug)]
+pub struct SweepInput<'a, T, const D: usize> {
+    /// Particle data.
+    pub columns: &'a Columns<T, D>,
+    /// Images of particles behind boundaries.
+    pub images: &'a [Image],
+    /// The transforms that make them.
+    pub transforms: &'a [Transform<T, D>],
+    /// Neighbour lists.
+    pub lists: &'a ClusterLists,
+    /// Bodies, then boundaries.
+    pub blocks: &'a [Block],
+    /// What block `a` and block `b` do to each other, at `a * blocks.len() + b`.
+    pub interactions: &'a [Interaction],
+    /// The smoothing length where it is the same for all \[m\].
+    pub smoothing_length: f64,
+    /// The instruction set to run on.
+    pub instructions: InstructionSet,
+}
+
+/// A sweep over pairs, whatever its kernel and terms.
+pub trait PairSweep<T: Real, const D: usize>: Debug + Send + Sync {
+    /// Fields that the particles must carry.
+    fn fields(&self) -> Fields;
+    /// Sums that it makes in a [`Pass::Rates`].
+    fn outputs(&self) -> Outputs;
+    /// Its terms, for people.
+    fn document(&self) -> Vec<TermDoc>;
+    /// Packs what a pass reads. `records` keeps its memory between calls.
+    fn pack(&self, pass: Pass, input: &SweepInput<'_, T, D>, records: &mut Records<T>);
+    /// Runs the loop over packed records. `rows` keeps its memory between calls.
+    fn run(
+        &self,
+        pass: Pass,
+        input: &SweepInput<'_, T, D>,
+        records: &Records<T>,
+        rows: &mut Rows<T, D>,
+    );
+}
+
+/// A kernel and the terms that share a sweep.
+#[derive(Clone, Debug)]
+pub struct Program<K, P> {
+    kernel: K,
+    terms: P,
+    mode: SmoothingMode,
+}
+
+impl<K, P> Program<K, P> {
+    /// The program of `terms` under `kernel`.
+    #[must_use]
+    pub fn new(kernel: K, terms: P, mode: SmoothingMode) -> Self {
+        Self {
+            kernel,
+            terms,
+            mode,
+        }
+    }
+}
+
+const UNIFORM: u8 = 0;
+const MEAN: u8 = 1;
+const OWN: u8 = 2;
+const WORK: u8 = 4;
+
+/// The layout of a sweep: what its terms name, and what the way of running adds.
+struct Composed<T, P, const D: usize, const HOW: u8>(PhantomData<(T, P)>);
+
+impl<T: Real, P: Terms<D>, const D: usize, const HOW: u8> Layout for Composed<T, P, D, HOW> {
+    const READS: Fields = reads::<T, P, D>(HOW);
+    const WRITES: Outputs = if HOW & WORK == 0 {
+        P::WRITES
+    } else {
+        Outputs::of(&[Output::Power])
+    };
+}
+
+const fn reads<T: Real, P: Terms<D>, const D: usize>(how: u8) -> Fields {
+    let mut fields = P::READS.union(Fields::of(&[Field::Position]));
+    if !T::COMPENSATED {
+        fields = fields.without(Field::PositionResidual);
+    }
+    if how & (MEAN | OWN) != 0 {
+        fields = fields.union(Fields::of(&[Field::SmoothingLength]));
+    }
+    if how & WORK != 0 {
+        fields = fields.union(Fields::of(&[Field::MeanVelocity]));
+    }
+    fields
+}
+
+impl<T: Real, const D: usize, K: Kernel<D>, P: Terms<D>> PairSweep<T, D> for Program<K, P> {
+    fn fields(&self) -> Fields {
+        reads::<T, P, D>(if self.mode == SmoothingMode::Uniform {
+            UNIFORM
+        } else {
+            MEAN
+        })
+    }
+
+    fn outputs(&self) -> Outputs {
+        P::WRITES
+    }
+
+    fn document(&self) -> Vec<TermDoc> {
+        self.terms.document()
+    }
+
+    fn pack(&self, pass: Pass, input: &SweepInput<'_, T, D>, records: &mut Records<T>) {
+        let work = if pass == Pass::Work { WORK } else { 0 };
+        let mode = if self.mode == SmoothingMode::Uniform {
+            UNIFORM
+        } else {
+            MEAN
+        };
+        let layout = reads::<T, P, D>(mode | work);
+        records.pack(layout, input.columns, input.images, input.transforms);
+    }
+
+    fn run(
+        &self,
+        pass: Pass,
+        input: &SweepInput<'_, T, D>,
+        records: &Records<T>,
+        rows: &mut Rows<T, D>,
+    ) {
+        // Work is only ever asked of sweeps that make forces; others need no such loop.
+        let forces = const { P::WRITES.contains(Output::Force) };
+        match (self.mode, pass) {
+            (SmoothingMode::Uniform, Pass::Rates) => self.go::<T, D, UNIFORM>(input, records, rows),
+            (SmoothingMode::Mean, Pass::Rates) => self.go::<T, D, MEAN>(input, records, rows),
+            (SmoothingMode::Own, Pass::Rates) => self.go::<T, D, OWN>(input, records, rows),
+            _ if !forces => {}
+            (SmoothingMode::Uniform, Pass::Work) => {
+                self.go::<T, D, { UNIFORM | WORK }>(input, records, rows);
+            }
+            (SmoothingMode::Mean, Pass::Work) => {
+                self.go::<T, D, { MEAN | WORK }>(input, records, rows);
+            }
+            (SmoothingMode::Own, Pass::Work) => {
+                self.go::<T, D, { OWN | WORK }>(input, records, rows);
+            }
+        }
+    }
+}
+
+impl<K, P> Program<K, P> {
+    fn go<T: Real, const D: usize, const HOW: u8>(
+        &self,
+        input: &SweepInput<'_, T, D>,
+        records: &Records<T>,
+        rows: &mut Rows<T, D>,
+    ) where
+        K: Kernel<D>,
+        P: Terms<D>,
+    {
+        let width = <T::Wide<false> as Lane>::WIDTH;
+        rows.outputs = Composed::<T, P, D, HOW>::WRITES;
+        let row = rows.outputs.width(D) * width;
+        rows.data
+            .resize(row * (input.columns.slots() / width), T::zero());
+        rows.reactions
+            .resize_with(input.lists.chunks().len(), Vec::new);
+        let h = T::from_f64(input.smoothing_length);
+        let task = Task {
+            kernel: &self.kernel,
+            terms: &self.terms,
+            records: records.data(),
+            blocks: input.blocks,
+            interactions: input.interactions,
+            h,
+            kernel_norm: T::from_f64(self.kernel.normalisation()),
+        };
+        rows.data
+            .par_chunks_mut((row * CHUNK).max(1))
+            .zip(rows.reactions.par_iter_mut())
+            .zip(input.lists.chunks().par_iter())
+            .enumerate()
+            .for_each(|(chunk, ((out, reactions), list))| {
+                reactions.clear();
+                task.dispatch::<D, HOW>(input.instructions, chunk, list, out, reactions);
+            });
+    }
+}
+
+/// Everything that the loop over one chunk reads.
+struct Task<'a, T, K, P> {
+    kernel: &'a K,
+    terms: &'a P,
+    records: &'a [T],
+    blocks: &'a [Block],
+    interactions: &'a [Interaction],
+    h: T,
+    kernel_norm: T,
+}
+
+impl<T: Real, K, P> Task<'_, T, K, P> {
+    #[inline(always)]
+    fn dispatch<const D: usize, const HOW: u8>(
+        &self,
+        instructions: InstructionSet,
+        chunk: usize,
+        list: &ChunkList,
+        out: &mut [T],
+        reactions: &mut Vec<Reaction<D>>,
+    ) where
+        K: Kernel<D>,
+        P: Terms<D>,
+    {
+        // In one dimension a row has a dozen neighbours: wider instructions are not worth a copy.
+        #[cfg(target_arch = "x86_64")]
+        if const { D > 1 } {
+            // SAFETY: `instructions` is only ever set to what `InstructionSet::available` confirmed.
+            match instructions {
+                InstructionSet::Avx512 => unsafe {
+                    return self.chunk_avx512::<D, HOW>(chunk, list, out, reactions);
+                },
+                InstructionSet::Avx2 => unsafe {
+                    return self.chunk_avx2::<D, HOW>(chunk, list, out, reactions);
+                },
+                InstructionSet::Baseline => {}
+            }
+        }
+        let _ = instructions;
+        self.chunk::<T::Wide<false>, D, HOW>(chunk, list, out, reactions);
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx512f,avx512vl,avx512dq,fma")]
+    fn chunk_avx512<const D: usize, const HOW: u8>(
+        &self,
+        chunk: usize,
+        list: &ChunkList,
+        out: &mut [T],
+        reactions: &mut Vec<Reaction<D>>,
+    ) where
+        K: Kernel<D>,
+        P: Terms<D>,
+    {
+        self.chunk::<T::Wide<true>, D, HOW>(chunk, list, out, reactions);
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2,fma")]
+    fn chunk_avx2<const D: usize, const HOW: u8>(
+        &self,
+        chunk: usize,
+        list: &ChunkList,
+        out: &mut [T],
+        reactions: &mut Vec<Reaction<D>>,
+    ) where
+        K: Kernel<D>,
+        P: Terms<D>,
+    {
+        self.chunk::<T::Wide<true>, D, HOW>(chunk, list, out, reactions);
+    }
+
+    /// All clusters of one chunk.
+    #[inline(always)]
+    fn chunk<L: Lane<Scalar = T>, const D: usize, const HOW: u8>(
+        &self,
+        chunk: usize,
+        list: &ChunkList,
+        out: &mut [T],
+        reactions: &mut Vec<Reaction<D>>,
+    ) where
+        K: Kernel<D>,
+        P: Terms<D>,
+    {
+        let reads = const { Composed::<T, P, D, HOW>::READS };
+        let stride = const { Composed::<T, P, D, HOW>::READS.width(D) };
+        let width_out = const { Composed::<T, P, D, HOW>::WRITES.width(D) };
+        for (c, bounds) in list.starts.windows(2).enumerate() {
+            let first = (chunk * CHUNK + c) * L::WIDTH;
+            let mut own = [L::zero(); MOST_READS];
+            for (k, value) in own.iter_mut().enumerate().take(stride) {
+                *value = L::from_fn(|lane| self.records[(first + lane) * stride + k]);
+            }
+            let mut sums = Sums::<L, D, Composed<T, P, D, HOW>>::new();
+            let block = self.blocks.partition_point(|b| b.slots.end <= first);
+            for segment in &list.segments[bounds[0] as usize..bounds[1] as usize] {
+                let neighbors = &list.neighbors[segment.start as usize..segment.end as usize];
+                let other = segment.block as usize;
+                if other == block {
+                    self.segment::<L, D, HOW, false>(&own, neighbors, &mut sums);
+                    continue;
+                }
+                let interaction = self.interactions[block * self.blocks.len() + other];
+                let before = sums.kept;
+                match interaction {
+                    Interaction::None => continue,
+                    Interaction::Bonded => {
+                        self.segment::<L, D, HOW, false>(&own, neighbors, &mut sums);
+                    }
+                    Interaction::Unilateral => {
+                        let shown = compressive(reads, &own, D);
+                        let kept = sums.take_kernel_sum();
+                        self.segment::<L, D, HOW, true>(&shown, neighbors, &mut sums);
+                        sums.divert_kernel_sum(kept);
+                    }
+                }
+                if const { Composed::<T, P, D, HOW>::WRITES.contains(Output::Force) } {
+                    let members = self.blocks[block]
+                        .slots
+                        .end
+                        .saturating_sub(first)
+                        .min(L::WIDTH);
+                    reactions.push(reaction::<L, D, _>(block, segment, members, &before, &sums));
+                }
+            }
+            let row = &mut out[c * width_out * L::WIDTH..(c + 1) * width_out * L::WIDTH];
+            for (k, values) in row.chunks_exact_mut(L::WIDTH).enumerate() {
+                for (lane, value) in values.iter_mut().enumerate() {
+                    *value = sums.kept[k].extract(lane);
+                }
+            }
+        }
+    }
+
+    /// One cluster against the neighbours of one segment.
+    ///
+    /// Across an open contact (`CONTACT`) a pair acts only where one of the two touches, shows the
+    /// other side only pressure that compresses, and its kernel sum is kept apart.
+    #[inline(always)]
+    fn segment<L: Lane<Scalar = T>, const D: usize, const HOW: u8, const CONTACT: bool>(
+        &self,
+        own: &[L; MOST_READS],
+        neighbors: &[u32],
+        sums: &mut Sums<L, D, Composed<T, P, D, HOW>>,
+    ) where
+        K: Kernel<D>,
+        P: Terms<D>,
+    {
+        let reads = const { Composed::<T, P, D, HOW>::READS };
+        let stride = const { Composed::<T, P, D, HOW>::READS.width(D) };
+        let (position, velocity) = (
+            reads.offset(Field::Position, D),
+            reads.offset(Field::Velocity, D),
+        );
+        let residual = reads.offset(Field::PositionResidual, D);
+        let h_at = reads.offset(Field::SmoothingLength, D);
+        let norm = L::splat(self.kernel_norm);
+        let uniform = Scale::new(L::splat(self.h), norm, D);
+        let own_scale = if HOW & (MEAN | OWN) == 0 {
+            uniform
+        } else {
+            Scale::new(own[h_at], norm, D)
+        };
+        let mut shown = [T::zero(); MOST_READS];
+        for &j in neighbors {
+            let record = &self.records[j as usize * stride..j as usize * stride + stride];
+            let mut r = [L::zero(); D];
+            let mut v = [L::zero(); D];
+            for d in 0..D {
+                r[d] = own[position + d] - L::splat(record[position + d]);
+                if reads.contains(Field::PositionResidual) {
+                    r[d] += own[residual + d] - L::splat(record[residual + d]);
+                }
+                if reads.contains(Field::Velocity) {
+                    v[d] = own[velocity + d] - L::splat(record[velocity + d]);
+                }
+            }
+            let mut r2 = r[0] * r[0];
+            let mut v_dot_r = v[0] * r[0];
+            for d in 1..D {
+                r2 = r[d].mul_add(r[d], r2);
+                v_dot_r = v[d].mul_add(r[d], v_dot_r);
+            }
+            let distance = r2.sqrt();
+            let (h, w, f_i, f_j);
+            if HOW & OWN != 0 {
+                let other = Scale::new(L::splat(record[h_at]), norm, D);
+                h = (own_scale.h + other.h) * L::of(0.5);
+                w = own_scale.value(self.kernel, distance);
+                f_i = own_scale.gradient(self.kernel, distance);
+                f_j = other.gradient(self.kernel, distance);
+            } else {
+                let scale = if HOW & MEAN != 0 {
+                    Scale::new((own_scale.h + L::splat(record[h_at])) * L::of(0.5), norm, D)
+                } else {
+                    uniform
+                };
+                h = scale.h;
+                w = scale.value(self.kernel, distance);
+                f_i = scale.gradient(self.kernel, distance);
+                f_j = f_i;
+            }
+            let mut pair = Pair {
+                r,
+                r2,
+                v,
+                v_dot_r,
+                h,
+                h_i: own_scale.h,
+                w,
+                f_i,
+                f_j,
+                i: own,
+                j: record,
+                layout: PhantomData,
+            };
+            if CONTACT {
+                if reads.contains(Field::Touching) {
+                    let at = reads.offset(Field::Touching, D);
+                    let active = own[at].max(L::splat(record[at]));
+                    pair.f_i *= active;
+                    pair.f_j *= active;
+                }
+                shown[..stride].copy_from_slice(record);
+                compressive_scalar(reads, &mut shown, D);
+                pair.j = &shown[..stride];
+            }
+            sums.radial = L::zero();
+            sums.shear = L::zero();
+            self.terms.pair(&pair, sums);
+            apply::<L, D, HOW, _>(&pair, sums, &P::WRITES, own, record, reads);
+        }
+    }
+}
+
+/// Turns the pair's scalar forces into the kept force, or into work.
+#[inline(always)]
+fn apply<L: Lane, const D: usize, const HOW: u8, C: Layout>(
+    pair: &Pair<'_, L, D, C>,
+    sums: &mut Sums<L, D, C>,
+    writes: &Outputs,
+    own: &[L; MOST_READS],
+    record: &[L::Scalar],
+    reads: Fields,
+) {
+    if !writes.contains(Output::Force) {
+        return;
+    }
+    if HOW & WORK != 0 {
+        let mean = reads.offset(Field::MeanVelocity, D);
+        let mut work = L::zero();
+        for d in 0..D {
+            let force = sums.radial.mul_add(pair.r[d], sums.shear * pair.v[d]);
+            work = force.mul_add(L::splat(record[mean + d]) - own[mean + d], work);
+        }
+        sums.add(Output::Power, work * L::of(0.5));
+        return;
+    }
+    for d in 0..D {
+        let force = sums.radial.mul_add(pair.r[d], sums.shear * pair.v[d]);
+        sums.add_at(Output::Force, d, force);
+    }
+    if writes.contains(Output::Power) {
+        let power = sums.radial.mul_add(pair.v_dot_r, sums.shear * pair.v2());
+        sums.add(Output::Power, power * L::of(-0.5));
+    }
+}
+
+/// Kernel factors of a smoothing length.
+#[derive(Clone, Copy)]
+struct Scale<L> {
+    h: L,
+    inverse: L,
+    value: L,
+    gradient: L,
+}
+
+impl<L: Lane> Scale<L> {
+    #[inline(always)]
+    fn new(h: L, norm: L, d: usize) -> Self {
+        let inverse = h.recip();
+        let value = norm * inverse.powi(d as u32);
+        Self {
+            h,
+            inverse,
+            value,
+            gradient: value * inverse * inverse,
+        }
+    }
+    #[inline(always)]
+    fn value<K: Kernel<D>, const D: usize>(&self, kernel: &K, r: L) -> L {
+        self.value * kernel.shape(r * self.inverse)
+    }
+    #[inline(always)]
+    fn gradient<K: Kernel<D>, const D: usize>(&self, kernel: &K, r: L) -> L {
+        self.gradient * kernel.slope_over_q(r * self.inverse)
+    }
+}
+
+/// What a row shows the other side of an open contact: pressure only where it touches and compresses.
+#[inline(always)]
+fn compressive<L: Lane>(reads: Fields, own: &[L; MOST_READS], d: usize) -> [L; MOST_READS] {
+    let mut shown = *own;
+    if reads.contains(Field::PressureCoefficient) && reads.contains(Field::Touching) {
+        let x = &mut shown[reads.offset(Field::PressureCoefficient, d)];
+        *x = x.positive_part() * own[reads.offset(Field::Touching, d)];
+    }
+    shown
+}
+
+/// The same for one record.
+#[inline(always)]
+fn compressive_scalar<T: Real>(reads: Fields, shown: &mut [T; MOST_READS], d: usize) {
+    if reads.contains(Field::PressureCoefficient) && reads.contains(Field::Touching) {
+        let touching = shown[reads.offset(Field::Touching, d)];
+        let x = &mut shown[reads.offset(Field::PressureCoefficient, d)];
+        *x = x.positive_part() * touching;
+    }
+}
+
+/// The force that the real particles of a row felt from one segment.
+#[inline(always)]
+fn reaction<L: Lane, const D: usize, C: Layout>(
+    block: usize,
+    segment: &Segment,
+    members: usize,
+    before: &[L; MOST_SUMS],
+    sums: &Sums<L, D, C>,
+) -> Reaction<D> {
+    let at = C::WRITES.offset(Output::Force, D);
+    let force = core::array::from_fn(|d| {
+        (0..members)
+            .map(|lane| (sums.kept[at + d] - before[at + d]).extract(lane).to_f64())
+            .sum()
+    });
+    Reaction {
+        on: block as u32,
+        from: segment.block,
+        force,
+    }
+}

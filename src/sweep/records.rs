@@ -1,0 +1,224 @@
+//! Packed records: what the pair loop reads of a particle, side by side in memory.
+//! Images (mirrored, shifted) are records made from their source by a transform.
+
+use crate::particles::{Columns, Field, Fields, Shape};
+use crate::scalar::Real;
+use crate::tensor::{Matrix, Vector};
+use rayon::prelude::*;
+
+/// How an image follows from its source: x′ = R x + s, v′ = R v + u.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Transform<T, const D: usize> {
+    /// Rotation or reflection R.
+    pub rotation: Matrix<T, D>,
+    /// Shift s \[m\].
+    pub shift: Vector<T, D>,
+    /// Velocity shift u \[m/s\].
+    pub velocity: Vector<T, D>,
+}
+
+impl<T: Real, const D: usize> Transform<T, D> {
+    /// The transform that changes nothing.
+    #[must_use]
+    pub fn identity() -> Self {
+        let one = |r, c| if r == c { T::one() } else { T::zero() };
+        Self {
+            rotation: Matrix::from_fn(one),
+            shift: Vector::from_element(T::zero()),
+            velocity: Vector::from_element(T::zero()),
+        }
+    }
+    /// First `self`, then `other`.
+    #[must_use]
+    pub fn then(&self, other: &Self) -> Self {
+        Self {
+            rotation: other.rotation * self.rotation,
+            shift: other.rotation * self.shift + other.shift,
+            velocity: other.rotation * self.velocity + other.velocity,
+        }
+    }
+    /// The image of a point.
+    #[must_use]
+    pub fn point(&self, x: &[T; D]) -> [T; D] {
+        (self.rotation * Vector::from(*x) + self.shift).into()
+    }
+}
+
+/// An image: a source slot seen through a transform.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Image {
+    /// The slot of the particle.
+    pub source: u32,
+    /// Index into the table of transforms.
+    pub transform: u32,
+}
+
+/// The packed records of a sweep.
+#[derive(Clone, Debug, Default)]
+pub struct Records<T> {
+    data: Vec<T>,
+    stride: usize,
+}
+
+impl<T: Real> Records<T> {
+    /// All records, one after another.
+    #[must_use]
+    pub fn data(&self) -> &[T] {
+        &self.data
+    }
+
+    /// Bytes held.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.data.capacity() * size_of::<T>()
+    }
+
+    /// Packs `reads` of all slots and images. Reuses memory; grows only when particles were added.
+    pub fn pack<const D: usize>(
+        &mut self,
+        reads: Fields,
+        columns: &Columns<T, D>,
+        images: &[Image],
+        transforms: &[Transform<T, D>],
+    ) {
+        let (stride, slots) = (reads.width(D), columns.slots());
+        self.stride = stride;
+        self.data.resize(stride * (slots + images.len()), T::zero());
+        let (own, mirrored) = self.data.split_at_mut(stride * slots);
+        const GRAIN: usize = 1024;
+        own.par_chunks_mut(GRAIN * stride.max(1))
+            .enumerate()
+            .for_each(|(chunk, records)| {
+                let first = chunk * GRAIN;
+                let count = records.len() / stride.max(1);
+                let mut offset = 0;
+                for field in reads.iter() {
+                    let width = field.components(D);
+                    let column = &columns.raw(field)[first * width..(first + count) * width];
+                    if width == 1 {
+                        for (record, &value) in records.chunks_exact_mut(stride).zip(column) {
+                            record[offset] = value;
+                        }
+                    } else {
+                        for (record, values) in records
+                            .chunks_exact_mut(stride)
+                            .zip(column.chunks_exact(width))
+                        {
+                            record[offset..offset + width].copy_from_slice(values);
+                        }
+                    }
+                    offset += width;
+                }
+            });
+        let own: &[T] = own;
+        mirrored
+            .par_chunks_mut(stride.max(1))
+            .zip(images.par_iter())
+            .for_each(|(record, image)| {
+                let source = image.source as usize * stride;
+                record.copy_from_slice(&own[source..source + stride]);
+                reflect(record, reads, &transforms[image.transform as usize]);
+            });
+    }
+}
+
+impl<T: Real> Records<T> {
+    /// Renews one velocity-like field of records packed with `reads`, and leaves the rest as it was.
+    pub fn renew_velocity<const D: usize>(
+        &mut self,
+        field: Field,
+        reads: Fields,
+        columns: &Columns<T, D>,
+        images: &[Image],
+        transforms: &[Transform<T, D>],
+    ) {
+        let (offset, slots) = (reads.offset(field, D), columns.slots());
+        let values = columns.vectors(field);
+        let (own, mirrored) = self.data.split_at_mut(self.stride * slots);
+        own.par_chunks_mut(self.stride)
+            .zip(values.par_iter())
+            .with_min_len(1024)
+            .for_each(|(record, value)| record[offset..offset + D].copy_from_slice(value));
+        for (record, image) in mirrored.chunks_mut(self.stride).zip(images) {
+            let by = &transforms[image.transform as usize];
+            let value = by.rotation * Vector::from(values[image.source as usize]) + by.velocity;
+            record[offset..offset + D].copy_from_slice(value.as_slice());
+        }
+    }
+}
+
+/// Turns a copy of the source's record into the image's.
+fn reflect<T: Real, const D: usize>(record: &mut [T], reads: Fields, by: &Transform<T, D>) {
+    // What rounding the image's position loses goes into its residual, where there is one.
+    let mut lost = [T::zero(); D];
+    let mut offset = 0;
+    for field in reads.iter() {
+        let values = &mut record[offset..offset + field.components(D)];
+        match field.shape() {
+            Shape::Scalar => {}
+            Shape::Matrix => {
+                let matrix = Matrix::<T, D>::from_row_slice(values);
+                let turned = by.rotation * matrix * by.rotation.transpose();
+                for (k, value) in values.iter_mut().enumerate() {
+                    *value = turned[(k / D, k % D)];
+                }
+            }
+            shape => {
+                let turned = by.rotation * Vector::<T, D>::from_row_slice(values);
+                for d in 0..D {
+                    values[d] = match shape {
+                        Shape::Point => {
+                            let (sum, error) = two_sum(turned[d], by.shift[d]);
+                            lost[d] = error;
+                            sum
+                        }
+                        Shape::Velocity => turned[d] + by.velocity[d],
+                        _ if field == Field::PositionResidual => turned[d] + lost[d],
+                        _ => turned[d],
+                    };
+                }
+            }
+        }
+        offset += field.components(D);
+    }
+}
+
+/// The rounded sum and its exact rounding error (Knuth 1969).
+#[inline(always)]
+pub(crate) fn two_sum<T: Real>(a: T, b: T) -> (T, T) {
+    let sum = a + b;
+    let part = sum - a;
+    (sum, (a - (sum - part)) + (b - part))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_image_of_an_image_is_the_composed_transform() {
+        let turn = Transform::<f64, 2> {
+            rotation: Matrix::<f64, 2>::new(0.0, -1.0, 1.0, 0.0),
+            shift: Vector::<f64, 2>::new(1.0, 2.0),
+            velocity: Vector::zeros(),
+        };
+        let twice = turn.then(&turn);
+        let x = [0.3, -0.7];
+        assert_eq!(twice.point(&x), turn.point(&turn.point(&x)));
+    }
+
+    #[test]
+    fn rounding_of_an_image_goes_into_the_residual() {
+        let reads = Fields::of(&[Field::Position, Field::PositionResidual]);
+        let mirror = Transform::<f32, 1> {
+            rotation: Matrix::<f32, 1>::new(-1.0),
+            shift: Vector::<f32, 1>::new(0.02),
+            velocity: Vector::zeros(),
+        };
+        let mut record = [0.009_987_654, 1e-11];
+        let exact = f64::from(0.02_f32) - f64::from(record[0]) - f64::from(record[1]);
+        reflect(&mut record, reads, &mirror);
+        let image = f64::from(record[0]) + f64::from(record[1]);
+        assert!((image - exact).abs() < 1e-17);
+    }
+}

@@ -1,0 +1,34 @@
+//! The velocity gradient and the moment matrix that makes it exact for linear fields.
+//! Randles & Libersky 1996; Bonet & Lok 1999.
+
+use super::{Layout, Pair, Sums, Term, TermDoc};
+use crate::particles::{Field, Fields, Output, Outputs};
+use crate::scalar::Lane;
+
+/// Σⱼ Vⱼ (vⱼ − vᵢ) ⊗ ∇W and −Σⱼ Vⱼ rᵢⱼ ⊗ ∇W; the gradient is the first times the inverse of the
+/// second.
+#[derive(Clone, Copy, Debug)]
+pub struct VelocityGradient;
+
+impl<const D: usize> Term<D> for VelocityGradient {
+    const READS: Fields = Fields::of(&[Field::Velocity, Field::Mass, Field::Density]);
+    const WRITES: Outputs = Outputs::of(&[Output::VelocityGradient, Output::MomentMatrix]);
+    #[inline(always)]
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+        let factor = -pair.j(Field::Mass) / pair.j(Field::Density) * pair.f();
+        for a in 0..D {
+            for b in 0..D {
+                let gradient = factor * pair.r[b];
+                sums.add_at(Output::VelocityGradient, a * D + b, pair.v[a] * gradient);
+                sums.add_at(Output::MomentMatrix, a * D + b, pair.r[a] * gradient);
+            }
+        }
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: "corrected velocity gradient".into(),
+            equation: "∇v = [Σⱼ Vⱼ (vⱼ − vᵢ) ⊗ ∇W] [−Σⱼ Vⱼ rᵢⱼ ⊗ ∇W]⁻¹",
+            source: "Randles & Libersky 1996; Bonet & Lok 1999",
+        }
+    }
+}

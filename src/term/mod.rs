@@ -1,0 +1,249 @@
+//! Pair terms: one effect a file, each with its equation, its source, and the fields it touches.
+//! A term adds to the sums of a pair; the sweep applies directions, so a tuple costs what fused code costs.
+
+use crate::particles::{Field, Fields, Output, Outputs};
+use crate::scalar::Lane;
+use core::fmt::Debug;
+use core::marker::PhantomData;
+
+mod gradient;
+mod momentum;
+mod sums;
+pub mod viscosity;
+
+pub use gradient::VelocityGradient;
+pub use momentum::{InternalEnergy, PressureForce};
+pub use sums::{Compression, KernelMoment, KernelSum, SlopeInH, Unity};
+pub use viscosity::{ArtificialViscosity, Viscosity, Viscous};
+
+/// Most numbers that a packed record can hold.
+pub const MOST_READS: usize = 40;
+/// Most numbers that the sums of a sweep can hold.
+pub const MOST_SUMS: usize = 40;
+
+/// What the terms of one sweep read and write together; known at compile time.
+pub trait Layout: 'static {
+    /// The fields in the packed record of a particle.
+    const READS: Fields;
+    /// The sums that are kept.
+    const WRITES: Outputs;
+}
+
+/// A pair (i, j), or a row of pairs with the same j.
+///
+/// The gradient of the kernel at i is ∇ᵢWᵢⱼ = F rᵢⱼ with F ≤ 0 and rᵢⱼ = xᵢ − xⱼ. F and W vanish
+/// beyond the support, so a term that is a multiple of one of them needs no mask. At rᵢⱼ = 0 (the
+/// particle itself) everything is finite.
+#[derive(Debug)]
+pub struct Pair<'a, L: Lane, const D: usize, P: Layout> {
+    /// Separation rᵢⱼ = xᵢ − xⱼ \[m\].
+    pub r: [L; D],
+    /// Squared distance \[m²\].
+    pub r2: L,
+    /// Relative velocity vᵢⱼ = vᵢ − vⱼ \[m/s\]; zero if no term reads velocities.
+    pub v: [L; D],
+    /// vᵢⱼ·rᵢⱼ \[m²/s\].
+    pub v_dot_r: L,
+    /// Mean smoothing length of the pair \[m\].
+    pub h: L,
+    /// Smoothing length of i \[m\].
+    pub h_i: L,
+    /// Kernel W \[m⁻ᴰ\]; with the smoothing length of i where it follows the density.
+    pub w: L,
+    /// Gradient factor F \[m⁻ᴰ⁻²\] with the smoothing length of i.
+    pub f_i: L,
+    /// Gradient factor F \[m⁻ᴰ⁻²\] with the smoothing length of j.
+    pub f_j: L,
+    pub(crate) i: &'a [L; MOST_READS],
+    pub(crate) j: &'a [L::Scalar],
+    pub(crate) layout: PhantomData<P>,
+}
+
+impl<L: Lane, const D: usize, P: Layout> Pair<'_, L, D, P> {
+    /// A scalar field of i. The field must be among the term's `READS`.
+    #[inline(always)]
+    #[must_use]
+    pub fn i(&self, field: Field) -> L {
+        self.i[P::READS.offset(field, D)]
+    }
+    /// A scalar field of j.
+    #[inline(always)]
+    #[must_use]
+    pub fn j(&self, field: Field) -> L {
+        L::splat(self.j[P::READS.offset(field, D)])
+    }
+    /// Component `k` of a vector or matrix field of i.
+    #[inline(always)]
+    #[must_use]
+    pub fn i_at(&self, field: Field, k: usize) -> L {
+        self.i[P::READS.offset(field, D) + k]
+    }
+    /// Component `k` of a vector or matrix field of j.
+    #[inline(always)]
+    #[must_use]
+    pub fn j_at(&self, field: Field, k: usize) -> L {
+        L::splat(self.j[P::READS.offset(field, D) + k])
+    }
+    /// The mean of the two gradient factors.
+    #[inline(always)]
+    #[must_use]
+    pub fn f(&self) -> L {
+        (self.f_i + self.f_j) * L::of(0.5)
+    }
+    /// vᵢⱼ·vᵢⱼ \[m²/s²\].
+    #[inline(always)]
+    #[must_use]
+    pub fn v2(&self) -> L {
+        (1..D).fold(self.v[0] * self.v[0], |sum, d| {
+            self.v[d].mul_add(self.v[d], sum)
+        })
+    }
+}
+
+/// The sums of a row of particles over their neighbours.
+#[derive(Debug)]
+pub struct Sums<L: Lane, const D: usize, P: Layout> {
+    /// This pair's force on i along rᵢⱼ, divided by rᵢⱼ \[N/m\]: symmetric in i and j.
+    pub radial: L,
+    /// This pair's force on i along vᵢⱼ, divided by vᵢⱼ \[N s/m\]: symmetric in i and j.
+    pub shear: L,
+    pub(crate) kept: [L; MOST_SUMS],
+    layout: PhantomData<P>,
+}
+
+impl<L: Lane, const D: usize, P: Layout> Sums<L, D, P> {
+    #[inline(always)]
+    pub(crate) fn new() -> Self {
+        let zero = L::zero();
+        Self {
+            radial: zero,
+            shear: zero,
+            kept: [zero; MOST_SUMS],
+            layout: PhantomData,
+        }
+    }
+    /// Adds to a scalar sum.
+    #[inline(always)]
+    pub fn add(&mut self, output: Output, value: L) {
+        self.add_at(output, 0, value);
+    }
+    /// Adds to component `k` of a sum.
+    #[inline(always)]
+    pub fn add_at(&mut self, output: Output, k: usize, value: L) {
+        if P::WRITES.contains(output) {
+            self.kept[P::WRITES.offset(output, D) + k] += value;
+        }
+    }
+    /// Sets the kernel sum to zero and returns what it was.
+    #[inline(always)]
+    pub(crate) fn take_kernel_sum(&mut self) -> L {
+        if P::WRITES.contains(Output::KernelSum) {
+            let at = P::WRITES.offset(Output::KernelSum, D);
+            core::mem::replace(&mut self.kept[at], L::zero())
+        } else {
+            L::zero()
+        }
+    }
+    /// Moves the kernel sum to the contact sum, and puts back what was taken.
+    #[inline(always)]
+    pub(crate) fn divert_kernel_sum(&mut self, taken: L) {
+        let across = self.take_kernel_sum();
+        self.add(Output::KernelSum, taken);
+        self.add(Output::ContactSum, across);
+    }
+    /// Raises a maximum.
+    #[inline(always)]
+    pub fn raise(&mut self, output: Output, value: L) {
+        if P::WRITES.contains(output) {
+            let kept = &mut self.kept[P::WRITES.offset(output, D)];
+            *kept = kept.max(value);
+        }
+    }
+}
+
+/// What a term is, for people: printed by a scheme and collected in the documentation.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TermDoc {
+    /// The field's name of the effect.
+    pub name: String,
+    /// The equation, in plain text.
+    pub equation: &'static str,
+    /// Author, year and equation number.
+    pub source: &'static str,
+}
+
+/// One effect between pairs of particles.
+///
+/// ```
+/// use meshfree::particles::{Field, Fields, Output, Outputs};
+/// use meshfree::scalar::Lane;
+/// use meshfree::term::{Layout, Pair, Sums, Term, TermDoc};
+///
+/// /// Counts mass within the support, weighted with the kernel: the summed density.
+/// #[derive(Clone, Debug)]
+/// struct SummedDensity;
+///
+/// impl<const D: usize> Term<D> for SummedDensity {
+///     const READS: Fields = Fields::of(&[Field::Mass]);
+///     const WRITES: Outputs = Outputs::of(&[Output::UserA]);
+///     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+///         sums.add(Output::UserA, pair.j(Field::Mass) * pair.w);
+///     }
+///     fn document(&self) -> TermDoc {
+///         TermDoc { name: "summed density".into(), equation: "ρᵢ = Σⱼ mⱼ Wᵢⱼ", source: "Gingold & Monaghan 1977" }
+///     }
+/// }
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a pair term in {D} dimensions",
+    note = "implement `Term<{D}>`: the fields it reads and writes, and what a pair adds to the sums"
+)]
+pub trait Term<const D: usize>: Clone + Debug + Send + Sync + 'static {
+    /// Fields of i and j that the term reads, beside the position.
+    const READS: Fields;
+    /// Sums that the term adds to. A term that sets `radial` or `shear` names [`Output::Force`].
+    const WRITES: Outputs;
+    /// Adds what this pair contributes. A force must be symmetric in i and j.
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>);
+    /// What the term is, for people.
+    fn document(&self) -> TermDoc;
+}
+
+/// A list of terms that share one sweep: a tuple.
+pub trait Terms<const D: usize>: Clone + Debug + Send + Sync + 'static {
+    /// Union of what the terms read.
+    const READS: Fields;
+    /// Union of what the terms write.
+    const WRITES: Outputs;
+    /// Adds what this pair contributes to every term.
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>);
+    /// The terms, for people.
+    fn document(&self) -> Vec<TermDoc>;
+}
+
+macro_rules! tuple {
+    ($($name:ident),*) => {
+        #[allow(non_snake_case)]
+        impl<const D: usize, $($name: Term<D>),*> Terms<D> for ($($name,)*) {
+            const READS: Fields = Fields::NONE$(.union($name::READS))*;
+            const WRITES: Outputs = Outputs::NONE$(.union($name::WRITES))*;
+            #[inline(always)]
+            fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+                let ($($name,)*) = self;
+                $($name.pair(pair, sums);)*
+            }
+            fn document(&self) -> Vec<TermDoc> {
+                let ($($name,)*) = self;
+                vec![$($name.document(),)*]
+            }
+        }
+    };
+}
+tuple!(A);
+tuple!(A, B);
+tuple!(A, B, C);
+tuple!(A, B, C, E);
+tuple!(A, B, C, E, F);
+tuple!(A, B, C, E, F, G);
+tuple!(A, B, C, E, F, G, H);
+tuple!(A, B, C, E, F, G, H, I);

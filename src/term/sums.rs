@@ -1,0 +1,113 @@
+//! Sums that make density: kernel sums, the moments that normalise them, and the rate of compression.
+//! Gingold & Monaghan 1977; Randles & Libersky 1996; Bonet & Lok 1999.
+
+use super::{Layout, Pair, Sums, Term, TermDoc};
+use crate::particles::{Field, Fields, Output, Outputs};
+use crate::scalar::Lane;
+
+/// Sᵢ = Σⱼ Bⱼ Wᵢⱼ, the particle itself included.
+#[derive(Clone, Copy, Debug)]
+pub struct KernelSum;
+
+impl<const D: usize> Term<D> for KernelSum {
+    const READS: Fields = Fields::of(&[Field::PositionResidual, Field::Weight]);
+    const WRITES: Outputs = Outputs::of(&[Output::KernelSum, Output::ContactSum]);
+    #[inline(always)]
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+        sums.add(Output::KernelSum, pair.j(Field::Weight) * pair.w);
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: "kernel sum".into(),
+            equation: "Sᵢ = Σⱼ Bⱼ Wᵢⱼ",
+            source: "Gingold & Monaghan 1977; Lam, Shen & Gong 2002, eq. 18",
+        }
+    }
+}
+
+/// Σⱼ (Bⱼ/ρⱼ) Wᵢⱼ, which is one where the kernel finds a full neighbourhood.
+#[derive(Clone, Copy, Debug)]
+pub struct Unity;
+
+impl<const D: usize> Term<D> for Unity {
+    const READS: Fields = Fields::of(&[Field::PositionResidual, Field::Mass, Field::Density]);
+    const WRITES: Outputs = Outputs::of(&[Output::Unity]);
+    #[inline(always)]
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+        let volume = pair.j(Field::Mass) / pair.j(Field::Density);
+        sums.add(Output::Unity, volume * pair.w);
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: "partition of unity".into(),
+            equation: "uᵢ = Σⱼ (mⱼ/ρⱼ) Wᵢⱼ",
+            source: "Randles & Libersky 1996; Lam, Shen & Gong 2002, eq. 25",
+        }
+    }
+}
+
+/// Mᵢ = −Σⱼ Bⱼ rᵢⱼ·∇W / D, which a lattice makes differ from Sᵢ: the factor by which uncorrected
+/// waves run too fast or too slow.
+#[derive(Clone, Copy, Debug)]
+pub struct KernelMoment;
+
+impl<const D: usize> Term<D> for KernelMoment {
+    const READS: Fields = Fields::of(&[Field::PositionResidual, Field::Weight]);
+    const WRITES: Outputs = Outputs::of(&[Output::Moment]);
+    #[inline(always)]
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+        let moment = pair.j(Field::Weight) * pair.r2 * pair.f();
+        sums.add(Output::Moment, -moment * L::of(1.0 / D as f64));
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: "first moment of the kernel gradient".into(),
+            equation: "Mᵢ = −Σⱼ Bⱼ rᵢⱼ·∇Wᵢⱼ / D",
+            source: "trace of the moment matrix of Randles & Libersky 1996",
+        }
+    }
+}
+
+/// Σⱼ Bⱼ ∂W/∂h with ∂W/∂h = −(D W + r² F)/h, for smoothing lengths that follow the density.
+#[derive(Clone, Copy, Debug)]
+pub struct SlopeInH;
+
+impl<const D: usize> Term<D> for SlopeInH {
+    const READS: Fields = Fields::of(&[Field::Weight]);
+    const WRITES: Outputs = Outputs::of(&[Output::SlopeInH]);
+    #[inline(always)]
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+        let slope = pair.w.mul_add(L::of(D as f64), pair.r2 * pair.f_i);
+        sums.add(Output::SlopeInH, -pair.j(Field::Weight) * slope / pair.h_i);
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: "slope of the kernel sum in h".into(),
+            equation: "Σⱼ Bⱼ ∂W/∂h",
+            source: "Springel & Hernquist 2002, eq. 4; Price 2012, eq. 27",
+        }
+    }
+}
+
+/// Σⱼ Bⱼ vᵢⱼ·∇W: the rate at which the neighbourhood closes in.
+#[derive(Clone, Copy, Debug)]
+pub struct Compression;
+
+impl<const D: usize> Term<D> for Compression {
+    const READS: Fields = Fields::of(&[Field::Velocity, Field::Weight]);
+    const WRITES: Outputs = Outputs::of(&[Output::Compression]);
+    #[inline(always)]
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+        sums.add(
+            Output::Compression,
+            pair.j(Field::Weight) * pair.v_dot_r * pair.f(),
+        );
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: "rate of compression".into(),
+            equation: "−∇·v = Σⱼ Vⱼ vᵢⱼ·∇Wᵢⱼ / sᵢ",
+            source: "Monaghan 1992, eq. 3.9; volume form for density ratios other than one",
+        }
+    }
+}
