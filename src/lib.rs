@@ -4,11 +4,13 @@
 
 pub mod boundary;
 pub mod error;
+pub mod integrator;
 pub mod kernel;
 pub mod material;
 pub mod neighbors;
 pub mod particles;
 pub mod scalar;
+pub mod scheme;
 pub mod sweep;
 pub mod tensor;
 pub mod term;

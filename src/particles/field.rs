@@ -166,6 +166,8 @@ quantities! {
     ReferenceDensity, Scalar, "reference_density", "kg/m³";
     /// Velocity gradient ∂vₐ/∂x_b, row a.
     VelocityGradient, Matrix, "velocity_gradient", "1/s";
+    /// Pressure gradient ∇p.
+    PressureGradient, Vector, "pressure_gradient", "Pa/m";
     /// Inverse of the kernel's first moment matrix, which makes gradients exact for linear fields.
     Correction, Matrix, "correction", "1";
     /// The particle's own coefficient of artificial viscosity α.
@@ -207,6 +209,8 @@ quantities! {
     SlopeInH, Scalar, "slope_in_h", "by the density form";
     /// Σⱼ Vⱼ (vⱼ − vᵢ) ⊗ ∇W.
     VelocityGradient, Matrix, "velocity_gradient", "1/s";
+    /// Σⱼ Vⱼ (pⱼ − pᵢ) ∇W.
+    PressureGradient, Vector, "pressure_gradient", "Pa/m";
     /// −Σⱼ Vⱼ rᵢⱼ ⊗ ∇W.
     MomentMatrix, Matrix, "moment_matrix", "1";
     /// The fastest signal that a viscosity saw, a maximum and not a sum.

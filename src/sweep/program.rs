@@ -295,6 +295,7 @@ impl<T: Real, K, P> Task<'_, T, K, P> {
         let reads = const { Composed::<T, P, D, HOW>::READS };
         let stride = const { Composed::<T, P, D, HOW>::READS.width(D) };
         let width_out = const { Composed::<T, P, D, HOW>::WRITES.width(D) };
+        let one_sided = const { P::WRITES.contains(Output::MomentMatrix) };
         for (c, bounds) in list.starts.windows(2).enumerate() {
             let first = (chunk * CHUNK + c) * L::WIDTH;
             let mut own = [L::zero(); MOST_READS];
@@ -314,11 +315,14 @@ impl<T: Real, K, P> Task<'_, T, K, P> {
                 let before = sums.kept;
                 match interaction {
                     Interaction::None => continue,
+                    // A gradient does not look across a contact that may open.
+                    Interaction::Unilateral if one_sided => continue,
                     Interaction::Bonded => {
                         self.segment::<L, D, HOW, false>(&own, neighbors, &mut sums);
                     }
                     Interaction::Unilateral => {
-                        let shown = compressive(reads, &own, D);
+                        let mut shown = own;
+                        compressive(reads, &mut shown, D);
                         let kept = sums.take_kernel_sum();
                         self.segment::<L, D, HOW, true>(&shown, neighbors, &mut sums);
                         sums.divert_kernel_sum(kept);
@@ -392,13 +396,14 @@ impl<T: Real, K, P> Task<'_, T, K, P> {
                 v_dot_r = v[d].mul_add(r[d], v_dot_r);
             }
             let distance = r2.sqrt();
-            let (h, w, f_i, f_j);
+            let (h, w, f, f_i, f_j);
             if HOW & OWN != 0 {
                 let other = Scale::new(L::splat(record[h_at]), norm, D);
                 h = (own_scale.h + other.h) * L::of(0.5);
                 w = own_scale.value(self.kernel, distance);
                 f_i = own_scale.gradient(self.kernel, distance);
                 f_j = other.gradient(self.kernel, distance);
+                f = (f_i + f_j) * L::of(0.5);
             } else {
                 let scale = if HOW & MEAN != 0 {
                     Scale::new((own_scale.h + L::splat(record[h_at])) * L::of(0.5), norm, D)
@@ -407,8 +412,9 @@ impl<T: Real, K, P> Task<'_, T, K, P> {
                 };
                 h = scale.h;
                 w = scale.value(self.kernel, distance);
-                f_i = scale.gradient(self.kernel, distance);
-                f_j = f_i;
+                f = scale.gradient(self.kernel, distance);
+                f_i = f;
+                f_j = f;
             }
             let mut pair = Pair {
                 r,
@@ -418,6 +424,7 @@ impl<T: Real, K, P> Task<'_, T, K, P> {
                 h,
                 h_i: own_scale.h,
                 w,
+                f,
                 f_i,
                 f_j,
                 i: own,
@@ -426,13 +433,13 @@ impl<T: Real, K, P> Task<'_, T, K, P> {
             };
             if CONTACT {
                 if reads.contains(Field::Touching) {
-                    let at = reads.offset(Field::Touching, D);
-                    let active = own[at].max(L::splat(record[at]));
-                    pair.f_i *= active;
-                    pair.f_j *= active;
+                    let touching = reads.offset(Field::Touching, D);
+                    pair.f_i *= own[touching];
+                    pair.f_j *= L::splat(record[touching]);
+                    pair.f = (pair.f_i + pair.f_j) * L::of(0.5);
                 }
                 shown[..stride].copy_from_slice(record);
-                compressive_scalar(reads, &mut shown, D);
+                compressive(reads, &mut shown, D);
                 pair.j = &shown[..stride];
             }
             sums.radial = L::zero();
@@ -507,24 +514,17 @@ impl<L: Lane> Scale<L> {
     }
 }
 
-/// What a row shows the other side of an open contact: pressure only where it touches and compresses.
+/// What a particle shows the other side of a contact: pressure only where it compresses, and no
+/// curvature of it.
 #[inline(always)]
-fn compressive<L: Lane>(reads: Fields, own: &[L; MOST_READS], d: usize) -> [L; MOST_READS] {
-    let mut shown = *own;
-    if reads.contains(Field::PressureCoefficient) && reads.contains(Field::Touching) {
+fn compressive<L: Lane>(reads: Fields, shown: &mut [L; MOST_READS], d: usize) {
+    if reads.contains(Field::PressureCoefficient) {
         let x = &mut shown[reads.offset(Field::PressureCoefficient, d)];
-        *x = x.positive_part() * own[reads.offset(Field::Touching, d)];
+        *x = x.positive_part();
     }
-    shown
-}
-
-/// The same for one record.
-#[inline(always)]
-fn compressive_scalar<T: Real>(reads: Fields, shown: &mut [T; MOST_READS], d: usize) {
-    if reads.contains(Field::PressureCoefficient) && reads.contains(Field::Touching) {
-        let touching = shown[reads.offset(Field::Touching, d)];
-        let x = &mut shown[reads.offset(Field::PressureCoefficient, d)];
-        *x = x.positive_part() * touching;
+    if reads.contains(Field::PressureGradient) {
+        let at = reads.offset(Field::PressureGradient, d);
+        shown[at..at + d].fill(L::zero());
     }
 }
 

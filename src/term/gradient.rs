@@ -15,7 +15,7 @@ impl<const D: usize> Term<D> for VelocityGradient {
     const WRITES: Outputs = Outputs::of(&[Output::VelocityGradient, Output::MomentMatrix]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let factor = -pair.j(Field::Mass) / pair.j(Field::Density) * pair.f();
+        let factor = -pair.j(Field::Mass) / pair.j(Field::Density) * pair.f;
         for a in 0..D {
             for b in 0..D {
                 let gradient = factor * pair.r[b];
@@ -28,6 +28,34 @@ impl<const D: usize> Term<D> for VelocityGradient {
         TermDoc {
             name: "corrected velocity gradient".into(),
             equation: "∇v = [Σⱼ Vⱼ (vⱼ − vᵢ) ⊗ ∇W] [−Σⱼ Vⱼ rᵢⱼ ⊗ ∇W]⁻¹",
+            source: "Randles & Libersky 1996; Bonet & Lok 1999",
+        }
+    }
+}
+
+/// Σⱼ Vⱼ (pⱼ − pᵢ) ∇W; times the inverse of the moment matrix it is the gradient of the pressure.
+#[derive(Clone, Copy, Debug)]
+pub struct PressureGradient;
+
+impl<const D: usize> Term<D> for PressureGradient {
+    const READS: Fields = Fields::of(&[Field::Pressure, Field::Mass, Field::Density]);
+    const WRITES: Outputs = Outputs::of(&[Output::PressureGradient, Output::MomentMatrix]);
+    #[inline(always)]
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+        let volume = pair.j(Field::Mass) / pair.j(Field::Density);
+        let difference = pair.j(Field::Pressure) - pair.i(Field::Pressure);
+        for a in 0..D {
+            sums.add_at(
+                Output::PressureGradient,
+                a,
+                volume * difference * pair.f * pair.r[a],
+            );
+        }
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: "corrected pressure gradient".into(),
+            equation: "∇p = [Σⱼ Vⱼ (pⱼ − pᵢ) ∇W] [−Σⱼ Vⱼ rᵢⱼ ⊗ ∇W]⁻¹",
             source: "Randles & Libersky 1996; Bonet & Lok 1999",
         }
     }

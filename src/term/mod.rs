@@ -11,8 +11,8 @@ mod momentum;
 mod sums;
 pub mod viscosity;
 
-pub use gradient::VelocityGradient;
-pub use momentum::{InternalEnergy, PressureForce};
+pub use gradient::{PressureGradient, VelocityGradient};
+pub use momentum::{InternalEnergy, PressureCurvature, PressureForce};
 pub use sums::{Compression, KernelMoment, KernelSum, SlopeInH, Unity};
 pub use viscosity::{ArtificialViscosity, Viscosity, Viscous};
 
@@ -50,9 +50,12 @@ pub struct Pair<'a, L: Lane, const D: usize, P: Layout> {
     pub h_i: L,
     /// Kernel W \[m⁻ᴰ\]; with the smoothing length of i where it follows the density.
     pub w: L,
-    /// Gradient factor F \[m⁻ᴰ⁻²\] with the smoothing length of i.
+    /// Gradient factor F \[m⁻ᴰ⁻²\] of the pair: the mean of the next two.
+    pub f: L,
+    /// Gradient factor F \[m⁻ᴰ⁻²\] as seen from i: with its smoothing length where that follows the
+    /// density, and zero across a contact that i does not touch.
     pub f_i: L,
-    /// Gradient factor F \[m⁻ᴰ⁻²\] with the smoothing length of j.
+    /// Gradient factor F \[m⁻ᴰ⁻²\] as seen from j.
     pub f_j: L,
     pub(crate) i: &'a [L; MOST_READS],
     pub(crate) j: &'a [L::Scalar],
@@ -83,12 +86,6 @@ impl<L: Lane, const D: usize, P: Layout> Pair<'_, L, D, P> {
     #[must_use]
     pub fn j_at(&self, field: Field, k: usize) -> L {
         L::splat(self.j[P::READS.offset(field, D) + k])
-    }
-    /// The mean of the two gradient factors.
-    #[inline(always)]
-    #[must_use]
-    pub fn f(&self) -> L {
-        (self.f_i + self.f_j) * L::of(0.5)
     }
     /// vᵢⱼ·vᵢⱼ \[m²/s²\].
     #[inline(always)]

@@ -37,6 +37,48 @@ impl<const D: usize> Term<D> for PressureForce {
     }
 }
 
+/// Pressure reconstructed at the middle of a pair from both sides, which removes the leading
+/// dispersion of the pair form: to (Xᵢ + Xⱼ) comes 2χ (∇pᵢ − ∇pⱼ)·rᵢⱼ with the opposite sign.
+///
+/// On a lattice the uncorrected pair moves a wave of wavenumber k at c (1 − β k² dx²) with
+/// β = m₄/(6 m₂) from the moments of F: 0.4 % slow at fifty spacings a wavelength, and the source of
+/// the ringing behind a front. A value χ = 1/3 cancels β for every kernel. The force stays
+/// antisymmetric, but derives from no energy: pair it with the compatible energy form.
+#[derive(Clone, Copy, Debug)]
+pub struct PressureCurvature {
+    /// Strength χ; 1/3 cancels the leading dispersion.
+    pub strength: f64,
+}
+
+impl<const D: usize> Term<D> for PressureCurvature {
+    const READS: Fields = Fields::of(&[
+        Field::Mass,
+        Field::Density,
+        Field::PressureGradient,
+        Field::Normalisation,
+    ]);
+    const WRITES: Outputs = Outputs::of(&[Output::Force]);
+    #[inline(always)]
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+        let mut bend = L::zero();
+        for d in 0..D {
+            let gradient = Field::PressureGradient;
+            bend += (pair.i_at(gradient, d) - pair.j_at(gradient, d)) * pair.r[d];
+        }
+        let volumes = pair.i(Field::Mass) * pair.j(Field::Mass)
+            / (pair.i(Field::Density) * pair.j(Field::Density));
+        let normalisation = pair.i(Field::Normalisation) + pair.j(Field::Normalisation);
+        sums.radial += L::of(4.0 * self.strength) * volumes * bend * pair.f / normalisation;
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: format!("pressure curvature, strength {}", self.strength),
+            equation: "mᵢ dvᵢ/dt = Σⱼ 2χ Vᵢ Vⱼ (∇pᵢ − ∇pⱼ)·rᵢⱼ ∇Wᵢⱼ / s̄ᵢⱼ",
+            source: "linear reconstruction after van Leer 1979, applied to the pair pressure",
+        }
+    }
+}
+
 /// mᵢ deᵢ/dt = −½ Σⱼ Fᵢⱼ·vᵢⱼ: each side of a pair takes half the work of all its forces.
 ///
 /// The term names the sum; the sweep fills it from whatever forces the other terms set, so total

@@ -56,7 +56,7 @@ impl<const D: usize> Term<D> for KernelMoment {
     const WRITES: Outputs = Outputs::of(&[Output::Moment]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let moment = pair.j(Field::Weight) * pair.r2 * pair.f();
+        let moment = pair.j(Field::Weight) * pair.r2 * pair.f;
         sums.add(Output::Moment, -moment * L::of(1.0 / D as f64));
     }
     fn document(&self) -> TermDoc {
@@ -100,7 +100,7 @@ impl<const D: usize> Term<D> for Compression {
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
         sums.add(
             Output::Compression,
-            pair.j(Field::Weight) * pair.v_dot_r * pair.f(),
+            pair.j(Field::Weight) * pair.v_dot_r * pair.f,
         );
     }
     fn document(&self) -> TermDoc {

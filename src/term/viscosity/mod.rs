@@ -1,6 +1,10 @@
 //! Artificial viscosities: the trait, and one file for each law.
 //! All return the Π of the pair force −mᵢ mⱼ Π ∇W, and the signal that the time step must resolve.
 
+mod monaghan_gingold;
+
+pub use monaghan_gingold::{LimitedMonaghanGingold, MonaghanGingold};
+
 use super::{Layout, Pair, Sums, Term, TermDoc};
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Lane;
@@ -60,8 +64,8 @@ impl<const D: usize, V: ArtificialViscosity<D>> Term<D> for Viscosity<V> {
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
         let viscous = self.0.pair(pair);
-        sums.radial -= pair.i(Field::Mass) * pair.j(Field::Mass) * viscous.pi * pair.f();
-        let inside = pair.f().lt(L::zero());
+        sums.radial -= pair.i(Field::Mass) * pair.j(Field::Mass) * viscous.pi * pair.f;
+        let inside = pair.f.lt(L::zero());
         sums.raise(Output::Signal, L::select(inside, viscous.signal, L::zero()));
     }
     fn document(&self) -> TermDoc {
@@ -88,4 +92,46 @@ pub enum Switch {
         /// Decay length ℓ.
         decay: f64,
     },
+}
+
+/// No artificial viscosity.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Inviscid;
+
+impl<const D: usize> ArtificialViscosity<D> for Inviscid {
+    const READS: Fields = Fields::NONE;
+    #[inline(always)]
+    fn pair<L: Lane, P: Layout>(&self, _pair: &Pair<'_, L, D, P>) -> Viscous<L> {
+        Viscous {
+            pi: L::zero(),
+            signal: L::zero(),
+        }
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: "no artificial viscosity".into(),
+            equation: "Π = 0",
+            source: "",
+        }
+    }
+}
+
+/// Π and signal of an approach μ ≤ 0 with the means of sound speed and density.
+#[inline(always)]
+fn between<L: Lane, const D: usize, P: Layout>(
+    pair: &Pair<'_, L, D, P>,
+    mu: L,
+    alpha: L,
+    beta: L,
+) -> Viscous<L> {
+    let half = L::of(0.5);
+    let sound_speed = (pair.i(Field::SoundSpeed) + pair.j(Field::SoundSpeed)) * half;
+    let density = (pair.i(Field::Density) + pair.j(Field::Density)) * half;
+    let linear = alpha * sound_speed;
+    let pi = mu * (beta * mu - linear) / density;
+    // Monaghan 1992, eq. 10.5: a viscous pair needs h/(c + 0.6 (α c + β |μ|)).
+    Viscous {
+        pi,
+        signal: (linear - beta * mu) * L::of(0.6),
+    }
 }

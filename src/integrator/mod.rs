@@ -1,0 +1,96 @@
+//! Time integrators: the trait, and one file for each family.
+//! An integrator sees a system as a handful of operations on all particles at once.
+
+mod lam;
+mod leapfrog;
+mod runge_kutta;
+
+pub use lam::{LamLeapfrog, Predictor};
+pub use leapfrog::{DriftKickDrift, KickDriftKick, PositionVerlet};
+pub use runge_kutta::{Midpoint, RungeKutta4, StrongStabilityPreserving3};
+
+use crate::error::Result;
+use core::fmt::Debug;
+
+/// What an integrator can ask of a simulation.
+///
+/// The state Y is position, velocity, density where it is integrated, internal energy, smoothing
+/// length and viscosity coefficient where they are carried. Every operation acts on all particles.
+pub trait System {
+    /// Evaluates all rates at the present state, for the time t + `offset` \[s\] with t the time at
+    /// the start of the step.
+    ///
+    /// # Errors
+    /// If a number is no longer finite.
+    fn evaluate(&mut self, offset: f64) -> Result<()>;
+    /// v ← v + `dt` a, and what pair forces work during it into internal energy.
+    fn kick(&mut self, dt: f64);
+    /// x ← x + `dt` v, and with it the density where it is integrated, at the midpoint of the drift.
+    /// `offset` \[s\] is the time of the start of the drift after the start of the step.
+    ///
+    /// # Errors
+    /// If a number is no longer finite.
+    fn drift(&mut self, dt: f64, offset: f64) -> Result<()>;
+    /// x ← x + `dv` v + `da` a, and nothing else.
+    fn shift(&mut self, dv: f64, da: f64);
+    /// Sets velocity and energy `dt` \[s\] ahead with the last rates, for the forces that need them;
+    /// [`retract`](System::retract) takes it back.
+    fn predict(&mut self, dt: f64);
+    /// Takes the last prediction back.
+    fn retract(&mut self);
+    /// Keeps the present state in a slot.
+    fn save(&mut self, slot: usize);
+    /// Brings a kept state back; the last rates stay.
+    fn load(&mut self, slot: usize);
+    /// Y ← `a` · kept + `b` · Y + `dt` · dY/dt, with the last rates.
+    fn combine(&mut self, slot: usize, a: f64, b: f64, dt: f64);
+    /// kept ← kept + `dt` · dY/dt, with the last rates.
+    fn accumulate(&mut self, slot: usize, dt: f64);
+    /// Whether rates at the present state are at hand from the step before.
+    fn has_rates(&self) -> bool;
+}
+
+/// An integrator in time.
+///
+/// ```
+/// use meshfree::error::Result;
+/// use meshfree::integrator::{Integrator, System};
+///
+/// /// Symplectic Euler: kick, then drift. First order.
+/// #[derive(Clone, Debug)]
+/// struct SymplecticEuler;
+///
+/// impl Integrator for SymplecticEuler {
+///     fn name(&self) -> String { "symplectic Euler".into() }
+///     fn step(&mut self, system: &mut dyn System, dt: f64) -> Result<()> {
+///         system.evaluate(0.0)?;
+///         system.kick(dt);
+///         system.drift(dt, 0.0)
+///     }
+/// }
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not an integrator",
+    note = "implement `Integrator`: a name and `step`, which composes the operations of `System`"
+)]
+pub trait Integrator: Debug + Send + Sync {
+    /// Its name in reports.
+    fn name(&self) -> String;
+    /// Advances the system by `dt` \[s\].
+    ///
+    /// # Errors
+    /// Passes on what an evaluation reports.
+    fn step(&mut self, system: &mut dyn System, dt: f64) -> Result<()>;
+    /// Largest stable ω dt on an undamped oscillator, relative to the leapfrog's 2.
+    fn stability(&self) -> f64 {
+        1.0
+    }
+    /// How many states it keeps ([`System::save`] slots).
+    fn slots(&self) -> usize {
+        0
+    }
+    /// Whether velocity changes by kicks alone, as the compatible energy form needs.
+    fn kicks(&self) -> bool {
+        true
+    }
+}

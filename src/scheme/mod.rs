@@ -1,0 +1,418 @@
+//! Schemes: named lists of terms that can be printed.
+//! A scheme joins a kernel, a density form with its pressure form, a viscosity, and an energy form.
+
+mod density;
+
+pub use density::DensityForm;
+
+use crate::kernel::Kernel;
+use crate::particles::{Field, Fields};
+use crate::scalar::Real;
+use crate::sweep::{PairSweep, Program, SmoothingMode};
+use crate::term::{
+    ArtificialViscosity, Compression, InternalEnergy, KernelMoment, KernelSum, PressureCurvature,
+    PressureForce, PressureGradient, SlopeInH, TermDoc, Unity, VelocityGradient, Viscosity,
+    viscosity::Switch,
+};
+use core::fmt;
+
+/// How internal energy follows from the work of pair forces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum EnergyForm {
+    /// Not carried: the materials do not ask for it.
+    None,
+    /// de/dt = half the power of every pair force; total energy drifts with the order of the step.
+    Symmetric,
+    /// The work of every pair force with the mean velocity of each kick, so that total energy is
+    /// conserved to rounding whatever the forces are (Owen 2014). Needs an integrator that kicks.
+    #[default]
+    Compatible,
+}
+
+/// How the smoothing length changes.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub enum Smoothing {
+    /// Fixed, h = η dx for every body.
+    #[default]
+    Fixed,
+    /// dh/dt = h ∇·v / D within limits, as LS-DYNA does (Vesenjak & Ren 2007, eq. 6).
+    Divergence {
+        /// Smallest h in units of the first.
+        smallest: f64,
+        /// Largest h in units of the first.
+        largest: f64,
+    },
+    /// h = η (m/ρ)^(1/D), solved together with the density, with grad-h terms
+    /// (Springel & Hernquist 2002; Price 2012).
+    Consistent {
+        /// Smallest h in units of the first.
+        smallest: f64,
+        /// Largest h in units of the first.
+        largest: f64,
+    },
+}
+
+/// What the scheme's kernel says about itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KernelFacts {
+    /// Its name.
+    pub name: &'static str,
+    /// Support in units of h.
+    pub support: f64,
+    /// Recommended h/dx.
+    pub h_over_dx: f64,
+    /// Accepted h/dx.
+    pub range: (f64, f64),
+    /// Stable step of an undamped leapfrog in h/c.
+    pub stable_step: f64,
+}
+
+/// A composed scheme: what a group of bodies obeys. Built by [`SchemeBuilder`], or ready in
+/// [`schemes`](crate::schemes).
+#[derive(Debug)]
+pub struct Scheme<T: Real, const D: usize> {
+    pub(crate) name: String,
+    pub(crate) kernel: KernelFacts,
+    pub(crate) density: DensityForm,
+    pub(crate) pressure_form: DensityForm,
+    pub(crate) energy: EnergyForm,
+    pub(crate) smoothing: Smoothing,
+    pub(crate) h_over_dx: f64,
+    pub(crate) step_factor: f64,
+    pub(crate) normalised: bool,
+    pub(crate) viscosity_problems: Vec<(&'static str, f64, &'static str)>,
+    pub(crate) switch: Option<Switch>,
+    pub(crate) reference: Box<dyn PairSweep<T, D>>,
+    pub(crate) sums: Option<Box<dyn PairSweep<T, D>>>,
+    pub(crate) compression: Option<Box<dyn PairSweep<T, D>>>,
+    pub(crate) gradient: Option<Box<dyn PairSweep<T, D>>>,
+    pub(crate) rates: Box<dyn PairSweep<T, D>>,
+}
+
+impl<T: Real, const D: usize> Scheme<T, D> {
+    /// The scheme's name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Ratio of smoothing length to spacing.
+    #[must_use]
+    pub fn h_over_dx(&self) -> f64 {
+        self.h_over_dx
+    }
+
+    /// What the kernel says about itself.
+    #[must_use]
+    pub fn kernel(&self) -> KernelFacts {
+        self.kernel
+    }
+
+    /// All sweeps, in the order in which a step runs them.
+    fn sweeps(&self) -> impl Iterator<Item = &dyn PairSweep<T, D>> {
+        let optional = [&self.sums, &self.compression, &self.gradient];
+        optional
+            .into_iter()
+            .filter_map(|sweep| sweep.as_deref())
+            .chain(core::iter::once(self.rates.as_ref()))
+    }
+
+    /// The terms, in the order in which a step meets them.
+    #[must_use]
+    pub fn terms(&self) -> Vec<TermDoc> {
+        self.sweeps().flat_map(|sweep| sweep.document()).collect()
+    }
+
+    /// The fields that a particle carries under this scheme.
+    #[must_use]
+    pub fn fields(&self) -> Fields {
+        let mut fields = self
+            .sweeps()
+            .fold(self.reference.fields(), |all, s| all.union(s.fields()));
+        fields = fields.union(Fields::of(&[
+            Field::Position,
+            Field::Velocity,
+            Field::Mass,
+            Field::Density,
+            Field::Pressure,
+            Field::SoundSpeed,
+            Field::Weight,
+            Field::PressureCoefficient,
+        ]));
+        if T::COMPENSATED {
+            fields = fields.union(Fields::of(&[Field::PositionResidual]));
+            if self.density.is_integrated() {
+                fields = fields.union(Fields::of(&[Field::DensityResidual]));
+            }
+        }
+        if self.energy != EnergyForm::None {
+            fields = fields.union(Fields::of(&[Field::Energy]));
+        }
+        if self.energy == EnergyForm::Compatible {
+            fields = fields.union(Fields::of(&[Field::MeanVelocity]));
+        }
+        if self.density.has_reference() {
+            fields = fields.union(Fields::of(&[
+                Field::Normalisation,
+                Field::ReferenceSum,
+                Field::ReferenceDensity,
+            ]));
+        }
+        if self.smoothing != Smoothing::Fixed {
+            fields = fields.union(Fields::of(&[Field::SmoothingLength]));
+        }
+        if matches!(self.smoothing, Smoothing::Consistent { .. }) {
+            fields = fields.union(Fields::of(&[Field::GradH]));
+        }
+        match self.switch {
+            Some(Switch::CullenDehnen { .. }) => fields.union(Fields::of(&[
+                Field::ViscosityCoefficient,
+                Field::Divergence,
+            ])),
+            Some(Switch::MorrisMonaghan { .. }) => {
+                fields.union(Fields::of(&[Field::ViscosityCoefficient]))
+            }
+            None => fields,
+        }
+    }
+}
+
+impl<T: Real, const D: usize> fmt::Display for Scheme<T, D> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(
+            f,
+            "{}: {} kernel, h/dx {}, density by {}, energy {:?}, smoothing {:?}",
+            self.name, self.kernel.name, self.h_over_dx, self.density, self.energy, self.smoothing
+        )?;
+        for term in self.terms() {
+            writeln!(f, "  {}: {}  [{}]", term.name, term.equation, term.source)?;
+        }
+        let fields: Vec<_> = self.fields().iter().map(Field::name).collect();
+        write!(f, "  carries {}", fields.join(", "))
+    }
+}
+
+/// Chooses the parts of a scheme.
+///
+/// ```
+/// use meshfree::kernel::CubicSpline;
+/// use meshfree::scheme::{DensityForm, EnergyForm, Scheme, SchemeBuilder};
+/// use meshfree::term::viscosity::MonaghanGingold;
+///
+/// let scheme: Scheme<f64, 1> = SchemeBuilder::new(CubicSpline, MonaghanGingold::default())
+///     .density(DensityForm::Continuity)
+///     .energy(EnergyForm::Compatible)
+///     .compose();
+/// println!("{scheme}");
+/// ```
+#[derive(Clone, Debug)]
+pub struct SchemeBuilder<K, V> {
+    name: String,
+    kernel: K,
+    viscosity: V,
+    density: DensityForm,
+    pressure_form: Option<DensityForm>,
+    energy: EnergyForm,
+    smoothing: Smoothing,
+    h_over_dx: Option<f64>,
+    curvature: Option<f64>,
+    step_factor: Option<f64>,
+    normalised: bool,
+    uniform: bool,
+}
+
+impl<K, V> SchemeBuilder<K, V> {
+    /// A scheme with a kernel and an artificial viscosity; the other choices have defaults.
+    #[must_use]
+    pub fn new(kernel: K, viscosity: V) -> Self {
+        Self {
+            name: "composed".into(),
+            kernel,
+            viscosity,
+            density: DensityForm::default(),
+            pressure_form: None,
+            energy: EnergyForm::default(),
+            smoothing: Smoothing::default(),
+            h_over_dx: None,
+            curvature: None,
+            step_factor: None,
+            normalised: true,
+            uniform: true,
+        }
+    }
+    /// A name for reports.
+    #[must_use]
+    pub fn named(mut self, name: &str) -> Self {
+        self.name = name.into();
+        self
+    }
+    /// The density form, and with it the pressure form.
+    #[must_use]
+    pub fn density(mut self, form: DensityForm) -> Self {
+        self.density = form;
+        self
+    }
+    /// The pressure form of *another* density form: an explicit step out of the matched pair. At a
+    /// joint of copper and PMMA continuity with the form of summation explodes.
+    #[must_use]
+    pub fn mismatched_pressure_form(mut self, form: DensityForm) -> Self {
+        self.pressure_form = Some(form);
+        self
+    }
+    /// The energy form.
+    #[must_use]
+    pub fn energy(mut self, form: EnergyForm) -> Self {
+        self.energy = form;
+        self
+    }
+    /// How the smoothing length changes.
+    #[must_use]
+    pub fn smoothing(mut self, law: Smoothing) -> Self {
+        self.smoothing = law;
+        self
+    }
+    /// Allows bodies of different spacing: pairs use the mean of their smoothing lengths.
+    #[must_use]
+    pub fn mixed_spacing(mut self) -> Self {
+        self.uniform = false;
+        self
+    }
+    /// Ratio of smoothing length to spacing; the kernel's recommendation if not given.
+    #[must_use]
+    pub fn h_over_dx(mut self, ratio: f64) -> Self {
+        self.h_over_dx = Some(ratio);
+        self
+    }
+    /// Adds the curvature of the pressure with strength χ; see [`PressureCurvature`].
+    #[must_use]
+    pub fn pressure_curvature(mut self, strength: f64) -> Self {
+        self.curvature = Some(strength);
+        self
+    }
+    /// Step in units of h/(c + signal); see [`StepControl`](crate::simulation::StepControl).
+    #[must_use]
+    pub fn step_factor(mut self, factor: f64) -> Self {
+        self.step_factor = Some(factor);
+        self
+    }
+    /// Leaves out the normalisation by the first moment at rest, so that waves run at the wrong speed
+    /// that uncorrected SPH gives them.
+    #[must_use]
+    pub fn without_normalisation(mut self) -> Self {
+        self.normalised = false;
+        self
+    }
+
+    /// Compiles the choices into sweeps.
+    #[must_use]
+    pub fn compose<T: Real, const D: usize>(self) -> Scheme<T, D>
+    where
+        K: Kernel<D>,
+        V: ArtificialViscosity<D>,
+    {
+        let mode = match self.smoothing {
+            Smoothing::Consistent { .. } => SmoothingMode::Own,
+            Smoothing::Divergence { .. } => SmoothingMode::Mean,
+            Smoothing::Fixed if self.uniform => SmoothingMode::Uniform,
+            Smoothing::Fixed => SmoothingMode::Mean,
+        };
+        let kernel = self.kernel;
+        let sums: Option<Box<dyn PairSweep<T, D>>> = match (self.density, mode) {
+            (DensityForm::Continuity, _) => None,
+            (DensityForm::Normalised | DensityForm::Lam, _) => {
+                Some(Box::new(Program::new(kernel, (KernelSum, Unity), mode)))
+            }
+            (_, SmoothingMode::Own) => {
+                Some(Box::new(Program::new(kernel, (KernelSum, SlopeInH), mode)))
+            }
+            _ => Some(Box::new(Program::new(kernel, (KernelSum,), mode))),
+        };
+        let follows_divergence = matches!(self.smoothing, Smoothing::Divergence { .. })
+            || self.viscosity.switch().is_some();
+        let integrated = self.density.is_integrated() || follows_divergence;
+        let compression: Option<Box<dyn PairSweep<T, D>>> =
+            integrated.then(|| Box::new(Program::new(kernel, (Compression,), mode)) as _);
+        let gradient: Option<Box<dyn PairSweep<T, D>>> =
+            match (self.curvature, self.viscosity.needs_velocity_gradient()) {
+                (Some(_), _) => Some(Box::new(Program::new(
+                    kernel,
+                    (VelocityGradient, PressureGradient),
+                    mode,
+                ))),
+                (None, true) => Some(Box::new(Program::new(kernel, (VelocityGradient,), mode))),
+                (None, false) => None,
+            };
+        let viscosity_problems = self.viscosity.problems();
+        let switch = self.viscosity.switch();
+        let viscosity = Viscosity(self.viscosity);
+        let rates: Box<dyn PairSweep<T, D>> = match (self.curvature, integrated) {
+            (Some(strength), false) => Box::new(Program::new(
+                kernel,
+                (
+                    PressureForce,
+                    PressureCurvature { strength },
+                    viscosity,
+                    InternalEnergy,
+                ),
+                mode,
+            )),
+            (Some(strength), true) => Box::new(Program::new(
+                kernel,
+                (
+                    PressureForce,
+                    PressureCurvature { strength },
+                    viscosity,
+                    InternalEnergy,
+                    Compression,
+                ),
+                mode,
+            )),
+            (None, false) => Box::new(Program::new(
+                kernel,
+                (PressureForce, viscosity, InternalEnergy),
+                mode,
+            )),
+            (None, true) => Box::new(Program::new(
+                kernel,
+                (PressureForce, viscosity, InternalEnergy, Compression),
+                mode,
+            )),
+        };
+        Scheme {
+            name: self.name,
+            kernel: KernelFacts {
+                name: kernel.name(),
+                support: kernel.support(),
+                h_over_dx: kernel.h_over_dx(),
+                range: kernel.h_over_dx_range(),
+                stable_step: kernel.stable_step(),
+            },
+            density: self.density,
+            pressure_form: self.pressure_form.unwrap_or(self.density),
+            energy: self.energy,
+            smoothing: self.smoothing,
+            h_over_dx: self.h_over_dx.unwrap_or(kernel.h_over_dx()),
+            step_factor: self.step_factor.unwrap_or(DEFAULT_STEP_FACTOR),
+            normalised: self.normalised,
+            viscosity_problems,
+            switch,
+            reference: Box::new(Program::new(kernel, (KernelSum, Unity, KernelMoment), mode)),
+            sums,
+            compression,
+            gradient,
+            rates,
+        }
+    }
+}
+
+/// Default step in units of h/(c + signal). Limited viscosity at α = 2 with corrected dispersion loses
+/// its plateau at 0.8 and blows up at 1.1; the steepest fronts come at or below 0.55.
+pub const DEFAULT_STEP_FACTOR: f64 = 0.55;
+
+impl<T: Real, const D: usize, K: Kernel<D>, V: ArtificialViscosity<D>> From<SchemeBuilder<K, V>>
+    for Scheme<T, D>
+{
+    fn from(builder: SchemeBuilder<K, V>) -> Self {
+        builder.compose()
+    }
+}

@@ -1,0 +1,313 @@
+//! A group: the bodies that share a scheme, with their columns, neighbour lists and images.
+//! It knows where particles are and who their neighbours are; physics happens in `evaluate`.
+
+use crate::boundary::Boundary;
+use crate::material::Material;
+use crate::material::eos::GuardCounts;
+use crate::neighbors::{Block, ClusterLists, Grid, Radii, SearchInput};
+use crate::particles::{Columns, Field};
+use crate::scalar::{Lane, Real};
+use crate::scheme::Scheme;
+use crate::sweep::{
+    Image, InstructionSet, Interaction, Records, Rows, SweepInput, Transform,
+};
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// A body in a simulation.
+#[derive(Clone, Debug)]
+pub struct BodyState<T: Real> {
+    pub(crate) name: String,
+    pub(crate) material: Material<T>,
+    /// Slots of its particles; the rest of the last cluster repeats the last of them.
+    pub(crate) slots: Range<usize>,
+    pub(crate) spacing: f64,
+}
+
+/// How an image's transform comes about: the boundary's own, after that of the image it mirrors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Chain {
+    parent: Option<u32>,
+    boundary: u32,
+    image: u32,
+}
+
+#[derive(Debug)]
+pub(crate) struct Group<T: Real, const D: usize> {
+    pub columns: Columns<T, D>,
+    pub bodies: Vec<BodyState<T>>,
+    pub boundaries: Vec<Box<dyn Boundary<T, D>>>,
+    pub scheme: Scheme<T, D>,
+    pub blocks: Vec<Block>,
+    pub interactions: Vec<Interaction>,
+    pub images: Vec<Image>,
+    pub transforms: Vec<Transform<T, D>>,
+    chains: Vec<Chain>,
+    pub lists: ClusterLists,
+    /// Positions of slots at the last list build, then of images.
+    listed: Vec<[T; D]>,
+    listed_h: Vec<T>,
+    pub records: Records<T>,
+    pub work_records: Records<T>,
+    pub scratch_records: Records<T>,
+    pub rows: Rows<T, D>,
+    pub scratch_rows: Rows<T, D>,
+    /// Identity of the particle in each slot, and the slot of each particle.
+    pub ids: Vec<u32>,
+    pub slot_of: Vec<u32>,
+    pub smoothing_length: f64,
+    pub skin: f64,
+    pub instructions: InstructionSet,
+    pub guards: GuardCounts,
+    pub limited_h: u64,
+    pub rebuilds: u64,
+    pub unilateral: bool,
+}
+
+pub(crate) fn width<T: Real>() -> usize {
+    <T::Wide<false> as Lane>::WIDTH
+}
+
+impl<T: Real, const D: usize> Group<T, D> {
+    #[allow(clippy::too_many_arguments)]
+    pub fn new(
+        columns: Columns<T, D>,
+        bodies: Vec<BodyState<T>>,
+        boundaries: Vec<Box<dyn Boundary<T, D>>>,
+        scheme: Scheme<T, D>,
+        interactions: Vec<Interaction>,
+        smoothing_length: f64,
+        skin: f64,
+    ) -> Self {
+        let slots = columns.slots();
+        let unilateral = interactions.contains(&Interaction::Unilateral);
+        Self {
+            ids: (0..slots as u32).collect(),
+            slot_of: (0..slots as u32).collect(),
+            columns,
+            blocks: Vec::new(),
+            bodies,
+            boundaries,
+            scheme,
+            interactions,
+            images: Vec::new(),
+            transforms: Vec::new(),
+            chains: Vec::new(),
+            lists: ClusterLists::default(),
+            listed: Vec::new(),
+            listed_h: Vec::new(),
+            records: Records::default(),
+            work_records: Records::default(),
+            scratch_records: Records::default(),
+            rows: Rows::default(),
+            scratch_rows: Rows::default(),
+            smoothing_length,
+            skin,
+            instructions: InstructionSet::detect(),
+            guards: GuardCounts::default(),
+            limited_h: 0,
+            rebuilds: 0,
+            unilateral,
+        }
+    }
+
+    /// Slots of real particles, body after body.
+    pub fn real_slots(&self) -> impl Iterator<Item = usize> + '_ {
+        self.bodies.iter().flat_map(|body| body.slots.clone())
+    }
+
+    pub fn particles(&self) -> usize {
+        self.bodies.iter().map(|body| body.slots.len()).sum()
+    }
+
+    pub fn body_of(&self, slot: usize) -> usize {
+        self.bodies.partition_point(|body| body.slots.end <= slot).min(self.bodies.len() - 1)
+    }
+
+    fn reach(&self) -> f64 {
+        let h = self.columns.raw(Field::SmoothingLength);
+        let largest = h.iter().fold(self.smoothing_length, |m, h| m.max(h.to_f64()));
+        self.scheme.kernel.support * largest + self.skin
+    }
+
+    /// Brings images and lists up to date with the positions at `time`.
+    pub fn refresh(&mut self, time: f64) {
+        if self.lists.chunks().is_empty() || self.outdated() {
+            self.rebuild(time);
+        } else if self.boundaries.iter().any(|b| b.moves()) {
+            self.place_transforms(time);
+        }
+    }
+
+    /// Whether a particle has moved, or its support has grown, by more than the skin allows.
+    fn outdated(&self) -> bool {
+        let positions = self.columns.vectors(Field::Position);
+        let farthest = positions
+            .par_iter()
+            .zip(&self.listed)
+            .with_min_len(4096)
+            .map(|(now, then)| {
+                (0..D).map(|d| (now[d] - then[d]).to_f64().powi(2)).sum::<f64>()
+            })
+            .reduce(|| 0.0, f64::max)
+            .sqrt();
+        let h = self.columns.raw(Field::SmoothingLength);
+        let grown = h
+            .iter()
+            .zip(&self.listed_h)
+            .fold(0.0_f64, |m, (now, then)| m.max((*now - *then).to_f64()));
+        // Moving boundaries shift images by up to twice what the particles move.
+        let images = if self.images.is_empty() { 1.0 } else { 1.5 };
+        2.0 * images * farthest + self.scheme.kernel.support * grown > self.skin
+    }
+
+    fn rebuild(&mut self, time: f64) {
+        self.rebuilds += 1;
+        self.wrap();
+        let reach = self.reach();
+        if D > 1 {
+            self.sort(0.5 * reach);
+        }
+        let width = width::<T>();
+        self.listed.clear();
+        self.listed.extend_from_slice(self.columns.vectors(Field::Position));
+        self.listed_h.clear();
+        self.listed_h.extend_from_slice(self.columns.raw(Field::SmoothingLength));
+        self.blocks.clear();
+        self.blocks.extend(self.bodies.iter().map(|b| Block { slots: b.slots.clone() }));
+        self.place_images(time, reach);
+        let h = &mut self.listed_h;
+        let radii = if h.is_empty() {
+            Radii::Uniform(self.scheme.kernel.support * self.smoothing_length)
+        } else {
+            for image in &self.images {
+                h.push(h[image.source as usize]);
+            }
+            Radii::Varying(h.as_slice(), self.scheme.kernel.support)
+        };
+        self.lists.rebuild(&SearchInput {
+            positions: &self.listed,
+            radii,
+            blocks: &self.blocks,
+            width,
+            slots: self.columns.slots(),
+            skin: self.skin,
+        });
+    }
+
+    /// Lets particles that have left a periodic domain re-enter.
+    fn wrap(&mut self) {
+        for boundary in &self.boundaries {
+            for slot in 0..self.columns.slots() {
+                let x = self.columns.vectors(Field::Position)[slot];
+                if let Some(back) = boundary.wrap(&x) {
+                    self.columns.vectors_mut(Field::Position)[slot] = back.point(&x);
+                }
+            }
+        }
+    }
+
+    /// Sorts every body along the space-filling curve.
+    fn sort(&mut self, cell: f64) {
+        let positions = self.columns.vectors(Field::Position);
+        let grid = Grid::over(positions, cell);
+        let mut order: Vec<u32> = (0..self.columns.slots() as u32).collect();
+        let width = width::<T>();
+        for body in &self.bodies {
+            let keys: Vec<u64> =
+                positions[body.slots.clone()].par_iter().map(|x| grid.order(x)).collect();
+            let own = &mut order[body.slots.clone()];
+            own.par_sort_by_key(|&slot| keys[slot as usize - body.slots.start]);
+            let last = order[body.slots.end - 1];
+            order[body.slots.end..body.slots.end.next_multiple_of(width)].fill(last);
+        }
+        if order.iter().enumerate().all(|(k, &from)| k as u32 == from) {
+            return;
+        }
+        self.columns.permute(&order);
+        self.ids = order.iter().map(|&from| self.ids[from as usize]).collect();
+        for body in &self.bodies {
+            for slot in body.slots.clone() {
+                self.slot_of[self.ids[slot] as usize] = slot as u32;
+            }
+        }
+    }
+
+    /// Finds which images are needed. Later boundaries also mirror the images of earlier ones, which
+    /// fills edges and corners.
+    fn place_images(&mut self, time: f64, reach: f64) {
+        self.images.clear();
+        self.chains.clear();
+        let slots = self.columns.slots();
+        let mut candidates: Vec<(u32, Option<u32>, [T; D])> = Vec::new();
+        for (b, boundary) in self.boundaries.iter().enumerate() {
+            let start = slots + self.images.len();
+            for k in 0..boundary.images() {
+                let own = boundary.transform(k, time);
+                candidates.clear();
+                let near = |x: &[T; D]| boundary.reaches(k, x, reach, time);
+                let positions = self.columns.vectors(Field::Position);
+                for slot in self.bodies.iter().flat_map(|body| body.slots.clone()) {
+                    if near(&positions[slot]) {
+                        candidates.push((slot as u32, None, positions[slot]));
+                    }
+                }
+                for (image, x) in self.images[..start - slots].iter().zip(&self.listed[slots..]) {
+                    if near(x) {
+                        candidates.push((image.source, Some(image.transform), *x));
+                    }
+                }
+                for &(source, parent, x) in &candidates {
+                    let chain = Chain { parent, boundary: b as u32, image: k as u32 };
+                    let known = self.chains.iter().position(|c| *c == chain);
+                    let transform = known.unwrap_or(self.chains.len()) as u32;
+                    if known.is_none() {
+                        self.chains.push(chain);
+                    }
+                    self.images.push(Image { source, transform });
+                    self.listed.push(own.point(&x));
+                }
+            }
+            self.blocks.push(Block { slots: start..slots + self.images.len() });
+        }
+        self.place_transforms(time);
+    }
+
+    fn place_transforms(&mut self, time: f64) {
+        self.transforms.clear();
+        for chain in &self.chains {
+            let own = self.boundaries[chain.boundary as usize].transform(chain.image as usize, time);
+            let whole = match chain.parent {
+                Some(parent) => self.transforms[parent as usize].then(&own),
+                None => own,
+            };
+            self.transforms.push(whole);
+        }
+    }
+
+    /// What a sweep works on.
+    pub fn input(&self) -> SweepInput<'_, T, D> {
+        SweepInput {
+            columns: &self.columns,
+            images: &self.images,
+            transforms: &self.transforms,
+            lists: &self.lists,
+            blocks: &self.blocks,
+            interactions: &self.interactions,
+            smoothing_length: self.smoothing_length,
+            instructions: self.instructions,
+        }
+    }
+
+    /// Bytes held for particles, lists and records.
+    pub fn bytes(&self) -> usize {
+        self.columns.bytes_per_particle() * self.columns.slots()
+            + self.lists.bytes()
+            + self.records.bytes()
+            + self.work_records.bytes()
+            + self.scratch_records.bytes()
+            + self.rows.bytes()
+            + self.scratch_rows.bytes()
+            + self.listed.capacity() * size_of::<[T; D]>()
+    }
+}
