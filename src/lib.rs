@@ -5,4 +5,5 @@
 pub mod kernel;
 pub mod material;
 pub mod scalar;
+pub mod study;
 pub mod tensor;
