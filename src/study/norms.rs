@@ -302,7 +302,7 @@ mod tests {
 
     #[test]
     fn order_and_its_interval() {
-        let h = [0.1, 0.05, 0.025, 0.0125];
+        let h = [0.1f64, 0.05, 0.025, 0.0125];
         let exact: Vec<f64> = h.iter().map(|h| 3.0 * h.powf(1.5)).collect();
         let fit = observed_order(&h, &exact).unwrap();
         assert!((fit.order - 1.5).abs() < 1e-12 && (fit.constant - 3.0).abs() < 1e-10);
