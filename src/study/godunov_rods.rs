@@ -285,9 +285,10 @@ impl GodunovRods {
         self.limiter = limiter;
         self
     }
-    /// The tension \[Pa\] that a unilateral contact bears before it opens. Unless set, 10⁻³ of the
-    /// largest ρc|u − u′| at a contact at time zero: the tails of smeared fronts leave an unloaded
-    /// rod with stresses of either sign of about that size.
+    /// The tension \[Pa\] that a unilateral contact bears before it opens. Unless set, 10⁻⁴ of the
+    /// largest ρc|u − u′| at a contact at time zero: rods of one material unload each other to
+    /// stresses of either sign of 10⁻⁶ of that, and fronts in general come in over a few steps, so
+    /// that the time of opening depends on this by less than its own resolution.
     #[must_use]
     pub fn tension_tolerance(mut self, tension: f64) -> Self {
         self.tension = Some(tension);

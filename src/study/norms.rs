@@ -173,11 +173,8 @@ pub fn rise_10_90(
             break;
         }
         let pair = &values[k - 1..=k];
-        if let Ok(crossing) = first_crossing(&positions[k - 1..=k], pair, level(0.1)) {
-            if crossing <= high {
-                low = Some(crossing);
-            }
-        }
+        let crossing = first_crossing(&positions[k - 1..=k], pair, level(0.1));
+        low = crossing.ok().filter(|&c| c <= high).or(low);
     }
     match low {
         Some(low) => Ok(high - low),

@@ -1,7 +1,8 @@
 //! The march from event to event: what a joint does when a wave arrives or a gap closes.
 //! It fills an [`AcousticSolution`]; the equations are those of the parent module.
 
-use super::{AcousticRods, AcousticSolution, Agenda, Event, JointState, STEP_LIMIT, Steps};
+use super::solution::{AcousticSolution, JointState, Steps};
+use super::{AcousticRods, Agenda, Event, STEP_LIMIT};
 use crate::study::{Contact, End, StudyError};
 
 /// What touches the material at one side of a joint.

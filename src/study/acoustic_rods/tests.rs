@@ -2,6 +2,8 @@
 //! Impedances: copper 35.1842, steel 28.0245, aluminium 14.445, PMMA 3.094 MPa/(m/s).
 
 use super::*;
+use crate::study::Joint;
+use proptest::prelude::*;
 
 const COPPER: (f64, f64) = (8930.0, 3940.0);
 const STEEL: (f64, f64) = (7850.0, 3570.0);
@@ -241,4 +243,52 @@ fn questions_outside_are_refused() {
             .solve(1.0)
             .is_err()
     );
+}
+
+#[test]
+fn pads_leave_the_target() {
+    for (pad, opened) in [(0.005, 0.0), (0.0075, 0.0), (0.010, 0.0), (0.020, 0.0)] {
+        let waves = padded(pad, 60e-6);
+        println!(
+            "{pad} {:?} {opened}",
+            waves.contact_intervals(Joint::Between(1)).unwrap()
+        );
+    }
+}
+
+fn end() -> impl Strategy<Value = End> {
+    prop_oneof![Just(End::Free), Just(End::Wall), Just(End::Clamped)]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(128))]
+    #[test]
+    fn any_chain_conserves_and_no_contact_pulls(
+        parts in prop::collection::vec(
+            (0usize..4, 1u32..8, -20.0..20.0f64, any::<bool>()), 1..5),
+        left in end(),
+        right in end(),
+    ) {
+        let mut rods = AcousticRods::new().left_end(left).right_end(right);
+        for &(material, length, velocity, bonded) in &parts {
+            let material = [COPPER, STEEL, ALUMINIUM, PMMA][material];
+            rods = rods.segment(rod(material, 0.002 * f64::from(length), velocity));
+            rods = rods.contact(if bonded { Contact::Bonded } else { Contact::Unilateral });
+        }
+        let until = 12e-6;
+        let waves = rods.solve(until).unwrap();
+        let energy = waves.energy(0.0).unwrap();
+        prop_assert!((waves.energy(until).unwrap() / energy - 1.0).abs() < 1e-8);
+        let change = waves.momentum(until).unwrap() - waves.momentum(0.0).unwrap();
+        let ends = waves.impulse(Joint::Left, until).unwrap()
+            - waves.impulse(Joint::Right, until).unwrap();
+        prop_assert!((change - ends).abs() < 1e-8 * (energy * 1e4).sqrt());
+        for (k, part) in parts[1..].iter().zip(&parts).map(|pair| pair.1).enumerate() {
+            let states = waves.joint_history(Joint::Between(k)).unwrap();
+            prop_assert!(states.iter().all(|s| s.gap >= -1e-18));
+            if !part.3 {
+                prop_assert!(states.iter().all(|s| s.stress <= 1.0));
+            }
+        }
+    }
 }

@@ -115,7 +115,7 @@ impl Cells {
             flux: pair(first + 1),
         };
         cells.close(0.0)?;
-        cells.tolerance = rods.tension.unwrap_or_else(|| 1e-3 * cells.impact());
+        cells.tolerance = rods.tension.unwrap_or_else(|| 1e-4 * cells.impact());
         Ok(cells)
     }
 
