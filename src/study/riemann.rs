@@ -186,7 +186,8 @@ impl RiemannProblem {
     /// Solves for the states on the two sides. Each side may have a gas of its own.
     ///
     /// # Errors
-    /// If γ ≤ 1, p∞ < 0, a density is negative, a value is not finite or p + p∞ ≤ 0 where there is gas.
+    /// If γ ≤ 1, p∞ < 0, a density is negative, a value is not finite, p + p∞ ≤ 0 where there is gas, or
+    /// gases with different p∞ part so fast that a void opens between them.
     pub fn new(
         left_gas: Gas,
         left: GasState,
@@ -202,6 +203,18 @@ impl RiemannProblem {
         let parts = left.is_vacuum()
             || right.is_vacuum()
             || left.escape() + right.escape() + closing <= 0.0;
+        let gas_on_both = !left.is_vacuum() && !right.is_vacuum();
+        if gas_on_both && left_gas.stiffness != right_gas.stiffness {
+            // Gases of different p∞ can run out of pressure on one side before the other is a vacuum.
+            let floor = -left_gas.stiffness.min(right_gas.stiffness);
+            if left.jump(floor).0 + right.jump(floor).0 - closing >= 0.0 {
+                return Err(StudyError::Parameter {
+                    quantity: "the velocity of approach [m/s]",
+                    value: closing,
+                    requirement: "larger, or the two stiffening pressures equal: a void opens here",
+                });
+            }
+        }
         let star = if parts {
             None
         } else {

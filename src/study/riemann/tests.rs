@@ -2,6 +2,7 @@
 //! Star values of the tests are those of Toro (2009), Table 4.3, to the digits printed there.
 
 use super::*;
+use proptest::prelude::*;
 
 fn state(density: f64, velocity: f64, pressure: f64) -> GasState {
     GasState {
@@ -158,4 +159,43 @@ fn weak_waves_are_acoustic_and_equal_states_stay() {
     near(rest.sample(0.0).velocity, 0.1, 1e-9);
     assert!(RiemannProblem::new(Gas::ideal(1.0), left, water, right).is_err());
     assert!(RiemannProblem::new(water, state(1.0, 0.0, -4e8), water, right).is_err());
+}
+
+#[test]
+fn a_void_between_unlike_gases_is_refused() {
+    let water = Gas {
+        gamma: 7.0,
+        stiffness: 3e8,
+    };
+    let air = Gas::ideal(1.4);
+    let part =
+        |u: f64| RiemannProblem::new(water, state(1000.0, 0.0, 1e5), air, state(1.2, u, 1e5));
+    assert!(part(100.0).is_ok() && part(2000.0).is_err() && part(1e4).is_err());
+}
+
+fn any_state() -> impl Strategy<Value = GasState> {
+    (-3.0..3.0f64, -2.0..2.0f64, -3.0..3.0f64)
+        .prop_map(|(d, u, p)| state(10f64.powf(d), u, 10f64.powf(p)))
+}
+
+proptest! {
+    /// Both waves of any two states lead to one pressure and velocity, and mirroring changes nothing.
+    #[test]
+    fn star_states_agree(left in any_state(), right in any_state(), g in 1.05..4.0f64) {
+        let gas = Gas::ideal(g);
+        let tube = RiemannProblem::new(gas, left, gas, right).unwrap();
+        let turn = |s: GasState| state(s.density, -s.velocity, s.pressure);
+        let mirror = RiemannProblem::new(gas, turn(right), gas, turn(left)).unwrap();
+        if let Some(u) = tube.star_velocity() {
+            let speed = tube.left.sound_speed + tube.right.sound_speed;
+            prop_assert!((u + mirror.star_velocity().unwrap()).abs() < 1e-9 * speed);
+            let p = tube.star_pressure();
+            prop_assert!(p > 0.0);
+            let from_left = left.velocity - tube.left.jump(p).0;
+            let from_right = right.velocity + tube.right.jump(p).0;
+            prop_assert!((from_left - from_right).abs() < 1e-9 * speed, "{} {}", from_left, from_right);
+        } else {
+            prop_assert!(mirror.star_velocity().is_none());
+        }
+    }
 }
