@@ -1,5 +1,4 @@
 //! Smoothed particle hydrodynamics.
-#![forbid(unsafe_op_in_unsafe_fn)]
 #![warn(missing_docs)]
 
 pub mod boundary;
@@ -11,6 +10,7 @@ pub mod neighbors;
 pub mod particles;
 pub mod scalar;
 pub mod scheme;
+pub mod study;
 pub mod sweep;
 pub mod tensor;
 pub mod term;
