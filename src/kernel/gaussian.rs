@@ -22,7 +22,7 @@ pub struct Gaussian;
 family! {
     Gaussian, "Gaussian", support 3.0;
     1 => { normalisation: 0.564_202_047_051_383_3, h_over_dx: 1.1, range: (1.0, 2.0), stable_step: 1.5 };
-    2 => { normalisation: 0.318_349_173_592_934_93, h_over_dx: 1.1, range: (1.0, 1.5), stable_step: 1.5 };
+    2 => { normalisation: 0.318_349_173_592_934_9, h_over_dx: 1.1, range: (1.0, 1.5), stable_step: 1.5 };
     3 => { normalisation: 0.179_666_148_218_087_18, h_over_dx: 1.1, range: (1.0, 1.5), stable_step: 1.53 };
 }
 

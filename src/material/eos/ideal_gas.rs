@@ -19,7 +19,7 @@ use crate::scalar::Lane;
 /// ```
 /// use meshfree::material::eos::{EquationOfState, IdealGas};
 /// let air = IdealGas::new(1.4, 1.2);
-/// let state = air.state(1.2, 2.11e5);
+/// let state = air.state(1.2_f64, 2.11e5);
 /// assert!((state.pressure - 1.0128e5).abs() < 1.0);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

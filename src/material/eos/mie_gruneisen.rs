@@ -151,14 +151,15 @@ impl MieGruneisen {
     /// The first zero between 0 and 10, found by stepping and bisection; 10 if there is none.
     fn first_root(&self, f: impl Fn(&Self, f64) -> f64) -> f64 {
         let step = 1e-2;
+        let inside = |eta: f64| f(self, eta) > 0.0;
         let end = (1..=1000)
             .map(|k| step * f64::from(k))
-            .find(|&eta| !(f(self, eta) > 0.0));
+            .find(|&eta| !inside(eta));
         let Some(mut high) = end else { return 10.0 };
         let mut low = high - step;
         for _ in 0..50 {
             let middle = 0.5 * (low + high);
-            if f(self, middle) > 0.0 {
+            if inside(middle) {
                 low = middle;
             } else {
                 high = middle;

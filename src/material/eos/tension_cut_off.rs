@@ -18,8 +18,9 @@ use crate::scalar::Lane;
 /// ```
 /// use meshfree::material::eos::{EquationOfState, Linear, TensionCutOff};
 /// let water = TensionCutOff::new(Linear::new(1000.0, 1480.0), 0.0);
-/// assert_eq!(water.state(999.0, 0.0).pressure, 0.0);
-/// assert!(water.state(999.0, 0.0).guards.cut_off);
+/// let stretched = water.state(999.0_f64, 0.0);
+/// assert_eq!(stretched.pressure, 0.0);
+/// assert!(stretched.guards.cut_off);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TensionCutOff<E> {
