@@ -7,7 +7,7 @@ use crate::scalar::Real;
 
 const LAM: &str = "Lam, Shen & Gong, axial impact of rods, table 2";
 const HOWELL: &str = "Howell & Ball 2002, hypervelocity impact of steel on aluminium";
-const TAYLOR: &str = "Johnson & Cook 1983 (strength at zero plastic strain)";
+const TAYLOR: &str = "strength at zero plastic strain: Johnson & Cook 1983; elastic constants: customary";
 
 /// A row of Lam's table 2 on the cubic of their eqs. 4–6.
 fn lam<T: Real>(
@@ -107,8 +107,8 @@ pub fn ofhc_copper<T: Real>() -> Material<T> {
     .with_shear_modulus(46e9)
 }
 
-/// 4340 steel of the Taylor cylinders: ρ₀ 7830 kg/m³, bulk modulus 159 GPa, linear; A 792 MPa,
-/// G 77 GPa (Johnson & Cook 1983).
+/// 4340 steel of the Taylor cylinders: ρ₀ 7830 kg/m³, bulk modulus 159 GPa, linear, and G 77 GPa, the
+/// values customary in hydrocodes; A 792 MPa (Johnson & Cook 1983).
 #[must_use]
 pub fn steel_4340<T: Real>() -> Material<T> {
     Material::new("steel-4340", Linear::from_bulk_modulus(7830.0, 159e9))
@@ -117,8 +117,8 @@ pub fn steel_4340<T: Real>() -> Material<T> {
         .with_shear_modulus(77e9)
 }
 
-/// Armco iron of the Taylor cylinders: ρ₀ 7890 kg/m³, bulk modulus 164 GPa, linear; A 175 MPa,
-/// G 80 GPa (Johnson & Cook 1983).
+/// Armco iron of the Taylor cylinders: ρ₀ 7890 kg/m³, bulk modulus 164 GPa, linear, and G 80 GPa, the
+/// values customary in hydrocodes; A 175 MPa (Johnson & Cook 1983).
 #[must_use]
 pub fn armco_iron<T: Real>() -> Material<T> {
     Material::new("armco-iron", Linear::from_bulk_modulus(7890.0, 164e9))
