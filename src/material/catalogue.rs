@@ -7,7 +7,8 @@ use crate::scalar::Real;
 
 const LAM: &str = "Lam, Shen & Gong, axial impact of rods, table 2";
 const HOWELL: &str = "Howell & Ball 2002, hypervelocity impact of steel on aluminium";
-const TAYLOR: &str = "strength at zero plastic strain: Johnson & Cook 1983; elastic constants: customary";
+const TAYLOR: &str =
+    "strength at zero plastic strain: Johnson & Cook 1983; elastic constants: customary";
 
 /// A row of Lam's table 2 on the cubic of their eqs. 4–6.
 fn lam<T: Real>(
