@@ -1,4 +1,287 @@
 //! Materials: equations of state and the catalogue of named materials.
 //! A material is evaluated once per particle and step, never inside the pair loop.
+//!
+//! A [`Material`] is a name, a source, an equation of state and what else is known of the stuff. The
+//! law's type is erased, so one scene holds copper, water and air; each block of particles is still
+//! evaluated by code compiled for its law.
+//!
+//! ```
+//! use meshfree::material::{Material, catalogue, eos::{MieGruneisen, TensionCutOff}};
+//! let copper: Material<f64> = catalogue::copper();
+//! let (p, c) = copper.state(8930.0 * 1.0025, 0.0);
+//! assert!((p / 348e6 - 1.0).abs() < 0.01 && c > 3940.0);
+//!
+//! // Another law, or a material of one's own.
+//! let spalling = copper.with_eos(TensionCutOff::new(
+//!     MieGruneisen::new(8930.0, 3940.0, 1.49, 2.02), -1.2e9));
+//! assert_eq!(spalling.state(8000.0, 0.0).0, -1.2e9);
+//! ```
 
+pub mod catalogue;
 pub mod eos;
+
+use crate::scalar::{Lane, Real};
+use core::fmt::Debug;
+use eos::{EquationOfState, GuardCounts};
+use std::sync::Arc;
+
+/// An equation of state whose type is erased: what a [`Material`] holds.
+///
+/// Sealed; [`Material::new`] makes one from any [`EquationOfState`].
+pub trait EosObject<T: Real>: sealed::Sealed + Debug + Send + Sync + 'static {
+    /// The law's name.
+    fn name(&self) -> &'static str;
+    /// Density ρ₀ \[kg/m³\] at zero pressure and energy; for a gas the density it starts with.
+    fn reference_density(&self) -> f64;
+    /// Whether the pressure depends on internal energy.
+    fn uses_energy(&self) -> bool;
+    /// What is wrong with the parameters, as `(field, value, what it must be)`.
+    fn problems(&self) -> Vec<(&'static str, f64, &'static str)>;
+    /// Pressure \[Pa\] and sound speed \[m/s\] at one density \[kg/m³\] and energy \[J/kg\].
+    fn state(&self, density: f64, energy: f64) -> (f64, f64);
+    /// Pressures \[Pa\] and sound speeds \[m/s\] of a row of particles from densities \[kg/m³\] and
+    /// specific internal energies \[J/kg\] (zero where absent), and how often guards acted. As many
+    /// particles as the shortest slice has; nothing is allocated.
+    fn close(
+        &self,
+        density: &[T],
+        energy: Option<&[T]>,
+        pressure: &mut [T],
+        sound_speed: &mut [T],
+    ) -> GuardCounts;
+}
+
+mod sealed {
+    pub trait Sealed {}
+    impl<E> Sealed for super::Erased<E> {}
+}
+
+/// The law behind an [`EosObject`]; a type of its own keeps the two traits' methods apart.
+#[derive(Debug)]
+struct Erased<E>(E);
+
+impl<T: Real, E: EquationOfState> EosObject<T> for Erased<E> {
+    fn name(&self) -> &'static str {
+        self.0.name()
+    }
+    fn reference_density(&self) -> f64 {
+        self.0.reference_density()
+    }
+    fn uses_energy(&self) -> bool {
+        self.0.uses_energy()
+    }
+    fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
+        self.0.problems()
+    }
+    fn state(&self, density: f64, energy: f64) -> (f64, f64) {
+        let state = self.0.state(density, energy);
+        (state.pressure, state.sound_speed)
+    }
+    fn close(
+        &self,
+        density: &[T],
+        energy: Option<&[T]>,
+        pressure: &mut [T],
+        sound_speed: &mut [T],
+    ) -> GuardCounts {
+        let mut count = density.len().min(pressure.len()).min(sound_speed.len());
+        count = energy.map_or(count, |energy| count.min(energy.len()));
+        let width = <T::Wide<false> as Lane>::WIDTH;
+        let blocks = count - count % width;
+        let law = &self.0;
+        let mut counts =
+            rows::<T, T::Wide<false>, E>(law, 0..blocks, density, energy, pressure, sound_speed);
+        counts += rows::<T, T, E>(law, blocks..count, density, energy, pressure, sound_speed);
+        counts
+    }
+}
+
+/// Evaluates the law on a range of particles, one row of lanes after another.
+fn rows<T: Real, L: Lane<Scalar = T>, E: EquationOfState>(
+    law: &E,
+    range: core::ops::Range<usize>,
+    density: &[T],
+    energy: Option<&[T]>,
+    pressure: &mut [T],
+    sound_speed: &mut [T],
+) -> GuardCounts {
+    let mut counts = GuardCounts::default();
+    for start in range.step_by(L::WIDTH) {
+        let row = start..start + L::WIDTH;
+        let rho = &density[row.clone()];
+        let e = energy.map(|energy| &energy[row.clone()]);
+        let state = law.state(
+            L::from_fn(|k| rho[k]),
+            e.map_or(L::zero(), |e| L::from_fn(|k| e[k])),
+        );
+        counts.record(&state.guards);
+        for (k, p) in pressure[row.clone()].iter_mut().enumerate() {
+            *p = state.pressure.extract(k);
+        }
+        for (k, c) in sound_speed[row].iter_mut().enumerate() {
+            *c = state.sound_speed.extract(k);
+        }
+    }
+    counts
+}
+
+/// A material: an equation of state, its name and source, and constants that models may ask for.
+/// Cloning is cheap: clones share the law.
+#[derive(Clone, Debug)]
+pub struct Material<T: Real> {
+    /// The name in reports.
+    pub name: String,
+    /// Where the constants come from.
+    pub source: String,
+    /// Yield stress Y₀ \[Pa\] in simple tension, if known.
+    pub yield_stress: Option<f64>,
+    /// Shear modulus G \[Pa\], if known.
+    pub shear_modulus: Option<f64>,
+    /// Dynamic viscosity μ \[Pa s\], if known.
+    pub dynamic_viscosity: Option<f64>,
+    eos: Arc<dyn EosObject<T>>,
+}
+
+impl<T: Real> Material<T> {
+    /// A name and an equation of state; the other constants are unknown until set.
+    #[must_use]
+    pub fn new(name: impl Into<String>, eos: impl EquationOfState) -> Self {
+        Self {
+            name: name.into(),
+            source: String::new(),
+            yield_stress: None,
+            shear_modulus: None,
+            dynamic_viscosity: None,
+            eos: Arc::new(Erased(eos)),
+        }
+    }
+
+    /// The same stuff with another equation of state.
+    #[must_use]
+    pub fn with_eos(mut self, eos: impl EquationOfState) -> Self {
+        self.eos = Arc::new(Erased(eos));
+        self
+    }
+    /// Where the constants come from.
+    #[must_use]
+    pub fn with_source(mut self, source: impl Into<String>) -> Self {
+        self.source = source.into();
+        self
+    }
+    /// Yield stress Y₀ \[Pa\] in simple tension.
+    #[must_use]
+    pub const fn with_yield_stress(mut self, yield_stress: f64) -> Self {
+        self.yield_stress = Some(yield_stress);
+        self
+    }
+    /// Shear modulus G \[Pa\].
+    #[must_use]
+    pub const fn with_shear_modulus(mut self, shear_modulus: f64) -> Self {
+        self.shear_modulus = Some(shear_modulus);
+        self
+    }
+    /// Dynamic viscosity μ \[Pa s\].
+    #[must_use]
+    pub const fn with_dynamic_viscosity(mut self, dynamic_viscosity: f64) -> Self {
+        self.dynamic_viscosity = Some(dynamic_viscosity);
+        self
+    }
+
+    /// The equation of state.
+    #[must_use]
+    pub fn eos(&self) -> &dyn EosObject<T> {
+        &*self.eos
+    }
+    /// Density ρ₀ \[kg/m³\] of the law at rest.
+    #[must_use]
+    pub fn reference_density(&self) -> f64 {
+        self.eos.reference_density()
+    }
+    /// Whether the pressure depends on internal energy.
+    #[must_use]
+    pub fn uses_energy(&self) -> bool {
+        self.eos.uses_energy()
+    }
+    /// Pressure \[Pa\] and sound speed \[m/s\] at one density \[kg/m³\] and energy \[J/kg\].
+    #[must_use]
+    pub fn state(&self, density: f64, energy: f64) -> (f64, f64) {
+        self.eos.state(density, energy)
+    }
+    /// Acoustic impedance ρ₀ c \[kg/(m² s)\] at rest.
+    #[must_use]
+    pub fn impedance(&self) -> f64 {
+        let density = self.reference_density();
+        density * self.state(density, 0.0).1
+    }
+    /// What is wrong with the constants, as `(field, value, what it must be)`; empty if nothing.
+    #[must_use]
+    pub fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
+        let mut problems = self.eos.problems();
+        let constants = [
+            ("yield_stress", self.yield_stress),
+            ("shear_modulus", self.shear_modulus),
+            ("dynamic_viscosity", self.dynamic_viscosity),
+        ];
+        for (field, value) in constants {
+            if let Some(value) = value.filter(|value| !(value.is_finite() && *value >= 0.0)) {
+                problems.push((field, value, "finite and not negative"));
+            }
+        }
+        problems
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::eos::{MieGruneisen, TensionCutOff};
+    use super::*;
+
+    fn rows_equal_single_states<T: Real>() {
+        let law = TensionCutOff::new(MieGruneisen::new(8930.0, 3940.0, 1.49, 2.02), -5e9);
+        let material = Material::<T>::new("copper", law);
+        let count = 3 * <T::Wide<false> as Lane>::WIDTH + 5;
+        let density: Vec<T> = (0..count)
+            .map(|k| T::from_f64(7000.0 + 90.0 * k as f64))
+            .collect();
+        let energy: Vec<T> = (0..count).map(|k| T::from_f64(10.0 * k as f64)).collect();
+        let (mut p, mut c) = (vec![T::default(); count], vec![T::default(); count]);
+        let counts = material
+            .eos()
+            .close(&density, Some(&energy), &mut p, &mut c);
+        let mut cuts = 0;
+        for k in 0..count {
+            let state = law.state(density[k], energy[k]);
+            assert_eq!((p[k], c[k]), (state.pressure, state.sound_speed));
+            cuts += u64::from(state.guards.cut_off);
+        }
+        assert!(cuts > 0 && counts.cut_off == cuts && counts.total() == cuts);
+
+        let without = material.eos().close(&density, None, &mut p, &mut c);
+        assert_eq!(without.cut_off, cuts);
+        assert_eq!(
+            p[count - 1],
+            law.state(density[count - 1], T::default()).pressure
+        );
+    }
+
+    #[test]
+    fn rows_equal_single_states_in_both_precisions() {
+        rows_equal_single_states::<f32>();
+        rows_equal_single_states::<f64>();
+    }
+
+    #[test]
+    fn problems_are_named() {
+        let law = TensionCutOff::new(MieGruneisen::new(-1.0, 3940.0, 1.49, 2.02), 5e9);
+        let material = Material::<f64>::new("wrong", law).with_yield_stress(f64::NAN);
+        let fields: Vec<_> = material
+            .problems()
+            .iter()
+            .map(|problem| problem.0)
+            .collect();
+        assert_eq!(
+            fields,
+            ["reference_density", "minimum_pressure", "yield_stress"]
+        );
+    }
+}

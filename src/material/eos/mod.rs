@@ -1,8 +1,77 @@
 //! Equations of state: the trait, its guards, and one file for each law.
 //! Pressure and sound speed follow from density ρ \[kg/m³\] and specific internal energy e \[J/kg\].
 
+//!
+//! | law | form | use it for |
+//! |---|---|---|
+//! | [`IdealGas`] | (γ−1) ρ e | gases |
+//! | [`StiffenedGas`] | (γ−1) ρ e + γ p∞ η | shocks in liquids |
+//! | [`Linear`] | c₀² (ρ−ρ₀) | acoustics, elastic solids |
+//! | [`Tait`] | B \[(ρ/ρ₀)^γ − 1\] | weakly compressible liquids |
+//! | [`Murnaghan`] | (K₀/n) \[(ρ/ρ₀)ⁿ − 1\] | static compression |
+//! | [`Polynomial`] | cubic in μ, linear in e | tabulated constants |
+//! | [`MieGruneisen`] | (1−Γη/2) p_H + Γρe | shocked solids and liquids |
+//! | [`Tillotson`] | solid and vapour branch | hypervelocity impact |
+//! | [`Jwl`] | two exponentials + ωρe | detonation products |
+//! | [`TensionCutOff`] | max(p, p_min) | any of them, in tension |
+//!
+//! Choose by validity, not by cost: a law costs a few per cent of a step at most. Each law has a
+//! range; outside it a guard steps in, and every such evaluation is counted, so a result that left
+//! the range says so. Pressure and sound speed stay finite, and the sound speed positive, for any
+//! finite density and energy.
+//!
+//! # A law of one's own
+//!
+//! ```
+//! use meshfree::material::eos::{EosState, EquationOfState, Guards};
+//! use meshfree::{material::Material, scalar::Lane};
+//!
+//! /// Isothermal gas, p = c² ρ.
+//! #[derive(Clone, Debug)]
+//! struct Isothermal { sound_speed: f64 }
+//!
+//! impl EquationOfState for Isothermal {
+//!     fn name(&self) -> &'static str { "isothermal gas" }
+//!     fn reference_density(&self) -> f64 { 1.0 }
+//!     fn uses_energy(&self) -> bool { false }
+//!     fn state<L: Lane>(&self, density: L, _energy: L) -> EosState<L> {
+//!         let c = L::of(self.sound_speed);
+//!         EosState { pressure: density * c * c, sound_speed: c, guards: Guards::none() }
+//!     }
+//! }
+//! let cloud = Material::<f32>::new("molecular cloud", Isothermal { sound_speed: 200.0 });
+//! assert_eq!(cloud.state(2.0, 0.0), (80_000.0, 200.0));
+//! ```
+
+mod guard;
+mod ideal_gas;
+mod jwl;
+mod linear;
+mod mie_gruneisen;
+mod murnaghan;
+mod polynomial;
+mod power_law;
+mod stiffened_gas;
+mod tait;
+mod tension_cut_off;
+#[cfg(test)]
+mod tests;
+mod tillotson;
+
+pub use ideal_gas::IdealGas;
+pub use jwl::Jwl;
+pub use linear::Linear;
+pub use mie_gruneisen::{Hugoniot, MieGruneisen};
+pub use murnaghan::Murnaghan;
+pub use polynomial::Polynomial;
+pub use stiffened_gas::StiffenedGas;
+pub use tait::Tait;
+pub use tension_cut_off::TensionCutOff;
+pub use tillotson::Tillotson;
+
 use crate::scalar::{Lane, Mask};
 use core::fmt::Debug;
+use core::ops::AddAssign;
 
 /// Pressure, sound speed and the guards that acted.
 #[derive(Clone, Copy, Debug)]
@@ -57,6 +126,22 @@ impl GuardCounts {
     pub fn total(&self) -> u64 {
         self.compression + self.expansion + self.cut_off
     }
+
+    /// Adds the elements of a row in which a guard acted.
+    #[inline(always)]
+    pub fn record<L: Lane>(&mut self, guards: &Guards<L>) {
+        self.compression += guards.compression.count() as u64;
+        self.expansion += guards.expansion.count() as u64;
+        self.cut_off += guards.cut_off.count() as u64;
+    }
+}
+
+impl AddAssign for GuardCounts {
+    fn add_assign(&mut self, other: Self) {
+        self.compression += other.compression;
+        self.expansion += other.expansion;
+        self.cut_off += other.cut_off;
+    }
 }
 
 /// An equation of state p(ρ, e).
@@ -79,4 +164,38 @@ pub trait EquationOfState: Clone + Debug + Send + Sync + 'static {
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         Vec::new()
     }
+}
+
+/// Calls a macro with the list of all laws, as `name: value` pairs separated by semicolons, each
+/// value with the constants of a real material. Tests and benchmarks over all laws take them here.
+///
+/// ```
+/// macro_rules! count {
+///     ($($name:ident: $law:expr);*) => { [$(stringify!($name)),*].len() };
+/// }
+/// assert!(meshfree::for_each_eos!(count) >= 11);
+/// ```
+#[macro_export]
+macro_rules! for_each_eos {
+    ($callback:ident) => {
+        $callback! {
+            ideal_gas: $crate::material::eos::IdealGas::new(1.4, 1.2);
+            stiffened_gas: $crate::material::eos::StiffenedGas::water();
+            linear: $crate::material::eos::Linear::new(1000.0, 1480.0);
+            tait: $crate::material::eos::Tait::new(1000.0, 1480.0);
+            tait_fraction: $crate::material::eos::Tait::new(1000.0, 1480.0).with_gamma(7.15);
+            murnaghan: $crate::material::eos::Murnaghan::new(8930.0, 137e9, 5.0);
+            polynomial: $crate::material::eos::Polynomial::new(
+                8930.0, [0.0, 138.6e9, 274.5e9, 235.0e9, 2.02, 2.02, 0.0]);
+            mie_gruneisen_cubic: $crate::material::eos::MieGruneisen::new(8930.0, 3940.0, 1.49, 2.02)
+                .with_form($crate::material::eos::Hugoniot::LamCubic);
+            mie_gruneisen_full: $crate::material::eos::MieGruneisen::new(8930.0, 3940.0, 1.49, 2.02);
+            mie_gruneisen_ls_dyna: $crate::material::eos::MieGruneisen::new(8930.0, 3940.0, 1.49, 2.02)
+                .with_form($crate::material::eos::Hugoniot::LsDyna { s2: 0.1, s3: -0.05, a: 0.47 });
+            tillotson: $crate::material::eos::Tillotson::aluminium();
+            jwl: $crate::material::eos::Jwl::tnt();
+            tension_cut_off: $crate::material::eos::TensionCutOff::new(
+                $crate::material::eos::MieGruneisen::new(8930.0, 3940.0, 1.49, 2.02), -1e9)
+        }
+    };
 }
