@@ -55,4 +55,7 @@ impl Integrator for LamLeapfrog {
     fn slots(&self) -> usize {
         1
     }
+    fn integrates_density(&self) -> bool {
+        false
+    }
 }

@@ -89,6 +89,10 @@ pub trait Integrator: Debug + Send + Sync {
     fn slots(&self) -> usize {
         0
     }
+    /// Whether it advances a density that is integrated in time.
+    fn integrates_density(&self) -> bool {
+        true
+    }
     /// Whether velocity changes by kicks alone, as the compatible energy form needs.
     fn kicks(&self) -> bool {
         true

@@ -1,6 +1,5 @@
 //! Smoothing kernels: the trait, and one file for each family.
 //! W(r, h) = σ_D h⁻ᴰ f(q) with q = r/h; the gradient is F r_ij with F = σ_D h⁻ᴰ⁻² f′(q)/q.
-
 //!
 //! A kernel spreads each particle over a small ball. Three choices matter: how many neighbours it
 //! takes, whether it lets particles pair, and how long a time step it allows.
@@ -21,7 +20,7 @@
 //! splines have not. The cubic spline pays for it at once above h/dx ≈ 1.25 (its growth rate rises
 //! fiftyfold), the smoother splines only a little. In 1D every kernel accepts h/dx from 1 to 2.
 //!
-//! Time step: [`STABLE_STEP`](Kernel::STABLE_STEP) is 2h/(c ω) for the highest frequency ω of an
+//! Time step: [`stable_step`](Kernel::stable_step) is 2h/(c ω) for the highest frequency ω of an
 //! undamped uniform lattice, the smaller of a medium at rest (p = 0) and a gas (p = 0.6 ρc²), and the
 //! smallest over Cartesian and close-packed lattices at the recommended h/dx. A test repeats that
 //! analysis. A scheme multiplies it by its safety factor; one below 0.7 covers the whole accepted
@@ -37,12 +36,12 @@
 //! struct Mueller;
 //!
 //! impl Kernel<3> for Mueller {
-//!     const NAME: &'static str = "Müller poly6";
-//!     const SUPPORT: f64 = 2.0;
-//!     const NORMALISATION: f64 = 315.0 / (512.0 * std::f64::consts::PI);
-//!     const H_OVER_DX: f64 = 1.2;
-//!     const H_OVER_DX_RANGE: (f64, f64) = (1.0, 1.3);
-//!     const STABLE_STEP: f64 = 1.0;
+//!     fn name(&self) -> &'static str { "Müller poly6" }
+//!     fn support(&self) -> f64 { 2.0 }
+//!     fn normalisation(&self) -> f64 { 315.0 / (512.0 * std::f64::consts::PI) }
+//!     fn h_over_dx(&self) -> f64 { 1.2 }
+//!     fn h_over_dx_range(&self) -> (f64, f64) { (1.0, 1.3) }
+//!     fn stable_step(&self) -> f64 { 1.0 }
 //!     fn shape<L: Lane>(&self, q: L) -> L {
 //!         let t = (q * q).mul_add(L::of(-0.25), L::one()).positive_part();
 //!         t * t * t
@@ -57,7 +56,7 @@
 //!     .map(|k| (k as f64 + 0.5) * 0.002)
 //!     .map(|q| Mueller.shape(q) * 4.0 * std::f64::consts::PI * q * q * 0.002)
 //!     .sum();
-//! assert!((Mueller::NORMALISATION * integral - 1.0).abs() < 1e-5);
+//! assert!((Mueller.normalisation() * integral - 1.0).abs() < 1e-5);
 //! ```
 
 mod cubic;
@@ -89,10 +88,10 @@ use core::str::FromStr;
 /// ```
 ///
 /// The two methods are generic over a [`Lane`], so one text serves a single pair and a whole row of
-/// pairs. Both must be finite at q = 0 and exactly zero from [`SUPPORT`](Kernel::SUPPORT) on.
+/// pairs. Both must be finite at q = 0 and exactly zero from [`support`](Kernel::support) on.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a smoothing kernel in {D} dimensions",
-    note = "implement `Kernel<{D}>`: `shape`, `slope_over_q` and the constants; see the `kernel` module for an example"
+    note = "implement `Kernel<{D}>`: `shape`, `slope_over_q` and the numbers; see the `kernel` module for an example"
 )]
 pub trait Kernel<const D: usize>: Copy + Debug + Send + Sync + 'static {
     /// The kernel's name in reports.
@@ -139,54 +138,18 @@ macro_rules! for_each_kernel {
     };
 }
 
-/// Runs a block with the kernel that a [`KernelKind`] names, each as its own type, so the block is
-/// compiled once for every kernel.
-///
-/// ```
-/// use meshfree::kernel::{Kernel, KernelKind};
-/// fn support<K: Kernel<2>>(_: K) -> f64 { K::SUPPORT }
-/// let kind: KernelKind = "quintic".parse().unwrap();
-/// assert_eq!(meshfree::with_kernel!(kind, kernel => support(kernel)), 3.0);
-/// ```
-#[macro_export]
-macro_rules! with_kernel {
-    ($kind:expr, $kernel:ident => $body:expr) => {
-        match $kind {
-            $crate::kernel::KernelKind::CubicSpline => {
-                let $kernel = $crate::kernel::CubicSpline;
-                $body
-            }
-            $crate::kernel::KernelKind::QuarticSpline => {
-                let $kernel = $crate::kernel::QuarticSpline;
-                $body
-            }
-            $crate::kernel::KernelKind::QuinticSpline => {
-                let $kernel = $crate::kernel::QuinticSpline;
-                $body
-            }
-            $crate::kernel::KernelKind::WendlandC2 => {
-                let $kernel = $crate::kernel::WendlandC2;
-                $body
-            }
-            $crate::kernel::KernelKind::WendlandC4 => {
-                let $kernel = $crate::kernel::WendlandC4;
-                $body
-            }
-            $crate::kernel::KernelKind::WendlandC6 => {
-                let $kernel = $crate::kernel::WendlandC6;
-                $body
-            }
-            $crate::kernel::KernelKind::Gaussian => {
-                let $kernel = $crate::kernel::Gaussian;
-                $body
-            }
-        }
-    };
-}
-
 macro_rules! kernel_kind {
     ($($Kernel:ident $name:literal),*) => {
         /// The kernels by name, for command lines and files.
+        ///
+        /// A kind is itself a kernel: a program that takes the kernel from its user is compiled
+        /// once, with a branch in the pair loop where a program for one kernel has none.
+        ///
+        /// ```
+        /// use meshfree::kernel::{Kernel, KernelKind};
+        /// let kind: KernelKind = "quintic".parse().unwrap();
+        /// assert_eq!(Kernel::<2>::support(&kind), 3.0);
+        /// ```
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub enum KernelKind {
             $(
@@ -201,10 +164,49 @@ macro_rules! kernel_kind {
 
             /// The name on a command line, such as `wendland-c2`.
             #[must_use]
-            pub const fn name(self) -> &'static str {
+            pub const fn key(self) -> &'static str {
                 match self {
                     $(Self::$Kernel => $name,)*
                 }
+            }
+        }
+
+        kind_is_kernel! { 1: $($Kernel),* }
+        kind_is_kernel! { 2: $($Kernel),* }
+        kind_is_kernel! { 3: $($Kernel),* }
+    };
+}
+
+macro_rules! kind_is_kernel {
+    ($D:literal: $($Kernel:ident),*) => {
+        impl Kernel<$D> for KernelKind {
+            fn name(&self) -> &'static str {
+                match self { $(Self::$Kernel => Kernel::<$D>::name(&$Kernel),)* }
+            }
+            #[inline(always)]
+            fn support(&self) -> f64 {
+                match self { $(Self::$Kernel => Kernel::<$D>::support(&$Kernel),)* }
+            }
+            #[inline(always)]
+            fn normalisation(&self) -> f64 {
+                match self { $(Self::$Kernel => Kernel::<$D>::normalisation(&$Kernel),)* }
+            }
+            fn h_over_dx(&self) -> f64 {
+                match self { $(Self::$Kernel => Kernel::<$D>::h_over_dx(&$Kernel),)* }
+            }
+            fn h_over_dx_range(&self) -> (f64, f64) {
+                match self { $(Self::$Kernel => Kernel::<$D>::h_over_dx_range(&$Kernel),)* }
+            }
+            fn stable_step(&self) -> f64 {
+                match self { $(Self::$Kernel => Kernel::<$D>::stable_step(&$Kernel),)* }
+            }
+            #[inline(always)]
+            fn shape<L: Lane>(&self, q: L) -> L {
+                match self { $(Self::$Kernel => Kernel::<$D>::shape(&$Kernel, q),)* }
+            }
+            #[inline(always)]
+            fn slope_over_q<L: Lane>(&self, q: L) -> L {
+                match self { $(Self::$Kernel => Kernel::<$D>::slope_over_q(&$Kernel, q),)* }
             }
         }
     };
@@ -213,7 +215,7 @@ for_each_kernel!(kernel_kind);
 
 impl fmt::Display for KernelKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
+        f.pad(self.key())
     }
 }
 
@@ -226,7 +228,7 @@ pub struct UnknownKernel {
 }
 
 fn known_kernels() -> String {
-    let names: Vec<_> = KernelKind::ALL.iter().map(|kind| kind.name()).collect();
+    let names: Vec<_> = KernelKind::ALL.iter().map(|kind| kind.key()).collect();
     names.join(", ")
 }
 
@@ -234,7 +236,7 @@ impl FromStr for KernelKind {
     type Err = UnknownKernel;
     fn from_str(text: &str) -> Result<Self, UnknownKernel> {
         let wanted = text.trim().to_ascii_lowercase().replace(['_', ' '], "-");
-        let found = Self::ALL.iter().find(|kind| kind.name() == wanted);
+        let found = Self::ALL.iter().find(|kind| kind.key() == wanted);
         found.copied().ok_or_else(|| UnknownKernel {
             given: text.to_owned(),
         })
@@ -250,16 +252,28 @@ macro_rules! family {
             $(, shape: $shape:ident, slope_over_q: $slope:ident)? };
     )*) => {
         $(impl $crate::kernel::Kernel<$D> for $Kernel {
-            const NAME: &'static str = $name;
-            const SUPPORT: f64 = $support;
-            const NORMALISATION: f64 = {
+            fn name(&self) -> &'static str {
+                $name
+            }
+            #[inline(always)]
+            fn support(&self) -> f64 {
+                $support
+            }
+            #[inline(always)]
+            fn normalisation(&self) -> f64 {
                 #[allow(unused_imports)]
                 use core::f64::consts::PI;
                 $normalisation
-            };
-            const H_OVER_DX: f64 = $h_over_dx;
-            const H_OVER_DX_RANGE: (f64, f64) = $range;
-            const STABLE_STEP: f64 = $stable_step;
+            }
+            fn h_over_dx(&self) -> f64 {
+                $h_over_dx
+            }
+            fn h_over_dx_range(&self) -> (f64, f64) {
+                $range
+            }
+            fn stable_step(&self) -> f64 {
+                $stable_step
+            }
             #[inline(always)]
             fn shape<L: $crate::scalar::Lane>(&self, q: L) -> L {
                 $crate::kernel::first_function!($($shape,)? shape)(q)

@@ -36,7 +36,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     #[inline(always)]
     fn pair_acceleration(&self, slot: usize) -> [T; D] {
         let mass = self.group.columns.raw(Field::Mass)[slot];
-        self.group.rows.vector(Output::Force, slot).map(|force| force / mass)
+        self.group
+            .rows
+            .vector(Output::Force, slot)
+            .map(|force| force / mass)
     }
 
     /// x ← x + dt v with v the present velocity.
@@ -57,22 +60,33 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let rows = &self.group.rows;
         let [v, mass] = self.group.columns.many_mut([Field::Velocity, Field::Mass]);
         let mass = &*mass;
-        v.par_chunks_mut(D).enumerate().with_min_len(GRAIN).for_each(|(slot, v)| {
-            for (d, v) in v.iter_mut().enumerate() {
-                *v += dt * (rows.get(Output::Force, d, slot) / mass[slot] + gravity[d]);
-            }
-        });
+        v.par_chunks_mut(D)
+            .enumerate()
+            .with_min_len(GRAIN)
+            .for_each(|(slot, v)| {
+                for (d, v) in v.iter_mut().enumerate() {
+                    *v += dt * (rows.get(Output::Force, d, slot) / mass[slot] + gravity[d]);
+                }
+            });
     }
 
     /// e ← e + dt P/m with P from `work` rows or from the rates.
     fn heat(&mut self, dt: f64, work: bool) {
         let dt = T::from_f64(dt);
-        let rows = if work { &self.group.scratch_rows } else { &self.group.rows };
+        let rows = if work {
+            &self.group.scratch_rows
+        } else {
+            &self.group.rows
+        };
         let [energy, mass] = self.group.columns.many_mut([Field::Energy, Field::Mass]);
         let mass = &*mass;
-        energy.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(slot, energy)| {
-            *energy += dt * rows.get(Output::Power, 0, slot) / mass[slot];
-        });
+        energy
+            .par_iter_mut()
+            .enumerate()
+            .with_min_len(GRAIN)
+            .for_each(|(slot, energy)| {
+                *energy += dt * rows.get(Output::Power, 0, slot) / mass[slot];
+            });
     }
 
     fn carries_energy(&self) -> bool {
@@ -92,15 +106,16 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 None => sum / density[slot],
             }
         };
-        let [density, residual, moment, h, alpha, sound_speed, divergence] = group.columns.many_mut([
-            Field::Density,
-            Field::DensityResidual,
-            Field::Normalisation,
-            Field::SmoothingLength,
-            Field::ViscosityCoefficient,
-            Field::SoundSpeed,
-            Field::Divergence,
-        ]);
+        let [density, residual, moment, h, alpha, sound_speed, divergence] =
+            group.columns.many_mut([
+                Field::Density,
+                Field::DensityResidual,
+                Field::Normalisation,
+                Field::SmoothingLength,
+                Field::ViscosityCoefficient,
+                Field::SoundSpeed,
+                Field::Divergence,
+            ]);
         let dimension = T::from_f64(D as f64);
         let limits = match group.scheme.smoothing {
             Smoothing::Divergence { smallest, largest } => {
@@ -113,10 +128,20 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         for slot in 0..density.len() {
             let rate = rate(slot, density, moment);
             if let Some(switch) = group.scheme.switch {
-                let own_h = h.get(slot).copied().unwrap_or(T::from_f64(group.smoothing_length));
+                let own_h = h
+                    .get(slot)
+                    .copied()
+                    .unwrap_or(T::from_f64(group.smoothing_length));
                 let before = divergence.get(slot).copied().unwrap_or(T::zero());
-                alpha[slot] =
-                    follow(switch, alpha[slot], -rate, before, sound_speed[slot], own_h, step);
+                alpha[slot] = follow(
+                    switch,
+                    alpha[slot],
+                    -rate,
+                    before,
+                    sound_speed[slot],
+                    own_h,
+                    step,
+                );
                 if let Some(divergence) = divergence.get_mut(slot) {
                     *divergence = -rate;
                 }
@@ -154,21 +179,30 @@ fn expm1<T: Real>(x: T) -> T {
 /// x ← x + dt v, with the rounding error kept where there is a column for it.
 fn add_scaled<T: Real>(x: &mut [T], residual: &mut [T], v: &[T], dt: T) {
     if residual.is_empty() {
-        x.par_iter_mut().zip(v).with_min_len(GRAIN).for_each(|(x, v)| *x += dt * *v);
+        x.par_iter_mut()
+            .zip(v)
+            .with_min_len(GRAIN)
+            .for_each(|(x, v)| *x += dt * *v);
         return;
     }
-    x.par_iter_mut().zip(residual.par_iter_mut()).zip(v).with_min_len(GRAIN).for_each(
-        |((x, residual), v)| {
+    x.par_iter_mut()
+        .zip(residual.par_iter_mut())
+        .zip(v)
+        .with_min_len(GRAIN)
+        .for_each(|((x, residual), v)| {
             (*x, *residual) = two_sum(*x, *residual + dt * *v);
-        },
-    );
+        });
 }
 
 /// The next viscosity coefficient of a particle.
 fn follow<T: Real>(switch: Switch, alpha: T, divergence: T, before: T, c: T, h: T, dt: T) -> T {
     let of = T::from_f64;
     match switch {
-        Switch::MorrisMonaghan { minimum, maximum, decay } => {
+        Switch::MorrisMonaghan {
+            minimum,
+            maximum,
+            decay,
+        } => {
             let source = (-divergence).positive_part() * (of(maximum) - alpha).positive_part();
             let rate = of(decay) * c / h;
             let next = (alpha + dt * (source + rate * of(minimum))) / (T::one() + dt * rate);
@@ -176,7 +210,11 @@ fn follow<T: Real>(switch: Switch, alpha: T, divergence: T, before: T, c: T, h: 
         }
         Switch::CullenDehnen { maximum, decay } => {
             let steepening = ((before - divergence) / dt).positive_part();
-            let converging = if divergence < T::zero() { steepening } else { T::zero() };
+            let converging = if divergence < T::zero() {
+                steepening
+            } else {
+                T::zero()
+            };
             let strength = h * h * converging;
             let local = of(maximum) * strength / (c * c + strength);
             if local > alpha {
@@ -202,18 +240,20 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
             let half = T::from_f64(0.5 * dt);
             let gravity = self.body_acceleration();
             let rows = &self.group.rows;
-            let [mean, v, mass] = self.group.columns.many_mut([
-                Field::MeanVelocity,
-                Field::Velocity,
-                Field::Mass,
-            ]);
+            let [mean, v, mass] =
+                self.group
+                    .columns
+                    .many_mut([Field::MeanVelocity, Field::Velocity, Field::Mass]);
             let (v, mass) = (&*v, &*mass);
-            mean.par_chunks_mut(D).enumerate().with_min_len(GRAIN).for_each(|(slot, mean)| {
-                for d in 0..D {
-                    let a = rows.get(Output::Force, d, slot) / mass[slot] + gravity[d];
-                    mean[d] = v[slot * D + d] + half * a;
-                }
-            });
+            mean.par_chunks_mut(D)
+                .enumerate()
+                .with_min_len(GRAIN)
+                .for_each(|(slot, mean)| {
+                    for d in 0..D {
+                        let a = rows.get(Output::Force, d, slot) / mass[slot] + gravity[d];
+                        mean[d] = v[slot * D + d] + half * a;
+                    }
+                });
             self.group.sum_work();
             self.heat(dt, true);
         } else if self.carries_energy() {
@@ -241,8 +281,10 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
         let gravity = self.body_acceleration();
         for slot in 0..self.group.columns.slots() {
             let pair = self.pair_acceleration(slot);
-            let [x, residual] =
-                self.group.columns.many_mut([Field::Position, Field::PositionResidual]);
+            let [x, residual] = self
+                .group
+                .columns
+                .many_mut([Field::Position, Field::PositionResidual]);
             for d in 0..D {
                 let change = T::from_f64(da) * (pair[d] + gravity[d]);
                 let k = slot * D + d;
@@ -257,7 +299,12 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
     fn predict(&mut self, dt: f64) {
         let columns = &self.group.columns;
         self.predicted.columns.resize_with(2, Vec::new);
-        for (kept, field) in self.predicted.columns.iter_mut().zip([Field::Velocity, Field::Energy]) {
+        for (kept, field) in self
+            .predicted
+            .columns
+            .iter_mut()
+            .zip([Field::Velocity, Field::Energy])
+        {
             kept.clear();
             kept.extend_from_slice(columns.raw(field));
         }
@@ -268,7 +315,12 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
     }
 
     fn retract(&mut self) {
-        for (kept, field) in self.predicted.columns.iter_mut().zip([Field::Velocity, Field::Energy]) {
+        for (kept, field) in self
+            .predicted
+            .columns
+            .iter_mut()
+            .zip([Field::Velocity, Field::Energy])
+        {
             self.group.columns.raw_mut(field).copy_from_slice(kept);
         }
     }
@@ -287,7 +339,9 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
     }
 
     fn load(&mut self, slot: usize) {
-        let Some(kept) = self.kept.get(slot) else { return };
+        let Some(kept) = self.kept.get(slot) else {
+            return;
+        };
         for (kept, field) in kept.columns.iter().zip(STATE) {
             self.group.columns.raw_mut(field).copy_from_slice(kept);
         }
@@ -296,7 +350,9 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
 
     fn combine(&mut self, slot: usize, a: f64, b: f64, dt: f64) {
         let rates = self.rates();
-        let Some(kept) = self.kept.get(slot) else { return };
+        let Some(kept) = self.kept.get(slot) else {
+            return;
+        };
         let (a_t, b_t, dt_t) = (T::from_f64(a), T::from_f64(b), T::from_f64(dt));
         for ((field, kept), rate) in STATE.iter().zip(&kept.columns).zip(&rates.columns) {
             let column = self.group.columns.raw_mut(*field);
@@ -305,19 +361,25 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
                 *y = a_t * *kept + b_t * *y + dt_t * rate;
             }
         }
-        self.impulses = kept.impulses.combine(a, &self.impulses, b, &rates.impulses, dt);
+        self.impulses = kept
+            .impulses
+            .combine(a, &self.impulses, b, &rates.impulses, dt);
     }
 
     fn accumulate(&mut self, slot: usize, dt: f64) {
         let rates = self.rates();
-        let Some(kept) = self.kept.get_mut(slot) else { return };
+        let Some(kept) = self.kept.get_mut(slot) else {
+            return;
+        };
         let dt_t = T::from_f64(dt);
         for (kept, rate) in kept.columns.iter_mut().zip(&rates.columns) {
             for (kept, rate) in kept.iter_mut().zip(rate) {
                 *kept += dt_t * *rate;
             }
         }
-        kept.impulses = kept.impulses.combine(1.0, &rates.impulses, dt, &rates.impulses, 0.0);
+        kept.impulses = kept
+            .impulses
+            .combine(1.0, &rates.impulses, dt, &rates.impulses, 0.0);
     }
 
     fn has_rates(&self) -> bool {
@@ -336,7 +398,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let moment = columns.raw(Field::Normalisation);
         let compression = |slot: usize| {
             let sum = group.rows.get(Output::Compression, 0, slot);
-            moment.get(slot).map_or(sum / density[slot], |moment| sum / *moment)
+            moment
+                .get(slot)
+                .map_or(sum / density[slot], |moment| sum / *moment)
         };
         let rates = STATE.map(|field| match field {
             Field::Position => columns.raw(Field::Velocity).to_vec(),
@@ -346,19 +410,26 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                     core::array::from_fn::<T, D, _>(|d| pair[d] + gravity[d])
                 })
                 .collect(),
-            Field::Density if group.scheme.density.is_integrated() => {
-                (0..slots).map(|slot| density[slot] * compression(slot)).collect()
-            }
+            Field::Density if group.scheme.density.is_integrated() => (0..slots)
+                .map(|slot| density[slot] * compression(slot))
+                .collect(),
             Field::Energy if self.carries_energy() => (0..slots)
                 .map(|slot| group.rows.get(Output::Power, 0, slot) / columns.raw(Field::Mass)[slot])
                 .collect(),
-            Field::SmoothingLength if matches!(group.scheme.smoothing, Smoothing::Divergence { .. }) => {
+            Field::SmoothingLength
+                if matches!(group.scheme.smoothing, Smoothing::Divergence { .. }) =>
+            {
                 let h = columns.raw(Field::SmoothingLength);
                 let d = T::from_f64(D as f64);
-                (0..slots).map(|slot| -h[slot] * compression(slot) / d).collect()
+                (0..slots)
+                    .map(|slot| -h[slot] * compression(slot) / d)
+                    .collect()
             }
             _ => Vec::new(),
         });
-        Kept { columns: rates.into(), impulses: self.impulse_rates() }
+        Kept {
+            columns: rates.into(),
+            impulses: self.impulse_rates(),
+        }
     }
 }

@@ -34,6 +34,8 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// Takes the sums at rest from which stress is measured. Called once, when the scene is built.
     pub fn take_reference(&mut self) {
+        // At rest the two sides of a contact lie against each other, and count as one neighbourhood.
+        self.columns.raw_mut(Field::Touching).fill(T::one());
         self.set_weights();
         self.refresh(0.0);
         self.scratch_sweep(|group| Some(group.scheme.reference.as_ref()));
@@ -53,8 +55,11 @@ impl<T: Real, const D: usize> Group<T, D> {
                 sum[slot] = rows.get(Output::KernelSum, 0, slot);
                 rest[slot] = density[slot];
                 let all = sum[slot] + rows.get(Output::ContactSum, 0, slot);
-                moment[slot] =
-                    if normalised { rows.get(Output::Moment, 0, slot) } else { all };
+                moment[slot] = if normalised {
+                    rows.get(Output::Moment, 0, slot)
+                } else {
+                    all
+                };
             }
             if form == DensityForm::Continuity && !normalised {
                 moment.fill(T::one());
@@ -76,8 +81,13 @@ impl<T: Real, const D: usize> Group<T, D> {
         let [touching] = self.columns.many_mut([Field::TouchingSum]);
         for body in &self.bodies {
             let own = |slot: usize| rows.get(Output::KernelSum, 0, slot);
-            let full = body.slots.clone().fold(T::zero(), |most, slot| most.max(own(slot)));
-            for slot in body.slots.start..body.slots.end.next_multiple_of(super::group::width::<T>()) {
+            let full = body
+                .slots
+                .clone()
+                .fold(T::zero(), |most, slot| most.max(own(slot)));
+            for slot in
+                body.slots.start..body.slots.end.next_multiple_of(super::group::width::<T>())
+            {
                 let across = rows.get(Output::ContactSum, 0, slot);
                 let lacking = (full - own(slot)).positive_part();
                 let lies_against = across >= lacking * T::from_f64(0.9);
@@ -98,7 +108,8 @@ impl<T: Real, const D: usize> Group<T, D> {
         ]);
         for slot in 0..density.len() {
             let unity = rows.get(Output::Unity, 0, slot);
-            let summed = rows.get(Output::KernelSum, 0, slot) + rows.get(Output::ContactSum, 0, slot);
+            let summed =
+                rows.get(Output::KernelSum, 0, slot) + rows.get(Output::ContactSum, 0, slot);
             // An end particle lacks a side of its neighbourhood; a joint does not lack volume.
             let is_end = unity < T::from_f64(END_UNITY);
             end[slot] = if is_end { T::one() } else { T::zero() };
@@ -110,8 +121,12 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     fn set_weights(&mut self) {
         let form = self.scheme.density;
-        let [weight, mass, density, rest] =
-            self.columns.many_mut([Field::Weight, Field::Mass, Field::Density, Field::ReferenceDensity]);
+        let [weight, mass, density, rest] = self.columns.many_mut([
+            Field::Weight,
+            Field::Mass,
+            Field::Density,
+            Field::ReferenceDensity,
+        ]);
         for slot in 0..weight.len() {
             let rest = rest.get(slot).copied().filter(|rest| *rest > T::zero());
             weight[slot] = form.weight(mass[slot], density[slot], rest.unwrap_or(density[slot]));
@@ -156,24 +171,28 @@ impl<T: Real, const D: usize> Group<T, D> {
         ]);
         let at = |column: &[T], slot: usize| column.get(slot).copied().unwrap_or(T::zero());
         let (rest, sum, moment, touching) = (&*rest, &*sum, &*moment, &*touching);
-        density.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(slot, density)| {
-            let own = rows.get(Output::KernelSum, 0, slot);
-            let across = rows.get(Output::ContactSum, 0, slot);
-            *density = match form {
-                DensityForm::NumberDensity => {
-                    // The other side of a contact compresses; it never pulls apart.
-                    let pressed = (across - at(touching, slot)).positive_part();
-                    let pressed = if unilateral { pressed } else { T::zero() };
-                    let compression = (own - at(sum, slot) + pressed) / at(moment, slot);
-                    at(rest, slot) * (T::one() + compression)
-                }
-                DensityForm::Normalised => (own + across) / rows.get(Output::Unity, 0, slot),
-                DensityForm::Lam if at(sum, slot) > T::zero() => {
-                    (own + across) / rows.get(Output::Unity, 0, slot)
-                }
-                _ => own + across,
-            };
-        });
+        density
+            .par_iter_mut()
+            .enumerate()
+            .with_min_len(GRAIN)
+            .for_each(|(slot, density)| {
+                let own = rows.get(Output::KernelSum, 0, slot);
+                let across = rows.get(Output::ContactSum, 0, slot);
+                *density = match form {
+                    DensityForm::NumberDensity => {
+                        // The other side of a contact compresses; it never pulls apart.
+                        let pressed = (across - at(touching, slot)).positive_part();
+                        let pressed = if unilateral { pressed } else { T::zero() };
+                        let compression = (own - at(sum, slot) + pressed) / at(moment, slot);
+                        at(rest, slot) * (T::one() + compression)
+                    }
+                    DensityForm::Normalised => (own + across) / rows.get(Output::Unity, 0, slot),
+                    DensityForm::Lam if at(sum, slot) > T::zero() => {
+                        (own + across) / rows.get(Output::Unity, 0, slot)
+                    }
+                    _ => own + across,
+                };
+            });
     }
 
     /// Marks particles that the other side of a contact presses against.
@@ -219,7 +238,11 @@ impl<T: Real, const D: usize> Group<T, D> {
                     let bounded = step.max(*h * T::from_f64(-0.5)).min(*h * T::from_f64(0.5));
                     let next = (*h - bounded).max(low).min(high);
                     let free = next > low && next < high;
-                    *omega = if free { T::one() + *h * slope / (d * summed) } else { T::one() };
+                    *omega = if free {
+                        T::one() + *h * slope / (d * summed)
+                    } else {
+                        T::one()
+                    };
                     let change = ((next - *h) / *h).abs().to_f64();
                     *h = next;
                     change
@@ -248,9 +271,13 @@ impl<T: Real, const D: usize> Group<T, D> {
         let mut guards = GuardCounts::default();
         for body in &self.bodies {
             let own = body.slots.start..body.slots.end.next_multiple_of(super::group::width::<T>());
-            let material = &body.material;
+            let material = body.material.eos();
             let reference = T::from_f64(material.reference_density());
-            let energy = if carries_energy { &energy[own.clone()] } else { &[] };
+            let energy = if carries_energy {
+                &energy[own.clone()]
+            } else {
+                &[]
+            };
             guards += density[own.clone()]
                 .par_chunks(GRAIN)
                 .zip(pressure[own.clone()].par_chunks_mut(GRAIN))
@@ -277,7 +304,10 @@ impl<T: Real, const D: usize> Group<T, D> {
                     }
                     counts
                 })
-                .reduce(GuardCounts::default, |a, b| a + b);
+                .reduce(GuardCounts::default, |mut a, b| {
+                    a += b;
+                    a
+                });
         }
         self.guards += guards;
     }
@@ -299,10 +329,14 @@ impl<T: Real, const D: usize> Group<T, D> {
         let (pressure, density) = (&*pressure, &*density);
         let (rest, moment, omega) = (&*rest, &*moment, &*omega);
         let one = |column: &[T], slot: usize| column.get(slot).copied().unwrap_or(T::one());
-        coefficient.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(slot, x)| {
-            let p = pressure[slot] / one(omega, slot);
-            *x = form.coefficient(p, density[slot], one(rest, slot), one(moment, slot));
-        });
+        coefficient
+            .par_iter_mut()
+            .enumerate()
+            .with_min_len(GRAIN)
+            .for_each(|(slot, x)| {
+                let p = pressure[slot] / one(omega, slot);
+                *x = form.coefficient(p, density[slot], one(rest, slot), one(moment, slot));
+            });
     }
 
     fn find_gradients(&mut self) {
@@ -311,8 +345,9 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
         self.scratch_sweep(|group| group.scheme.gradient.as_deref());
         let rows = &self.scratch_rows;
-        let [velocity, pressure] =
-            self.columns.many_mut([Field::VelocityGradient, Field::PressureGradient]);
+        let [velocity, pressure] = self
+            .columns
+            .many_mut([Field::VelocityGradient, Field::PressureGradient]);
         let with_velocity = !velocity.is_empty();
         let with_pressure = !pressure.is_empty();
         let correction = |slot: usize| {
@@ -322,25 +357,33 @@ impl<T: Real, const D: usize> Group<T, D> {
             inverse(&moment, SINGULAR).unwrap_or_else(Matrix::identity)
         };
         if with_velocity {
-            velocity.par_chunks_mut(D * D).enumerate().with_min_len(GRAIN).for_each(|(slot, out)| {
-                let sum = Matrix::<T, D>::from_fn(|a, b| {
-                    rows.get(Output::VelocityGradient, a * D + b, slot)
+            velocity
+                .par_chunks_mut(D * D)
+                .enumerate()
+                .with_min_len(GRAIN)
+                .for_each(|(slot, out)| {
+                    let sum = Matrix::<T, D>::from_fn(|a, b| {
+                        rows.get(Output::VelocityGradient, a * D + b, slot)
+                    });
+                    let gradient = sum * correction(slot);
+                    for (k, value) in out.iter_mut().enumerate() {
+                        *value = gradient[(k / D, k % D)];
+                    }
                 });
-                let gradient = sum * correction(slot);
-                for (k, value) in out.iter_mut().enumerate() {
-                    *value = gradient[(k / D, k % D)];
-                }
-            });
         }
         if with_pressure {
-            pressure.par_chunks_mut(D).enumerate().with_min_len(GRAIN).for_each(|(slot, out)| {
-                let correction = correction(slot);
-                for (b, value) in out.iter_mut().enumerate() {
-                    *value = (0..D).fold(T::zero(), |sum, a| {
-                        sum + rows.get(Output::PressureGradient, a, slot) * correction[(a, b)]
-                    });
-                }
-            });
+            pressure
+                .par_chunks_mut(D)
+                .enumerate()
+                .with_min_len(GRAIN)
+                .for_each(|(slot, out)| {
+                    let correction = correction(slot);
+                    for (b, value) in out.iter_mut().enumerate() {
+                        *value = (0..D).fold(T::zero(), |sum, a| {
+                            sum + rows.get(Output::PressureGradient, a, slot) * correction[(a, b)]
+                        });
+                    }
+                });
         }
     }
 
@@ -355,7 +398,9 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.rows = rows;
         if self.scheme.energy == EnergyForm::Compatible {
             let mut records = core::mem::take(&mut self.work_records);
-            self.scheme.rates.pack(Pass::Work, &self.input(), &mut records);
+            self.scheme
+                .rates
+                .pack(Pass::Work, &self.input(), &mut records);
             self.work_records = records;
         }
     }

@@ -8,9 +8,7 @@ use crate::neighbors::{Block, ClusterLists, Grid, Radii, SearchInput};
 use crate::particles::{Columns, Field};
 use crate::scalar::{Lane, Real};
 use crate::scheme::Scheme;
-use crate::sweep::{
-    Image, InstructionSet, Interaction, Records, Rows, SweepInput, Transform,
-};
+use crate::sweep::{Image, InstructionSet, Interaction, Records, Rows, SweepInput, Transform};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -121,12 +119,16 @@ impl<T: Real, const D: usize> Group<T, D> {
     }
 
     pub fn body_of(&self, slot: usize) -> usize {
-        self.bodies.partition_point(|body| body.slots.end <= slot).min(self.bodies.len() - 1)
+        self.bodies
+            .partition_point(|body| body.slots.end <= slot)
+            .min(self.bodies.len() - 1)
     }
 
     fn reach(&self) -> f64 {
         let h = self.columns.raw(Field::SmoothingLength);
-        let largest = h.iter().fold(self.smoothing_length, |m, h| m.max(h.to_f64()));
+        let largest = h
+            .iter()
+            .fold(self.smoothing_length, |m, h| m.max(h.to_f64()));
         self.scheme.kernel.support * largest + self.skin
     }
 
@@ -147,7 +149,9 @@ impl<T: Real, const D: usize> Group<T, D> {
             .zip(&self.listed)
             .with_min_len(4096)
             .map(|(now, then)| {
-                (0..D).map(|d| (now[d] - then[d]).to_f64().powi(2)).sum::<f64>()
+                (0..D)
+                    .map(|d| (now[d] - then[d]).to_f64().powi(2))
+                    .sum::<f64>()
             })
             .reduce(|| 0.0, f64::max)
             .sqrt();
@@ -170,11 +174,15 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
         let width = width::<T>();
         self.listed.clear();
-        self.listed.extend_from_slice(self.columns.vectors(Field::Position));
+        self.listed
+            .extend_from_slice(self.columns.vectors(Field::Position));
         self.listed_h.clear();
-        self.listed_h.extend_from_slice(self.columns.raw(Field::SmoothingLength));
+        self.listed_h
+            .extend_from_slice(self.columns.raw(Field::SmoothingLength));
         self.blocks.clear();
-        self.blocks.extend(self.bodies.iter().map(|b| Block { slots: b.slots.clone() }));
+        self.blocks.extend(self.bodies.iter().map(|b| Block {
+            slots: b.slots.clone(),
+        }));
         self.place_images(time, reach);
         let h = &mut self.listed_h;
         let radii = if h.is_empty() {
@@ -214,8 +222,10 @@ impl<T: Real, const D: usize> Group<T, D> {
         let mut order: Vec<u32> = (0..self.columns.slots() as u32).collect();
         let width = width::<T>();
         for body in &self.bodies {
-            let keys: Vec<u64> =
-                positions[body.slots.clone()].par_iter().map(|x| grid.order(x)).collect();
+            let keys: Vec<u64> = positions[body.slots.clone()]
+                .par_iter()
+                .map(|x| grid.order(x))
+                .collect();
             let own = &mut order[body.slots.clone()];
             own.par_sort_by_key(|&slot| keys[slot as usize - body.slots.start]);
             let last = order[body.slots.end - 1];
@@ -252,13 +262,20 @@ impl<T: Real, const D: usize> Group<T, D> {
                         candidates.push((slot as u32, None, positions[slot]));
                     }
                 }
-                for (image, x) in self.images[..start - slots].iter().zip(&self.listed[slots..]) {
+                for (image, x) in self.images[..start - slots]
+                    .iter()
+                    .zip(&self.listed[slots..])
+                {
                     if near(x) {
                         candidates.push((image.source, Some(image.transform), *x));
                     }
                 }
                 for &(source, parent, x) in &candidates {
-                    let chain = Chain { parent, boundary: b as u32, image: k as u32 };
+                    let chain = Chain {
+                        parent,
+                        boundary: b as u32,
+                        image: k as u32,
+                    };
                     let known = self.chains.iter().position(|c| *c == chain);
                     let transform = known.unwrap_or(self.chains.len()) as u32;
                     if known.is_none() {
@@ -268,7 +285,9 @@ impl<T: Real, const D: usize> Group<T, D> {
                     self.listed.push(own.point(&x));
                 }
             }
-            self.blocks.push(Block { slots: start..slots + self.images.len() });
+            self.blocks.push(Block {
+                slots: start..slots + self.images.len(),
+            });
         }
         self.place_transforms(time);
     }
@@ -276,7 +295,8 @@ impl<T: Real, const D: usize> Group<T, D> {
     fn place_transforms(&mut self, time: f64) {
         self.transforms.clear();
         for chain in &self.chains {
-            let own = self.boundaries[chain.boundary as usize].transform(chain.image as usize, time);
+            let own =
+                self.boundaries[chain.boundary as usize].transform(chain.image as usize, time);
             let whole = match chain.parent {
                 Some(parent) => self.transforms[parent as usize].then(&own),
                 None => own,

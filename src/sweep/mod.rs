@@ -6,6 +6,7 @@ mod records;
 mod rows;
 
 pub use program::{PairSweep, Pass, Program, SweepInput};
+pub(crate) use records::two_sum;
 pub use records::{Image, Records, Transform};
 pub use rows::{Reaction, Rows};
 

@@ -53,6 +53,8 @@ pub trait PairSweep<T: Real, const D: usize>: Debug + Send + Sync {
     fn document(&self) -> Vec<TermDoc>;
     /// Packs what a pass reads. `records` keeps its memory between calls.
     fn pack(&self, pass: Pass, input: &SweepInput<'_, T, D>, records: &mut Records<T>);
+    /// Renews the mean velocities in records packed for [`Pass::Work`].
+    fn renew_mean_velocity(&self, input: &SweepInput<'_, T, D>, records: &mut Records<T>);
     /// Runs the loop over packed records. `rows` keeps its memory between calls.
     fn run(
         &self,
@@ -132,14 +134,18 @@ impl<T: Real, const D: usize, K: Kernel<D>, P: Terms<D>> PairSweep<T, D> for Pro
     }
 
     fn pack(&self, pass: Pass, input: &SweepInput<'_, T, D>, records: &mut Records<T>) {
-        let work = if pass == Pass::Work { WORK } else { 0 };
-        let mode = if self.mode == SmoothingMode::Uniform {
-            UNIFORM
-        } else {
-            MEAN
-        };
-        let layout = reads::<T, P, D>(mode | work);
+        let layout = self.layout::<T, D>(pass);
         records.pack(layout, input.columns, input.images, input.transforms);
+    }
+
+    fn renew_mean_velocity(&self, input: &SweepInput<'_, T, D>, records: &mut Records<T>) {
+        records.renew_velocity(
+            Field::MeanVelocity,
+            self.layout::<T, D>(Pass::Work),
+            input.columns,
+            input.images,
+            input.transforms,
+        );
     }
 
     fn run(
@@ -170,6 +176,19 @@ impl<T: Real, const D: usize, K: Kernel<D>, P: Terms<D>> PairSweep<T, D> for Pro
 }
 
 impl<K, P> Program<K, P> {
+    fn layout<T: Real, const D: usize>(&self, pass: Pass) -> Fields
+    where
+        P: Terms<D>,
+    {
+        let work = if pass == Pass::Work { WORK } else { 0 };
+        let mode = if self.mode == SmoothingMode::Uniform {
+            UNIFORM
+        } else {
+            MEAN
+        };
+        reads::<T, P, D>(mode | work)
+    }
+
     fn go<T: Real, const D: usize, const HOW: u8>(
         &self,
         input: &SweepInput<'_, T, D>,
@@ -193,6 +212,8 @@ impl<K, P> Program<K, P> {
             records: records.data(),
             blocks: input.blocks,
             interactions: input.interactions,
+            touching: input.columns.raw(Field::Touching),
+            images: input.images,
             h,
             kernel_norm: T::from_f64(self.kernel.normalisation()),
         };
@@ -215,6 +236,9 @@ struct Task<'a, T, K, P> {
     records: &'a [T],
     blocks: &'a [Block],
     interactions: &'a [Interaction],
+    /// Which slots touch the other side of a contact; empty without contacts.
+    touching: &'a [T],
+    images: &'a [Image],
     h: T,
     kernel_norm: T,
 }
@@ -308,7 +332,7 @@ impl<T: Real, K, P> Task<'_, T, K, P> {
                 let neighbors = &list.neighbors[segment.start as usize..segment.end as usize];
                 let other = segment.block as usize;
                 if other == block {
-                    self.segment::<L, D, HOW, false>(&own, neighbors, &mut sums);
+                    self.segment::<L, D, HOW, false>(&own, first, neighbors, &mut sums);
                     continue;
                 }
                 let interaction = self.interactions[block * self.blocks.len() + other];
@@ -318,13 +342,13 @@ impl<T: Real, K, P> Task<'_, T, K, P> {
                     // A gradient does not look across a contact that may open.
                     Interaction::Unilateral if one_sided => continue,
                     Interaction::Bonded => {
-                        self.segment::<L, D, HOW, false>(&own, neighbors, &mut sums);
+                        self.segment::<L, D, HOW, false>(&own, first, neighbors, &mut sums);
                     }
                     Interaction::Unilateral => {
                         let mut shown = own;
                         compressive(reads, &mut shown, D);
                         let kept = sums.take_kernel_sum();
-                        self.segment::<L, D, HOW, true>(&shown, neighbors, &mut sums);
+                        self.segment::<L, D, HOW, true>(&shown, first, neighbors, &mut sums);
                         sums.divert_kernel_sum(kept);
                     }
                 }
@@ -346,6 +370,23 @@ impl<T: Real, K, P> Task<'_, T, K, P> {
         }
     }
 
+    /// Which members of a row touch the other side of a contact; `None` before contacts are known.
+    #[inline(always)]
+    fn touches<L: Lane<Scalar = T>>(&self, first: usize) -> Option<L> {
+        let row = self.touching.get(first..first + L::WIDTH)?;
+        Some(L::from_fn(|lane| row[lane]))
+    }
+
+    /// The slot of a neighbour, or of the particle that it is an image of.
+    #[inline(always)]
+    fn source(&self, j: u32) -> usize {
+        let j = j as usize;
+        let image = j
+            .checked_sub(self.touching.len())
+            .and_then(|k| self.images.get(k));
+        image.map_or(j, |image| image.source as usize)
+    }
+
     /// One cluster against the neighbours of one segment.
     ///
     /// Across an open contact (`CONTACT`) a pair acts only where one of the two touches, shows the
@@ -354,6 +395,7 @@ impl<T: Real, K, P> Task<'_, T, K, P> {
     fn segment<L: Lane<Scalar = T>, const D: usize, const HOW: u8, const CONTACT: bool>(
         &self,
         own: &[L; MOST_READS],
+        first: usize,
         neighbors: &[u32],
         sums: &mut Sums<L, D, Composed<T, P, D, HOW>>,
     ) where
@@ -432,10 +474,9 @@ impl<T: Real, K, P> Task<'_, T, K, P> {
                 layout: PhantomData,
             };
             if CONTACT {
-                if reads.contains(Field::Touching) {
-                    let touching = reads.offset(Field::Touching, D);
-                    pair.f_i *= own[touching];
-                    pair.f_j *= L::splat(record[touching]);
+                if let Some(touching) = self.touches::<L>(first) {
+                    pair.f_i *= touching;
+                    pair.f_j *= L::splat(self.touching[self.source(j)]);
                     pair.f = (pair.f_i + pair.f_j) * L::of(0.5);
                 }
                 shown[..stride].copy_from_slice(record);

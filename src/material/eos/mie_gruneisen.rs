@@ -52,13 +52,15 @@ pub enum Hugoniot {
 /// ```
 ///
 /// p_H \[Pa\] is the pressure behind a shock (form: [`Hugoniot`]), Γ \[1\] the Grüneisen parameter,
-/// taken as constant, C₀ \[m/s\] and S \[1\] the line u_s = C₀ + S u_p. In expansion (η < 0) p_H is
-/// its tangent ρ₀C₀²η, as the curves are fitted in compression.
+/// taken as constant, C₀ \[m/s\] and S \[1\] the line u_s = C₀ + S u_p. In expansion (η < 0) the
+/// cubic goes on to η = −0.15 and along its tangent from there; the full curve, a fit of shocks, is
+/// replaced by its tangent ρ₀C₀²η at once.
 ///
 /// Guards. Beyond 0.8 of the pole, or 0.7 of the η where (1 − Γη/2) p_H vanishes, whichever is less
 /// ([`compression_limit`](Self::compression_limit); 0.69 for copper), p goes on along its tangent in
 /// η, no flatter than ρ₀C₀²/2 (`compression`). Where c² falls below 10⁻⁴ C₀² (cold compression or
-/// wide expansion) c stays at 0.01 C₀ (`compression` or `expansion`).
+/// wide expansion) c stays at 0.01 C₀ (`compression` or `expansion`). The cubic beyond η = −0.15
+/// counts as `expansion`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MieGruneisen {
     reference_density: f64,
@@ -68,6 +70,9 @@ pub struct MieGruneisen {
     form: Hugoniot,
     limit: f64,
 }
+
+/// Expansion η down to which the cubic is followed; its slope turns over near −0.3 (steel of Lam et al.).
+const LEAST_OF_CUBIC: f64 = -0.15;
 
 impl MieGruneisen {
     /// ρ₀ \[kg/m³\], C₀ \[m/s\], S \[1\] and Γ \[1\] on the full Hugoniot, the form that is valid widest.
@@ -213,7 +218,12 @@ impl MieGruneisen {
     /// The part of p/(ρ₀C₀²) without energy, and its derivative with η.
     #[inline(always)]
     fn cold<L: Lane>(&self, eta: L) -> (L, L) {
-        let inside = eta.positive_part();
+        // The cubic is a polynomial and goes on into tension; the full curves are fits of shocks.
+        let least = match self.form {
+            Hugoniot::LamCubic => LEAST_OF_CUBIC,
+            _ => 0.0,
+        };
+        let inside = eta.max(L::of(least));
         let (n, d, n_slope, d_slope) = self.factors(inside);
         let inverse = d.recip();
         let square = inverse * inverse;
@@ -221,13 +231,13 @@ impl MieGruneisen {
         let slope =
             (inside.mul_add(n_slope, n) - L::of(2.0) * inside * n * d_slope * inverse) * square;
         let bend = match self.form {
-            Hugoniot::LsDyna { .. } => 0.0,
-            _ => -0.5 * self.gruneisen,
+            Hugoniot::Full => -0.5 * self.gruneisen,
+            _ => 0.0,
         };
-        let tension = eta.min(L::zero());
-        let stretched = tension * tension.mul_add(L::of(bend), L::one());
-        let stretched_slope = tension.mul_add(L::of(2.0 * bend), L::one());
-        let in_tension = eta.lt(L::zero());
+        let tension = eta - inside;
+        let stretched = tension * tension.mul_add(L::of(bend), slope);
+        let stretched_slope = tension.mul_add(L::of(2.0 * bend), slope);
+        let in_tension = tension.lt(L::zero());
         (
             value + stretched,
             L::select(in_tension, stretched_slope, slope),
@@ -277,12 +287,16 @@ impl EquationOfState for MieGruneisen {
             (pressure * by_energy / (ratio * ratio) + slope) * L::of(1.0 / self.reference_density);
         let (sound_speed, slow) = speed(squared, self.sound_speed);
         let stretched = plain.lt(L::zero());
+        let least = match self.form {
+            Hugoniot::LamCubic => LEAST_OF_CUBIC,
+            _ => -1.0,
+        };
         EosState {
             pressure,
             sound_speed,
             guards: Guards {
                 compression: over | (slow & !stretched),
-                expansion: plain.lt(-L::one()) | (slow & stretched),
+                expansion: plain.lt(L::of(least)) | (slow & stretched),
                 cut_off: L::Mask::all_of(false),
             },
         }

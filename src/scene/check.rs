@@ -1,0 +1,290 @@
+//! What can be wrong with a scene: every check runs, and every problem is reported.
+//! A message names the field, the value, and what to do.
+
+use super::Scene;
+use crate::error::Problem;
+use crate::neighbors::Cells;
+use crate::scalar::Real;
+use crate::scheme::EnergyForm;
+
+/// Share of the spacing below which particles of two bodies cannot be neighbours by intent: two
+/// lattices that overlap always have a pair within half a spacing along each axis.
+const OVERLAP: f64 = 0.6;
+
+impl<T: Real, const D: usize> Scene<T, D> {
+    /// Everything that is wrong with the scene; empty if it can be built.
+    #[must_use]
+    pub fn problems(&self) -> Vec<Problem> {
+        let mut problems = Vec::new();
+        if self.bodies.is_empty() {
+            problems.push(Problem::EmptyScene);
+        }
+        for body in &self.bodies {
+            self.check_body(body, &mut problems);
+        }
+        self.check_scheme(&mut problems);
+        self.check_names(&mut problems);
+        self.check_boundaries(&mut problems);
+        if problems.is_empty() {
+            self.check_overlap(&mut problems);
+        }
+        problems
+    }
+
+    fn check_body(&self, body: &super::Body<T, D>, problems: &mut Vec<Problem>) {
+        let mut parameter = |what: &str, value: f64, must_be: &'static str| {
+            problems.push(Problem::Parameter {
+                what: format!("{what} of body `{}`", body.name),
+                value,
+                must_be,
+            });
+        };
+        match body.shape {
+            Err(("spacing", value)) => {
+                parameter(
+                    "spacing",
+                    value,
+                    "it must be finite and positive, in metres",
+                );
+                return;
+            }
+            Err(("size", value)) => {
+                parameter("size", value, "corners must be finite, in metres");
+                return;
+            }
+            Err((_, value)) => {
+                parameter(
+                    "number of particles",
+                    value,
+                    "it must stay below 4e9: is the spacing in metres?",
+                );
+                return;
+            }
+            Ok(()) => {}
+        }
+        for (what, value, must_be) in body.material.problems() {
+            parameter(
+                &format!("{what} of material `{}`", body.material.name),
+                value,
+                must_be,
+            );
+        }
+        let first =
+            |bad: &dyn Fn(&super::Start<D>) -> Option<f64>| body.starts.iter().find_map(bad);
+        if let Some(value) = first(&|s| Some(s.density).filter(|d| !(d.is_finite() && *d > 0.0))) {
+            parameter("density", value, "it must be finite and positive, in kg/m³");
+        }
+        if let Some(value) = first(&|s| s.velocity.into_iter().find(|v| !v.is_finite())) {
+            parameter("velocity", value, "it must be finite, in m/s");
+        }
+        if let Some(value) = first(&|s| Some(s.energy).filter(|e| !e.is_finite())) {
+            parameter("energy", value, "it must be finite, in J/kg");
+        }
+        let position = body.points.iter().flatten().find(|x| !x.is_finite());
+        if let Some(&value) = position {
+            parameter("position", value, "it must be finite, in metres");
+        }
+        if !(body.spacing.is_finite() && body.spacing > 0.0) && !body.points.is_empty() {
+            parameter(
+                "spacing",
+                body.spacing,
+                "it must be finite and positive, in metres",
+            );
+        }
+        if body.points.is_empty() {
+            problems.push(Problem::EmptyBody {
+                body: body.name.clone(),
+            });
+        }
+    }
+
+    fn check_scheme(&self, problems: &mut Vec<Problem>) {
+        let (scheme, kernel) = (&self.scheme, self.scheme.kernel);
+        let (lowest, highest) = kernel.range;
+        if !(lowest..=highest).contains(&scheme.h_over_dx) {
+            problems.push(Problem::SmoothingRatio {
+                kernel: kernel.name,
+                ratio: scheme.h_over_dx,
+                lowest,
+                highest,
+                recommended: kernel.h_over_dx,
+            });
+        }
+        for (what, value, must_be) in &scheme.viscosity_problems {
+            problems.push(Problem::Parameter {
+                what: format!("{what} of the artificial viscosity"),
+                value: *value,
+                must_be,
+            });
+        }
+        let mut positive = |what: &str, value: f64| {
+            if !(value.is_finite() && value > 0.0) {
+                problems.push(Problem::Parameter {
+                    what: what.into(),
+                    value,
+                    must_be: "it must be finite and positive",
+                });
+            }
+        };
+        positive("step factor (courant)", self.control.courant);
+        positive("force factor of the step", self.control.force);
+        positive("skin", self.skin);
+        if let Some(step) = self.control.fixed {
+            positive("fixed time step", step);
+        }
+        let mut incompatible = |what: String, remedy| {
+            problems.push(Problem::Incompatible { what, remedy });
+        };
+        if scheme.energy == EnergyForm::Compatible && !self.integrator.kicks() {
+            incompatible(
+                format!(
+                    "the compatible energy form cannot follow the integrator {}",
+                    self.integrator.name()
+                ),
+                "take EnergyForm::Symmetric, or an integrator that kicks (kick-drift-kick)",
+            );
+        }
+        if scheme.density.is_integrated() && !self.integrator.integrates_density() {
+            incompatible(
+                format!(
+                    "the integrator {} does not integrate density",
+                    self.integrator.name()
+                ),
+                "take a density form that follows from positions, or another integrator",
+            );
+        }
+        let hot = self.bodies.iter().find(|body| {
+            scheme.energy == EnergyForm::None && body.starts.iter().any(|start| start.energy != 0.0)
+        });
+        if let Some(body) = hot {
+            incompatible(
+                format!(
+                    "body `{}` starts with internal energy, which the scheme does not carry",
+                    body.name
+                ),
+                "take an energy form in the scheme, or start without energy",
+            );
+        }
+        if self.is_mixed() && self.is_uniform() {
+            incompatible(
+                "bodies have different spacings, and the scheme has one smoothing length".into(),
+                "give all bodies the same spacing, or allow it with SchemeBuilder::mixed_spacing",
+            );
+        }
+    }
+
+    fn check_names(&self, problems: &mut Vec<Problem>) {
+        let known = || {
+            let names: Vec<_> = self
+                .bodies
+                .iter()
+                .map(|body| format!("`{}`", body.name))
+                .collect();
+            names.join(", ")
+        };
+        for (k, body) in self.bodies.iter().enumerate() {
+            if self.bodies[..k]
+                .iter()
+                .any(|earlier| earlier.name == body.name)
+            {
+                problems.push(Problem::Incompatible {
+                    what: format!("two bodies are called `{}`", body.name),
+                    remedy: "give every body a name of its own",
+                });
+            }
+        }
+        for name in self
+            .contacts
+            .iter()
+            .flat_map(|(first, second, _)| [first, second])
+        {
+            if !self.bodies.iter().any(|body| body.name == *name) {
+                problems.push(Problem::UnknownName {
+                    kind: "body",
+                    name: name.clone(),
+                    known: known(),
+                });
+            }
+        }
+    }
+
+    fn check_boundaries(&self, problems: &mut Vec<Problem>) {
+        let spacing = self
+            .bodies
+            .iter()
+            .fold(0.0_f64, |most, body| most.max(body.spacing));
+        let reach =
+            self.scheme.kernel.support * self.scheme.h_over_dx * spacing * (1.0 + self.skin);
+        for boundary in &self.boundaries {
+            for (what, value, must_be) in boundary.problems(reach) {
+                problems.push(Problem::Parameter {
+                    what: format!("{what} of the {}", boundary.name()),
+                    value,
+                    must_be,
+                });
+            }
+        }
+    }
+
+    /// Finds the closest pair of particles that are too close to be neighbours.
+    fn check_overlap(&self, problems: &mut Vec<Problem>) {
+        let points: Vec<[f64; D]> = self
+            .bodies
+            .iter()
+            .flat_map(|body| body.points.iter().copied())
+            .collect();
+        let ends: Vec<usize> = self
+            .bodies
+            .iter()
+            .scan(0, |sum, body| {
+                *sum += body.points.len();
+                Some(*sum)
+            })
+            .collect();
+        let spacing = self
+            .bodies
+            .iter()
+            .fold(f64::INFINITY, |least, body| least.min(body.spacing));
+        let all: Vec<u32> = (0..points.len() as u32).collect();
+        let cells = Cells::build(&points, &all, spacing);
+        let body_of = |k: usize| ends.partition_point(|&end| end <= k);
+        let mut reported: Vec<(usize, usize)> = Vec::new();
+        for (i, x) in points.iter().enumerate() {
+            let reach = OVERLAP * spacing;
+            let mut closest: Option<(f64, usize)> = None;
+            cells.for_each_run(x.map(|x| x - reach), x.map(|x| x + reach), |run| {
+                for &j in run.iter().filter(|&&j| j as usize > i) {
+                    let j = j as usize;
+                    let apart: f64 = (0..D)
+                        .map(|d| (points[j][d] - x[d]).powi(2))
+                        .sum::<f64>()
+                        .sqrt();
+                    // Within a body a user may place points as densely as a gas needs.
+                    let limit = if body_of(i) == body_of(j) {
+                        1e-3 * reach
+                    } else {
+                        reach
+                    };
+                    if apart < limit && closest.is_none_or(|(least, _)| apart < least) {
+                        closest = Some((apart, j));
+                    }
+                }
+            });
+            let Some((distance, j)) = closest else {
+                continue;
+            };
+            let pair = (body_of(i), body_of(j));
+            if reported.contains(&pair) {
+                continue;
+            }
+            reported.push(pair);
+            problems.push(Problem::Overlap {
+                first: self.bodies[pair.0].name.clone(),
+                second: self.bodies[pair.1].name.clone(),
+                distance,
+                spacing,
+                position: x.to_vec(),
+            });
+        }
+    }
+}

@@ -1,0 +1,259 @@
+//! Scenes: what there is, what it is made of, and what acts on it, named by the user.
+//! Building a scene checks everything at once and yields a simulation.
+
+mod body;
+mod check;
+
+pub use body::{Body, Start};
+
+use crate::boundary::Boundary;
+use crate::error::{BuildError, Error, Problem, Result};
+use crate::integrator::{Integrator, KickDriftKick};
+use crate::particles::{Columns, Field, Fields};
+use crate::scalar::Real;
+use crate::scheme::{Scheme, Smoothing};
+use crate::simulation::{BodyState, Group, Load, Simulation, StepControl, width};
+use crate::sweep::Interaction;
+
+/// A scene: bodies, boundaries, a scheme, an integrator, and how parts act on each other.
+///
+/// ```
+/// use meshfree::material::catalogue;
+/// use meshfree::scene::{Body, Scene};
+/// use meshfree::schemes;
+///
+/// let mut simulation = Scene::<f64, 1>::new(schemes::impact())
+///     .body(Body::block("striker", catalogue::copper(), [0.0], [0.01], 2e-4).velocity([20.0]))
+///     .body(Body::block("target", catalogue::copper(), [0.01], [0.05], 2e-4))
+///     .build()?;
+/// simulation.run_until(2.5e-6)?;
+/// let middle = simulation.body(0).nth(25).map(|particle| particle.pressure());
+/// assert!((middle.unwrap_or(0.0) / 353e6 - 1.0).abs() < 0.01);
+/// # Ok::<(), meshfree::error::Error>(())
+/// ```
+pub struct Scene<T: Real, const D: usize> {
+    bodies: Vec<Body<T, D>>,
+    boundaries: Vec<Box<dyn Boundary<T, D>>>,
+    scheme: Scheme<T, D>,
+    integrator: Box<dyn Integrator>,
+    contacts: Vec<(String, String, Interaction)>,
+    loads: Vec<Load<D>>,
+    control: StepControl,
+    skin: f64,
+}
+
+impl<T: Real, const D: usize> Scene<T, D> {
+    /// An empty scene whose bodies obey `scheme`.
+    #[must_use]
+    pub fn new(scheme: impl Into<Scheme<T, D>>) -> Self {
+        let scheme = scheme.into();
+        let control = StepControl {
+            courant: scheme.step_factor,
+            ..StepControl::default()
+        };
+        Self {
+            bodies: Vec::new(),
+            boundaries: Vec::new(),
+            scheme,
+            integrator: Box::new(KickDriftKick),
+            contacts: Vec::new(),
+            loads: Vec::new(),
+            control,
+            skin: DEFAULT_SKIN,
+        }
+    }
+
+    /// Adds a body.
+    #[must_use]
+    pub fn body(mut self, body: Body<T, D>) -> Self {
+        self.bodies.push(body);
+        self
+    }
+
+    /// Adds a boundary.
+    #[must_use]
+    pub fn boundary(mut self, boundary: impl Boundary<T, D> + 'static) -> Self {
+        self.boundaries.push(Box::new(boundary));
+        self
+    }
+
+    /// Says what two bodies do to each other. Where nothing is said, they carry compression and open
+    /// without tension ([`Interaction::Unilateral`]).
+    #[must_use]
+    pub fn between(mut self, first: &str, second: &str, interaction: Interaction) -> Self {
+        self.contacts
+            .push((first.into(), second.into(), interaction));
+        self
+    }
+
+    /// Chooses the integrator; [`KickDriftKick`] if not given.
+    #[must_use]
+    pub fn integrator(mut self, integrator: impl Integrator + 'static) -> Self {
+        self.integrator = Box::new(integrator);
+        self
+    }
+
+    /// Chooses an integrator that is already boxed.
+    #[must_use]
+    pub fn boxed_integrator(mut self, integrator: Box<dyn Integrator>) -> Self {
+        self.integrator = integrator;
+        self
+    }
+
+    /// Adds an acceleration \[m/s²\] that acts on all particles, as a function of time \[s\].
+    #[must_use]
+    pub fn acceleration(mut self, load: impl Fn(f64) -> [f64; D] + Send + Sync + 'static) -> Self {
+        self.loads.push(Box::new(load));
+        self
+    }
+
+    /// Changes how the time step is chosen.
+    #[must_use]
+    pub fn steps(mut self, change: impl FnOnce(StepControl) -> StepControl) -> Self {
+        self.control = change(self.control);
+        self
+    }
+
+    /// The skin of the neighbour lists in units of the kernel's support; 0.1 if not given. A thicker
+    /// skin makes lists longer and their builds rarer; results differ in rounding only.
+    #[must_use]
+    pub fn skin(mut self, skin: f64) -> Self {
+        self.skin = skin;
+        self
+    }
+
+    /// Checks the scene and makes a simulation of it.
+    ///
+    /// # Errors
+    /// [`Error::Build`] with every problem that was found.
+    pub fn build(self) -> Result<Simulation<T, D>> {
+        let problems = self.problems();
+        if !problems.is_empty() {
+            return Err(Error::Build(BuildError { problems }));
+        }
+        let interactions = self.interactions();
+        let unilateral = interactions.contains(&Interaction::Unilateral);
+        let mut fields = self.scheme.fields();
+        if unilateral {
+            fields = fields.union(Fields::of(&[Field::Touching, Field::TouchingSum]));
+        }
+        let width = width::<T>();
+        let slots = self
+            .bodies
+            .iter()
+            .map(|b| b.points.len().next_multiple_of(width))
+            .sum();
+        let mut columns = Columns::<T, D>::new(fields, slots);
+        let mut bodies = Vec::new();
+        let mut start = 0;
+        for body in &self.bodies {
+            let own = start..start + body.points.len();
+            for slot in start..own.end.next_multiple_of(width) {
+                self.place(
+                    &mut columns,
+                    body,
+                    slot,
+                    (slot - start).min(body.points.len() - 1),
+                );
+            }
+            start = own.end.next_multiple_of(width);
+            bodies.push(BodyState {
+                name: body.name.clone(),
+                material: body.material.clone(),
+                slots: own,
+                spacing: body.spacing,
+            });
+        }
+        let widest = bodies
+            .iter()
+            .fold(0.0_f64, |most, body| most.max(body.spacing));
+        let h = self.scheme.h_over_dx * widest;
+        let skin = self.skin * self.scheme.kernel.support * h;
+        let fixed = self.control.fixed;
+        let mut group = Group::new(
+            columns,
+            bodies,
+            self.boundaries,
+            self.scheme,
+            interactions,
+            h,
+            skin,
+        );
+        group.take_reference();
+        let mut simulation = Simulation::new(group, self.integrator, self.control, self.loads);
+        simulation.evaluate()?;
+        let vote = simulation.vote()?;
+        match fixed {
+            Some(step) if step > vote.step => Err(Error::Build(BuildError {
+                problems: vec![Problem::StepAboveLimit {
+                    step,
+                    limit: vote.step,
+                    criterion: vote.criterion.name(),
+                }],
+            })),
+            _ => Ok(simulation),
+        }
+    }
+
+    /// Writes particle `k` of a body into a slot.
+    fn place(&self, columns: &mut Columns<T, D>, body: &Body<T, D>, slot: usize, k: usize) {
+        let (x, start) = (body.points[k], body.starts[k]);
+        let rounded = x.map(T::from_f64);
+        columns.vectors_mut(Field::Position)[slot] = rounded;
+        if columns.fields().contains(Field::PositionResidual) {
+            columns.vectors_mut(Field::PositionResidual)[slot] =
+                core::array::from_fn(|d| T::from_f64(x[d] - rounded[d].to_f64()));
+        }
+        columns.vectors_mut(Field::Velocity)[slot] = start.velocity.map(T::from_f64);
+        let mut set = |field: Field, value: f64| {
+            if let Some(place) = columns.raw_mut(field).get_mut(slot) {
+                *place = T::from_f64(value);
+            }
+        };
+        set(Field::Density, start.density);
+        set(Field::ReferenceDensity, start.density);
+        set(Field::Mass, start.density * body.spacing.powi(D as i32));
+        set(Field::Energy, start.energy);
+        set(Field::SmoothingLength, self.scheme.h_over_dx * body.spacing);
+    }
+
+    /// What every block does to every other: bodies, then boundaries.
+    fn interactions(&self) -> Vec<Interaction> {
+        let (bodies, boundaries) = (self.bodies.len(), self.boundaries.len());
+        let blocks = bodies + boundaries;
+        let mut all = vec![Interaction::Unilateral; blocks * blocks];
+        let index = |name: &str| self.bodies.iter().position(|body| body.name == name);
+        for k in 0..blocks {
+            all[k * blocks + k] = Interaction::Bonded;
+        }
+        for (first, second, interaction) in &self.contacts {
+            if let (Some(a), Some(b)) = (index(first), index(second)) {
+                all[a * blocks + b] = *interaction;
+                all[b * blocks + a] = *interaction;
+            }
+        }
+        for (k, boundary) in self.boundaries.iter().enumerate() {
+            for body in 0..bodies {
+                all[body * blocks + bodies + k] = boundary.interaction();
+            }
+        }
+        if bodies == 1 && boundaries == 0 {
+            all[0] = Interaction::Bonded;
+        }
+        all
+    }
+
+    fn is_mixed(&self) -> bool {
+        let first = self.bodies.first().map_or(0.0, |body| body.spacing);
+        let same = |body: &Body<T, D>| (body.spacing - first).abs() <= 1e-9 * first.abs();
+        !self.bodies.iter().all(same)
+    }
+
+    fn is_uniform(&self) -> bool {
+        self.scheme.smoothing == Smoothing::Fixed
+            && !self.scheme.fields().contains(Field::SmoothingLength)
+    }
+}
+
+/// Default skin in units of the kernel's support.
+const DEFAULT_SKIN: f64 = 0.1;

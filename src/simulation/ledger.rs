@@ -1,0 +1,174 @@
+//! The ledger: mass, momentum and energy of every body, and the impulse that each block gave another.
+//! Sums run in the order of the particles, in `f64` whatever the scalar.
+
+use super::Simulation;
+use crate::particles::Field;
+use crate::scalar::Real;
+
+/// Mass, momentum and energy of a body, or of all.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Budget {
+    /// Mass \[kg\].
+    pub mass: f64,
+    /// Momentum \[kg m/s\], one component a dimension.
+    pub momentum: Vec<f64>,
+    /// Kinetic energy \[J\].
+    pub kinetic: f64,
+    /// Internal energy \[J\].
+    pub internal: f64,
+}
+
+impl Budget {
+    /// Kinetic and internal energy \[J\].
+    #[must_use]
+    pub fn total_energy(&self) -> f64 {
+        self.kinetic + self.internal
+    }
+}
+
+/// The ledger at one instant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ledger {
+    /// Time \[s\].
+    pub time: f64,
+    /// Every body, by name.
+    pub bodies: Vec<(String, Budget)>,
+    /// All bodies together.
+    pub whole: Budget,
+    /// Momentum that boundaries have given since the start \[kg m/s\].
+    pub boundary_impulse: Vec<f64>,
+}
+
+/// Momentum that blocks have given each other \[kg m/s\]: bodies first, then boundaries.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Impulses {
+    values: Vec<f64>,
+}
+
+impl Impulses {
+    pub fn add(&mut self, index: usize, value: f64) {
+        if self.values.len() <= index {
+            self.values.resize(index + 1, 0.0);
+        }
+        self.values[index] += value;
+    }
+    pub fn get(&self, index: usize) -> f64 {
+        self.values.get(index).copied().unwrap_or(0.0)
+    }
+    /// a · self + b · other + dt · rate.
+    pub fn combine(&self, a: f64, other: &Self, b: f64, rate: &Self, dt: f64) -> Self {
+        let length = self
+            .values
+            .len()
+            .max(other.values.len())
+            .max(rate.values.len());
+        let sum = |k: usize| a * self.get(k) + b * other.get(k) + dt * rate.get(k);
+        Self {
+            values: (0..length).map(sum).collect(),
+        }
+    }
+}
+
+impl<T: Real, const D: usize> Simulation<T, D> {
+    fn impulse_index(&self, on: usize, from: usize, d: usize) -> usize {
+        let blocks = self.group.bodies.len() + self.group.boundaries.len();
+        (on * blocks + from) * D + d
+    }
+
+    pub(super) fn record_impulses(&mut self, dt: f64) {
+        let blocks = self.group.bodies.len() + self.group.boundaries.len();
+        for reaction in self.group.rows.reactions() {
+            let row = (reaction.on as usize * blocks + reaction.from as usize) * D;
+            for (d, force) in reaction.force.iter().enumerate() {
+                self.impulses.add(row + d, dt * force);
+            }
+        }
+    }
+
+    pub(super) fn impulse_rates(&self) -> Impulses {
+        let mut rates = Impulses::default();
+        for reaction in self.group.rows.reactions() {
+            let index = self.impulse_index(reaction.on as usize, reaction.from as usize, 0);
+            for (d, force) in reaction.force.iter().enumerate() {
+                rates.add(index + d, *force);
+            }
+        }
+        rates
+    }
+
+    /// The present budget of a body, by its index.
+    fn budget(&self, body: usize) -> Budget {
+        let columns = &self.group.columns;
+        let mut budget = Budget {
+            momentum: vec![0.0; D],
+            ..Budget::default()
+        };
+        for slot in self.group.bodies[body].slots.clone() {
+            let mass = columns.raw(Field::Mass)[slot].to_f64();
+            budget.mass += mass;
+            let mut speed2 = 0.0;
+            for (d, v) in columns.vectors(Field::Velocity)[slot].iter().enumerate() {
+                budget.momentum[d] += mass * v.to_f64();
+                speed2 += v.to_f64() * v.to_f64();
+            }
+            budget.kinetic += 0.5 * mass * speed2;
+            let energy = columns
+                .raw(Field::Energy)
+                .get(slot)
+                .map_or(0.0, |e| e.to_f64());
+            budget.internal += mass * energy;
+        }
+        budget
+    }
+
+    /// Mass, momentum and energy now, body by body and together.
+    #[must_use]
+    pub fn ledger(&self) -> Ledger {
+        let bodies: Vec<_> = (0..self.group.bodies.len())
+            .map(|body| (self.group.bodies[body].name.clone(), self.budget(body)))
+            .collect();
+        let mut whole = Budget {
+            momentum: vec![0.0; D],
+            ..Budget::default()
+        };
+        for (_, budget) in &bodies {
+            whole.mass += budget.mass;
+            whole.kinetic += budget.kinetic;
+            whole.internal += budget.internal;
+            for d in 0..D {
+                whole.momentum[d] += budget.momentum[d];
+            }
+        }
+        let count = self.group.bodies.len();
+        let boundaries = count..count + self.group.boundaries.len();
+        let boundary_impulse = (0..D)
+            .map(|d| {
+                (0..count)
+                    .flat_map(|on| boundaries.clone().map(move |from| (on, from)))
+                    .map(|(on, from)| self.impulses.get(self.impulse_index(on, from, d)))
+                    .sum()
+            })
+            .collect();
+        Ledger {
+            time: self.time,
+            bodies,
+            whole,
+            boundary_impulse,
+        }
+    }
+
+    /// The force \[N\] that body or boundary `from` exerts on body `on` at the last evaluation, by
+    /// index: bodies in the order of the scene, then boundaries.
+    #[must_use]
+    pub fn force_between(&self, on: usize, from: usize) -> [f64; D] {
+        let mut force = [0.0; D];
+        for reaction in self.group.rows.reactions() {
+            if reaction.on as usize == on && reaction.from as usize == from {
+                for d in 0..D {
+                    force[d] += reaction.force[d];
+                }
+            }
+        }
+        force
+    }
+}

@@ -1,0 +1,231 @@
+//! The simulation: steps in time, keeps the ledger, and answers questions about its particles.
+//! It is made by [`Scene::build`](crate::scene::Scene::build) and is one nameable type.
+
+mod advance;
+mod control;
+mod evaluate;
+mod group;
+mod ledger;
+mod query;
+
+pub use control::{Criterion, StepControl, Vote};
+pub use ledger::{Budget, Ledger};
+pub use query::ParticleView;
+
+pub(crate) use group::{BodyState, Group, width};
+
+use crate::error::{Error, Problem, Result};
+use crate::integrator::Integrator;
+use crate::scalar::Real;
+use advance::Kept;
+use ledger::Impulses;
+
+/// A load: an acceleration that acts on all particles as a function of time.
+pub type Load<const D: usize> = Box<dyn Fn(f64) -> [f64; D] + Send + Sync>;
+
+/// A simulation in `D` dimensions with scalar `T`.
+///
+/// See the [crate page](crate) for a first program.
+pub struct Simulation<T: Real, const D: usize> {
+    pub(crate) group: Group<T, D>,
+    pub(crate) integrator: Box<dyn Integrator>,
+    pub(crate) control: StepControl,
+    pub(crate) loads: Vec<Load<D>>,
+    time: f64,
+    evaluation_time: f64,
+    steps: u64,
+    evaluations: u64,
+    rates_at_hand: bool,
+    first_step: Option<f64>,
+    last_vote: Option<Vote>,
+    impulses: Impulses,
+    predicted: Kept<T>,
+    kept: Vec<Kept<T>>,
+}
+
+impl<T: Real, const D: usize> core::fmt::Debug for Simulation<T, D> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("Simulation")
+            .field("time", &self.time)
+            .field("steps", &self.steps)
+            .field("particles", &self.group.particles())
+            .finish_non_exhaustive()
+    }
+}
+
+impl<T: Real, const D: usize> Simulation<T, D> {
+    pub(crate) fn new(
+        group: Group<T, D>,
+        integrator: Box<dyn Integrator>,
+        control: StepControl,
+        loads: Vec<Load<D>>,
+    ) -> Self {
+        Self {
+            group,
+            integrator,
+            control,
+            loads,
+            time: 0.0,
+            evaluation_time: 0.0,
+            steps: 0,
+            evaluations: 0,
+            rates_at_hand: false,
+            first_step: None,
+            last_vote: None,
+            impulses: Impulses::default(),
+            predicted: Kept::default(),
+            kept: Vec::new(),
+        }
+    }
+
+    /// Time \[s\].
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Steps taken.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// Evaluations of the rates so far.
+    #[must_use]
+    pub fn evaluations(&self) -> u64 {
+        self.evaluations
+    }
+
+    /// What set the last step.
+    #[must_use]
+    pub fn last_vote(&self) -> Option<Vote> {
+        self.last_vote
+    }
+
+    fn body_acceleration(&self) -> [T; D] {
+        let mut sum = [T::zero(); D];
+        for load in &self.loads {
+            let a = load(self.evaluation_time);
+            for d in 0..D {
+                sum[d] += T::from_f64(a[d]);
+            }
+        }
+        sum
+    }
+
+    /// Evaluates all rates at the present state, so that pressures and forces can be asked for.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] if a number is no longer finite.
+    pub fn evaluate(&mut self) -> Result<()> {
+        crate::integrator::System::evaluate(self, 0.0)?;
+        self.vote().map(|_| ())
+    }
+
+    /// Takes one step, and returns its size \[s\].
+    ///
+    /// # Errors
+    /// As [`run_until`](Simulation::run_until).
+    pub fn step(&mut self) -> Result<f64> {
+        self.step_at_most(f64::INFINITY)
+    }
+
+    /// Takes one step of at most `limit` \[s\].
+    ///
+    /// # Errors
+    /// As [`run_until`](Simulation::run_until).
+    pub fn step_at_most(&mut self, limit: f64) -> Result<f64> {
+        if !self.rates_at_hand {
+            crate::integrator::System::evaluate(self, 0.0)?;
+        }
+        let mut vote = self.vote()?;
+        if let Some(fixed) = self.control.fixed {
+            // A limit that varies by rounding is not a violation.
+            if fixed > vote.step * (1.0 + 1e-6) {
+                return Err(Error::Argument(Problem::StepAboveLimit {
+                    step: fixed,
+                    limit: vote.step,
+                    criterion: vote.criterion.name(),
+                }));
+            }
+            vote = Vote {
+                step: fixed,
+                criterion: Criterion::Fixed,
+                ..vote
+            };
+        }
+        let first = *self.first_step.get_or_insert(vote.step);
+        if vote.step < self.control.smallest.unwrap_or(1e-6 * first) {
+            let slot = self
+                .group
+                .slot_of
+                .get(vote.particle)
+                .map_or(0, |&slot| slot as usize);
+            let body = &self.group.bodies[self.group.body_of(slot)];
+            return Err(Error::StepCollapsed {
+                step: vote.step,
+                time: self.time,
+                criterion: vote.criterion.name(),
+                body: body.name.clone(),
+                particle: vote.particle.saturating_sub(body.slots.start),
+            });
+        }
+        if vote.step > limit {
+            vote = Vote {
+                step: limit,
+                criterion: Criterion::End,
+                ..vote
+            };
+        }
+        self.last_vote = Some(vote);
+        // The integrator borrows the simulation as a system, so it steps outside of it.
+        let mut integrator =
+            core::mem::replace(&mut self.integrator, Box::new(crate::integrator::Midpoint));
+        // Inside the pool the many short loops of a step start without waking a thread for each.
+        let stepped = rayon::scope(|_| integrator.step(self, vote.step));
+        self.integrator = integrator;
+        stepped?;
+        self.time += vote.step;
+        self.steps += 1;
+        Ok(vote.step)
+    }
+
+    /// Steps until `end` \[s\]; the last step is shortened to end there.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] when the run has broken, [`Error::StepCollapsed`] when the step has become
+    /// tiny, and [`Error::Argument`] if a fixed step exceeds the stability limit.
+    pub fn run_until(&mut self, end: f64) -> Result<()> {
+        self.run_with(end, |_| {})
+    }
+
+    /// Steps until `end` \[s\] and shows the simulation to `observe` after every step.
+    ///
+    /// # Errors
+    /// As [`run_until`](Simulation::run_until).
+    pub fn run_with(&mut self, end: f64, mut observe: impl FnMut(&Self)) -> Result<()> {
+        if !end.is_finite() {
+            return Err(Error::Argument(Problem::Parameter {
+                what: "end of the run".into(),
+                value: end,
+                must_be: "must be a finite time in seconds",
+            }));
+        }
+        // Steps shorter than this are rounding, not time.
+        let rounding = 1e-12 * end.abs();
+        while end - self.time > rounding {
+            let left = end - self.time;
+            // Two equal last steps instead of a full one and a sliver.
+            let limit = match self.last_vote {
+                Some(vote) if left < 2.0 * vote.step && left > vote.step => 0.5 * left,
+                _ => left,
+            };
+            self.step_at_most(limit)?;
+            if end - self.time <= rounding {
+                self.time = end;
+            }
+            observe(self);
+        }
+        Ok(())
+    }
+}
