@@ -69,32 +69,38 @@ macro_rules! quantities {
             }
             /// Whether `member` belongs to the set.
             #[must_use]
+            #[inline(always)]
             pub const fn contains(self, member: $Quantity) -> bool {
                 self.0 >> member as u64 & 1 == 1
             }
             /// Where `member` starts when the set is laid out in order, in `d` dimensions.
             #[must_use]
+            #[inline(always)]
             pub const fn offset(self, member: $Quantity, d: usize) -> usize {
-                let (mut offset, mut k) = (0, 0);
-                while k < member as usize {
-                    if self.contains($Quantity::ALL[k]) {
-                        offset += $Quantity::ALL[k].components(d);
-                    }
-                    k += 1;
-                }
-                offset
+                Self(self.0 & ((1 << member as u64) - 1)).width(d)
             }
             /// Numbers per particle of the whole set in `d` dimensions.
+            ///
+            /// Three population counts, so that the pair loop sees constants.
             #[must_use]
+            #[inline(always)]
             pub const fn width(self, d: usize) -> usize {
-                let (mut width, mut k) = (0, 0);
+                const SCALARS: u64 = $Set::with_components(1);
+                const MATRICES: u64 = $Set::with_components(9);
+                let scalars = (self.0 & SCALARS).count_ones() as usize;
+                let matrices = (self.0 & MATRICES).count_ones() as usize;
+                let vectors = (self.0 & !(SCALARS | MATRICES)).count_ones() as usize;
+                scalars + vectors * d + matrices * d * d
+            }
+            const fn with_components(components: usize) -> u64 {
+                let (mut bits, mut k) = (0, 0);
                 while k < $Quantity::COUNT {
-                    if self.contains($Quantity::ALL[k]) {
-                        width += $Quantity::ALL[k].components(d);
+                    if $Quantity::ALL[k].components(3) == components {
+                        bits |= 1 << k;
                     }
                     k += 1;
                 }
-                width
+                bits
             }
             /// The members in the order of storage.
             pub fn iter(self) -> impl Iterator<Item = $Quantity> {
