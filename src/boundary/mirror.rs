@@ -6,8 +6,11 @@ use crate::scalar::Real;
 use crate::sweep::{Interaction, Transform};
 use crate::tensor::{Matrix, Vector, length};
 
-/// A plane that reflects: x′ = x − 2 ((x − p)·n) n and v′ = v − 2 ((v − w)·n) n.
+/// A plane that reflects positions and velocities.
 ///
+#[doc = include_str!("../../docs/equations/mirror.html")]
+///
+/// p is a point of the plane, n its unit normal, out of the material, and w its velocity.
 /// As a [wall](MirrorPlane::wall) it lets bodies separate; as a plane of
 /// [symmetry](MirrorPlane::symmetry) it carries tension too. Slip along the plane is free.
 #[derive(Clone, Debug, PartialEq)]

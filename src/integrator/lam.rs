@@ -14,8 +14,9 @@ pub enum Predictor {
     Lagged,
 }
 
-/// Lam, Shen & Gong 2002, equations 26–29 as printed:
-/// v½ = vₙ + ½ dt aₙ, x½ = xₙ + ½ dt v½ + ¼ dt² aₙ, vₙ₊₁ = vₙ + dt a½, xₙ₊₁ = xₙ + dt (vₙ + ½ dt a½).
+/// Lam, Shen & Gong 2002, equations 26–29 as printed.
+///
+#[doc = include_str!("../../docs/equations/lam_leapfrog.html")]
 ///
 /// Equations 26 and 27 together put ½ dt² aₙ into x½ where Taylor has ⅛. On an oscillator of ω dt = z
 /// the determinant of a step is 1 − z⁴/4: second order, irreversible, and a low-pass filter.

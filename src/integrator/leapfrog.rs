@@ -6,7 +6,9 @@ use crate::error::Result;
 
 /// Kick–drift–kick (velocity Verlet): one evaluation a step.
 ///
-/// v½ = vₙ + ½ dt aₙ, xₙ₊₁ = xₙ + dt v½, vₙ₊₁ = v½ + ½ dt aₙ₊₁. Forces that depend on velocity or
+#[doc = include_str!("../../docs/equations/kick_drift_kick.html")]
+///
+/// Forces that depend on velocity or
 /// energy see both predicted to the end of the step with the last rates, without which the step is
 /// first order in them.
 #[derive(Clone, Copy, Debug, Default)]
@@ -32,7 +34,7 @@ impl Integrator for KickDriftKick {
 
 /// Drift–kick–drift: forces at half steps, velocity and energy predicted there.
 ///
-/// x½ = xₙ + ½ dt vₙ, vₙ₊₁ = vₙ + dt a½, xₙ₊₁ = x½ + ½ dt vₙ₊₁.
+#[doc = include_str!("../../docs/equations/drift_kick_drift.html")]
 #[derive(Clone, Copy, Debug, Default)]
 pub struct DriftKickDrift;
 

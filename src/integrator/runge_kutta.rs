@@ -5,6 +5,8 @@ use super::{Integrator, System};
 use crate::error::Result;
 
 /// The explicit midpoint rule: second order, two evaluations. Undamped waves grow by (ω dt)⁴/8 a step.
+///
+#[doc = include_str!("../../docs/equations/midpoint.html")]
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Midpoint;
 
@@ -32,6 +34,8 @@ impl Integrator for Midpoint {
 }
 
 /// Three stages, third order, a convex combination of Euler steps (Shu & Osher 1988, eq. 2.18).
+///
+#[doc = include_str!("../../docs/equations/ssp_rk3.html")]
 #[derive(Clone, Copy, Debug, Default)]
 pub struct StrongStabilityPreserving3;
 
@@ -61,6 +65,8 @@ impl Integrator for StrongStabilityPreserving3 {
 }
 
 /// The classical method of order four (Kutta 1901).
+///
+#[doc = include_str!("../../docs/equations/runge_kutta_4.html")]
 #[derive(Clone, Copy, Debug, Default)]
 pub struct RungeKutta4;
 

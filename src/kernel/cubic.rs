@@ -6,11 +6,7 @@ use crate::scalar::Lane;
 
 /// The cubic B-spline M4.
 ///
-/// ```text
-/// f(q) = 1 − 3/2 q² + 3/4 q³   for 0 ≤ q < 1
-///      = 1/4 (2 − q)³          for 1 ≤ q < 2,   0 beyond
-/// σ    = 2/3,  10/(7π),  1/π   in 1D, 2D, 3D
-/// ```
+#[doc = include_str!("../../docs/equations/cubic_spline.html")]
 ///
 /// Source: Schoenberg (1946) for the splines, Monaghan & Lattanzio (1985) for its use here; it is
 /// eq. 14 of Lam, Shen & Gong on rod impact.

@@ -6,10 +6,7 @@ use crate::scalar::Lane;
 
 /// The Gaussian, cut off at 3h.
 ///
-/// ```text
-/// f(q) = exp(−q²)   for q < 3,   0 beyond
-/// σ    = 1/(√π erf 3),   1/(π (1 − e⁻⁹)),   1/(π^{3/2} (erf 3 − 6 e⁻⁹/√π))   in 1D, 2D, 3D
-/// ```
+#[doc = include_str!("../../docs/equations/gaussian.html")]
 ///
 /// Source: Gingold & Monaghan (1977). Normalised without the cut, 4.4·10⁻⁴ of the mass would be
 /// lost in 3D. What remains is a jump of 1.2·10⁻⁴ f(0) at the edge.

@@ -23,8 +23,9 @@
 //! Time step: [`stable_step`](Kernel::stable_step) is 2h/(c ω) for the highest frequency ω of an
 //! undamped uniform lattice, the smaller of a medium at rest (p = 0) and a gas (p = 0.6 ρc²), and the
 //! smallest over Cartesian and close-packed lattices at the recommended h/dx. A test repeats that
-//! analysis. A scheme multiplies it by its safety factor; one below 0.7 covers the whole accepted
-//! range of h/dx.
+//! analysis. The step factor of a scheme
+//! ([`StepControl::courant`](crate::simulation::StepControl), 0.55 by default) stays below half of the
+//! smallest of them, which covers the whole accepted range of h/dx and the damping that a viscosity adds.
 //!
 //! # A kernel of one's own
 //!
@@ -83,9 +84,7 @@ use core::str::FromStr;
 
 /// A smoothing kernel in `D` dimensions.
 ///
-/// ```text
-/// W(r, h) = (σ_D / h^D) f(q),   q = r / h
-/// ```
+#[doc = include_str!("../../docs/equations/kernel.html")]
 ///
 /// The two methods are generic over a [`Lane`], so one text serves a single pair and a whole row of
 /// pairs. Both must be finite at q = 0 and exactly zero from [`support`](Kernel::support) on.

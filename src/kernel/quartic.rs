@@ -6,10 +6,7 @@ use crate::scalar::Lane;
 
 /// The quartic B-spline M5.
 ///
-/// ```text
-/// f(q) = (5/2 − q)₊⁴ − 5 (3/2 − q)₊⁴ + 10 (1/2 − q)₊⁴      (x₊ = max(x, 0))
-/// σ    = 1/24,  96/(1199π),  1/(20π)   in 1D, 2D, 3D
-/// ```
+#[doc = include_str!("../../docs/equations/quartic_spline.html")]
 ///
 /// Source: Schoenberg (1946); constants as in Price (2012).
 ///

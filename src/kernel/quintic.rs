@@ -6,10 +6,7 @@ use crate::scalar::Lane;
 
 /// The quintic B-spline M6.
 ///
-/// ```text
-/// f(q) = (3 − q)₊⁵ − 6 (2 − q)₊⁵ + 15 (1 − q)₊⁵      (x₊ = max(x, 0))
-/// σ    = 1/120,  7/(478π),  1/(120π)   in 1D, 2D, 3D
-/// ```
+#[doc = include_str!("../../docs/equations/quintic_spline.html")]
 ///
 /// Source: Schoenberg (1946); Morris, Fox & Zhu (1997) brought it to viscous flow.
 ///

@@ -6,11 +6,7 @@ use crate::scalar::Lane;
 
 /// The Wendland C2 kernel.
 ///
-/// ```text
-/// t    = (1 − q/2)₊
-/// f(q) = t³ (1 + 3/2 q)   σ = 5/8               in 1D
-///      = t⁴ (1 + 2 q)     σ = 7/(4π), 21/(16π)  in 2D, 3D
-/// ```
+#[doc = include_str!("../../docs/equations/wendland_c2.html")]
 ///
 /// Source: Wendland (1995); Dehnen & Aly (2012) show that a Fourier transform without negative
 /// lobes excludes pairing. That property belongs to a polynomial in a dimension, which is why 1D

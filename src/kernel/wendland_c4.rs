@@ -6,11 +6,7 @@ use crate::scalar::Lane;
 
 /// The Wendland C4 kernel.
 ///
-/// ```text
-/// t    = (1 − q/2)₊
-/// f(q) = t⁵ (1 + 5/2 q + 2 q²)      σ = 3/4                 in 1D
-///      = t⁶ (1 + 3 q + 35/12 q²)    σ = 9/(4π), 495/(256π)  in 2D, 3D
-/// ```
+#[doc = include_str!("../../docs/equations/wendland_c4.html")]
 ///
 /// Source: Wendland (1995), Dehnen & Aly (2012).
 ///

@@ -6,11 +6,7 @@ use crate::scalar::Lane;
 
 /// The Wendland C6 kernel.
 ///
-/// ```text
-/// t    = (1 − q/2)₊
-/// f(q) = t⁷ (1 + 7/2 q + 19/4 q² + 21/8 q³)   σ = 55/64                   in 1D
-///      = t⁸ (1 + 4 q + 25/4 q² + 4 q³)        σ = 39/(14π), 1365/(512π)   in 2D, 3D
-/// ```
+#[doc = include_str!("../../docs/equations/wendland_c6.html")]
 ///
 /// Source: Wendland (1995), Dehnen & Aly (2012).
 ///

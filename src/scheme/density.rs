@@ -21,14 +21,25 @@ use core::str::FromStr;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum DensityForm {
     /// Summation: gases, and shocks in one material.
+    ///
+    #[doc = include_str!("../../docs/equations/density_summation.html")]
     #[default]
     Summation,
     /// Summation over the partition of unity (Randles & Libersky 1996), everywhere. On a lattice it
     /// returns the density that was put in, whatever the compression: for comparison only.
+    ///
+    #[doc = include_str!("../../docs/equations/density_normalised.html")]
     Normalised,
     /// Number density relative to its value at rest: solids in their first shape, joints, and contact.
+    ///
+    #[doc = include_str!("../../docs/equations/density_number.html")]
+    ///
+    /// Across a contact the sum enters only as far as it exceeds its value at touching, so a contact
+    /// compresses and never pulls ([`Interaction::Unilateral`](crate::sweep::Interaction)).
     NumberDensity,
     /// Continuity in volume form: large motion, and density ratios at joints.
+    ///
+    #[doc = include_str!("../../docs/equations/density_continuity.html")]
     Continuity,
     /// Lam, Shen & Gong (2002): summation, first smoothed and then measured against the smoothed
     /// value, with the normalisation of equation 25 at end particles.

@@ -21,10 +21,16 @@ use core::fmt;
 pub enum EnergyForm {
     /// Not carried: the materials do not ask for it.
     None,
-    /// de/dt = half the power of every pair force; total energy drifts with the order of the step.
+    /// Each side takes half the power of every pair force; total energy drifts with the order of the
+    /// step (Monaghan & Gingold 1983).
+    ///
+    #[doc = include_str!("../../docs/equations/energy_symmetric.html")]
     Symmetric,
     /// The work of every pair force with the mean velocity of each kick, so that total energy is
-    /// conserved to rounding whatever the forces are (Owen 2014). Needs an integrator that kicks.
+    /// conserved to rounding whatever the forces are (Owen 2014). Needs an integrator that kicks, and
+    /// a second pass over the pairs of each kick.
+    ///
+    #[doc = include_str!("../../docs/equations/energy_compatible.html")]
     #[default]
     Compatible,
 }
@@ -35,15 +41,19 @@ pub enum Smoothing {
     /// Fixed, h = η dx for every body.
     #[default]
     Fixed,
-    /// dh/dt = h ∇·v / D within limits, as LS-DYNA does (Vesenjak & Ren 2007, eq. 6).
+    /// Follows the divergence within limits, as LS-DYNA does (Vesenjak & Ren 2007, eq. 6).
+    ///
+    #[doc = include_str!("../../docs/equations/smoothing_divergence.html")]
     Divergence {
         /// Smallest h in units of the first.
         smallest: f64,
         /// Largest h in units of the first.
         largest: f64,
     },
-    /// h = η (m/ρ)^(1/D), solved together with the density, with grad-h terms
+    /// Solved together with the density, with grad-h terms: η is h/dx
     /// (Springel & Hernquist 2002; Price 2012).
+    ///
+    #[doc = include_str!("../../docs/equations/smoothing_consistent.html")]
     Consistent {
         /// Smallest h in units of the first.
         smallest: f64,

@@ -9,12 +9,18 @@ use crate::tensor::{Vector, length};
 use rayon::prelude::*;
 
 /// How the time step is chosen.
+///
+#[doc = include_str!("../../docs/equations/time_step.html")]
+///
+/// κ is what the integrator bears relative to a leapfrog
+/// ([`stability`](crate::integrator::Integrator::stability)), and sᵢⱼ the signal that the viscosity in
+/// use adds to the sound speed of a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepControl {
-    /// Factor on h/(c + signal), where the signal is what the artificial viscosity in use adds;
+    /// Factor C on h/(c + signal), where the signal is what the artificial viscosity in use adds;
     /// taken from the scheme by default (0.55).
     pub courant: f64,
-    /// Factor on √(h/|a|); 0.25 by default (Monaghan 1992).
+    /// Factor C_a on √(h/|a|); 0.25 by default (Monaghan 1992).
     pub force: f64,
     /// A fixed step \[s\], checked against the limit in every step.
     pub fixed: Option<f64>,

@@ -4,12 +4,9 @@
 //! In each segment, with density ρ₀ \[kg/m³\], sound speed c₀ \[m/s\], impedance Z = ρ₀c₀
 //! \[kg/(m²s)\], stress σ \[Pa\] (tension positive) and velocity v \[m/s\],
 //!
-//! ```text
-//! ρ₀ ∂v/∂t = ∂σ/∂x,   ∂σ/∂t = ρ₀c₀² ∂v/∂x
-//! R = σ − Zv is constant along dx/dt = +c₀,   L = σ + Zv is constant along dx/dt = −c₀
-//! closed joint:  v = (L₂ − R₁)/(Z₁ + Z₂),   σ = (Z₂R₁ + Z₁L₂)/(Z₁ + Z₂)
-//! open joint:    σ = 0,   v₁ = −R₁/Z₁,   v₂ = L₂/Z₂,   d(gap)/dt = v₂ − v₁
-//! ```
+#![doc = include_str!("../../docs/equations/acoustic_waves.html")]
+//!
+#![doc = include_str!("../../docs/equations/acoustic_joint.html")]
 //!
 //! (J. A. Zukas et al., *Impact Dynamics*, 1982, pp. 29–53.) R and L leave the joints as step
 //! functions of time, so stress and velocity anywhere follow from two look-ups. A unilateral joint

@@ -4,13 +4,7 @@
 //! In each segment, with mass coordinate m \[kg/m²\], specific volume τ = 1/ρ, velocity u, pressure p
 //! = p(ρ, e) (so σ = −p), specific total energy E = e + ½u² and impedance z = ρc,
 //!
-//! ```text
-//! ∂τ/∂t = ∂u/∂m,   ∂u/∂t = −∂p/∂m,   ∂E/∂t = −∂(pu)/∂m
-//! gradients of p ± zu in m, limited, then half a step in time:
-//!   p ← p − ½Δt z² ∂u/∂m,   u ← u − ½Δt ∂p/∂m
-//! faces:  p_l − W_l(u* − u_l) = p* = p_r + W_r(u* − u_r),
-//!   W_l = ρ_l(c_l + A_l(u_l − u*)),   W_r = ρ_r(c_r + A_r(u* − u_r))
-//! ```
+#![doc = include_str!("../../docs/equations/godunov.html")]
 //!
 //! (S. K. Godunov 1959; B. van Leer, *Journal of Computational Physics* 32 (1979) 101, the
 //! MUSCL–Hancock form of E. F. Toro 2009, Section 14.4; shock impedance W after J. K. Dukowicz,

@@ -3,10 +3,7 @@
 //!
 //! Behind a shock that raises the particle velocity of a material at rest and at zero pressure by u,
 //!
-//! ```text
-//! U_s = C₀ + S u,   p = ρ₀ (C₀ + S u) u,   ρ = ρ₀ U_s/(U_s − u),   e = ½u²
-//! impact:  p_left(u_left − u*) = p_right(u* − u_right)
-//! ```
+#![doc = include_str!("../../docs/equations/shock_match.html")]
 //!
 //! with the Rankine–Hugoniot conditions from M. A. Meyers, *Dynamic Behavior of Materials*, 1994,
 //! Section 4.3 and impedance matching from his Section 7.2. The contact velocity u* is the root of a

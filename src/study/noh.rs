@@ -3,11 +3,7 @@
 //!
 //! With initial density ρ₀, inward speed V, vanishing pressure and ν = 1, 2, 3 dimensions
 //!
-//! ```text
-//! shock radius  R = ½(γ − 1) V t
-//! r < R:  ρ = ρ₀ ((γ + 1)/(γ − 1))^ν,   u = 0,    p = ½(γ − 1) V² ρ,   e = ½V²
-//! r > R:  ρ = ρ₀ (1 + V t/r)^(ν − 1),   u = −V,   p = 0
-//! ```
+#![doc = include_str!("../../docs/equations/noh.html")]
 //!
 //! W. F. Noh, *Journal of Computational Physics* 72 (1987) 78–120. Defaults are his: γ = 5/3, ρ₀ = 1,
 //! V = 1, so that ρ behind is 4, 16 or 64.

@@ -3,10 +3,9 @@
 //!
 //! Of samples aᵢ against bᵢ with weights wᵢ (cell widths, masses or times between samples)
 //!
-//! ```text
-//! L1 = Σ wᵢ|aᵢ − bᵢ| / Σ wᵢ,   L2 = √(Σ wᵢ(aᵢ − bᵢ)² / Σ wᵢ),   L∞ = max |aᵢ − bᵢ|
-//! order q of  error = C hᵠ:  slope of the least-squares line of ln(error) on ln(h)
-//! ```
+#![doc = include_str!("../../docs/equations/norms.html")]
+//!
+//! The observed order q of an error C hᵠ is the slope of the least-squares line of ln(error) on ln(h).
 //!
 //! ```
 //! use meshfree::study::norms::{Norms, observed_order};

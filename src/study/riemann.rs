@@ -3,11 +3,7 @@
 //!
 //! With P = p + p∞ and the sound speed a² = γP/ρ the pressure of the star region is the root of
 //!
-//! ```text
-//! f_l(p*) + f_r(p*) + u_r − u_l = 0
-//! f_k = (p* − p_k) √(A_k/(P* + B_k)),  A = 2/((γ+1)ρ_k),  B = (γ−1)/(γ+1) P_k     (shock, p* > p_k)
-//! f_k = 2a_k/(γ−1) ((P*/P_k)^((γ−1)/2γ) − 1)                                     (rarefaction)
-//! ```
+#![doc = include_str!("../../docs/equations/riemann.html")]
 //!
 //! and u* = ½(u_l + u_r) + ½(f_r − f_l): E. F. Toro, *Riemann Solvers and Numerical Methods for Fluid
 //! Dynamics*, 3rd ed. 2009, Eqs 4.5–4.9; the sampling and the vacuum follow his Sections 4.5 and 4.6.

@@ -3,13 +3,7 @@
 //!
 //! With λ = r/R, R ∝ t^(2/(ν+2)), u = Ṙ λV(λ), ρ = ρ₀ G(λ), p = ρ₀Ṙ² H(λ), s = ln λ and ν = 1, 2, 3
 //!
-//! ```text
-//! (V − 1) (ln G)′ + V′ = −νV
-//! (V − 1) V′ + H′/(λ²G) = −V (V − 1) + ½νV
-//! (V − 1) (ln H)′ + γV′ = ν − γνV
-//! λ = 1:  V = 2/(γ+1),   G = (γ+1)/(γ−1),   H = 2/(γ+1)
-//! R = (E t²/(α ρ₀))^(1/(ν+2)),   α = (2/(ν+2))² S_ν ∫₀¹ (½GV²λ² + H/(γ−1)) λ^(ν−1) dλ
-//! ```
+#![doc = include_str!("../../docs/equations/sedov.html")]
 //!
 //! with the energy integral (γV − 1) H = ½(γ − 1) λ²G V²(1 − V), onto which each step is projected;
 //! primes are d/ds and S_ν is 1, 2π, 4π: for ν = 1, E is the energy per area on **one** side of

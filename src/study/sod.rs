@@ -1,11 +1,10 @@
 //! Sod's shock tube: rarefaction, contact and shock from a burst diaphragm.
 //! The exact profile of density, velocity and pressure at any time.
 //!
-//! ```text
-//! x < 0:  ρ = 1,      u = 0,  p = 1
-//! x > 0:  ρ = 0.125,  u = 0,  p = 0.1,     γ = 1.4
-//! p* = 0.30313,  u* = 0.92745,  ρ* = 0.42632 and 0.26557,  shock speed 1.75216
-//! ```
+#![doc = include_str!("../../docs/equations/sod.html")]
+//!
+//! with γ = 1.4. Then p* = 0.30313, u* = 0.92745, ρ* = 0.42632 left and 0.26557 right of the contact,
+//! and the shock runs at 1.75216.
 //!
 //! G. A. Sod, *Journal of Computational Physics* 27 (1978) 1–31; solved by [`riemann`](super::riemann).
 //!

@@ -17,6 +17,17 @@ pub enum Interaction {
     #[default]
     Bonded,
     /// Carries compression only, and opens.
+    ///
+    /// A particle touches the other side where its kernel sum across the contact exceeds what it was
+    /// when the two sides just met: what a full neighbourhood lacks there, or, where the bodies lie
+    /// against each other in the scene, exactly what is found.
+    ///
+    #[doc = include_str!("../../docs/equations/contact_touch.html")]
+    ///
+    /// A pair across the contact acts as far as its members touch, and shows only pressure that
+    /// compresses. Viscosity carries the mean of the two θ, so a gap has neither force nor friction.
+    ///
+    #[doc = include_str!("../../docs/equations/contact_force.html")]
     Unilateral,
     /// Nothing.
     None,

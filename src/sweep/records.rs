@@ -6,7 +6,12 @@ use crate::scalar::Real;
 use crate::tensor::{Matrix, Vector};
 use rayon::prelude::*;
 
-/// How an image follows from its source: x′ = R x + s, v′ = R v + u.
+/// How an image follows from its source.
+///
+#[doc = include_str!("../../docs/equations/image.html")]
+///
+/// Vectors turn with R, matrices M become R M Rᵀ, scalars stay. A reflection, a shift by a period, a
+/// moving wall and any chain of them have this form.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Transform<T, const D: usize> {
     /// Rotation or reflection R.

@@ -5,8 +5,10 @@ use super::{Layout, Pair, Sums, Term, TermDoc};
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Lane;
 
-/// Σⱼ Vⱼ (vⱼ − vᵢ) ⊗ ∇W and −Σⱼ Vⱼ rᵢⱼ ⊗ ∇W; the gradient is the first times the inverse of the
-/// second.
+/// The two sums of the velocity gradient. It is the first times the inverse of the second, and exact
+/// for a linear field on any arrangement of particles.
+///
+#[doc = include_str!("../../docs/equations/gradient.html")]
 #[derive(Clone, Copy, Debug)]
 pub struct VelocityGradient;
 

@@ -5,7 +5,9 @@ use super::{Layout, Pair, Sums, Term, TermDoc};
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Lane;
 
-/// Fᵢⱼ = −Bᵢ Bⱼ (Xᵢ ∇W(hᵢ) + Xⱼ ∇W(hⱼ)).
+/// The pressure force of a pair, for every density form.
+///
+#[doc = include_str!("../../docs/equations/pressure_force.html")]
 ///
 /// | density form | B | X | becomes |
 /// |---|---|---|---|
@@ -38,12 +40,19 @@ impl<const D: usize> Term<D> for PressureForce {
 }
 
 /// Pressure reconstructed at the middle of a pair from both sides, which removes the leading
-/// dispersion of the pair form: to (Xᵢ + Xⱼ) comes 2χ (∇pᵢ − ∇pⱼ)·rᵢⱼ with the opposite sign.
+/// dispersion of the pair form.
 ///
-/// On a lattice the uncorrected pair moves a wave of wavenumber k at c (1 − β k² dx²) with
-/// β = m₄/(6 m₂) from the moments of F: 0.4 % slow at fifty spacings a wavelength, and the source of
-/// the ringing behind a front. A value χ = 1/3 cancels β for every kernel. The force stays
-/// antisymmetric, but derives from no energy: pair it with the compatible energy form.
+#[doc = include_str!("../../docs/equations/pressure_curvature.html")]
+///
+/// On a lattice the uncorrected pair moves a wave of wavenumber k too slowly, by moments of the
+/// gradient factor F:
+///
+#[doc = include_str!("../../docs/equations/dispersion.html")]
+///
+/// That is 0.4 % at fifty spacings a wavelength, and the source of the ringing behind a front. The
+/// density and the pressure force each lose the share β k² dx², and the curvature adds 6χ β k² dx² to
+/// the force: χ = 1/3 makes up for both, for every kernel. The force stays antisymmetric, but derives
+/// from no energy: pair it with the compatible energy form.
 #[derive(Clone, Copy, Debug)]
 pub struct PressureCurvature {
     /// Strength χ; 1/3 cancels the leading dispersion.
@@ -79,7 +88,9 @@ impl<const D: usize> Term<D> for PressureCurvature {
     }
 }
 
-/// mᵢ deᵢ/dt = −½ Σⱼ Fᵢⱼ·vᵢⱼ: each side of a pair takes half the work of all its forces.
+/// Internal energy: each side of a pair takes half the work of all its forces.
+///
+#[doc = include_str!("../../docs/equations/energy_symmetric.html")]
 ///
 /// The term names the sum; the sweep fills it from whatever forces the other terms set, so total
 /// energy is conserved in continuous time for any list of terms.

@@ -7,10 +7,7 @@ use crate::scalar::Lane;
 
 /// The calorically perfect ideal gas.
 ///
-/// ```text
-/// p  = (γ − 1) ρ e
-/// c² = γ p / ρ = γ (γ − 1) e
-/// ```
+#[doc = include_str!("../../../docs/equations/ideal_gas.html")]
 ///
 /// ρ density \[kg/m³\], e specific internal energy \[J/kg\], γ ratio of specific heats. Valid for
 /// gases below some thousand kelvin. Guard: an energy below [`minimum_energy`](Self::minimum_energy)

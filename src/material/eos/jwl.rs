@@ -7,10 +7,7 @@ use crate::scalar::Lane;
 
 /// The Jones–Wilkins–Lee law.
 ///
-/// ```text
-/// p  = A (1 − ω/(R₁V)) e^{−R₁V} + B (1 − ω/(R₂V)) e^{−R₂V} + ω ρ e,   V = ρ₀/ρ
-/// c² = Σ A e^{−RV} (R V² − ω V − ω/R)/ρ₀ + ω e + ω p/ρ
-/// ```
+#[doc = include_str!("../../../docs/equations/jwl.html")]
 ///
 /// Source: Lee, Hornig & Kury (1968). The products start with e = [`detonation_energy`](
 /// Self::detonation_energy). Guards: below V = 0.3 the law goes on along its tangent in ρ

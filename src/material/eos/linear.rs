@@ -7,9 +7,7 @@ use crate::scalar::Lane;
 
 /// The linear law of acoustics and of elastic solids.
 ///
-/// ```text
-/// p = c₀² (ρ − ρ₀),   c = c₀
-/// ```
+#[doc = include_str!("../../../docs/equations/linear.html")]
 ///
 /// For a solid c₀² = K/ρ₀ with the bulk modulus K \[Pa\]. Valid within some 2 % of ρ₀. It needs no
 /// guard: pressure and sound speed are finite everywhere.

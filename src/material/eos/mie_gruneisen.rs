@@ -10,28 +10,19 @@ use crate::scalar::{Lane, Mask};
 pub enum Hugoniot {
     /// The third-order expansion of Lam, Shen & Gong, eqs. 4–6 (eq. 4 prints ρ for p on its left):
     ///
-    /// ```text
-    /// p_H = a₀ η + b₀ η² + c₀ η³
-    /// a₀ = ρ₀ C₀²,  b₀ = a₀ [1 + 2(S−1)],  c₀ = a₀ [2(S−1) + 3(S−1)²]
-    /// ```
+    #[doc = include_str!("../../../docs/equations/hugoniot_cubic.html")]
     ///
     /// Within 10⁻⁴ of the full curve at 5 % compression of copper, 0.7 % at 20 %.
     LamCubic,
     /// The full Hugoniot of u_s = C₀ + S u_p, eq. 12 of Lam, Shen & Gong:
     ///
-    /// ```text
-    /// p_H = ρ₀ C₀² η (1 + η) / [1 − (S−1) η]²
-    /// ```
+    #[doc = include_str!("../../../docs/equations/hugoniot_full.html")]
     ///
     /// It has a pole at η = 1/(S−1), which no single shock can pass.
     Full,
     /// `*EOS_GRUNEISEN` of LS-DYNA, with u_s of third order in u_p/u_s and Γ varying with density:
     ///
-    /// ```text
-    /// p = ρ₀ C₀² η [1 + (1 − γ₀/2) η − a/2 η²] / D² + (γ₀ + a η) ρ₀ e     η ≥ 0
-    /// D = 1 − (S₁−1) η − S₂ η²/(1+η) − S₃ η³/(1+η)²
-    /// p = ρ₀ C₀² η + (γ₀ + a η) ρ₀ e                                      η < 0
-    /// ```
+    #[doc = include_str!("../../../docs/equations/hugoniot_ls_dyna.html")]
     ///
     /// With S₂ = S₃ = 0 and a = γ₀ it equals [`Full`](Self::Full) in compression.
     LsDyna {
@@ -46,10 +37,7 @@ pub enum Hugoniot {
 
 /// The Mie–Grüneisen law.
 ///
-/// ```text
-/// p  = (1 − Γη/2) p_H(η) + Γ ρ e,    η = (ρ − ρ₀)/ρ₀
-/// c² = [(1 − Γη/2) p_H′(η) − Γ p_H/2]/ρ₀ + Γ e + Γ p/ρ
-/// ```
+#[doc = include_str!("../../../docs/equations/mie_gruneisen.html")]
 ///
 /// p_H \[Pa\] is the pressure behind a shock (form: [`Hugoniot`]), Γ \[1\] the Grüneisen parameter,
 /// taken as constant, C₀ \[m/s\] and S \[1\] the line u_s = C₀ + S u_p. In expansion (η < 0) the

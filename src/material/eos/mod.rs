@@ -78,7 +78,9 @@ use core::ops::AddAssign;
 pub struct EosState<L: Lane> {
     /// Pressure p \[Pa\], positive in compression.
     pub pressure: L,
-    /// Adiabatic sound speed c \[m/s\], c² = ∂p/∂ρ|ₑ + (p/ρ²) ∂p/∂e|ᵨ.
+    /// Adiabatic sound speed c \[m/s\]:
+    ///
+    #[doc = include_str!("../../../docs/equations/sound_speed.html")]
     pub sound_speed: L,
     /// Where a guard replaced what the plain formula gives.
     pub guards: Guards<L>,

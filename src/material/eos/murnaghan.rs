@@ -6,10 +6,7 @@ use crate::scalar::Lane;
 
 /// The Murnaghan law.
 ///
-/// ```text
-/// p  = (K₀/n) [(ρ/ρ₀)ⁿ − 1]
-/// c² = (K₀/ρ₀) (ρ/ρ₀)ⁿ⁻¹
-/// ```
+#[doc = include_str!("../../../docs/equations/murnaghan.html")]
 ///
 /// Source: Murnaghan (1944), from a bulk modulus that grows linearly with pressure, K = K₀ + n p.
 /// Valid up to about p = K₀/2. Guards: beyond ρ/ρ₀ = 2 the law goes on along its tangent

@@ -7,11 +7,7 @@ use crate::scalar::Lane;
 
 /// The linear polynomial law of hydrocodes.
 ///
-/// ```text
-/// p  = C₀ + C₁ μ + C₂ μ² + C₃ μ³ + (C₄ + C₅ μ + C₆ μ²) E
-/// μ  = ρ/ρ₀ − 1,   E = ρ₀ e;   C₂ = C₆ = 0 in tension (μ < 0)
-/// c² = (1/ρ₀) ∂p/∂μ + (p ρ₀/ρ²) (C₄ + C₅ μ + C₆ μ²)
-/// ```
+#[doc = include_str!("../../../docs/equations/polynomial.html")]
 ///
 /// Source: the `*EOS_LINEAR_POLYNOMIAL` card of LS-DYNA. C₀ = C₁ = C₂ = C₃ = C₆ = 0 with
 /// C₄ = C₅ = γ − 1 is the ideal gas. Guards: outside the range of the fit the law goes on along its

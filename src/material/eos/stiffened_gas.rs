@@ -7,11 +7,7 @@ use crate::scalar::Lane;
 
 /// The stiffened gas.
 ///
-/// ```text
-/// p  = (γ − 1) ρ E − γ p∞,   E = e + γ p∞ / ((γ − 1) ρ₀)
-///    = (γ − 1) ρ e + γ p∞ (ρ/ρ₀ − 1)
-/// c² = γ (p + p∞) / ρ
-/// ```
+#[doc = include_str!("../../../docs/equations/stiffened_gas.html")]
 ///
 /// The usual form (Harlow & Amsden 1971; Menikoff & Plohr 1989) has E, which is not zero at rest.
 /// Here e \[J/kg\] counts from the state of zero pressure at ρ₀, so e = 0 is a liquid at rest, and

@@ -6,10 +6,7 @@ use crate::scalar::Lane;
 
 /// The Tait–Cole law.
 ///
-/// ```text
-/// p  = B [(ρ/ρ₀)^γ − 1],   B = c₀² ρ₀ / γ
-/// c² = c₀² (ρ/ρ₀)^{γ−1}
-/// ```
+#[doc = include_str!("../../../docs/equations/tait.html")]
 ///
 /// Source: Cole (1948); Monaghan (1994) brought it to free surfaces. With an artificial c₀ of ten
 /// times the greatest speed the density stays within 1 %. Guards: beyond ρ/ρ₀ = 2 the law goes on

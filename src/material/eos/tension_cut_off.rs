@@ -6,9 +6,7 @@ use crate::scalar::Lane;
 
 /// Any equation of state with a tension cut-off.
 ///
-/// ```text
-/// p = max(p_law(ρ, e), p_min),   p_min ≤ 0
-/// ```
+#[doc = include_str!("../../../docs/equations/tension_cut_off.html")]
 ///
 /// The sound speed stays that of the law: it sets time steps and viscosity, and the derivative of
 /// the cut pressure, which is zero, would serve neither. Customary limits: metals −1 to −5 GPa

@@ -7,13 +7,7 @@ use crate::scalar::Lane;
 
 /// The Tillotson law.
 ///
-/// ```text
-/// w = ρ/ρ₀,  μ = w − 1,  r = 1/(1 + e/(E₀ w²))
-/// p_c = (a + b r) ρ e + A μ + B μ²                                  w ≥ 1, or e ≤ e_iv
-/// p_v = a ρ e + [b r ρ e + A μ exp(−β(1/w − 1))] exp(−α(1/w − 1)²)   w < 1 and e ≥ e_cv
-/// p   = [(e − e_iv) p_v + (e_cv − e) p_c]/(e_cv − e_iv)              between
-/// c²  = ∂p/∂ρ + (p/ρ²) ∂p/∂e, from the derivatives of each branch
-/// ```
+#[doc = include_str!("../../../docs/equations/tillotson.html")]
 ///
 /// Source: Tillotson (1962); the blend as in Melosh (1989). The pressure is continuous; c² jumps at
 /// e_iv and e_cv in expansion, because the published blend is linear in e. Use it where impact melts
