@@ -181,12 +181,6 @@ impl Scale {
         (value - self.low) / (self.high - self.low)
     }
 
-    /// The value at a place.
-    pub(super) fn value(&self, place: f64) -> f64 {
-        let value = self.low + place * (self.high - self.low);
-        if self.log { 10_f64.powf(value) } else { value }
-    }
-
     /// About `count` ticks.
     pub(super) fn ticks(&self, count: f64) -> Ticks {
         let span = self.high - self.low;
@@ -205,7 +199,7 @@ impl Scale {
         let inside = |place: f64| place >= self.low - tolerance && place <= self.high + tolerance;
         let decades = self.low.floor() as i32..=self.high.ceil() as i32;
         let span = self.high - self.low;
-        let every = (span / count).ceil().max(1.0) as i32;
+        let every = (span / (1.5 * count)).ceil().max(1.0) as i32;
         // Few decades have room for labels between them.
         let labelled: &[u32] = match span {
             span if span < 1.6 && count >= 3.0 => &[1, 2, 5],
@@ -221,6 +215,9 @@ impl Scale {
                     continue;
                 }
                 let value = f64::from(digit) * 10_f64.powi(decade);
+                if !value.is_normal() {
+                    continue;
+                }
                 if !labelled.contains(&digit) || decade.rem_euclid(every) != 0 {
                     ticks.minor.push(value);
                     continue;
@@ -249,9 +246,9 @@ fn linear_ticks(low: f64, high: f64, count: f64) -> Ticks {
     let rough = (high - low) / count.max(1.0);
     let mut exponent = rough.log10().floor();
     let mut digit = match rough / 10_f64.powf(exponent) {
-        d if d <= 1.0 + 1e-9 => 1.0,
-        d if d <= 2.0 => 2.0,
-        d if d <= 5.0 => 5.0,
+        d if d < 1.5 => 1.0,
+        d if d < 3.0 => 2.0,
+        d if d < 7.0 => 5.0,
         _ => 10.0,
     };
     if digit == 10.0 {
@@ -307,7 +304,7 @@ mod tests {
             labels(&linear_ticks(0.0, 1.0, 5.0)),
             ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]
         );
-        assert_eq!(labels(&linear_ticks(-3.0, 7.0, 3.0)), ["0", "5"]);
+        assert_eq!(labels(&linear_ticks(-3.0, 7.0, 2.0)), ["0", "5"]);
         assert_eq!(
             labels(&linear_ticks(-1.0, 1.0, 4.0)),
             ["−1.0", "−0.5", "0.0", "0.5", "1.0"]
@@ -334,7 +331,7 @@ mod tests {
             ["0.01", "0.02", "0.05", "0.1"]
         );
         assert_eq!(scale(-8.0, -5.0).ticks(5.0).minor.len(), 24);
-        assert_eq!(scale(-30.0, 0.0).ticks(5.0).major.len(), 6);
+        assert_eq!(scale(-30.0, 0.0).ticks(5.0).major.len(), 8);
     }
 
     #[test]
@@ -360,6 +357,6 @@ mod tests {
             .range(3.0, 1.0)
             .scale([].into_iter(), 0.0);
         assert_eq!((scale.low, scale.high), (1.0, 3.0));
-        assert_eq!(scale.value(scale.place(2.5)), 2.5);
+        assert_eq!(scale.place(2.5), 0.75);
     }
 }

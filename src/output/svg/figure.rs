@@ -1,197 +1,16 @@
-//! Figures: panels in a grid, each with its axes, series and legend.
+//! Figures: panels in a grid on a page, with a title and perhaps one legend for all.
 //! Panels in one column or row share their margins, so that their frames line up.
 
 use super::super::{write_whole, xml_escape};
-use super::axis::Axis;
-use super::draw::{Entry, Frame, Margins, Prepared, entry_width, legend_entry};
+use super::draw::{Frame, Margins, Prepared};
+use super::legend::{Entry, shared_legend};
+use super::panel::Panel;
 use super::path::px;
-use super::series::{Cloud, Series};
 use super::text;
 use crate::error::Result;
 use core::fmt;
 use std::fmt::Write as _;
 use std::path::Path;
-
-/// Where the legend of a panel stands.
-///
-/// ```
-/// use meshfree::output::svg::{Axis, Legend, Panel};
-/// let panel = Panel::new(Axis::linear("x", "m"), Axis::linear("y", "m")).legend(Legend::TopLeft);
-/// # let _ = panel;
-/// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Legend {
-    /// Where it hides least of the data.
-    #[default]
-    Auto,
-    /// In the upper left corner.
-    TopLeft,
-    /// In the upper right corner.
-    TopRight,
-    /// In the lower left corner.
-    BottomLeft,
-    /// In the lower right corner.
-    BottomRight,
-    /// Nowhere.
-    Hidden,
-}
-
-/// One pair of axes and what is drawn in it.
-///
-/// ```
-/// use meshfree::output::svg::{Axis, Panel, Series};
-/// let panel = Panel::new(Axis::linear("x", "m"), Axis::linear("density", "kg/m^{3}"))
-///     .title("Shock tube")
-///     .series(Series::line("SPH", [(0.0, 1.0), (0.5, 0.4), (1.0, 0.125)]))
-///     .series(Series::line("exact", [(0.0, 1.0), (0.5, 0.43), (1.0, 0.125)]).reference());
-/// # let _ = panel;
-/// ```
-#[derive(Clone, Debug, PartialEq)]
-pub struct Panel {
-    pub(super) title: String,
-    pub(super) x: Axis,
-    pub(super) y: Axis,
-    pub(super) series: Vec<Series>,
-    pub(super) cloud: Option<Cloud>,
-    pub(super) legend: Legend,
-    pub(super) equal: bool,
-    pub(super) slopes: Vec<f64>,
-    pub(super) marks_x: Vec<f64>,
-    pub(super) marks_y: Vec<f64>,
-}
-
-impl Panel {
-    /// An empty panel.
-    ///
-    /// ```
-    /// # use meshfree::output::svg::{Axis, Panel};
-    /// let panel = Panel::new(Axis::log("spacing", "mm"), Axis::log("error", ""));
-    /// # let _ = panel;
-    /// ```
-    #[must_use]
-    pub fn new(x: Axis, y: Axis) -> Self {
-        Self {
-            title: String::new(),
-            x,
-            y,
-            series: Vec::new(),
-            cloud: None,
-            legend: Legend::Auto,
-            equal: false,
-            slopes: Vec::new(),
-            marks_x: Vec::new(),
-            marks_y: Vec::new(),
-        }
-    }
-
-    /// The title above the panel.
-    ///
-    /// ```
-    /// # use meshfree::output::svg::{Axis, Panel};
-    /// let panel = Panel::new(Axis::linear("t", "s"), Axis::linear("E", "J")).title("Energy");
-    /// # let _ = panel;
-    /// ```
-    #[must_use]
-    pub fn title(mut self, title: &str) -> Self {
-        self.title = title.to_string();
-        self
-    }
-
-    /// Adds a series.
-    ///
-    /// ```
-    /// # use meshfree::output::svg::{Axis, Panel, Series};
-    /// let panel = Panel::new(Axis::linear("t", "s"), Axis::linear("E", "J"))
-    ///     .series(Series::line("kinetic", [(0.0, 1.0), (1.0, 0.5)]));
-    /// # let _ = panel;
-    /// ```
-    #[must_use]
-    pub fn series(mut self, series: Series) -> Self {
-        self.series.push(series);
-        self
-    }
-
-    /// Shows particles, beneath the series, with a colour bar beside the panel.
-    ///
-    /// ```
-    /// # use meshfree::output::svg::{Axis, Cloud, Panel};
-    /// let cloud = Cloud::new(Axis::linear("speed", "m/s"), [(0.0, 0.0, 1.0)]);
-    /// let panel = Panel::new(Axis::linear("x", "m"), Axis::linear("y", "m")).cloud(cloud);
-    /// # let _ = panel;
-    /// ```
-    #[must_use]
-    pub fn cloud(mut self, cloud: Cloud) -> Self {
-        self.cloud = Some(cloud);
-        self
-    }
-
-    /// Places the legend.
-    ///
-    /// ```
-    /// # use meshfree::output::svg::{Axis, Legend, Panel};
-    /// let panel = Panel::new(Axis::linear("t", ""), Axis::linear("E", "")).legend(Legend::Hidden);
-    /// # let _ = panel;
-    /// ```
-    #[must_use]
-    pub fn legend(mut self, legend: Legend) -> Self {
-        self.legend = legend;
-        self
-    }
-
-    /// Gives both axes the same length per unit, for maps. Both axes must be linear.
-    ///
-    /// ```
-    /// # use meshfree::output::svg::{Axis, Panel};
-    /// let map = Panel::new(Axis::linear("x", "m"), Axis::linear("y", "m")).equal_aspect();
-    /// # let _ = map;
-    /// ```
-    #[must_use]
-    pub fn equal_aspect(mut self) -> Self {
-        self.equal = true;
-        self
-    }
-
-    /// Draws a triangle of this slope near the data. Both axes must be logarithmic.
-    ///
-    /// ```
-    /// # use meshfree::output::svg::{Axis, Panel, Series};
-    /// let panel = Panel::new(Axis::log("spacing", "mm"), Axis::log("error", ""))
-    ///     .series(Series::markers("density", [(0.1, 1e-2), (0.2, 4e-2)]).fitted())
-    ///     .slope(2.0);
-    /// # let _ = panel;
-    /// ```
-    #[must_use]
-    pub fn slope(mut self, exponent: f64) -> Self {
-        self.slopes.push(exponent);
-        self
-    }
-
-    /// Marks a place on the x axis with a thin line.
-    ///
-    /// ```
-    /// # use meshfree::output::svg::{Axis, Panel};
-    /// let panel = Panel::new(Axis::linear("x", "m"), Axis::linear("p", "Pa")).mark_x(0.5);
-    /// # let _ = panel;
-    /// ```
-    #[must_use]
-    pub fn mark_x(mut self, x: f64) -> Self {
-        self.marks_x.push(x);
-        self
-    }
-
-    /// Marks a place on the y axis with a thin line.
-    ///
-    /// ```
-    /// # use meshfree::output::svg::{Axis, Panel};
-    /// let panel = Panel::new(Axis::linear("x", "m"), Axis::linear("p", "Pa")).mark_y(0.0);
-    /// # let _ = panel;
-    /// ```
-    #[must_use]
-    pub fn mark_y(mut self, y: f64) -> Self {
-        self.marks_y.push(y);
-        self
-    }
-}
 
 /// One or several panels on a page.
 ///
@@ -333,14 +152,11 @@ impl Figure {
         let (columns, _) = self.grid();
         let (width, height) = self.size;
         let shared = |index: usize| {
-            let neighbours = |other: &usize| {
-                let same_row = other / columns == index / columns;
-                (other % columns == index % columns, same_row)
-            };
             let mut margins = prepared[index].margins;
-            for other in 0..prepared.len() {
-                let (same_column, same_row) = neighbours(&other);
-                margins.grow(&prepared[other].margins, same_column, same_row);
+            for (other, panel) in prepared.iter().enumerate() {
+                let same_column = other % columns == index % columns;
+                let same_row = other / columns == index / columns;
+                margins.grow(&panel.margins, same_column, same_row);
             }
             margins
         };
@@ -390,7 +206,7 @@ impl fmt::Display for Figure {
             f,
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
              viewBox=\"0 0 {width} {height}\" font-family=\"Helvetica, Arial, sans-serif\" \
-             font-size=\"11\" fill=\"#222222\">"
+             font-size=\"11\" fill=\"#222222\" xml:space=\"preserve\">"
         )?;
         if !self.title.is_empty() {
             writeln!(f, "<title>{}</title>", xml_escape(&self.title))?;
@@ -411,29 +227,4 @@ impl fmt::Display for Figure {
         write!(f, "{body}</svg>")?;
         f.write_char('\n')
     }
-}
-
-/// Draws the entries in centred rows and gives their height.
-fn shared_legend(body: &mut String, entries: &[Entry], width: f64, top: f64) -> f64 {
-    const GAP: f64 = 18.0;
-    const LINE: f64 = 19.0;
-    let mut rows: Vec<(f64, Vec<&Entry>)> = Vec::new();
-    for entry in entries {
-        let needed = entry_width(entry) + GAP;
-        match rows.last_mut() {
-            Some((used, row)) if *used + needed <= width - 20.0 => {
-                *used += needed;
-                row.push(entry);
-            }
-            _ => rows.push((needed, vec![entry])),
-        }
-    }
-    for (index, (used, row)) in rows.iter().enumerate() {
-        let mut x = 0.5 * (width - used + GAP);
-        for entry in row {
-            legend_entry(body, entry, x, top + LINE * index as f64);
-            x += entry_width(entry) + GAP;
-        }
-    }
-    rows.len() as f64 * LINE + 8.0
 }
