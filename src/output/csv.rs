@@ -331,7 +331,10 @@ impl Csv {
     #[must_use]
     pub fn text_column(&self, name: &str) -> Option<Vec<&str>> {
         let column = self.header.iter().position(|known| known == name)?;
-        Some(self.rows.iter().map(|row| row[column].as_str()).collect())
+        let cells = self.rows.iter();
+        cells
+            .map(|row| row.get(column).map(String::as_str))
+            .collect()
     }
 }
 
