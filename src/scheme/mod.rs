@@ -250,6 +250,36 @@ impl<K, V> SchemeBuilder<K, V> {
             uniform: true,
         }
     }
+    /// The same choices with another kernel; h/dx becomes its recommendation unless it was given.
+    #[must_use]
+    pub fn with_kernel<L>(self, kernel: L) -> SchemeBuilder<L, V> {
+        self.map(|_| kernel, |viscosity| viscosity)
+    }
+    /// The same choices with another artificial viscosity.
+    #[must_use]
+    pub fn with_viscosity<W>(self, viscosity: W) -> SchemeBuilder<K, W> {
+        self.map(|kernel| kernel, |_| viscosity)
+    }
+    fn map<L, W>(
+        self,
+        kernel: impl FnOnce(K) -> L,
+        viscosity: impl FnOnce(V) -> W,
+    ) -> SchemeBuilder<L, W> {
+        SchemeBuilder {
+            name: self.name,
+            kernel: kernel(self.kernel),
+            viscosity: viscosity(self.viscosity),
+            density: self.density,
+            pressure_form: self.pressure_form,
+            energy: self.energy,
+            smoothing: self.smoothing,
+            h_over_dx: self.h_over_dx,
+            curvature: self.curvature,
+            step_factor: self.step_factor,
+            normalised: self.normalised,
+            uniform: self.uniform,
+        }
+    }
     /// A name for reports.
     #[must_use]
     pub fn named(mut self, name: &str) -> Self {
