@@ -1,5 +1,22 @@
 //! Ready schemes: the lists of terms that a user would write, with defaults that are measured.
 //! Each prints itself with equations, fields and sources.
+//!
+//! All three return a [`SchemeBuilder`], so a single choice can be changed and the rest kept:
+//!
+//! ```
+//! use meshfree::prelude::*;
+//! let scheme: Scheme<f64, 1> = schemes::impact().h_over_dx(1.3).named("wider").compose();
+//! assert!(scheme.to_string().starts_with("wider: cubic spline kernel, h/dx 1.3"));
+//! ```
+//!
+//! | | [`impact`] | [`impact_by_continuity`] | [`lam2002`] |
+//! |---|---|---|---|
+//! | density | number density at rest | continuity, V | summation, smoothed |
+//! | viscosity | limited, α = 2, β = 2 | the same | plain, α = 1, β = 2 |
+//! | pressure curvature χ | 1/3 | 1/3 | 0 |
+//! | normalised by the moment at rest | yes | yes | no |
+//! | energy | compatible | compatible | symmetric |
+//! | step factor | 0.55 | 0.55 | 0.5 |
 
 use crate::kernel::CubicSpline;
 use crate::scheme::{DensityForm, EnergyForm, SchemeBuilder};

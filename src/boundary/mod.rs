@@ -1,5 +1,21 @@
 //! Boundaries: the trait, and one file for each kind.
 //! A boundary shows particles near it their images; the pair loop meets images like particles.
+//!
+//! | boundary | what an image is | use it for |
+//! |---|---|---|
+//! | none | – | free ends and free surfaces |
+//! | [`MirrorPlane::wall`] | the reflection, in contact that opens | rigid walls, at rest or moving |
+//! | [`MirrorPlane::symmetry`] | the reflection, bonded | half of a symmetric problem |
+//! | [`Periodic`] | the copy one period on | waves, homogeneous flow |
+//!
+//! Boundaries combine: a later one also shows images of the images of earlier ones, which fills edges
+//! and corners. Images are found when neighbour lists are made, and follow their particles until the
+//! next time. The momentum that a boundary gives is in the
+//! [ledger](crate::simulation::Ledger::boundary_impulse).
+//!
+//! A wall by reflection is exact in that nothing can cross it: a rod on a wall is half of two rods that
+//! meet. It slips along the plane. Walls of other shapes need particles of their own, which this
+//! version does not have.
 
 mod mirror;
 mod periodic;

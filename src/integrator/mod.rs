@@ -1,5 +1,21 @@
 //! Time integrators: the trait, and one file for each family.
 //! An integrator sees a system as a handful of operations on all particles at once.
+//!
+//! | integrator | order | evaluations a step | stable step | compatible energy | use it for |
+//! |---|---|---|---|---|---|
+//! | [`KickDriftKick`] | 2 | 1 | 1 | yes | the default |
+//! | [`DriftKickDrift`] | 2 | 1 | 1 | yes | the same with forces at half steps |
+//! | [`PositionVerlet`] | 2 | 2 | 1 | yes | forces that change fast with velocity |
+//! | [`LamLeapfrog`] | 2 | 2, or 1 if lagged | 0.71, or 0.58 | yes | repeating Lam, Shen & Gong (2002) |
+//! | [`Midpoint`] | 2 | 2 | 0.5 | no | comparison |
+//! | [`StrongStabilityPreserving3`] | 3 | 3 | 0.87 | no | damped flow at third order |
+//! | [`RungeKutta4`] | 4 | 4 | 1.41 | no | reference in time |
+//!
+//! The stable step is on an undamped oscillator, relative to the leapfrog's ω dt = 2; the time step of
+//! a simulation is multiplied by it. Midpoint has none without damping and is kept short. An integrator
+//! that kicks changes velocity by [`System::kick`] alone, which is where the compatible energy form sums
+//! its work; one that combines states ([`System::combine`]) needs
+//! [`EnergyForm::Symmetric`](crate::scheme::EnergyForm).
 
 mod lam;
 mod leapfrog;

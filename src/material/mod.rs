@@ -5,6 +5,14 @@
 //! law's type is erased, so one scene holds copper, water and air; each block of particles is still
 //! evaluated by code compiled for its law.
 //!
+//! Materials of the [`catalogue`] carry the source of their constants, and can be had
+//! [by name](catalogue::by_name). Where a law leaves the range in which it is valid a guard steps in, and
+//! every such evaluation is counted ([`GuardCounts`]).
+//!
+//! Strength is not modelled: a solid is a fluid here, which is right for one-dimensional impact below
+//! the yield stress in so far as the law's bulk sound speed is that of the waves, and wrong where shear
+//! matters.
+//!
 //! ```
 //! use meshfree::material::{Material, catalogue, eos::{MieGruneisen, TensionCutOff}};
 //! let copper: Material<f64> = catalogue::copper();

@@ -1,5 +1,25 @@
 //! Neighbour search: buckets, a space-filling order, and cluster lists with a skin.
 //! Useful on its own: points in, lists out, no particles of this crate needed.
+//!
+//! [`Cells`] sorts points into buckets and runs over those in a box. [`ClusterLists`] gives rows of
+//! consecutive points their common list of neighbours, with a skin within which the points may move
+//! before the lists must be made anew. [`hilbert_index`] orders cells so that what is near in space is
+//! near in memory.
+//!
+//! ```
+//! use meshfree::neighbors::Cells;
+//! let points: Vec<[f64; 2]> = (0..100).map(|k| [0.1 * f64::from(k % 10), 0.1 * f64::from(k / 10)]).collect();
+//! let all: Vec<u32> = (0..100).collect();
+//! let cells = Cells::build(&points, &all, 0.25);
+//! let mut near = Vec::new();
+//! cells.for_each_run([0.35, 0.35], [0.55, 0.55], |run| near.extend_from_slice(run));
+//! near.retain(|&k| (0..2).all(|d| (points[k as usize][d] - 0.45).abs() < 0.1));
+//! assert_eq!(near.len(), 4);
+//! ```
+//!
+//! The skin is a trade: lists with a thicker skin are longer, and last longer. In a simulation it is
+//! 0.1 of the support ([`Scene::skin`](crate::scene::Scene::skin)). Lists are made anew when the largest
+//! displacement since the last time has used up half of it, or a third where there are images.
 
 mod cells;
 mod clusters;

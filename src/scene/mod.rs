@@ -1,5 +1,33 @@
 //! Scenes: what there is, what it is made of, and what acts on it, named by the user.
 //! Building a scene checks everything at once and yields a simulation.
+//!
+//! A [`Scene`] starts from a scheme and takes [bodies](Body), [boundaries](crate::boundary), an
+//! [integrator](crate::integrator) and loads. [`Scene::build`] then
+//!
+//! 1. runs every check and reports all problems together, each with what to do,
+//! 2. lays out one column for each field that the scheme or a contact names,
+//! 3. finds neighbours and takes the sums at rest: a body at rest is free of stress from here on,
+//! 4. evaluates once and refuses a fixed step above the stability limit.
+//!
+//! What two bodies do to each other is [`Interaction::Unilateral`] unless [`Scene::between`] says
+//! otherwise: they carry compression and open without tension. Bodies of one material that should act
+//! as one are bonded:
+//!
+//! ```
+//! use meshfree::prelude::*;
+//! let scene = Scene::<f64, 1>::new(schemes::impact())
+//!     .body(Body::block("pad", catalogue::pmma(), [0.000], [0.005], 2e-4))
+//!     .body(Body::block("rod", catalogue::copper(), [0.005], [0.015], 2e-4))
+//!     .between("pad", "rod", Interaction::Bonded)
+//!     .boundary(MirrorPlane::wall([0.015], [1.0]));
+//! assert!(scene.problems().is_empty());
+//!
+//! // Three slips, three messages.
+//! let wrong = Scene::<f64, 1>::new(schemes::impact().h_over_dx(0.5))
+//!     .body(Body::block("rod", catalogue::copper(), [0.0], [0.01], -1e-4))
+//!     .between("rod", "pad", Interaction::Bonded);
+//! assert_eq!(wrong.problems().len(), 3);
+//! ```
 
 mod body;
 mod check;

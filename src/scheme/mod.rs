@@ -1,5 +1,35 @@
 //! Schemes: named lists of terms that can be printed.
 //! A scheme joins a kernel, a density form with its pressure form, a viscosity, and an energy form.
+//!
+//! [`SchemeBuilder`] takes the choices, and [`SchemeBuilder::compose`] compiles them into sweeps over
+//! pairs. At most four run in an evaluation, each one loop for all its terms:
+//!
+//! | sweep | runs | makes |
+//! |---|---|---|
+//! | sums | unless density is integrated | kernel sums, and with them density |
+//! | gradient | if the viscosity or the curvature asks | ∇v and ∇p, exact for linear fields |
+//! | rates | always | force, power, signal; rate of compression where density is integrated |
+//! | compression | in a drift, where density is integrated | rate of compression at the middle of the drift |
+//!
+//! A fifth sweep runs once, when the scene is built: it takes the sums at rest from which
+//! [`DensityForm::NumberDensity`] and [`DensityForm::Continuity`] measure.
+//!
+//! # Density and pressure are one choice
+//!
+//! The pressure force is the derivative of the internal energy under the density in use, so each
+//! density form brings its own: weights Bᵢ and coefficients Xᵢ of one pair law.
+//!
+#![doc = include_str!("../../docs/equations/pressure_force.html")]
+//!
+//! A pair from two forms loses energy in silence. [`SchemeBuilder::mismatched_pressure_form`] is the
+//! explicit way to such a pair, for studies.
+//!
+//! # Energy
+//!
+//! With [`EnergyForm::Compatible`] the work that pair forces do in a kick is summed with the mean
+//! velocities of that kick, in a second pass over the same pairs with the same forces. What kinetic
+//! energy loses in the kick, internal energy gains, to rounding, whatever the forces are and however
+//! long the step. [`EnergyForm::Symmetric`] saves that pass, and drifts with the order of the step.
 
 mod density;
 

@@ -1,5 +1,52 @@
 //! The simulation: steps in time, keeps the ledger, and answers questions about its particles.
 //! It is made by [`Scene::build`](crate::scene::Scene::build) and is one nameable type.
+//!
+//! # A step
+//!
+//! [`Simulation::step`] asks every particle for the largest step that it bears, takes the smallest, and
+//! lets the integrator advance. Two criteria vote:
+//!
+#![doc = include_str!("../../docs/equations/time_step.html")]
+//!
+//! The first contains the signal sᵢⱼ that the viscosity in use adds to the sound speed, so a larger
+//! coefficient shortens the step by itself. [`Simulation::last_vote`] names the criterion and the
+//! particle that set the step. [`StepControl`] holds the factors; a fixed step is checked against the
+//! limit in every step, and a step that falls below a millionth of the first ends the run with
+//! [`Error::StepCollapsed`]. [`Simulation::run_until`] shortens the last step to end on time.
+//!
+//! # What is counted
+//!
+//! | what | where |
+//! |---|---|
+//! | steps, evaluations, builds of neighbour lists | [`Simulation::steps`], [`Simulation::evaluations`], [`Simulation::list_builds`] |
+//! | evaluations in which an equation of state left its range | [`Simulation::guard_counts`] |
+//! | smoothing lengths held at a limit | [`Simulation::limited_smoothing_lengths`] |
+//! | mass, momentum, kinetic and internal energy of every body, impulse of boundaries | [`Simulation::ledger`] |
+//! | force between two bodies, or a body and a boundary | [`Simulation::force_between`] |
+//! | memory | [`Simulation::bytes`] |
+//!
+//! # Questions about particles
+//!
+//! [`Simulation::body`] runs over the particles of a body in the order in which the scene placed them,
+//! although they are sorted in memory, so the n-th is the same particle throughout.
+//! [`Simulation::run_with`] shows the simulation to a closure after every step:
+//!
+//! ```
+//! use meshfree::prelude::*;
+//! let mut simulation = Scene::<f64, 1>::new(schemes::impact())
+//!     .body(Body::block("rod", catalogue::copper(), [0.0], [0.01], 2e-4).velocity([20.0]))
+//!     .boundary(MirrorPlane::wall([0.01], [1.0]))
+//!     .build()?;
+//! let mut history = Vec::new();
+//! simulation.run_with(1e-6, |now| {
+//!     let wall = now.body(0).last().map_or(0.0, |particle| particle.pressure());
+//!     history.push((now.time(), wall));
+//! })?;
+//! let (_, pressure) = history[history.len() - 1];
+//! assert!((pressure / 709e6 - 1.0).abs() < 0.02, "{pressure}");
+//! assert!(simulation.ledger().boundary_impulse[0] < 0.0);
+//! # Ok::<(), Error>(())
+//! ```
 
 mod advance;
 mod control;

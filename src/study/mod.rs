@@ -1,6 +1,12 @@
 //! Exact and reference solutions, and the norms that measure a result against them.
 //! None of it uses particles; all of it is `f64` in SI units (or in any consistent set of units).
 //!
+//! To judge a result, take the simplest solution that covers it: [`hugoniot`] for the height of a first
+//! plateau, [`acoustic_rods`] for when and where waves arrive in the limit of weak impact,
+//! [`godunov_rods`] for both with the equation of state in use, and refine its cells until it no longer
+//! changes. [`norms`] then turns the difference into numbers and the numbers of several spacings into an
+//! order of convergence. The references know walls, contacts that open and close, and bonded joints.
+//!
 //! | module | what it gives |
 //! |---|---|
 //! | [`acoustic_rods`] | exact linear-acoustic waves in chains of rods with contacts that open and close |

@@ -1,5 +1,84 @@
 //! Pair terms: one effect a file, each with its equation, its source, and the fields it touches.
 //! A term adds to the sums of a pair; the sweep applies directions, so a tuple costs what fused code costs.
+//!
+//! A [`Term`] names the fields that it reads and the sums that it writes as constants. A particle
+//! carries the union of what the terms of its scheme name, and nothing else. A tuple of terms is a list
+//! that shares one loop over pairs.
+//!
+//! | term | equation of | makes |
+//! |---|---|---|
+//! | [`KernelSum`], [`Unity`], [`KernelMoment`], [`SlopeInH`] | density | sums that density is made of |
+//! | [`Compression`] | density | rate of compression |
+//! | [`VelocityGradient`], [`PressureGradient`] | – | gradients for viscosities and curvature |
+//! | [`PressureForce`], [`PressureCurvature`] | momentum | force |
+//! | [`Viscosity`] | momentum | force and signal of an [artificial viscosity](viscosity) |
+//! | [`InternalEnergy`] | energy | half the power of all forces |
+//!
+//! A force is set as its component along rᵢⱼ or along vᵢⱼ, and must be symmetric in i and j. Then it is
+//! opposite for the two, and the scheme conserves momentum.
+//!
+//! # Artificial viscosity
+//!
+//! A viscosity is a term of fixed form, of which only Π differs:
+//!
+#![doc = include_str!("../../docs/equations/viscous_force.html")]
+//!
+//! The law of Monaghan & Gingold,
+//!
+#![doc = include_str!("../../docs/equations/monaghan_gingold.html")]
+//!
+//! acts wherever particles approach, in a smooth compression too. The limited form leaves it only the
+//! jump that linear reconstruction from both sides does not explain:
+//!
+#![doc = include_str!("../../docs/equations/limited_jump.html")]
+//!
+//! Other laws let α follow the flow of each particle, as Morris & Monaghan do:
+//!
+#![doc = include_str!("../../docs/equations/morris_monaghan.html")]
+//!
+//! # A viscosity of one's own
+//!
+//! ```
+//! use meshfree::particles::{Field, Fields};
+//! use meshfree::prelude::*;
+//! use meshfree::term::{Layout, Pair, TermDoc, Viscous};
+//!
+//! /// The quadratic law of von Neumann & Richtmyer, Π = β μ²/ρ̄ for approaching pairs.
+//! #[derive(Clone, Debug)]
+//! struct Quadratic {
+//!     beta: f64,
+//! }
+//!
+//! impl<const D: usize> ArtificialViscosity<D> for Quadratic {
+//!     const READS: Fields = Fields::NONE;
+//!     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>) -> Viscous<L> {
+//!         let approach = (-pair.v_dot_r).positive_part();
+//!         let mu = pair.h * approach / pair.h.mul_add(pair.h * L::of(0.01), pair.r2);
+//!         let density = (pair.i(Field::Density) + pair.j(Field::Density)) * L::of(0.5);
+//!         Viscous {
+//!             pi: mu * mu * L::of(self.beta) / density,
+//!             signal: mu * L::of(0.6 * self.beta),
+//!         }
+//!     }
+//!     fn document(&self) -> TermDoc {
+//!         TermDoc {
+//!             name: format!("quadratic viscosity, β = {}", self.beta),
+//!             equation: "Π = β μ²/ρ̄, μ = h |v·r|/(r² + 0.01 h²), v·r < 0",
+//!             source: "von Neumann & Richtmyer 1950",
+//!         }
+//!     }
+//! }
+//!
+//! let scheme = SchemeBuilder::new(CubicSpline, Quadratic { beta: 2.0 })
+//!     .density(DensityForm::NumberDensity);
+//! let mut simulation = Scene::<f64, 1>::new(scheme)
+//!     .body(Body::block("rod", catalogue::copper(), [0.0], [0.01], 2e-4).velocity([20.0]))
+//!     .boundary(MirrorPlane::wall([0.01], [1.0]))
+//!     .build()?;
+//! simulation.run_until(2e-7)?;
+//! assert!(simulation.scheme().to_string().contains("quadratic viscosity, β = 2"));
+//! # Ok::<(), Error>(())
+//! ```
 
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Lane;

@@ -1,0 +1,38 @@
+//! What most programs name, in one line: `use meshfree::prelude::*;`.
+//!
+//! Everything here lives in the module that explains it; this module only gathers names. The crate's
+//! `Result` is not among them, so the standard one keeps its name.
+
+#[doc(no_inline)]
+pub use crate::boundary::{Boundary, MirrorPlane, Periodic};
+#[doc(no_inline)]
+pub use crate::error::{BuildError, Error};
+#[doc(no_inline)]
+pub use crate::integrator::{
+    DriftKickDrift, Integrator, KickDriftKick, LamLeapfrog, Midpoint, PositionVerlet, RungeKutta4,
+    StrongStabilityPreserving3, System,
+};
+#[doc(no_inline)]
+pub use crate::kernel::{
+    CubicSpline, Gaussian, Kernel, QuarticSpline, QuinticSpline, WendlandC2, WendlandC4, WendlandC6,
+};
+#[doc(no_inline)]
+pub use crate::material::eos::{EosState, EquationOfState, Guards};
+#[doc(no_inline)]
+pub use crate::material::{Material, catalogue};
+#[doc(no_inline)]
+pub use crate::particles::{Field, Fields};
+#[doc(no_inline)]
+pub use crate::scalar::{Lane, Real};
+#[doc(no_inline)]
+pub use crate::scene::{Body, Scene};
+#[doc(no_inline)]
+pub use crate::scheme::{DensityForm, EnergyForm, Scheme, SchemeBuilder, Smoothing};
+#[doc(no_inline)]
+pub use crate::schemes;
+#[doc(no_inline)]
+pub use crate::simulation::{Ledger, Simulation, StepControl};
+#[doc(no_inline)]
+pub use crate::sweep::Interaction;
+#[doc(no_inline)]
+pub use crate::term::viscosity::ArtificialViscosity;
