@@ -230,6 +230,7 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
     fn evaluate(&mut self, offset: f64) -> Result<()> {
         self.evaluation_time = self.time + offset;
         self.group.evaluate(self.evaluation_time);
+        self.follow_moves();
         self.evaluations += 1;
         self.rates_at_hand = true;
         Ok(())
@@ -270,6 +271,7 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
         }
         self.move_particles(0.5 * dt);
         self.group.refresh(self.time + offset + 0.5 * dt);
+        self.follow_moves();
         self.group.sum_compression();
         self.compress(dt);
         self.move_particles(0.5 * dt);
@@ -388,6 +390,43 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
+    /// Brings kept states into the order of the particles after a list build, and through the
+    /// periods that particles have crossed.
+    fn follow_moves(&mut self) {
+        let moved = &mut self.group.moved;
+        if moved.wraps.is_empty() && moved.order.is_empty() {
+            return;
+        }
+        for kept in &mut self.kept {
+            let Ok([x, residual, v]) = kept.columns.get_disjoint_mut([0, 1, 2]) else {
+                continue;
+            };
+            if !x.is_empty() {
+                for (slot, back) in &moved.wraps {
+                    back.re_enter(*slot as usize, x, residual, v);
+                }
+            }
+        }
+        if let Some(v) = self.predicted.columns.first_mut().filter(|v| !v.is_empty()) {
+            for (slot, back) in &moved.wraps {
+                back.turn(*slot as usize, v);
+            }
+        }
+        if !moved.order.is_empty() {
+            let columns = self.kept.iter_mut().flat_map(|kept| &mut kept.columns);
+            for column in columns.chain(&mut self.predicted.columns) {
+                let width = column.len() / moved.order.len();
+                let before = column.clone();
+                for (k, &from) in moved.order.iter().enumerate() {
+                    let from = from as usize * width;
+                    column[k * width..(k + 1) * width].copy_from_slice(&before[from..from + width]);
+                }
+            }
+        }
+        moved.wraps.clear();
+        moved.order.clear();
+    }
+
     /// dY/dt with the last rates, column by column as in `STATE`; an empty column has no rate.
     fn rates(&self) -> Kept<T> {
         let group = &self.group;

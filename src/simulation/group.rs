@@ -60,6 +60,27 @@ pub(crate) struct Group<T: Real, const D: usize> {
     pub limited_h: u64,
     pub rebuilds: u64,
     pub unilateral: bool,
+    /// What list builds have done to particles since states outside of the group were last told.
+    pub moved: Moves<T, D>,
+}
+
+/// How list builds moved particles: what re-entered a period, and the new order of the slots.
+/// States that an integrator keeps must follow.
+#[derive(Clone, Debug)]
+pub(crate) struct Moves<T, const D: usize> {
+    /// Slots, in the order before sorting, that re-entered through a transform.
+    pub wraps: Vec<(u32, Transform<T, D>)>,
+    /// Slot k is what slot `order[k]` was; empty if the order is the old one.
+    pub order: Vec<u32>,
+}
+
+impl<T, const D: usize> Default for Moves<T, D> {
+    fn default() -> Self {
+        Self {
+            wraps: Vec::new(),
+            order: Vec::new(),
+        }
+    }
 }
 
 pub(crate) fn width<T: Real>() -> usize {
@@ -106,6 +127,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             limited_h: 0,
             rebuilds: 0,
             unilateral,
+            moved: Moves::default(),
         }
     }
 
@@ -208,9 +230,18 @@ impl<T: Real, const D: usize> Group<T, D> {
         for boundary in &self.boundaries {
             for slot in 0..self.columns.slots() {
                 let x = self.columns.vectors(Field::Position)[slot];
-                if let Some(back) = boundary.wrap(&x) {
-                    self.columns.vectors_mut(Field::Position)[slot] = back.point(&x);
-                }
+                let Some(back) = boundary.wrap(&x) else {
+                    continue;
+                };
+                let [x, residual, v] = self.columns.many_mut([
+                    Field::Position,
+                    Field::PositionResidual,
+                    Field::Velocity,
+                ]);
+                back.re_enter(slot, x, residual, v);
+                // Wraps are told by the order that outside states have now.
+                let told = self.moved.order.get(slot).map_or(slot as u32, |&old| old);
+                self.moved.wraps.push((told, back));
             }
         }
     }
@@ -235,6 +266,13 @@ impl<T: Real, const D: usize> Group<T, D> {
             return;
         }
         self.columns.permute(&order);
+        self.rows.permute(&order);
+        if self.moved.order.is_empty() {
+            self.moved.order.clone_from(&order);
+        } else {
+            let before = core::mem::take(&mut self.moved.order);
+            self.moved.order = order.iter().map(|&k| before[k as usize]).collect();
+        }
         self.ids = order.iter().map(|&from| self.ids[from as usize]).collect();
         for body in &self.bodies {
             for slot in body.slots.clone() {
