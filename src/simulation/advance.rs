@@ -97,25 +97,28 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     fn compress(&mut self, dt: f64) {
         let step = T::from_f64(dt);
         let group = &mut self.group;
-        let integrated = group.scheme.density.is_integrated();
+        let form = group.scheme.density;
+        let integrated = form.is_integrated();
         let rows = &group.scratch_rows;
-        let rate = |slot: usize, density: &[T], moment: &[T]| {
-            let sum = rows.get(Output::Compression, 0, slot);
-            match moment.get(slot) {
-                Some(moment) => sum / *moment,
-                None => sum / density[slot],
-            }
-        };
-        let [density, residual, moment, h, alpha, sound_speed, divergence] =
-            group.columns.many_mut([
-                Field::Density,
-                Field::DensityResidual,
-                Field::Normalisation,
-                Field::SmoothingLength,
-                Field::ViscosityCoefficient,
-                Field::SoundSpeed,
-                Field::Divergence,
-            ]);
+        let [
+            density,
+            residual,
+            moment,
+            rest,
+            h,
+            alpha,
+            sound_speed,
+            divergence,
+        ] = group.columns.many_mut([
+            Field::Density,
+            Field::DensityResidual,
+            Field::Normalisation,
+            Field::ReferenceDensity,
+            Field::SmoothingLength,
+            Field::ViscosityCoefficient,
+            Field::SoundSpeed,
+            Field::Divergence,
+        ]);
         let dimension = T::from_f64(D as f64);
         let limits = match group.scheme.smoothing {
             Smoothing::Divergence { smallest, largest } => {
@@ -126,7 +129,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         };
         let mut limited = 0;
         for slot in 0..density.len() {
-            let rate = rate(slot, density, moment);
+            let one = |column: &[T]| column.get(slot).copied().unwrap_or(T::one());
+            let sum = rows.get(Output::Compression, 0, slot);
+            let rate = form.compression(sum, density[slot], one(rest), one(moment));
             if let Some(switch) = group.scheme.switch {
                 let own_h = h
                     .get(slot)
@@ -434,12 +439,17 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let gravity = self.body_acceleration();
         let slots = columns.slots();
         let density = columns.raw(Field::Density);
-        let moment = columns.raw(Field::Normalisation);
+        let one = |field: Field, slot: usize| {
+            let column = columns.raw(field);
+            column.get(slot).copied().unwrap_or(T::one())
+        };
         let compression = |slot: usize| {
-            let sum = group.rows.get(Output::Compression, 0, slot);
-            moment
-                .get(slot)
-                .map_or(sum / density[slot], |moment| sum / *moment)
+            group.scheme.density.compression(
+                group.rows.get(Output::Compression, 0, slot),
+                density[slot],
+                one(Field::ReferenceDensity, slot),
+                one(Field::Normalisation, slot),
+            )
         };
         let rates = STATE.map(|field| match field {
             Field::Position => columns.raw(Field::Velocity).to_vec(),
