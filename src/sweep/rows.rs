@@ -67,7 +67,9 @@ impl<T: Real, const D: usize> Rows<T, D> {
         if self.data.len() != stride * order.len() {
             return;
         }
-        let at = |slot: usize, k: usize| (slot / Self::WIDTH * stride + k) * Self::WIDTH + slot % Self::WIDTH;
+        let at = |slot: usize, k: usize| {
+            (slot / Self::WIDTH * stride + k) * Self::WIDTH + slot % Self::WIDTH
+        };
         let before = self.data.clone();
         for (slot, &from) in order.iter().enumerate() {
             for k in 0..stride {
