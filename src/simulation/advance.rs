@@ -8,7 +8,7 @@ use crate::error::Result;
 use crate::integrator::System;
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
-use crate::scheme::{EnergyForm, Smoothing};
+use crate::scheme::{DensityForm, EnergyForm, Smoothing};
 use crate::sweep::{Rows, two_sum};
 use crate::term::viscosity::Switch;
 use rayon::prelude::*;
@@ -94,15 +94,17 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         if !self.group.scheme.density.is_integrated() {
             return;
         }
+        let form = self.group.scheme.density;
         let rows = &self.group.scratch_rows;
-        let [density, residual, moment] = self.group.columns.many_mut([
+        let [density, residual, rest, moment] = self.group.columns.many_mut([
             Field::Density,
             Field::DensityResidual,
+            Field::ReferenceDensity,
             Field::Normalisation,
         ]);
-        let moment = &*moment;
+        let rest: [&[T]; 2] = [rest, moment];
         let change =
-            |slot: usize, density: T| density * expm1(rate(rows, moment, slot, density) * dt);
+            |slot: usize, density: T| density * expm1(rate(form, rows, rest, slot, density) * dt);
         if residual.is_empty() {
             density
                 .par_iter_mut()
@@ -129,18 +131,21 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let Some(switch) = group.scheme.switch else {
             return;
         };
+        let form = group.scheme.density;
         let uniform = T::from_f64(group.smoothing_length);
         let rows = &group.scratch_rows;
-        let [alpha, before, density, moment, h, sound_speed] = group.columns.many_mut([
+        let [alpha, before, density, rest, moment, h, sound_speed] = group.columns.many_mut([
             Field::ViscosityCoefficient,
             Field::Divergence,
             Field::Density,
+            Field::ReferenceDensity,
             Field::Normalisation,
             Field::SmoothingLength,
             Field::SoundSpeed,
         ]);
+        let rest: [&[T]; 2] = [rest, moment];
         for (slot, alpha) in alpha.iter_mut().enumerate() {
-            let divergence = -rate(rows, moment, slot, density[slot]);
+            let divergence = -rate(form, rows, rest, slot, density[slot]);
             let last = before.get(slot).copied().unwrap_or(T::zero());
             let h = h.get(slot).copied().unwrap_or(uniform);
             *alpha = follow(switch, *alpha, divergence, last, sound_speed[slot], h, dt);
@@ -159,18 +164,22 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let low = T::from_f64(smallest * group.smoothing_length);
         let high = T::from_f64(largest * group.smoothing_length);
         let dimension = T::from_f64(D as f64);
+        let form = group.scheme.density;
         let rows = &group.scratch_rows;
-        let [h, density, moment] =
-            group
-                .columns
-                .many_mut([Field::SmoothingLength, Field::Density, Field::Normalisation]);
-        let (density, moment) = (&*density, &*moment);
+        let [h, density, rest, moment] = group.columns.many_mut([
+            Field::SmoothingLength,
+            Field::Density,
+            Field::ReferenceDensity,
+            Field::Normalisation,
+        ]);
+        let density = &*density;
+        let rest: [&[T]; 2] = [rest, moment];
         let limited: usize = h
             .par_iter_mut()
             .enumerate()
             .with_min_len(GRAIN)
             .map(|(slot, h)| {
-                let divergence = -rate(rows, moment, slot, density[slot]);
+                let divergence = -rate(form, rows, rest, slot, density[slot]);
                 let next = *h * (divergence * dt / dimension).exp();
                 *h = next.max(low).min(high);
                 usize::from(*h != next)
@@ -182,11 +191,16 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
 /// Rate of compression (1/ρ) dρ/dt of a particle from its sum over neighbours.
 #[inline(always)]
-fn rate<T: Real, const D: usize>(rows: &Rows<T, D>, moment: &[T], slot: usize, density: T) -> T {
+fn rate<T: Real, const D: usize>(
+    form: DensityForm,
+    rows: &Rows<T, D>,
+    [rest, moment]: [&[T]; 2],
+    slot: usize,
+    density: T,
+) -> T {
+    let one = |column: &[T]| column.get(slot).copied().unwrap_or(T::one());
     let sum = rows.get(Output::Compression, 0, slot);
-    moment
-        .get(slot)
-        .map_or(sum / density, |moment| sum / *moment)
+    form.compression(sum, density, one(rest), one(moment))
 }
 
 /// eˣ − 1 for the small x of a time step, without cancellation.
@@ -254,6 +268,7 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
         let time = self.time + offset;
         self.gravity = self.body_acceleration(time);
         self.group.evaluate(time);
+        self.follow_moves();
         self.evaluations += 1;
         self.rates_at_hand = true;
         Ok(())
@@ -294,6 +309,7 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
         }
         self.move_particles(0.5 * dt);
         self.group.refresh(self.time + offset + 0.5 * dt);
+        self.follow_moves();
         self.group.sum_compression();
         self.compress(dt);
         self.move_particles(0.5 * dt);
@@ -429,12 +445,49 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
+    /// Brings kept states into the order of the particles after a list build, and through the
+    /// periods that particles have crossed.
+    fn follow_moves(&mut self) {
+        let moved = &mut self.group.moved;
+        if moved.wraps.is_empty() && moved.order.is_empty() {
+            return;
+        }
+        for kept in &mut self.kept {
+            let Ok([x, residual, v]) = kept.columns.get_disjoint_mut([0, 1, 2]) else {
+                continue;
+            };
+            if !x.is_empty() {
+                for (slot, back) in &moved.wraps {
+                    back.re_enter(*slot as usize, x, residual, v);
+                }
+            }
+        }
+        if let Some(v) = self.predicted.columns.first_mut().filter(|v| !v.is_empty()) {
+            for (slot, back) in &moved.wraps {
+                back.turn(*slot as usize, v);
+            }
+        }
+        if !moved.order.is_empty() {
+            let columns = self.kept.iter_mut().flat_map(|kept| &mut kept.columns);
+            for column in columns.chain(&mut self.predicted.columns) {
+                let width = column.len() / moved.order.len();
+                let before = column.clone();
+                for (k, &from) in moved.order.iter().enumerate() {
+                    let from = from as usize * width;
+                    column[k * width..(k + 1) * width].copy_from_slice(&before[from..from + width]);
+                }
+            }
+        }
+        moved.wraps.clear();
+        moved.order.clear();
+    }
+
     /// Rate of entry `k` of a column of the state, whose present value is `y`.
     #[inline(always)]
     fn rate_of(&self, field: Field, k: usize, y: T) -> T {
         let group = &self.group;
-        let moment = group.columns.raw(Field::Normalisation);
-        let density = |slot: usize| group.columns.raw(Field::Density)[slot];
+        let form = group.scheme.density;
+        let rest = [Field::ReferenceDensity, Field::Normalisation].map(|f| group.columns.raw(f));
         match field {
             Field::Velocity => {
                 let (slot, d) = (k / D, k % D);
@@ -442,7 +495,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 group.rows.get(Output::Force, d, slot) / mass + self.gravity[d]
             }
             Field::Density if group.scheme.density.is_integrated() => {
-                y * rate(&group.rows, moment, k, y)
+                y * rate(form, &group.rows, rest, k, y)
             }
             Field::Energy => {
                 group.rows.get(Output::Power, 0, k) / group.columns.raw(Field::Mass)[k]
@@ -450,7 +503,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             Field::SmoothingLength
                 if matches!(group.scheme.smoothing, Smoothing::Divergence { .. }) =>
             {
-                -y * rate(&group.rows, moment, k, density(k)) / T::from_f64(D as f64)
+                let density = group.columns.raw(Field::Density)[k];
+                -y * rate(form, &group.rows, rest, k, density) / T::from_f64(D as f64)
             }
             _ => T::zero(),
         }

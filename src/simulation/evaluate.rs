@@ -65,6 +65,9 @@ impl<T: Real, const D: usize> Group<T, D> {
                 moment.fill(T::one());
             }
         }
+        if !form.has_reference() {
+            self.columns.raw_mut(Field::Normalisation).fill(T::one());
+        }
         self.take_touching();
         if self.columns.fields().contains(Field::GradH) {
             self.columns.raw_mut(Field::GradH).fill(T::one());
