@@ -88,6 +88,15 @@ impl DensityForm {
             Self::Continuity => p / moment,
         }
     }
+
+    /// The rate of compression −∇·v from the sum Σ B v·∇W \[1/s\].
+    #[inline]
+    pub(crate) fn compression<T: Real>(self, sum: T, density: T, moment: T) -> T {
+        match self {
+            Self::Summation | Self::Normalised | Self::Lam => sum / density,
+            Self::NumberDensity | Self::Continuity => sum / moment,
+        }
+    }
 }
 
 impl fmt::Display for DensityForm {

@@ -10,7 +10,6 @@ use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::scheme::{EnergyForm, Smoothing};
 use crate::sweep::two_sum;
-use crate::term::viscosity::Switch;
 use rayon::prelude::*;
 
 /// A kept state.
@@ -93,29 +92,19 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.group.scheme.energy != EnergyForm::None
     }
 
-    /// Density, smoothing length and viscosity coefficient over `dt` from the compression at hand.
+    /// Density and smoothing length over `dt` from the compression at hand.
     fn compress(&mut self, dt: f64) {
         let step = T::from_f64(dt);
         let group = &mut self.group;
         let integrated = group.scheme.density.is_integrated();
         let rows = &group.scratch_rows;
-        let rate = |slot: usize, density: &[T], moment: &[T]| {
-            let sum = rows.get(Output::Compression, 0, slot);
-            match moment.get(slot) {
-                Some(moment) => sum / *moment,
-                None => sum / density[slot],
-            }
-        };
-        let [density, residual, moment, h, alpha, sound_speed, divergence] =
-            group.columns.many_mut([
-                Field::Density,
-                Field::DensityResidual,
-                Field::Normalisation,
-                Field::SmoothingLength,
-                Field::ViscosityCoefficient,
-                Field::SoundSpeed,
-                Field::Divergence,
-            ]);
+        let form = group.scheme.density;
+        let [density, residual, moment, h] = group.columns.many_mut([
+            Field::Density,
+            Field::DensityResidual,
+            Field::Normalisation,
+            Field::SmoothingLength,
+        ]);
         let dimension = T::from_f64(D as f64);
         let limits = match group.scheme.smoothing {
             Smoothing::Divergence { smallest, largest } => {
@@ -126,26 +115,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         };
         let mut limited = 0;
         for slot in 0..density.len() {
-            let rate = rate(slot, density, moment);
-            if let Some(switch) = group.scheme.switch {
-                let own_h = h
-                    .get(slot)
-                    .copied()
-                    .unwrap_or(T::from_f64(group.smoothing_length));
-                let before = divergence.get(slot).copied().unwrap_or(T::zero());
-                alpha[slot] = follow(
-                    switch,
-                    alpha[slot],
-                    -rate,
-                    before,
-                    sound_speed[slot],
-                    own_h,
-                    step,
-                );
-                if let Some(divergence) = divergence.get_mut(slot) {
-                    *divergence = -rate;
-                }
-            }
+            let moment = moment.get(slot).copied().unwrap_or(T::one());
+            let sum = rows.get(Output::Compression, 0, slot);
+            let rate = form.compression(sum, density[slot], moment);
             if let Some((low, high)) = limits {
                 let next = h[slot] * (-rate * step / dimension).exp();
                 let bounded = next.max(low).min(high);
@@ -194,44 +166,17 @@ fn add_scaled<T: Real>(x: &mut [T], residual: &mut [T], v: &[T], dt: T) {
         });
 }
 
-/// The next viscosity coefficient of a particle.
-fn follow<T: Real>(switch: Switch, alpha: T, divergence: T, before: T, c: T, h: T, dt: T) -> T {
-    let of = T::from_f64;
-    match switch {
-        Switch::MorrisMonaghan {
-            minimum,
-            maximum,
-            decay,
-        } => {
-            let source = (-divergence).positive_part() * (of(maximum) - alpha).positive_part();
-            let rate = of(decay) * c / h;
-            let next = (alpha + dt * (source + rate * of(minimum))) / (T::one() + dt * rate);
-            next.max(of(minimum)).min(of(maximum))
-        }
-        Switch::CullenDehnen { maximum, decay } => {
-            let steepening = ((before - divergence) / dt).positive_part();
-            let converging = if divergence < T::zero() {
-                steepening
-            } else {
-                T::zero()
-            };
-            let strength = h * h * converging;
-            let local = of(maximum) * strength / (c * c + strength);
-            if local > alpha {
-                local
-            } else {
-                local + (alpha - local) * (-(of(2.0 * decay) * c / h * dt)).exp()
-            }
-        }
-    }
-}
-
 impl<T: Real, const D: usize> System for Simulation<T, D> {
     fn evaluate(&mut self, offset: f64) -> Result<()> {
         self.evaluation_time = self.time + offset;
         self.group.evaluate(self.evaluation_time);
         self.evaluations += 1;
         self.rates_at_hand = true;
+        // Here the sums stand in the same order as the particles.
+        let elapsed = core::mem::take(&mut self.switch_due);
+        if elapsed > 0.0 {
+            self.group.follow_switch(elapsed);
+        }
         Ok(())
     }
 
@@ -397,10 +342,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let density = columns.raw(Field::Density);
         let moment = columns.raw(Field::Normalisation);
         let compression = |slot: usize| {
+            let moment = moment.get(slot).copied().unwrap_or(T::one());
             let sum = group.rows.get(Output::Compression, 0, slot);
-            moment
-                .get(slot)
-                .map_or(sum / density[slot], |moment| sum / *moment)
+            group.scheme.density.compression(sum, density[slot], moment)
         };
         let rates = STATE.map(|field| match field {
             Field::Position => columns.raw(Field::Velocity).to_vec(),
