@@ -165,15 +165,28 @@ impl<T: Real, const D: usize> Scheme<T, D> {
             fields = fields.union(Fields::of(&[Field::GradH]));
         }
         match self.switch {
-            Some(Switch::CullenDehnen { .. }) => fields.union(Fields::of(&[
-                Field::ViscosityCoefficient,
-                Field::Divergence,
-            ])),
+            Some(Switch::CullenDehnen { .. }) => {
+                // In one dimension there is no shear to tell from a shock.
+                let shear: &[Field] = if D > 1 {
+                    &[Field::VelocityGradient]
+                } else {
+                    &[]
+                };
+                fields.union(Fields::of(shear)).union(Fields::of(&[
+                    Field::ViscosityCoefficient,
+                    Field::Divergence,
+                ]))
+            }
             Some(Switch::MorrisMonaghan { .. }) => {
                 fields.union(Fields::of(&[Field::ViscosityCoefficient]))
             }
             None => fields,
         }
+    }
+
+    /// The coefficient of artificial viscosity that a particle starts with, where it has its own.
+    pub(crate) fn starting_coefficient(&self) -> f64 {
+        self.switch.map_or(0.0, |switch| switch.start())
     }
 }
 
@@ -327,11 +340,12 @@ impl<K, V> SchemeBuilder<K, V> {
             }
             _ => Some(Box::new(Program::new(kernel, (KernelSum,), mode))),
         };
-        let follows_divergence = matches!(self.smoothing, Smoothing::Divergence { .. })
-            || self.viscosity.switch().is_some();
-        let integrated = self.density.is_integrated() || follows_divergence;
+        let integrated =
+            self.density.is_integrated() || matches!(self.smoothing, Smoothing::Divergence { .. });
         let compression: Option<Box<dyn PairSweep<T, D>>> =
             integrated.then(|| Box::new(Program::new(kernel, (Compression,), mode)) as _);
+        // A switch follows the compression once a step, by the sum that the rates make.
+        let compressing = integrated || self.viscosity.switch().is_some();
         let gradient: Option<Box<dyn PairSweep<T, D>>> =
             match (self.curvature, self.viscosity.needs_velocity_gradient()) {
                 (Some(_), _) => Some(Box::new(Program::new(
@@ -345,7 +359,7 @@ impl<K, V> SchemeBuilder<K, V> {
         let viscosity_problems = self.viscosity.problems();
         let switch = self.viscosity.switch();
         let viscosity = Viscosity(self.viscosity);
-        let rates: Box<dyn PairSweep<T, D>> = match (self.curvature, integrated) {
+        let rates: Box<dyn PairSweep<T, D>> = match (self.curvature, compressing) {
             (Some(strength), false) => Box::new(Program::new(
                 kernel,
                 (

@@ -10,7 +10,6 @@ use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::scheme::{DensityForm, EnergyForm, Smoothing};
 use crate::sweep::{Rows, two_sum};
-use crate::term::viscosity::Switch;
 use rayon::prelude::*;
 
 /// A kept state.
@@ -84,12 +83,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.group.scheme.energy != EnergyForm::None
     }
 
-    /// Density, smoothing length and viscosity coefficient over `dt` from the compression at hand.
+    /// Density and smoothing length over `dt` from the compression at hand.
     fn compress(&mut self, dt: f64) {
         let dt = T::from_f64(dt);
-        if self.group.scheme.switch.is_some() {
-            self.follow_switch(dt);
-        }
         self.follow_divergence(dt);
         if !self.group.scheme.density.is_integrated() {
             return;
@@ -123,36 +119,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             .for_each(|(slot, (density, residual))| {
                 (*density, *residual) = two_sum(*density, *residual + change(slot, *density));
             });
-    }
-
-    /// The viscosity coefficient of every particle over `dt`.
-    fn follow_switch(&mut self, dt: T) {
-        let group = &mut self.group;
-        let Some(switch) = group.scheme.switch else {
-            return;
-        };
-        let form = group.scheme.density;
-        let uniform = T::from_f64(group.smoothing_length);
-        let rows = &group.scratch_rows;
-        let [alpha, before, density, rest, moment, h, sound_speed] = group.columns.many_mut([
-            Field::ViscosityCoefficient,
-            Field::Divergence,
-            Field::Density,
-            Field::ReferenceDensity,
-            Field::Normalisation,
-            Field::SmoothingLength,
-            Field::SoundSpeed,
-        ]);
-        let rest: [&[T]; 2] = [rest, moment];
-        for (slot, alpha) in alpha.iter_mut().enumerate() {
-            let divergence = -rate(form, rows, rest, slot, density[slot]);
-            let last = before.get(slot).copied().unwrap_or(T::zero());
-            let h = h.get(slot).copied().unwrap_or(uniform);
-            *alpha = follow(switch, *alpha, divergence, last, sound_speed[slot], h, dt);
-            if let Some(last) = before.get_mut(slot) {
-                *last = divergence;
-            }
-        }
     }
 
     /// dh/dt = h ∇·v / D within limits, over `dt`.
@@ -231,38 +197,6 @@ fn add_scaled<T: Real>(x: &mut [T], residual: &mut [T], v: &[T], dt: T) {
         });
 }
 
-/// The next viscosity coefficient of a particle.
-fn follow<T: Real>(switch: Switch, alpha: T, divergence: T, before: T, c: T, h: T, dt: T) -> T {
-    let of = T::from_f64;
-    match switch {
-        Switch::MorrisMonaghan {
-            minimum,
-            maximum,
-            decay,
-        } => {
-            let source = (-divergence).positive_part() * (of(maximum) - alpha).positive_part();
-            let rate = of(decay) * c / h;
-            let next = (alpha + dt * (source + rate * of(minimum))) / (T::one() + dt * rate);
-            next.max(of(minimum)).min(of(maximum))
-        }
-        Switch::CullenDehnen { maximum, decay } => {
-            let steepening = ((before - divergence) / dt).positive_part();
-            let converging = if divergence < T::zero() {
-                steepening
-            } else {
-                T::zero()
-            };
-            let strength = h * h * converging;
-            let local = of(maximum) * strength / (c * c + strength);
-            if local > alpha {
-                local
-            } else {
-                local + (alpha - local) * (-(of(2.0 * decay) * c / h * dt)).exp()
-            }
-        }
-    }
-}
-
 impl<T: Real, const D: usize> System for Simulation<T, D> {
     fn evaluate(&mut self, offset: f64) -> Result<()> {
         let time = self.time + offset;
@@ -271,6 +205,11 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
         self.follow_moves();
         self.evaluations += 1;
         self.rates_at_hand = true;
+        // Here the sums stand in the same order as the particles.
+        let elapsed = core::mem::take(&mut self.switch_due);
+        if elapsed > 0.0 {
+            self.group.follow_switch(elapsed);
+        }
         Ok(())
     }
 

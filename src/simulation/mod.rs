@@ -7,6 +7,7 @@ mod evaluate;
 mod group;
 mod ledger;
 mod query;
+mod switching;
 
 pub use control::{Criterion, StepControl, Vote};
 pub use ledger::{Budget, Ledger};
@@ -42,6 +43,8 @@ pub struct Simulation<T: Real, const D: usize> {
     impulses: Impulses,
     predicted: Kept<T>,
     kept: Vec<Kept<T>>,
+    /// Time \[s\] over which viscosity coefficients have yet to follow the flow.
+    switch_due: f64,
 }
 
 impl<T: Real, const D: usize> core::fmt::Debug for Simulation<T, D> {
@@ -76,6 +79,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             impulses: Impulses::default(),
             predicted: Kept::default(),
             kept: Vec::new(),
+            switch_due: 0.0,
         }
     }
 
@@ -179,6 +183,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             };
         }
         self.last_vote = Some(vote);
+        self.switch_due += vote.step;
         // The integrator borrows the simulation as a system, so it steps outside of it.
         let mut integrator =
             core::mem::replace(&mut self.integrator, Box::new(crate::integrator::Midpoint));
