@@ -46,6 +46,8 @@ macro_rules! quantities {
         impl $Set {
             /// The empty set.
             pub const NONE: Self = Self(0);
+            /// The set of all.
+            pub const ALL: Self = Self::of($Quantity::ALL);
 
             /// The set of the listed members.
             #[must_use]
