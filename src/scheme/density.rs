@@ -79,6 +79,16 @@ impl DensityForm {
         }
     }
 
+    /// Rate of compression (1/ρ) dρ/dt from the sum Σ B v·∇W.
+    #[inline]
+    pub(crate) fn compression<T: Real>(self, sum: T, density: T, rest: T, moment: T) -> T {
+        match self {
+            Self::Summation | Self::Normalised | Self::Lam => sum / density,
+            Self::NumberDensity => sum * (rest / density) / moment,
+            Self::Continuity => sum / moment,
+        }
+    }
+
     /// Pressure coefficient X.
     #[inline]
     pub(crate) fn coefficient<T: Real>(self, p: T, density: T, rest: T, moment: T) -> T {
@@ -86,15 +96,6 @@ impl DensityForm {
             Self::Summation | Self::Normalised | Self::Lam => p / (density * density),
             Self::NumberDensity => p * (rest / density) * (rest / density) / moment,
             Self::Continuity => p / moment,
-        }
-    }
-
-    /// The rate of compression −∇·v from the sum Σ B v·∇W \[1/s\].
-    #[inline]
-    pub(crate) fn compression<T: Real>(self, sum: T, density: T, moment: T) -> T {
-        match self {
-            Self::Summation | Self::Normalised | Self::Lam => sum / density,
-            Self::NumberDensity | Self::Continuity => sum / moment,
         }
     }
 }

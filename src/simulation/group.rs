@@ -109,11 +109,6 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
     }
 
-    /// Slots of real particles, body after body.
-    pub fn real_slots(&self) -> impl Iterator<Item = usize> + '_ {
-        self.bodies.iter().flat_map(|body| body.slots.clone())
-    }
-
     pub fn particles(&self) -> usize {
         self.bodies.iter().map(|body| body.slots.len()).sum()
     }

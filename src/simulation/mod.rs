@@ -33,7 +33,8 @@ pub struct Simulation<T: Real, const D: usize> {
     pub(crate) control: StepControl,
     pub(crate) loads: Vec<Load<D>>,
     time: f64,
-    evaluation_time: f64,
+    /// What the loads gave at the last evaluation \[m/s²\].
+    gravity: [T; D],
     steps: u64,
     evaluations: u64,
     rates_at_hand: bool,
@@ -69,7 +70,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             control,
             loads,
             time: 0.0,
-            evaluation_time: 0.0,
+            gravity: [T::zero(); D],
             steps: 0,
             evaluations: 0,
             rates_at_hand: false,
@@ -106,10 +107,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.last_vote
     }
 
-    fn body_acceleration(&self) -> [T; D] {
+    fn body_acceleration(&self, time: f64) -> [T; D] {
         let mut sum = [T::zero(); D];
         for load in &self.loads {
-            let a = load(self.evaluation_time);
+            let a = load(time);
             for d in 0..D {
                 sum[d] += T::from_f64(a[d]);
             }

@@ -19,26 +19,35 @@ impl<T: Real, const D: usize> Group<T, D> {
         let uniform = T::from_f64(self.smoothing_length);
         let dt = T::from_f64(dt);
         let rows = &self.rows;
-        let [alpha, divergence, density, moment, h, sound_speed, gradient] =
-            self.columns.many_mut([
-                Field::ViscosityCoefficient,
-                Field::Divergence,
-                Field::Density,
-                Field::Normalisation,
-                Field::SmoothingLength,
-                Field::SoundSpeed,
-                Field::VelocityGradient,
-            ]);
-        let (density, moment, h) = (&*density, &*moment, &*h);
+        let [
+            alpha,
+            divergence,
+            density,
+            rest,
+            moment,
+            h,
+            sound_speed,
+            gradient,
+        ] = self.columns.many_mut([
+            Field::ViscosityCoefficient,
+            Field::Divergence,
+            Field::Density,
+            Field::ReferenceDensity,
+            Field::Normalisation,
+            Field::SmoothingLength,
+            Field::SoundSpeed,
+            Field::VelocityGradient,
+        ]);
+        let (density, rest, moment, h) = (&*density, &*rest, &*moment, &*h);
         let (sound_speed, gradient) = (&*sound_speed, &*gradient);
         let at = |column: &[T], slot: usize, absent: T| column.get(slot).copied().unwrap_or(absent);
         let around = |slot: usize, before: T| {
             let sum = rows.get(Output::Compression, 0, slot);
-            let moment = at(moment, slot, T::one());
+            let (rest, moment) = (at(rest, slot, T::one()), at(moment, slot, T::one()));
             let h = at(h, slot, uniform);
             let unity = rows.get(Output::Unity, 0, slot);
             Surroundings {
-                divergence: -form.compression(sum, density[slot], moment),
+                divergence: -form.compression(sum, density[slot], rest, moment),
                 divergence_before: before,
                 divergence_sign: if unity > T::zero() {
                     rows.get(Output::DivergenceSign, 0, slot) / unity
