@@ -107,11 +107,12 @@ macro_rules! viscosity_kind {
                 Fields::NONE$(.union(<$Law as ArtificialViscosity<D>>::READS))*;
             const WRITES: Outputs =
                 Outputs::NONE$(.union(<$Law as ArtificialViscosity<D>>::WRITES))*;
-            #[inline(always)]
+            // Called, not copied into every loop: a choice at run time is paid at run time.
+            #[inline(never)]
             fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>) -> Viscous<L> {
                 match self { $(Self::$Law(law) => law.pair(pair),)* }
             }
-            #[inline(always)]
+            #[inline(never)]
             fn sums<L: Lane, P: Layout>(
                 &self,
                 pair: &Pair<'_, L, D, P>,
