@@ -112,6 +112,7 @@ pub trait Lane:
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
 
     /// A constant, rounded to the scalar and the same in every element.
+    #[must_use]
     #[inline(always)]
     fn of(value: f64) -> Self {
         Self::splat(Self::Scalar::from_f64(value))

@@ -85,7 +85,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
         if let Some(&value) = position {
             parameter("position", value, "it must be finite, in metres");
         }
-        if !(body.spacing.is_finite() && body.spacing > 0.0) && !body.points.is_empty() {
+        let spaced = body.spacing.is_finite() && body.spacing > 0.0;
+        if !(spaced || body.points.is_empty()) {
             parameter(
                 "spacing",
                 body.spacing,

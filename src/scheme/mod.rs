@@ -160,7 +160,7 @@ impl<T: Real, const D: usize> Scheme<T, D> {
     /// The terms, in the order in which a step meets them.
     #[must_use]
     pub fn terms(&self) -> Vec<TermDoc> {
-        self.sweeps().flat_map(|sweep| sweep.document()).collect()
+        self.sweeps().flat_map(PairSweep::document).collect()
     }
 
     /// The fields that a particle carries under this scheme.

@@ -343,7 +343,7 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
                 .enumerate()
                 .with_min_len(GRAIN)
                 .for_each(|(k, (y, kept))| {
-                    *y = a_t * *kept + b_t * *y + dt_t * self.rate_of(field, k, *y)
+                    *y = a_t * *kept + b_t * *y + dt_t * self.rate_of(field, k, *y);
                 });
             *self.group.columns.column_mut(field) = column;
         }

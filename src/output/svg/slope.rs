@@ -65,9 +65,12 @@ impl Prepared<'_> {
                     let inside =
                         area.y >= 3.0 && area.y + area.h <= h - 3.0 && area.x + area.w <= w;
                     // On the triangle's side of its longest edge, or just beyond.
-                    let beside = |p: &Point| match below {
-                        true => p.1 > line(p.0) + shift - 6.0,
-                        false => p.1 < line(p.0) + shift + 6.0,
+                    let beside = |p: &Point| {
+                        if below {
+                            p.1 > line(p.0) + shift - 6.0
+                        } else {
+                            p.1 < line(p.0) + shift + 6.0
+                        }
                     };
                     let covers = |p: &Point| area.holds(*p) && beside(p);
                     let free = taken.iter().all(|other| !area.overlaps(other));

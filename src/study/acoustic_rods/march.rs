@@ -46,13 +46,16 @@ impl March {
 
         let shortest = segments
             .iter()
-            .map(|s| s.transit())
+            .map(super::RodSegment::transit)
             .fold(f64::INFINITY, f64::min);
         let speed = segments
             .iter()
             .map(|s| s.velocity.abs())
             .fold(0.0, f64::max);
-        let impedance = segments.iter().map(|s| s.impedance()).fold(0.0, f64::max);
+        let impedance = segments
+            .iter()
+            .map(super::RodSegment::impedance)
+            .fold(0.0, f64::max);
         let tolerance = 1e-10 * shortest;
         let steps_from = |sign: f64| {
             let carried = segments.iter().map(|s| sign * s.impedance() * s.velocity);
