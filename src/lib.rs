@@ -114,7 +114,10 @@
 //! | rise from 10 to 90 % | 0.090 µs | 0.101 µs |
 //! | drift of total energy over 1300 steps | 3·10⁻¹⁵ | 4·10⁻¹⁵ |
 //!
-//!COST
+//! A step of this scheme sums over pairs five times: for density, for gradients, for rates, and for the
+//! work of its two kicks. In 1D that took about 1 µs a particle on one thread of a shared x86-64
+//! server. [`EnergyForm::Symmetric`](scheme::EnergyForm) spares the last two, no curvature and a plain
+//! viscosity the second, and [`Simulation::bytes`](simulation::Simulation::bytes) tells the memory.
 //!
 //! Neither is a promise for another problem: repeat a run at half the spacing, and take
 //! [`study::norms`] to see at what order it converges.

@@ -19,7 +19,8 @@
 //!   turns them into vectors once for all terms, so a tuple of terms costs what one written-out loop
 //!   costs.
 //! - **Instruction sets.** In 2D and 3D the loop exists for the baseline of the target, AVX2 and
-//!   AVX-512, and the machine chooses at run time ([`InstructionSet::detect`]).
+//!   AVX-512, and the machine chooses at run time ([`InstructionSet::detect`]). In 1D, and for a kernel
+//!   that is itself chosen at run time, the baseline serves.
 //!
 //! # The same bits on any number of threads
 //!

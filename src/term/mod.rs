@@ -14,6 +14,8 @@
 //! | [`Viscosity`] | momentum | force and signal of an [artificial viscosity](viscosity) |
 //! | [`InternalEnergy`] | energy | half the power of all forces |
 //!
+//! [`probe()`] evaluates a term for one pair, for tests of terms of your own.
+//!
 //! A force is set as its component along rᵢⱼ or along vᵢⱼ, and must be symmetric in i and j. Then it is
 //! opposite for the two, and the scheme conserves momentum.
 //!
