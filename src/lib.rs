@@ -115,7 +115,7 @@
 //! | drift of total energy over 1300 steps | 3·10⁻¹⁵ | 4·10⁻¹⁵ |
 //!
 //! In `f32` the plateau on copper is the same to 10⁻⁵, and no point of it is farther from the exact
-//! solution than 4·10⁻⁴ in either.
+//! solution than 4.1·10⁻⁴ in either.
 //!
 //! A step sums over pairs five times: for density, for gradients, for rates, and for the work of its
 //! two kicks. Processor time of one thread (x86-64 server with AVX-512, shared with other work, so
