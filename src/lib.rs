@@ -7,6 +7,7 @@ pub mod integrator;
 pub mod kernel;
 pub mod material;
 pub mod neighbors;
+pub mod output;
 pub mod particles;
 pub mod scalar;
 pub mod scene;

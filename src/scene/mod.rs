@@ -215,6 +215,10 @@ impl<T: Real, const D: usize> Scene<T, D> {
         set(Field::Mass, start.density * body.spacing.powi(D as i32));
         set(Field::Energy, start.energy);
         set(Field::SmoothingLength, self.scheme.h_over_dx * body.spacing);
+        set(
+            Field::ViscosityCoefficient,
+            self.scheme.starting_coefficient(),
+        );
     }
 
     /// What every block does to every other: bodies, then boundaries.

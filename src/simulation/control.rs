@@ -105,7 +105,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 a
             }
         };
-        let gravity = Vector::<T, D>::from(self.body_acceleration());
+        let gravity = Vector::<T, D>::from(self.gravity);
         let best = (0..columns.slots())
             .into_par_iter()
             .with_min_len(4096)

@@ -1,0 +1,130 @@
+//! Plots as SVG: lines, steps, markers and coloured particles, in one panel or a grid of them.
+//! Thinned to what can be seen, so that long histories make small files.
+
+mod axis;
+mod cloud;
+mod color;
+mod draw;
+mod figure;
+mod fit;
+mod ink;
+mod legend;
+mod panel;
+mod path;
+mod series;
+mod slope;
+mod text;
+
+pub use axis::Axis;
+pub use color::{Color, PALETTE, viridis};
+pub use figure::Figure;
+pub use fit::{PowerLaw, power_law};
+pub use legend::Legend;
+pub use panel::Panel;
+pub use series::{Cloud, Marker, Series};
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The names of all elements, after checking that they are closed in order.
+    fn elements(svg: &str) -> Vec<&str> {
+        let mut names = Vec::new();
+        let mut open = Vec::new();
+        for tag in svg.split('<').skip(1) {
+            let (tag, text) = tag.split_once('>').expect("a closed tag");
+            assert!(!text.contains('>'), "{text}");
+            let name = tag.split([' ', '/']).next().unwrap_or_default();
+            assert_eq!(tag.matches('"').count() % 2, 0, "{tag}");
+            if let Some(closing) = tag.strip_prefix('/') {
+                assert_eq!(open.pop(), Some(closing));
+            } else {
+                names.push(name);
+                if !tag.ends_with('/') {
+                    open.push(name);
+                }
+            }
+        }
+        assert!(open.is_empty(), "{open:?}");
+        assert!(
+            !svg.contains("NaN") && !svg.contains("inf"),
+            "a place that is not finite"
+        );
+        names
+    }
+
+    fn xy() -> Panel {
+        Panel::new(Axis::linear("x", "m"), Axis::linear("y", "m"))
+    }
+
+    #[test]
+    fn any_text_and_any_value_makes_valid_xml() {
+        let strange = [
+            (0.0, 1.0),
+            (1.0, f64::NAN),
+            (2.0, f64::INFINITY),
+            (3.0, -1e300),
+            (4.0, 1e300),
+        ];
+        let panel = |x, y| {
+            Panel::new(x, y)
+                .title("a < b & \"c\" ^{2}")
+                .series(Series::line("<1>", strange).marker(Marker::Cross).fitted())
+                .series(Series::steps("", strange).reference())
+                .cloud(Cloud::new(
+                    Axis::linear("v", "&"),
+                    [(0.0, 1.0, f64::NAN), (1.0, 2.0, 3.0)],
+                ))
+                .slope(2.0)
+                .mark_x(f64::NAN)
+                .mark_y(0.0)
+        };
+        let linear = || Axis::linear("x", "<m>");
+        let log = || Axis::log("y", "");
+        let figure = Figure::new()
+            .title("R&D")
+            .panel(panel(linear(), linear()))
+            .panel(panel(log(), log()))
+            .panel(panel(linear(), log()).equal_aspect())
+            .panel(xy());
+        elements(&figure.to_string());
+        elements(&figure.shared_legend().to_string());
+        elements(&Figure::new().columns(0).to_string());
+    }
+
+    #[test]
+    fn long_histories_make_small_files() {
+        let n = 100_000;
+        let wave = (0..n)
+            .map(|i| 1e-3 * f64::from(i))
+            .map(|t| (t, (7.0 * t).sin()));
+        let svg = Figure::new()
+            .panel(xy().series(Series::line("wave", wave)))
+            .to_string();
+        elements(&svg);
+        assert!(svg.len() < 60_000, "{}", svg.len());
+    }
+
+    #[test]
+    fn a_shared_legend_has_each_entry_once() {
+        let panel = || xy().series(Series::line("same", [(0.0, 0.0), (1.0, 1.0)]));
+        let figure = Figure::new().panel(panel()).panel(panel());
+        assert_eq!(figure.to_string().matches(">same<").count(), 2);
+        assert_eq!(
+            figure.shared_legend().to_string().matches(">same<").count(),
+            1
+        );
+    }
+
+    #[test]
+    fn slopes_stand_by_the_curve_that_has_them() {
+        let spacings = || (0..6).map(|i| 0.1 * 0.5_f64.powi(i));
+        let panel = Panel::new(Axis::log("h", ""), Axis::log("error", ""))
+            .series(Series::markers("first", spacings().map(|h| (h, h))))
+            .series(Series::markers("second", spacings().map(|h| (h, h * h))).fitted());
+        let plain = Figure::new().panel(panel.clone()).to_string();
+        let marked = Figure::new().panel(panel.slope(1.0).slope(2.0)).to_string();
+        assert!(plain.contains("second (slope 2.00)"));
+        assert_eq!(elements(&marked).len(), elements(&plain).len() + 6);
+    }
+}
