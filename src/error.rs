@@ -33,7 +33,7 @@ pub enum Problem {
     /// Two bodies share space.
     #[error(
         "bodies `{first}` and `{second}` overlap: two particles are {distance} m apart near {position:?}, \
-         less than half the spacing of {spacing} m; move one of them, or cut the shape"
+         closer than lattices of spacing {spacing} m that only touch; move one of them, or cut the shape"
     )]
     Overlap {
         /// One body.

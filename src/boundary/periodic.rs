@@ -60,13 +60,13 @@ impl<T: Real, const D: usize> Boundary<T, D> for Periodic {
         if self.axis >= D {
             return vec![("axis", self.axis as f64, "must be below the dimension")];
         }
-        if period >= 2.0 * reach {
+        if period.is_finite() && period >= 2.0 * reach {
             return Vec::new();
         }
         vec![(
             "period",
             period,
-            "must be at least twice the kernel's reach: enlarge the domain or refine",
+            "must be finite and at least twice the kernel's reach: enlarge the domain or refine",
         )]
     }
 }

@@ -94,6 +94,10 @@ use core::str::FromStr;
     note = "implement `Kernel<{D}>`: `shape`, `slope_over_q` and the numbers; see the `kernel` module for an example"
 )]
 pub trait Kernel<const D: usize>: Copy + Debug + Send + Sync + 'static {
+    /// Whether the shape is chosen at run time, by a branch in the pair loop; such a loop is not
+    /// compiled for wider instruction sets.
+    const CHOSEN_AT_RUN_TIME: bool = false;
+
     /// The kernel's name in reports.
     fn name(&self) -> &'static str;
     /// Radius of the support in units of h.
@@ -180,6 +184,7 @@ macro_rules! kernel_kind {
 macro_rules! kind_is_kernel {
     ($D:literal: $($Kernel:ident),*) => {
         impl Kernel<$D> for KernelKind {
+            const CHOSEN_AT_RUN_TIME: bool = true;
             fn name(&self) -> &'static str {
                 match self { $(Self::$Kernel => Kernel::<$D>::name(&$Kernel),)* }
             }
@@ -200,11 +205,12 @@ macro_rules! kind_is_kernel {
             fn stable_step(&self) -> f64 {
                 match self { $(Self::$Kernel => Kernel::<$D>::stable_step(&$Kernel),)* }
             }
-            #[inline(always)]
+            // Called, not copied into every loop: a choice at run time is paid at run time.
+            #[inline(never)]
             fn shape<L: Lane>(&self, q: L) -> L {
                 match self { $(Self::$Kernel => Kernel::<$D>::shape(&$Kernel, q),)* }
             }
-            #[inline(always)]
+            #[inline(never)]
             fn slope_over_q<L: Lane>(&self, q: L) -> L {
                 match self { $(Self::$Kernel => Kernel::<$D>::slope_over_q(&$Kernel, q),)* }
             }

@@ -154,6 +154,14 @@ impl<const D: usize> Cells<D> {
     pub fn for_each_run(&self, low: [f64; D], high: [f64; D], mut visit: impl FnMut(&[u32])) {
         let first: [u32; D] = core::array::from_fn(|d| self.grid.coordinate(low[d], d));
         let last: [u32; D] = core::array::from_fn(|d| self.grid.coordinate(high[d], d));
+        let spanned = (0..D).fold(1_u64, |n, d| {
+            n.saturating_mul(u64::from(last[d] - first[d]) + 1)
+        });
+        // A box that a far outlier stretches has more cells than there are points.
+        if spanned > self.points.len() as u64 + 64 {
+            visit(&self.points);
+            return;
+        }
         let mut cell = first;
         loop {
             let row = self.grid.linear(cell);

@@ -70,6 +70,11 @@ impl<T: Real, const D: usize> Columns<T, D> {
         &mut self.data[field as usize]
     }
 
+    /// The column of a field as it is stored, to be taken out for a while and put back.
+    pub(crate) fn column_mut(&mut self, field: Field) -> &mut Vec<T> {
+        &mut self.data[field as usize]
+    }
+
     /// A vector field as one array a slot.
     #[inline]
     #[must_use]

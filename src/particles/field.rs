@@ -46,6 +46,8 @@ macro_rules! quantities {
         impl $Set {
             /// The empty set.
             pub const NONE: Self = Self(0);
+            /// The set of all.
+            pub const ALL: Self = Self::of($Quantity::ALL);
 
             /// The set of the listed members.
             #[must_use]
@@ -221,6 +223,10 @@ quantities! {
     MomentMatrix, Matrix, "moment_matrix", "1";
     /// The fastest signal that a viscosity saw, a maximum and not a sum.
     Signal, Scalar, "signal", "m/s";
+    /// The fastest that signals of a particle and a neighbour meet, a maximum and not a sum.
+    SignalSpeed, Scalar, "signal_speed", "m/s";
+    /// Σⱼ Vⱼ sign(∇·vⱼ) Wᵢⱼ, whether the surroundings close in or open.
+    DivergenceSign, Scalar, "divergence_sign", "1";
     /// Free for a user's own terms.
     UserA, Scalar, "user_a", "";
     /// Free for a user's own terms.

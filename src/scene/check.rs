@@ -7,9 +7,10 @@ use crate::neighbors::Cells;
 use crate::scalar::Real;
 use crate::scheme::EnergyForm;
 
-/// Share of the spacing below which particles of two bodies cannot be neighbours by intent: two
-/// lattices that overlap always have a pair within half a spacing along each axis.
-const OVERLAP: f64 = 0.6;
+/// Share of the spacing within which, along *every* axis, particles of two bodies cannot be neighbours
+/// by intent: two lattices that overlap always have a pair within half a spacing along each axis, and
+/// neighbours one spacing apart differ by more than this along one, however they are turned.
+const OVERLAP: f64 = 0.52;
 
 impl<T: Real, const D: usize> Scene<T, D> {
     /// Everything that is wrong with the scene; empty if it can be built.
@@ -265,7 +266,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
                     } else {
                         reach
                     };
-                    if apart < limit && closest.is_none_or(|(least, _)| apart < least) {
+                    let overlaps = (0..D).all(|d| (points[j][d] - x[d]).abs() < limit);
+                    if overlaps && closest.is_none_or(|(least, _)| apart < least) {
                         closest = Some((apart, j));
                     }
                 }

@@ -215,13 +215,21 @@ impl<T: Real, const D: usize> Scene<T, D> {
         set(Field::Mass, start.density * body.spacing.powi(D as i32));
         set(Field::Energy, start.energy);
         set(Field::SmoothingLength, self.scheme.h_over_dx * body.spacing);
+        set(
+            Field::ViscosityCoefficient,
+            self.scheme.starting_coefficient(),
+        );
     }
 
     /// What every block does to every other: bodies, then boundaries.
     fn interactions(&self) -> Vec<Interaction> {
         let (bodies, boundaries) = (self.bodies.len(), self.boundaries.len());
         let blocks = bodies + boundaries;
-        let mut all = vec![Interaction::Unilateral; blocks * blocks];
+        // Boundaries feel nothing, so their rows name no contact that a scene would pay for.
+        let mut all = vec![Interaction::None; blocks * blocks];
+        for body in 0..bodies {
+            all[body * blocks..body * blocks + bodies].fill(Interaction::Unilateral);
+        }
         let index = |name: &str| self.bodies.iter().position(|body| body.name == name);
         for k in 0..blocks {
             all[k * blocks + k] = Interaction::Bonded;
@@ -236,9 +244,6 @@ impl<T: Real, const D: usize> Scene<T, D> {
             for body in 0..bodies {
                 all[body * blocks + bodies + k] = boundary.interaction();
             }
-        }
-        if bodies == 1 && boundaries == 0 {
-            all[0] = Interaction::Bonded;
         }
         all
     }

@@ -79,6 +79,16 @@ impl DensityForm {
         }
     }
 
+    /// Rate of compression (1/ρ) dρ/dt from the sum Σ B v·∇W.
+    #[inline]
+    pub(crate) fn compression<T: Real>(self, sum: T, density: T, rest: T, moment: T) -> T {
+        match self {
+            Self::Summation | Self::Normalised | Self::Lam => sum / density,
+            Self::NumberDensity => sum * (rest / density) / moment,
+            Self::Continuity => sum / moment,
+        }
+    }
+
     /// Pressure coefficient X.
     #[inline]
     pub(crate) fn coefficient<T: Real>(self, p: T, density: T, rest: T, moment: T) -> T {

@@ -165,15 +165,28 @@ impl<T: Real, const D: usize> Scheme<T, D> {
             fields = fields.union(Fields::of(&[Field::GradH]));
         }
         match self.switch {
-            Some(Switch::CullenDehnen { .. }) => fields.union(Fields::of(&[
-                Field::ViscosityCoefficient,
-                Field::Divergence,
-            ])),
+            Some(Switch::CullenDehnen { .. }) => {
+                // In one dimension there is no shear to tell from a shock.
+                let shear: &[Field] = if D > 1 {
+                    &[Field::VelocityGradient]
+                } else {
+                    &[]
+                };
+                fields.union(Fields::of(shear)).union(Fields::of(&[
+                    Field::ViscosityCoefficient,
+                    Field::Divergence,
+                ]))
+            }
             Some(Switch::MorrisMonaghan { .. }) => {
                 fields.union(Fields::of(&[Field::ViscosityCoefficient]))
             }
             None => fields,
         }
+    }
+
+    /// The coefficient of artificial viscosity that a particle starts with, where it has its own.
+    pub(crate) fn starting_coefficient(&self) -> f64 {
+        self.switch.map_or(0.0, |switch| switch.start())
     }
 }
 
@@ -206,7 +219,7 @@ impl<T: Real, const D: usize> fmt::Display for Scheme<T, D> {
 /// println!("{scheme}");
 /// ```
 #[derive(Clone, Debug)]
-pub struct SchemeBuilder<K, V> {
+pub struct SchemeBuilder<K, V, const MODES: u8 = { SmoothingMode::Uniform.bit() }> {
     name: String,
     kernel: K,
     viscosity: V,
@@ -240,35 +253,18 @@ impl<K, V> SchemeBuilder<K, V> {
             uniform: true,
         }
     }
+}
+
+impl<K, V, const MODES: u8> SchemeBuilder<K, V, MODES> {
     /// The same choices with another kernel; h/dx becomes its recommendation unless it was given.
     #[must_use]
-    pub fn with_kernel<L>(self, kernel: L) -> SchemeBuilder<L, V> {
+    pub fn with_kernel<L>(self, kernel: L) -> SchemeBuilder<L, V, MODES> {
         self.map(|_| kernel, |viscosity| viscosity)
     }
     /// The same choices with another artificial viscosity.
     #[must_use]
-    pub fn with_viscosity<W>(self, viscosity: W) -> SchemeBuilder<K, W> {
+    pub fn with_viscosity<W>(self, viscosity: W) -> SchemeBuilder<K, W, MODES> {
         self.map(|kernel| kernel, |_| viscosity)
-    }
-    fn map<L, W>(
-        self,
-        kernel: impl FnOnce(K) -> L,
-        viscosity: impl FnOnce(V) -> W,
-    ) -> SchemeBuilder<L, W> {
-        SchemeBuilder {
-            name: self.name,
-            kernel: kernel(self.kernel),
-            viscosity: viscosity(self.viscosity),
-            density: self.density,
-            pressure_form: self.pressure_form,
-            energy: self.energy,
-            smoothing: self.smoothing,
-            h_over_dx: self.h_over_dx,
-            curvature: self.curvature,
-            step_factor: self.step_factor,
-            normalised: self.normalised,
-            uniform: self.uniform,
-        }
     }
     /// A name for reports.
     #[must_use]
@@ -297,15 +293,42 @@ impl<K, V> SchemeBuilder<K, V> {
     }
     /// How the smoothing length changes.
     #[must_use]
-    pub fn smoothing(mut self, law: Smoothing) -> Self {
-        self.smoothing = law;
-        self
+    pub fn smoothing(self, law: Smoothing) -> SchemeBuilder<K, V, { SmoothingMode::ALL }> {
+        SchemeBuilder {
+            smoothing: law,
+            ..self.modes()
+        }
     }
     /// Allows bodies of different spacing: pairs use the mean of their smoothing lengths.
     #[must_use]
-    pub fn mixed_spacing(mut self) -> Self {
-        self.uniform = false;
-        self
+    pub fn mixed_spacing(self) -> SchemeBuilder<K, V, { SmoothingMode::Mean.bit() }> {
+        SchemeBuilder {
+            uniform: false,
+            ..self.modes()
+        }
+    }
+    fn modes<const OTHER: u8>(self) -> SchemeBuilder<K, V, OTHER> {
+        self.map(|kernel| kernel, |viscosity| viscosity)
+    }
+    fn map<L, W, const OTHER: u8>(
+        self,
+        kernel: impl FnOnce(K) -> L,
+        viscosity: impl FnOnce(V) -> W,
+    ) -> SchemeBuilder<L, W, OTHER> {
+        SchemeBuilder {
+            name: self.name,
+            kernel: kernel(self.kernel),
+            viscosity: viscosity(self.viscosity),
+            density: self.density,
+            pressure_form: self.pressure_form,
+            energy: self.energy,
+            smoothing: self.smoothing,
+            h_over_dx: self.h_over_dx,
+            curvature: self.curvature,
+            step_factor: self.step_factor,
+            normalised: self.normalised,
+            uniform: self.uniform,
+        }
     }
     /// Ratio of smoothing length to spacing; the kernel's recommendation if not given.
     #[must_use]
@@ -349,34 +372,45 @@ impl<K, V> SchemeBuilder<K, V> {
         let kernel = self.kernel;
         let sums: Option<Box<dyn PairSweep<T, D>>> = match (self.density, mode) {
             (DensityForm::Continuity, _) => None,
-            (DensityForm::Normalised | DensityForm::Lam, _) => {
-                Some(Box::new(Program::new(kernel, (KernelSum, Unity), mode)))
-            }
-            (_, SmoothingMode::Own) => {
-                Some(Box::new(Program::new(kernel, (KernelSum, SlopeInH), mode)))
-            }
-            _ => Some(Box::new(Program::new(kernel, (KernelSum,), mode))),
+            (DensityForm::Normalised | DensityForm::Lam, _) => Some(Box::new(
+                Program::<_, _, MODES>::new(kernel, (KernelSum, Unity), mode),
+            )),
+            (_, SmoothingMode::Own) => Some(Box::new(Program::<_, _, MODES>::new(
+                kernel,
+                (KernelSum, SlopeInH),
+                mode,
+            ))),
+            _ => Some(Box::new(Program::<_, _, MODES>::new(
+                kernel,
+                (KernelSum,),
+                mode,
+            ))),
         };
-        let follows_divergence = matches!(self.smoothing, Smoothing::Divergence { .. })
-            || self.viscosity.switch().is_some();
-        let integrated = self.density.is_integrated() || follows_divergence;
-        let compression: Option<Box<dyn PairSweep<T, D>>> =
-            integrated.then(|| Box::new(Program::new(kernel, (Compression,), mode)) as _);
+        let integrated =
+            self.density.is_integrated() || matches!(self.smoothing, Smoothing::Divergence { .. });
+        let compression: Option<Box<dyn PairSweep<T, D>>> = integrated
+            .then(|| Box::new(Program::<_, _, MODES>::new(kernel, (Compression,), mode)) as _);
+        // A switch follows the compression once a step, by the sum that the rates make.
+        let compressing = integrated || self.viscosity.switch().is_some();
         let gradient: Option<Box<dyn PairSweep<T, D>>> =
             match (self.curvature, self.viscosity.needs_velocity_gradient()) {
-                (Some(_), _) => Some(Box::new(Program::new(
+                (Some(_), _) => Some(Box::new(Program::<_, _, MODES>::new(
                     kernel,
                     (VelocityGradient, PressureGradient),
                     mode,
                 ))),
-                (None, true) => Some(Box::new(Program::new(kernel, (VelocityGradient,), mode))),
+                (None, true) => Some(Box::new(Program::<_, _, MODES>::new(
+                    kernel,
+                    (VelocityGradient,),
+                    mode,
+                ))),
                 (None, false) => None,
             };
         let viscosity_problems = self.viscosity.problems();
         let switch = self.viscosity.switch();
         let viscosity = Viscosity(self.viscosity);
-        let rates: Box<dyn PairSweep<T, D>> = match (self.curvature, integrated) {
-            (Some(strength), false) => Box::new(Program::new(
+        let rates: Box<dyn PairSweep<T, D>> = match (self.curvature, compressing) {
+            (Some(strength), false) => Box::new(Program::<_, _, MODES>::new(
                 kernel,
                 (
                     PressureForce,
@@ -386,7 +420,7 @@ impl<K, V> SchemeBuilder<K, V> {
                 ),
                 mode,
             )),
-            (Some(strength), true) => Box::new(Program::new(
+            (Some(strength), true) => Box::new(Program::<_, _, MODES>::new(
                 kernel,
                 (
                     PressureForce,
@@ -397,12 +431,12 @@ impl<K, V> SchemeBuilder<K, V> {
                 ),
                 mode,
             )),
-            (None, false) => Box::new(Program::new(
+            (None, false) => Box::new(Program::<_, _, MODES>::new(
                 kernel,
                 (PressureForce, viscosity, InternalEnergy),
                 mode,
             )),
-            (None, true) => Box::new(Program::new(
+            (None, true) => Box::new(Program::<_, _, MODES>::new(
                 kernel,
                 (PressureForce, viscosity, InternalEnergy, Compression),
                 mode,
@@ -426,7 +460,11 @@ impl<K, V> SchemeBuilder<K, V> {
             normalised: self.normalised,
             viscosity_problems,
             switch,
-            reference: Box::new(Program::new(kernel, (KernelSum, Unity, KernelMoment), mode)),
+            reference: Box::new(Program::<_, _, MODES>::new(
+                kernel,
+                (KernelSum, Unity, KernelMoment),
+                mode,
+            )),
             sums,
             compression,
             gradient,
@@ -439,10 +477,10 @@ impl<K, V> SchemeBuilder<K, V> {
 /// its plateau at 0.8 and blows up at 1.1; the steepest fronts come at or below 0.55.
 pub const DEFAULT_STEP_FACTOR: f64 = 0.55;
 
-impl<T: Real, const D: usize, K: Kernel<D>, V: ArtificialViscosity<D>> From<SchemeBuilder<K, V>>
-    for Scheme<T, D>
+impl<T: Real, const D: usize, K: Kernel<D>, V: ArtificialViscosity<D>, const MODES: u8>
+    From<SchemeBuilder<K, V, MODES>> for Scheme<T, D>
 {
-    fn from(builder: SchemeBuilder<K, V>) -> Self {
+    fn from(builder: SchemeBuilder<K, V, MODES>) -> Self {
         builder.compose()
     }
 }

@@ -8,9 +8,8 @@ use crate::error::Result;
 use crate::integrator::System;
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
-use crate::scheme::{EnergyForm, Smoothing};
-use crate::sweep::two_sum;
-use crate::term::viscosity::Switch;
+use crate::scheme::{DensityForm, EnergyForm, Smoothing};
+use crate::sweep::{Rows, two_sum};
 use rayon::prelude::*;
 
 /// A kept state.
@@ -20,7 +19,8 @@ pub(super) struct Kept<T> {
     impulses: Impulses,
 }
 
-/// What a state consists of, beside position and its rounding error.
+/// What a state consists of; the first two are positions.
+const POSITION_FIELDS: usize = 2;
 const STATE: [Field; 7] = [
     Field::Position,
     Field::PositionResidual,
@@ -32,16 +32,6 @@ const STATE: [Field; 7] = [
 ];
 
 impl<T: Real, const D: usize> Simulation<T, D> {
-    /// Acceleration of the particle in `slot` by pair forces.
-    #[inline(always)]
-    fn pair_acceleration(&self, slot: usize) -> [T; D] {
-        let mass = self.group.columns.raw(Field::Mass)[slot];
-        self.group
-            .rows
-            .vector(Output::Force, slot)
-            .map(|force| force / mass)
-    }
-
     /// x ← x + dt v with v the present velocity.
     fn move_particles(&mut self, dt: f64) {
         let dt = T::from_f64(dt);
@@ -55,7 +45,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Velocity kick without energy.
     fn kick_velocity(&mut self, dt: f64) {
-        let gravity = self.body_acceleration();
+        let gravity = self.gravity;
         let dt = T::from_f64(dt);
         let rows = &self.group.rows;
         let [v, mass] = self.group.columns.many_mut([Field::Velocity, Field::Mass]);
@@ -93,77 +83,90 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.group.scheme.energy != EnergyForm::None
     }
 
-    /// Density, smoothing length and viscosity coefficient over `dt` from the compression at hand.
+    /// Density and smoothing length over `dt` from the compression at hand.
     fn compress(&mut self, dt: f64) {
-        let step = T::from_f64(dt);
-        let group = &mut self.group;
-        let integrated = group.scheme.density.is_integrated();
-        let rows = &group.scratch_rows;
-        let rate = |slot: usize, density: &[T], moment: &[T]| {
-            let sum = rows.get(Output::Compression, 0, slot);
-            match moment.get(slot) {
-                Some(moment) => sum / *moment,
-                None => sum / density[slot],
-            }
-        };
-        let [density, residual, moment, h, alpha, sound_speed, divergence] =
-            group.columns.many_mut([
-                Field::Density,
-                Field::DensityResidual,
-                Field::Normalisation,
-                Field::SmoothingLength,
-                Field::ViscosityCoefficient,
-                Field::SoundSpeed,
-                Field::Divergence,
-            ]);
-        let dimension = T::from_f64(D as f64);
-        let limits = match group.scheme.smoothing {
-            Smoothing::Divergence { smallest, largest } => {
-                let first = group.smoothing_length;
-                Some((T::from_f64(smallest * first), T::from_f64(largest * first)))
-            }
-            _ => None,
-        };
-        let mut limited = 0;
-        for slot in 0..density.len() {
-            let rate = rate(slot, density, moment);
-            if let Some(switch) = group.scheme.switch {
-                let own_h = h
-                    .get(slot)
-                    .copied()
-                    .unwrap_or(T::from_f64(group.smoothing_length));
-                let before = divergence.get(slot).copied().unwrap_or(T::zero());
-                alpha[slot] = follow(
-                    switch,
-                    alpha[slot],
-                    -rate,
-                    before,
-                    sound_speed[slot],
-                    own_h,
-                    step,
-                );
-                if let Some(divergence) = divergence.get_mut(slot) {
-                    *divergence = -rate;
-                }
-            }
-            if let Some((low, high)) = limits {
-                let next = h[slot] * (-rate * step / dimension).exp();
-                let bounded = next.max(low).min(high);
-                limited += u64::from(bounded != next);
-                h[slot] = bounded;
-            }
-            if integrated {
-                let change = density[slot] * expm1(rate * step);
-                match residual.get_mut(slot) {
-                    Some(residual) => {
-                        (density[slot], *residual) = two_sum(density[slot], *residual + change);
-                    }
-                    None => density[slot] += change,
-                }
-            }
+        let dt = T::from_f64(dt);
+        self.follow_divergence(dt);
+        if !self.group.scheme.density.is_integrated() {
+            return;
         }
-        group.limited_h += limited;
+        let form = self.group.scheme.density;
+        let rows = &self.group.scratch_rows;
+        let [density, residual, rest, moment] = self.group.columns.many_mut([
+            Field::Density,
+            Field::DensityResidual,
+            Field::ReferenceDensity,
+            Field::Normalisation,
+        ]);
+        let rest: [&[T]; 2] = [rest, moment];
+        let change =
+            |slot: usize, density: T| density * expm1(rate(form, rows, rest, slot, density) * dt);
+        if residual.is_empty() {
+            density
+                .par_iter_mut()
+                .enumerate()
+                .with_min_len(GRAIN)
+                .for_each(|(slot, density)| {
+                    *density += change(slot, *density);
+                });
+            return;
+        }
+        density
+            .par_iter_mut()
+            .zip(residual.par_iter_mut())
+            .enumerate()
+            .with_min_len(GRAIN)
+            .for_each(|(slot, (density, residual))| {
+                (*density, *residual) = two_sum(*density, *residual + change(slot, *density));
+            });
     }
+
+    /// dh/dt = h ∇·v / D within limits, over `dt`.
+    fn follow_divergence(&mut self, dt: T) {
+        let group = &mut self.group;
+        let Smoothing::Divergence { smallest, largest } = group.scheme.smoothing else {
+            return;
+        };
+        let low = T::from_f64(smallest * group.smoothing_length);
+        let high = T::from_f64(largest * group.smoothing_length);
+        let dimension = T::from_f64(D as f64);
+        let form = group.scheme.density;
+        let rows = &group.scratch_rows;
+        let [h, density, rest, moment] = group.columns.many_mut([
+            Field::SmoothingLength,
+            Field::Density,
+            Field::ReferenceDensity,
+            Field::Normalisation,
+        ]);
+        let density = &*density;
+        let rest: [&[T]; 2] = [rest, moment];
+        let limited: usize = h
+            .par_iter_mut()
+            .enumerate()
+            .with_min_len(GRAIN)
+            .map(|(slot, h)| {
+                let divergence = -rate(form, rows, rest, slot, density[slot]);
+                let next = *h * (divergence * dt / dimension).exp();
+                *h = next.max(low).min(high);
+                usize::from(*h != next)
+            })
+            .sum();
+        group.limited_h += limited as u64;
+    }
+}
+
+/// Rate of compression (1/ρ) dρ/dt of a particle from its sum over neighbours.
+#[inline(always)]
+fn rate<T: Real, const D: usize>(
+    form: DensityForm,
+    rows: &Rows<T, D>,
+    [rest, moment]: [&[T]; 2],
+    slot: usize,
+    density: T,
+) -> T {
+    let one = |column: &[T]| column.get(slot).copied().unwrap_or(T::one());
+    let sum = rows.get(Output::Compression, 0, slot);
+    form.compression(sum, density, one(rest), one(moment))
 }
 
 /// eˣ − 1 for the small x of a time step, without cancellation.
@@ -194,51 +197,26 @@ fn add_scaled<T: Real>(x: &mut [T], residual: &mut [T], v: &[T], dt: T) {
         });
 }
 
-/// The next viscosity coefficient of a particle.
-fn follow<T: Real>(switch: Switch, alpha: T, divergence: T, before: T, c: T, h: T, dt: T) -> T {
-    let of = T::from_f64;
-    match switch {
-        Switch::MorrisMonaghan {
-            minimum,
-            maximum,
-            decay,
-        } => {
-            let source = (-divergence).positive_part() * (of(maximum) - alpha).positive_part();
-            let rate = of(decay) * c / h;
-            let next = (alpha + dt * (source + rate * of(minimum))) / (T::one() + dt * rate);
-            next.max(of(minimum)).min(of(maximum))
-        }
-        Switch::CullenDehnen { maximum, decay } => {
-            let steepening = ((before - divergence) / dt).positive_part();
-            let converging = if divergence < T::zero() {
-                steepening
-            } else {
-                T::zero()
-            };
-            let strength = h * h * converging;
-            let local = of(maximum) * strength / (c * c + strength);
-            if local > alpha {
-                local
-            } else {
-                local + (alpha - local) * (-(of(2.0 * decay) * c / h * dt)).exp()
-            }
-        }
-    }
-}
-
 impl<T: Real, const D: usize> System for Simulation<T, D> {
     fn evaluate(&mut self, offset: f64) -> Result<()> {
-        self.evaluation_time = self.time + offset;
-        self.group.evaluate(self.evaluation_time);
+        let time = self.time + offset;
+        self.gravity = self.body_acceleration(time);
+        self.group.evaluate(time);
+        self.follow_moves();
         self.evaluations += 1;
         self.rates_at_hand = true;
+        // Here the sums stand in the same order as the particles.
+        let elapsed = core::mem::take(&mut self.switch_due);
+        if elapsed > 0.0 {
+            self.group.follow_switch(elapsed);
+        }
         Ok(())
     }
 
     fn kick(&mut self, dt: f64) {
         if self.group.scheme.energy == EnergyForm::Compatible {
             let half = T::from_f64(0.5 * dt);
-            let gravity = self.body_acceleration();
+            let gravity = self.gravity;
             let rows = &self.group.rows;
             let [mean, v, mass] =
                 self.group
@@ -270,6 +248,7 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
         }
         self.move_particles(0.5 * dt);
         self.group.refresh(self.time + offset + 0.5 * dt);
+        self.follow_moves();
         self.group.sum_compression();
         self.compress(dt);
         self.move_particles(0.5 * dt);
@@ -278,15 +257,16 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
 
     fn shift(&mut self, dv: f64, da: f64) {
         self.move_particles(dv);
-        let gravity = self.body_acceleration();
-        for slot in 0..self.group.columns.slots() {
-            let pair = self.pair_acceleration(slot);
-            let [x, residual] = self
-                .group
+        let gravity = self.gravity;
+        let da = T::from_f64(da);
+        let rows = &self.group.rows;
+        let [x, residual, mass] =
+            self.group
                 .columns
-                .many_mut([Field::Position, Field::PositionResidual]);
+                .many_mut([Field::Position, Field::PositionResidual, Field::Mass]);
+        for slot in 0..mass.len() {
             for d in 0..D {
-                let change = T::from_f64(da) * (pair[d] + gravity[d]);
+                let change = da * (rows.get(Output::Force, d, slot) / mass[slot] + gravity[d]);
                 let k = slot * D + d;
                 match residual.get_mut(k) {
                     Some(residual) => (x[k], *residual) = two_sum(x[k], *residual + change),
@@ -335,7 +315,7 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
             kept.clear();
             kept.extend_from_slice(self.group.columns.raw(field));
         }
-        kept.impulses = self.impulses.clone();
+        kept.impulses.clone_from(&self.impulses);
     }
 
     fn load(&mut self, slot: usize) {
@@ -345,41 +325,57 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
         for (kept, field) in kept.columns.iter().zip(STATE) {
             self.group.columns.raw_mut(field).copy_from_slice(kept);
         }
-        self.impulses = kept.impulses.clone();
+        self.impulses.clone_from(&kept.impulses);
     }
 
     fn combine(&mut self, slot: usize, a: f64, b: f64, dt: f64) {
-        let rates = self.rates();
-        let Some(kept) = self.kept.get(slot) else {
+        let rates = self.impulse_rates();
+        let Some(kept) = self.kept.get_mut(slot).map(core::mem::take) else {
             return;
         };
         let (a_t, b_t, dt_t) = (T::from_f64(a), T::from_f64(b), T::from_f64(dt));
-        for ((field, kept), rate) in STATE.iter().zip(&kept.columns).zip(&rates.columns) {
-            let column = self.group.columns.raw_mut(*field);
-            for (k, (y, kept)) in column.iter_mut().zip(kept).enumerate() {
-                let rate = rate.get(k).copied().unwrap_or(T::zero());
-                *y = a_t * *kept + b_t * *y + dt_t * rate;
-            }
+        self.combine_positions(&kept, a, b, dt);
+        for (field, kept) in STATE.into_iter().zip(&kept.columns).skip(POSITION_FIELDS) {
+            let mut column = core::mem::take(self.group.columns.column_mut(field));
+            column
+                .par_iter_mut()
+                .zip(kept)
+                .enumerate()
+                .with_min_len(GRAIN)
+                .for_each(|(k, (y, kept))| {
+                    *y = a_t * *kept + b_t * *y + dt_t * self.rate_of(field, k, *y)
+                });
+            *self.group.columns.column_mut(field) = column;
         }
-        self.impulses = kept
-            .impulses
-            .combine(a, &self.impulses, b, &rates.impulses, dt);
+        self.impulses = kept.impulses.combine(a, &self.impulses, b, &rates, dt);
+        self.kept[slot] = kept;
     }
 
     fn accumulate(&mut self, slot: usize, dt: f64) {
-        let rates = self.rates();
-        let Some(kept) = self.kept.get_mut(slot) else {
+        let rates = self.impulse_rates();
+        let Some(mut kept) = self.kept.get_mut(slot).map(core::mem::take) else {
             return;
         };
         let dt_t = T::from_f64(dt);
-        for (kept, rate) in kept.columns.iter_mut().zip(&rates.columns) {
-            for (kept, rate) in kept.iter_mut().zip(rate) {
-                *kept += dt_t * *rate;
-            }
+        let [position, residual, others @ ..] = kept.columns.as_mut_slice() else {
+            return;
+        };
+        add_scaled(
+            position,
+            residual,
+            self.group.columns.raw(Field::Velocity),
+            dt_t,
+        );
+        for (field, kept) in STATE.into_iter().skip(POSITION_FIELDS).zip(others) {
+            let now = self.group.columns.raw(field);
+            kept.par_iter_mut()
+                .zip(now)
+                .enumerate()
+                .with_min_len(GRAIN)
+                .for_each(|(k, (kept, now))| *kept += dt_t * self.rate_of(field, k, *now));
         }
-        kept.impulses = kept
-            .impulses
-            .combine(1.0, &rates.impulses, dt, &rates.impulses, 0.0);
+        kept.impulses = kept.impulses.combine(1.0, &rates, dt, &rates, 0.0);
+        self.kept[slot] = kept;
     }
 
     fn has_rates(&self) -> bool {
@@ -388,48 +384,99 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
-    /// dY/dt with the last rates, column by column as in `STATE`; an empty column has no rate.
-    fn rates(&self) -> Kept<T> {
+    /// Brings kept states into the order of the particles after a list build, and through the
+    /// periods that particles have crossed.
+    fn follow_moves(&mut self) {
+        let moved = &mut self.group.moved;
+        if moved.wraps.is_empty() && moved.order.is_empty() {
+            return;
+        }
+        for kept in &mut self.kept {
+            let Ok([x, residual, v]) = kept.columns.get_disjoint_mut([0, 1, 2]) else {
+                continue;
+            };
+            if !x.is_empty() {
+                for (slot, back) in &moved.wraps {
+                    back.re_enter(*slot as usize, x, residual, v);
+                }
+            }
+        }
+        if let Some(v) = self.predicted.columns.first_mut().filter(|v| !v.is_empty()) {
+            for (slot, back) in &moved.wraps {
+                back.turn(*slot as usize, v);
+            }
+        }
+        if !moved.order.is_empty() {
+            let columns = self.kept.iter_mut().flat_map(|kept| &mut kept.columns);
+            for column in columns.chain(&mut self.predicted.columns) {
+                let width = column.len() / moved.order.len();
+                let before = column.clone();
+                for (k, &from) in moved.order.iter().enumerate() {
+                    let from = from as usize * width;
+                    column[k * width..(k + 1) * width].copy_from_slice(&before[from..from + width]);
+                }
+            }
+        }
+        moved.wraps.clear();
+        moved.order.clear();
+    }
+
+    /// Rate of entry `k` of a column of the state, whose present value is `y`.
+    #[inline(always)]
+    fn rate_of(&self, field: Field, k: usize, y: T) -> T {
         let group = &self.group;
-        let columns = &group.columns;
-        let gravity = self.body_acceleration();
-        let slots = columns.slots();
-        let density = columns.raw(Field::Density);
-        let moment = columns.raw(Field::Normalisation);
-        let compression = |slot: usize| {
-            let sum = group.rows.get(Output::Compression, 0, slot);
-            moment
-                .get(slot)
-                .map_or(sum / density[slot], |moment| sum / *moment)
-        };
-        let rates = STATE.map(|field| match field {
-            Field::Position => columns.raw(Field::Velocity).to_vec(),
-            Field::Velocity => (0..slots)
-                .flat_map(|slot| {
-                    let pair = self.pair_acceleration(slot);
-                    core::array::from_fn::<T, D, _>(|d| pair[d] + gravity[d])
-                })
-                .collect(),
-            Field::Density if group.scheme.density.is_integrated() => (0..slots)
-                .map(|slot| density[slot] * compression(slot))
-                .collect(),
-            Field::Energy if self.carries_energy() => (0..slots)
-                .map(|slot| group.rows.get(Output::Power, 0, slot) / columns.raw(Field::Mass)[slot])
-                .collect(),
+        let form = group.scheme.density;
+        let rest = [Field::ReferenceDensity, Field::Normalisation].map(|f| group.columns.raw(f));
+        match field {
+            Field::Velocity => {
+                let (slot, d) = (k / D, k % D);
+                let mass = group.columns.raw(Field::Mass)[slot];
+                group.rows.get(Output::Force, d, slot) / mass + self.gravity[d]
+            }
+            Field::Density if group.scheme.density.is_integrated() => {
+                y * rate(form, &group.rows, rest, k, y)
+            }
+            Field::Energy => {
+                group.rows.get(Output::Power, 0, k) / group.columns.raw(Field::Mass)[k]
+            }
             Field::SmoothingLength
                 if matches!(group.scheme.smoothing, Smoothing::Divergence { .. }) =>
             {
-                let h = columns.raw(Field::SmoothingLength);
-                let d = T::from_f64(D as f64);
-                (0..slots)
-                    .map(|slot| -h[slot] * compression(slot) / d)
-                    .collect()
+                let density = group.columns.raw(Field::Density)[k];
+                -y * rate(form, &group.rows, rest, k, density) / T::from_f64(D as f64)
             }
-            _ => Vec::new(),
-        });
-        Kept {
-            columns: rates.into(),
-            impulses: self.impulse_rates(),
+            _ => T::zero(),
         }
+    }
+
+    /// Positions and what their rounding has lost, in `f64` where the scalar keeps the loss.
+    fn combine_positions(&mut self, kept: &Kept<T>, a: f64, b: f64, dt: f64) {
+        let [x, residual, v] = self.group.columns.many_mut([
+            Field::Position,
+            Field::PositionResidual,
+            Field::Velocity,
+        ]);
+        let (before, lost, v) = (&kept.columns[0], &kept.columns[1], &*v);
+        if residual.is_empty() {
+            let (a, b, dt) = (T::from_f64(a), T::from_f64(b), T::from_f64(dt));
+            x.par_iter_mut()
+                .enumerate()
+                .with_min_len(GRAIN)
+                .for_each(|(k, x)| {
+                    *x = a * before[k] + b * *x + dt * v[k];
+                });
+            return;
+        }
+        x.par_iter_mut()
+            .zip(residual.par_iter_mut())
+            .enumerate()
+            .with_min_len(GRAIN)
+            .for_each(|(k, (x, residual))| {
+                let sum = a * (before[k].to_f64() + lost[k].to_f64())
+                    + b * (x.to_f64() + residual.to_f64())
+                    + dt * v[k].to_f64();
+                *x = T::from_f64(sum);
+                *residual = T::from_f64(sum - x.to_f64());
+            });
     }
 }

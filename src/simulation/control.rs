@@ -105,6 +105,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 a
             }
         };
+        let gravity = Vector::<T, D>::from(self.gravity);
         let best = (0..columns.slots())
             .into_par_iter()
             .with_min_len(4096)
@@ -113,7 +114,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 let signal = group.rows.get(Output::Signal, 0, slot).to_f64();
                 let acoustic = factor * h / (c[slot].to_f64() + signal);
                 let force: Vector<T, D> = group.rows.vector(Output::Force, slot).into();
-                let a = (length(&force) / mass[slot]).to_f64();
+                let a = length(&(force / mass[slot] + gravity)).to_f64();
                 let by_force = self.control.force * (h / a.max(f64::MIN_POSITIVE)).sqrt();
                 let speed = velocity[slot].iter().fold(0.0, |s, v| s + v.to_f64().abs());
                 let density = rho[slot].to_f64();

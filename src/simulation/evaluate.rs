@@ -65,6 +65,9 @@ impl<T: Real, const D: usize> Group<T, D> {
                 moment.fill(T::one());
             }
         }
+        if !form.has_reference() {
+            self.columns.raw_mut(Field::Normalisation).fill(T::one());
+        }
         self.take_touching();
         if self.columns.fields().contains(Field::GradH) {
             self.columns.raw_mut(Field::GradH).fill(T::one());
@@ -127,10 +130,15 @@ impl<T: Real, const D: usize> Group<T, D> {
             Field::Density,
             Field::ReferenceDensity,
         ]);
-        for slot in 0..weight.len() {
-            let rest = rest.get(slot).copied().filter(|rest| *rest > T::zero());
-            weight[slot] = form.weight(mass[slot], density[slot], rest.unwrap_or(density[slot]));
-        }
+        let (mass, density, rest) = (&*mass, &*density, &*rest);
+        weight
+            .par_iter_mut()
+            .enumerate()
+            .with_min_len(GRAIN)
+            .for_each(|(slot, weight)| {
+                let rest = rest.get(slot).copied().unwrap_or(density[slot]);
+                *weight = form.weight(mass[slot], density[slot], rest);
+            });
     }
 
     /// Evaluates all rates at the present positions, velocities, densities and energies.
@@ -199,10 +207,15 @@ impl<T: Real, const D: usize> Group<T, D> {
     fn find_touching(&mut self) {
         let rows = &self.scratch_rows;
         let [touching, sum] = self.columns.many_mut([Field::Touching, Field::TouchingSum]);
-        for (slot, touching) in touching.iter_mut().enumerate() {
-            let pressed = rows.get(Output::ContactSum, 0, slot) > sum[slot];
-            *touching = if pressed { T::one() } else { T::zero() };
-        }
+        let sum = &*sum;
+        touching
+            .par_iter_mut()
+            .enumerate()
+            .with_min_len(GRAIN)
+            .for_each(|(slot, touching)| {
+                let pressed = rows.get(Output::ContactSum, 0, slot) > sum[slot];
+                *touching = if pressed { T::one() } else { T::zero() };
+            });
     }
 
     /// h = η (m/ρ)^(1/D) with ρ = Σ m W(h), by Newton's method (Price 2012, sect. 2.3).

@@ -9,6 +9,7 @@ use crate::particles::{Columns, Field};
 use crate::scalar::{Lane, Real};
 use crate::scheme::Scheme;
 use crate::sweep::{Image, InstructionSet, Interaction, Records, Rows, SweepInput, Transform};
+use crate::tensor::length;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -45,6 +46,7 @@ pub(crate) struct Group<T: Real, const D: usize> {
     /// Positions of slots at the last list build, then of images.
     listed: Vec<[T; D]>,
     listed_h: Vec<T>,
+    listed_time: f64,
     pub records: Records<T>,
     pub work_records: Records<T>,
     pub scratch_records: Records<T>,
@@ -60,6 +62,27 @@ pub(crate) struct Group<T: Real, const D: usize> {
     pub limited_h: u64,
     pub rebuilds: u64,
     pub unilateral: bool,
+    /// What list builds have done to particles since states outside of the group were last told.
+    pub moved: Moves<T, D>,
+}
+
+/// How list builds moved particles: what re-entered a period, and the new order of the slots.
+/// States that an integrator keeps must follow.
+#[derive(Clone, Debug)]
+pub(crate) struct Moves<T, const D: usize> {
+    /// Slots, in the order before sorting, that re-entered through a transform.
+    pub wraps: Vec<(u32, Transform<T, D>)>,
+    /// Slot k is what slot `order[k]` was; empty if the order is the old one.
+    pub order: Vec<u32>,
+}
+
+impl<T, const D: usize> Default for Moves<T, D> {
+    fn default() -> Self {
+        Self {
+            wraps: Vec::new(),
+            order: Vec::new(),
+        }
+    }
 }
 
 pub(crate) fn width<T: Real>() -> usize {
@@ -94,6 +117,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             lists: ClusterLists::default(),
             listed: Vec::new(),
             listed_h: Vec::new(),
+            listed_time: 0.0,
             records: Records::default(),
             work_records: Records::default(),
             scratch_records: Records::default(),
@@ -106,12 +130,8 @@ impl<T: Real, const D: usize> Group<T, D> {
             limited_h: 0,
             rebuilds: 0,
             unilateral,
+            moved: Moves::default(),
         }
-    }
-
-    /// Slots of real particles, body after body.
-    pub fn real_slots(&self) -> impl Iterator<Item = usize> + '_ {
-        self.bodies.iter().flat_map(|body| body.slots.clone())
     }
 
     pub fn particles(&self) -> usize {
@@ -134,7 +154,7 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// Brings images and lists up to date with the positions at `time`.
     pub fn refresh(&mut self, time: f64) {
-        if self.lists.chunks().is_empty() || self.outdated() {
+        if self.lists.chunks().is_empty() || self.outdated(time) {
             self.rebuild(time);
         } else if self.boundaries.iter().any(|b| b.moves()) {
             self.place_transforms(time);
@@ -142,7 +162,7 @@ impl<T: Real, const D: usize> Group<T, D> {
     }
 
     /// Whether a particle has moved, or its support has grown, by more than the skin allows.
-    fn outdated(&self) -> bool {
+    fn outdated(&self, time: f64) -> bool {
         let positions = self.columns.vectors(Field::Position);
         let farthest = positions
             .par_iter()
@@ -160,13 +180,25 @@ impl<T: Real, const D: usize> Group<T, D> {
             .iter()
             .zip(&self.listed_h)
             .fold(0.0_f64, |m, (now, then)| m.max((*now - *then).to_f64()));
-        // Moving boundaries shift images by up to twice what the particles move.
-        let images = if self.images.is_empty() { 1.0 } else { 1.5 };
-        2.0 * images * farthest + self.scheme.kernel.support * grown > self.skin
+        // A moving boundary carries images towards particles that rest.
+        let carried: f64 = self
+            .boundaries
+            .iter()
+            .filter(|boundary| boundary.moves())
+            .map(|boundary| {
+                (0..boundary.images()).fold(0.0_f64, |most, k| {
+                    let now = boundary.transform(k, time).shift;
+                    let then = boundary.transform(k, self.listed_time).shift;
+                    most.max(length(&(now - then)).to_f64())
+                })
+            })
+            .sum();
+        2.0 * farthest + carried + self.scheme.kernel.support * grown > self.skin
     }
 
     fn rebuild(&mut self, time: f64) {
         self.rebuilds += 1;
+        self.listed_time = time;
         self.wrap();
         let reach = self.reach();
         if D > 1 {
@@ -208,8 +240,21 @@ impl<T: Real, const D: usize> Group<T, D> {
         for boundary in &self.boundaries {
             for slot in 0..self.columns.slots() {
                 let x = self.columns.vectors(Field::Position)[slot];
-                if let Some(back) = boundary.wrap(&x) {
-                    self.columns.vectors_mut(Field::Position)[slot] = back.point(&x);
+                let Some(back) = boundary.wrap(&x) else {
+                    continue;
+                };
+                let [x, residual, v] = self.columns.many_mut([
+                    Field::Position,
+                    Field::PositionResidual,
+                    Field::Velocity,
+                ]);
+                back.re_enter(slot, x, residual, v);
+                // Wraps are told by the order that outside states have now.
+                let told = self.moved.order.get(slot).map_or(slot as u32, |&old| old);
+                // Repeats have lost their own places in a new order, and follow their original.
+                let repeat = self.bodies.iter().all(|body| !body.slots.contains(&slot));
+                if !repeat || self.moved.order.is_empty() {
+                    self.moved.wraps.push((told, back));
                 }
             }
         }
@@ -235,6 +280,13 @@ impl<T: Real, const D: usize> Group<T, D> {
             return;
         }
         self.columns.permute(&order);
+        self.rows.permute(&order);
+        if self.moved.order.is_empty() {
+            self.moved.order.clone_from(&order);
+        } else {
+            let before = core::mem::take(&mut self.moved.order);
+            self.moved.order = order.iter().map(|&k| before[k as usize]).collect();
+        }
         self.ids = order.iter().map(|&from| self.ids[from as usize]).collect();
         for body in &self.bodies {
             for slot in body.slots.clone() {

@@ -7,6 +7,7 @@ mod evaluate;
 mod group;
 mod ledger;
 mod query;
+mod switching;
 
 pub use control::{Criterion, StepControl, Vote};
 pub use ledger::{Budget, Ledger};
@@ -32,7 +33,8 @@ pub struct Simulation<T: Real, const D: usize> {
     pub(crate) control: StepControl,
     pub(crate) loads: Vec<Load<D>>,
     time: f64,
-    evaluation_time: f64,
+    /// What the loads gave at the last evaluation \[m/s²\].
+    gravity: [T; D],
     steps: u64,
     evaluations: u64,
     rates_at_hand: bool,
@@ -41,6 +43,8 @@ pub struct Simulation<T: Real, const D: usize> {
     impulses: Impulses,
     predicted: Kept<T>,
     kept: Vec<Kept<T>>,
+    /// Time \[s\] over which viscosity coefficients have yet to follow the flow.
+    switch_due: f64,
 }
 
 impl<T: Real, const D: usize> core::fmt::Debug for Simulation<T, D> {
@@ -66,7 +70,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             control,
             loads,
             time: 0.0,
-            evaluation_time: 0.0,
+            gravity: [T::zero(); D],
             steps: 0,
             evaluations: 0,
             rates_at_hand: false,
@@ -75,6 +79,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             impulses: Impulses::default(),
             predicted: Kept::default(),
             kept: Vec::new(),
+            switch_due: 0.0,
         }
     }
 
@@ -102,10 +107,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.last_vote
     }
 
-    fn body_acceleration(&self) -> [T; D] {
+    fn body_acceleration(&self, time: f64) -> [T; D] {
         let mut sum = [T::zero(); D];
         for load in &self.loads {
-            let a = load(self.evaluation_time);
+            let a = load(time);
             for d in 0..D {
                 sum[d] += T::from_f64(a[d]);
             }
@@ -178,6 +183,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             };
         }
         self.last_vote = Some(vote);
+        self.switch_due += vote.step;
         // The integrator borrows the simulation as a system, so it steps outside of it.
         let mut integrator =
             core::mem::replace(&mut self.integrator, Box::new(crate::integrator::Midpoint));

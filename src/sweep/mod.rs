@@ -34,6 +34,17 @@ pub enum SmoothingMode {
     Own,
 }
 
+impl SmoothingMode {
+    /// The bits of all modes.
+    pub const ALL: u8 = 0b111;
+
+    /// The mode's bit in a set of modes.
+    #[must_use]
+    pub const fn bit(self) -> u8 {
+        1 << self as u8
+    }
+}
+
 /// The instruction set that the pair loop runs on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum InstructionSet {

@@ -66,17 +66,21 @@ pub trait PairSweep<T: Real, const D: usize>: Debug + Send + Sync {
 }
 
 /// A kernel and the terms that share a sweep.
+///
+/// `MODES` says which [`SmoothingMode`]s the loop is compiled for, as a union of their bits; all if
+/// not given.
 #[derive(Clone, Debug)]
-pub struct Program<K, P> {
+pub struct Program<K, P, const MODES: u8 = { SmoothingMode::ALL }> {
     kernel: K,
     terms: P,
     mode: SmoothingMode,
 }
 
-impl<K, P> Program<K, P> {
-    /// The program of `terms` under `kernel`.
+impl<K, P, const MODES: u8> Program<K, P, MODES> {
+    /// The program of `terms` under `kernel`. `mode` must be one that the loop is compiled for.
     #[must_use]
     pub fn new(kernel: K, terms: P, mode: SmoothingMode) -> Self {
+        debug_assert!(MODES & mode.bit() != 0);
         Self {
             kernel,
             terms,
@@ -116,7 +120,9 @@ const fn reads<T: Real, P: Terms<D>, const D: usize>(how: u8) -> Fields {
     fields
 }
 
-impl<T: Real, const D: usize, K: Kernel<D>, P: Terms<D>> PairSweep<T, D> for Program<K, P> {
+impl<T: Real, const D: usize, K: Kernel<D>, P: Terms<D>, const MODES: u8> PairSweep<T, D>
+    for Program<K, P, MODES>
+{
     fn fields(&self) -> Fields {
         reads::<T, P, D>(if self.mode == SmoothingMode::Uniform {
             UNIFORM
@@ -155,27 +161,28 @@ impl<T: Real, const D: usize, K: Kernel<D>, P: Terms<D>> PairSweep<T, D> for Pro
         records: &Records<T>,
         rows: &mut Rows<T, D>,
     ) {
-        // Work is only ever asked of sweeps that make forces; others need no such loop.
-        let forces = const { P::WRITES.contains(Output::Force) };
-        match (self.mode, pass) {
-            (SmoothingMode::Uniform, Pass::Rates) => self.go::<T, D, UNIFORM>(input, records, rows),
-            (SmoothingMode::Mean, Pass::Rates) => self.go::<T, D, MEAN>(input, records, rows),
-            (SmoothingMode::Own, Pass::Rates) => self.go::<T, D, OWN>(input, records, rows),
-            _ if !forces => {}
-            (SmoothingMode::Uniform, Pass::Work) => {
-                self.go::<T, D, { UNIFORM | WORK }>(input, records, rows);
+        // A mode that the program is not compiled for leaves no loop behind.
+        match self.mode {
+            SmoothingMode::Uniform => {
+                if const { MODES & SmoothingMode::Uniform.bit() != 0 } {
+                    self.pass::<T, D, UNIFORM, { UNIFORM | WORK }>(pass, input, records, rows);
+                }
             }
-            (SmoothingMode::Mean, Pass::Work) => {
-                self.go::<T, D, { MEAN | WORK }>(input, records, rows);
+            SmoothingMode::Mean => {
+                if const { MODES & SmoothingMode::Mean.bit() != 0 } {
+                    self.pass::<T, D, MEAN, { MEAN | WORK }>(pass, input, records, rows);
+                }
             }
-            (SmoothingMode::Own, Pass::Work) => {
-                self.go::<T, D, { OWN | WORK }>(input, records, rows);
+            SmoothingMode::Own => {
+                if const { MODES & SmoothingMode::Own.bit() != 0 } {
+                    self.pass::<T, D, OWN, { OWN | WORK }>(pass, input, records, rows);
+                }
             }
         }
     }
 }
 
-impl<K, P> Program<K, P> {
+impl<K, P, const MODES: u8> Program<K, P, MODES> {
     fn layout<T: Real, const D: usize>(&self, pass: Pass) -> Fields
     where
         P: Terms<D>,
@@ -187,6 +194,27 @@ impl<K, P> Program<K, P> {
             MEAN
         };
         reads::<T, P, D>(mode | work)
+    }
+
+    fn pass<T: Real, const D: usize, const RATES: u8, const WORKS: u8>(
+        &self,
+        pass: Pass,
+        input: &SweepInput<'_, T, D>,
+        records: &Records<T>,
+        rows: &mut Rows<T, D>,
+    ) where
+        K: Kernel<D>,
+        P: Terms<D>,
+    {
+        match pass {
+            Pass::Rates => self.go::<T, D, RATES>(input, records, rows),
+            // Work is only ever asked of sweeps that carry energy.
+            Pass::Work => {
+                if const { P::WRITES.contains(Output::Power) } {
+                    self.go::<T, D, WORKS>(input, records, rows);
+                }
+            }
+        }
     }
 
     fn go<T: Real, const D: usize, const HOW: u8>(
@@ -256,9 +284,10 @@ impl<T: Real, K, P> Task<'_, T, K, P> {
         K: Kernel<D>,
         P: Terms<D>,
     {
-        // In one dimension a row has a dozen neighbours: wider instructions are not worth a copy.
+        // In one dimension a row has a dozen neighbours, and a kernel chosen at run time branches in
+        // the loop: wider instructions are not worth a copy there.
         #[cfg(target_arch = "x86_64")]
-        if const { D > 1 } {
+        if const { D > 1 && !K::CHOSEN_AT_RUN_TIME } {
             // SAFETY: `instructions` is only ever set to what `InstructionSet::available` confirmed.
             match instructions {
                 InstructionSet::Avx512 => unsafe {

@@ -42,6 +42,27 @@ impl<T: Real, const D: usize> Transform<T, D> {
     pub fn point(&self, x: &[T; D]) -> [T; D] {
         (self.rotation * Vector::from(*x) + self.shift).into()
     }
+    /// Moves the particle in `slot` of columns of positions, their rounding errors (empty where they
+    /// are not kept) and velocities.
+    pub(crate) fn re_enter(&self, slot: usize, x: &mut [T], residual: &mut [T], v: &mut [T]) {
+        let own = slot * D..(slot + 1) * D;
+        let turned = self.rotation * Vector::<T, D>::from_row_slice(&x[own.clone()]);
+        let mut lost = Vector::<T, D>::from_element(T::zero());
+        for d in 0..D {
+            (x[own.start + d], lost[d]) = two_sum(turned[d], self.shift[d]);
+        }
+        if let Some(residual) = residual.get_mut(own.clone()) {
+            let turned = self.rotation * Vector::<T, D>::from_row_slice(residual) + lost;
+            residual.copy_from_slice(turned.as_slice());
+        }
+        self.turn(slot, v);
+    }
+    /// Turns the velocity of the particle in `slot`.
+    pub(crate) fn turn(&self, slot: usize, v: &mut [T]) {
+        let v = &mut v[slot * D..(slot + 1) * D];
+        let turned = self.rotation * Vector::<T, D>::from_row_slice(v) + self.velocity;
+        v.copy_from_slice(turned.as_slice());
+    }
 }
 
 /// An image: a source slot seen through a transform.

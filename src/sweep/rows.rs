@@ -61,6 +61,23 @@ impl<T: Real, const D: usize> Rows<T, D> {
         core::array::from_fn(|d| self.get(output, d, slot))
     }
 
+    /// Rearranges the slots: slot k gets the sums of what slot `order[k]` was.
+    pub(crate) fn permute(&mut self, order: &[u32]) {
+        let stride = self.outputs.width(D);
+        if self.data.len() != stride * order.len() {
+            return;
+        }
+        let at = |slot: usize, k: usize| {
+            (slot / Self::WIDTH * stride + k) * Self::WIDTH + slot % Self::WIDTH
+        };
+        let before = self.data.clone();
+        for (slot, &from) in order.iter().enumerate() {
+            for k in 0..stride {
+                self.data[at(slot, k)] = before[at(from as usize, k)];
+            }
+        }
+    }
+
     /// Forces between blocks, cluster by cluster in order.
     pub fn reactions(&self) -> impl Iterator<Item = &Reaction<D>> {
         self.reactions.iter().flatten()

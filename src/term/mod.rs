@@ -8,11 +8,13 @@ use core::marker::PhantomData;
 
 mod gradient;
 mod momentum;
+mod probe;
 mod sums;
 pub mod viscosity;
 
 pub use gradient::{PressureGradient, VelocityGradient};
 pub use momentum::{InternalEnergy, PressureCurvature, PressureForce};
+pub use probe::{Probe, probe};
 pub use sums::{Compression, KernelMoment, KernelSum, SlopeInH, Unity};
 pub use viscosity::{ArtificialViscosity, Viscosity, Viscous};
 
@@ -67,24 +69,28 @@ impl<L: Lane, const D: usize, P: Layout> Pair<'_, L, D, P> {
     #[inline(always)]
     #[must_use]
     pub fn i(&self, field: Field) -> L {
+        debug_assert!(P::READS.contains(field));
         self.i[P::READS.offset(field, D)]
     }
     /// A scalar field of j.
     #[inline(always)]
     #[must_use]
     pub fn j(&self, field: Field) -> L {
+        debug_assert!(P::READS.contains(field));
         L::splat(self.j[P::READS.offset(field, D)])
     }
     /// Component `k` of a vector or matrix field of i.
     #[inline(always)]
     #[must_use]
     pub fn i_at(&self, field: Field, k: usize) -> L {
+        debug_assert!(P::READS.contains(field));
         self.i[P::READS.offset(field, D) + k]
     }
     /// Component `k` of a vector or matrix field of j.
     #[inline(always)]
     #[must_use]
     pub fn j_at(&self, field: Field, k: usize) -> L {
+        debug_assert!(P::READS.contains(field));
         L::splat(self.j[P::READS.offset(field, D) + k])
     }
     /// vᵢⱼ·vᵢⱼ \[m²/s²\].

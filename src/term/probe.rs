@@ -1,0 +1,102 @@
+//! One pair on its own: what a test of a term looks at.
+//! The crate holds all its terms to one contract with it; a user's own terms can be held to the same.
+
+use super::{Layout, MOST_READS, MOST_SUMS, Pair, Sums, Term};
+use crate::kernel::Kernel;
+use crate::particles::{Field, Fields, Output, Outputs};
+use crate::scalar::Lane;
+use core::marker::PhantomData;
+
+/// What a term makes of one pair, or of a row of pairs with the same j.
+#[derive(Clone, Debug)]
+pub struct Probe<L, const D: usize> {
+    /// Force on i along rᵢⱼ, divided by rᵢⱼ \[N/m\].
+    pub radial: L,
+    /// Force on i along vᵢⱼ, divided by vᵢⱼ \[N s/m\].
+    pub shear: L,
+    sums: [L; MOST_SUMS],
+}
+
+impl<L: Lane, const D: usize> Probe<L, D> {
+    /// Component `k` of what was added to a sum, declared by the term or not.
+    #[must_use]
+    pub fn sum(&self, output: Output, k: usize) -> L {
+        self.sums[Outputs::ALL.offset(output, D) + k]
+    }
+}
+
+/// The layout of one term, with every sum kept so that one that is not declared shows.
+struct Alone<A, const D: usize>(PhantomData<A>);
+
+impl<const D: usize, A: Term<D>> Layout for Alone<A, D> {
+    const READS: Fields = A::READS.union(Fields::of(&[
+        Field::Position,
+        Field::Velocity,
+        Field::SmoothingLength,
+    ]));
+    const WRITES: Outputs = Outputs::ALL;
+}
+
+/// Evaluates one term for one pair under `kernel` with the mean of the two smoothing lengths.
+/// `i` and `j` give component k of a field.
+///
+/// ```
+/// use meshfree::kernel::CubicSpline;
+/// use meshfree::particles::Output;
+/// use meshfree::term::{KernelSum, probe};
+/// let at = |x: f64| move |field: meshfree::particles::Field, _| match field.name() {
+///     "position" => x,
+///     _ => 1.0,
+/// };
+/// let near = probe::<f64, 1, _, _>(&KernelSum, &CubicSpline, at(0.0), at(0.5));
+/// assert_eq!(near.sum(Output::KernelSum, 0), 2.0 / 3.0 * (1.0 - 1.5 * 0.25 + 0.75 * 0.125));
+/// ```
+#[must_use]
+pub fn probe<L: Lane, const D: usize, K: Kernel<D>, A: Term<D>>(
+    term: &A,
+    kernel: &K,
+    i: impl Fn(Field, usize) -> L,
+    j: impl Fn(Field, usize) -> L::Scalar,
+) -> Probe<L, D> {
+    let reads = <Alone<A, D> as Layout>::READS;
+    let (mut own, mut other) = ([L::zero(); MOST_READS], [L::Scalar::default(); MOST_READS]);
+    for field in reads.iter() {
+        for k in 0..field.components(D) {
+            own[reads.offset(field, D) + k] = i(field, k);
+            other[reads.offset(field, D) + k] = j(field, k);
+        }
+    }
+    let between = |field, k| i(field, k) - L::splat(j(field, k));
+    let r: [L; D] = core::array::from_fn(|d| between(Field::Position, d));
+    let v: [L; D] = core::array::from_fn(|d| between(Field::Velocity, d));
+    let r2 = (1..D).fold(r[0] * r[0], |sum, d| r[d].mul_add(r[d], sum));
+    let v_dot_r = (1..D).fold(v[0] * r[0], |sum, d| v[d].mul_add(r[d], sum));
+    let h_i = i(Field::SmoothingLength, 0);
+    let h = (h_i + L::splat(j(Field::SmoothingLength, 0))) * L::of(0.5);
+    let inverse = h.recip();
+    let q = r2.sqrt() * inverse;
+    let norm = L::of(kernel.normalisation()) * inverse.powi(D as u32);
+    let f = norm * inverse * inverse * kernel.slope_over_q(q);
+    let pair = Pair::<L, D, Alone<A, D>> {
+        r,
+        r2,
+        v,
+        v_dot_r,
+        h,
+        h_i,
+        w: norm * kernel.shape(q),
+        f,
+        f_i: f,
+        f_j: f,
+        i: &own,
+        j: &other,
+        layout: PhantomData,
+    };
+    let mut sums = Sums::new();
+    term.pair(&pair, &mut sums);
+    Probe {
+        radial: sums.radial,
+        shear: sums.shear,
+        sums: sums.kept,
+    }
+}
