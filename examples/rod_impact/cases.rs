@@ -1,7 +1,7 @@
 //! A case: a striker, perhaps with a pad on its head, that hits a rod or a wall.
 //! Geometry, materials and numerical choices; its scene and its exact solutions follow from it.
 
-use crate::choices::{ContactChoice, IntegratorChoice, Precision, SchemeChoice, ViscosityChoice};
+use crate::choices::{ContactChoice, IntegratorChoice, Precision, SchemeChoice};
 use meshfree::boundary::MirrorPlane;
 use meshfree::error::{Error, Result};
 use meshfree::kernel::{CubicSpline, KernelKind};
@@ -13,7 +13,7 @@ use meshfree::schemes;
 use meshfree::simulation::Simulation;
 use meshfree::sweep::Interaction;
 use meshfree::term::ArtificialViscosity;
-use meshfree::term::viscosity::{Inviscid, LimitedMonaghanGingold, MonaghanGingold};
+use meshfree::term::viscosity::ViscosityKind;
 
 /// A case, in SI units. `None` leaves a choice to the scheme.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,7 +31,7 @@ pub struct Case {
     pub kernel: Option<KernelKind>,
     pub h_over_dx: Option<f64>,
     pub integrator: Option<IntegratorChoice>,
-    pub viscosity: Option<ViscosityChoice>,
+    pub viscosity: Option<ViscosityKind>,
     pub contact: Option<ContactChoice>,
     pub until: f64,
     pub probes: Vec<f64>,
@@ -141,9 +141,6 @@ impl Case {
     pub fn integrator(&self) -> IntegratorChoice {
         self.integrator.unwrap_or(self.scheme.integrator())
     }
-    pub fn viscosity(&self) -> ViscosityChoice {
-        self.viscosity.unwrap_or(self.scheme.viscosity())
-    }
 
     /// What it is, in a line.
     pub fn title(&self) -> String {
@@ -208,29 +205,32 @@ impl Case {
         }
     }
 
-    fn with_choices<T: Real, V: ArtificialViscosity<1>>(
-        &self,
-        builder: SchemeBuilder<CubicSpline, V>,
-    ) -> Scheme<T, 1> {
-        self.compose(builder)
-    }
-
-    fn compose<T, K, V>(&self, mut builder: SchemeBuilder<K, V>) -> Scheme<T, 1>
+    fn with_choices<T, V>(&self, mut builder: SchemeBuilder<CubicSpline, V>) -> Scheme<T, 1>
     where
         T: Real,
-        K: meshfree::kernel::Kernel<1>,
-        V: ArtificialViscosity<1>,
+        V: ArtificialViscosity<1> + Into<ViscosityKind>,
     {
         if let Some(ratio) = self.h_over_dx {
             builder = builder.h_over_dx(ratio);
         }
-        if !self.has_one_spacing() {
-            builder = builder.mixed_spacing();
-        }
         if !self.integrator().make().kicks() {
             builder = builder.energy(EnergyForm::Symmetric);
         }
-        builder.compose()
+        let own_kernel = self
+            .kernel
+            .is_none_or(|kernel| kernel == KernelKind::CubicSpline);
+        if own_kernel && self.viscosity.is_none() && self.has_one_spacing() {
+            return builder.compose();
+        }
+        // Loops for a choice at run time: slower, and compiled once for all choices.
+        let viscosity = self
+            .viscosity
+            .unwrap_or_else(|| builder.viscosity().clone().into());
+        builder
+            .with_kernel(self.kernel.unwrap_or(KernelKind::CubicSpline))
+            .with_viscosity(viscosity)
+            .mixed_spacing()
+            .compose()
     }
 
     /// Whether the spacing divides all rods alike.

@@ -1,4 +1,4 @@
-//! What can be chosen by name on the command line: scheme, integrator, viscosity, contact, precision.
+//! What can be chosen by name on the command line: scheme, integrator, contact, precision.
 //! Each list is written once; parsing, help and error messages follow from it.
 
 use crate::options::BadOption;
@@ -49,12 +49,6 @@ choices! {
 }
 
 choices! {
-    /// The artificial viscosity, with its default coefficients.
-    ViscosityChoice, "--viscosity":
-    MonaghanGingold "mg", Limited "limited", Inviscid "none",
-}
-
-choices! {
     /// What the striker (or its pad) and the target do to each other.
     ContactChoice, "--contact":
     Unilateral "unilateral", Bonded "bonded",
@@ -79,13 +73,6 @@ impl SchemeChoice {
         match self {
             Self::Lam2002 => ContactChoice::Bonded,
             _ => ContactChoice::Unilateral,
-        }
-    }
-    /// The viscosity that the scheme runs with unless told.
-    pub fn viscosity(self) -> ViscosityChoice {
-        match self {
-            Self::Lam2002 => ViscosityChoice::MonaghanGingold,
-            _ => ViscosityChoice::Limited,
         }
     }
 }

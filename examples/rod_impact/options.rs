@@ -2,10 +2,12 @@
 //! A bad option names itself, the value it was given, and what it takes.
 
 use crate::cases::{Case, material};
-use crate::choices::{ContactChoice, IntegratorChoice, Precision, SchemeChoice, ViscosityChoice};
+use crate::choices::{ContactChoice, IntegratorChoice, Precision, SchemeChoice};
 use core::fmt;
 use meshfree::kernel::{Kernel, KernelKind};
 use meshfree::material::catalogue;
+use meshfree::term::ArtificialViscosity;
+use meshfree::term::viscosity::ViscosityKind;
 use std::path::PathBuf;
 
 pub const HELP: &str = "\
@@ -28,7 +30,7 @@ The method
   --h-over-dx RATIO         as the kernel recommends
   --integrator NAME         kick-drift-kick, drift-kick-drift, position-verlet, midpoint, ssp-rk3,
                             rk4, lam-fresh, lam-lagged
-  --viscosity NAME          mg, limited, none
+  --viscosity NAME          mg, limited, signal, balsara, ... or none; mg:0.5 or mg:0.5,1 sets alpha, beta
   --contact NAME            unilateral, bonded
   --precision NAME          f64, f32
   --threads N               all cores
@@ -168,7 +170,7 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Bad
             "--kernel" => case.kernel = Some(kernel(&value)?),
             "--h-over-dx" => case.h_over_dx = Some(positive("times the spacing")?),
             "--integrator" => case.integrator = Some(IntegratorChoice::parse(&value)?),
-            "--viscosity" => case.viscosity = Some(ViscosityChoice::parse(&value)?),
+            "--viscosity" => case.viscosity = Some(viscosity(&value)?),
             "--contact" => case.contact = Some(ContactChoice::parse(&value)?),
             "--until" => until = Some(1e-6 * positive("µs")?),
             "--probe" => case.probes.push(1e-3 * not_negative(&name, &value, "mm")?),
@@ -322,6 +324,19 @@ fn kernel(value: &str) -> Result<KernelKind, BadOption> {
     value.parse().map_err(|_| {
         let names: Vec<_> = KernelKind::ALL.iter().map(|kind| kind.key()).collect();
         BadOption::value("--kernel", value, format!("one of {}", names.join(", ")))
+    })
+}
+
+fn viscosity(value: &str) -> Result<ViscosityKind, BadOption> {
+    let sound = |kind: &ViscosityKind| ArtificialViscosity::<1>::problems(kind).is_empty();
+    value.parse().ok().filter(sound).ok_or_else(|| {
+        let names: Vec<_> = ViscosityKind::ALL.iter().map(ViscosityKind::key).collect();
+        let form = "as name, name:alpha or name:alpha,beta with numbers, 0 or more";
+        BadOption::value(
+            "--viscosity",
+            value,
+            format!("one of {}, {form}", names.join(", ")),
+        )
     })
 }
 

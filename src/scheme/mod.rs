@@ -266,6 +266,11 @@ impl<K, V, const MODES: u8> SchemeBuilder<K, V, MODES> {
     pub fn with_viscosity<W>(self, viscosity: W) -> SchemeBuilder<K, W, MODES> {
         self.map(|kernel| kernel, |_| viscosity)
     }
+    /// The artificial viscosity.
+    #[must_use]
+    pub fn viscosity(&self) -> &V {
+        &self.viscosity
+    }
     /// A name for reports.
     #[must_use]
     pub fn named(mut self, name: &str) -> Self {
