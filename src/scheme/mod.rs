@@ -256,6 +256,21 @@ impl<K, V> SchemeBuilder<K, V> {
 }
 
 impl<K, V, const MODES: u8> SchemeBuilder<K, V, MODES> {
+    /// The same choices with another kernel; h/dx becomes its recommendation unless it was given.
+    #[must_use]
+    pub fn with_kernel<L>(self, kernel: L) -> SchemeBuilder<L, V, MODES> {
+        self.map(|_| kernel, |viscosity| viscosity)
+    }
+    /// The same choices with another artificial viscosity.
+    #[must_use]
+    pub fn with_viscosity<W>(self, viscosity: W) -> SchemeBuilder<K, W, MODES> {
+        self.map(|kernel| kernel, |_| viscosity)
+    }
+    /// The artificial viscosity.
+    #[must_use]
+    pub fn viscosity(&self) -> &V {
+        &self.viscosity
+    }
     /// A name for reports.
     #[must_use]
     pub fn named(mut self, name: &str) -> Self {
@@ -298,10 +313,17 @@ impl<K, V, const MODES: u8> SchemeBuilder<K, V, MODES> {
         }
     }
     fn modes<const OTHER: u8>(self) -> SchemeBuilder<K, V, OTHER> {
+        self.map(|kernel| kernel, |viscosity| viscosity)
+    }
+    fn map<L, W, const OTHER: u8>(
+        self,
+        kernel: impl FnOnce(K) -> L,
+        viscosity: impl FnOnce(V) -> W,
+    ) -> SchemeBuilder<L, W, OTHER> {
         SchemeBuilder {
             name: self.name,
-            kernel: self.kernel,
-            viscosity: self.viscosity,
+            kernel: kernel(self.kernel),
+            viscosity: viscosity(self.viscosity),
             density: self.density,
             pressure_form: self.pressure_form,
             energy: self.energy,
