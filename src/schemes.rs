@@ -20,7 +20,12 @@
 
 use crate::kernel::CubicSpline;
 use crate::scheme::{DensityForm, EnergyForm, SchemeBuilder};
+use crate::sweep::SmoothingMode;
 use crate::term::viscosity::{LimitedMonaghanGingold, MonaghanGingold};
+
+/// What [`impact`] returns: a scheme with curvature of the pressure, to be changed further.
+pub type ImpactBuilder =
+    SchemeBuilder<CubicSpline, LimitedMonaghanGingold, { SmoothingMode::Uniform.bit() }, true>;
 
 /// Impact of solids with weak to moderate shocks: number density relative to the shape at rest,
 /// pressure curvature χ = 1/3, limited viscosity α = 2, β = 2, compatible energy, cubic spline at
@@ -29,7 +34,7 @@ use crate::term::viscosity::{LimitedMonaghanGingold, MonaghanGingold};
 /// The default for rods: fronts of 0.09 µs at a spacing of 0.05 mm without overshoot, waves at the
 /// right speed, bodies at rest free of stress, contact that opens.
 #[must_use]
-pub fn impact() -> SchemeBuilder<CubicSpline, LimitedMonaghanGingold> {
+pub fn impact() -> ImpactBuilder {
     SchemeBuilder::new(CubicSpline, LimitedMonaghanGingold::default())
         .named("impact")
         .density(DensityForm::NumberDensity)
@@ -39,7 +44,7 @@ pub fn impact() -> SchemeBuilder<CubicSpline, LimitedMonaghanGingold> {
 /// As [`impact`], with density by continuity in volume form: the same accuracy where bodies keep
 /// their shape, and right where they do not.
 #[must_use]
-pub fn impact_by_continuity() -> SchemeBuilder<CubicSpline, LimitedMonaghanGingold> {
+pub fn impact_by_continuity() -> ImpactBuilder {
     impact()
         .named("impact by continuity")
         .density(DensityForm::Continuity)

@@ -259,7 +259,12 @@ impl<T: Real, const D: usize> fmt::Display for Scheme<T, D> {
 /// println!("{scheme}");
 /// ```
 #[derive(Clone, Debug)]
-pub struct SchemeBuilder<K, V, const MODES: u8 = { SmoothingMode::Uniform.bit() }> {
+pub struct SchemeBuilder<
+    K,
+    V,
+    const MODES: u8 = { SmoothingMode::Uniform.bit() },
+    const CURVED: bool = false,
+> {
     name: String,
     kernel: K,
     viscosity: V,
@@ -268,7 +273,7 @@ pub struct SchemeBuilder<K, V, const MODES: u8 = { SmoothingMode::Uniform.bit() 
     energy: EnergyForm,
     smoothing: Smoothing,
     h_over_dx: Option<f64>,
-    curvature: Option<f64>,
+    curvature: f64,
     step_factor: Option<f64>,
     normalised: bool,
     uniform: bool,
@@ -287,7 +292,7 @@ impl<K, V> SchemeBuilder<K, V> {
             energy: EnergyForm::default(),
             smoothing: Smoothing::default(),
             h_over_dx: None,
-            curvature: None,
+            curvature: 0.0,
             step_factor: None,
             normalised: true,
             uniform: true,
@@ -295,16 +300,21 @@ impl<K, V> SchemeBuilder<K, V> {
     }
 }
 
-impl<K, V, const MODES: u8> SchemeBuilder<K, V, MODES> {
+impl<K, V, const MODES: u8, const CURVED: bool> SchemeBuilder<K, V, MODES, CURVED> {
     /// The same choices with another kernel; h/dx becomes its recommendation unless it was given.
     #[must_use]
-    pub fn with_kernel<L>(self, kernel: L) -> SchemeBuilder<L, V, MODES> {
+    pub fn with_kernel<L>(self, kernel: L) -> SchemeBuilder<L, V, MODES, CURVED> {
         self.map(|_| kernel, |viscosity| viscosity)
     }
     /// The same choices with another artificial viscosity.
     #[must_use]
-    pub fn with_viscosity<W>(self, viscosity: W) -> SchemeBuilder<K, W, MODES> {
+    pub fn with_viscosity<W>(self, viscosity: W) -> SchemeBuilder<K, W, MODES, CURVED> {
         self.map(|kernel| kernel, |_| viscosity)
+    }
+    /// The artificial viscosity.
+    #[must_use]
+    pub fn viscosity(&self) -> &V {
+        &self.viscosity
     }
     /// A name for reports.
     #[must_use]
@@ -333,7 +343,7 @@ impl<K, V, const MODES: u8> SchemeBuilder<K, V, MODES> {
     }
     /// How the smoothing length changes.
     #[must_use]
-    pub fn smoothing(self, law: Smoothing) -> SchemeBuilder<K, V, { SmoothingMode::ALL }> {
+    pub fn smoothing(self, law: Smoothing) -> SchemeBuilder<K, V, { SmoothingMode::ALL }, CURVED> {
         SchemeBuilder {
             smoothing: law,
             ..self.modes()
@@ -341,20 +351,20 @@ impl<K, V, const MODES: u8> SchemeBuilder<K, V, MODES> {
     }
     /// Allows bodies of different spacing: pairs use the mean of their smoothing lengths.
     #[must_use]
-    pub fn mixed_spacing(self) -> SchemeBuilder<K, V, { SmoothingMode::Mean.bit() }> {
+    pub fn mixed_spacing(self) -> SchemeBuilder<K, V, { SmoothingMode::Mean.bit() }, CURVED> {
         SchemeBuilder {
             uniform: false,
             ..self.modes()
         }
     }
-    fn modes<const OTHER: u8>(self) -> SchemeBuilder<K, V, OTHER> {
+    fn modes<const OTHER: u8, const BENT: bool>(self) -> SchemeBuilder<K, V, OTHER, BENT> {
         self.map(|kernel| kernel, |viscosity| viscosity)
     }
-    fn map<L, W, const OTHER: u8>(
+    fn map<L, W, const OTHER: u8, const BENT: bool>(
         self,
         kernel: impl FnOnce(K) -> L,
         viscosity: impl FnOnce(V) -> W,
-    ) -> SchemeBuilder<L, W, OTHER> {
+    ) -> SchemeBuilder<L, W, OTHER, BENT> {
         SchemeBuilder {
             name: self.name,
             kernel: kernel(self.kernel),
@@ -378,9 +388,16 @@ impl<K, V, const MODES: u8> SchemeBuilder<K, V, MODES> {
     }
     /// Adds the curvature of the pressure with strength χ; see [`PressureCurvature`].
     #[must_use]
-    pub fn pressure_curvature(mut self, strength: f64) -> Self {
-        self.curvature = Some(strength);
-        self
+    pub fn pressure_curvature(self, strength: f64) -> SchemeBuilder<K, V, MODES, true> {
+        SchemeBuilder {
+            curvature: strength,
+            ..self.modes()
+        }
+    }
+    /// Leaves the curvature of the pressure out.
+    #[must_use]
+    pub fn without_pressure_curvature(self) -> SchemeBuilder<K, V, MODES, false> {
+        self.modes()
     }
     /// Step in units of h/(c + signal); see [`StepControl`](crate::simulation::StepControl).
     #[must_use]
@@ -432,55 +449,40 @@ impl<K, V, const MODES: u8> SchemeBuilder<K, V, MODES> {
             .then(|| Box::new(Program::<_, _, MODES>::new(kernel, (Compression,), mode)) as _);
         // A switch follows the compression once a step, by the sum that the rates make.
         let compressing = integrated || self.viscosity.switch().is_some();
-        let gradient: Option<Box<dyn PairSweep<T, D>>> =
-            match (self.curvature, self.viscosity.needs_velocity_gradient()) {
-                (Some(_), _) => Some(Box::new(Program::<_, _, MODES>::new(
-                    kernel,
-                    (VelocityGradient, PressureGradient),
-                    mode,
-                ))),
-                (None, true) => Some(Box::new(Program::<_, _, MODES>::new(
-                    kernel,
-                    (VelocityGradient,),
-                    mode,
-                ))),
-                (None, false) => None,
-            };
+        // What the builder's type rules out leaves no loop behind.
+        let gradient: Option<Box<dyn PairSweep<T, D>>> = if const { CURVED } {
+            let terms = (VelocityGradient, PressureGradient);
+            Some(Box::new(Program::<_, _, MODES>::new(kernel, terms, mode)))
+        } else if self.viscosity.needs_velocity_gradient() {
+            let terms = (VelocityGradient,);
+            Some(Box::new(Program::<_, _, MODES>::new(kernel, terms, mode)))
+        } else {
+            None
+        };
         let viscosity_problems = self.viscosity.problems();
         let switch = self.viscosity.switch();
         let viscosity = Viscosity(self.viscosity);
-        let rates: Box<dyn PairSweep<T, D>> = match (self.curvature, compressing) {
-            (Some(strength), false) => Box::new(Program::<_, _, MODES>::new(
-                kernel,
-                (
-                    PressureForce,
-                    PressureCurvature { strength },
-                    viscosity,
-                    InternalEnergy,
-                ),
-                mode,
-            )),
-            (Some(strength), true) => Box::new(Program::<_, _, MODES>::new(
-                kernel,
-                (
-                    PressureForce,
-                    PressureCurvature { strength },
-                    viscosity,
-                    InternalEnergy,
-                    Compression,
-                ),
-                mode,
-            )),
-            (None, false) => Box::new(Program::<_, _, MODES>::new(
-                kernel,
-                (PressureForce, viscosity, InternalEnergy),
-                mode,
-            )),
-            (None, true) => Box::new(Program::<_, _, MODES>::new(
-                kernel,
-                (PressureForce, viscosity, InternalEnergy, Compression),
-                mode,
-            )),
+        let rates: Box<dyn PairSweep<T, D>> = if const { CURVED } {
+            let curvature = PressureCurvature {
+                strength: self.curvature,
+            };
+            let terms = (PressureForce, curvature, viscosity, InternalEnergy);
+            if compressing {
+                let (a, b, c, d) = terms;
+                Box::new(Program::<_, _, MODES>::new(
+                    kernel,
+                    (a, b, c, d, Compression),
+                    mode,
+                ))
+            } else {
+                Box::new(Program::<_, _, MODES>::new(kernel, terms, mode))
+            }
+        } else if compressing {
+            let terms = (PressureForce, viscosity, InternalEnergy, Compression);
+            Box::new(Program::<_, _, MODES>::new(kernel, terms, mode))
+        } else {
+            let terms = (PressureForce, viscosity, InternalEnergy);
+            Box::new(Program::<_, _, MODES>::new(kernel, terms, mode))
         };
         Scheme {
             name: self.name,
@@ -517,10 +519,14 @@ impl<K, V, const MODES: u8> SchemeBuilder<K, V, MODES> {
 /// its plateau at 0.8 and blows up at 1.1; the steepest fronts come at or below 0.55.
 pub const DEFAULT_STEP_FACTOR: f64 = 0.55;
 
-impl<T: Real, const D: usize, K: Kernel<D>, V: ArtificialViscosity<D>, const MODES: u8>
-    From<SchemeBuilder<K, V, MODES>> for Scheme<T, D>
+impl<T, const D: usize, K, V, const MODES: u8, const CURVED: bool>
+    From<SchemeBuilder<K, V, MODES, CURVED>> for Scheme<T, D>
+where
+    T: Real,
+    K: Kernel<D>,
+    V: ArtificialViscosity<D>,
 {
-    fn from(builder: SchemeBuilder<K, V, MODES>) -> Self {
+    fn from(builder: SchemeBuilder<K, V, MODES, CURVED>) -> Self {
         builder.compose()
     }
 }

@@ -95,6 +95,20 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         ids.map(|id| self.particle(id))
     }
 
+    /// Sets every velocity \[m/s\] as a function of position \[m\] and present velocity, between steps.
+    pub fn set_velocities(&mut self, velocity: impl Fn([f64; D], [f64; D]) -> [f64; D]) {
+        for slot in 0..self.group.columns.slots() {
+            let now = ParticleView {
+                simulation: self,
+                slot,
+                id: slot,
+            };
+            let next = velocity(now.position(), now.velocity());
+            self.group.columns.vectors_mut(Field::Velocity)[slot] = next.map(T::from_f64);
+        }
+        self.rates_at_hand = false;
+    }
+
     /// A particle by its number.
     pub(crate) fn particle(&self, id: usize) -> ParticleView<'_, T, D> {
         ParticleView {

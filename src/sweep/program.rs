@@ -93,6 +93,7 @@ const UNIFORM: u8 = 0;
 const MEAN: u8 = 1;
 const OWN: u8 = 2;
 const WORK: u8 = 4;
+const CONTACT: u8 = 8;
 
 /// The layout of a sweep: what its terms name, and what the way of running adds.
 struct Composed<T, P, const D: usize, const HOW: u8>(PhantomData<(T, P)>);
@@ -165,17 +166,23 @@ impl<T: Real, const D: usize, K: Kernel<D>, P: Terms<D>, const MODES: u8> PairSw
         match self.mode {
             SmoothingMode::Uniform => {
                 if const { MODES & SmoothingMode::Uniform.bit() != 0 } {
-                    self.pass::<T, D, UNIFORM, { UNIFORM | WORK }>(pass, input, records, rows);
+                    self.pass::<T, D, { UNIFORM | CONTACT }, { UNIFORM | CONTACT | WORK }>(
+                        pass, input, records, rows,
+                    );
                 }
             }
             SmoothingMode::Mean => {
                 if const { MODES & SmoothingMode::Mean.bit() != 0 } {
-                    self.pass::<T, D, MEAN, { MEAN | WORK }>(pass, input, records, rows);
+                    self.pass::<T, D, { MEAN | CONTACT }, { MEAN | CONTACT | WORK }>(
+                        pass, input, records, rows,
+                    );
                 }
             }
             SmoothingMode::Own => {
                 if const { MODES & SmoothingMode::Own.bit() != 0 } {
-                    self.pass::<T, D, OWN, { OWN | WORK }>(pass, input, records, rows);
+                    self.pass::<T, D, { OWN | CONTACT }, { OWN | CONTACT | WORK }>(
+                        pass, input, records, rows,
+                    );
                 }
             }
         }
@@ -358,35 +365,34 @@ impl<T: Real, K, P> Task<'_, T, K, P> {
             let mut sums = Sums::<L, D, Composed<T, P, D, HOW>>::new();
             let block = self.blocks.partition_point(|b| b.slots.end <= first);
             for segment in &list.segments[bounds[0] as usize..bounds[1] as usize] {
-                let neighbors = &list.neighbors[segment.start as usize..segment.end as usize];
                 let other = segment.block as usize;
-                if other == block {
-                    self.segment::<L, D, HOW, false>(&own, first, neighbors, &mut sums);
+                let interaction = self.interactions[block * self.blocks.len() + other];
+                let contact = interaction == Interaction::Unilateral;
+                // A gradient does not look across a contact that may open.
+                if interaction == Interaction::None || (contact && one_sided) {
                     continue;
                 }
-                let interaction = self.interactions[block * self.blocks.len() + other];
-                let before = sums.kept;
-                match interaction {
-                    Interaction::None => continue,
-                    // A gradient does not look across a contact that may open.
-                    Interaction::Unilateral if one_sided => continue,
-                    Interaction::Bonded => {
-                        self.segment::<L, D, HOW, false>(&own, first, neighbors, &mut sums);
-                    }
-                    Interaction::Unilateral => {
-                        let mut shown = own;
-                        compressive(reads, &mut shown, D);
-                        let kept = sums.take_kernel_sum();
-                        self.segment::<L, D, HOW, true>(&shown, first, neighbors, &mut sums);
-                        sums.divert_kernel_sum(kept);
-                    }
+                let foreign = other != block;
+                let before = if foreign {
+                    sums.kept
+                } else {
+                    [L::zero(); MOST_SUMS]
+                };
+                let full = own;
+                let mut kept = L::zero();
+                if contact {
+                    compressive(reads, &mut own, D);
+                    kept = sums.take_kernel_sum();
                 }
-                if const { Composed::<T, P, D, HOW>::WRITES.contains(Output::Force) } {
-                    let members = self.blocks[block]
-                        .slots
-                        .end
-                        .saturating_sub(first)
-                        .min(L::WIDTH);
+                let neighbors = &list.neighbors[segment.start as usize..segment.end as usize];
+                self.segment::<L, D, HOW>(contact, &own, first, neighbors, &mut sums);
+                if contact {
+                    own = full;
+                    sums.divert_kernel_sum(kept);
+                }
+                if foreign && const { Composed::<T, P, D, HOW>::WRITES.contains(Output::Force) } {
+                    let end = self.blocks[block].slots.end;
+                    let members = end.saturating_sub(first).min(L::WIDTH);
                     reactions.push(reaction::<L, D, _>(block, segment, members, &before, &sums));
                 }
             }
@@ -418,11 +424,12 @@ impl<T: Real, K, P> Task<'_, T, K, P> {
 
     /// One cluster against the neighbours of one segment.
     ///
-    /// Across an open contact (`CONTACT`) a pair acts only where one of the two touches, shows the
+    /// Across a contact that may open (`contact`) a pair acts only where one of the two touches, shows the
     /// other side only pressure that compresses, and its kernel sum is kept apart.
     #[inline(always)]
-    fn segment<L: Lane<Scalar = T>, const D: usize, const HOW: u8, const CONTACT: bool>(
+    fn segment<L: Lane<Scalar = T>, const D: usize, const HOW: u8>(
         &self,
+        contact: bool,
         own: &[L; MOST_READS],
         first: usize,
         neighbors: &[u32],
@@ -502,7 +509,7 @@ impl<T: Real, K, P> Task<'_, T, K, P> {
                 j: record,
                 layout: PhantomData,
             };
-            if CONTACT {
+            if HOW & CONTACT != 0 && contact {
                 if let Some(touching) = self.touches::<L>(first) {
                     pair.f_i *= touching;
                     pair.f_j *= L::splat(self.touching[self.source(j)]);

@@ -1,8 +1,9 @@
 //! What the integration tests share: random particle sets, and measures of what a run has done.
 #![allow(dead_code)]
 
-use meshfree::kernel::KernelKind;
+use meshfree::kernel::{Kernel, KernelKind};
 use meshfree::material::{Material, catalogue};
+use meshfree::scalar::Lane;
 use meshfree::simulation::Simulation;
 
 /// A small generator of reproducible numbers (SplitMix64, Steele et al. 2014).
@@ -121,4 +122,41 @@ pub fn assert_close(value: f64, expected: f64, tolerance: f64, what: &str) {
         "{what}: {value} instead of {expected} (off by {:.3e}, allowed {tolerance:.3e})",
         value - expected
     );
+}
+
+/// A kernel chosen at run time behind calls that are not inlined: one copy of every pair loop serves
+/// all kernels, which keeps the tests' compile time down. Tests of speed do not use it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AnyKernel(pub KernelKind);
+
+impl<const D: usize> Kernel<D> for AnyKernel
+where
+    KernelKind: Kernel<D>,
+{
+    fn name(&self) -> &'static str {
+        Kernel::<D>::name(&self.0)
+    }
+    fn support(&self) -> f64 {
+        Kernel::<D>::support(&self.0)
+    }
+    fn normalisation(&self) -> f64 {
+        Kernel::<D>::normalisation(&self.0)
+    }
+    fn h_over_dx(&self) -> f64 {
+        Kernel::<D>::h_over_dx(&self.0)
+    }
+    fn h_over_dx_range(&self) -> (f64, f64) {
+        Kernel::<D>::h_over_dx_range(&self.0)
+    }
+    fn stable_step(&self) -> f64 {
+        Kernel::<D>::stable_step(&self.0)
+    }
+    #[inline(never)]
+    fn shape<L: Lane>(&self, q: L) -> L {
+        Kernel::<D>::shape(&self.0, q)
+    }
+    #[inline(never)]
+    fn slope_over_q<L: Lane>(&self, q: L) -> L {
+        Kernel::<D>::slope_over_q(&self.0, q)
+    }
 }

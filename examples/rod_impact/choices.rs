@@ -1,0 +1,116 @@
+//! What can be chosen by name on the command line: scheme, integrator, contact, precision.
+//! Each list is written once; parsing, help and error messages follow from it.
+
+use crate::options::BadOption;
+use meshfree::integrator::{
+    DriftKickDrift, Integrator, KickDriftKick, LamLeapfrog, Midpoint, PositionVerlet, Predictor,
+    RungeKutta4, StrongStabilityPreserving3,
+};
+use meshfree::study;
+use meshfree::sweep::Interaction;
+
+macro_rules! choices {
+    ($(#[$text:meta])* $Name:ident, $option:literal: $($Variant:ident $key:literal),* $(,)?) => {
+        $(#[$text])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum $Name { $($Variant),* }
+
+        impl $Name {
+            /// The names on the command line.
+            pub const KEYS: &'static [&'static str] = &[$($key),*];
+
+            /// The name on the command line.
+            pub const fn key(self) -> &'static str {
+                match self { $(Self::$Variant => $key),* }
+            }
+
+            pub fn parse(text: &str) -> Result<Self, BadOption> {
+                match text.trim().to_ascii_lowercase().as_str() {
+                    $($key => Ok(Self::$Variant),)*
+                    _ => Err(BadOption::value($option, text, format!("one of {}", Self::KEYS.join(", ")))),
+                }
+            }
+        }
+    };
+}
+
+choices! {
+    /// The scheme.
+    SchemeChoice, "--scheme":
+    Impact "impact", Continuity "continuity", Lam2002 "lam2002",
+}
+
+choices! {
+    /// The integrator.
+    IntegratorChoice, "--integrator":
+    KickDriftKick "kick-drift-kick", DriftKickDrift "drift-kick-drift",
+    PositionVerlet "position-verlet", Midpoint "midpoint", SspRk3 "ssp-rk3", RungeKutta4 "rk4",
+    LamFresh "lam-fresh", LamLagged "lam-lagged",
+}
+
+choices! {
+    /// What the striker (or its pad) and the target do to each other.
+    ContactChoice, "--contact":
+    Unilateral "unilateral", Bonded "bonded",
+}
+
+choices! {
+    /// The scalar of the particles.
+    Precision, "--precision":
+    F32 "f32", F64 "f64",
+}
+
+impl SchemeChoice {
+    /// The integrator that the scheme runs with unless told.
+    pub fn integrator(self) -> IntegratorChoice {
+        match self {
+            Self::Lam2002 => IntegratorChoice::LamFresh,
+            _ => IntegratorChoice::KickDriftKick,
+        }
+    }
+    /// The contact law that the scheme runs with unless told; the paper has none.
+    pub fn contact(self) -> ContactChoice {
+        match self {
+            Self::Lam2002 => ContactChoice::Bonded,
+            _ => ContactChoice::Unilateral,
+        }
+    }
+}
+
+impl IntegratorChoice {
+    pub fn make(self) -> Box<dyn Integrator> {
+        let lam = |predictor| Box::new(LamLeapfrog { predictor });
+        match self {
+            Self::KickDriftKick => Box::new(KickDriftKick),
+            Self::DriftKickDrift => Box::new(DriftKickDrift),
+            Self::PositionVerlet => Box::new(PositionVerlet),
+            Self::Midpoint => Box::new(Midpoint),
+            Self::SspRk3 => Box::new(StrongStabilityPreserving3),
+            Self::RungeKutta4 => Box::new(RungeKutta4),
+            Self::LamFresh => lam(Predictor::Fresh),
+            Self::LamLagged => lam(Predictor::Lagged),
+        }
+    }
+}
+
+impl ContactChoice {
+    pub fn interaction(self) -> Interaction {
+        match self {
+            Self::Unilateral => Interaction::Unilateral,
+            Self::Bonded => Interaction::Bonded,
+        }
+    }
+    pub fn in_theory(self) -> study::Contact {
+        match self {
+            Self::Unilateral => study::Contact::Unilateral,
+            Self::Bonded => study::Contact::Bonded,
+        }
+    }
+    /// A wall under this contact law.
+    pub fn wall(self) -> study::End {
+        match self {
+            Self::Unilateral => study::End::Wall,
+            Self::Bonded => study::End::Clamped,
+        }
+    }
+}

@@ -1,0 +1,354 @@
+//! Runs a case and records it: probes, contact force, snapshots and the ledger, step by step.
+//! Given a folder, everything is in its files as soon as it is known.
+
+use crate::cases::{Case, short};
+use crate::choices::{IntegratorChoice, Precision};
+use meshfree::error::Result;
+use meshfree::output::csv::{Cell, CsvWriter};
+use meshfree::scalar::Real;
+use meshfree::simulation::{Ledger, Simulation};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// A particle at the time of a snapshot, in SI units; stress is positive in tension.
+#[derive(Clone, Copy, Debug)]
+pub struct Point {
+    pub body: usize,
+    pub reference: f64,
+    pub x: f64,
+    pub stress: f64,
+    pub velocity: f64,
+    pub density: f64,
+    pub energy: f64,
+}
+
+/// All particles at one time.
+#[derive(Clone, Debug)]
+pub struct Snapshot {
+    pub time: f64,
+    pub points: Vec<Point>,
+}
+
+/// History of a material point.
+#[derive(Clone, Debug)]
+pub struct Probe {
+    pub x0: f64,
+    pub stress: Vec<f64>,
+    pub velocity: Vec<f64>,
+}
+
+/// What a run recorded. All histories share the times.
+#[derive(Clone, Debug)]
+pub struct Record {
+    pub case: Case,
+    pub time: Vec<f64>,
+    pub probes: Vec<Probe>,
+    /// Pressure in the contact of striker or pad and target, or wall \[Pa\].
+    pub contact: Vec<f64>,
+    pub snapshots: Vec<Snapshot>,
+    /// Largest pressure of any particle at time zero \[Pa\].
+    pub at_rest: f64,
+    /// Largest change of momentum less the wall's impulse, relative to that of the impact.
+    pub momentum_drift: f64,
+    /// Largest change of total energy, relative to that of the impact.
+    pub energy_drift: f64,
+    pub particles: usize,
+    pub steps: u64,
+    pub guards: u64,
+    pub scheme: String,
+    pub integrator: String,
+    pub wall_time: Duration,
+}
+
+impl Record {
+    /// The probe nearest to `x0` \[m\].
+    pub fn probe(&self, x0: f64) -> Option<&Probe> {
+        let apart = |probe: &&Probe| (probe.x0 - x0).abs();
+        self.probes
+            .iter()
+            .min_by(|a, b| apart(a).total_cmp(&apart(b)))
+    }
+    /// The snapshot nearest to `time` \[s\].
+    pub fn snapshot(&self, time: f64) -> Option<&Snapshot> {
+        let apart = |shot: &&Snapshot| (shot.time - time).abs();
+        self.snapshots
+            .iter()
+            .min_by(|a, b| apart(a).total_cmp(&apart(b)))
+    }
+}
+
+/// Where a probe is among the particles: linear between two of one body, the last one beyond its end.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    body: usize,
+    left: usize,
+    right: usize,
+    weight: f64,
+}
+
+impl Place {
+    fn find(case: &Case, references: &[Vec<f64>], x0: f64) -> Self {
+        let ends = case.rods();
+        let inside = ends.iter().position(|rod| x0 < rod.to - 1e-12);
+        let body = inside.unwrap_or(ends.len() - 1);
+        let x = &references[body];
+        let right = x.partition_point(|&x| x <= x0).min(x.len() - 1);
+        let left = right.saturating_sub(1);
+        let span = (x[right] - x[left]).max(f64::MIN_POSITIVE);
+        let weight = ((x0 - x[left]) / span).clamp(0.0, 1.0);
+        Self {
+            body,
+            left,
+            right,
+            weight,
+        }
+    }
+
+    /// Stress and velocity.
+    fn read<T: Real>(&self, simulation: &Simulation<T, 1>) -> (f64, f64) {
+        let mut particles = simulation.body(self.body).skip(self.left);
+        let state =
+            |p: meshfree::simulation::ParticleView<'_, T, 1>| (-p.pressure(), p.velocity()[0]);
+        let left = particles.next().map_or((0.0, 0.0), state);
+        let right = match particles.next() {
+            Some(particle) if self.right > self.left => state(particle),
+            _ => left,
+        };
+        let mix = |a: f64, b: f64| if a == b { a } else { a + self.weight * (b - a) };
+        (mix(left.0, right.0), mix(left.1, right.1))
+    }
+}
+
+/// The open files of a run.
+struct Files {
+    folder: PathBuf,
+    history: CsvWriter,
+    ledger: CsvWriter,
+    row: Vec<f64>,
+}
+
+impl Files {
+    fn create(folder: &Path, case: &Case) -> Result<Self> {
+        let mut columns = vec!["time_s".to_string()];
+        for quantity in ["stress_pa", "velocity_m_s"] {
+            let names = case
+                .probes
+                .iter()
+                .map(|x| format!("{quantity}@{}mm", short(1e3 * x)));
+            columns.extend(names);
+        }
+        let rods = case.rods();
+        let mut ledger = vec!["time_s".to_string()];
+        for owner in rods.iter().map(|rod| rod.name).chain(["whole"]) {
+            let quantities = [
+                "mass_kg",
+                "momentum_kg_m_s",
+                "kinetic_j",
+                "internal_j",
+                "total_j",
+            ];
+            ledger.extend(quantities.map(|quantity| format!("{quantity}@{owner}")));
+        }
+        ledger.push("wall_impulse_n_s".into());
+        Ok(Self {
+            folder: folder.into(),
+            history: CsvWriter::create(folder.join("history.csv"), &columns)?,
+            ledger: CsvWriter::create(folder.join("ledger.csv"), &ledger)?,
+            row: Vec::new(),
+        })
+    }
+
+    fn step(&mut self, record: &Record, ledger: &Ledger) -> Result<()> {
+        self.row.clear();
+        self.row.push(ledger.time);
+        let last = |values: &Vec<f64>| values.last().copied().unwrap_or(0.0);
+        self.row
+            .extend(record.probes.iter().map(|probe| last(&probe.stress)));
+        self.row
+            .extend(record.probes.iter().map(|probe| last(&probe.velocity)));
+        self.history.row(&self.row)?;
+        self.row.clear();
+        self.row.push(ledger.time);
+        let budgets = ledger.bodies.iter().map(|(_, budget)| budget);
+        for budget in budgets.chain([&ledger.whole]) {
+            let momentum = budget.momentum.first().copied().unwrap_or(0.0);
+            let energies = [budget.kinetic, budget.internal, budget.total_energy()];
+            self.row.extend([budget.mass, momentum]);
+            self.row.extend(energies);
+        }
+        self.row
+            .push(ledger.boundary_impulse.first().copied().unwrap_or(0.0));
+        self.ledger.row(&self.row)
+    }
+
+    fn snapshot(&self, case: &Case, shot: &Snapshot) -> Result<()> {
+        let name = format!("snapshot_{}us.csv", short(1e6 * shot.time));
+        let columns = [
+            "x_m",
+            "reference_x_m",
+            "stress_pa",
+            "velocity_m_s",
+            "density_kg_m3",
+            "energy_j_kg",
+            "body",
+        ];
+        let mut file = CsvWriter::create(self.folder.join(name), &columns)?;
+        let rods = case.rods();
+        for p in &shot.points {
+            let numbers = [p.x, p.reference, p.stress, p.velocity, p.density, p.energy];
+            let mut cells: Vec<Cell<'_>> = numbers.map(Cell::from).into();
+            cells.push(rods[p.body].name.into());
+            file.mixed_row(&cells)?;
+        }
+        Ok(())
+    }
+}
+
+/// Runs a case. With a folder, writes its files there. `progress` is told the time \[s\] now and then.
+pub fn run(case: &Case, folder: Option<&Path>, progress: &mut dyn FnMut(f64)) -> Result<Record> {
+    match case.precision {
+        Precision::F32 => run_in::<f32>(case, folder, progress),
+        Precision::F64 => run_in::<f64>(case, folder, progress),
+    }
+}
+
+fn run_in<T: Real>(
+    case: &Case,
+    folder: Option<&Path>,
+    progress: &mut dyn FnMut(f64),
+) -> Result<Record> {
+    let started = Instant::now();
+    let mut simulation = case.build::<T>()?;
+    let mut files = folder
+        .map(|folder| Files::create(folder, case))
+        .transpose()?;
+    let bodies = 0..simulation.bodies().count();
+    let references: Vec<Vec<f64>> = bodies
+        .map(|body| simulation.body(body).map(|p| p.position()[0]).collect())
+        .collect();
+    let places: Vec<_> = case
+        .probes
+        .iter()
+        .map(|&x0| Place::find(case, &references, x0))
+        .collect();
+    let probe = |&x0: &f64| Probe {
+        x0,
+        stress: Vec::new(),
+        velocity: Vec::new(),
+    };
+    let mut record = Record {
+        case: case.clone(),
+        time: Vec::new(),
+        probes: case.probes.iter().map(probe).collect(),
+        contact: Vec::new(),
+        snapshots: Vec::new(),
+        at_rest: simulation
+            .all()
+            .map(|p| p.pressure().abs())
+            .fold(0.0, f64::max),
+        momentum_drift: 0.0,
+        energy_drift: 0.0,
+        particles: simulation.particles(),
+        steps: 0,
+        guards: 0,
+        scheme: simulation.scheme().to_string(),
+        integrator: simulation.integrator_name(),
+        wall_time: Duration::ZERO,
+    };
+    let first = simulation.ledger();
+    // Only kick-drift-kick ends its step with the pressures of that time.
+    let lags = case.integrator() != IntegratorChoice::KickDriftKick;
+    let mut stops = case.snapshots.clone();
+    stops.push(case.until);
+    stops.sort_by(f64::total_cmp);
+    let mut observe = |simulation: &Simulation<T, 1>, record: &mut Record| -> Result<()> {
+        let ledger =
+            (files.is_some() || simulation.steps().is_multiple_of(50)).then(|| simulation.ledger());
+        note(simulation, &places, record);
+        if let Some(ledger) = &ledger {
+            note_drift(&first, ledger, record);
+            if let Some(files) = &mut files {
+                files.step(record, ledger)?;
+            }
+            progress(simulation.time());
+        }
+        Ok(())
+    };
+    observe(&simulation, &mut record)?;
+    let mut shots = Vec::new();
+    for stop in stops {
+        while stop - simulation.time() > 1e-12 * stop {
+            let left = stop - simulation.time();
+            // Two equal last steps instead of a full one and a sliver.
+            let limit = match simulation.last_vote() {
+                Some(vote) if left < 2.0 * vote.step && left > vote.step => 0.5 * left,
+                _ => left,
+            };
+            simulation.step_at_most(limit)?;
+            if lags {
+                simulation.evaluate()?;
+            }
+            observe(&simulation, &mut record)?;
+        }
+        if case.snapshots.contains(&stop) {
+            shots.push(take_snapshot(&simulation, &references, stop));
+        }
+    }
+    note_drift(&first, &simulation.ledger(), &mut record);
+    if let Some(files) = &files {
+        shots
+            .iter()
+            .try_for_each(|shot| files.snapshot(case, shot))?;
+    }
+    record.snapshots = shots;
+    record.steps = simulation.steps();
+    record.guards = simulation.guard_counts().total();
+    record.wall_time = started.elapsed();
+    Ok(record)
+}
+
+fn note<T: Real>(simulation: &Simulation<T, 1>, places: &[Place], record: &mut Record) {
+    record.time.push(simulation.time());
+    for (probe, place) in record.probes.iter_mut().zip(places) {
+        let (stress, velocity) = place.read(simulation);
+        probe.stress.push(stress);
+        probe.velocity.push(velocity);
+    }
+    let head = record.case.head();
+    // The target is the body after the head; a wall comes after all bodies, which is the same index.
+    let force = simulation.force_between(head, head + 1)[0];
+    record.contact.push(-force);
+}
+
+fn note_drift(first: &Ledger, now: &Ledger, record: &mut Record) {
+    let momentum = |ledger: &Ledger| {
+        let wall = ledger.boundary_impulse.first().copied().unwrap_or(0.0);
+        ledger.whole.momentum.first().copied().unwrap_or(0.0) - wall
+    };
+    let energy = |ledger: &Ledger| ledger.whole.total_energy();
+    let drift = |of: &dyn Fn(&Ledger) -> f64| ((of(now) - of(first)) / of(first)).abs();
+    record.momentum_drift = record.momentum_drift.max(drift(&momentum));
+    record.energy_drift = record.energy_drift.max(drift(&energy));
+}
+
+fn take_snapshot<T: Real>(
+    simulation: &Simulation<T, 1>,
+    references: &[Vec<f64>],
+    time: f64,
+) -> Snapshot {
+    let mut points = Vec::with_capacity(simulation.particles());
+    for (body, references) in references.iter().enumerate() {
+        for (p, &reference) in simulation.body(body).zip(references) {
+            points.push(Point {
+                body,
+                reference,
+                x: p.position()[0],
+                stress: -p.pressure(),
+                velocity: p.velocity()[0],
+                density: p.density(),
+                energy: p.energy(),
+            });
+        }
+    }
+    Snapshot { time, points }
+}

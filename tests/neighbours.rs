@@ -1,0 +1,277 @@
+//! Neighbour lists hold every pair within reach, against a search over all pairs, and stay valid
+//! while particles move within the skin.
+
+mod common;
+
+use common::Random;
+use meshfree::boundary::{MirrorPlane, Periodic};
+use meshfree::material::catalogue;
+use meshfree::neighbors::{Block, ClusterLists, Radii, SearchInput};
+use meshfree::scene::{Body, Scene};
+use meshfree::schemes;
+use meshfree::simulation::{Simulation, StepControl};
+use proptest::prelude::*;
+
+const WIDTH: usize = 8;
+
+/// Random points in blocks, the ends of clusters filled with the last point of the block, then images.
+struct Points<const D: usize> {
+    positions: Vec<[f64; D]>,
+    h: Vec<f64>,
+    blocks: Vec<Block>,
+    slots: usize,
+}
+
+fn points<const D: usize>(seed: u64, outliers: bool) -> Points<D> {
+    let mut random = Random(seed);
+    let mut set = Points {
+        positions: Vec::new(),
+        h: Vec::new(),
+        blocks: Vec::new(),
+        slots: 0,
+    };
+    for _ in 0..1 + random.below(3) {
+        let start = set.positions.len();
+        for _ in 0..1 + random.below(60) {
+            let mut x = random.vector::<D>(4.0);
+            if outliers && random.below(20) == 0 {
+                x = x.map(|x| x * 10_f64.powi(1 + random.below(12) as i32));
+            }
+            set.positions.push(x);
+            set.h.push(1.0 + 0.8 * random.sign());
+        }
+        let end = set.positions.len();
+        while set.positions.len() % WIDTH != 0 {
+            set.positions.push(set.positions[end - 1]);
+            set.h.push(set.h[end - 1]);
+        }
+        set.blocks.push(Block { slots: start..end });
+    }
+    set.slots = set.positions.len();
+    let images = random.below(40);
+    for _ in 0..images {
+        set.positions.push(random.vector(4.5));
+        set.h.push(1.0 + 0.8 * random.sign());
+    }
+    set.blocks.push(Block {
+        slots: set.slots..set.slots + images,
+    });
+    set
+}
+
+fn lists_hold_all<const D: usize>(
+    seed: u64,
+    varying: bool,
+    outliers: bool,
+) -> Result<(), TestCaseError> {
+    let set = points::<D>(seed, outliers);
+    let (support, skin) = (0.9, 0.15);
+    let radii = if varying {
+        Radii::Varying(&set.h, support)
+    } else {
+        Radii::Uniform(support)
+    };
+    let mut lists = ClusterLists::default();
+    // A rebuild on top of an old list leaves nothing behind.
+    for _ in 0..2 {
+        lists.rebuild(&SearchInput {
+            positions: &set.positions,
+            radii,
+            blocks: &set.blocks,
+            width: WIDTH,
+            slots: set.slots,
+            skin,
+        });
+    }
+    let mut entries = 0;
+    for cluster in 0..set.slots / WIDTH {
+        let chunk = &lists.chunks()[cluster / meshfree::neighbors::CHUNK];
+        let at = cluster % meshfree::neighbors::CHUNK;
+        let segments = &chunk.segments[chunk.starts[at] as usize..chunk.starts[at + 1] as usize];
+        let mut listed = Vec::new();
+        for segment in segments {
+            let own = &chunk.neighbors[segment.start as usize..segment.end as usize];
+            let block = &set.blocks[segment.block as usize].slots;
+            prop_assert!(
+                own.iter().all(|&j| block.contains(&(j as usize))),
+                "wrong block"
+            );
+            listed.extend_from_slice(own);
+        }
+        entries += listed.len();
+        prop_assert!(
+            listed.windows(2).all(|pair| pair[0] < pair[1]),
+            "order or repeats"
+        );
+        for i in cluster * WIDTH..(cluster + 1) * WIDTH {
+            for j in set.blocks.iter().flat_map(|block| block.slots.clone()) {
+                let apart: f64 = (0..D)
+                    .map(|d| (set.positions[i][d] - set.positions[j][d]).powi(2))
+                    .sum::<f64>()
+                    .sqrt();
+                let reach = if varying {
+                    support * set.h[i].max(set.h[j])
+                } else {
+                    support
+                };
+                prop_assert!(
+                    apart > reach + skin || listed.contains(&(j as u32)),
+                    "{j} at {apart} from {i} is missing"
+                );
+            }
+        }
+        // Nobody is listed that no member of the cluster can reach.
+        for &j in &listed {
+            let least = (cluster * WIDTH..(cluster + 1) * WIDTH)
+                .map(|i| {
+                    (0..D)
+                        .map(|d| (set.positions[i][d] - set.positions[j as usize][d]).powi(2))
+                        .sum::<f64>()
+                        .sqrt()
+                })
+                .fold(f64::INFINITY, f64::min);
+            prop_assert!(least <= support * if varying { 1.8 } else { 1.0 } + skin + 1e-9);
+        }
+    }
+    prop_assert_eq!(entries, lists.entries());
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn lists_in_a_row_hold_every_pair_within_reach(seed in any::<u64>(), varying in any::<bool>(), outliers in any::<bool>()) {
+        lists_hold_all::<1>(seed, varying, outliers)?;
+    }
+    #[test]
+    fn lists_in_a_plane_hold_every_pair_within_reach(seed in any::<u64>(), varying in any::<bool>(), outliers in any::<bool>()) {
+        lists_hold_all::<2>(seed, varying, outliers)?;
+    }
+    #[test]
+    fn lists_in_space_hold_every_pair_within_reach(seed in any::<u64>(), varying in any::<bool>(), outliers in any::<bool>()) {
+        lists_hold_all::<3>(seed, varying, outliers)?;
+    }
+}
+
+fn pressures<const D: usize>(simulation: &Simulation<f64, D>) -> Vec<f64> {
+    simulation
+        .all()
+        .map(|particle| particle.pressure())
+        .collect()
+}
+
+/// Largest difference over the largest value.
+fn apart(a: &[f64], b: &[f64]) -> f64 {
+    let top = a.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    a.iter()
+        .zip(b)
+        .fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()))
+        / top
+}
+
+fn impact(skin: f64) -> Simulation<f64, 1> {
+    let mut simulation = Scene::new(schemes::impact())
+        .body(Body::block("striker", catalogue::copper(), [0.0], [0.005], 1e-4).velocity([400.0]))
+        .body(Body::block(
+            "target",
+            catalogue::aluminium(),
+            [0.005],
+            [0.02],
+            1e-4,
+        ))
+        .boundary(MirrorPlane::wall([0.02], [1.0]))
+        .skin(skin)
+        .steps(|control| StepControl {
+            fixed: Some(1e-9),
+            ..control
+        })
+        .build()
+        .unwrap();
+    for _ in 0..600 {
+        simulation.step().unwrap();
+    }
+    simulation
+}
+
+#[test]
+fn a_rod_impact_does_not_feel_the_skin() {
+    let (thin, thick) = (impact(0.02), impact(0.3));
+    println!(
+        "{} and {} list builds",
+        thin.list_builds(),
+        thick.list_builds()
+    );
+    assert!(thin.list_builds() > 3 * thick.list_builds() && thick.list_builds() > 1);
+    let apart = apart(&pressures(&thin), &pressures(&thick));
+    assert!(apart < 1e-9, "{apart:.3e}");
+}
+
+/// A sheet that shears and crosses its periods, so that lists, order and images all change.
+fn shear(skin: f64) -> Simulation<f64, 2> {
+    let length = 0.016;
+    let k = 2.0 * std::f64::consts::PI / length;
+    let mut simulation = Scene::new(schemes::impact_by_continuity())
+        .body(
+            Body::block("sheet", catalogue::copper(), [0.0; 2], [length; 2], 1e-3).start(
+                |x, start| meshfree::scene::Start {
+                    velocity: [
+                        300.0 + 60.0 * (k * x[1]).sin(),
+                        200.0 + 60.0 * (k * x[0]).cos(),
+                    ],
+                    ..start
+                },
+            ),
+        )
+        .boundary(Periodic::along(0, 0.0, length))
+        .boundary(Periodic::along(1, 0.0, length))
+        .skin(skin)
+        .steps(|control| StepControl {
+            fixed: Some(4e-8),
+            ..control
+        })
+        .build()
+        .unwrap();
+    for _ in 0..400 {
+        simulation.step().unwrap();
+    }
+    simulation
+}
+
+#[test]
+fn a_sheet_that_shears_through_its_periods_does_not_feel_the_skin() {
+    let (thin, thick) = (shear(0.02), shear(0.3));
+    println!(
+        "{} and {} list builds",
+        thin.list_builds(),
+        thick.list_builds()
+    );
+    assert!(thin.list_builds() > 3 * thick.list_builds() && thick.list_builds() > 1);
+    let apart = apart(&pressures(&thin), &pressures(&thick));
+    println!("apart {apart:.3e}");
+    assert!(apart < 1e-8, "{apart:.3e}");
+}
+
+#[test]
+fn a_wall_that_comes_is_a_body_that_goes() {
+    let rod = |velocity: f64, wall: f64| {
+        let mut simulation = Scene::new(schemes::impact())
+            .body(
+                Body::block("rod", catalogue::copper(), [0.0], [0.005], 1e-4).velocity([velocity]),
+            )
+            .boundary(MirrorPlane::wall([0.0055], [1.0]).moving(wall))
+            .steps(|control| StepControl {
+                fixed: Some(4e-9),
+                ..control
+            })
+            .build()
+            .unwrap();
+        simulation.run_until(6e-6).unwrap();
+        simulation
+    };
+    let (goes, comes) = (rod(200.0, 0.0), rod(0.0, -200.0));
+    let top = pressures(&goes).iter().fold(0.0_f64, |m, p| m.max(p.abs()));
+    assert!(top > 1e9, "they have not met: {top}");
+    let apart = apart(&pressures(&goes), &pressures(&comes));
+    assert!(apart < 1e-9, "{apart:.3e}");
+}
