@@ -189,8 +189,7 @@ fn cubic_sound_speed_in_closed_form() {
     let (k, a0) = (s - 1.0, rho0 * c0 * c0);
     let (b0, d0) = (a0 * (1.0 + 2.0 * k), a0 * (2.0 * k + 3.0 * k * k));
     for (eta, e) in [(0.0025, 50.0), (0.1, 1e5), (0.4, 1e6), (-0.02, 1e4)] {
-        let (rho, tension): (f64, bool) = (rho0 * (1.0 + eta), eta < 0.0);
-        let (b0, d0) = if tension { (0.0, 0.0) } else { (b0, d0) };
+        let rho: f64 = rho0 * (1.0 + eta);
         let curve = a0 * eta + b0 * eta * eta + d0 * eta.powi(3);
         let slope = a0 + 2.0 * b0 * eta + 3.0 * d0 * eta * eta;
         let p = (1.0 - 0.5 * gamma * eta) * curve + gamma * rho * e;
