@@ -6,7 +6,7 @@ use meshfree::material::catalogue;
 use meshfree::output::svg::{Axis, Figure, Marker, PALETTE, Panel, Series};
 use meshfree::output::table::{Table, significant};
 use meshfree::scene::{Body, Scene};
-use meshfree::scheme::{DensityForm, SchemeBuilder};
+use meshfree::scheme::{DensityForm, Scheme, SchemeBuilder};
 use meshfree::study::norms::{overshoot, plateau_mean, rise_10_90};
 use meshfree::term::viscosity::ViscosityKind;
 use std::error::Error;
@@ -96,11 +96,11 @@ struct Case {
 }
 
 fn run(case: &Case, spacing: f64) -> Result<Front, Box<dyn Error>> {
-    let mut scheme =
-        SchemeBuilder::new(CubicSpline, case.viscosity).density(DensityForm::NumberDensity);
-    if let Some(strength) = case.curvature {
-        scheme = scheme.pressure_curvature(strength);
-    }
+    let plain = SchemeBuilder::new(CubicSpline, case.viscosity).density(DensityForm::NumberDensity);
+    let scheme: Scheme<f64, 1> = match case.curvature {
+        Some(strength) => plain.pressure_curvature(strength).compose(),
+        None => plain.compose(),
+    };
     let target = catalogue::by_name(case.target)?;
     let copper = catalogue::copper();
     let mut simulation = Scene::<f64, 1>::new(scheme)

@@ -12,7 +12,7 @@
 //! | [`CullenDehnen`] | `cullen-dehnen` | α of its own, fed by steepening | α, ∇·v, ∇v (2D, 3D) | strong shocks, subsonic turbulence |
 //! | [`Riemann`] | `riemann` | what a Riemann solver dissipates, limited | – | violent liquids, impact of unlike materials |
 //!
-//! The last four see little in a weak shock: at an impact of 20 m/s on copper the velocity jump is
+//! The last three see little in a weak shock: at an impact of 20 m/s on copper the velocity jump is
 //! 0.3 % of the sound speed, and a law that grows with that ratio leaves the front ringing. A law with
 //! a fixed α does not. `docs/viscosity_frontier.md` measures all of them on one front.
 //!
