@@ -141,6 +141,31 @@ impl<T: Real, const D: usize> Group<T, D> {
             });
     }
 
+    /// Volumes `dt` \[s\] ahead with the last rates of compression, for sums at the middle of a drift.
+    pub fn predict_weights(&mut self, dt: f64) {
+        let form = self.scheme.density;
+        if !form.is_integrated() || !self.rows.outputs().contains(Output::Compression) {
+            return;
+        }
+        let (rows, dt) = (&self.rows, T::from_f64(dt));
+        let [weight, mass, density, moment] = self.columns.many_mut([
+            Field::Weight,
+            Field::Mass,
+            Field::Density,
+            Field::Normalisation,
+        ]);
+        let (mass, density, moment) = (&*mass, &*density, &*moment);
+        weight
+            .par_iter_mut()
+            .enumerate()
+            .with_min_len(GRAIN)
+            .for_each(|(slot, weight)| {
+                let sum = rows.get(Output::Compression, 0, slot);
+                let rate = form.compression(sum, density[slot], T::one(), moment[slot]);
+                *weight = mass[slot] / (density[slot] * (T::one() + dt * rate));
+            });
+    }
+
     /// Evaluates all rates at the present positions, velocities, densities and energies.
     pub fn evaluate(&mut self, time: f64) {
         self.refresh(time);
