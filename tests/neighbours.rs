@@ -130,7 +130,8 @@ fn lists_hold_all<const D: usize>(
                         .sqrt()
                 })
                 .fold(f64::INFINITY, f64::min);
-            prop_assert!(least <= support * if varying { 1.8 } else { 1.0 } + skin + 1e-9);
+            let widest = if varying { 1.8 } else { 1.0 };
+            prop_assert!(least <= support * widest + skin + 1e-9);
         }
     }
     prop_assert_eq!(entries, lists.entries());

@@ -307,6 +307,11 @@ fn a_mirror_wall_is_the_other_half_of_a_symmetric_impact() {
             for (a, b) in wall.body(0).zip(pair.body(0)) {
                 worst = worst.max((a.pressure() - b.pressure()).abs() / 709e6);
             }
+            println!(
+                "  at {until}: {worst:.1e}, {} and {} steps",
+                wall.steps(),
+                pair.steps()
+            );
         }
         println!("wall against pair: {worst:.1e} of the plateau");
         assert!(worst < 1e-9, "{worst:.1e}");

@@ -13,7 +13,7 @@ use crate::particles::{Columns, Field, Fields};
 use crate::scalar::Real;
 use crate::scheme::{Scheme, Smoothing};
 use crate::simulation::{BodyState, Group, Load, Simulation, StepControl, width};
-use crate::sweep::Interaction;
+use crate::sweep::{InstructionSet, Interaction};
 
 /// A scene: bodies, boundaries, a scheme, an integrator, and how parts act on each other.
 ///
@@ -40,6 +40,7 @@ pub struct Scene<T: Real, const D: usize> {
     loads: Vec<Load<D>>,
     control: StepControl,
     skin: f64,
+    instructions: InstructionSet,
 }
 
 impl<T: Real, const D: usize> Scene<T, D> {
@@ -60,6 +61,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             loads: Vec::new(),
             control,
             skin: DEFAULT_SKIN,
+            instructions: InstructionSet::detect(),
         }
     }
 
@@ -122,6 +124,14 @@ impl<T: Real, const D: usize> Scene<T, D> {
         self
     }
 
+    /// The instruction set of the pair loop; the best that the machine has if not given.
+    /// [`InstructionSet::Baseline`] gives the same bits on every machine.
+    #[must_use]
+    pub fn instructions(mut self, set: InstructionSet) -> Self {
+        self.instructions = set;
+        self
+    }
+
     /// Checks the scene and makes a simulation of it.
     ///
     /// # Errors
@@ -179,6 +189,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             h,
             skin,
         );
+        group.instructions = self.instructions;
         group.take_reference();
         let mut simulation = Simulation::new(group, self.integrator, self.control, self.loads);
         simulation.evaluate()?;

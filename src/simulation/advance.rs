@@ -439,7 +439,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     #[inline(always)]
     fn rate_of(&self, field: Field, k: usize, y: T) -> T {
         let group = &self.group;
-        let form = group.scheme.density;
+        // The rates were summed with the weights of the force.
+        let form = group.scheme.pressure_form;
         let rest = [Field::ReferenceDensity, Field::Normalisation].map(|f| group.columns.raw(f));
         match field {
             Field::Velocity => {
