@@ -314,7 +314,9 @@ fn wave(form: DensityForm, integrator: Box<dyn Integrator>, step: f64) -> Simula
     .unwrap()
 }
 
-fn state(simulation: &Simulation<f64, 1>) -> Vec<f64> {
+fn state(simulation: &mut Simulation<f64, 1>) -> Vec<f64> {
+    // Some integrators evaluate last at half steps: density and pressure are those of that moment.
+    simulation.evaluate().unwrap();
     simulation
         .all()
         .flat_map(|p| {
@@ -342,7 +344,7 @@ fn orders(form: DensityForm, expected: impl Fn(&dyn Integrator, f64) -> f64) {
         for _ in 0..steps {
             simulation.step().unwrap();
         }
-        state(&simulation)
+        state(&mut simulation)
     };
     let exact = run(Box::new(RungeKutta4), 1280);
     for (k, (integrator, order)) in all().into_iter().enumerate() {
@@ -379,18 +381,17 @@ fn each_has_its_order_on_a_wave_with_density_by_continuity() {
 
 /// Runs there and back, and returns how far from home it ends, over how far it went.
 fn missed(form: DensityForm, integrator: impl Integrator + 'static) -> f64 {
-    let there = wave(form, Box::new(integrator), 4e-4);
-    let start = state(&there);
-    let mut there = there;
+    let mut there = wave(form, Box::new(integrator), 2e-4);
+    let start = state(&mut there);
     for _ in 0..100 {
         there.step().unwrap();
     }
-    let far = distance(&state(&there), &start);
+    let far = distance(&state(&mut there), &start);
     there.set_velocities(|_, v| v.map(|v| -v));
     for _ in 0..100 {
         there.step().unwrap();
     }
-    let home: Vec<f64> = state(&there)
+    let home: Vec<f64> = state(&mut there)
         .chunks(3)
         .flat_map(|s| [s[0], -s[1], s[2]])
         .collect();
@@ -399,15 +400,20 @@ fn missed(form: DensityForm, integrator: impl Integrator + 'static) -> f64 {
 
 #[test]
 fn leapfrogs_run_backwards_to_where_they_came_from() {
-    for form in [
-        DensityForm::Summation,
-        DensityForm::NumberDensity,
-        DensityForm::Continuity,
-    ] {
+    for form in [DensityForm::Summation, DensityForm::NumberDensity] {
         let (kdk, dkd) = (missed(form, KickDriftKick), missed(form, DriftKickDrift));
         println!("{form}: kick-drift-kick {kdk:.1e}, drift-kick-drift {dkd:.1e}");
         assert!(kdk < 1e-10 && dkd < 1e-10, "{form}: {kdk:.1e}, {dkd:.1e}");
     }
+}
+
+/// Volumes at the middle of a drift are predicted, which is second order but knows past from future.
+#[test]
+fn with_continuity_they_come_back_to_a_millionth() {
+    let form = DensityForm::Continuity;
+    let (kdk, dkd) = (missed(form, KickDriftKick), missed(form, DriftKickDrift));
+    println!("kick-drift-kick {kdk:.1e}, drift-kick-drift {dkd:.1e}");
+    assert!(kdk < 1e-6 && dkd < 1e-6, "{kdk:.1e}, {dkd:.1e}");
 }
 
 #[test]

@@ -9,7 +9,7 @@ use meshfree::kernel::{CubicSpline, Kernel, KernelKind};
 use meshfree::material::Material;
 use meshfree::material::eos::Linear;
 use meshfree::scene::{Body, Scene, Start};
-use meshfree::scheme::{DensityForm, EnergyForm, SchemeBuilder};
+use meshfree::scheme::{DensityForm, EnergyForm, Scheme, SchemeBuilder};
 use meshfree::simulation::{Simulation, StepControl};
 use meshfree::term::viscosity::Inviscid;
 use std::f64::consts::PI;
@@ -60,10 +60,10 @@ fn standing_wave(
         })
         .energy(EnergyForm::Compatible)
         .h_over_dx(ratio);
-    let scheme = match cure {
-        Cure::Nothing => scheme.without_normalisation(),
-        Cure::Normalisation => scheme,
-        Cure::Both => scheme.pressure_curvature(1.0 / 3.0),
+    let scheme: Scheme<f64, 1> = match cure {
+        Cure::Nothing => scheme.without_normalisation().compose(),
+        Cure::Normalisation => scheme.compose(),
+        Cure::Both => scheme.pressure_curvature(1.0 / 3.0).compose(),
     };
     let stuff = Material::new("linear", Linear::new(1000.0, SOUND_SPEED));
     let row = Body::block("row", stuff, [0.0], [length], 1.0).start(|x, start| Start {

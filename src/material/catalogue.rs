@@ -3,6 +3,7 @@
 
 use super::Material;
 use super::eos::{Hugoniot, IdealGas, Linear, MieGruneisen, Tait};
+use crate::error::{Error, Problem};
 use crate::scalar::Real;
 
 const LAM: &str = "Lam, Shen & Gong, axial impact of rods, table 2";
@@ -205,6 +206,21 @@ fn shear_modulus(youngs_modulus: f64, poisson: f64) -> f64 {
 pub struct UnknownMaterial {
     /// The name that was given.
     pub given: String,
+}
+
+impl From<UnknownMaterial> for Problem {
+    fn from(unknown: UnknownMaterial) -> Self {
+        Problem::UnknownMaterial {
+            name: unknown.given,
+            known: NAMES.join(", "),
+        }
+    }
+}
+
+impl From<UnknownMaterial> for Error {
+    fn from(unknown: UnknownMaterial) -> Self {
+        Error::Argument(unknown.into())
+    }
 }
 
 macro_rules! names {

@@ -155,6 +155,12 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 "take a density form that follows from positions, or another integrator",
             );
         }
+        if !self.instructions.available() {
+            incompatible(
+                format!("this machine does not have {:?}", self.instructions),
+                "leave the choice to the scene, or take InstructionSet::Baseline",
+            );
+        }
         let hot = self.bodies.iter().find(|body| {
             scheme.energy == EnergyForm::None && body.starts.iter().any(|start| start.energy != 0.0)
         });

@@ -41,7 +41,7 @@ use crate::particles::{Columns, Field, Fields};
 use crate::scalar::Real;
 use crate::scheme::{Scheme, Smoothing};
 use crate::simulation::{BodyState, Group, Load, Simulation, StepControl, width};
-use crate::sweep::Interaction;
+use crate::sweep::{InstructionSet, Interaction};
 
 /// A scene: bodies, boundaries, a scheme, an integrator, and how parts act on each other.
 ///
@@ -68,6 +68,7 @@ pub struct Scene<T: Real, const D: usize> {
     loads: Vec<Load<D>>,
     control: StepControl,
     skin: f64,
+    instructions: InstructionSet,
 }
 
 impl<T: Real, const D: usize> Scene<T, D> {
@@ -88,6 +89,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             loads: Vec::new(),
             control,
             skin: DEFAULT_SKIN,
+            instructions: InstructionSet::detect(),
         }
     }
 
@@ -150,6 +152,14 @@ impl<T: Real, const D: usize> Scene<T, D> {
         self
     }
 
+    /// The instruction set of the pair loop; the best that the machine has if not given.
+    /// [`InstructionSet::Baseline`] gives the same bits on every machine.
+    #[must_use]
+    pub fn instructions(mut self, set: InstructionSet) -> Self {
+        self.instructions = set;
+        self
+    }
+
     /// Checks the scene and makes a simulation of it.
     ///
     /// # Errors
@@ -207,6 +217,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             h,
             skin,
         );
+        group.instructions = self.instructions;
         group.take_reference();
         let mut simulation = Simulation::new(group, self.integrator, self.control, self.loads);
         simulation.evaluate()?;

@@ -8,7 +8,7 @@ use crate::error::Result;
 use crate::integrator::System;
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
-use crate::scheme::{DensityForm, EnergyForm, Smoothing};
+use crate::scheme::{DensityForm, EnergyForm, Scheme, Smoothing};
 use crate::sweep::{Rows, two_sum};
 use rayon::prelude::*;
 
@@ -169,6 +169,15 @@ fn rate<T: Real, const D: usize>(
     form.compression(sum, density, one(rest), one(moment))
 }
 
+/// Whether a column of [`STATE`] is advanced in time, and does not follow from positions.
+fn is_state<T: Real, const D: usize>(scheme: &Scheme<T, D>, field: Field) -> bool {
+    match field {
+        Field::Density | Field::DensityResidual => scheme.density.is_integrated(),
+        Field::SmoothingLength => matches!(scheme.smoothing, Smoothing::Divergence { .. }),
+        _ => true,
+    }
+}
+
 /// eˣ − 1 for the small x of a time step, without cancellation.
 #[inline(always)]
 fn expm1<T: Real>(x: T) -> T {
@@ -246,6 +255,7 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
             self.move_particles(dt);
             return Ok(());
         }
+        self.group.predict_weights(0.5 * dt);
         self.move_particles(0.5 * dt);
         self.group.refresh(self.time + offset + 0.5 * dt);
         self.follow_moves();
@@ -313,7 +323,9 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
         kept.columns.resize_with(STATE.len(), Vec::new);
         for (kept, field) in kept.columns.iter_mut().zip(STATE) {
             kept.clear();
-            kept.extend_from_slice(self.group.columns.raw(field));
+            if is_state(&self.group.scheme, field) {
+                kept.extend_from_slice(self.group.columns.raw(field));
+            }
         }
         kept.impulses.clone_from(&self.impulses);
     }
@@ -323,7 +335,9 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
             return;
         };
         for (kept, field) in kept.columns.iter().zip(STATE) {
-            self.group.columns.raw_mut(field).copy_from_slice(kept);
+            if is_state(&self.group.scheme, field) {
+                self.group.columns.raw_mut(field).copy_from_slice(kept);
+            }
         }
         self.impulses.clone_from(&kept.impulses);
     }
@@ -425,7 +439,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     #[inline(always)]
     fn rate_of(&self, field: Field, k: usize, y: T) -> T {
         let group = &self.group;
-        let form = group.scheme.density;
+        // The rates were summed with the weights of the force.
+        let form = group.scheme.pressure_form;
         let rest = [Field::ReferenceDensity, Field::Normalisation].map(|f| group.columns.raw(f));
         match field {
             Field::Velocity => {

@@ -36,7 +36,7 @@ impl<T: Real, const D: usize> Group<T, D> {
     pub fn take_reference(&mut self) {
         // At rest the two sides of a contact lie against each other, and count as one neighbourhood.
         self.columns.raw_mut(Field::Touching).fill(T::one());
-        self.set_weights();
+        self.set_weights(self.scheme.density);
         self.refresh(0.0);
         self.scratch_sweep(|group| Some(group.scheme.reference.as_ref()));
         let form = self.scheme.density;
@@ -122,8 +122,8 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
     }
 
-    fn set_weights(&mut self) {
-        let form = self.scheme.density;
+    /// Weights of pair sums by a density form.
+    fn set_weights(&mut self, form: DensityForm) {
         let [weight, mass, density, rest] = self.columns.many_mut([
             Field::Weight,
             Field::Mass,
@@ -141,9 +141,45 @@ impl<T: Real, const D: usize> Group<T, D> {
             });
     }
 
+    /// Volumes `dt` \[s\] ahead with the last rates of compression, for sums at the middle of a drift.
+    pub fn predict_weights(&mut self, dt: f64) {
+        if !self.scheme.density.is_integrated()
+            || !self.rows.outputs().contains(Output::Compression)
+        {
+            if self.scheme.pressure_form != self.scheme.density {
+                self.set_weights(self.scheme.density);
+            }
+            return;
+        }
+        // The last rates were summed with the weights of the force.
+        let form = self.scheme.pressure_form;
+        let (rows, dt) = (&self.rows, T::from_f64(dt));
+        let [weight, mass, density, rest, moment] = self.columns.many_mut([
+            Field::Weight,
+            Field::Mass,
+            Field::Density,
+            Field::ReferenceDensity,
+            Field::Normalisation,
+        ]);
+        let (mass, density) = (&*mass, &*density);
+        let (rest, moment) = (&*rest, &*moment);
+        weight
+            .par_iter_mut()
+            .enumerate()
+            .with_min_len(GRAIN)
+            .for_each(|(slot, weight)| {
+                let sum = rows.get(Output::Compression, 0, slot);
+                let rate = form.compression(sum, density[slot], rest[slot], moment[slot]);
+                *weight = mass[slot] / (density[slot] * (T::one() + dt * rate));
+            });
+    }
+
     /// Evaluates all rates at the present positions, velocities, densities and energies.
     pub fn evaluate(&mut self, time: f64) {
         self.refresh(time);
+        if self.scheme.pressure_form != self.scheme.density {
+            self.set_weights(self.scheme.density);
+        }
         self.find_density(time);
         self.close_materials();
         self.set_coefficients();
@@ -327,10 +363,11 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// Weights and pressure coefficients of the pair force.
     fn set_coefficients(&mut self) {
-        if self.scheme.density == DensityForm::Continuity {
-            self.set_weights();
-        }
         let form = self.scheme.pressure_form;
+        // A pressure form that does not belong to the density has weights of its own.
+        if form == DensityForm::Continuity || form != self.scheme.density {
+            self.set_weights(form);
+        }
         let [coefficient, pressure, density, rest, moment, omega] = self.columns.many_mut([
             Field::PressureCoefficient,
             Field::Pressure,

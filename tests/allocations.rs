@@ -1,0 +1,104 @@
+//! Steps allocate nothing: counted by an allocator of the test's own.
+
+use meshfree::boundary::{MirrorPlane, Periodic};
+use meshfree::material::catalogue;
+use meshfree::scene::{Body, Scene, Start};
+use meshfree::schemes;
+use meshfree::simulation::Simulation;
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+struct Counting;
+
+static ALLOCATIONS: AtomicU64 = AtomicU64::new(0);
+
+// SAFETY: everything is passed on to the system's allocator.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
+        unsafe { System.alloc(layout) }
+    }
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        unsafe { System.dealloc(pointer, layout) }
+    }
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
+        unsafe { System.realloc(pointer, layout, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+/// Allocations in steps between list builds, after a warm-up.
+fn counted<const D: usize>(simulation: &mut Simulation<f64, D>) -> (u64, u64) {
+    for _ in 0..20 {
+        simulation.step().unwrap();
+    }
+    let (mut counted, mut steps) = (0, 0);
+    for _ in 0..60 {
+        let (builds, before) = (
+            simulation.list_builds(),
+            ALLOCATIONS.load(Ordering::Relaxed),
+        );
+        simulation.step().unwrap();
+        if simulation.list_builds() == builds {
+            counted += ALLOCATIONS.load(Ordering::Relaxed) - before;
+            steps += 1;
+        }
+    }
+    (counted, steps)
+}
+
+/// One test, so that nothing else allocates meanwhile.
+#[test]
+fn a_step_between_list_builds_allocates_nothing() {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(2)
+        .build()
+        .unwrap();
+    // Inside of the pool: handing work to it from outside allocates now and then.
+    pool.install(|| {
+        for scheme in [schemes::impact, schemes::impact_by_continuity] {
+            let mut rods = Scene::<f64, 1>::new(scheme())
+                .body(
+                    Body::block("striker", catalogue::copper(), [0.0], [0.05], 1e-5)
+                        .velocity([20.0]),
+                )
+                .body(Body::block(
+                    "target",
+                    catalogue::pmma(),
+                    [0.05],
+                    [0.1],
+                    1e-5,
+                ))
+                .boundary(MirrorPlane::wall([0.1], [1.0]))
+                .build()
+                .unwrap();
+            let (allocations, steps) = counted(&mut rods);
+            println!(
+                "{}: {allocations} allocations in {steps} steps",
+                rods.scheme().name()
+            );
+            assert!(steps > 40, "lists are built too often to tell: {steps}");
+            assert_eq!(allocations, 0, "{}", rods.scheme().name());
+        }
+        let mut sheet = Scene::<f64, 2>::new(schemes::impact())
+            .body(
+                Body::block("sheet", catalogue::copper(), [0.0; 2], [1.0; 2], 0.02).start(
+                    |x, start| Start {
+                        velocity: [(6.283_185 * x[1]).sin(), 0.0],
+                        ..start
+                    },
+                ),
+            )
+            .boundary(Periodic::along(0, 0.0, 1.0))
+            .boundary(Periodic::along(1, 0.0, 1.0))
+            .build()
+            .unwrap();
+        let (allocations, steps) = counted(&mut sheet);
+        println!("sheet: {allocations} allocations in {steps} steps");
+        assert!(steps > 40);
+        assert_eq!(allocations, 0);
+    });
+}

@@ -1,0 +1,484 @@
+//! Bad input: each kind has its own error, which says what to do, and nothing panics.
+
+use meshfree::boundary::{MirrorPlane, Periodic};
+use meshfree::error::{Error, Problem};
+use meshfree::integrator::{LamLeapfrog, RungeKutta4};
+use meshfree::material::catalogue;
+use meshfree::material::eos::IdealGas;
+use meshfree::material::{Material, eos::Linear};
+use meshfree::scene::{Body, Scene, Start};
+use meshfree::scheme::EnergyForm;
+use meshfree::schemes;
+use meshfree::simulation::StepControl;
+use meshfree::sweep::Interaction;
+use proptest::prelude::*;
+
+const DX: f64 = 1e-3;
+
+fn rod() -> Body<f64, 1> {
+    Body::block("rod", catalogue::copper(), [0.0], [0.02], DX)
+}
+
+fn good() -> Scene<f64, 1> {
+    Scene::new(schemes::impact()).body(rod())
+}
+
+fn other(low: f64) -> Body<f64, 1> {
+    Body::block("other", catalogue::copper(), [low], [low + 0.02], DX)
+}
+
+fn refused<const D: usize>(scene: Scene<f64, D>) -> Vec<Problem> {
+    match scene.build() {
+        Err(Error::Build(error)) => {
+            let message = Error::Build(error.clone()).to_string();
+            for problem in &error.problems {
+                assert!(message.contains(&problem.to_string()), "{message}");
+            }
+            error.problems
+        }
+        Ok(_) => panic!("the scene was built"),
+        Err(other) => panic!("another error: {other}"),
+    }
+}
+
+/// The only problem of a scene.
+fn problem<const D: usize>(scene: Scene<f64, D>) -> Problem {
+    let problems = refused(scene);
+    assert_eq!(problems.len(), 1, "{problems:?}");
+    problems[0].clone()
+}
+
+/// That the problem is a parameter called `name`, and says `advice`.
+fn is_parameter(problem: &Problem, name: &str, advice: &str) {
+    let Problem::Parameter { what, .. } = problem else {
+        panic!("{problem:?}");
+    };
+    assert!(what.contains(name), "{problem}");
+    assert!(problem.to_string().contains(advice), "{problem}");
+}
+
+#[test]
+fn what_is_good_is_built() {
+    assert!(good().build().is_ok());
+    assert!(
+        good()
+            .body(other(0.02))
+            .between("rod", "other", Interaction::Bonded)
+            .build()
+            .is_ok()
+    );
+}
+
+#[test]
+fn a_spacing_that_is_not_positive() {
+    for spacing in [-1e-3, 0.0, f64::NAN, f64::INFINITY] {
+        let rod = Body::block("rod", catalogue::copper(), [0.0], [0.02], spacing);
+        let found = problem(Scene::<f64, 1>::new(schemes::impact()).body(rod));
+        is_parameter(
+            &found,
+            "spacing of body `rod`",
+            "finite and positive, in metres",
+        );
+        let points = Body::points_of("rod", catalogue::copper(), vec![[0.0], [1.0]], spacing);
+        let found = problem(Scene::<f64, 1>::new(schemes::impact()).body(points));
+        is_parameter(
+            &found,
+            "spacing of body `rod`",
+            "finite and positive, in metres",
+        );
+    }
+}
+
+#[test]
+fn a_spacing_in_the_wrong_unit() {
+    let rod = Body::block("rod", catalogue::copper(), [0.0], [1.0], 1e-12);
+    let found = problem(Scene::<f64, 1>::new(schemes::impact()).body(rod));
+    is_parameter(&found, "number of particles", "is the spacing in metres?");
+}
+
+#[test]
+fn numbers_that_are_not() {
+    for bad in [f64::NAN, f64::INFINITY] {
+        let velocity = Scene::new(schemes::impact()).body(rod().velocity([bad]));
+        is_parameter(
+            &problem(velocity),
+            "velocity of body `rod`",
+            "finite, in m/s",
+        );
+        let energy = Scene::new(schemes::impact()).body(rod().energy(bad));
+        is_parameter(&problem(energy), "energy of body `rod`", "finite, in J/kg");
+        let points = vec![[0.0], [bad], [2.0 * DX]];
+        let position = Body::points_of("rod", catalogue::copper(), points, DX);
+        let found = problem(Scene::<f64, 1>::new(schemes::impact()).body(position));
+        is_parameter(&found, "position of body `rod`", "finite, in metres");
+        let corner = Body::block("rod", catalogue::copper(), [0.0], [bad], DX);
+        let found = problem(Scene::<f64, 1>::new(schemes::impact()).body(corner));
+        is_parameter(&found, "size of body `rod`", "corners must be finite");
+    }
+}
+
+#[test]
+fn a_density_of_zero_or_less() {
+    for density in [0.0, -8930.0, f64::NAN] {
+        let found = problem(Scene::new(schemes::impact()).body(rod().density(density)));
+        is_parameter(
+            &found,
+            "density of body `rod`",
+            "finite and positive, in kg/m³",
+        );
+    }
+}
+
+#[test]
+fn a_material_with_constants_that_make_no_sense() {
+    let stuff = Material::new("stuff", Linear::new(1000.0, f64::NAN));
+    let rod = Body::block("rod", stuff, [0.0], [0.02], DX);
+    let found = problem(Scene::<f64, 1>::new(schemes::impact()).body(rod));
+    is_parameter(&found, "of material `stuff`", "");
+}
+
+fn overlaps(problem: &Problem) {
+    let Problem::Overlap {
+        first,
+        second,
+        distance,
+        ..
+    } = problem
+    else {
+        panic!("{problem:?}");
+    };
+    assert_eq!((first.as_str(), second.as_str()), ("rod", "other"));
+    assert!(*distance < DX);
+    assert!(
+        problem
+            .to_string()
+            .contains("move one of them, or cut the shape"),
+        "{problem}"
+    );
+}
+
+#[test]
+fn bodies_that_overlap_in_any_dimension_however_their_lattices_lie() {
+    for shift in [0.0, 0.1, 0.25, 0.5, 0.75] {
+        overlaps(&problem(good().body(other(0.01 + shift * DX))));
+        let low = 0.004 + shift * DX;
+        let sheet =
+            |name, low: f64| Body::block(name, catalogue::copper(), [low; 2], [low + 0.01; 2], DX);
+        let scene = Scene::<f64, 2>::new(schemes::impact());
+        overlaps(&problem(
+            scene.body(sheet("rod", 0.0)).body(sheet("other", low)),
+        ));
+        let cube =
+            |name, low: f64| Body::block(name, catalogue::copper(), [low; 3], [low + 0.006; 3], DX);
+        let scene = Scene::<f64, 3>::new(schemes::impact());
+        overlaps(&problem(
+            scene.body(cube("rod", 0.0)).body(cube("other", low)),
+        ));
+    }
+}
+
+#[test]
+fn bodies_that_only_touch_do_not_overlap() {
+    let sheet = |name, low: [f64; 2]| {
+        Body::block(name, catalogue::copper(), low, low.map(|x| x + 0.01), DX)
+    };
+    for shift in [0.0, 0.3, 0.5] {
+        let scene = Scene::<f64, 2>::new(schemes::impact())
+            .body(sheet("rod", [0.0; 2]))
+            .body(sheet("other", [0.01, shift * DX]));
+        assert_eq!(scene.problems(), []);
+    }
+}
+
+#[test]
+fn a_material_that_nobody_knows() {
+    let error: Error = catalogue::by_name::<f64>("unobtainium").unwrap_err().into();
+    let Error::Argument(Problem::UnknownMaterial { name, known }) = &error else {
+        panic!("{error:?}");
+    };
+    assert_eq!(name, "unobtainium");
+    assert!(
+        known.contains("copper") && error.to_string().contains("the catalogue has"),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_smoothing_length_at_which_particles_pair() {
+    let sheet = || Body::block("sheet", catalogue::copper(), [0.0; 2], [0.01; 2], DX);
+    for ratio in [1.5, 0.3, -1.2, f64::NAN] {
+        let scene = Scene::<f64, 2>::new(schemes::impact().h_over_dx(ratio)).body(sheet());
+        let found = problem(scene);
+        let Problem::SmoothingRatio {
+            recommended,
+            highest,
+            ..
+        } = found
+        else {
+            panic!("{found:?}");
+        };
+        assert_eq!((recommended, highest), (1.2, 1.25));
+        assert!(
+            found.to_string().contains("particles pair; take 1.2"),
+            "{found}"
+        );
+    }
+    // A row does not pair at the same ratio.
+    assert!(
+        Scene::<f64, 1>::new(schemes::impact().h_over_dx(1.5))
+            .body(rod())
+            .build()
+            .is_ok()
+    );
+}
+
+#[test]
+fn a_fixed_step_above_the_limit() {
+    let fixed = |step| {
+        good().steps(|control| StepControl {
+            fixed: Some(step),
+            ..control
+        })
+    };
+    let found = problem(fixed(1e-6));
+    let Problem::StepAboveLimit { step, limit, .. } = found else {
+        panic!("{found:?}");
+    };
+    assert_eq!(step, 1e-6);
+    assert!(
+        found
+            .to_string()
+            .contains("take a smaller one, or leave the choice"),
+        "{found}"
+    );
+    assert!(fixed(0.999 * limit).build().is_ok());
+    for step in [0.0, -1e-9, f64::NAN] {
+        is_parameter(
+            &problem(fixed(step)),
+            "fixed time step",
+            "finite and positive",
+        );
+    }
+}
+
+#[test]
+fn a_fixed_step_that_a_faster_impact_outgrows_stops_the_run() {
+    let limit = good().build().unwrap().vote().unwrap().step;
+    let mut simulation = Scene::new(schemes::impact())
+        .body(rod().velocity([1000.0]))
+        .body(other(0.021))
+        .steps(|control| StepControl {
+            fixed: Some(0.99 * limit),
+            ..control
+        })
+        .build()
+        .unwrap();
+    let error = simulation.run_until(1e-5).unwrap_err();
+    assert!(
+        matches!(error, Error::Argument(Problem::StepAboveLimit { .. })),
+        "{error}"
+    );
+}
+
+#[test]
+fn bodies_without_particles_and_scenes_without_bodies() {
+    let empty = Body::block("nothing", catalogue::copper(), [0.0], [0.1 * DX], DX);
+    let found = problem(Scene::<f64, 1>::new(schemes::impact()).body(empty));
+    assert_eq!(
+        found,
+        Problem::EmptyBody {
+            body: "nothing".into()
+        }
+    );
+    assert!(
+        found
+            .to_string()
+            .contains("give it a shape at least one spacing large"),
+        "{found}"
+    );
+    let turned = Body::block("turned", catalogue::copper(), [1.0], [0.0], DX);
+    let found = problem(Scene::<f64, 1>::new(schemes::impact()).body(turned));
+    assert_eq!(
+        found,
+        Problem::EmptyBody {
+            body: "turned".into()
+        }
+    );
+    let found = problem(Scene::<f64, 1>::new(schemes::impact()));
+    assert_eq!(found, Problem::EmptyScene);
+    assert!(
+        found
+            .to_string()
+            .contains("add at least one with `Scene::body`"),
+        "{found}"
+    );
+}
+
+fn incompatible(problem: &Problem, reason: &str, advice: &str) {
+    let Problem::Incompatible { what, remedy } = problem else {
+        panic!("{problem:?}");
+    };
+    assert!(
+        what.contains(reason) && remedy.contains(advice),
+        "{problem}"
+    );
+}
+
+#[test]
+fn parts_that_do_not_fit() {
+    let twins = Scene::<f64, 1>::new(schemes::impact())
+        .body(rod())
+        .body(Body::block("rod", catalogue::copper(), [0.02], [0.04], DX));
+    incompatible(
+        &problem(twins),
+        "two bodies are called `rod`",
+        "a name of its own",
+    );
+    let mixed = good().body(Body::block(
+        "fine",
+        catalogue::copper(),
+        [0.02],
+        [0.03],
+        0.5 * DX,
+    ));
+    incompatible(&problem(mixed), "different spacings", "mixed_spacing");
+    incompatible(
+        &problem(good().integrator(RungeKutta4)),
+        "compatible energy form cannot follow the integrator rk4",
+        "EnergyForm::Symmetric",
+    );
+    let lam = Scene::<f64, 1>::new(schemes::impact_by_continuity())
+        .body(rod())
+        .integrator(LamLeapfrog::default());
+    incompatible(
+        &problem(lam),
+        "does not integrate density",
+        "follows from positions",
+    );
+    let hot =
+        Scene::<f64, 1>::new(schemes::impact().energy(EnergyForm::None)).body(rod().energy(1.0));
+    incompatible(&problem(hot), "starts with internal energy", "energy form");
+}
+
+#[test]
+fn names_that_the_scene_does_not_have() {
+    let found = problem(good().between("rod", "Rod", Interaction::Bonded));
+    let Problem::UnknownName { kind, name, known } = &found else {
+        panic!("{found:?}");
+    };
+    assert_eq!(
+        (*kind, name.as_str(), known.as_str()),
+        ("body", "Rod", "`rod`")
+    );
+}
+
+#[test]
+fn boundaries_that_make_no_sense() {
+    for (low, high) in [
+        (0.0, 1e-3),
+        (1.0, 0.0),
+        (0.0, f64::NAN),
+        (f64::NEG_INFINITY, 0.0),
+    ] {
+        let found = problem(good().boundary(Periodic::along(0, low, high)));
+        is_parameter(&found, "period", "at least twice the kernel's reach");
+    }
+    is_parameter(
+        &problem(good().boundary(Periodic::along(1, 0.0, 1.0))),
+        "axis",
+        "below the dimension",
+    );
+    let flat = MirrorPlane::wall([0.02], [0.0]);
+    is_parameter(&problem(good().boundary(flat)), "normal", "normal not zero");
+}
+
+#[test]
+fn every_problem_is_reported_and_not_only_the_first() {
+    let scene = Scene::<f64, 1>::new(schemes::impact().h_over_dx(9.0))
+        .body(rod().velocity([f64::NAN]).density(-1.0))
+        .between("nobody", "rod", Interaction::None)
+        .skin(-1.0);
+    let problems = refused(scene);
+    assert_eq!(problems.len(), 5, "{problems:?}");
+}
+
+#[test]
+fn a_run_that_breaks_says_where_and_when() {
+    let gas = Material::new("gas", IdealGas::new(1.4, 1.0));
+    let row = Body::block("row", gas, [0.0], [1.0], 0.02).energy(2.5);
+    let mut simulation = Scene::<f64, 1>::new(schemes::impact())
+        .body(row)
+        .acceleration(|t| [if t > 1e-3 { f64::NAN } else { 0.0 }])
+        .build()
+        .unwrap();
+    let error = simulation.run_until(1.0).unwrap_err();
+    let Error::NotFinite { body, time, .. } = &error else {
+        panic!("{error:?}");
+    };
+    assert_eq!(body, "row");
+    assert!(
+        *time > 0.0 && error.to_string().contains("try a smaller step factor"),
+        "{error}"
+    );
+    for end in [f64::NAN, f64::INFINITY] {
+        let error = good().build().unwrap().run_until(end).unwrap_err();
+        assert!(
+            matches!(error, Error::Argument(Problem::Parameter { .. })),
+            "{error}"
+        );
+    }
+}
+
+/// Numbers that a slip of the pen or a broken file can give.
+fn garbage() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        4 => -2.0..2.0_f64,
+        1 => Just(0.0),
+        1 => Just(f64::NAN),
+        1 => Just(f64::INFINITY),
+        1 => Just(f64::NEG_INFINITY),
+        1 => Just(1e300),
+        1 => Just(-1e300),
+        1 => Just(1e-300),
+        1 => Just(f64::MIN_POSITIVE * 0.5),
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn garbage_never_panics(
+        points in proptest::collection::vec([garbage(), garbage()], 0..12),
+        numbers in [garbage(), garbage(), garbage(), garbage(), garbage(), garbage(), garbage(), garbage()],
+        wall in [garbage(), garbage(), garbage(), garbage()],
+        period in [garbage(), garbage()],
+    ) {
+        let [spacing, u, v, density, energy, skin, step, ratio] = numbers;
+        let body = Body::points_of("garbage", catalogue::copper(), points, spacing)
+            .start(|_, _| Start { velocity: [u, v], density, energy });
+        let scene = || Scene::<f64, 2>::new(schemes::impact().h_over_dx(ratio)).skin(skin);
+        // Small enough to fill, whatever the spacing.
+        let block = Body::block("block", catalogue::pmma(), [4.0, u], [4.0 + 3.0 * spacing, u + spacing], spacing);
+        let built = scene()
+            .body(body.clone())
+            .body(block)
+            .boundary(MirrorPlane::wall([wall[0], wall[1]], [wall[2], wall[3]]))
+            .boundary(Periodic::along(1, period[0], period[1]))
+            .steps(|control| StepControl { fixed: Some(step), ..control })
+            .build();
+        if let Err(error) = built {
+            prop_assert!(!error.to_string().is_empty());
+        }
+        // The same without what is refused at once, so that more of it is built.
+        let plain = Scene::<f64, 2>::new(schemes::impact()).body(body);
+        if let Ok(mut simulation) = plain.build() {
+            for _ in 0..3 {
+                if let Err(error) = simulation.step() {
+                    prop_assert!(!error.to_string().is_empty());
+                    break;
+                }
+            }
+        }
+    }
+}
