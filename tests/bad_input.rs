@@ -432,7 +432,7 @@ fn a_run_that_breaks_says_where_and_when() {
 /// Numbers that a slip of the pen or a broken file can give.
 fn garbage() -> impl Strategy<Value = f64> {
     prop_oneof![
-        4 => -2.0..2.0_f64,
+        30 => -2.0..2.0_f64,
         1 => Just(0.0),
         1 => Just(f64::NAN),
         1 => Just(f64::INFINITY),
@@ -470,14 +470,30 @@ proptest! {
         if let Err(error) = built {
             prop_assert!(!error.to_string().is_empty());
         }
-        // The same without what is refused at once, so that more of it is built.
-        let plain = Scene::<f64, 2>::new(schemes::impact()).body(body);
-        if let Ok(mut simulation) = plain.build() {
-            for _ in 0..3 {
-                if let Err(error) = simulation.step() {
-                    prop_assert!(!error.to_string().is_empty());
-                    break;
-                }
+    }
+
+    #[test]
+    fn sizes_that_nobody_meant_end_in_an_error_or_a_run(
+        exponents in [-160..160_i32, -160..160, -160..160, -160..160, -3..3],
+        squeeze in 0.6..3.0_f64,
+    ) {
+        let [spacing, speed, density, energy, skin] = exponents.map(|e| 10_f64.powi(e));
+        let points = (0..60)
+            .map(|k| [k % 8, k / 8].map(|k| f64::from(k) * squeeze * spacing))
+            .collect();
+        let body = Body::<f64, 2>::points_of("odd", catalogue::copper(), points, spacing)
+            .start(|x, _| Start { velocity: [speed, -speed * x[0] / spacing], density, energy });
+        let mut simulation = match Scene::new(schemes::impact()).body(body).skin(skin).build() {
+            Ok(simulation) => simulation,
+            Err(error) => {
+                prop_assert!(!error.to_string().is_empty());
+                return Ok(());
+            }
+        };
+        for _ in 0..5 {
+            if let Err(error) = simulation.step() {
+                prop_assert!(!error.to_string().is_empty());
+                break;
             }
         }
     }

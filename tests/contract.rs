@@ -7,11 +7,33 @@ use common::Random;
 use meshfree::kernel::{Kernel, KernelKind};
 use meshfree::particles::{Field, Output};
 use meshfree::scalar::{Lane, Lanes};
-use meshfree::term::viscosity::{Inviscid, LimitedMonaghanGingold, MonaghanGingold};
+use meshfree::term::viscosity::{
+    Balsara, CullenDehnen, Inviscid, LimitedMonaghanGingold, MonaghanGingold, MorrisMonaghan,
+    Riemann, SignalVelocity,
+};
 use meshfree::term::{
     Compression, InternalEnergy, KernelMoment, KernelSum, PressureCurvature, PressureForce,
     PressureGradient, Probe, SlopeInH, Term, Unity, VelocityGradient, Viscosity, probe,
 };
+
+macro_rules! for_each_viscosity_of {
+    ($check:ident, $D:literal, $($Law:ident),*) => {
+        $($check::<$D, _>(Viscosity($Law::default()));)*
+    };
+}
+
+macro_rules! count {
+    ($($Law:ident $name:literal),*) => { [$($name),*].len() };
+}
+
+#[test]
+fn the_list_has_every_viscosity() {
+    assert_eq!(
+        meshfree::for_each_viscosity!(count),
+        8,
+        "add it to the list below"
+    );
+}
 
 /// Every term of the crate; each test below runs over this list in all dimensions.
 macro_rules! for_each_term {
@@ -33,9 +55,18 @@ macro_rules! for_each_term {
         $check::<$D, _>(Compression);
         $check::<$D, _>(VelocityGradient);
         $check::<$D, _>(PressureGradient);
-        $check::<$D, _>(Viscosity(Inviscid));
-        $check::<$D, _>(Viscosity(MonaghanGingold::default()));
-        $check::<$D, _>(Viscosity(LimitedMonaghanGingold::default()));
+        for_each_viscosity_of!(
+            $check,
+            $D,
+            Inviscid,
+            MonaghanGingold,
+            LimitedMonaghanGingold,
+            SignalVelocity,
+            Balsara,
+            MorrisMonaghan,
+            CullenDehnen,
+            Riemann
+        );
     }};
 }
 
@@ -57,6 +88,7 @@ impl Particle {
                     | Field::MeanVelocity
                     | Field::VelocityGradient
                     | Field::PressureGradient
+                    | Field::Divergence
                     | Field::Pressure
                     | Field::PressureCoefficient => random.sign(),
                     _ => 1.5 + random.sign(),
@@ -290,9 +322,10 @@ where
                 Particle::random(&mut random, 0.8),
             );
             let before = numbers(&scalar(&term, kernel, &i, &j));
+            let other = Particle::random(&mut random, 0.8);
             for k in 0..field.components(D) {
-                i.set(field, k, 1.25 * i.get(field, k));
-                j.set(field, k, 0.75 * j.get(field, k));
+                i.set(field, k, other.get(field, k));
+                j.set(field, k, 0.75 * other.get(field, k));
             }
             before != numbers(&scalar(&term, kernel, &i, &j))
         });

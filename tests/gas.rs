@@ -9,7 +9,7 @@ use meshfree::kernel::KernelKind;
 use meshfree::material::Material;
 use meshfree::material::eos::IdealGas;
 use meshfree::scene::{Body, Scene, Start};
-use meshfree::scheme::{DensityForm, EnergyForm, SchemeBuilder, Smoothing};
+use meshfree::scheme::{DensityForm, EnergyForm, Scheme, SchemeBuilder, Smoothing};
 use meshfree::simulation::{Simulation, StepControl};
 use meshfree::study::noh::Noh;
 use meshfree::study::norms::observed_order;
@@ -22,12 +22,13 @@ const FOLLOW: Smoothing = Smoothing::Consistent {
     largest: 50.0,
 };
 
-fn gas_scheme(kernel: KernelKind, ratio: f64) -> SchemeBuilder<AnyKernel, MonaghanGingold> {
+fn gas_scheme(kernel: KernelKind, ratio: f64) -> Scheme<f64, 1> {
     SchemeBuilder::new(AnyKernel(kernel), MonaghanGingold::default())
         .density(DensityForm::Summation)
         .smoothing(FOLLOW)
         .energy(EnergyForm::Compatible)
         .h_over_dx(ratio)
+        .compose()
 }
 
 fn ideal(gamma: f64) -> IdealGas {

@@ -54,15 +54,15 @@ impl<T: Real, const D: usize> Body<T, D> {
         let valid = spacing.is_finite() && spacing > 0.0 && size.iter().all(|s| s.is_finite());
         let counts: [usize; D] = core::array::from_fn(|d| {
             if valid {
-                (size[d] / spacing).round().clamp(0.0, MOST_PARTICLES) as usize
+                (size[d] / spacing).round().clamp(0.0, 2.0 * MOST_PARTICLES) as usize
             } else {
                 0
             }
         });
         let total = counts.iter().fold(1.0, |n, &c| n * c as f64);
         let mut points = Vec::new();
-        if total <= MOST_PARTICLES {
-            points.reserve(total as usize);
+        let fits = total <= MOST_PARTICLES && points.try_reserve_exact(total as usize).is_ok();
+        if fits {
             for k in 0..total as usize {
                 let mut rest = k;
                 points.push(core::array::from_fn(|d| {
@@ -79,7 +79,7 @@ impl<T: Real, const D: usize> Body<T, D> {
             body.spacing = spacing;
         } else if let Some(bad) = size.iter().find(|s| !s.is_finite()) {
             body.shape = Err(("size", *bad));
-        } else if total > MOST_PARTICLES {
+        } else if !fits {
             body.shape = Err(("number of particles", total));
         }
         body

@@ -57,7 +57,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 parameter(
                     "number of particles",
                     value,
-                    "it must stay below 4e9: is the spacing in metres?",
+                    "it must fit into memory and stay below 4e9: is the spacing in metres?",
                 );
                 return;
             }

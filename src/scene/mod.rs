@@ -289,8 +289,9 @@ impl<T: Real, const D: usize> Scene<T, D> {
 
     fn is_mixed(&self) -> bool {
         let first = self.bodies.first().map_or(0.0, |body| body.spacing);
-        let same = |body: &Body<T, D>| (body.spacing - first).abs() <= 1e-9 * first.abs();
-        !self.bodies.iter().all(same)
+        // A spacing that is no number has its own problem, and differs from nothing.
+        let differs = |body: &Body<T, D>| (body.spacing - first).abs() > 1e-9 * first.abs();
+        self.bodies.iter().any(differs)
     }
 
     fn is_uniform(&self) -> bool {
