@@ -205,7 +205,10 @@ impl Case {
         }
     }
 
-    fn with_choices<T, V>(&self, mut builder: SchemeBuilder<CubicSpline, V>) -> Scheme<T, 1>
+    fn with_choices<T, V, const MODES: u8, const CURVED: bool>(
+        &self,
+        mut builder: SchemeBuilder<CubicSpline, V, MODES, CURVED>,
+    ) -> Scheme<T, 1>
     where
         T: Real,
         V: ArtificialViscosity<1> + Into<ViscosityKind>,

@@ -3,7 +3,11 @@
 
 mod cases;
 mod choices;
+mod claims;
+mod figures;
 mod options;
+mod paper;
+mod parallel;
 mod record;
 mod report;
 mod theory;
@@ -12,6 +16,7 @@ use options::{Options, Task};
 use std::error::Error;
 use std::path::Path;
 use std::process::ExitCode;
+use std::time::Instant;
 
 /// What can end the program early.
 type Failure = Box<dyn Error + Send + Sync>;
@@ -44,6 +49,29 @@ fn perform(options: &Options) -> Result<(), Failure> {
             Ok(())
         }
         Task::Case => report::run(options, folder("out/rod_impact")),
+        Task::Figures => figures_and_claims(options, folder("out/rod_impact")),
         _ => Ok(()),
     }
+}
+
+/// Figures 1 to 7 and the table of claims.
+fn figures_and_claims(options: &Options, folder: &Path) -> Result<(), Failure> {
+    let started = Instant::now();
+    let runs = paper::Runs::of(options)?;
+    figures::write(&runs, folder)?;
+    let table = claims::table(&runs)?;
+    let drift = runs
+        .all()
+        .fold(0.0, |most: f64, run| most.max(run.record.momentum_drift));
+    let text = format!(
+        "Axial impact of composite rods (Lam, Shen & Gong 2002), spacing {} mm\n\n{table}\n{}\n\
+         Largest drift of momentum in all runs: {drift:.1e}. {} runs in {:.1} s.\n",
+        cases::short(1e3 * options.case.spacing),
+        claims::NOTES,
+        runs.all().count(),
+        started.elapsed().as_secs_f64()
+    );
+    std::fs::write(folder.join("report.txt"), &text)?;
+    print!("{text}\nwritten to {}\n", folder.display());
+    Ok(())
 }

@@ -108,7 +108,7 @@ impl Place {
     fn read<T: Real>(&self, simulation: &Simulation<T, 1>) -> (f64, f64) {
         let mut particles = simulation.body(self.body).skip(self.left);
         let state =
-            |p: meshfree::simulation::ParticleView<'_, T, 1>| (-p.pressure(), p.velocity()[0]);
+            |p: meshfree::simulation::ParticleView<'_, T, 1>| (0.0 - p.pressure(), p.velocity()[0]);
         let left = particles.next().map_or((0.0, 0.0), state);
         let right = match particles.next() {
             Some(particle) if self.right > self.left => state(particle),
@@ -317,7 +317,7 @@ fn note<T: Real>(simulation: &Simulation<T, 1>, places: &[Place], record: &mut R
     let head = record.case.head();
     // The target is the body after the head; a wall comes after all bodies, which is the same index.
     let force = simulation.force_between(head, head + 1)[0];
-    record.contact.push(-force);
+    record.contact.push(0.0 - force);
 }
 
 fn note_drift(first: &Ledger, now: &Ledger, record: &mut Record) {
@@ -343,7 +343,7 @@ fn take_snapshot<T: Real>(
                 body,
                 reference,
                 x: p.position()[0],
-                stress: -p.pressure(),
+                stress: 0.0 - p.pressure(),
                 velocity: p.velocity()[0],
                 density: p.density(),
                 energy: p.energy(),

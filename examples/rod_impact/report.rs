@@ -5,7 +5,7 @@ use crate::Failure;
 use crate::cases::{Case, short};
 use crate::options::Options;
 use crate::record::{self, Record};
-use crate::theory::{Theory, stress_steps};
+use crate::theory::{Theory, steps_of};
 use meshfree::output::progress::Progress;
 use meshfree::output::svg::{Axis, Figure, PALETTE, Panel, Series};
 use meshfree::output::table::{Table, significant};
@@ -112,7 +112,7 @@ fn plateaus(record: &Record, theory: &Theory) -> Result<Table, Failure> {
     for (probe, gauge) in record.probes.iter().zip(theory.reference.gauges()) {
         let mut first = None;
         let mut before = 0.0;
-        for (from, until, linear) in theory.steps(probe.x0, 0.2e-6)? {
+        for (from, until, linear) in steps_of(&theory.acoustic, probe.x0, 0.2e-6)? {
             let margin = 0.15 * (until - from);
             let (a, b) = (from + margin, until - margin);
             let reference = plateau_mean(&gauge.time, &gauge.stress, a, b)?;
@@ -197,7 +197,6 @@ fn picture(record: &Record, theory: &Theory) -> Result<Figure, Failure> {
             .series(Series::line(&label, pairs(&record.time, &probe.velocity, 1.0)).color(color))
             .series(Series::line(exact, pairs(&gauge.time, &gauge.velocity, 1.0)).reference());
     }
-    let _ = stress_steps;
     Ok(Figure::new()
         .title(&record.case.title())
         .panel(stress)
