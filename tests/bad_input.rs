@@ -1,5 +1,7 @@
 //! Bad input: each kind has its own error, which says what to do, and nothing panics.
 
+mod common;
+
 use meshfree::boundary::{MirrorPlane, Periodic};
 use meshfree::error::{Error, Problem};
 use meshfree::integrator::{LamLeapfrog, RungeKutta4};
@@ -187,6 +189,22 @@ fn bodies_that_only_touch_do_not_overlap() {
             .body(sheet("rod", [0.0; 2]))
             .body(sheet("other", [0.01, shift * DX]));
         assert_eq!(scene.problems(), []);
+    }
+    // Nor do disordered ones.
+    for seed in 0..40 {
+        let mut random = common::Random(seed);
+        let rotation = common::rotation::<3>(&mut random);
+        let mut cube = |name, corner| {
+            let points = common::jittered(corner, [5; 3], 0.15, &mut random);
+            let points = points
+                .iter()
+                .map(|x| common::turn(&rotation, x.map(|x| x * DX)));
+            Body::points_of(name, catalogue::copper(), points.collect(), DX)
+        };
+        let scene = Scene::<f64, 3>::new(schemes::impact())
+            .body(cube("rod", [0.0; 3]))
+            .body(cube("other", [5.0, 0.5, 0.5]));
+        assert_eq!(scene.problems(), [], "seed {seed}");
     }
 }
 

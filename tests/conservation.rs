@@ -50,6 +50,8 @@ fn case() -> impl Strategy<Value = Case> {
 
 /// Spacing \[m\].
 const DX: f64 = 1e-3;
+/// Particles along a side of a body in 1D, 2D and 3D.
+const SIDES: [usize; 3] = [24, 6, 4];
 
 /// How a scene is moved before it starts: turned, and carried along.
 struct Frame<const D: usize> {
@@ -84,7 +86,7 @@ where
 
 fn scene<const D: usize>(case: &Case, frame: &Frame<D>, scheme: Scheme<f64, D>) -> Scene<f64, D> {
     let mut random = Random(case.seed);
-    let side = [24, 6, 4][D - 1];
+    let side = SIDES[D - 1];
     let mut body = |name: &str, k: usize, approach: f64| {
         let mut corner = [0.0; D];
         corner[0] = (k * side) as f64;
@@ -156,10 +158,16 @@ where
     let scale = e.kinetic.abs().max(e0.kinetic);
     common::assert_close(e.total_energy(), e0.total_energy(), 1e-12 * scale, "energy");
     let (there, back) = (after.force_between(0, 1), after.force_between(1, 0));
-    let strength: f64 = there.iter().map(|f| f.abs()).sum::<f64>() + 1e-6 * DX.powi(D as i32 - 1);
+    // Forces of pairs are of the order of the pressure over the area of a particle, and cancel.
+    let top = after.all().fold(0.0_f64, |m, p| m.max(p.pressure().abs()));
+    let strength = top * (SIDES[D - 1] as f64 * DX).powi(D as i32 - 1);
     for d in 0..D {
-        // Sums of forces up to some hundred times their resultant.
-        common::assert_close(there[d], -back[d], 1e-11 * strength, "action and reaction");
+        common::assert_close(
+            there[d],
+            -back[d],
+            1e-14 * strength + 1e-13 * there[d].abs(),
+            "action and reaction",
+        );
     }
 }
 

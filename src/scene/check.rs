@@ -7,10 +7,20 @@ use crate::neighbors::Cells;
 use crate::scalar::Real;
 use crate::scheme::EnergyForm;
 
-/// Share of the spacing within which, along *every* axis, particles of two bodies cannot be neighbours
-/// by intent: two lattices that overlap always have a pair within half a spacing along each axis, and
-/// neighbours one spacing apart differ by more than this along one, however they are turned.
-const OVERLAP: f64 = 0.52;
+/// Share of the spacing below which two particles of different bodies cannot be neighbours by intent.
+const TOO_CLOSE: f64 = 0.6;
+/// Share of the spacing within which lattices that overlap without such a pair put
+/// [`surrounding`] particles of one body around a particle of the other; a lattice that only touches
+/// puts one there.
+const AROUND: f64 = 0.95;
+/// Share of the spacing below which two particles of one body are the same particle twice: within a
+/// body a user may place points as densely as a gas needs.
+const SAME: f64 = 6e-4;
+
+/// How many particles of another body around one are an overlap.
+const fn surrounding(dimension: usize) -> usize {
+    if dimension < 3 { 3 } else { 4 }
+}
 
 impl<T: Real, const D: usize> Scene<T, D> {
     /// Everything that is wrong with the scene; empty if it can be built.
@@ -257,33 +267,30 @@ impl<T: Real, const D: usize> Scene<T, D> {
         let cells = Cells::build(&points, &all, spacing);
         let body_of = |k: usize| ends.partition_point(|&end| end <= k);
         let mut reported: Vec<(usize, usize)> = Vec::new();
+        let mut around: Vec<(usize, f64)> = Vec::new();
         for (i, x) in points.iter().enumerate() {
-            let reach = OVERLAP * spacing;
-            let mut closest: Option<(f64, usize)> = None;
+            let (own, reach) = (body_of(i), AROUND * spacing);
+            around.clear();
             cells.for_each_run(x.map(|x| x - reach), x.map(|x| x + reach), |run| {
-                for &j in run.iter().filter(|&&j| j as usize > i) {
-                    let j = j as usize;
-                    let apart: f64 = (0..D)
+                for j in run.iter().map(|&j| j as usize).filter(|&j| j != i) {
+                    let apart = (0..D)
                         .map(|d| (points[j][d] - x[d]).powi(2))
                         .sum::<f64>()
                         .sqrt();
-                    // Within a body a user may place points as densely as a gas needs.
-                    let limit = if body_of(i) == body_of(j) {
-                        1e-3 * reach
-                    } else {
-                        reach
-                    };
-                    let overlaps = (0..D).all(|d| (points[j][d] - x[d]).abs() < limit);
-                    if overlaps && closest.is_none_or(|(least, _)| apart < least) {
-                        closest = Some((apart, j));
+                    let other = body_of(j);
+                    if apart < if other == own { SAME * spacing } else { reach } {
+                        around.push((other, apart));
                     }
                 }
             });
-            let Some((distance, j)) = closest else {
+            let nearest = around.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1));
+            let Some((other, distance)) = nearest else {
                 continue;
             };
-            let pair = (body_of(i), body_of(j));
-            if reported.contains(&pair) {
+            let count = around.iter().filter(|near| near.0 == other).count();
+            let pair = (own.min(other), own.max(other));
+            let fits = distance >= TOO_CLOSE * spacing && count < surrounding(D);
+            if fits || reported.contains(&pair) {
                 continue;
             }
             reported.push(pair);
