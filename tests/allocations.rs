@@ -87,7 +87,7 @@ fn a_step_between_list_builds_allocates_nothing() {
             .body(
                 Body::block("sheet", catalogue::copper(), [0.0; 2], [1.0; 2], 0.02).start(
                     |x, start| Start {
-                        velocity: [(6.283_185 * x[1]).sin(), 0.0],
+                        velocity: [(core::f64::consts::TAU * x[1]).sin(), 0.0],
                         ..start
                     },
                 ),
