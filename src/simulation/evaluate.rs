@@ -17,6 +17,10 @@ pub(crate) const GRAIN: usize = 4096;
 const SMOOTHING_TOLERANCE: f64 = 1e-6;
 /// Newton steps of that iteration at most.
 const SMOOTHING_STEPS: usize = 12;
+/// Repetitions of equation 25 at rest at most; each brings the ends closer by a third or more.
+const SETTLING_STEPS: usize = 200;
+/// Relative change at which the ends have settled; in `f32` they do when nothing changes any more.
+const SETTLED: f64 = 1e-15;
 
 impl<T: Real, const D: usize> Group<T, D> {
     /// Runs a sweep into the scratch rows.
@@ -137,6 +141,33 @@ impl<T: Real, const D: usize> Group<T, D> {
             }
             // A few units of the last place.
             if change < T::from_f64(if T::COMPENSATED { 1e-6 } else { 1e-15 }) {
+                break;
+            }
+        }
+        self.settle_ends();
+    }
+
+    /// Equation 25 reads the densities of the neighbours, which the first sum has changed. It is
+    /// repeated at rest until it returns what it was given, or the ends would start under stress.
+    fn settle_ends(&mut self) {
+        for _ in 0..SETTLING_STEPS {
+            self.scratch_sweep(|group| Some(group.scheme.reference.as_ref()));
+            let rows = &self.scratch_rows;
+            let [end, rest, density] = self.columns.many_mut([
+                Field::ReferenceSum,
+                Field::ReferenceDensity,
+                Field::Density,
+            ]);
+            let mut change = T::zero();
+            for slot in (0..density.len()).filter(|&slot| end[slot] > T::zero()) {
+                let summed =
+                    rows.get(Output::KernelSum, 0, slot) + rows.get(Output::ContactSum, 0, slot);
+                let next = summed / rows.get(Output::Unity, 0, slot);
+                change = change.max((next / rest[slot] - T::one()).abs());
+                rest[slot] = next;
+                density[slot] = next;
+            }
+            if change <= T::from_f64(SETTLED) {
                 break;
             }
         }
