@@ -34,7 +34,7 @@ pub fn run(options: &Options, folder: &Path) -> Result<(), Failure> {
         Ok(theory) => {
             writeln!(text, "\n{}", plateaus(&record, theory)?)?;
             writeln!(text, "{}", contact(case, theory)?)?;
-            picture(&record, theory)?.save(folder.join("history.svg"))?;
+            picture(&record, theory).save(folder.join("history.svg"))?;
         }
         Err(why) => writeln!(text, "\nNo reference solution: {why}")?,
     }
@@ -174,7 +174,7 @@ fn contact(case: &Case, theory: &Theory) -> Result<String, Failure> {
     ))
 }
 
-fn picture(record: &Record, theory: &Theory) -> Result<Figure, Failure> {
+fn picture(record: &Record, theory: &Theory) -> Figure {
     let us = |t: &f64| 1e6 * t;
     let mut stress = Panel::new(Axis::linear("time", "µs"), Axis::linear("stress", "MPa"));
     let mut velocity = Panel::new(Axis::linear("time", "µs"), Axis::linear("velocity", "m/s"));
@@ -197,10 +197,10 @@ fn picture(record: &Record, theory: &Theory) -> Result<Figure, Failure> {
             .series(Series::line(&label, pairs(&record.time, &probe.velocity, 1.0)).color(color))
             .series(Series::line(exact, pairs(&gauge.time, &gauge.velocity, 1.0)).reference());
     }
-    Ok(Figure::new()
+    Figure::new()
         .title(&record.case.title())
         .panel(stress)
         .panel(velocity)
         .columns(1)
-        .panel_size(720.0, 320.0))
+        .panel_size(720.0, 320.0)
 }

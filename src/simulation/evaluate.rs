@@ -105,44 +105,24 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// Lam, Shen & Gong 2002, section 4.1: the first summed density, with equation 25 at end
     /// particles, is kept as the density at rest.
-    ///
-    /// Equation 25 has the densities of all neighbours on its right, the particle's own among them,
-    /// so it is repeated until it returns what was put in: else the ends would not be free of stress.
     fn smooth_reference(&mut self) {
-        for pass in 0..REFERENCE_PASSES {
-            if pass > 0 {
-                self.scratch_sweep(|group| Some(group.scheme.reference.as_ref()));
-            }
-            let rows = &self.scratch_rows;
-            let [end, rest, density, moment] = self.columns.many_mut([
-                Field::ReferenceSum,
-                Field::ReferenceDensity,
-                Field::Density,
-                Field::Normalisation,
-            ]);
-            let mut change = T::zero();
-            for slot in 0..density.len() {
-                let unity = rows.get(Output::Unity, 0, slot);
-                let summed =
-                    rows.get(Output::KernelSum, 0, slot) + rows.get(Output::ContactSum, 0, slot);
-                if pass == 0 {
-                    // An end particle lacks a side of its neighbourhood; a joint does not lack volume.
-                    let is_end = unity < T::from_f64(END_UNITY);
-                    end[slot] = if is_end { T::one() } else { T::zero() };
-                    moment[slot] = T::one();
-                }
-                let next = if end[slot] > T::zero() {
-                    summed / unity
-                } else {
-                    summed
-                };
-                change = change.max((next / density[slot] - T::one()).abs());
-                (rest[slot], density[slot]) = (next, next);
-            }
-            // A few units of the last place.
-            if change < T::from_f64(if T::COMPENSATED { 1e-6 } else { 1e-15 }) {
-                break;
-            }
+        let rows = &self.scratch_rows;
+        let [end, rest, density, moment] = self.columns.many_mut([
+            Field::ReferenceSum,
+            Field::ReferenceDensity,
+            Field::Density,
+            Field::Normalisation,
+        ]);
+        for slot in 0..density.len() {
+            let unity = rows.get(Output::Unity, 0, slot);
+            let summed =
+                rows.get(Output::KernelSum, 0, slot) + rows.get(Output::ContactSum, 0, slot);
+            // An end particle lacks a side of its neighbourhood; a joint does not lack volume.
+            let is_end = unity < T::from_f64(END_UNITY);
+            end[slot] = if is_end { T::one() } else { T::zero() };
+            rest[slot] = if is_end { summed / unity } else { summed };
+            density[slot] = rest[slot];
+            moment[slot] = T::one();
         }
         self.settle_ends();
     }
@@ -524,8 +504,6 @@ impl<T: Real, const D: usize> Group<T, D> {
     }
 }
 
-/// Most passes of equation 25 of Lam, Shen & Gong at rest; each leaves a third of the change.
-const REFERENCE_PASSES: usize = 60;
 /// Partition of unity below which a particle counts as an end: the last of a row has 0.78, the next 0.97.
 const END_UNITY: f64 = 0.9;
 /// Smallest pivot of a moment matrix that is inverted, relative to its largest entry.
