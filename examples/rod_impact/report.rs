@@ -157,12 +157,12 @@ fn contact(case: &Case, theory: &Theory) -> Result<String, Failure> {
         .joint(Theory::contact(case))?
         .intervals
         .clone();
-    let text = |time: f64| significant(1e6 * time, 5);
+    let text = |time: f64| format!("{} µs", significant(1e6 * time, 5));
     let closed: Vec<_> = closed
         .iter()
         .map(|i| {
             format!(
-                "{} to {} µs",
+                "{} to {}",
                 text(i.from),
                 i.until.map_or("after the end".into(), text)
             )
