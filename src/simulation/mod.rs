@@ -221,9 +221,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let rounding = 1e-12 * end.abs();
         while end - self.time > rounding {
             let left = end - self.time;
-            // Two equal last steps instead of a full one and a sliver.
+            // Two equal last steps instead of a full one and a sliver. After the first of them what is
+            // left is as long as it, but for rounding, which must not halve it again.
             let limit = match self.last_vote {
-                Some(vote) if left < 2.0 * vote.step && left > vote.step => 0.5 * left,
+                Some(vote) if left < 2.0 * vote.step && left > (1.0 + 1e-9) * vote.step => {
+                    0.5 * left
+                }
                 _ => left,
             };
             self.step_at_most(limit)?;
