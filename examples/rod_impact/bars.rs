@@ -4,7 +4,7 @@
 use crate::Failure;
 use crate::cases::{Case, short};
 use crate::choices::{Precision, SchemeChoice};
-use crate::claims::{last_above, pulse_length};
+use crate::claims::{crossings, last_above, pulse_length};
 use crate::figures::at;
 use crate::options::Options;
 use crate::paper::{cases, pad_label};
@@ -337,10 +337,45 @@ fn contacts(measured: &Measured, rows: &mut Vec<Row>) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Steps of the reference at probe `p` that hold for half a microsecond: linear waves say which there
+/// are, the reference when they come, as compressed material carries waves faster.
+fn held(theory: &Theory, p: usize, x0: f64) -> Result<Vec<(f64, f64, f64)>, Failure> {
+    let mut steps = steps_of(&theory.acoustic, x0, 0.3e-6)?;
+    let gauge = &theory.reference.gauges()[p];
+    let level = |&(from, until, _): &(f64, f64, f64)| {
+        let margin = 0.4 * (until - from);
+        plateau_mean(&gauge.time, &gauge.stress, from + margin, until - margin)
+    };
+    let levels: Vec<f64> = steps.iter().map(level).collect::<Result<_, _>>()?;
+    let largest = levels
+        .iter()
+        .fold(0.0, |most: f64, level| most.max(level.abs()));
+    for k in 1..steps.len() {
+        let (before, after, time) = (levels[k - 1], levels[k], steps[k].0);
+        if (before - after).abs() < 0.03 * largest {
+            continue;
+        }
+        let near = |t: f64| gauge.time.partition_point(|&time| time < t);
+        let around = near(time - 0.4e-6)..near(time + 0.2e-6);
+        let places = crossings(
+            &gauge.time[around.clone()],
+            &gauge.stress[around],
+            0.5 * (before + after),
+        );
+        // The last crossing begins the step; a spike in between belongs to neither.
+        if let (Some(&first), Some(&last)) = (places.first(), places.last()) {
+            steps[k - 1].1 = first;
+            steps[k].0 = last;
+        }
+    }
+    steps.retain(|(from, until, _)| until - from >= 0.5e-6);
+    Ok(steps)
+}
+
 fn pads(measured: &Measured, rows: &mut Vec<Row>) -> Result<(), Failure> {
     for mm in [5.0, 10.0, 20.0, 7.5] {
         let label = pad_label(mm);
-        let steps = steps_of(&measured.theory(&label)?.acoustic, 5e-3, 0.5e-6)?;
+        let steps = held(measured.theory(&label)?, 0, 5e-3)?;
         let loaded = steps
             .iter()
             .enumerate()
@@ -366,7 +401,7 @@ fn pads(measured: &Measured, rows: &mut Vec<Row>) -> Result<(), Failure> {
             0.5,
             &label,
             |r, t| {
-                let steps = steps_of(&t.acoustic, 5e-3, 0.5e-6)?;
+                let steps = held(t, 0, 5e-3)?;
                 let &(arrival, _, first) = steps.get(1).ok_or("no wave arrives")?;
                 let end = r.time.partition_point(|&time| time < arrival - 0.25e-6);
                 let most = r.probes[0].stress[..end]
