@@ -73,10 +73,11 @@ pub fn write(runs: &Runs, folder: &Path) -> Result<(), Failure> {
         Quantity::Velocity,
         &targets[1..],
     )?;
-    let history = |number, title, place: &dyn Fn(&Run) -> f64, until, labels: &[String]| {
-        histories(runs, folder, number, title, place, until, labels)
-    };
-    let middle = |_: &Run| 5e-3;
+    let history =
+        |number, title, place: &dyn Fn(&Run) -> (usize, f64), until, labels: &[String]| {
+            histories(runs, folder, number, title, place, until, labels)
+        };
+    let middle = |_: &Run| (0, 5e-3);
     history(
         3,
         "stress in the middle of the copper striker (5 mm)",
@@ -87,7 +88,7 @@ pub fn write(runs: &Runs, folder: &Path) -> Result<(), Failure> {
     history(
         4,
         "stress in the target, 5 mm behind its face (15 mm)",
-        &|_| 15e-3,
+        &|_| (1, 15e-3),
         SHOWN,
         &targets[1..],
     )?;
@@ -98,7 +99,7 @@ pub fn write(runs: &Runs, folder: &Path) -> Result<(), Failure> {
         PAD_SHOWN,
         &pads,
     )?;
-    let in_pad = |run: &Run| run.record.probes.get(1).map_or(0.0, |probe| probe.x0);
+    let in_pad = |run: &Run| (1, run.record.probes.get(1).map_or(0.0, |probe| probe.x0));
     history(
         7,
         "stress in the middle of the PMMA pad",
@@ -204,13 +205,13 @@ fn profiles(
     finish(title, number, panels, folder)
 }
 
-/// A figure of stress histories.
+/// A figure of stress histories. Those with a reference beside linear waves get a panel each.
 fn histories(
     runs: &Runs,
     folder: &Path,
     number: usize,
     title: &str,
-    place: &dyn Fn(&Run) -> f64,
+    place: &dyn Fn(&Run) -> (usize, f64),
     until: f64,
     labels: &[String],
 ) -> Result<(), Failure> {
@@ -218,49 +219,76 @@ fn histories(
     let grid: Vec<f64> = (0..=steps)
         .map(|k| until * f64::from(k) / f64::from(steps))
         .collect();
-    let mut panels = Vec::new();
+    let mut panels: Vec<Vec<Panel>> = Vec::new();
     let mut names = vec!["time_s".to_string()];
     let mut columns = vec![grid.clone()];
+    let us = |t: f64| 1e6 * t;
     for scheme in SCHEMES {
-        let x = Axis::linear("time", "µs").range(0.0, 1e6 * until);
-        let mut panel = Panel::new(x, Quantity::Stress.axis()).title(panel_title(scheme));
+        let panel = |title: &str| {
+            let x = Axis::linear("time", "µs").range(0.0, us(until));
+            Panel::new(x, Quantity::Stress.axis()).title(title)
+        };
+        let mut own = Vec::new();
         for (k, label) in labels.iter().enumerate() {
             let run = runs.get(scheme, label)?;
-            let x0 = place(run);
-            let Some(probe) = run.record.probe(x0) else {
+            let (p, x0) = place(run);
+            let Some(probe) = run.record.probes.get(p) else {
                 continue;
             };
-            let all = run.record.time.iter().zip(&probe.stress);
-            let drawn = all
-                .take_while(|(t, _)| **t <= until)
-                .map(|(t, stress)| (1e6 * t, 1e-6 * stress));
-            let mut exact: Vec<_> = run
-                .waves
-                .history(x0)?
-                .iter()
-                .take_while(|state| state.time <= until)
-                .map(|state| (1e6 * state.time, 1e-6 * state.stress))
-                .collect();
-            exact.extend(exact.last().map(|last| (1e6 * until, last.1)));
+            let shown = |time: &[f64], stress: &[f64]| -> Vec<(f64, f64)> {
+                let all = time.iter().zip(stress).take_while(|(t, _)| **t <= until);
+                all.map(|(t, stress)| (us(*t), 1e-6 * stress)).collect()
+            };
+            let states = run.waves.history(x0)?;
+            let states = states.iter().take_while(|state| state.time <= until);
+            let mut exact: Vec<_> = states.map(|s| (us(s.time), 1e-6 * s.stress)).collect();
+            exact.extend(exact.last().map(|last| (us(until), last.1)));
+            let gauge = run
+                .reference
+                .as_ref()
+                .and_then(|theory| theory.reference.gauges().get(p));
             let name = if k == 0 { "exact linear waves" } else { "" };
-            panel = panel
-                .series(Series::line(label, drawn).color(color(label, k)))
-                .series(Series::steps(name, exact).reference());
+            let mut series = Vec::new();
+            if let Some(gauge) = gauge {
+                let points = shown(&gauge.time, &gauge.stress);
+                let name = if k == 0 { "Godunov reference" } else { "" };
+                series.push(Series::line(name, points).color(PALETTE[7]).width(3.0));
+            }
+            let drawn = shown(&run.record.time, &probe.stress);
+            series.push(Series::line(label, drawn).color(color(label, k)));
+            series.push(Series::steps(name, exact).reference());
+            if gauge.is_some() || own.is_empty() {
+                let title = match gauge {
+                    Some(_) => format!("{}, {label}", scheme.key()),
+                    None => panel_title(scheme).into(),
+                };
+                own.push(panel(&title));
+            }
+            if let Some(last) = own.pop() {
+                own.push(series.into_iter().fold(last, Panel::series));
+            }
+            let mut column = |source: &str, values: Vec<f64>| {
+                names.push(format!("stress_pa@{label} {source}"));
+                columns.push(values);
+            };
+            let sampled = |t: &[f64], y: &[f64]| grid.iter().map(|&time| at(t, y, time)).collect();
             let exact: Result<Vec<f64>, _> =
                 grid.iter().map(|&t| run.waves.stress(x0, t)).collect();
-            let sampled = grid
-                .iter()
-                .map(|&t| at(&run.record.time, &probe.stress, t))
-                .collect();
-            names.push(format!("stress_pa@{label} {}", scheme.key()));
-            columns.push(sampled);
-            names.push(format!("stress_pa@{label} exact for {}", scheme.key()));
-            columns.push(exact?);
+            column(scheme.key(), sampled(&run.record.time, &probe.stress));
+            column(&format!("exact for {}", scheme.key()), exact?);
+            if let Some(gauge) = gauge {
+                let source = format!("reference for {}", scheme.key());
+                column(&source, sampled(&gauge.time, &gauge.stress));
+            }
         }
-        panels.push(panel.legend(Legend::Auto));
+        panels.push(own);
     }
     write_columns(folder, number, &names, &columns)?;
-    finish(title, number, panels, folder)
+    // Rows are runs, columns are schemes.
+    let rows = panels.iter().map(Vec::len).max().unwrap_or(0);
+    let ordered =
+        (0..rows).flat_map(|row| panels.iter().filter_map(move |own| own.get(row).cloned()));
+    finish(title, number, ordered.collect(), folder)
 }
 
 /// A sampled function at a place, linear between samples.

@@ -7,7 +7,7 @@ use meshfree::error::Result;
 use meshfree::output::csv::{Cell, CsvWriter};
 use meshfree::scalar::Real;
 use meshfree::simulation::{Ledger, Simulation};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// A particle at the time of a snapshot, in SI units; stress is positive in tension.
@@ -61,13 +61,6 @@ pub struct Record {
 }
 
 impl Record {
-    /// The probe nearest to `x0` \[m\].
-    pub fn probe(&self, x0: f64) -> Option<&Probe> {
-        let apart = |probe: &&Probe| (probe.x0 - x0).abs();
-        self.probes
-            .iter()
-            .min_by(|a, b| apart(a).total_cmp(&apart(b)))
-    }
     /// The snapshot nearest to `time` \[s\].
     pub fn snapshot(&self, time: f64) -> Option<&Snapshot> {
         let apart = |shot: &&Snapshot| (shot.time - time).abs();
@@ -121,7 +114,6 @@ impl Place {
 
 /// The open files of a run.
 struct Files {
-    folder: PathBuf,
     history: CsvWriter,
     ledger: CsvWriter,
     row: Vec<f64>,
@@ -151,7 +143,6 @@ impl Files {
         }
         ledger.push("wall_impulse_n_s".into());
         Ok(Self {
-            folder: folder.into(),
             history: CsvWriter::create(folder.join("history.csv"), &columns)?,
             ledger: CsvWriter::create(folder.join("ledger.csv"), &ledger)?,
             row: Vec::new(),
@@ -179,28 +170,6 @@ impl Files {
         self.row
             .push(ledger.boundary_impulse.first().copied().unwrap_or(0.0));
         self.ledger.row(&self.row)
-    }
-
-    fn snapshot(&self, case: &Case, shot: &Snapshot) -> Result<()> {
-        let name = format!("snapshot_{}us.csv", short(1e6 * shot.time));
-        let columns = [
-            "x_m",
-            "reference_x_m",
-            "stress_pa",
-            "velocity_m_s",
-            "density_kg_m3",
-            "energy_j_kg",
-            "body",
-        ];
-        let mut file = CsvWriter::create(self.folder.join(name), &columns)?;
-        let rods = case.rods();
-        for p in &shot.points {
-            let numbers = [p.x, p.reference, p.stress, p.velocity, p.density, p.energy];
-            let mut cells: Vec<Cell<'_>> = numbers.map(Cell::from).into();
-            cells.push(rods[p.body].name.into());
-            file.mixed_row(&cells)?;
-        }
-        Ok(())
     }
 }
 
@@ -278,28 +247,21 @@ fn run_in<T: Real>(
     let mut shots = Vec::new();
     for stop in stops {
         while stop - simulation.time() > 1e-12 * stop {
-            let left = stop - simulation.time();
-            // Two equal last steps instead of a full one and a sliver.
-            let limit = match simulation.last_vote() {
-                Some(vote) if left < 2.0 * vote.step && left > vote.step => 0.5 * left,
-                _ => left,
-            };
-            simulation.step_at_most(limit)?;
+            simulation.step_at_most(stop - simulation.time())?;
             if lags {
                 simulation.evaluate()?;
             }
             observe(&simulation, &mut record)?;
         }
         if case.snapshots.contains(&stop) {
-            shots.push(take_snapshot(&simulation, &references, stop));
+            let shot = take_snapshot(&simulation, &references, stop);
+            if let Some(folder) = folder {
+                write_snapshot(folder, case, &shot)?;
+            }
+            shots.push(shot);
         }
     }
     note_drift(&first, &simulation.ledger(), &mut record);
-    if let Some(files) = &files {
-        shots
-            .iter()
-            .try_for_each(|shot| files.snapshot(case, shot))?;
-    }
     record.snapshots = shots;
     record.steps = simulation.steps();
     record.guards = simulation.guard_counts().total();
@@ -351,4 +313,26 @@ fn take_snapshot<T: Real>(
         }
     }
     Snapshot { time, points }
+}
+
+fn write_snapshot(folder: &Path, case: &Case, shot: &Snapshot) -> Result<()> {
+    let name = format!("snapshot_{}us.csv", short(1e6 * shot.time));
+    let columns = [
+        "x_m",
+        "reference_x_m",
+        "stress_pa",
+        "velocity_m_s",
+        "density_kg_m3",
+        "energy_j_kg",
+        "body",
+    ];
+    let mut file = CsvWriter::create(folder.join(name), &columns)?;
+    let rods = case.rods();
+    for p in &shot.points {
+        let numbers = [p.x, p.reference, p.stress, p.velocity, p.density, p.energy];
+        let mut cells: Vec<Cell<'_>> = numbers.map(Cell::from).into();
+        cells.push(rods[p.body].name.into());
+        file.mixed_row(&cells)?;
+    }
+    Ok(())
 }
