@@ -364,12 +364,14 @@ fn pads(measured: &Measured, rows: &mut Vec<Row>) -> Result<(), Failure> {
             })?);
         }
         rows.push(measured.row(
-            format!("{label}: stress until 0.25 µs before linear arrival [%]"),
+            format!("{label}: stress until 0.25 µs before arrival [%]"),
             0.5,
             &label,
             |r, t| {
                 let steps = steps_of(&t.acoustic, 5e-3, 0.5e-6)?;
-                let &(arrival, _, first) = steps.get(1).ok_or("no wave arrives")?;
+                let &(_, _, first) = steps.get(1).ok_or("no wave arrives")?;
+                let gauge = t.reference.gauges().first().ok_or("no gauge")?;
+                let arrival = arrival(&gauge.time, &gauge.stress, 0.0, first)?;
                 let end = r.time.partition_point(|&time| time < arrival - 0.25e-6);
                 let most = r.probes[0].stress[..end]
                     .iter()
