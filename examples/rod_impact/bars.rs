@@ -9,8 +9,8 @@ use crate::figures::at;
 use crate::options::Options;
 use crate::paper::{cases, pad_label};
 use crate::parallel::{self, Board};
-use crate::record::{self, Record};
-use crate::theory::{Theory, held_steps, steps_of};
+use crate::record::{self, Record, Watch};
+use crate::theory::{Theory, steps_of};
 use meshfree::output::table::{Align, Table};
 use meshfree::study::norms::{arrival, overshoot, plateau_mean, rise_10_90};
 use std::path::Path;
@@ -22,10 +22,10 @@ const SCHEMES: [SchemeChoice; 3] = [
 ];
 
 /// A measured value and the bar it must stay below, both in the unit of its row.
-struct Row {
-    name: String,
-    bar: f64,
-    values: Vec<f64>,
+pub struct Row {
+    pub name: String,
+    pub bar: f64,
+    pub values: Vec<f64>,
 }
 
 /// A job: a case, and whether the reference is solved too.
@@ -69,7 +69,7 @@ fn jobs(options: &Options) -> Vec<Job> {
 }
 
 /// Everything that was run.
-struct Measured {
+pub struct Measured {
     records: Vec<(String, Record)>,
     theories: Vec<(String, Theory)>,
 }
@@ -83,14 +83,14 @@ impl Measured {
             .map(|(_, record)| record)
             .ok_or_else(|| format!("no run of {label}").into())
     }
-    fn theory(&self, label: &str) -> Result<&Theory, Failure> {
+    pub fn theory(&self, label: &str) -> Result<&Theory, Failure> {
         let found = self.theories.iter().find(|(name, _)| name == label);
         found
             .map(|(_, theory)| theory)
             .ok_or_else(|| format!("no theory of {label}").into())
     }
     /// A row with a value for each scheme.
-    fn row(
+    pub fn row(
         &self,
         name: impl Into<String>,
         bar: f64,
@@ -118,7 +118,7 @@ pub fn measure(options: &Options, folder: &Path) -> Result<(), Failure> {
         .collect();
     let board = Board::new("bars", weights);
     let results = parallel::map(&jobs, options.threads, |k, (label, case, exact)| {
-        let record = record::run(case, None, &mut |time| {
+        let record = record::run(case, Watch::Every(1), &mut |time| {
             board.update(
                 k,
                 time / case.until,
@@ -142,7 +142,7 @@ pub fn measure(options: &Options, folder: &Path) -> Result<(), Failure> {
     fronts(&measured, &mut rows)?;
     figures(&measured, &mut rows)?;
     contacts(&measured, &mut rows)?;
-    pads(&measured, &mut rows)?;
+    crate::pads::rows(&measured, &mut rows)?;
     conservation(&measured, &mut rows)?;
     crate::invariants::rows(options, &mut |name, bar, values| {
         rows.push(Row { name, bar, values });
@@ -190,7 +190,7 @@ fn table(rows: &[Row]) -> Table {
 }
 
 /// Central 70 % of state `k` that linear waves bring to `x0`.
-fn window(theory: &Theory, x0: f64, k: usize) -> Result<(f64, f64), Failure> {
+pub fn window(theory: &Theory, x0: f64, k: usize) -> Result<(f64, f64), Failure> {
     let steps = steps_of(&theory.acoustic, x0, 0.2e-6)?;
     let &(from, until, _) = steps.get(k).ok_or("the waves bring no such state")?;
     let margin = 0.15 * (until - from);
@@ -198,7 +198,7 @@ fn window(theory: &Theory, x0: f64, k: usize) -> Result<(f64, f64), Failure> {
 }
 
 /// Means of the reference and of the run over a window, at probe `p` \[Pa\].
-fn means(
+pub fn means(
     record: &Record,
     theory: &Theory,
     p: usize,
@@ -333,72 +333,6 @@ fn contacts(measured: &Measured, rows: &mut Vec<Row>) -> Result<(), Failure> {
         5.3,
         "copper",
         |r, t| Ok(1e6 * ends(r, t)?.0),
-    )?);
-    Ok(())
-}
-
-/// Change of stress within which the reference holds a step \[Pa\]: 0.4 % of the first plateau.
-const HELD: f64 = 0.4e6;
-
-fn pads(measured: &Measured, rows: &mut Vec<Row>) -> Result<(), Failure> {
-    for mm in [5.0, 10.0, 20.0, 7.5] {
-        let label = pad_label(mm);
-        // Steps that the reference holds: its waves are faster than linear ones, so that windows
-        // between linear arrivals would straddle fronts.
-        let gauge = measured.theory(&label)?.reference.gauges().first();
-        let steps = held_steps(gauge.ok_or("no gauge")?, HELD, 0.5e-6);
-        let loaded = steps.iter().filter(|step| step.2.abs() > 1e6);
-        for (count, &(from, until, stress)) in loaded.enumerate() {
-            let bar = if count == 0 { 1.5 } else { 3.0 };
-            let margin = 0.15 * (until - from);
-            let name = format!(
-                "{label}: {:.2} to {:.2} µs, {:.1} MPa [% of the first]",
-                1e6 * from,
-                1e6 * until,
-                1e-6 * stress
-            );
-            rows.push(measured.row(name, bar, &label, |r, t| {
-                let (first, _) = means(r, t, 0, window(t, 5e-3, 1)?)?;
-                let (reference, run) = means(r, t, 0, (from + margin, until - margin))?;
-                Ok(100.0 * (run - reference) / first)
-            })?);
-        }
-        rows.push(measured.row(
-            format!("{label}: stress until 0.25 µs before arrival [%]"),
-            0.5,
-            &label,
-            |r, t| {
-                let steps = steps_of(&t.acoustic, 5e-3, 0.5e-6)?;
-                let &(_, _, first) = steps.get(1).ok_or("no wave arrives")?;
-                let gauge = t.reference.gauges().first().ok_or("no gauge")?;
-                let arrival = arrival(&gauge.time, &gauge.stress, 0.0, first)?;
-                let end = r.time.partition_point(|&time| time < arrival - 0.25e-6);
-                let most = r.probes[0].stress[..end]
-                    .iter()
-                    .fold(0.0, |most: f64, s| most.max(s.abs()));
-                Ok(100.0 * most / first.abs())
-            },
-        )?);
-        rows.push(measured.row(
-            format!("{label}: largest pressure at t = 0 [Pa]"),
-            0.0,
-            &label,
-            |r, _| Ok(r.at_rest),
-        )?);
-    }
-    let label = pad_label(7.5);
-    rows.push(measured.row(
-        format!("{label}: joint at 1.5 µs, before the wave [of the plateau]"),
-        1e-9,
-        &label,
-        |r, _| {
-            let shot = r.snapshot(1.5e-6).ok_or("no snapshot")?;
-            let joint = shot
-                .points
-                .iter()
-                .filter(|p| (p.reference - 10e-3).abs() < 1e-3);
-            Ok(joint.fold(0.0, |most: f64, p| most.max(p.stress.abs())) / 104.56e6)
-        },
     )?);
     Ok(())
 }

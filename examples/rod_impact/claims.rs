@@ -64,24 +64,35 @@ impl<'a> Sources<'a> {
         Ok(all)
     }
 
-    /// Largest pressure until a time \[Pa\].
+    /// Largest pressure until a time, as a mean over 0.2 µs so that it has acted \[Pa\].
     fn largest(&self, until: f64) -> Result<Vec<f64>, Failure> {
-        let most = |time: &[f64], stress: &[f64]| {
-            let shown = time.iter().zip(stress).filter(|(t, _)| **t <= until);
-            shown.fold(0.0, |most: f64, (_, s)| most.max(-s))
+        const SAMPLE: f64 = 5e-9;
+        let grid: Vec<f64> = (0..(until / SAMPLE) as usize)
+            .map(|k| k as f64 * SAMPLE)
+            .collect();
+        let most = |stress: &[f64]| {
+            let means = stress
+                .windows(40)
+                .map(|part| part.iter().sum::<f64>() / 40.0);
+            means.fold(0.0, |most: f64, mean| most.max(-mean))
         };
-        let history = self.theory.acoustic.history(self.x0)?;
-        let shown = history.iter().filter(|state| state.time <= until);
-        let gauge = &self.theory.reference.gauges()[self.gauge];
-        let mut all = vec![
-            shown.fold(0.0, |most: f64, state| most.max(-state.stress)),
-            most(&gauge.time, &gauge.stress),
-        ];
-        let probes = self
-            .runs
+        let sampled = |time: &[f64], stress: &[f64]| -> Vec<f64> {
+            grid.iter()
+                .map(|&t| crate::figures::at(time, stress, t))
+                .collect()
+        };
+        let linear: Result<Vec<f64>, _> = grid
             .iter()
-            .map(|run| (&run.record.time, &run.record.probes[self.gauge]));
-        all.extend(probes.map(|(time, probe)| most(time, &probe.stress)));
+            .map(|&t| self.theory.acoustic.stress(self.x0, t))
+            .collect();
+        let gauge = &self.theory.reference.gauges()[self.gauge];
+        let mut all = vec![most(&linear?), most(&sampled(&gauge.time, &gauge.stress))];
+        all.extend(self.runs.iter().map(|run| {
+            most(&sampled(
+                &run.record.time,
+                &run.record.probes[self.gauge].stress,
+            ))
+        }));
         Ok(all)
     }
 
@@ -273,13 +284,13 @@ pub fn table(runs: &Runs) -> Result<Table, Failure> {
         text(&reduced(&padded.plateau(1)?), 100.0, 2),
     );
     add(
-        "pad 2 Ls: reduction of the maximum until 26 µs [%]",
+        "pad 2 Ls: reduction of the largest stress until 26 µs [%]",
         "74 (*)",
         text(&reduced(&padded.largest(26e-6)?), 100.0, 2),
     );
     for mm in PADS {
         let padded = Sources::new(runs, &pad_label(mm), 0)?;
-        let claim = format!("pad {mm} mm: largest stress until 26 µs [MPa] (fig. 6)");
+        let claim = format!("pad {mm} mm: largest stress for 0.2 µs [MPa] (fig. 6)");
         let paper = if mm > 10.0 { "as 10 mm" } else { "falls" };
         add(&claim, paper, text(&padded.largest(26e-6)?, 1e-6, 1));
     }
@@ -288,12 +299,16 @@ pub fn table(runs: &Runs) -> Result<Table, Failure> {
 
 /// What the table's marks mean.
 pub const NOTES: &str = "\
-linear: exact waves without a grid, with the contact of `impact`. reference: second-order Godunov with \n\
-equation 5's equation of state, the same contact. impact: contact that opens. lam2002: the paper's \n\
-scheme, bodies bonded, as it has no contact law; its later plateaus and durations are those of bonded rods.\n\
-(*) The equations give 70 %, not 74 %: copper and PMMA of table 2 make the first plateau behind any pad\n\
-104.6 of 351.8 MPa, a reduction of 70.3 %. From 24.3 µs on the echo of the target's far end brings\n\
-135 MPa. The paper's number must come from its smoothing of interfaces, and is no aim.\n";
+linear: exact waves without a grid, with a contact that opens. reference: second-order Godunov with the
+equation of state of eq. 5, the same contact. impact: our default, with a contact that opens. lam2002: the
+paper's scheme. It has no contact law, so its bodies are bonded, and its later plateaus and durations
+are those of bonded rods. Figures 6 and 7 show the reference too: PMMA under 105 MPa carries waves 1 %
+faster, which after a few reverberations changes the order in which they arrive.
+(*) The equations give 70 %, not 74 %: with table 2 the first plateau behind any pad is 104.6 of 351.8
+MPa, a reduction of 70.3 %. From 24.3 µs on the echo of the target's far end brings 135 MPa.
+Figure 3, wall: a release front of finite width leaves a short pulse in the striker when it meets the
+wall, whatever the method: the contact opens half way through the front. It narrows with the spacing.
+";
 
 fn pulse_lengths(runs: &Runs, copper: &Sources<'_>) -> Result<Vec<f64>, Failure> {
     let pieces = copper.theory.acoustic.snapshot(7.7e-6)?;

@@ -252,7 +252,11 @@ fn histories(
             if let Some(gauge) = gauge {
                 let points = shown(&gauge.time, &gauge.stress);
                 let name = if k == 0 { "Godunov reference" } else { "" };
-                series.push(Series::line(name, points).color(PALETTE[7]).width(3.0));
+                series.push(
+                    Series::line(name, points)
+                        .color(Color(190, 190, 190))
+                        .width(3.0),
+                );
             }
             let drawn = shown(&run.record.time, &probe.stress);
             series.push(Series::line(label, drawn).color(color(label, k)));

@@ -5,7 +5,7 @@ use crate::Failure;
 use crate::cases::Case;
 use crate::choices::SchemeChoice;
 use crate::options::Options;
-use crate::record;
+use crate::record::{self, Watch};
 use meshfree::material::catalogue;
 use meshfree::scene::{Body, Scene};
 
@@ -89,7 +89,7 @@ fn against_threads(case: &Case) -> Result<f64, Failure> {
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .build()?;
-        let record = pool.install(|| record::run(case, None, &mut |_| {}))?;
+        let record = pool.install(|| record::run(case, Watch::Every(1), &mut |_| {}))?;
         let points = record.snapshots.iter().flat_map(|shot| &shot.points);
         Ok(points
             .map(|p| [p.stress.to_bits(), p.velocity.to_bits()])

@@ -9,10 +9,13 @@ mod convergence;
 mod figures;
 mod invariants;
 mod options;
+mod pads;
 mod paper;
 mod parallel;
 mod record;
 mod report;
+#[cfg(test)]
+mod tests;
 mod theory;
 
 use options::{Options, Task};

@@ -6,7 +6,7 @@ use crate::cases::{Case, short};
 use crate::choices::SchemeChoice;
 use crate::options::Options;
 use crate::parallel::{self, Board};
-use crate::record::{self, Record};
+use crate::record::{self, Record, Watch};
 use crate::theory::{Theory, waves};
 use meshfree::study::acoustic_rods::AcousticSolution;
 
@@ -67,8 +67,7 @@ pub fn cases(scheme: SchemeChoice, spacing: f64) -> Vec<(String, Case)> {
         let (until, snapshots) = match *target {
             // Until the far end's echo parts striker and target.
             "pmma" => (32e-6, vec![5.1e-6]),
-            "aluminium" => (16e-6, vec![5.1e-6]),
-            "steel" => (24e-6, vec![5.1e-6]),
+            "aluminium" | "steel" => (16e-6, vec![5.1e-6]),
             "copper" => (14e-6, vec![5.1e-6, 7.7e-6, 12.8e-6]),
             _ => (SHOWN, vec![]),
         };
@@ -103,7 +102,7 @@ impl Runs {
             .collect();
         let board = Board::new("rods", weights);
         let results = parallel::map(&jobs, options.threads, |k, (label, case)| {
-            let record = record::run(case, None, &mut |time| {
+            let record = record::run(case, Watch::Every(4), &mut |time| {
                 board.update(
                     k,
                     time / case.until,

@@ -173,20 +173,29 @@ impl Files {
     }
 }
 
-/// Runs a case. With a folder, writes its files there. `progress` is told the time \[s\] now and then.
-pub fn run(case: &Case, folder: Option<&Path>, progress: &mut dyn FnMut(f64)) -> Result<Record> {
+/// How closely a run is watched.
+#[derive(Clone, Copy, Debug)]
+pub enum Watch<'a> {
+    /// Every step, into the files of this folder.
+    Files(&'a Path),
+    /// Every so many steps, in memory.
+    Every(u64),
+}
+
+/// Runs a case. `progress` is told the time \[s\] now and then.
+pub fn run(case: &Case, watch: Watch<'_>, progress: &mut dyn FnMut(f64)) -> Result<Record> {
     match case.precision {
-        Precision::F32 => run_in::<f32>(case, folder, progress),
-        Precision::F64 => run_in::<f64>(case, folder, progress),
+        Precision::F32 => run_in::<f32>(case, watch, progress),
+        Precision::F64 => run_in::<f64>(case, watch, progress),
     }
 }
 
-fn run_in<T: Real>(
-    case: &Case,
-    folder: Option<&Path>,
-    progress: &mut dyn FnMut(f64),
-) -> Result<Record> {
+fn run_in<T: Real>(case: &Case, watch: Watch<'_>, progress: &mut dyn FnMut(f64)) -> Result<Record> {
     let started = Instant::now();
+    let (folder, every) = match watch {
+        Watch::Files(folder) => (Some(folder), 1),
+        Watch::Every(steps) => (None, steps.max(1)),
+    };
     let mut simulation = case.build::<T>()?;
     let mut files = folder
         .map(|folder| Files::create(folder, case))
@@ -231,8 +240,8 @@ fn run_in<T: Real>(
     stops.push(case.until);
     stops.sort_by(f64::total_cmp);
     let mut observe = |simulation: &Simulation<T, 1>, record: &mut Record| -> Result<()> {
-        let ledger =
-            (files.is_some() || simulation.steps().is_multiple_of(50)).then(|| simulation.ledger());
+        let ledger = (files.is_some() || simulation.steps().is_multiple_of(100))
+            .then(|| simulation.ledger());
         note(simulation, &places, record);
         if let Some(ledger) = &ledger {
             note_drift(&first, ledger, record);
@@ -248,10 +257,13 @@ fn run_in<T: Real>(
     for stop in stops {
         while stop - simulation.time() > 1e-12 * stop {
             simulation.step_at_most(stop - simulation.time())?;
-            if lags {
-                simulation.evaluate()?;
+            let stopped = stop - simulation.time() <= 1e-12 * stop;
+            if stopped || simulation.steps().is_multiple_of(every) {
+                if lags {
+                    simulation.evaluate()?;
+                }
+                observe(&simulation, &mut record)?;
             }
-            observe(&simulation, &mut record)?;
         }
         if case.snapshots.contains(&stop) {
             let shot = take_snapshot(&simulation, &references, stop);

@@ -4,7 +4,7 @@
 use crate::Failure;
 use crate::cases::{Case, short};
 use crate::options::Options;
-use crate::record::{self, Record};
+use crate::record::{self, Record, Watch};
 use crate::theory::{Theory, steps_of};
 use meshfree::output::progress::Progress;
 use meshfree::output::svg::{Axis, Figure, PALETTE, Panel, Series};
@@ -23,7 +23,7 @@ pub fn run(options: &Options, folder: &Path) -> Result<(), Failure> {
     let pool = rayon_pool(threads)?;
     let record = pool.install(|| -> Result<Record, Failure> {
         let mut progress = Progress::new(case.scheme.key());
-        let record = record::run(case, Some(folder), &mut |time| {
+        let record = record::run(case, Watch::Files(folder), &mut |time| {
             progress.update(time / case.until, format_args!("t = {:.2} µs", 1e6 * time));
         });
         Ok(record?)

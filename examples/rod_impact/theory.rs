@@ -4,7 +4,7 @@
 use crate::Failure;
 use crate::cases::{Case, material};
 use meshfree::study::acoustic_rods::{AcousticRods, AcousticSolution, RodSegment};
-use meshfree::study::godunov_rods::{self, GaugeRecord, GodunovRods, GodunovSolution, PressureFn};
+use meshfree::study::godunov_rods::{self, GodunovRods, GodunovSolution, PressureFn};
 use meshfree::study::{Joint, StudyError};
 use std::sync::Arc;
 
@@ -68,26 +68,6 @@ pub fn steps_of(
         .map(|(step, end)| (step.time, end, step.stress))
         .filter(|(from, end, _)| end - from >= shortest)
         .collect())
-}
-
-/// Intervals of at least `shortest` \[s\] in which a gauge of the reference holds its stress within
-/// `tolerance` \[Pa\], as (from, until, mean stress).
-pub fn held_steps(gauge: &GaugeRecord, tolerance: f64, shortest: f64) -> Vec<(f64, f64, f64)> {
-    let (time, stress) = (&gauge.time, &gauge.stress);
-    let mut steps = Vec::new();
-    let mut first = 0;
-    while first < time.len() {
-        let last = (first..time.len())
-            .take_while(|&k| (stress[k] - stress[first]).abs() < tolerance)
-            .last()
-            .unwrap_or(first);
-        if time[last] - time[first] >= shortest {
-            let mean = stress[first..=last].iter().sum::<f64>() / (last - first + 1) as f64;
-            steps.push((time[first], time[last], mean));
-        }
-        first = last + 1;
-    }
-    steps
 }
 
 /// The exact linear waves of a case.
