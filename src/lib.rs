@@ -110,8 +110,8 @@
 //! | | copper | PMMA |
 //! |---|---|---|
 //! | plateau, computed / exact | 353.10 / 353.17 MPa | 57.40 / 57.44 MPa |
-//! | overshoot | 0.01 % | 0.24 % |
-//! | rise from 10 to 90 % | 0.080 µs | 0.096 µs |
+//! | overshoot | 0.01 % | 0.15 % |
+//! | rise from 10 to 90 % | 0.090 µs | 0.101 µs |
 //! | drift of total energy over the run | 3·10⁻¹⁵ | 4·10⁻¹⁵ |
 //!
 //! In `f32` the plateau on copper is the same to 10⁻⁵, and no point of it is farther from the exact

@@ -12,7 +12,7 @@
 //! | | [`impact`] | [`impact_by_continuity`] | [`lam2002`] |
 //! |---|---|---|---|
 //! | density | number density at rest | continuity, V | summation, smoothed |
-//! | viscosity | limited, α = 1.5, β = 2 | the same | plain, α = 1, β = 2 |
+//! | viscosity | limited, α = 2, β = 2 | the same | plain, α = 1, β = 2 |
 //! | pressure curvature χ | 1/3 | 1/3 | 0 |
 //! | normalised by the moment at rest | yes | yes | no |
 //! | energy | compatible | compatible | symmetric |
@@ -28,19 +28,16 @@ pub type ImpactBuilder =
     SchemeBuilder<CubicSpline, LimitedMonaghanGingold, { SmoothingMode::Uniform.bit() }, true>;
 
 /// Impact of solids with weak to moderate shocks: number density relative to the shape at rest,
-/// pressure curvature χ = 1/3, limited viscosity α = 1.5, β = 2, compatible energy, cubic spline at
+/// pressure curvature χ = 1/3, limited viscosity α = 2, β = 2, compatible energy, cubic spline at
 /// h/dx 1.2.
 ///
-/// The default for rods: fronts of 0.08 µs at a spacing of 0.05 mm without overshoot, waves at the
+/// The default for rods: fronts of 0.09 µs at a spacing of 0.05 mm without overshoot, waves at the
 /// right speed, bodies at rest free of stress, contact that opens.
 #[must_use]
 pub fn impact() -> ImpactBuilder {
-    // With the dispersion gone α = 1.5 leaves no overshoot; α = 2 is wider, 1 has less in reserve.
-    let viscosity = LimitedMonaghanGingold {
-        alpha: 1.5,
-        ..LimitedMonaghanGingold::STANDARD
-    };
-    SchemeBuilder::new(CubicSpline, viscosity)
+    // Less viscosity is steeper (α = 1.5: 0.080 µs), but leaves 2.5e-9 of the plateau at a joint 0.85 µs
+    // ahead of the wave, where α = 2 leaves 8e-10.
+    SchemeBuilder::new(CubicSpline, LimitedMonaghanGingold::STANDARD)
         .named("impact")
         .density(DensityForm::NumberDensity)
         .pressure_curvature(1.0 / 3.0)
