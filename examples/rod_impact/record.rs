@@ -122,12 +122,10 @@ struct Files {
 impl Files {
     fn create(folder: &Path, case: &Case) -> Result<Self> {
         let mut columns = vec!["time_s".to_string()];
-        for quantity in ["stress_pa", "velocity_m_s"] {
-            let names = case
-                .probes
-                .iter()
-                .map(|x| format!("{quantity}@{}mm", short(1e3 * x)));
-            columns.extend(names);
+        for x in &case.probes {
+            let place = short(1e3 * x);
+            columns.push(format!("stress_pa@{place}mm"));
+            columns.push(format!("velocity_m_s@{place}mm"));
         }
         let rods = case.rods();
         let mut ledger = vec!["time_s".to_string()];
@@ -153,10 +151,10 @@ impl Files {
         self.row.clear();
         self.row.push(ledger.time);
         let last = |values: &Vec<f64>| values.last().copied().unwrap_or(0.0);
-        self.row
-            .extend(record.probes.iter().map(|probe| last(&probe.stress)));
-        self.row
-            .extend(record.probes.iter().map(|probe| last(&probe.velocity)));
+        for probe in &record.probes {
+            self.row
+                .extend([last(&probe.stress), last(&probe.velocity)]);
+        }
         self.history.row(&self.row)?;
         self.row.clear();
         self.row.push(ledger.time);
