@@ -202,5 +202,6 @@ fn picture(record: &Record, theory: &Theory) -> Figure {
         .panel(stress)
         .panel(velocity)
         .columns(1)
+        .shared_legend()
         .panel_size(720.0, 320.0)
 }
