@@ -342,7 +342,10 @@ fn viscosity(value: &str) -> Result<ViscosityKind, BadOption> {
 
 /// Whether rods can be made of it: a gas without energy has no stiffness.
 fn is_stiff(name: &str) -> bool {
-    material::<f64>(name).is_ok_and(|m| m.impedance().is_finite() && m.impedance() > 0.0)
+    let sound_speed = |m: meshfree::material::Material<f64>| m.impedance() / m.reference_density();
+    material(name)
+        .map(sound_speed)
+        .is_ok_and(|c| c.is_finite() && c > 1.0)
 }
 
 fn solid(option: &str, value: &str) -> Result<String, BadOption> {
