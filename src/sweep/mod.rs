@@ -125,6 +125,16 @@ impl InstructionSet {
         Self::Baseline
     }
 
+    /// The set itself if this machine has it, the baseline if not.
+    #[must_use]
+    pub fn or_baseline(self) -> Self {
+        if self.available() {
+            self
+        } else {
+            Self::Baseline
+        }
+    }
+
     /// Whether this machine has it.
     #[must_use]
     pub fn available(self) -> bool {

@@ -93,7 +93,6 @@ const UNIFORM: u8 = 0;
 const MEAN: u8 = 1;
 const OWN: u8 = 2;
 const WORK: u8 = 4;
-const CONTACT: u8 = 8;
 
 /// The layout of a sweep: what its terms name, and what the way of running adds.
 struct Composed<T, P, const D: usize, const HOW: u8>(PhantomData<(T, P)>);
@@ -166,23 +165,17 @@ impl<T: Real, const D: usize, K: Kernel<D>, P: Terms<D>, const MODES: u8> PairSw
         match self.mode {
             SmoothingMode::Uniform => {
                 if const { MODES & SmoothingMode::Uniform.bit() != 0 } {
-                    self.pass::<T, D, { UNIFORM | CONTACT }, { UNIFORM | CONTACT | WORK }>(
-                        pass, input, records, rows,
-                    );
+                    self.pass::<T, D, UNIFORM, { UNIFORM | WORK }>(pass, input, records, rows);
                 }
             }
             SmoothingMode::Mean => {
                 if const { MODES & SmoothingMode::Mean.bit() != 0 } {
-                    self.pass::<T, D, { MEAN | CONTACT }, { MEAN | CONTACT | WORK }>(
-                        pass, input, records, rows,
-                    );
+                    self.pass::<T, D, MEAN, { MEAN | WORK }>(pass, input, records, rows);
                 }
             }
             SmoothingMode::Own => {
                 if const { MODES & SmoothingMode::Own.bit() != 0 } {
-                    self.pass::<T, D, { OWN | CONTACT }, { OWN | CONTACT | WORK }>(
-                        pass, input, records, rows,
-                    );
+                    self.pass::<T, D, OWN, { OWN | WORK }>(pass, input, records, rows);
                 }
             }
         }
@@ -241,6 +234,7 @@ impl<K, P, const MODES: u8> Program<K, P, MODES> {
         rows.reactions
             .resize_with(input.lists.chunks().len(), Vec::new);
         let h = T::from_f64(input.smoothing_length);
+        let instructions = input.instructions.or_baseline();
         let task = Task {
             kernel: &self.kernel,
             terms: &self.terms,
@@ -259,7 +253,7 @@ impl<K, P, const MODES: u8> Program<K, P, MODES> {
             .enumerate()
             .for_each(|(chunk, ((out, reactions), list))| {
                 reactions.clear();
-                task.dispatch::<D, HOW>(input.instructions, chunk, list, out, reactions);
+                task.dispatch::<D, HOW>(instructions, chunk, list, out, reactions);
             });
     }
 }
@@ -295,7 +289,7 @@ impl<T: Real, K, P> Task<'_, T, K, P> {
         // the loop: wider instructions are not worth a copy there.
         #[cfg(target_arch = "x86_64")]
         if const { D > 1 && !K::CHOSEN_AT_RUN_TIME } {
-            // SAFETY: `instructions` is only ever set to what `InstructionSet::available` confirmed.
+            // SAFETY: `go` passes only what `InstructionSet::or_baseline` found on this machine.
             match instructions {
                 InstructionSet::Avx512 => unsafe {
                     return self.chunk_avx512::<D, HOW>(chunk, list, out, reactions);
@@ -509,7 +503,7 @@ impl<T: Real, K, P> Task<'_, T, K, P> {
                 j: record,
                 layout: PhantomData,
             };
-            if HOW & CONTACT != 0 && contact {
+            if contact {
                 if let Some(touching) = self.touches::<L>(first) {
                     pair.f_i *= touching;
                     pair.f_j *= L::splat(self.touching[self.source(j)]);
