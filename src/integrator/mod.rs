@@ -30,8 +30,9 @@ use core::fmt::Debug;
 
 /// What an integrator can ask of a simulation.
 ///
-/// The state Y is position, velocity, density where it is integrated, internal energy, smoothing
-/// length and viscosity coefficient where they are carried. Every operation acts on all particles.
+/// The state Y is position, velocity, density where it is integrated, internal energy where it is
+/// carried, and smoothing length where it follows the divergence. Every operation acts on all
+/// particles. Viscosity coefficients are no part of it: they follow the flow once a step.
 pub trait System {
     /// Evaluates all rates at the present state, for the time t + `offset` \[s\] with t the time at
     /// the start of the step.
