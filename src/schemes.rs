@@ -18,9 +18,10 @@
 //! | energy | compatible | compatible | symmetric |
 //! | step factor | 0.55 | 0.55 | 0.5 |
 
-use crate::kernel::CubicSpline;
-use crate::scheme::{DensityForm, EnergyForm, SchemeBuilder};
+use crate::kernel::{CubicSpline, WendlandC2};
+use crate::scheme::{DensityForm, EnergyForm, LiquidBuilder, SchemeBuilder};
 use crate::sweep::SmoothingMode;
+use crate::term::Fourtakas;
 use crate::term::viscosity::{LimitedMonaghanGingold, MonaghanGingold};
 
 /// What [`impact`] returns: a scheme with curvature of the pressure, to be changed further.
@@ -65,4 +66,21 @@ pub fn lam2002() -> SchemeBuilder<CubicSpline, MonaghanGingold> {
         .without_normalisation()
         // Half of what the leapfrog bears: the printed integrator is stable to 0.707 of it.
         .step_factor(0.5)
+}
+
+/// Liquids with a free surface, weakly compressible: continuity with the matching pressure force,
+/// density diffusion off the hydrostatic state (Fourtakas, δ = 0.1), artificial viscosity α = 0.02,
+/// Wendland C2 at h/dx 1.3, walls that do not hold what separates.
+#[must_use]
+pub fn weakly_compressible() -> LiquidBuilder<WendlandC2, MonaghanGingold, Fourtakas> {
+    LiquidBuilder::new(
+        WendlandC2,
+        MonaghanGingold {
+            alpha: 0.02,
+            beta: 0.0,
+        },
+    )
+    .named("weakly compressible")
+    .h_over_dx(1.3)
+    .density_diffusion(Fourtakas::default())
 }

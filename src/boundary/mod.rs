@@ -14,17 +14,21 @@
 //! [ledger](crate::simulation::Ledger::boundary_impulse).
 //!
 //! A wall by reflection is exact in that nothing can cross it: a rod on a wall is half of two rods that
-//! meet. It slips along the plane. Walls of other shapes need particles of their own, which this
-//! version does not have.
+//! meet. It slips along the plane. Walls of other shapes are [`Wall`]s of particles of their own: they
+//! hold liquids, move as [prescribed](Motion), and may deny slip.
 
 mod mirror;
+mod motion;
 mod periodic;
+mod wall;
 
 use crate::sweep::{Interaction, Transform};
 use core::fmt::Debug;
 
 pub use mirror::MirrorPlane;
+pub use motion::{Crush, Motion, Pose, Rotation, Translation};
 pub use periodic::Periodic;
+pub use wall::{Slip, Wall};
 
 use crate::scalar::Real;
 

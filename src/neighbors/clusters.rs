@@ -14,6 +14,8 @@ pub const CHUNK: usize = 32;
 pub struct Block {
     /// The slots of the block's particles; starts at a whole number of clusters.
     pub slots: Range<usize>,
+    /// Whether it is a wall, whose particles do not move by forces.
+    pub wall: bool,
 }
 
 /// A run of a cluster's neighbours that belong to one block.
@@ -54,6 +56,8 @@ pub struct SearchInput<'a, T, const D: usize> {
     pub radii: Radii<'a, T>,
     /// Bodies, then boundaries with images, ascending and without overlap.
     pub blocks: &'a [Block],
+    /// Whether members of block `a` list those of block `b`, at `a * blocks.len() + b`; all do if empty.
+    pub listed: &'a [bool],
     /// Slots per cluster.
     pub width: usize,
     /// Slots that own a list (images do not).
@@ -137,9 +141,19 @@ impl ClusterLists {
                     chunk.starts.push(chunk.segments.len() as u32);
                     found.clear();
                     let members = cluster * input.width..(cluster + 1) * input.width;
-                    search(input, &cells, members, largest, found);
-                    found.sort_unstable();
-                    append(input.blocks, found, chunk);
+                    let block = input
+                        .blocks
+                        .partition_point(|b| b.slots.end <= members.start);
+                    // Slots that no particle owns any more have no neighbours.
+                    let owned = input
+                        .blocks
+                        .get(block)
+                        .is_some_and(|b| b.slots.contains(&members.start));
+                    if owned {
+                        search(input, &cells, members, largest, found);
+                        found.sort_unstable();
+                        append(input, block, found, chunk);
+                    }
                 }
                 chunk.starts.push(chunk.segments.len() as u32);
             });
@@ -198,19 +212,31 @@ fn search<T: Real, const D: usize>(
     });
 }
 
-fn append(blocks: &[Block], found: &[u32], chunk: &mut ChunkList) {
+fn append<T, const D: usize>(
+    input: &SearchInput<'_, T, D>,
+    own: usize,
+    found: &[u32],
+    chunk: &mut ChunkList,
+) {
+    let blocks = input.blocks;
+    let listed = |other: usize| {
+        let at = own * blocks.len() + other;
+        input.listed.get(at).is_none_or(|&listed| listed)
+    };
     let mut rest = found;
     while let Some(&first) = rest.first() {
         let block = blocks.partition_point(|b| b.slots.end <= first as usize);
         let end = blocks.get(block).map_or(usize::MAX, |b| b.slots.end);
-        let (own, others) = rest.split_at(rest.partition_point(|&j| (j as usize) < end));
-        let start = chunk.neighbors.len() as u32;
-        chunk.neighbors.extend_from_slice(own);
-        chunk.segments.push(Segment {
-            start,
-            end: chunk.neighbors.len() as u32,
-            block: block as u32,
-        });
+        let (here, others) = rest.split_at(rest.partition_point(|&j| (j as usize) < end));
+        if listed(block) {
+            let start = chunk.neighbors.len() as u32;
+            chunk.neighbors.extend_from_slice(here);
+            chunk.segments.push(Segment {
+                start,
+                end: chunk.neighbors.len() as u32,
+                block: block as u32,
+            });
+        }
         rest = others;
     }
 }

@@ -188,6 +188,12 @@ quantities! {
     TouchingSum, Scalar, "touching_sum", "1";
     /// One where the particle touches the other side of a contact, zero elsewhere.
     Touching, Scalar, "touching", "1";
+    /// Dynamic viscosity μ.
+    DynamicViscosity, Scalar, "dynamic_viscosity", "Pa s";
+    /// Density gradient ∇ρ.
+    DensityGradient, Vector, "density_gradient", "kg/m⁴";
+    /// By how much particles move faster than their momentum, to keep their arrangement.
+    TransportVelocity, Vector, "transport_velocity", "m/s";
     /// Free for a user's own terms.
     UserA, Scalar, "user_a", "";
     /// Free for a user's own terms.
@@ -219,6 +225,18 @@ quantities! {
     VelocityGradient, Matrix, "velocity_gradient", "1/s";
     /// Σⱼ Vⱼ (pⱼ − pᵢ) ∇W.
     PressureGradient, Vector, "pressure_gradient", "Pa/m";
+    /// Σⱼ Vⱼ (ρⱼ − ρᵢ) ∇W.
+    DensityGradient, Vector, "density_gradient", "kg/m⁴";
+    /// Σⱼ Vⱼ pⱼ Wᵢⱼ over liquid, from which a wall takes its pressure.
+    LiquidPressure, Scalar, "liquid_pressure", "Pa";
+    /// Σⱼ Vⱼ ρⱼ rᵢⱼ Wᵢⱼ over liquid, the arm of a wall's hydrostatic pressure.
+    LiquidMoment, Vector, "liquid_moment", "kg/m²";
+    /// Σⱼ Vⱼ vⱼ Wᵢⱼ over liquid, from which a wall takes the velocity that makes the liquid stick.
+    LiquidVelocity, Vector, "liquid_velocity", "m/s";
+    /// Σⱼ Vⱼ μⱼ Wᵢⱼ over liquid, from which a wall takes its viscosity.
+    LiquidViscosity, Scalar, "liquid_viscosity", "Pa s";
+    /// Σⱼ Vⱼ ∇W with a weight that grows as particles meet: where they crowd.
+    Crowding, Vector, "crowding", "1/m";
     /// −Σⱼ Vⱼ rᵢⱼ ⊗ ∇W.
     MomentMatrix, Matrix, "moment_matrix", "1";
     /// The fastest signal that a viscosity saw, a maximum and not a sum.

@@ -34,13 +34,13 @@ mod check;
 
 pub use body::{Body, Start};
 
-use crate::boundary::Boundary;
+use crate::boundary::{Boundary, Wall};
 use crate::error::{BuildError, Error, Problem, Result};
 use crate::integrator::{Integrator, KickDriftKick};
 use crate::particles::{Columns, Field, Fields};
 use crate::scalar::Real;
 use crate::scheme::{Scheme, Smoothing};
-use crate::simulation::{BodyState, Group, Load, Simulation, StepControl, width};
+use crate::simulation::{BodyState, Group, Load, Simulation, StepControl, WallState, width};
 use crate::sweep::{InstructionSet, Interaction};
 
 /// A scene: bodies, boundaries, a scheme, an integrator, and how parts act on each other.
@@ -61,6 +61,7 @@ use crate::sweep::{InstructionSet, Interaction};
 /// ```
 pub struct Scene<T: Real, const D: usize> {
     bodies: Vec<Body<T, D>>,
+    walls: Vec<Wall<D>>,
     boundaries: Vec<Box<dyn Boundary<T, D>>>,
     scheme: Scheme<T, D>,
     integrator: Box<dyn Integrator>,
@@ -82,6 +83,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         };
         Self {
             bodies: Vec::new(),
+            walls: Vec::new(),
             boundaries: Vec::new(),
             scheme,
             integrator: Box::new(KickDriftKick),
@@ -97,6 +99,13 @@ impl<T: Real, const D: usize> Scene<T, D> {
     #[must_use]
     pub fn body(mut self, body: Body<T, D>) -> Self {
         self.bodies.push(body);
+        self
+    }
+
+    /// Adds a wall of particles, which a scheme of liquids asks for.
+    #[must_use]
+    pub fn wall(mut self, wall: Wall<D>) -> Self {
+        self.walls.push(wall);
         self
     }
 
@@ -176,10 +185,10 @@ impl<T: Real, const D: usize> Scene<T, D> {
             fields = fields.union(Fields::of(&[Field::Touching, Field::TouchingSum]));
         }
         let width = width::<T>();
-        let slots = self
-            .bodies
-            .iter()
-            .map(|b| b.points.len().next_multiple_of(width))
+        let counts = self.bodies.iter().map(|body| body.points.len());
+        let slots = counts
+            .chain(self.walls.iter().map(|wall| wall.points.len()))
+            .map(|count| count.next_multiple_of(width))
             .sum();
         let mut columns = Columns::<T, D>::new(fields, slots);
         let mut bodies = Vec::new();
@@ -199,7 +208,25 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 name: body.name.clone(),
                 material: body.material.clone(),
                 slots: own,
+                end: start,
                 spacing: body.spacing,
+            });
+        }
+        let mut walls = Vec::new();
+        for wall in &self.walls {
+            let own = start..start + wall.points.len();
+            start = own.end.next_multiple_of(width);
+            for slot in own.start..start {
+                self.place_wall(&mut columns, wall, slot);
+            }
+            walls.push(WallState {
+                name: wall.name.clone(),
+                slots: own,
+                end: start,
+                rest: wall.points.clone(),
+                motion: wall.motion.clone(),
+                slip: wall.slip,
+                carries: wall.carries,
             });
         }
         let widest = bodies
@@ -211,6 +238,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         let mut group = Group::new(
             columns,
             bodies,
+            walls,
             self.boundaries,
             self.scheme,
             interactions,
@@ -253,6 +281,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
         set(Field::ReferenceDensity, start.density);
         set(Field::Mass, start.density * body.spacing.powi(D as i32));
         set(Field::Energy, start.energy);
+        let viscosity = body.material.dynamic_viscosity.unwrap_or(0.0);
+        set(Field::DynamicViscosity, viscosity);
         set(Field::SmoothingLength, self.scheme.h_over_dx * body.spacing);
         set(
             Field::ViscosityCoefficient,
@@ -260,8 +290,31 @@ impl<T: Real, const D: usize> Scene<T, D> {
         );
     }
 
-    /// What every block does to every other: bodies, then boundaries.
+    /// Gives a wall particle what does not change. It has the density of the first liquid at rest: its
+    /// volume is what the liquid's pressure acts on.
+    fn place_wall(&self, columns: &mut Columns<T, D>, wall: &Wall<D>, slot: usize) {
+        let Some(body) = self.bodies.first() else {
+            return;
+        };
+        let density = body.material.reference_density();
+        let (_, sound_speed) = body.material.state(density, 0.0);
+        let mut set = |field: Field, value: f64| {
+            if let Some(place) = columns.raw_mut(field).get_mut(slot) {
+                *place = T::from_f64(value);
+            }
+        };
+        set(Field::Density, density);
+        set(Field::SoundSpeed, sound_speed);
+        set(Field::Mass, density * wall.spacing.powi(D as i32));
+        set(Field::SmoothingLength, self.scheme.h_over_dx * wall.spacing);
+    }
+
+    /// What every block does to every other: bodies, walls, images of bodies by boundary, and images of
+    /// each wall by boundary.
     fn interactions(&self) -> Vec<Interaction> {
+        if self.scheme.liquid.is_some() {
+            return self.liquid_interactions();
+        }
         let (bodies, boundaries) = (self.bodies.len(), self.boundaries.len());
         let blocks = bodies + boundaries;
         // Boundaries feel nothing, so their rows name no contact that a scene would pay for.
@@ -287,11 +340,40 @@ impl<T: Real, const D: usize> Scene<T, D> {
         all
     }
 
+    /// Liquids act on liquids and walls, and walls ask only for liquids. Nothing opens as a contact
+    /// does: the floor of wall pressures and the cut-off of the material let liquids part.
+    fn liquid_interactions(&self) -> Vec<Interaction> {
+        let (bodies, walls) = (self.bodies.len(), self.walls.len());
+        let boundaries = self.boundaries.len();
+        let blocks = bodies + walls + boundaries * (1 + walls);
+        let is_wall = |block: usize| {
+            (bodies..bodies + walls).contains(&block) || block >= bodies + walls + boundaries
+        };
+        let mut all = vec![Interaction::None; blocks * blocks];
+        for on in 0..bodies + walls {
+            for from in 0..blocks {
+                if !(is_wall(on) && is_wall(from)) {
+                    all[on * blocks + from] = Interaction::Bonded;
+                }
+            }
+        }
+        let index = |name: &str| self.bodies.iter().position(|body| body.name == name);
+        for (first, second, interaction) in &self.contacts {
+            if let (Some(a), Some(b), Interaction::None) =
+                (index(first), index(second), interaction)
+            {
+                all[a * blocks + b] = Interaction::None;
+                all[b * blocks + a] = Interaction::None;
+            }
+        }
+        all
+    }
+
     fn is_mixed(&self) -> bool {
         let first = self.bodies.first().map_or(0.0, |body| body.spacing);
         // A spacing that is no number has its own problem, and differs from nothing.
-        let differs = |body: &Body<T, D>| (body.spacing - first).abs() > 1e-9 * first.abs();
-        self.bodies.iter().any(differs)
+        let differs = |spacing: f64| (spacing - first).abs() > 1e-9 * first.abs();
+        self.bodies.iter().any(|body| differs(body.spacing))
     }
 
     fn is_uniform(&self) -> bool {

@@ -13,6 +13,7 @@ use core::str::FromStr;
 /// | `Normalised` | ρ = Σ m W / Σ (m/ρ) W | m | p/ρ² |
 /// | `NumberDensity` | ρ = ρ₀ (1 + (S − S₀)/M), S = Σ V₀ W | V₀ | p (ρ₀/ρ)²/M |
 /// | `Continuity` | dρ/dt = ρ Σ V v·∇W / s | V | p/s |
+/// | `ContinuityByMass` | dρ/dt = Σ m v·∇W | m | p/ρ² |
 /// | `Lam` | ρ = Σ m W against its own first value, normalised at ends | m | p/ρ² |
 ///
 /// S₀, M and s are taken at rest: S₀ makes a body at rest free of stress at ends and joints, and the
@@ -41,6 +42,11 @@ pub enum DensityForm {
     ///
     #[doc = include_str!("../../docs/equations/density_continuity.html")]
     Continuity,
+    /// Continuity in mass form with the matching σ/ρ² force (Monaghan 1992; the default formulation of
+    /// LS-DYNA): bodies of one density.
+    ///
+    /// dρᵢ/dt = Σⱼ mⱼ vᵢⱼ·∇W
+    ContinuityByMass,
     /// Lam, Shen & Gong (2002): summation, first smoothed and then measured against the smoothed
     /// value, with the normalisation of equation 25 at end particles.
     Lam,
@@ -48,11 +54,12 @@ pub enum DensityForm {
 
 impl DensityForm {
     /// Every form.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Summation,
         Self::Normalised,
         Self::NumberDensity,
         Self::Continuity,
+        Self::ContinuityByMass,
         Self::Lam,
     ];
 
@@ -64,6 +71,7 @@ impl DensityForm {
             Self::Normalised => "normalised",
             Self::NumberDensity => "number-density",
             Self::Continuity => "continuity",
+            Self::ContinuityByMass => "continuity-by-mass",
             Self::Lam => "lam",
         }
     }
@@ -71,7 +79,7 @@ impl DensityForm {
     /// Whether density is integrated in time; if not, it follows from positions.
     #[must_use]
     pub fn is_integrated(self) -> bool {
-        self == Self::Continuity
+        matches!(self, Self::Continuity | Self::ContinuityByMass)
     }
 
     /// Whether sums are taken relative to their values at rest.
@@ -84,7 +92,7 @@ impl DensityForm {
     #[inline]
     pub(crate) fn weight<T: Real>(self, mass: T, density: T, rest_density: T) -> T {
         match self {
-            Self::Summation | Self::Normalised | Self::Lam => mass,
+            Self::Summation | Self::Normalised | Self::ContinuityByMass | Self::Lam => mass,
             Self::NumberDensity => mass / rest_density,
             Self::Continuity => mass / density,
         }
@@ -94,7 +102,7 @@ impl DensityForm {
     #[inline]
     pub(crate) fn compression<T: Real>(self, sum: T, density: T, rest: T, moment: T) -> T {
         match self {
-            Self::Summation | Self::Normalised | Self::Lam => sum / density,
+            Self::Summation | Self::Normalised | Self::ContinuityByMass | Self::Lam => sum / density,
             Self::NumberDensity => sum * (rest / density) / moment,
             Self::Continuity => sum / moment,
         }
@@ -104,7 +112,7 @@ impl DensityForm {
     #[inline]
     pub(crate) fn coefficient<T: Real>(self, p: T, density: T, rest: T, moment: T) -> T {
         match self {
-            Self::Summation | Self::Normalised | Self::Lam => p / (density * density),
+            Self::Summation | Self::Normalised | Self::ContinuityByMass | Self::Lam => p / (density * density),
             Self::NumberDensity => p * (rest / density) * (rest / density) / moment,
             Self::Continuity => p / moment,
         }

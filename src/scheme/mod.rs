@@ -32,8 +32,11 @@
 //! long the step. [`EnergyForm::Symmetric`] saves that pass, and drifts with the order of the step.
 
 mod density;
+mod liquid;
 
 pub use density::DensityForm;
+pub(crate) use liquid::Liquid;
+pub use liquid::{LiquidBuilder, Shifting};
 
 use crate::kernel::Kernel;
 use crate::particles::{Field, Fields};
@@ -122,11 +125,12 @@ pub struct Scheme<T: Real, const D: usize> {
     pub(crate) normalised: bool,
     pub(crate) viscosity_problems: Vec<(&'static str, f64, &'static str)>,
     pub(crate) switch: Option<Switch>,
-    pub(crate) reference: Box<dyn PairSweep<T, D>>,
+    pub(crate) reference: Option<Box<dyn PairSweep<T, D>>>,
     pub(crate) sums: Option<Box<dyn PairSweep<T, D>>>,
     pub(crate) compression: Option<Box<dyn PairSweep<T, D>>>,
     pub(crate) gradient: Option<Box<dyn PairSweep<T, D>>>,
     pub(crate) rates: Box<dyn PairSweep<T, D>>,
+    pub(crate) liquid: Option<Liquid<T, D>>,
 }
 
 impl<T: Real, const D: usize> Scheme<T, D> {
@@ -154,6 +158,7 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         optional
             .into_iter()
             .filter_map(|sweep| sweep.as_deref())
+            .chain(self.liquid.iter().map(|liquid| liquid.wall.as_ref()))
             .chain(core::iter::once(self.rates.as_ref()))
     }
 
@@ -168,7 +173,8 @@ impl<T: Real, const D: usize> Scheme<T, D> {
     pub fn fields(&self) -> Fields {
         let mut fields = self
             .sweeps()
-            .fold(self.reference.fields(), |all, s| all.union(s.fields()));
+            .chain(self.reference.as_deref())
+            .fold(Fields::NONE, |all, sweep| all.union(sweep.fields()));
         fields = fields.union(Fields::of(&[
             Field::Position,
             Field::Velocity,
@@ -191,7 +197,7 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         if self.energy == EnergyForm::Compatible {
             fields = fields.union(Fields::of(&[Field::MeanVelocity]));
         }
-        if self.density.has_reference() {
+        if self.density.has_reference() && self.reference.is_some() {
             fields = fields.union(Fields::of(&[
                 Field::Normalisation,
                 Field::ReferenceSum,
@@ -428,7 +434,7 @@ impl<K, V, const MODES: u8, const CURVED: bool> SchemeBuilder<K, V, MODES, CURVE
         };
         let kernel = self.kernel;
         let sums: Option<Box<dyn PairSweep<T, D>>> = match (self.density, mode) {
-            (DensityForm::Continuity, _) => None,
+            (DensityForm::Continuity | DensityForm::ContinuityByMass, _) => None,
             (DensityForm::Normalised | DensityForm::Lam, _) => Some(Box::new(
                 Program::<_, _, MODES>::new(kernel, (KernelSum, Unity), mode),
             )),
@@ -502,15 +508,16 @@ impl<K, V, const MODES: u8, const CURVED: bool> SchemeBuilder<K, V, MODES, CURVE
             normalised: self.normalised,
             viscosity_problems,
             switch,
-            reference: Box::new(Program::<_, _, MODES>::new(
+            reference: Some(Box::new(Program::<_, _, MODES>::new(
                 kernel,
                 (KernelSum, Unity, KernelMoment),
                 mode,
-            )),
+            ))),
             sums,
             compression,
             gradient,
             rates,
+            liquid: None,
         }
     }
 }

@@ -40,17 +40,20 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             Field::PositionResidual,
             Field::Velocity,
         ]);
-        add_scaled(x, residual, v, dt);
+        let mobile = self.group.mobile * D;
+        let residual = residual.get_mut(..mobile).unwrap_or_default();
+        add_scaled(&mut x[..mobile], residual, v, dt);
     }
 
     /// Velocity kick without energy.
     fn kick_velocity(&mut self, dt: f64) {
         let gravity = self.gravity;
         let dt = T::from_f64(dt);
-        let rows = &self.group.rows;
+        let (rows, mobile) = (&self.group.rows, self.group.mobile);
         let [v, mass] = self.group.columns.many_mut([Field::Velocity, Field::Mass]);
         let mass = &*mass;
-        v.par_chunks_mut(D)
+        v[..mobile * D]
+            .par_chunks_mut(D)
             .enumerate()
             .with_min_len(GRAIN)
             .for_each(|(slot, v)| {
@@ -91,7 +94,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             return;
         }
         let form = self.group.scheme.density;
-        let rows = &self.group.scratch_rows;
+        let (rows, mobile) = (&self.group.scratch_rows, self.group.mobile);
         let [density, residual, rest, moment] = self.group.columns.many_mut([
             Field::Density,
             Field::DensityResidual,
@@ -99,8 +102,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             Field::Normalisation,
         ]);
         let rest: [&[T]; 2] = [rest, moment];
-        let change =
-            |slot: usize, density: T| density * expm1(rate(form, rows, rest, slot, density) * dt);
+        let change = |slot: usize, density: T| {
+            density * expm1(rate(form, rows, rest, slot, density) * dt)
+                + dt * rows.get(Output::DensityDiffusion, 0, slot)
+        };
+        let density = &mut density[..mobile];
         if residual.is_empty() {
             density
                 .par_iter_mut()
@@ -131,7 +137,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let high = T::from_f64(largest * group.smoothing_length);
         let dimension = T::from_f64(D as f64);
         let form = group.scheme.density;
-        let rows = &group.scratch_rows;
+        let (rows, mobile) = (&group.scratch_rows, group.mobile);
         let [h, density, rest, moment] = group.columns.many_mut([
             Field::SmoothingLength,
             Field::Density,
@@ -140,7 +146,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         ]);
         let density = &*density;
         let rest: [&[T]; 2] = [rest, moment];
-        let limited: usize = h
+        let limited: usize = h[..mobile]
             .par_iter_mut()
             .enumerate()
             .with_min_len(GRAIN)
@@ -209,7 +215,8 @@ fn add_scaled<T: Real>(x: &mut [T], residual: &mut [T], v: &[T], dt: T) {
 impl<T: Real, const D: usize> System for Simulation<T, D> {
     fn evaluate(&mut self, offset: f64) -> Result<()> {
         let time = self.time + offset;
-        self.gravity = self.body_acceleration(time);
+        self.group.gravity = self.body_acceleration(time);
+        self.gravity = self.group.gravity.map(T::from_f64);
         self.group.evaluate(time);
         self.follow_moves();
         self.evaluations += 1;
@@ -261,6 +268,7 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
         self.follow_moves();
         self.group.sum_compression();
         self.compress(dt);
+        self.group.shift(dt);
         self.move_particles(0.5 * dt);
         Ok(())
     }
@@ -274,7 +282,7 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
             self.group
                 .columns
                 .many_mut([Field::Position, Field::PositionResidual, Field::Mass]);
-        for slot in 0..mass.len() {
+        for slot in 0..self.group.mobile {
             for d in 0..D {
                 let change = da * (rows.get(Output::Force, d, slot) / mass[slot] + gravity[d]);
                 let k = slot * D + d;

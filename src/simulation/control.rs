@@ -22,6 +22,8 @@ pub struct StepControl {
     pub courant: f64,
     /// Factor C_a on √(h/|a|); 0.25 by default (Monaghan 1992).
     pub force: f64,
+    /// Factor C_v on h² ρ/μ where a physical viscosity acts; 0.125 by default (Morris, Fox & Zhu 1997).
+    pub viscous: f64,
     /// A fixed step \[s\], checked against the limit in every step.
     pub fixed: Option<f64>,
     /// Smallest step \[s\] before the run stops with [`Error::StepCollapsed`]; by default 10⁻⁶ of the
@@ -34,6 +36,7 @@ impl Default for StepControl {
         Self {
             courant: crate::scheme::DEFAULT_STEP_FACTOR,
             force: 0.25,
+            viscous: 0.125,
             fixed: None,
             smallest: None,
         }
@@ -47,6 +50,8 @@ pub enum Criterion {
     Acoustic,
     /// √(h/|a|): forces.
     Force,
+    /// h² ρ/μ: physical viscosity.
+    Viscous,
     /// The step was given.
     Fixed,
     /// The step was cut to end at the time asked for.
@@ -60,6 +65,7 @@ impl Criterion {
         match self {
             Self::Acoustic => "acoustic: h/(c + viscous signal)",
             Self::Force => "force: sqrt(h/|a|)",
+            Self::Viscous => "viscous: h² ρ/mu",
             Self::Fixed => "fixed",
             Self::End => "end of the run",
         }
@@ -87,6 +93,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let columns = &group.columns;
         let factor = self.control.courant * self.integrator.stability();
         let (c, rho) = (columns.raw(Field::SoundSpeed), columns.raw(Field::Density));
+        let viscosity = columns.raw(Field::DynamicViscosity);
         let (mass, h) = (
             columns.raw(Field::Mass),
             columns.raw(Field::SmoothingLength),
@@ -112,7 +119,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             }
         };
         let gravity = Vector::<T, D>::from(self.gravity);
-        let best = (0..columns.slots())
+        let best = (0..group.mobile)
             .into_par_iter()
             .with_min_len(4096)
             .map(|slot| {
@@ -131,19 +138,20 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                         ..bad
                     };
                 }
-                if by_force < acoustic {
-                    Vote {
-                        step: by_force,
-                        criterion: Criterion::Force,
-                        particle: slot,
-                    }
-                } else {
-                    Vote {
-                        step: acoustic,
-                        criterion: Criterion::Acoustic,
-                        particle: slot,
-                    }
-                }
+                let by_viscosity = viscosity.get(slot).map_or(f64::INFINITY, |mu| {
+                    self.control.viscous * h * h * density / mu.to_f64()
+                });
+                let vote = |step, criterion| Vote {
+                    step,
+                    criterion,
+                    particle: slot,
+                };
+                let by_force = vote(by_force, Criterion::Force);
+                let acoustic = vote(acoustic, Criterion::Acoustic);
+                least(
+                    acoustic,
+                    least(by_force, vote(by_viscosity, Criterion::Viscous)),
+                )
             })
             .reduce(|| none, least);
         if best.step < 0.0 {

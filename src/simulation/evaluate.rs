@@ -6,9 +6,10 @@ use crate::material::eos::GuardCounts;
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::scheme::{DensityForm, EnergyForm, Smoothing};
-use crate::sweep::{PairSweep, Pass};
+use crate::sweep::{PairSweep, Pass, SweepInput};
 use crate::tensor::{Matrix, inverse};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Particles that a thread takes at a time in loops over particles.
 pub(crate) const GRAIN: usize = 4096;
@@ -25,10 +26,22 @@ const SETTLED: f64 = 1e-15;
 impl<T: Real, const D: usize> Group<T, D> {
     /// Runs a sweep into the scratch rows.
     fn scratch_sweep(&mut self, choose: impl Fn(&Self) -> Option<&dyn PairSweep<T, D>>) {
+        self.scratch_sweep_over(0..self.mobile, choose);
+    }
+
+    /// Runs a sweep over some slots into the scratch rows.
+    pub fn scratch_sweep_over(
+        &mut self,
+        targets: Range<usize>,
+        choose: impl Fn(&Self) -> Option<&dyn PairSweep<T, D>>,
+    ) {
         let mut records = core::mem::take(&mut self.scratch_records);
         let mut rows = core::mem::take(&mut self.scratch_rows);
         if let Some(sweep) = choose(self) {
-            let input = self.input();
+            let input = SweepInput {
+                targets,
+                ..self.input()
+            };
             sweep.pack(Pass::Rates, &input, &mut records);
             sweep.run(Pass::Rates, &input, &records, &mut rows);
         }
@@ -42,11 +55,11 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.columns.raw_mut(Field::Touching).fill(T::one());
         self.set_weights(self.scheme.density);
         self.refresh(0.0);
-        self.scratch_sweep(|group| Some(group.scheme.reference.as_ref()));
+        self.scratch_sweep(|group| group.scheme.reference.as_deref());
         let form = self.scheme.density;
         if form == DensityForm::Lam {
             self.smooth_reference();
-        } else if form.has_reference() {
+        } else if form.has_reference() && self.scheme.reference.is_some() {
             let normalised = self.scheme.normalised;
             let rows = &self.scratch_rows;
             let [moment, sum, rest, density] = self.columns.many_mut([
@@ -92,9 +105,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                 .slots
                 .clone()
                 .fold(T::zero(), |most, slot| most.max(own(slot)));
-            for slot in
-                body.slots.start..body.slots.end.next_multiple_of(super::group::width::<T>())
-            {
+            for slot in body.run() {
                 let across = rows.get(Output::ContactSum, 0, slot);
                 let lacking = (full - own(slot)).positive_part();
                 let lies_against = across >= lacking * T::from_f64(0.9);
@@ -131,7 +142,7 @@ impl<T: Real, const D: usize> Group<T, D> {
     /// repeated at rest until it returns what it was given, or the ends would start under stress.
     fn settle_ends(&mut self) {
         for _ in 0..SETTLING_STEPS {
-            self.scratch_sweep(|group| Some(group.scheme.reference.as_ref()));
+            self.scratch_sweep(|group| group.scheme.reference.as_deref());
             let rows = &self.scratch_rows;
             let [end, rest, density] = self.columns.many_mut([
                 Field::ReferenceSum,
@@ -174,6 +185,10 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// Volumes `dt` \[s\] ahead with the last rates of compression, for sums at the middle of a drift.
     pub fn predict_weights(&mut self, dt: f64) {
+        // The rates of a liquid do not sum compression; its volumes change by little in a step.
+        if self.scheme.liquid.is_some() {
+            return;
+        }
         if !self.scheme.density.is_integrated()
             || !self.rows.outputs().contains(Output::Compression)
         {
@@ -213,6 +228,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
         self.find_density(time);
         self.close_materials();
+        self.fill_walls(time);
         self.set_coefficients();
         self.find_gradients();
         self.sum_rates();
@@ -220,9 +236,9 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     fn find_density(&mut self, time: f64) {
         let form = self.scheme.density;
-        if form == DensityForm::Continuity {
+        if form.is_integrated() {
             if self.unilateral {
-                self.scratch_sweep(|group| Some(group.scheme.reference.as_ref()));
+                self.scratch_sweep(|group| group.scheme.reference.as_deref());
                 self.find_touching();
             }
             return;
@@ -350,7 +366,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         ]);
         let mut guards = GuardCounts::default();
         for body in &self.bodies {
-            let own = body.slots.start..body.slots.end.next_multiple_of(super::group::width::<T>());
+            let own = body.run();
             let material = body.material.eos();
             let reference = T::from_f64(material.reference_density());
             let energy = if carries_energy {
@@ -396,7 +412,7 @@ impl<T: Real, const D: usize> Group<T, D> {
     fn set_coefficients(&mut self) {
         let form = self.scheme.pressure_form;
         // A pressure form that does not belong to the density has weights of its own.
-        if form == DensityForm::Continuity || form != self.scheme.density {
+        if form.is_integrated() || form != self.scheme.density {
             self.set_weights(form);
         }
         let [coefficient, pressure, density, rest, moment, omega] = self.columns.many_mut([
@@ -426,11 +442,13 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
         self.scratch_sweep(|group| group.scheme.gradient.as_deref());
         let rows = &self.scratch_rows;
-        let [velocity, pressure] = self
-            .columns
-            .many_mut([Field::VelocityGradient, Field::PressureGradient]);
+        let mobile = self.mobile;
+        let [velocity, pressure, density] = self.columns.many_mut([
+            Field::VelocityGradient,
+            Field::PressureGradient,
+            Field::DensityGradient,
+        ]);
         let with_velocity = !velocity.is_empty();
-        let with_pressure = !pressure.is_empty();
         let correction = |slot: usize| {
             let moment =
                 Matrix::<T, D>::from_fn(|a, b| rows.get(Output::MomentMatrix, a * D + b, slot));
@@ -438,7 +456,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             inverse(&moment, SINGULAR).unwrap_or_else(Matrix::identity)
         };
         if with_velocity {
-            velocity
+            velocity[..mobile * D * D]
                 .par_chunks_mut(D * D)
                 .enumerate()
                 .with_min_len(GRAIN)
@@ -452,16 +470,23 @@ impl<T: Real, const D: usize> Group<T, D> {
                     }
                 });
         }
-        if with_pressure {
-            pressure
+        let vectors = [
+            (pressure, Output::PressureGradient),
+            (density, Output::DensityGradient),
+        ];
+        for (column, sum) in vectors {
+            if column.is_empty() {
+                continue;
+            }
+            column[..mobile * D]
                 .par_chunks_mut(D)
                 .enumerate()
                 .with_min_len(GRAIN)
                 .for_each(|(slot, out)| {
                     let correction = correction(slot);
                     for (b, value) in out.iter_mut().enumerate() {
-                        *value = (0..D).fold(T::zero(), |sum, a| {
-                            sum + rows.get(Output::PressureGradient, a, slot) * correction[(a, b)]
+                        *value = (0..D).fold(T::zero(), |total, a| {
+                            total + rows.get(sum, a, slot) * correction[(a, b)]
                         });
                     }
                 });

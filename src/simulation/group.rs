@@ -1,7 +1,7 @@
 //! A group: the bodies that share a scheme, with their columns, neighbour lists and images.
 //! It knows where particles are and who their neighbours are; physics happens in `evaluate`.
 
-use crate::boundary::Boundary;
+use crate::boundary::{Boundary, Motion, Pose, Slip};
 use crate::material::Material;
 use crate::material::eos::GuardCounts;
 use crate::neighbors::{Block, ClusterLists, Grid, Radii, SearchInput};
@@ -9,18 +9,42 @@ use crate::particles::{Columns, Field};
 use crate::scalar::{Lane, Real};
 use crate::scheme::Scheme;
 use crate::sweep::{Image, InstructionSet, Interaction, Records, Rows, SweepInput, Transform};
-use crate::tensor::length;
+use crate::tensor::{Vector, length};
 use rayon::prelude::*;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// A body in a simulation.
 #[derive(Clone, Debug)]
 pub struct BodyState<T: Real> {
     pub(crate) name: String,
     pub(crate) material: Material<T>,
-    /// Slots of its particles; the rest of the last cluster repeats the last of them.
+    /// Slots of its particles; the rest of its run repeats the last of them.
     pub(crate) slots: Range<usize>,
+    /// One past the last slot of its run, a whole number of clusters.
+    pub(crate) end: usize,
     pub(crate) spacing: f64,
+}
+
+impl<T: Real> BodyState<T> {
+    /// Its slots with the repeats.
+    pub(crate) fn run(&self) -> Range<usize> {
+        self.slots.start..self.end
+    }
+}
+
+/// A wall in a simulation: particles that a motion places.
+#[derive(Clone, Debug)]
+pub(crate) struct WallState<const D: usize> {
+    pub name: String,
+    /// Slots of its particles; the rest of the last cluster repeats the last of them.
+    pub slots: Range<usize>,
+    pub end: usize,
+    /// Where its particles were in the scene, by identity.
+    pub rest: Vec<[f64; D]>,
+    pub motion: Option<Arc<dyn Motion<D>>>,
+    pub slip: Slip,
+    pub carries: bool,
 }
 
 /// How an image's transform comes about: the boundary's own, after that of the image it mirrors.
@@ -35,6 +59,13 @@ struct Chain {
 pub(crate) struct Group<T: Real, const D: usize> {
     pub columns: Columns<T, D>,
     pub bodies: Vec<BodyState<T>>,
+    pub walls: Vec<WallState<D>>,
+    /// Slots below this move by forces; walls come behind.
+    pub mobile: usize,
+    /// What the loads give \[m/s²\].
+    pub gravity: [f64; D],
+    /// The same in the frame of the wall that carries the liquid.
+    pub body_force: [T; D],
     pub boundaries: Vec<Box<dyn Boundary<T, D>>>,
     pub scheme: Scheme<T, D>,
     pub blocks: Vec<Block>,
@@ -94,6 +125,7 @@ impl<T: Real, const D: usize> Group<T, D> {
     pub fn new(
         columns: Columns<T, D>,
         bodies: Vec<BodyState<T>>,
+        walls: Vec<WallState<D>>,
         boundaries: Vec<Box<dyn Boundary<T, D>>>,
         scheme: Scheme<T, D>,
         interactions: Vec<Interaction>,
@@ -107,7 +139,11 @@ impl<T: Real, const D: usize> Group<T, D> {
             slot_of: (0..slots as u32).collect(),
             columns,
             blocks: Vec::new(),
+            mobile: walls.first().map_or(slots, |wall| wall.slots.start),
             bodies,
+            walls,
+            gravity: [0.0; D],
+            body_force: [T::zero(); D],
             boundaries,
             scheme,
             interactions,
@@ -140,8 +176,19 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     pub fn body_of(&self, slot: usize) -> usize {
         self.bodies
-            .partition_point(|body| body.slots.end <= slot)
+            .partition_point(|body| body.end <= slot)
             .min(self.bodies.len() - 1)
+    }
+
+    /// The body, wall or boundary that a block stands for: images of a wall count as the wall.
+    pub fn source_block(&self, block: usize) -> usize {
+        let (bodies, boundaries) = (self.bodies.len(), self.boundaries.len());
+        let direct = bodies + self.walls.len() + boundaries;
+        if block < direct {
+            block
+        } else {
+            bodies + (block - direct) / boundaries
+        }
     }
 
     fn reach(&self) -> f64 {
@@ -154,6 +201,7 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// Brings images and lists up to date with the positions at `time`.
     pub fn refresh(&mut self, time: f64) {
+        self.place_walls(time);
         if self.lists.chunks().is_empty() || self.outdated(time) {
             self.rebuild(time);
         } else if self.boundaries.iter().any(|b| b.moves()) {
@@ -164,13 +212,15 @@ impl<T: Real, const D: usize> Group<T, D> {
     /// Whether a particle has moved, or its support has grown, by more than the skin allows.
     fn outdated(&self, time: f64) -> bool {
         let positions = self.columns.vectors(Field::Position);
+        // A tank takes its liquid with it; only what moves in the tank outdates lists.
+        let shift = self.carried(time);
         let farthest = positions
             .par_iter()
             .zip(&self.listed)
             .with_min_len(4096)
             .map(|(now, then)| {
                 (0..D)
-                    .map(|d| (now[d] - then[d]).to_f64().powi(2))
+                    .map(|d| ((now[d] - then[d]).to_f64() - shift[d]).powi(2))
                     .sum::<f64>()
             })
             .reduce(|| 0.0, f64::max)
@@ -180,16 +230,20 @@ impl<T: Real, const D: usize> Group<T, D> {
             .iter()
             .zip(&self.listed_h)
             .fold(0.0_f64, |m, (now, then)| m.max((*now - *then).to_f64()));
-        // A moving boundary carries images towards particles that rest.
+        // A moving boundary carries images towards particles that rest, and a boundary at rest reflects
+        // what a tank does.
+        let moved = shift.iter().any(|&s| s != 0.0);
+        let shift = Vector::from(shift.map(T::from_f64));
         let carried: f64 = self
             .boundaries
             .iter()
-            .filter(|boundary| boundary.moves())
+            .filter(|boundary| moved || boundary.moves())
             .map(|boundary| {
                 (0..boundary.images()).fold(0.0_f64, |most, k| {
-                    let now = boundary.transform(k, time).shift;
-                    let then = boundary.transform(k, self.listed_time).shift;
-                    most.max(length(&(now - then)).to_f64())
+                    let now = boundary.transform(k, time);
+                    let then = boundary.transform(k, self.listed_time);
+                    let by = now.rotation * shift - shift;
+                    most.max(length(&(now.shift - then.shift + by)).to_f64())
                 })
             })
             .sum();
@@ -212,9 +266,13 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.listed_h
             .extend_from_slice(self.columns.raw(Field::SmoothingLength));
         self.blocks.clear();
-        self.blocks.extend(self.bodies.iter().map(|b| Block {
-            slots: b.slots.clone(),
-        }));
+        let bodies = self.bodies.iter().map(|body| (&body.slots, false));
+        let walls = self.walls.iter().map(|wall| (&wall.slots, true));
+        self.blocks
+            .extend(bodies.chain(walls).map(|(slots, wall)| Block {
+                slots: slots.clone(),
+                wall,
+            }));
         self.place_images(time, reach);
         let h = &mut self.listed_h;
         let radii = if h.is_empty() {
@@ -225,8 +283,14 @@ impl<T: Real, const D: usize> Group<T, D> {
             }
             Radii::Varying(h.as_slice(), self.scheme.kernel.support)
         };
+        let listed: Vec<bool> = self
+            .interactions
+            .iter()
+            .map(|&interaction| interaction != Interaction::None)
+            .collect();
         self.lists.rebuild(&SearchInput {
             positions: &self.listed,
+            listed: &listed,
             radii,
             blocks: &self.blocks,
             width,
@@ -238,7 +302,7 @@ impl<T: Real, const D: usize> Group<T, D> {
     /// Lets particles that have left a periodic domain re-enter.
     fn wrap(&mut self) {
         for boundary in &self.boundaries {
-            for slot in 0..self.columns.slots() {
+            for slot in 0..self.mobile {
                 let x = self.columns.vectors(Field::Position)[slot];
                 let Some(back) = boundary.wrap(&x) else {
                     continue;
@@ -265,16 +329,23 @@ impl<T: Real, const D: usize> Group<T, D> {
         let positions = self.columns.vectors(Field::Position);
         let grid = Grid::over(positions, cell);
         let mut order: Vec<u32> = (0..self.columns.slots() as u32).collect();
-        let width = width::<T>();
-        for body in &self.bodies {
-            let keys: Vec<u64> = positions[body.slots.clone()]
+        // Walls keep their shape, so sorting them once serves.
+        let walls = if self.rebuilds > 1 {
+            &[][..]
+        } else {
+            &self.walls
+        };
+        let walls = walls.iter().map(|wall| (&wall.slots, wall.end));
+        let bodies = self.bodies.iter().map(|body| (&body.slots, body.end));
+        for (slots, end) in bodies.chain(walls) {
+            let keys: Vec<u64> = positions[slots.clone()]
                 .par_iter()
                 .map(|x| grid.order(x))
                 .collect();
-            let own = &mut order[body.slots.clone()];
-            own.par_sort_by_key(|&slot| keys[slot as usize - body.slots.start]);
-            let last = order[body.slots.end - 1];
-            order[body.slots.end..body.slots.end.next_multiple_of(width)].fill(last);
+            let own = &mut order[slots.clone()];
+            own.par_sort_by_key(|&slot| keys[slot as usize - slots.start]);
+            let last = order[slots.end - 1];
+            order[slots.end..end].fill(last);
         }
         if order.iter().enumerate().all(|(k, &from)| k as u32 == from) {
             return;
@@ -288,35 +359,108 @@ impl<T: Real, const D: usize> Group<T, D> {
             self.moved.order = order.iter().map(|&k| before[k as usize]).collect();
         }
         self.ids = order.iter().map(|&from| self.ids[from as usize]).collect();
-        for body in &self.bodies {
-            for slot in body.slots.clone() {
+        let walls = self.walls.iter().map(|wall| &wall.slots);
+        for slots in self.bodies.iter().map(|body| &body.slots).chain(walls) {
+            for slot in slots.clone() {
                 self.slot_of[self.ids[slot] as usize] = slot as u32;
             }
         }
     }
 
+    /// Brings walls that move to their places, and gives all walls their own velocity.
+    fn place_walls(&mut self, time: f64) {
+        self.body_force = self.gravity.map(T::from_f64);
+        for wall in &self.walls {
+            let pose = wall.motion.as_ref().map(|motion| motion.pose(time));
+            if wall.carries {
+                let acceleration = pose.as_ref().map_or([0.0; D], |pose| pose.of(2, &wall.rest[0]));
+                for d in 0..D {
+                    self.body_force[d] -= T::from_f64(acceleration[d]);
+                }
+            }
+            // What sticks to a wall at rest has overwritten its velocity.
+            let stuck = wall.slip == Slip::None;
+            let first_time = self.rebuilds == 0;
+            if pose.is_none() && !stuck && !first_time {
+                continue;
+            }
+            let pose = pose.unwrap_or_else(Pose::rest);
+            for slot in wall.slots.start..wall.end {
+                let at = (self.ids[slot] as usize - wall.slots.start).min(wall.rest.len() - 1);
+                let (x, v) = (pose.of(0, &wall.rest[at]), pose.of(1, &wall.rest[at]));
+                let rounded = x.map(T::from_f64);
+                self.columns.vectors_mut(Field::Position)[slot] = rounded;
+                self.columns.vectors_mut(Field::Velocity)[slot] = v.map(T::from_f64);
+                if let Some(residual) = self
+                    .columns
+                    .vectors_mut(Field::PositionResidual)
+                    .get_mut(slot)
+                {
+                    *residual = core::array::from_fn(|d| T::from_f64(x[d] - rounded[d].to_f64()));
+                }
+                for boundary in &self.boundaries {
+                    if let Some(back) = boundary.wrap(&rounded) {
+                        let [x, residual, v] = self.columns.many_mut([
+                            Field::Position,
+                            Field::PositionResidual,
+                            Field::Velocity,
+                        ]);
+                        back.re_enter(slot, x, residual, v);
+                    }
+                }
+            }
+        }
+    }
+
+    /// How far the wall that carries the liquid has gone since the last list build \[m\].
+    fn carried(&self, time: f64) -> [f64; D] {
+        let Some(wall) = self.walls.iter().find(|wall| wall.carries) else {
+            return [0.0; D];
+        };
+        let Some(motion) = &wall.motion else {
+            return [0.0; D];
+        };
+        let now = motion.pose(time).of(0, &wall.rest[0]);
+        let then = motion.pose(self.listed_time).of(0, &wall.rest[0]);
+        core::array::from_fn(|d| now[d] - then[d])
+    }
+
     /// Finds which images are needed. Later boundaries also mirror the images of earlier ones, which
-    /// fills edges and corners.
+    /// fills edges and corners. The images of bodies and of each wall are blocks of their own.
     fn place_images(&mut self, time: f64, reach: f64) {
         self.images.clear();
         self.chains.clear();
+        if self.boundaries.is_empty() {
+            return;
+        }
+        let bodies: Vec<Range<usize>> = self.bodies.iter().map(|body| body.slots.clone()).collect();
+        self.place_images_of(&bodies, false, time, reach);
+        for wall in 0..self.walls.len() {
+            self.place_images_of(&[self.walls[wall].slots.clone()], true, time, reach);
+        }
+        self.place_transforms(time);
+    }
+
+    /// One block of images a boundary, of the particles in `sources`.
+    fn place_images_of(&mut self, sources: &[Range<usize>], wall: bool, time: f64, reach: f64) {
         let slots = self.columns.slots();
+        let before = self.images.len();
         let mut candidates: Vec<(u32, Option<u32>, [T; D])> = Vec::new();
         for (b, boundary) in self.boundaries.iter().enumerate() {
-            let start = slots + self.images.len();
+            let start = self.images.len();
             for k in 0..boundary.images() {
                 let own = boundary.transform(k, time);
                 candidates.clear();
                 let near = |x: &[T; D]| boundary.reaches(k, x, reach, time);
                 let positions = self.columns.vectors(Field::Position);
-                for slot in self.bodies.iter().flat_map(|body| body.slots.clone()) {
+                for slot in sources.iter().flat_map(Clone::clone) {
                     if near(&positions[slot]) {
                         candidates.push((slot as u32, None, positions[slot]));
                     }
                 }
-                for (image, x) in self.images[..start - slots]
+                for (image, x) in self.images[before..start]
                     .iter()
-                    .zip(&self.listed[slots..])
+                    .zip(&self.listed[slots + before..])
                 {
                     if near(x) {
                         candidates.push((image.source, Some(image.transform), *x));
@@ -338,10 +482,10 @@ impl<T: Real, const D: usize> Group<T, D> {
                 }
             }
             self.blocks.push(Block {
-                slots: start..slots + self.images.len(),
+                slots: slots + start..slots + self.images.len(),
+                wall,
             });
         }
-        self.place_transforms(time);
     }
 
     fn place_transforms(&mut self, time: f64) {
@@ -357,9 +501,11 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
     }
 
-    /// What a sweep works on.
+    /// What a sweep over all that moves by forces works on.
     pub fn input(&self) -> SweepInput<'_, T, D> {
         SweepInput {
+            targets: 0..self.mobile,
+            body_force: self.body_force,
             columns: &self.columns,
             images: &self.images,
             transforms: &self.transforms,

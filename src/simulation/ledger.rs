@@ -70,15 +70,20 @@ impl Impulses {
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
+    /// Bodies, walls and boundaries.
+    fn blocks(&self) -> usize {
+        self.group.bodies.len() + self.group.walls.len() + self.group.boundaries.len()
+    }
+
     fn impulse_index(&self, on: usize, from: usize, d: usize) -> usize {
-        let blocks = self.group.bodies.len() + self.group.boundaries.len();
-        (on * blocks + from) * D + d
+        (on * self.blocks() + from) * D + d
     }
 
     pub(super) fn record_impulses(&mut self, dt: f64) {
-        let blocks = self.group.bodies.len() + self.group.boundaries.len();
+        let blocks = self.blocks();
         for reaction in self.group.rows.reactions() {
-            let row = (reaction.on as usize * blocks + reaction.from as usize) * D;
+            let from = self.group.source_block(reaction.from as usize);
+            let row = (reaction.on as usize * blocks + from) * D;
             for (d, force) in reaction.force.iter().enumerate() {
                 self.impulses.add(row + d, dt * force);
             }
@@ -88,7 +93,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub(super) fn impulse_rates(&self) -> Impulses {
         let mut rates = Impulses::default();
         for reaction in self.group.rows.reactions() {
-            let index = self.impulse_index(reaction.on as usize, reaction.from as usize, 0);
+            let from = self.group.source_block(reaction.from as usize);
+            let index = self.impulse_index(reaction.on as usize, from, 0);
             for (d, force) in reaction.force.iter().enumerate() {
                 rates.add(index + d, *force);
             }
@@ -140,7 +146,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             }
         }
         let count = self.group.bodies.len();
-        let boundaries = count..count + self.group.boundaries.len();
+        let boundaries = count + self.group.walls.len()..self.blocks();
         let boundary_impulse = (0..D)
             .map(|d| {
                 (0..count)
@@ -157,13 +163,38 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
     }
 
-    /// The force \[N\] that body or boundary `from` exerts on body `on` at the last evaluation, by
-    /// index: bodies in the order of the scene, then boundaries.
+    /// The momentum \[kg m/s\] that bodies have given a wall since the start, by the wall's index.
+    #[must_use]
+    pub fn wall_impulse(&self, wall: usize) -> [f64; D] {
+        let bodies = self.group.bodies.len();
+        core::array::from_fn(|d| {
+            (0..bodies)
+                .map(|on| -self.impulses.get(self.impulse_index(on, bodies + wall, d)))
+                .sum()
+        })
+    }
+
+    /// The force \[N\] that bodies exert on a wall at the last evaluation, by the wall's index.
+    #[must_use]
+    pub fn wall_force(&self, wall: usize) -> [f64; D] {
+        let bodies = self.group.bodies.len();
+        (0..bodies).fold([0.0; D], |mut sum, on| {
+            let force = self.force_between(on, bodies + wall);
+            for d in 0..D {
+                sum[d] -= force[d];
+            }
+            sum
+        })
+    }
+
+    /// The force \[N\] that body, wall or boundary `from` exerts on body `on` at the last evaluation, by
+    /// index: bodies in the order of the scene, then walls, then boundaries.
     #[must_use]
     pub fn force_between(&self, on: usize, from: usize) -> [f64; D] {
         let mut force = [0.0; D];
         for reaction in self.group.rows.reactions() {
-            if reaction.on as usize == on && reaction.from as usize == from {
+            let exerts = self.group.source_block(reaction.from as usize) == from;
+            if reaction.on as usize == on && exerts {
                 for d in 0..D {
                     force[d] += reaction.force[d];
                 }

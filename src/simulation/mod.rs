@@ -54,13 +54,15 @@ mod evaluate;
 mod group;
 mod ledger;
 mod query;
+mod shift;
 mod switching;
+mod walls;
 
 pub use control::{Criterion, StepControl, Vote};
 pub use ledger::{Budget, Ledger};
 pub use query::ParticleView;
 
-pub(crate) use group::{BodyState, Group, width};
+pub(crate) use group::{BodyState, Group, WallState, width};
 
 use crate::error::{Error, Problem, Result};
 use crate::integrator::Integrator;
@@ -154,12 +156,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.last_vote
     }
 
-    fn body_acceleration(&self, time: f64) -> [T; D] {
-        let mut sum = [T::zero(); D];
+    fn body_acceleration(&self, time: f64) -> [f64; D] {
+        let mut sum = [0.0; D];
         for load in &self.loads {
             let a = load(time);
             for d in 0..D {
-                sum[d] += T::from_f64(a[d]);
+                sum[d] += a[d];
             }
         }
         sum

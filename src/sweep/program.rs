@@ -12,6 +12,7 @@ use crate::term::{Layout, MOST_READS, MOST_SUMS, Pair, Sums, TermDoc, Terms};
 use core::fmt::Debug;
 use core::marker::PhantomData;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// What a sweep is run for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,6 +40,10 @@ pub struct SweepInput<'a, T, const D: usize> {
     pub interactions: &'a [Interaction],
     /// The smoothing length where it is the same for all \[m\].
     pub smoothing_length: f64,
+    /// The slots whose sums are wanted; others are left as they were.
+    pub targets: Range<usize>,
+    /// The acceleration that acts on all particles \[m/s²\], in the frame of their container.
+    pub body_force: [T; D],
     /// The instruction set to run on.
     pub instructions: InstructionSet,
 }
@@ -229,8 +234,11 @@ impl<K, P, const MODES: u8> Program<K, P, MODES> {
         let width = <T::Wide<false> as Lane>::WIDTH;
         rows.outputs = Composed::<T, P, D, HOW>::WRITES;
         let row = rows.outputs.width(D) * width;
-        rows.data
-            .resize(row * (input.columns.slots() / width), T::zero());
+        let length = row * (input.columns.slots() / width);
+        // Sweeps take turns on the same rows: only growth costs.
+        if rows.data.len() < length {
+            rows.data.resize(length, T::zero());
+        }
         rows.reactions
             .resize_with(input.lists.chunks().len(), Vec::new);
         let h = T::from_f64(input.smoothing_length);
@@ -243,23 +251,25 @@ impl<K, P, const MODES: u8> Program<K, P, MODES> {
             interactions: input.interactions,
             touching: input.columns.raw(Field::Touching),
             images: input.images,
+            targets: &input.targets,
+            body_force: input.body_force,
             h,
             kernel_norm: T::from_f64(self.kernel.normalisation()),
         };
-        rows.data
+        rows.data[..length]
             .par_chunks_mut((row * CHUNK).max(1))
             .zip(rows.reactions.par_iter_mut())
             .zip(input.lists.chunks().par_iter())
             .enumerate()
             .for_each(|(chunk, ((out, reactions), list))| {
                 reactions.clear();
-                task.dispatch::<D, HOW>(instructions, chunk, list, out, reactions);
+                task.dispatch::<HOW>(instructions, chunk, list, out, reactions);
             });
     }
 }
 
 /// Everything that the loop over one chunk reads.
-struct Task<'a, T, K, P> {
+struct Task<'a, T, K, P, const D: usize> {
     kernel: &'a K,
     terms: &'a P,
     records: &'a [T],
@@ -268,13 +278,15 @@ struct Task<'a, T, K, P> {
     /// Which slots touch the other side of a contact; empty without contacts.
     touching: &'a [T],
     images: &'a [Image],
+    targets: &'a Range<usize>,
+    body_force: [T; D],
     h: T,
     kernel_norm: T,
 }
 
-impl<T: Real, K, P> Task<'_, T, K, P> {
+impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
     #[inline(always)]
-    fn dispatch<const D: usize, const HOW: u8>(
+    fn dispatch<const HOW: u8>(
         &self,
         instructions: InstructionSet,
         chunk: usize,
@@ -292,21 +304,21 @@ impl<T: Real, K, P> Task<'_, T, K, P> {
             // SAFETY: `go` passes only what `InstructionSet::or_baseline` found on this machine.
             match instructions {
                 InstructionSet::Avx512 => unsafe {
-                    return self.chunk_avx512::<D, HOW>(chunk, list, out, reactions);
+                    return self.chunk_avx512::<HOW>(chunk, list, out, reactions);
                 },
                 InstructionSet::Avx2 => unsafe {
-                    return self.chunk_avx2::<D, HOW>(chunk, list, out, reactions);
+                    return self.chunk_avx2::<HOW>(chunk, list, out, reactions);
                 },
                 InstructionSet::Baseline => {}
             }
         }
         let _ = instructions;
-        self.chunk::<T::Wide<false>, D, HOW>(chunk, list, out, reactions);
+        self.chunk::<T::Wide<false>, HOW>(chunk, list, out, reactions);
     }
 
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx512f,avx512vl,avx512dq,fma")]
-    fn chunk_avx512<const D: usize, const HOW: u8>(
+    fn chunk_avx512<const HOW: u8>(
         &self,
         chunk: usize,
         list: &ChunkList,
@@ -316,12 +328,12 @@ impl<T: Real, K, P> Task<'_, T, K, P> {
         K: Kernel<D>,
         P: Terms<D>,
     {
-        self.chunk::<T::Wide<true>, D, HOW>(chunk, list, out, reactions);
+        self.chunk::<T::Wide<true>, HOW>(chunk, list, out, reactions);
     }
 
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2,fma")]
-    fn chunk_avx2<const D: usize, const HOW: u8>(
+    fn chunk_avx2<const HOW: u8>(
         &self,
         chunk: usize,
         list: &ChunkList,
@@ -331,12 +343,12 @@ impl<T: Real, K, P> Task<'_, T, K, P> {
         K: Kernel<D>,
         P: Terms<D>,
     {
-        self.chunk::<T::Wide<true>, D, HOW>(chunk, list, out, reactions);
+        self.chunk::<T::Wide<true>, HOW>(chunk, list, out, reactions);
     }
 
     /// All clusters of one chunk.
     #[inline(always)]
-    fn chunk<L: Lane<Scalar = T>, const D: usize, const HOW: u8>(
+    fn chunk<L: Lane<Scalar = T>, const HOW: u8>(
         &self,
         chunk: usize,
         list: &ChunkList,
@@ -352,12 +364,19 @@ impl<T: Real, K, P> Task<'_, T, K, P> {
         let one_sided = const { P::WRITES.contains(Output::MomentMatrix) };
         for (c, bounds) in list.starts.windows(2).enumerate() {
             let first = (chunk * CHUNK + c) * L::WIDTH;
+            let block = self.blocks.partition_point(|b| b.slots.end <= first);
+            let live = self
+                .blocks
+                .get(block)
+                .is_some_and(|b| b.slots.contains(&first));
+            if !(live && self.targets.contains(&first)) {
+                continue;
+            }
             let mut own = [L::zero(); MOST_READS];
             for (k, value) in own.iter_mut().enumerate().take(stride) {
                 *value = L::from_fn(|lane| self.records[(first + lane) * stride + k]);
             }
             let mut sums = Sums::<L, D, Composed<T, P, D, HOW>>::new();
-            let block = self.blocks.partition_point(|b| b.slots.end <= first);
             for segment in &list.segments[bounds[0] as usize..bounds[1] as usize] {
                 let other = segment.block as usize;
                 let interaction = self.interactions[block * self.blocks.len() + other];
@@ -379,7 +398,8 @@ impl<T: Real, K, P> Task<'_, T, K, P> {
                     kept = sums.take_kernel_sum();
                 }
                 let neighbors = &list.neighbors[segment.start as usize..segment.end as usize];
-                self.segment::<L, D, HOW>(contact, &own, first, neighbors, &mut sums);
+                let mobile = L::of(f64::from(u8::from(!self.blocks[other].wall)));
+                self.segment::<L, HOW>(contact, mobile, &own, first, neighbors, &mut sums);
                 if contact {
                     own = full;
                     sums.divert_kernel_sum(kept);
@@ -421,9 +441,10 @@ impl<T: Real, K, P> Task<'_, T, K, P> {
     /// Across a contact that may open (`contact`) a pair acts only where one of the two touches, shows the
     /// other side only pressure that compresses, and its kernel sum is kept apart.
     #[inline(always)]
-    fn segment<L: Lane<Scalar = T>, const D: usize, const HOW: u8>(
+    fn segment<L: Lane<Scalar = T>, const HOW: u8>(
         &self,
         contact: bool,
+        mobile: L,
         own: &[L; MOST_READS],
         first: usize,
         neighbors: &[u32],
@@ -447,6 +468,7 @@ impl<T: Real, K, P> Task<'_, T, K, P> {
         } else {
             Scale::new(own[h_at], norm, D)
         };
+        let body_force = self.body_force.map(L::splat);
         let mut shown = [T::zero(); MOST_READS];
         for &j in neighbors {
             let record = &self.records[j as usize * stride..j as usize * stride + stride];
@@ -499,6 +521,8 @@ impl<T: Real, K, P> Task<'_, T, K, P> {
                 f,
                 f_i,
                 f_j,
+                mobile,
+                body_force,
                 i: own,
                 j: record,
                 layout: PhantomData,

@@ -64,13 +64,13 @@ impl<T: Real, const D: usize> Rows<T, D> {
     /// Rearranges the slots: slot k gets the sums of what slot `order[k]` was.
     pub(crate) fn permute(&mut self, order: &[u32]) {
         let stride = self.outputs.width(D);
-        if self.data.len() != stride * order.len() {
+        if stride == 0 || self.data.len() < stride * order.len() {
             return;
         }
         let at = |slot: usize, k: usize| {
             (slot / Self::WIDTH * stride + k) * Self::WIDTH + slot % Self::WIDTH
         };
-        let before = self.data.clone();
+        let before = self.data[..stride * order.len()].to_vec();
         for (slot, &from) in order.iter().enumerate() {
             for k in 0..stride {
                 self.data[at(slot, k)] = before[at(from as usize, k)];

@@ -62,3 +62,36 @@ impl<const D: usize> Term<D> for PressureGradient {
         }
     }
 }
+
+/// Σⱼ Vⱼ (ρⱼ − ρᵢ) ∇W with the moment matrix; together they are the gradient of the density.
+#[derive(Clone, Copy, Debug)]
+pub struct DensityGradient;
+
+impl<const D: usize> Term<D> for DensityGradient {
+    const READS: Fields = Fields::of(&[Field::Mass, Field::Density]);
+    const WRITES: Outputs = Outputs::of(&[Output::DensityGradient, Output::MomentMatrix]);
+    #[inline(always)]
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+        let density = pair.j(Field::Density);
+        // The density of a wall does not follow from the flow.
+        let factor = pair.j(Field::Mass) / density * pair.f * pair.mobile;
+        let difference = factor * (density - pair.i(Field::Density));
+        for a in 0..D {
+            sums.add_at(Output::DensityGradient, a, difference * pair.r[a]);
+            for b in 0..D {
+                sums.add_at(
+                    Output::MomentMatrix,
+                    a * D + b,
+                    -factor * pair.r[a] * pair.r[b],
+                );
+            }
+        }
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: "corrected density gradient".into(),
+            equation: "∇ρ = [Σⱼ Vⱼ (ρⱼ − ρᵢ) ∇W] [−Σⱼ Vⱼ rᵢⱼ ⊗ ∇W]⁻¹",
+            source: "Randles & Libersky 1996; Antuono et al. 2010",
+        }
+    }
+}

@@ -13,6 +13,10 @@
 //! | [`PressureForce`], [`PressureCurvature`] | momentum | force |
 //! | [`Viscosity`] | momentum | force and signal of an [artificial viscosity](viscosity) |
 //! | [`InternalEnergy`] | energy | half the power of all forces |
+//! | [`LaminarViscosity`], [`CentralViscosity`] | momentum | force of a physical viscosity |
+//! | [`Molteni`], [`Fourtakas`], [`Antuono`], [`RiemannDiffusion`] | density | diffusion against noise |
+//! | [`Crowding`], [`TransportStress`] | position | what shifting needs, and the force it brings |
+//! | [`LiquidNearWall`], [`LiquidAlongWall`] | walls | pressure and velocity of wall particles |
 //!
 //! [`probe()`] evaluates a term for one pair, for tests of terms of your own.
 //!
@@ -87,17 +91,25 @@ use crate::scalar::Lane;
 use core::fmt::Debug;
 use core::marker::PhantomData;
 
+mod crowding;
+mod density_diffusion;
 mod gradient;
+mod laminar_viscosity;
 mod momentum;
 mod probe;
 mod sums;
 pub mod viscosity;
+mod wall;
 
-pub use gradient::{PressureGradient, VelocityGradient};
+pub use crowding::{Crowding, Nothing, TransportStress};
+pub use density_diffusion::{Antuono, Fourtakas, Molteni, RiemannDiffusion, STANDARD_DELTA};
+pub use gradient::{DensityGradient, PressureGradient, VelocityGradient};
+pub use laminar_viscosity::{CentralViscosity, LaminarViscosity};
 pub use momentum::{InternalEnergy, PressureCurvature, PressureForce};
 pub use probe::{Probe, probe};
 pub use sums::{Compression, KernelMoment, KernelSum, SlopeInH, Unity};
 pub use viscosity::{ArtificialViscosity, Viscosity, Viscous};
+pub use wall::{LiquidAlongWall, LiquidNearWall};
 
 /// Most numbers that a packed record can hold.
 pub const MOST_READS: usize = 40;
@@ -140,6 +152,10 @@ pub struct Pair<'a, L: Lane, const D: usize, P: Layout> {
     pub f_i: L,
     /// Gradient factor F \[m⁻ᴰ⁻²\] as seen from j.
     pub f_j: L,
+    /// One where j moves by forces, zero where it belongs to a wall.
+    pub mobile: L,
+    /// The acceleration \[m/s²\] that acts on all particles, in the frame of their container.
+    pub body_force: [L; D],
     pub(crate) i: &'a [L; MOST_READS],
     pub(crate) j: &'a [L::Scalar],
     pub(crate) layout: PhantomData<P>,
@@ -318,7 +334,9 @@ macro_rules! tuple {
             }
             fn document(&self) -> Vec<TermDoc> {
                 let ($($name,)*) = self;
-                vec![$($name.document(),)*]
+                let mut documents = vec![$($name.document(),)*];
+                documents.retain(|document| !document.name.is_empty());
+                documents
             }
         }
     };

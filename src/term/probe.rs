@@ -88,6 +88,8 @@ pub fn probe<L: Lane, const D: usize, K: Kernel<D>, A: Term<D>>(
         f,
         f_i: f,
         f_j: f,
+        mobile: L::one(),
+        body_force: [L::zero(); D],
         i: &own,
         j: &other,
         layout: PhantomData,

@@ -1,0 +1,142 @@
+//! Walls of dummy particles: any shape, at rest or in prescribed motion, with slip or without.
+//! A wall particle takes its pressure from the liquid before it (Adami, Hu & Adams 2012).
+
+use super::Motion;
+use std::sync::Arc;
+
+/// Whether liquid slides along a wall.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Slip {
+    /// The wall exerts no viscous friction: right where the boundary layer is thinner than the spacing.
+    #[default]
+    Free,
+    /// The liquid sticks: wall particles mirror its velocity, v_w = 2 v_wall − v_liquid
+    /// (Adami, Hu & Adams 2012, eq. 23).
+    None,
+}
+
+/// A wall of particles that do not move by forces.
+///
+/// It must be as thick as the support of the kernel, on the lattice spacing of the liquid, and start
+/// half a spacing behind the surface that the liquid sees. Its pressure extrapolates that of the
+/// liquid with the body force and the wall's own acceleration,
+///
+/// p_w = [Σ p_f W + (g − a_w)·Σ ρ_f r_wf W] / Σ W   (Adami, Hu & Adams 2012, eq. 27),
+///
+/// and is cut at the scheme's floor, so that a separating liquid is not held.
+///
+/// ```
+/// use meshfree::boundary::{Translation, Wall};
+/// let points: Vec<[f64; 2]> = (0..20).flat_map(|i| (1..4).map(move |k|
+///     [0.1 * (f64::from(i) + 0.5), -0.1 * (f64::from(k) - 0.5)])).collect();
+/// let floor = Wall::of("floor", points, 0.1).motion(Translation::steady([1.0, 0.0])).no_slip();
+/// assert_eq!(floor.points().len(), 60);
+/// ```
+#[derive(Clone, Debug)]
+pub struct Wall<const D: usize> {
+    pub(crate) name: String,
+    pub(crate) points: Vec<[f64; D]>,
+    pub(crate) spacing: f64,
+    pub(crate) motion: Option<Arc<dyn Motion<D>>>,
+    pub(crate) slip: Slip,
+    pub(crate) carries: bool,
+}
+
+impl<const D: usize> Wall<D> {
+    /// A wall at rest with free slip, of particles at `points` \[m\] of volume `spacing`ᴰ.
+    #[must_use]
+    pub fn of(name: &str, points: Vec<[f64; D]>, spacing: f64) -> Self {
+        Self {
+            name: name.into(),
+            points,
+            spacing,
+            motion: None,
+            slip: Slip::Free,
+            carries: false,
+        }
+    }
+
+    /// Layers of particles around the box from `low` to `high` \[m\] in which liquid is kept, on every
+    /// side that `closed` names (lower and upper end of each axis), `layers` thick.
+    ///
+    /// Edges and corners belong to it. The spacing is fitted to the box along each axis, as in
+    /// [`Body::block`](crate::scene::Body::block).
+    #[must_use]
+    pub fn around(
+        name: &str,
+        low: [f64; D],
+        high: [f64; D],
+        spacing: f64,
+        layers: usize,
+        closed: [[bool; 2]; D],
+    ) -> Self {
+        let counts: [i64; D] =
+            core::array::from_fn(|d| ((high[d] - low[d]) / spacing).round().max(1.0) as i64);
+        let depth = layers as i64;
+        let first: [i64; D] = core::array::from_fn(|d| if closed[d][0] { -depth } else { 0 });
+        let last: [i64; D] =
+            core::array::from_fn(|d| counts[d] + if closed[d][1] { depth } else { 0 });
+        let mut points = Vec::new();
+        let mut at = first;
+        'all: loop {
+            if (0..D).any(|d| at[d] < 0 || at[d] >= counts[d]) {
+                points.push(core::array::from_fn(|d| {
+                    low[d] + (high[d] - low[d]) * (at[d] as f64 + 0.5) / counts[d] as f64
+                }));
+            }
+            for d in 0..D {
+                at[d] += 1;
+                if at[d] < last[d] {
+                    continue 'all;
+                }
+                at[d] = first[d];
+            }
+            break;
+        }
+        Self::of(name, points, spacing)
+    }
+
+    /// Gives it a prescribed motion.
+    #[must_use]
+    pub fn motion(mut self, motion: impl Motion<D> + 'static) -> Self {
+        self.motion = Some(Arc::new(motion));
+        self
+    }
+
+    /// Makes the liquid stick to it, where the scheme has a viscosity that can tell.
+    #[must_use]
+    pub fn no_slip(mut self) -> Self {
+        self.slip = Slip::None;
+        self
+    }
+
+    /// Says that the wall carries the liquid with it, as a tank does and a piston does not.
+    ///
+    /// A density diffusion that leaves the hydrostatic part out ([`Fourtakas`](crate::term::Fourtakas))
+    /// takes that part in the frame of this wall.
+    #[must_use]
+    pub fn carries_liquid(mut self) -> Self {
+        self.carries = true;
+        self
+    }
+
+    /// Where its particles are in the scene as built \[m\].
+    #[must_use]
+    pub fn points(&self) -> &[[f64; D]] {
+        &self.points
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn layers_fill_edges_and_corners() {
+        let tank = Wall::around("tank", [0.0; 3], [1.0; 3], 0.1, 3, [[true; 2]; 3]);
+        assert_eq!(tank.points().len(), 16 * 16 * 16 - 1000);
+        let open = Wall::around("cup", [0.0; 2], [1.0; 2], 0.1, 2, [[true; 2], [true, false]]);
+        assert_eq!(open.points().len(), 14 * 12 - 100);
+        assert!(open.points().iter().all(|x| x[1] < 1.0));
+    }
+}

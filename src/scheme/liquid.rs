@@ -1,0 +1,326 @@
+//! Schemes of weakly compressible liquids: density integrated with diffusion, walls of particles.
+//! Two sweeps a step: the forces, and the rate of density at the middle of the drift.
+
+use super::{DEFAULT_STEP_FACTOR, DensityForm, EnergyForm, KernelFacts, Scheme, Smoothing};
+use crate::kernel::Kernel;
+use crate::particles::Field;
+use crate::scalar::Real;
+use crate::sweep::{PairSweep, Program, SmoothingMode};
+use crate::term::{
+    ArtificialViscosity, Compression, Crowding, DensityGradient, LiquidAlongWall, LiquidNearWall,
+    Nothing, PressureForce, Term, TransportStress, VelocityGradient, Viscosity,
+};
+
+/// How particles are kept evenly spread.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shifting {
+    /// Against the gradient of their concentration, by A h |v| dt, and not at a free surface
+    /// (Lind et al. 2012; Skillen et al. 2013, eq. 15).
+    Concentration {
+        /// Strength A; 2 (Skillen et al. use 1 to 6).
+        strength: f64,
+    },
+    /// By a background pressure that moves particles and not their momentum: δv = −dt/2 p_b/m Σ (Vᵢ² + Vⱼ²) ∇W
+    /// (Adami, Hu & Adams 2013, eq. 8). For flow without free surface.
+    TransportVelocity {
+        /// Background pressure in units of ρ c².
+        background: f64,
+    },
+}
+
+impl Shifting {
+    /// Free-surface shifting at its usual strength.
+    pub const STANDARD: Self = Self::Concentration { strength: 2.0 };
+    /// The transport velocity at its usual background pressure.
+    pub const TRANSPORT: Self = Self::TransportVelocity { background: 1.0 };
+}
+
+/// What a scheme of liquids adds to one of solids and gases.
+#[derive(Debug)]
+pub(crate) struct Liquid<T: Real, const D: usize> {
+    /// The sums of wall particles over liquid.
+    pub wall: Box<dyn PairSweep<T, D>>,
+    /// Lowest pressure of a wall \[Pa\].
+    pub wall_floor: f64,
+    /// How particles are kept evenly spread.
+    pub shifting: Option<Shifting>,
+}
+
+/// Chooses the parts of a scheme for liquids.
+///
+/// The type parameters are terms, so what a scheme does not name is not compiled into it: the kernel,
+/// the artificial viscosity, the density diffusion, the physical viscosity, and the sums of shifting.
+///
+/// ```
+/// use meshfree::prelude::*;
+/// use meshfree::term::{Antuono, LaminarViscosity};
+/// let scheme: Scheme<f64, 2> = schemes::weakly_compressible()
+///     .density_diffusion(Antuono::default())
+///     .laminar_viscosity(LaminarViscosity)
+///     .compose();
+/// assert!(scheme.to_string().contains("laminar viscosity"));
+/// ```
+#[derive(Clone, Debug)]
+pub struct LiquidBuilder<K, V, W = Nothing, R = Nothing, S = Nothing> {
+    name: String,
+    kernel: K,
+    viscosity: V,
+    diffusion: W,
+    laminar: R,
+    crowding: S,
+    density: DensityForm,
+    h_over_dx: Option<f64>,
+    step_factor: f64,
+    wall_floor: f64,
+    shifting: Option<Shifting>,
+    smoothing: Smoothing,
+    general_viscosity: bool,
+}
+
+impl<K, V> LiquidBuilder<K, V> {
+    /// A scheme with a kernel and an artificial viscosity, and no density diffusion.
+    #[must_use]
+    pub fn new(kernel: K, viscosity: V) -> Self {
+        Self {
+            name: "liquid".into(),
+            kernel,
+            viscosity,
+            diffusion: Nothing,
+            laminar: Nothing,
+            crowding: Nothing,
+            density: DensityForm::Continuity,
+            h_over_dx: None,
+            step_factor: DEFAULT_STEP_FACTOR,
+            wall_floor: 0.0,
+            shifting: None,
+            smoothing: Smoothing::Fixed,
+            general_viscosity: false,
+        }
+    }
+}
+
+impl<K, V, R> LiquidBuilder<K, V, Nothing, R, Nothing> {
+    /// Continuity and pressure in their mass form, [`DensityForm::ContinuityByMass`]. Diffusion and
+    /// shifting weigh neighbours by volume, which this form does not carry.
+    #[must_use]
+    pub fn by_mass(mut self) -> Self {
+        self.density = DensityForm::ContinuityByMass;
+        self
+    }
+}
+
+impl<K, V, W, R, S> LiquidBuilder<K, V, W, R, S> {
+    fn with<K2, V2, W2, R2, S2>(
+        self,
+        change: impl FnOnce(K, V, W, R, S) -> (K2, V2, W2, R2, S2),
+    ) -> LiquidBuilder<K2, V2, W2, R2, S2> {
+        let (kernel, viscosity, diffusion, laminar, crowding) = change(
+            self.kernel,
+            self.viscosity,
+            self.diffusion,
+            self.laminar,
+            self.crowding,
+        );
+        LiquidBuilder {
+            name: self.name,
+            kernel,
+            viscosity,
+            diffusion,
+            laminar,
+            crowding,
+            density: self.density,
+            h_over_dx: self.h_over_dx,
+            step_factor: self.step_factor,
+            wall_floor: self.wall_floor,
+            shifting: self.shifting,
+            smoothing: self.smoothing,
+            general_viscosity: self.general_viscosity,
+        }
+    }
+    /// The same choices with another kernel.
+    #[must_use]
+    pub fn with_kernel<L>(self, kernel: L) -> LiquidBuilder<L, V, W, R, S> {
+        self.with(|_, v, w, r, s| (kernel, v, w, r, s))
+    }
+    /// The same choices with another artificial viscosity;
+    /// [`Inviscid`](crate::term::viscosity::Inviscid) for none.
+    #[must_use]
+    pub fn with_viscosity<X>(self, viscosity: X) -> LiquidBuilder<K, X, W, R, S> {
+        self.with(|k, _, w, r, s| (k, viscosity, w, r, s))
+    }
+    /// The same choices with another density diffusion; [`Nothing`] for none.
+    #[must_use]
+    pub fn density_diffusion<X>(self, diffusion: X) -> LiquidBuilder<K, V, X, R, S> {
+        self.with(|k, v, _, r, s| (k, v, diffusion, r, s))
+    }
+    /// A physical viscosity, [`LaminarViscosity`](crate::term::LaminarViscosity) or
+    /// [`CentralViscosity`](crate::term::CentralViscosity), of the liquids' own dynamic viscosity.
+    #[must_use]
+    pub fn laminar_viscosity<X>(self, laminar: X) -> LiquidBuilder<K, V, W, X, S> {
+        self.with(|k, v, w, _, s| (k, v, w, laminar, s))
+    }
+    /// Keeps particles evenly spread and leaves a free surface alone.
+    #[must_use]
+    pub fn shifting<const D: usize>(
+        mut self,
+        shifting: Shifting,
+    ) -> LiquidBuilder<K, V, W, R, Crowding>
+    where
+        K: Kernel<D>,
+    {
+        let h_over_dx = self.h_over_dx.unwrap_or(self.kernel.h_over_dx());
+        let repulsion = match shifting {
+            Shifting::Concentration { .. } => 0.2,
+            Shifting::TransportVelocity { .. } => 0.0,
+        };
+        let at_spacing =
+            self.kernel.normalisation() * Kernel::<D>::shape(&self.kernel, 1.0 / h_over_dx);
+        self.shifting = Some(shifting);
+        self.with(|k, v, w, r, _| {
+            let crowding = Crowding {
+                repulsion,
+                at_spacing,
+            };
+            (k, v, w, r, crowding)
+        })
+    }
+    /// A name for reports.
+    #[must_use]
+    pub fn named(mut self, name: &str) -> Self {
+        self.name = name.into();
+        self
+    }
+    /// Ratio of smoothing length to spacing; the kernel's recommendation if not given. Give it before
+    /// [`shifting`](Self::shifting).
+    #[must_use]
+    pub fn h_over_dx(mut self, ratio: f64) -> Self {
+        self.h_over_dx = Some(ratio);
+        self
+    }
+    /// Step in units of h/(c + signal).
+    #[must_use]
+    pub fn step_factor(mut self, factor: f64) -> Self {
+        self.step_factor = factor;
+        self
+    }
+    /// The lowest pressure \[Pa\] that a wall can show the liquid: 0 if not given, so nothing sticks.
+    /// In a closed domain that is always full, minus infinity.
+    #[must_use]
+    pub fn wall_pressure_floor(mut self, floor: f64) -> Self {
+        self.wall_floor = floor;
+        self
+    }
+    /// Lets the viscosity follow the rate of shear, for liquids that are not Newtonian. It costs a
+    /// sweep for the velocity gradient.
+    #[must_use]
+    pub fn generalised_newtonian(mut self) -> Self {
+        self.general_viscosity = true;
+        self
+    }
+
+    /// Compiles the choices into sweeps.
+    #[must_use]
+    pub fn compose<T: Real, const D: usize>(self) -> Scheme<T, D>
+    where
+        K: Kernel<D>,
+        V: ArtificialViscosity<D>,
+        W: Term<D>,
+        R: Term<D>,
+        S: Term<D>,
+    {
+        const UNIFORM: u8 = SmoothingMode::Uniform.bit();
+        let (kernel, mode) = (self.kernel, SmoothingMode::Uniform);
+        let boxed_gradient: Option<Box<dyn PairSweep<T, D>>> =
+            if const { W::READS.contains(Field::DensityGradient) } {
+                Some(Box::new(Program::<_, _, UNIFORM>::new(
+                    kernel,
+                    (DensityGradient,),
+                    mode,
+                )))
+            } else if self.general_viscosity {
+                Some(Box::new(Program::<_, _, UNIFORM>::new(
+                    kernel,
+                    (VelocityGradient,),
+                    mode,
+                )))
+            } else {
+                None
+            };
+        let viscosity_problems = self.viscosity.problems();
+        let viscous = const { R::READS.contains(Field::DynamicViscosity) };
+        let wall: Box<dyn PairSweep<T, D>> = if viscous {
+            Box::new(Program::<_, _, UNIFORM>::new(
+                kernel,
+                (LiquidNearWall, LiquidAlongWall),
+                mode,
+            ))
+        } else {
+            Box::new(Program::<_, _, UNIFORM>::new(
+                kernel,
+                (LiquidNearWall,),
+                mode,
+            ))
+        };
+        let transport = matches!(self.shifting, Some(Shifting::TransportVelocity { .. }));
+        let rates: Box<dyn PairSweep<T, D>> = if transport {
+            let terms = (
+                PressureForce,
+                Viscosity(self.viscosity),
+                self.laminar,
+                TransportStress,
+            );
+            Box::new(Program::<_, _, UNIFORM>::new(kernel, terms, mode))
+        } else {
+            let terms = (PressureForce, Viscosity(self.viscosity), self.laminar);
+            Box::new(Program::<_, _, UNIFORM>::new(kernel, terms, mode))
+        };
+        let compression = (Compression, self.diffusion, self.crowding);
+        Scheme {
+            name: self.name,
+            kernel: KernelFacts {
+                name: kernel.name(),
+                support: kernel.support(),
+                h_over_dx: kernel.h_over_dx(),
+                range: kernel.h_over_dx_range(),
+                stable_step: kernel.stable_step(),
+            },
+            density: self.density,
+            pressure_form: self.density,
+            energy: EnergyForm::None,
+            smoothing: self.smoothing,
+            h_over_dx: self.h_over_dx.unwrap_or(kernel.h_over_dx()),
+            step_factor: self.step_factor,
+            normalised: false,
+            viscosity_problems,
+            switch: None,
+            reference: None,
+            sums: None,
+            compression: Some(Box::new(Program::<_, _, UNIFORM>::new(
+                kernel,
+                compression,
+                mode,
+            ))),
+            gradient: boxed_gradient,
+            rates,
+            liquid: Some(Liquid {
+                wall,
+                wall_floor: self.wall_floor,
+                shifting: self.shifting,
+            }),
+        }
+    }
+}
+
+impl<T, const D: usize, K, V, W, R, S> From<LiquidBuilder<K, V, W, R, S>> for Scheme<T, D>
+where
+    T: Real,
+    K: Kernel<D>,
+    V: ArtificialViscosity<D>,
+    W: Term<D>,
+    R: Term<D>,
+    S: Term<D>,
+{
+    fn from(builder: LiquidBuilder<K, V, W, R, S>) -> Self {
+        builder.compose()
+    }
+}

@@ -1,0 +1,183 @@
+//! Density diffusion of weakly compressible liquids: what removes the noise of their pressure.
+//! Molteni & Colagrossi 2009; Antuono et al. 2010; Fourtakas et al. 2019; Zhang, Hu & Adams 2017.
+
+use super::{Layout, Pair, Sums, Term, TermDoc};
+use crate::particles::{Field, Fields, Output, Outputs};
+use crate::scalar::Lane;
+
+/// The δ that all forms take by default (Antuono et al. 2010; Fourtakas et al. 2019).
+pub const STANDARD_DELTA: f64 = 0.1;
+
+const READS: Fields = Fields::of(&[Field::Weight, Field::Density, Field::SoundSpeed]);
+const WRITES: Outputs = Outputs::of(&[Output::DensityDiffusion]);
+
+/// δ h c̄ Vⱼ times −2 F: what all forms multiply a density difference with.
+///
+/// Walls do not diffuse: their density does not follow from the flow.
+#[inline(always)]
+fn factor<L: Lane, const D: usize, P: Layout>(pair: &Pair<'_, L, D, P>, delta: f64) -> L {
+    let sound_speed = pair.i(Field::SoundSpeed) + pair.j(Field::SoundSpeed);
+    pair.h * sound_speed * pair.j(Field::Weight) * pair.f * pair.mobile * L::of(-delta)
+}
+
+/// Diffusion of the whole density difference.
+///
+/// dρᵢ/dt += δ h c Σⱼ Vⱼ 2 (ρⱼ − ρᵢ) rⱼᵢ·∇W/r² (Molteni & Colagrossi 2009).
+///
+/// It smooths the hydrostatic gradient too, which lets a free surface rise slowly: for violent flow
+/// of short duration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Molteni {
+    /// Strength δ; 0.1.
+    pub delta: f64,
+}
+
+impl Default for Molteni {
+    fn default() -> Self {
+        Self {
+            delta: STANDARD_DELTA,
+        }
+    }
+}
+
+impl<const D: usize> Term<D> for Molteni {
+    const READS: Fields = READS;
+    const WRITES: Outputs = WRITES;
+    #[inline(always)]
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+        let jump = pair.j(Field::Density) - pair.i(Field::Density);
+        sums.add(Output::DensityDiffusion, factor(pair, self.delta) * jump);
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: format!("density diffusion, δ = {}", self.delta),
+            equation: "dρᵢ/dt += δ h c Σⱼ Vⱼ 2 (ρⱼ − ρᵢ) rⱼᵢ·∇W/r²",
+            source: "Molteni & Colagrossi 2009",
+        }
+    }
+}
+
+/// Diffusion of what differs from the hydrostatic density.
+///
+/// dρᵢ/dt += δ h c Σⱼ Vⱼ 2 (ρⱼ − ρᵢ − ρᴴᵢⱼ) rⱼᵢ·∇W/r² with ρᴴᵢⱼ = ρᵢ g·rⱼᵢ/c²
+/// (Fourtakas et al. 2019, with their hydrostatic difference in first order of g r/c²).
+///
+/// g is the body force in the frame of the wall that
+/// [carries the liquid](crate::boundary::Wall::carries_liquid), so a tank under 30 g is at rest in it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fourtakas {
+    /// Strength δ; 0.1.
+    pub delta: f64,
+}
+
+impl Default for Fourtakas {
+    fn default() -> Self {
+        Self {
+            delta: STANDARD_DELTA,
+        }
+    }
+}
+
+/// ρⱼ − ρᵢ less its hydrostatic part. What depends on i alone is the compiler's to lift out of the loop.
+#[inline(always)]
+fn dynamic_jump<L: Lane, const D: usize, P: Layout>(pair: &Pair<'_, L, D, P>) -> L {
+    let c = pair.i(Field::SoundSpeed);
+    let slope = pair.i(Field::Density) / (c * c);
+    let jump = pair.j(Field::Density) - pair.i(Field::Density);
+    (0..D).fold(jump, |jump, d| {
+        (pair.body_force[d] * slope).mul_add(pair.r[d], jump)
+    })
+}
+
+impl<const D: usize> Term<D> for Fourtakas {
+    const READS: Fields = READS;
+    const WRITES: Outputs = WRITES;
+    #[inline(always)]
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+        let jump = dynamic_jump(pair);
+        sums.add(Output::DensityDiffusion, factor(pair, self.delta) * jump);
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: format!(
+                "density diffusion off the hydrostatic state, δ = {}",
+                self.delta
+            ),
+            equation: "dρᵢ/dt += δ h c Σⱼ Vⱼ 2 (ρⱼ − ρᵢ − ρᵢ g·rⱼᵢ/c²) rⱼᵢ·∇W/r²",
+            source: "Fourtakas et al. 2019",
+        }
+    }
+}
+
+/// Diffusion of what differs from a linear field: δ-SPH.
+///
+/// dρᵢ/dt += δ h c Σⱼ Vⱼ [2 (ρⱼ − ρᵢ) − (∇ρᵢ + ∇ρⱼ)·rⱼᵢ] rⱼᵢ·∇W/r² with corrected gradients
+/// (Antuono et al. 2010, eq. 9).
+///
+/// It costs a sweep for the gradient, and needs to know nothing of body forces.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Antuono {
+    /// Strength δ; 0.1.
+    pub delta: f64,
+}
+
+impl Default for Antuono {
+    fn default() -> Self {
+        Self {
+            delta: STANDARD_DELTA,
+        }
+    }
+}
+
+impl<const D: usize> Term<D> for Antuono {
+    const READS: Fields = READS.union(Fields::of(&[Field::DensityGradient]));
+    const WRITES: Outputs = WRITES;
+    #[inline(always)]
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+        let jump = pair.j(Field::Density) - pair.i(Field::Density);
+        let field = Field::DensityGradient;
+        let bent = (0..D).fold(jump, |jump, d| {
+            let mean = (pair.i_at(field, d) + pair.j_at(field, d)) * L::of(0.5);
+            mean.mul_add(pair.r[d], jump)
+        });
+        sums.add(Output::DensityDiffusion, factor(pair, self.delta) * bent);
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: format!("δ-SPH density diffusion, δ = {}", self.delta),
+            equation: "dρᵢ/dt += δ h c Σⱼ Vⱼ [2 (ρⱼ − ρᵢ) − (∇ρᵢ + ∇ρⱼ)·rⱼᵢ] rⱼᵢ·∇W/r²",
+            source: "Antuono et al. 2010, eq. 9",
+        }
+    }
+}
+
+/// What a Riemann solver between two particles adds to the continuity equation.
+///
+/// The velocity of the contact is v* = v̄ + (pᵢ − pⱼ)/(2 ρ̄ c̄) along the pair, so
+/// dρᵢ/dt += Σⱼ Vⱼ (pᵢ − pⱼ + ρᵢ g·rⱼᵢ) |r| F/c̄ (Zhang, Hu & Adams 2017, eqs. 8, 12, with the hydrostatic
+/// part left out). Join it with [`Riemann`](crate::term::viscosity::Riemann) as viscosity.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct RiemannDiffusion;
+
+impl<const D: usize> Term<D> for RiemannDiffusion {
+    const READS: Fields = READS.union(Fields::of(&[Field::Pressure]));
+    const WRITES: Outputs = WRITES;
+    #[inline(always)]
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+        let difference = pair.i(Field::Pressure) - pair.j(Field::Pressure);
+        let weight = -pair.i(Field::Density);
+        let dynamic = (0..D).fold(difference, |p, d| {
+            (pair.body_force[d] * weight).mul_add(pair.r[d], p)
+        });
+        let c = (pair.i(Field::SoundSpeed) + pair.j(Field::SoundSpeed)) * L::of(0.5);
+        let rate = pair.j(Field::Weight) * dynamic * pair.r2.sqrt() * pair.f / c;
+        sums.add(Output::DensityDiffusion, rate * pair.mobile);
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: "density diffusion of a Riemann solver".into(),
+            equation: "dρᵢ/dt += Σⱼ Vⱼ (pᵢ − pⱼ + ρᵢ g·rⱼᵢ) |r| F/c̄",
+            source: "Zhang, Hu & Adams 2017, eqs. 8, 12",
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! What a wall particle sums over the liquid before it.
+//! Adami, Hu & Adams 2012, equations 22 and 27.
+
+use super::{Layout, Pair, Sums, Term, TermDoc};
+use crate::particles::{Field, Fields, Output, Outputs};
+use crate::scalar::Lane;
+
+/// The sums from which a wall particle takes its pressure: Σ V W, Σ V p W and Σ V ρ r W over liquid.
+///
+/// p_w = [Σ p_f W + (g − a_w)·Σ ρ_f r_wf W] / Σ W (Adami, Hu & Adams 2012, eq. 27), with volumes so
+/// that liquids of several densities may meet a wall.
+#[derive(Clone, Copy, Debug)]
+pub struct LiquidNearWall;
+
+impl<const D: usize> Term<D> for LiquidNearWall {
+    const READS: Fields = Fields::of(&[Field::Mass, Field::Density, Field::Pressure]);
+    const WRITES: Outputs =
+        Outputs::of(&[Output::Unity, Output::LiquidPressure, Output::LiquidMoment]);
+    #[inline(always)]
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+        let mass = pair.j(Field::Mass) * pair.w * pair.mobile;
+        let volume = mass / pair.j(Field::Density);
+        sums.add(Output::Unity, volume);
+        sums.add(Output::LiquidPressure, volume * pair.j(Field::Pressure));
+        for d in 0..D {
+            sums.add_at(Output::LiquidMoment, d, mass * pair.r[d]);
+        }
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: "pressure of walls".into(),
+            equation: "p_w = [Σ p_f W + (g − a_w)·Σ ρ_f r_wf W] / Σ W",
+            source: "Adami, Hu & Adams 2012, eq. 27",
+        }
+    }
+}
+
+/// The sums from which a wall particle takes the velocity that makes the liquid stick, and the
+/// viscosity by which it does.
+#[derive(Clone, Copy, Debug)]
+pub struct LiquidAlongWall;
+
+impl<const D: usize> Term<D> for LiquidAlongWall {
+    const READS: Fields = Fields::of(&[
+        Field::Mass,
+        Field::Density,
+        Field::Velocity,
+        Field::DynamicViscosity,
+    ]);
+    const WRITES: Outputs = Outputs::of(&[
+        Output::Unity,
+        Output::LiquidVelocity,
+        Output::LiquidViscosity,
+    ]);
+    #[inline(always)]
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+        // The first term of a wall's sweep sums the volume.
+        let volume = pair.j(Field::Mass) / pair.j(Field::Density) * pair.w * pair.mobile;
+        sums.add(
+            Output::LiquidViscosity,
+            volume * pair.j(Field::DynamicViscosity),
+        );
+        for d in 0..D {
+            let v = pair.j_at(Field::Velocity, d);
+            sums.add_at(Output::LiquidVelocity, d, volume * v);
+        }
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: "velocity of walls without slip".into(),
+            equation: "v_w = 2 v_wall − Σ v_f W / Σ W",
+            source: "Adami, Hu & Adams 2012, eqs. 22, 23",
+        }
+    }
+}
