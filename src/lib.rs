@@ -55,6 +55,7 @@
 //! |---|---|
 //! | [`prelude`] | the names that most programs use |
 //! | [`scene`] | bodies, boundaries and loads, checked as a whole and built into a simulation |
+//! | [`geometry`] | shapes by signed distance, and the lattices that fill and surround them |
 //! | [`material`] | equations of state and named materials with their sources |
 //! | [`schemes`] | ready schemes |
 //! | [`simulation`] | steps, criteria of the time step, ledgers, questions about particles |
@@ -154,6 +155,7 @@
 
 pub mod boundary;
 pub mod error;
+pub mod geometry;
 pub mod integrator;
 pub mod kernel;
 pub mod material;
