@@ -137,7 +137,7 @@
 //!
 //! # Extending
 //!
-//! Five traits are meant to be implemented in a crate of your own. Each has an example that compiles:
+//! Six traits are meant to be implemented in a crate of your own. Each has an example that compiles:
 //!
 //! | trait | example | what it asks for |
 //! |---|---|---|
@@ -145,6 +145,7 @@
 //! | [`EquationOfState`](material::eos::EquationOfState) | [in `eos`](material::eos#a-law-of-ones-own) | pressure and sound speed |
 //! | [`ArtificialViscosity`](term::viscosity::ArtificialViscosity) | [in `term`](term#a-viscosity-of-ones-own) | Π and the signal of a pair |
 //! | [`Boundary`](boundary::Boundary) | [at the trait](boundary::Boundary) | images and their transforms |
+//! | [`Shape`](geometry::Shape) | [at the trait](geometry::Shape) | signed distance and a box around it |
 //! | [`Integrator`](integrator::Integrator) | [at the trait](integrator::Integrator) | one step, from a handful of operations |
 //!
 //! The first three run inside the loop over pairs or over particles. Their methods are generic over a

@@ -97,7 +97,7 @@ pub fn layers<const D: usize>(
     let near = thickness + ROUNDING * spacing;
     // The first layer is half a spacing from the surface of a box that fits the lattice.
     let steps = (near / spacing + 0.5).floor();
-    let far = (steps * spacing).max(near) * (D as f64).sqrt();
+    let far = steps * spacing * (D as f64).sqrt();
     let belongs = |x: &[f64; D]| {
         let distance = shape.signed_distance(x);
         !is_inside(distance)
