@@ -83,7 +83,7 @@ fn distance_to_a_cylinder_is_that_to_the_nearest_point_of_its_surface() {
     }
     let bar = Cylinder::between((axis * -half).into(), (axis * half).into(), r);
     nearest_is_as_near(&bar, &surface, 0.05);
-    // Of its box, an end disc that is oblique touches the faces: half (1 + …) along each axis.
+    // The box ends where the rims of the end discs do.
     let reach = half / 3.0_f64.sqrt() + r * (2.0_f64 / 3.0).sqrt();
     let (low, high) = bar.bounds();
     for d in 0..3 {
@@ -127,12 +127,12 @@ fn bounds_end_where_the_shape_ends() {
     assert_eq!(oblique.bounds(), ([-inf; 3], [inf; 3]));
     let pipe = Cylinder::infinite([1.0, 2.0, 3.0], [0.0, 1.0, 0.0], 0.5);
     assert_eq!(pipe.bounds(), ([0.5, -inf, 2.5], [1.5, inf, 3.5]));
-    // Six half-spaces are a box, to be filled.
+    // Endless shapes may have a bounded part in common, to be filled.
     let slab = floor.intersection(roof);
     let column = slab.intersection(Cuboid::new([0.0, 0.0, -inf], [1.0, 1.0, inf]));
     assert_eq!(column.bounds(), ([0.0, 0.0, -1.0], [1.0, 1.0, 2.0]));
     assert_eq!(fill(&column, 0.25, [0.0; 3]).unwrap().len(), 4 * 4 * 12);
-    // A slab turned by an eighth has no end in the plane, and the same one across.
+    // A slab that is moved keeps its ends and has none where it had none; a square turned is wider.
     let slab = Cuboid::new([-inf, 0.0], [inf, 1.0]).moved(turn(0.0), [3.0, 1.0]);
     assert_eq!(slab.bounds(), ([-inf, 1.0], [inf, 2.0]));
     let square = Cuboid::new([-1.0; 2], [1.0; 2]).moved(turn(PI / 4.0), [0.0; 2]);
