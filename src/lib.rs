@@ -55,6 +55,7 @@
 //! |---|---|
 //! | [`prelude`] | the names that most programs use |
 //! | [`scene`] | bodies, boundaries and loads, checked as a whole and built into a simulation |
+//! | [`geometry`] | shapes by signed distance, and the lattices that fill and surround them |
 //! | [`material`] | equations of state and named materials with their sources |
 //! | [`schemes`] | ready schemes |
 //! | [`simulation`] | steps, criteria of the time step, ledgers, questions about particles |
@@ -136,7 +137,7 @@
 //!
 //! # Extending
 //!
-//! Five traits are meant to be implemented in a crate of your own. Each has an example that compiles:
+//! Six traits are meant to be implemented in a crate of your own. Each has an example that compiles:
 //!
 //! | trait | example | what it asks for |
 //! |---|---|---|
@@ -144,6 +145,7 @@
 //! | [`EquationOfState`](material::eos::EquationOfState) | [in `eos`](material::eos#a-law-of-ones-own) | pressure and sound speed |
 //! | [`ArtificialViscosity`](term::viscosity::ArtificialViscosity) | [in `term`](term#a-viscosity-of-ones-own) | Π and the signal of a pair |
 //! | [`Boundary`](boundary::Boundary) | [at the trait](boundary::Boundary) | images and their transforms |
+//! | [`Shape`](geometry::Shape) | [at the trait](geometry::Shape) | signed distance and a box around it |
 //! | [`Integrator`](integrator::Integrator) | [at the trait](integrator::Integrator) | one step, from a handful of operations |
 //!
 //! The first three run inside the loop over pairs or over particles. Their methods are generic over a
@@ -154,6 +156,7 @@
 
 pub mod boundary;
 pub mod error;
+pub mod geometry;
 pub mod integrator;
 pub mod kernel;
 pub mod material;

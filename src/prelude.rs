@@ -8,6 +8,8 @@ pub use crate::boundary::{Boundary, MirrorPlane, Periodic};
 #[doc(no_inline)]
 pub use crate::error::{BuildError, Error};
 #[doc(no_inline)]
+pub use crate::geometry::{Ball, Cuboid, Cylinder, HalfSpace, OpenCell, Shape};
+#[doc(no_inline)]
 pub use crate::integrator::{
     DriftKickDrift, Integrator, KickDriftKick, LamLeapfrog, Midpoint, PositionVerlet, RungeKutta4,
     StrongStabilityPreserving3, System,

@@ -1,6 +1,7 @@
 //! A body of a scene: where its particles are, what it is made of, and how it starts.
-//! Shapes are boxes filled with a lattice, or points of the user's own.
+//! Boxes and shapes are filled with a lattice; points may be the user's own.
 
+use crate::geometry::{FEWER, Flaw, MOST_PARTICLES, POSITIVE, Shape, filled};
 use crate::material::Material;
 use crate::scalar::Real;
 
@@ -31,11 +32,8 @@ pub struct Body<T: Real, const D: usize> {
     pub(crate) points: Vec<[f64; D]>,
     pub(crate) spacing: f64,
     pub(crate) starts: Vec<Start<D>>,
-    pub(crate) shape: Result<(), (&'static str, f64)>,
+    pub(crate) shape: Result<(), Flaw>,
 }
-
-/// Most particles that a block is filled with; more is a slip of the spacing's unit.
-const MOST_PARTICLES: f64 = 4e9;
 
 impl<T: Real, const D: usize> Body<T, D> {
     /// A box from `low` to `high` \[m\], filled with a cubic lattice of about `spacing` \[m\].
@@ -75,14 +73,46 @@ impl<T: Real, const D: usize> Body<T, D> {
         let volume: f64 = (0..D).map(|d| size[d] / counts[d].max(1) as f64).product();
         let mut body = Self::points_of(name, material, points, volume.abs().powf(1.0 / D as f64));
         if !spacing.is_finite() || spacing <= 0.0 {
-            body.shape = Err(("spacing", spacing));
+            body.shape = Err(("spacing", spacing, POSITIVE));
             body.spacing = spacing;
         } else if let Some(bad) = size.iter().find(|s| !s.is_finite()) {
-            body.shape = Err(("size", *bad));
+            body.shape = Err(("size", *bad, "corners must be finite, in metres"));
         } else if !fits {
-            body.shape = Err(("number of particles", total));
+            body.shape = Err(("number of particles", total, FEWER));
         }
         body
+    }
+
+    /// A shape, filled with the cubic lattice of `spacing` \[m\] whose first cell begins at the low
+    /// corner of the shape's [bounds](Shape::bounds); see [`fill`](crate::geometry::fill).
+    ///
+    /// A box that is a whole number of spacings wide gives the particles of [`Body::block`]; for any
+    /// other size the spacing stays as it is. Two bodies that must share a lattice, as a hole and its
+    /// filling, are best filled from one origin and given by [`Body::points_of`].
+    ///
+    /// ```
+    /// use meshfree::geometry::Ball;
+    /// use meshfree::material::catalogue;
+    /// use meshfree::scene::Body;
+    /// // A copper ball of 5 mm radius, a particle every 0.25 mm.
+    /// let ball: Body<f64, 3> = Body::fill("ball", catalogue::copper(), &Ball::new([0.0; 3], 5e-3), 2.5e-4);
+    /// assert!((ball.points().len() as f64 * 2.5e-4_f64.powi(3) / 523.6e-9 - 1.0).abs() < 0.01);
+    /// ```
+    #[must_use]
+    pub fn fill(
+        name: &str,
+        material: Material<T>,
+        shape: &(impl Shape<D> + ?Sized),
+        spacing: f64,
+    ) -> Self {
+        let (points, shape) = match filled(shape, spacing, shape.bounds().0) {
+            Ok(points) => (points, Ok(())),
+            Err(flaw) => (Vec::new(), Err(flaw)),
+        };
+        Self {
+            shape,
+            ..Self::points_of(name, material, points, spacing)
+        }
     }
 
     /// Particles at `points` \[m\], each with the volume `spacing`ᴰ.

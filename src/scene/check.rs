@@ -50,28 +50,9 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 must_be,
             });
         };
-        match body.shape {
-            Err(("spacing", value)) => {
-                parameter(
-                    "spacing",
-                    value,
-                    "it must be finite and positive, in metres",
-                );
-                return;
-            }
-            Err(("size", value)) => {
-                parameter("size", value, "corners must be finite, in metres");
-                return;
-            }
-            Err((_, value)) => {
-                parameter(
-                    "number of particles",
-                    value,
-                    "it must fit into memory and stay below 4e9: is the spacing in metres?",
-                );
-                return;
-            }
-            Ok(()) => {}
+        if let Err((what, value, must_be)) = body.shape {
+            parameter(what, value, must_be);
+            return;
         }
         for (what, value, must_be) in body.material.problems() {
             parameter(

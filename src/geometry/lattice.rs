@@ -1,0 +1,194 @@
+//! Cubic lattices in a shape and around it.
+//! The points are origin + (k + ½) spacing for whole numbers k.
+
+use super::{Flaw, Shape};
+use crate::error::{Error, Problem, Result};
+
+/// Most particles that a shape is filled with; more is a slip of the spacing's unit.
+pub(crate) const MOST_PARTICLES: f64 = 4e9;
+/// What to do about too many.
+pub(crate) const FEWER: &str =
+    "it must fit into memory and stay below 4e9: is the spacing in metres?";
+/// What a length must be.
+pub(crate) const POSITIVE: &str = "it must be finite and positive, in metres";
+/// Share of the spacing that lengths given as multiples of it are off by rounding, and no more.
+const ROUNDING: f64 = 1e-9;
+
+/// The points origin + (k + ½) `spacing` \[m\] of the cubic lattice that are inside of a shape, the
+/// first coordinate running fastest.
+///
+/// A point on the surface is in the shape or in its complement, never in both or in none: a body and
+/// what fills its holes, filled from one origin, have no particle in common and none between them.
+///
+/// The volume of a shape is the number of points times `spacing`ᴰ, with an error of first order at
+/// most: only cells that the surface cuts contribute to it.
+///
+/// ```
+/// use meshfree::geometry::{Cuboid, fill};
+/// assert_eq!(fill(&Cuboid::new([0.0], [1.0]), 0.25, [0.0])?, [[0.125], [0.375], [0.625], [0.875]]);
+/// # Ok::<(), meshfree::error::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::Argument`] if the shape has a [problem](Shape::problems) or no end, if `spacing` is not
+/// positive or a number not finite, and if the box around the shape has more lattice points than
+/// 4·10⁹ or memory holds.
+pub fn fill<const D: usize>(
+    shape: &(impl Shape<D> + ?Sized),
+    spacing: f64,
+    origin: [f64; D],
+) -> Result<Vec<[f64; D]>> {
+    filled(shape, spacing, origin).map_err(argument)
+}
+
+/// As [`fill`], with the error in the form of a body's.
+pub(crate) fn filled<const D: usize>(
+    shape: &(impl Shape<D> + ?Sized),
+    spacing: f64,
+    origin: [f64; D],
+) -> core::result::Result<Vec<[f64; D]>, Flaw> {
+    lattice(shape, spacing, origin, 0.0, |x| {
+        is_inside(shape.signed_distance(x))
+    })
+}
+
+/// The points of the lattice of [`fill`] that make a wall of `thickness` \[m\] around a shape: the
+/// dummy particles of a tank whose inside is the shape.
+///
+/// A point outside of the shape belongs to the wall
+/// - if its distance to the shape is at most `thickness`, or
+/// - if no coordinate differs by more than `thickness` (rounded to whole spacings) from that of a
+///   point inside.
+///
+/// The first are all that a particle in the shape can feel whose kernel reaches `thickness`: nothing
+/// beyond is nearer to any place in the shape, edges and corners included. The second complete the
+/// edges and corners of a box to the full block, up to √D `thickness` away; a wall particle there
+/// feels no particle of the shape that stays inside. They are what one expects of a tank, they give
+/// wall particles their own neighbours, and they stand behind a particle that slipped out at an edge.
+/// Around a surface that is oblique to the lattice they make the wall up to √D times as thick;
+/// `retain(|x| shape.signed_distance(x) <= thickness)` takes them away.
+///
+/// Take as thickness what the kernel reaches: its support times h, the next whole number of spacings.
+/// Where the shape's distance is a bound only (see [the table](super)) the wall has more points, not
+/// fewer.
+///
+/// ```
+/// use meshfree::geometry::{Cuboid, layers};
+/// // A tank 1 m wide and 0.5 m deep with walls of three layers, open at the top.
+/// let inside = Cuboid::new([0.0; 2], [1.0, 0.5]);
+/// let mut wall = layers(&inside, 0.1, 0.3, [0.0; 2])?;
+/// assert_eq!(wall.len(), 16 * 11 - 10 * 5);
+/// wall.retain(|x| x[1] < 0.5);
+/// assert_eq!(wall.len(), 16 * 8 - 10 * 5);
+/// # Ok::<(), meshfree::error::Error>(())
+/// ```
+///
+/// # Errors
+/// As [`fill`], and if `thickness` is not finite and positive.
+pub fn layers<const D: usize>(
+    shape: &(impl Shape<D> + ?Sized),
+    spacing: f64,
+    thickness: f64,
+    origin: [f64; D],
+) -> Result<Vec<[f64; D]>> {
+    if !(thickness.is_finite() && thickness > 0.0) {
+        return Err(argument(("thickness of the wall", thickness, POSITIVE)));
+    }
+    let near = thickness + ROUNDING * spacing;
+    // The first layer is half a spacing from the surface of a box that fits the lattice.
+    let steps = (near / spacing + 0.5).floor();
+    let far = steps * spacing * (D as f64).sqrt();
+    let belongs = |x: &[f64; D]| {
+        let distance = shape.signed_distance(x);
+        !is_inside(distance)
+            && (distance <= near || distance <= far && has_inside(shape, x, steps, spacing))
+    };
+    lattice(shape, spacing, origin, thickness + spacing, belongs).map_err(argument)
+}
+
+/// Whether a distance is that of a point inside. The sign of zero counts: it is the one thing that
+/// differs between a shape and its complement on the surface.
+fn is_inside(distance: f64) -> bool {
+    distance.is_sign_negative()
+}
+
+/// Whether a point of the lattice no more than `steps` from `x` along each axis is inside.
+fn has_inside<const D: usize>(
+    shape: &(impl Shape<D> + ?Sized),
+    x: &[f64; D],
+    steps: f64,
+    spacing: f64,
+) -> bool {
+    let mut offset = [-steps; D];
+    loop {
+        let at = core::array::from_fn(|d| x[d] + offset[d] * spacing);
+        if is_inside(shape.signed_distance(&at)) {
+            return true;
+        }
+        let Some(d) = offset.iter().position(|&o| o < steps) else {
+            return false;
+        };
+        offset[d] += 1.0;
+        offset[..d].fill(-steps);
+    }
+}
+
+/// The points of the lattice in the shape's box, widened by `margin` \[m\], that `keep` wants.
+fn lattice<const D: usize>(
+    shape: &(impl Shape<D> + ?Sized),
+    spacing: f64,
+    origin: [f64; D],
+    margin: f64,
+    keep: impl Fn(&[f64; D]) -> bool,
+) -> core::result::Result<Vec<[f64; D]>, Flaw> {
+    if let Some(&flaw) = shape.problems().first() {
+        return Err(flaw);
+    }
+    if !(spacing.is_finite() && spacing > 0.0) {
+        return Err(("spacing", spacing, POSITIVE));
+    }
+    let (low, high) = shape.bounds();
+    if let Some(d) = (0..D).find(|&d| !(low[d].is_finite() && high[d].is_finite())) {
+        return Err((
+            "extent of the shape",
+            high[d] - low[d],
+            "it must be finite along every axis: intersect the shape with a box",
+        ));
+    }
+    if let Some(&bad) = origin.iter().find(|x| !x.is_finite()) {
+        return Err(("origin of the lattice", bad, "it must be finite, in metres"));
+    }
+    let index = |x: f64, d: usize| (x - origin[d]) / spacing - 0.5;
+    let first: [f64; D] = core::array::from_fn(|d| index(low[d] - margin, d).floor());
+    let counts: [f64; D] =
+        core::array::from_fn(|d| (index(high[d] + margin, d).ceil() - first[d] + 1.0).max(0.0));
+    let total: f64 = counts.iter().product();
+    if total.is_nan() || total > MOST_PARTICLES {
+        return Err(("number of lattice points", total, FEWER));
+    }
+    let counts = counts.map(|n| n as usize);
+    let mut points = Vec::new();
+    for k in 0..total as usize {
+        if k % counts[0] == 0 && points.try_reserve(counts[0]).is_err() {
+            return Err(("number of lattice points", total, FEWER));
+        }
+        let mut rest = k;
+        let x = core::array::from_fn(|d| {
+            let step = rest % counts[d];
+            rest /= counts[d];
+            origin[d] + (first[d] + step as f64 + 0.5) * spacing
+        });
+        if keep(&x) {
+            points.push(x);
+        }
+    }
+    Ok(points)
+}
+
+fn argument((what, value, must_be): Flaw) -> Error {
+    Error::Argument(Problem::Parameter {
+        what: what.into(),
+        value,
+        must_be,
+    })
+}
