@@ -55,7 +55,7 @@
 //! |---|---|
 //! | [`prelude`] | the names that most programs use |
 //! | [`scene`] | bodies, boundaries and loads, checked as a whole and built into a simulation |
-//! | [`material`] | equations of state and named materials with their sources |
+//! | [`material`] | equations of state, viscosity laws and named materials with their sources |
 //! | [`schemes`] | ready schemes |
 //! | [`simulation`] | steps, criteria of the time step, ledgers, questions about particles |
 //! | [`output`] | tables, plots, particle files, progress |
@@ -136,17 +136,18 @@
 //!
 //! # Extending
 //!
-//! Five traits are meant to be implemented in a crate of your own. Each has an example that compiles:
+//! Six traits are meant to be implemented in a crate of your own. Each has an example that compiles:
 //!
 //! | trait | example | what it asks for |
 //! |---|---|---|
 //! | [`Kernel`](kernel::Kernel) | [in `kernel`](kernel#a-kernel-of-ones-own) | shape, slope, normalisation |
 //! | [`EquationOfState`](material::eos::EquationOfState) | [in `eos`](material::eos#a-law-of-ones-own) | pressure and sound speed |
+//! | [`ViscosityLaw`](material::rheology::ViscosityLaw) | [in `rheology`](material::rheology#a-law-of-ones-own) | viscosity for a shear rate |
 //! | [`ArtificialViscosity`](term::viscosity::ArtificialViscosity) | [in `term`](term#a-viscosity-of-ones-own) | Π and the signal of a pair |
 //! | [`Boundary`](boundary::Boundary) | [at the trait](boundary::Boundary) | images and their transforms |
 //! | [`Integrator`](integrator::Integrator) | [at the trait](integrator::Integrator) | one step, from a handful of operations |
 //!
-//! The first three run inside the loop over pairs or over particles. Their methods are generic over a
+//! The first four run inside the loop over pairs or over particles. Their methods are generic over a
 //! [`Lane`](scalar::Lane), so one text serves a single number and a row of them, and what you write is
 //! compiled into the same loop as what the crate brings. A [`Term`](term::Term) is the more general
 //! form of an effect between pairs; a [`PairSweep`](sweep::PairSweep) runs a tuple of terms.

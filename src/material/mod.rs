@@ -1,4 +1,4 @@
-//! Materials: equations of state and the catalogue of named materials.
+//! Materials: equations of state, viscosity laws and the catalogue of named materials.
 //! A material is evaluated once per particle and step, never inside the pair loop.
 //!
 //! A [`Material`] is a name, a source, an equation of state and what else is known of the stuff. The
@@ -8,6 +8,9 @@
 //! Materials of the [`catalogue`] carry the source of their constants, and can be had
 //! [by name](catalogue::by_name). Where a law leaves the range in which it is valid a guard steps in, and
 //! every such evaluation is counted ([`GuardCounts`]).
+//!
+//! A [`Liquid`] becomes a material at its physical [`SoundSpeed`] or at an artificial one, which costs
+//! fewer steps; [`rheology`] holds viscosities that follow from the shear rate.
 //!
 //! Strength is not modelled: a solid is a fluid here, which is right for one-dimensional impact below
 //! the yield stress in so far as the law's bulk sound speed is that of the waves, and wrong where shear
@@ -28,10 +31,15 @@
 pub mod catalogue;
 mod cold;
 pub mod eos;
+mod liquid;
+pub mod rheology;
+
+pub use liquid::{Liquid, SoundSpeed};
 
 use crate::scalar::{Lane, Real};
 use core::fmt::Debug;
 use eos::{EosState, EquationOfState, GuardCounts};
+use rheology::{RheologyObject, ViscosityLaw};
 use std::sync::Arc;
 
 /// An equation of state whose type is erased: what a [`Material`] holds.
@@ -213,8 +221,10 @@ pub struct Material<T: Real> {
     pub yield_stress: Option<f64>,
     /// Shear modulus G \[Pa\], if known.
     pub shear_modulus: Option<f64>,
-    /// Dynamic viscosity μ \[Pa s\], if known.
+    /// Dynamic viscosity μ \[Pa s\], if known; a [rheology](Self::with_rheology) goes before it.
     pub dynamic_viscosity: Option<f64>,
+    rheology: Option<Arc<dyn RheologyObject<T>>>,
+    sound_speed: SoundSpeed,
     eos: Arc<dyn EosObject<T>>,
 }
 
@@ -228,6 +238,8 @@ impl<T: Real> Material<T> {
             yield_stress: None,
             shear_modulus: None,
             dynamic_viscosity: None,
+            rheology: None,
+            sound_speed: SoundSpeed::Physical,
             eos: Arc::new(Erased {
                 law: eos,
                 cut_off: None,
@@ -242,6 +254,7 @@ impl<T: Real> Material<T> {
             law: eos,
             cut_off: self.eos.pressure_cut_off(),
         });
+        self.sound_speed = SoundSpeed::Physical;
         self
     }
     /// A least pressure \[Pa\], zero or negative: p = max(p_law, p_min), each cut counted under
@@ -278,10 +291,18 @@ impl<T: Real> Material<T> {
         self.shear_modulus = Some(shear_modulus);
         self
     }
-    /// Dynamic viscosity μ \[Pa s\].
+    /// A constant dynamic viscosity μ \[Pa s\], in place of any [rheology](Self::with_rheology).
     #[must_use]
-    pub const fn with_dynamic_viscosity(mut self, dynamic_viscosity: f64) -> Self {
+    pub fn with_dynamic_viscosity(mut self, dynamic_viscosity: f64) -> Self {
         self.dynamic_viscosity = Some(dynamic_viscosity);
+        self.rheology = None;
+        self
+    }
+    /// A viscosity that follows from the shear rate, in place of a constant one.
+    #[must_use]
+    pub fn with_rheology(mut self, law: impl ViscosityLaw) -> Self {
+        self.dynamic_viscosity = None;
+        self.rheology = Some(Arc::new(rheology::Erased(law)));
         self
     }
 
@@ -289,6 +310,20 @@ impl<T: Real> Material<T> {
     #[must_use]
     pub fn eos(&self) -> &dyn EosObject<T> {
         &*self.eos
+    }
+    /// The viscosity law: the [one given](Self::with_rheology), or the Newtonian of the constant
+    /// [`dynamic_viscosity`](Self::dynamic_viscosity); `None` for stuff without viscosity.
+    #[must_use]
+    pub fn rheology(&self) -> Option<&dyn RheologyObject<T>> {
+        let constant = self.dynamic_viscosity.as_ref();
+        self.rheology
+            .as_deref()
+            .or(constant.map(|viscosity| viscosity as &dyn RheologyObject<T>))
+    }
+    /// How the sound speed of a [`Liquid`] was chosen; [`Physical`](SoundSpeed::Physical) for all else.
+    #[must_use]
+    pub const fn sound_speed(&self) -> SoundSpeed {
+        self.sound_speed
     }
     /// Density ρ₀ \[kg/m³\] of the law at rest.
     #[must_use]
@@ -325,6 +360,10 @@ impl<T: Real> Material<T> {
                 problems.push((field, value, "finite and not negative"));
             }
         }
+        if let Some(law) = &self.rheology {
+            problems.extend(law.problems());
+        }
+        problems.extend(self.sound_speed.problems());
         problems
     }
 }
@@ -416,6 +455,8 @@ mod tests {
         let law = super::eos::Linear::new(1000.0, 20.0);
         let water = Material::<f64>::new("water", law).with_pressure_cut_off(0.0);
         assert!(water.state(f64::NAN, 0.0).0.is_nan());
+        let wrapped = Material::<f64>::new("water", TensionCutOff::new(law, 0.0));
+        assert!(wrapped.state(f64::NAN, 0.0).0.is_nan());
     }
 
     #[test]
