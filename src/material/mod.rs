@@ -77,8 +77,8 @@ pub trait EosObject<T: Real>: sealed::Sealed + Debug + Send + Sync + 'static {
     /// liquid without an energy of its own stores like a spring. For a law with energy it is the part
     /// of the cold curve alone. The relative error is 10⁻¹², 10⁻⁹ across a kink of the law.
     fn compression_energy(&self, density: f64) -> f64 {
-        let pressure = |rho: f64| self.state(rho, 0.0).0;
-        cold::compression_energy(pressure, self.reference_density(), density)
+        let law = |rho: f64| self.state(rho, 0.0);
+        cold::compression_energy(law, self.reference_density(), density)
     }
     /// Pressures \[Pa\] and sound speeds \[m/s\] of a row of particles from densities \[kg/m³\] and
     /// specific internal energies \[J/kg\] (zero where absent), and how often guards acted. As many
