@@ -56,7 +56,7 @@
 //! | [`prelude`] | the names that most programs use |
 //! | [`scene`] | bodies, boundaries and loads, checked as a whole and built into a simulation |
 //! | [`geometry`] | shapes by signed distance, and the lattices that fill and surround them |
-//! | [`material`] | equations of state and named materials with their sources |
+//! | [`material`] | equations of state, viscosity laws and named materials with their sources |
 //! | [`schemes`] | ready schemes |
 //! | [`simulation`] | steps, criteria of the time step, ledgers, questions about particles |
 //! | [`output`] | tables, plots, particle files, progress |
@@ -143,12 +143,13 @@
 //! |---|---|---|
 //! | [`Kernel`](kernel::Kernel) | [in `kernel`](kernel#a-kernel-of-ones-own) | shape, slope, normalisation |
 //! | [`EquationOfState`](material::eos::EquationOfState) | [in `eos`](material::eos#a-law-of-ones-own) | pressure and sound speed |
+//! | [`ViscosityLaw`](material::rheology::ViscosityLaw) | [in `rheology`](material::rheology#a-law-of-ones-own) | viscosity for a shear rate |
 //! | [`ArtificialViscosity`](term::viscosity::ArtificialViscosity) | [in `term`](term#a-viscosity-of-ones-own) | Π and the signal of a pair |
 //! | [`Boundary`](boundary::Boundary) | [at the trait](boundary::Boundary) | images and their transforms |
 //! | [`Shape`](geometry::Shape) | [at the trait](geometry::Shape) | signed distance and a box around it |
 //! | [`Integrator`](integrator::Integrator) | [at the trait](integrator::Integrator) | one step, from a handful of operations |
 //!
-//! The first three run inside the loop over pairs or over particles. Their methods are generic over a
+//! The first four run inside the loop over pairs or over particles. Their methods are generic over a
 //! [`Lane`](scalar::Lane), so one text serves a single number and a row of them, and what you write is
 //! compiled into the same loop as what the crate brings. A [`Term`](term::Term) is the more general
 //! form of an effect between pairs; a [`PairSweep`](sweep::PairSweep) runs a tuple of terms.

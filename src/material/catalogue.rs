@@ -1,8 +1,8 @@
 //! The catalogue: named materials with their sources, all in SI units.
 //! Each is a function; [`by_name`] finds one for a command line.
 
-use super::Material;
-use super::eos::{Hugoniot, IdealGas, Linear, MieGruneisen, Tait};
+use super::eos::{Hugoniot, IdealGas, Linear, MieGruneisen};
+use super::{Liquid, Material, SoundSpeed};
 use crate::error::{Error, Problem};
 use crate::scalar::Real;
 
@@ -74,17 +74,30 @@ pub fn water<T: Real>() -> Material<T> {
         .with_dynamic_viscosity(1.0e-3)
 }
 
-/// Water as a weakly compressible liquid for speeds up to `greatest_speed` \[m/s\]: Tait with γ = 7
-/// and c₀ ten times that speed (Monaghan 1994), ρ₀ 1000 kg/m³, μ 10⁻³ Pa s. Impact pressures of the
-/// water-hammer kind, ρ c v, are then those of the artificial c₀.
+/// Water at a chosen sound speed: Tait's law with γ = 7, ρ₀ 1000 kg/m³, physical c₀ 1480 m/s, μ 10⁻³
+/// Pa s. [`Liquid`] makes it on the linear law, other liquids likewise, and prints what each costs.
+///
+/// ```
+/// use meshfree::material::{Material, SoundSpeed, catalogue};
+/// // For flow up to 2 m/s, at a tenth of the speed of sound.
+/// let water: Material<f64> = catalogue::water_at(SoundSpeed::artificial(2.0));
+/// assert!((water.state(1000.0, 0.0).1 - 20.0).abs() < 1e-12);
+/// assert!(water.problems().is_empty());
+/// ```
+#[must_use]
+pub fn water_at<T: Real>(sound_speed: SoundSpeed) -> Material<T> {
+    Liquid::water()
+        .material("water", sound_speed)
+        .with_source("Cole 1948; viscosity at 20 °C")
+}
+
+/// Water as a weakly compressible liquid for speeds up to `greatest_speed` \[m/s\]:
+/// [`water_at`] the artificial sound speed of ten times that (Monaghan 1994).
 #[must_use]
 pub fn weakly_compressible_water<T: Real>(greatest_speed: f64) -> Material<T> {
-    Material::new(
-        "weakly compressible water",
-        Tait::artificial(1000.0, greatest_speed),
-    )
-    .with_source("Monaghan 1994; viscosity at 20 °C")
-    .with_dynamic_viscosity(1.0e-3)
+    let mut water = water_at(SoundSpeed::artificial(greatest_speed));
+    water.name = "weakly compressible water".into();
+    water.with_source("Monaghan 1994; viscosity at 20 °C")
 }
 
 /// Air at 20 °C and 101 325 Pa: γ 1.4, ρ₀ 1.204 kg/m³, μ 1.81·10⁻⁵ Pa s. An ideal gas at rest has

@@ -25,20 +25,25 @@ pub(super) fn compression<L: Lane>(density: L, reference_density: f64) -> L {
 
 /// Collects what is wrong with parameters.
 #[derive(Default)]
-pub(super) struct Problems(Vec<(&'static str, f64, &'static str)>);
+pub(in crate::material) struct Problems(Vec<(&'static str, f64, &'static str)>);
 
 impl Problems {
     /// The value must be finite and above zero.
-    pub(super) fn positive(self, field: &'static str, value: f64) -> Self {
+    pub(in crate::material) fn positive(self, field: &'static str, value: f64) -> Self {
         let fine = value.is_finite() && value > 0.0;
         self.must(fine, field, value, "positive and finite")
     }
+    /// The value must be finite and zero or more.
+    pub(in crate::material) fn not_negative(self, field: &'static str, value: f64) -> Self {
+        let fine = value.is_finite() && value >= 0.0;
+        self.must(fine, field, value, "finite and not negative")
+    }
     /// The value must be finite.
-    pub(super) fn finite(self, field: &'static str, value: f64) -> Self {
+    pub(in crate::material) fn finite(self, field: &'static str, value: f64) -> Self {
         self.must(value.is_finite(), field, value, "finite")
     }
     /// The condition must hold.
-    pub(super) fn must(
+    pub(in crate::material) fn must(
         mut self,
         fine: bool,
         field: &'static str,
@@ -51,7 +56,7 @@ impl Problems {
         self
     }
     /// All that was found.
-    pub(super) fn list(self) -> Vec<(&'static str, f64, &'static str)> {
+    pub(in crate::material) fn list(self) -> Vec<(&'static str, f64, &'static str)> {
         self.0
     }
 }

@@ -43,7 +43,7 @@
 //! assert_eq!(cloud.state(2.0, 0.0), (80_000.0, 200.0));
 //! ```
 
-mod guard;
+pub(super) mod guard;
 mod ideal_gas;
 mod jwl;
 mod linear;

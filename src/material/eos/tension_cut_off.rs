@@ -11,7 +11,8 @@ use crate::scalar::Lane;
 /// The sound speed stays that of the law: it sets time steps and viscosity, and the derivative of
 /// the cut pressure, which is zero, would serve neither. Customary limits: metals −1 to −5 GPa
 /// (spall), PMMA about −0.1 GPa, degassed water 0 to −1 MPa, a liquid with a free surface 0. Each
-/// cut is counted under `cut_off`.
+/// cut is counted under `cut_off`. A material of any law has the same by
+/// [`with_pressure_cut_off`](crate::material::Material::with_pressure_cut_off).
 ///
 /// ```
 /// use meshfree::material::eos::{EquationOfState, Linear, TensionCutOff};
@@ -53,8 +54,10 @@ impl<E: EquationOfState> EquationOfState for TensionCutOff<E> {
     fn state<L: Lane>(&self, density: L, energy: L) -> EosState<L> {
         let mut state = self.law.state(density, energy);
         let least = L::of(self.minimum_pressure);
-        state.guards.cut_off = state.guards.cut_off | state.pressure.lt(least);
-        state.pressure = state.pressure.max(least);
+        let below = state.pressure.lt(least);
+        state.guards.cut_off = state.guards.cut_off | below;
+        // Not the larger of the two, which is a valid number even where the law gives none.
+        state.pressure = L::select(below, least, state.pressure);
         state
     }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
