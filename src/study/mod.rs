@@ -14,6 +14,7 @@
 //! | [`riemann`] | exact Riemann problem of ideal and stiffened gases, vacuum included |
 //! | [`hugoniot`] | plateau of an impact by matching shock Hugoniots |
 //! | [`sod`], [`noh`], [`sedov`] | the standard shock problems |
+//! | [`records`] | files of measured and published curves |
 //! | [`norms`] | differences of profiles, plateau, rise time, overshoot, arrival, observed order |
 //!
 //! ```
@@ -29,6 +30,7 @@ pub mod godunov_rods;
 pub mod hugoniot;
 pub mod noh;
 pub mod norms;
+pub mod records;
 pub mod riemann;
 pub mod sedov;
 pub mod sod;
