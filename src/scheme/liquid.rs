@@ -75,6 +75,7 @@ pub struct LiquidBuilder<K, V, W = Nothing, R = Nothing, S = Nothing> {
     shifting: Option<Shifting>,
     smoothing: Smoothing,
     general_viscosity: bool,
+    normalised: bool,
 }
 
 impl<K, V> LiquidBuilder<K, V> {
@@ -95,6 +96,7 @@ impl<K, V> LiquidBuilder<K, V> {
             shifting: None,
             smoothing: Smoothing::Fixed,
             general_viscosity: false,
+            normalised: true,
         }
     }
 }
@@ -135,6 +137,7 @@ impl<K, V, W, R, S> LiquidBuilder<K, V, W, R, S> {
             shifting: self.shifting,
             smoothing: self.smoothing,
             general_viscosity: self.general_viscosity,
+            normalised: self.normalised,
         }
     }
     /// The same choices with another kernel.
@@ -218,6 +221,14 @@ impl<K, V, W, R, S> LiquidBuilder<K, V, W, R, S> {
         self
     }
 
+    /// Leaves out the normalisation by the first moment −Σ V r·∇W/D of the lattice, by which force and
+    /// compression are divided: without it a column at h/dx 1.3 with Wendland C2 is 2.7 % too heavy.
+    #[must_use]
+    pub fn without_normalisation(mut self) -> Self {
+        self.normalised = false;
+        self
+    }
+
     /// Compiles the choices into sweeps.
     #[must_use]
     pub fn compose<T: Real, const D: usize>(self) -> Scheme<T, D>
@@ -230,6 +241,7 @@ impl<K, V, W, R, S> LiquidBuilder<K, V, W, R, S> {
     {
         const UNIFORM: u8 = SmoothingMode::Uniform.bit();
         let (kernel, mode) = (self.kernel, SmoothingMode::Uniform);
+        let h_over_dx = self.h_over_dx.unwrap_or(kernel.h_over_dx());
         let boxed_gradient: Option<Box<dyn PairSweep<T, D>>> =
             if const { W::READS.contains(Field::DensityGradient) } {
                 Some(Box::new(Program::<_, _, UNIFORM>::new(
@@ -288,7 +300,7 @@ impl<K, V, W, R, S> LiquidBuilder<K, V, W, R, S> {
             pressure_form: self.density,
             energy: EnergyForm::None,
             smoothing: self.smoothing,
-            h_over_dx: self.h_over_dx.unwrap_or(kernel.h_over_dx()),
+            h_over_dx,
             step_factor: self.step_factor,
             normalised: false,
             viscosity_problems,
@@ -302,6 +314,11 @@ impl<K, V, W, R, S> LiquidBuilder<K, V, W, R, S> {
             ))),
             gradient: boxed_gradient,
             rates,
+            lattice_moment: if self.normalised {
+                lattice_moment(&kernel, h_over_dx)
+            } else {
+                1.0
+            },
             liquid: Some(Liquid {
                 wall,
                 wall_floor: self.wall_floor,
@@ -309,6 +326,26 @@ impl<K, V, W, R, S> LiquidBuilder<K, V, W, R, S> {
             }),
         }
     }
+}
+
+/// −Σ V r·∇W/D over a cubic lattice, by which sums of gradients fall short or exceed.
+fn lattice_moment<K: Kernel<D>, const D: usize>(kernel: &K, h_over_dx: f64) -> f64 {
+    let reach = (kernel.support() * h_over_dx).ceil() as i64;
+    let side = (2 * reach + 1) as usize;
+    let sum: f64 = (0..side.pow(D as u32))
+        .map(|k| {
+            let mut rest = k;
+            let r2: f64 = (0..D)
+                .map(|_| {
+                    let offset = (rest % side) as i64 - reach;
+                    rest /= side;
+                    (offset * offset) as f64
+                })
+                .sum();
+            -r2 * Kernel::<D>::slope_over_q(kernel, r2.sqrt() / h_over_dx)
+        })
+        .sum();
+    sum * kernel.normalisation() / (D as f64 * h_over_dx.powi(D as i32 + 2))
 }
 
 impl<T, const D: usize, K, V, W, R, S> From<LiquidBuilder<K, V, W, R, S>> for Scheme<T, D>

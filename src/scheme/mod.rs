@@ -131,6 +131,8 @@ pub struct Scheme<T: Real, const D: usize> {
     pub(crate) gradient: Option<Box<dyn PairSweep<T, D>>>,
     pub(crate) rates: Box<dyn PairSweep<T, D>>,
     pub(crate) liquid: Option<Liquid<T, D>>,
+    /// First moment of the kernel gradient on the lattice, where particles do not carry their own.
+    pub(crate) lattice_moment: f64,
 }
 
 impl<T: Real, const D: usize> Scheme<T, D> {
@@ -518,6 +520,7 @@ impl<K, V, const MODES: u8, const CURVED: bool> SchemeBuilder<K, V, MODES, CURVE
             gradient,
             rates,
             liquid: None,
+            lattice_moment: 1.0,
         }
     }
 }

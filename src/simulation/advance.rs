@@ -94,6 +94,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             return;
         }
         let form = self.group.scheme.density;
+        let lattice = T::from_f64(self.group.scheme.lattice_moment);
         let (rows, mobile) = (&self.group.scratch_rows, self.group.mobile);
         let [density, residual, rest, moment] = self.group.columns.many_mut([
             Field::Density,
@@ -101,7 +102,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             Field::ReferenceDensity,
             Field::Normalisation,
         ]);
-        let rest: [&[T]; 2] = [rest, moment];
+        let rest: Reference<'_, T> = (rest, moment, lattice);
         let change = |slot: usize, density: T| {
             density * expm1(rate(form, rows, rest, slot, density) * dt)
                 + dt * rows.get(Output::DensityDiffusion, 0, slot)
@@ -137,6 +138,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let high = T::from_f64(largest * group.smoothing_length);
         let dimension = T::from_f64(D as f64);
         let form = group.scheme.density;
+        let lattice = T::from_f64(group.scheme.lattice_moment);
         let (rows, mobile) = (&group.scratch_rows, group.mobile);
         let [h, density, rest, moment] = group.columns.many_mut([
             Field::SmoothingLength,
@@ -145,7 +147,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             Field::Normalisation,
         ]);
         let density = &*density;
-        let rest: [&[T]; 2] = [rest, moment];
+        let rest: Reference<'_, T> = (rest, moment, lattice);
         let limited: usize = h[..mobile]
             .par_iter_mut()
             .enumerate()
@@ -166,14 +168,18 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 fn rate<T: Real, const D: usize>(
     form: DensityForm,
     rows: &Rows<T, D>,
-    [rest, moment]: [&[T]; 2],
+    (rest, moment, lattice): Reference<'_, T>,
     slot: usize,
     density: T,
 ) -> T {
-    let one = |column: &[T]| column.get(slot).copied().unwrap_or(T::one());
     let sum = rows.get(Output::Compression, 0, slot);
-    form.compression(sum, density, one(rest), one(moment))
+    let rest = rest.get(slot).copied().unwrap_or(T::one());
+    let moment = moment.get(slot).copied().unwrap_or(lattice);
+    form.compression(sum, density, rest, moment)
 }
+
+/// Densities and first moments at rest, and the moment of those that do not carry their own.
+type Reference<'a, T> = (&'a [T], &'a [T], T);
 
 /// Whether a column of [`STATE`] is advanced in time, and does not follow from positions.
 fn is_state<T: Real, const D: usize>(scheme: &Scheme<T, D>, field: Field) -> bool {
@@ -449,7 +455,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let group = &self.group;
         // The rates were summed with the weights of the force.
         let form = group.scheme.pressure_form;
-        let rest = [Field::ReferenceDensity, Field::Normalisation].map(|f| group.columns.raw(f));
+        let [rest, moment] =
+            [Field::ReferenceDensity, Field::Normalisation].map(|f| group.columns.raw(f));
+        let lattice = T::from_f64(group.scheme.lattice_moment);
+        let rest: Reference<'_, T> = (rest, moment, lattice);
         match field {
             Field::Velocity => {
                 let (slot, d) = (k / D, k % D);

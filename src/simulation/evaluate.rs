@@ -426,13 +426,15 @@ impl<T: Real, const D: usize> Group<T, D> {
         let (pressure, density) = (&*pressure, &*density);
         let (rest, moment, omega) = (&*rest, &*moment, &*omega);
         let one = |column: &[T], slot: usize| column.get(slot).copied().unwrap_or(T::one());
+        let lattice = T::from_f64(self.scheme.lattice_moment);
         coefficient
             .par_iter_mut()
             .enumerate()
             .with_min_len(GRAIN)
             .for_each(|(slot, x)| {
                 let p = pressure[slot] / one(omega, slot);
-                *x = form.coefficient(p, density[slot], one(rest, slot), one(moment, slot));
+                let moment = moment.get(slot).copied().unwrap_or(lattice);
+                *x = form.coefficient(p, density[slot], one(rest, slot), moment);
             });
     }
 

@@ -513,6 +513,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             blocks: &self.blocks,
             interactions: &self.interactions,
             smoothing_length: self.smoothing_length,
+            lattice_moment: self.scheme.lattice_moment,
             instructions: self.instructions,
         }
     }

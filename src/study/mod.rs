@@ -14,6 +14,12 @@
 //! | [`riemann`] | exact Riemann problem of ideal and stiffened gases, vacuum included |
 //! | [`hugoniot`] | plateau of an impact by matching shock Hugoniots |
 //! | [`sod`], [`noh`], [`sedov`] | the standard shock problems |
+//! | [`taylor_green`], [`channel`] | viscous flows: decaying vortices; Couette, Poiseuille, power law |
+//! | [`standing_wave`] | period, velocities and decay of a wave in a tank |
+//! | [`impulsive_tank`] | pressure in a tank that is accelerated suddenly |
+//! | [`dam_break`] | units of dam-break experiments, Ritter's flow on a dry bed |
+//! | [`ghia`] | centre-line velocities of the lid-driven cavity |
+//! | [`records`] | files of measured and published curves |
 //! | [`norms`] | differences of profiles, plateau, rise time, overshoot, arrival, observed order |
 //!
 //! ```
@@ -25,13 +31,22 @@
 //! ```
 
 pub mod acoustic_rods;
+pub mod channel;
+#[cfg(test)]
+mod check;
+pub mod dam_break;
+pub mod ghia;
 pub mod godunov_rods;
 pub mod hugoniot;
+pub mod impulsive_tank;
 pub mod noh;
 pub mod norms;
+pub mod records;
 pub mod riemann;
 pub mod sedov;
 pub mod sod;
+pub mod standing_wave;
+pub mod taylor_green;
 
 /// What a reference solution could not do, and what to change.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -198,4 +213,22 @@ pub(crate) fn finite(quantity: &'static str, value: f64) -> Result<f64, StudyErr
             requirement: "finite",
         })
     }
+}
+
+/// An error unless the value lies between `from` and `to`, both included.
+pub(crate) fn within(
+    quantity: &'static str,
+    value: f64,
+    from: f64,
+    to: f64,
+) -> Result<(), StudyError> {
+    if (from..=to).contains(&value) {
+        return Ok(());
+    }
+    Err(StudyError::OutOfRange {
+        quantity,
+        value,
+        from,
+        to,
+    })
 }

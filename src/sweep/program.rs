@@ -44,6 +44,8 @@ pub struct SweepInput<'a, T, const D: usize> {
     pub targets: Range<usize>,
     /// The acceleration that acts on all particles \[m/s²\], in the frame of their container.
     pub body_force: [T; D],
+    /// First moment of the kernel gradient on the lattice, by which sums of gradients are divided.
+    pub lattice_moment: f64,
     /// The instruction set to run on.
     pub instructions: InstructionSet,
 }
@@ -253,6 +255,7 @@ impl<K, P, const MODES: u8> Program<K, P, MODES> {
             images: input.images,
             targets: &input.targets,
             body_force: input.body_force,
+            lattice_moment: T::from_f64(input.lattice_moment),
             h,
             kernel_norm: T::from_f64(self.kernel.normalisation()),
         };
@@ -280,6 +283,7 @@ struct Task<'a, T, K, P, const D: usize> {
     images: &'a [Image],
     targets: &'a Range<usize>,
     body_force: [T; D],
+    lattice_moment: T,
     h: T,
     kernel_norm: T,
 }
@@ -469,6 +473,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
             Scale::new(own[h_at], norm, D)
         };
         let body_force = self.body_force.map(L::splat);
+        let lattice_moment = L::splat(self.lattice_moment);
         let mut shown = [T::zero(); MOST_READS];
         for &j in neighbors {
             let record = &self.records[j as usize * stride..j as usize * stride + stride];
@@ -523,6 +528,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                 f_j,
                 mobile,
                 body_force,
+                lattice_moment,
                 i: own,
                 j: record,
                 layout: PhantomData,

@@ -24,7 +24,7 @@ pub struct LaminarViscosity;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CentralViscosity;
 
-/// Vᵢ Vⱼ μ̄ F/(r² + 0.01 h²).
+/// Vᵢ Vⱼ μ̄ F/(r² + 0.01 h²), over the first moment of the lattice.
 #[inline(always)]
 fn factor<L: Lane, const D: usize, P: Layout>(pair: &Pair<'_, L, D, P>) -> L {
     let (mu_i, mu_j) = (
@@ -37,7 +37,7 @@ fn factor<L: Lane, const D: usize, P: Layout>(pair: &Pair<'_, L, D, P>) -> L {
     let volumes = pair.i(Field::Mass) * pair.j(Field::Mass)
         / (pair.i(Field::Density) * pair.j(Field::Density));
     let r2 = pair.h.mul_add(pair.h * L::of(0.01), pair.r2);
-    volumes * mu * pair.f / r2
+    volumes * mu * pair.f / (r2 * pair.lattice_moment)
 }
 
 const READS: Fields = Fields::of(&[

@@ -156,6 +156,9 @@ pub struct Pair<'a, L: Lane, const D: usize, P: Layout> {
     pub mobile: L,
     /// The acceleration \[m/s²\] that acts on all particles, in the frame of their container.
     pub body_force: [L; D],
+    /// First moment −Σ V r·∇W/D of the lattice, for terms that are divided by it; one in schemes whose
+    /// particles carry their own.
+    pub lattice_moment: L,
     pub(crate) i: &'a [L; MOST_READS],
     pub(crate) j: &'a [L::Scalar],
     pub(crate) layout: PhantomData<P>,

@@ -90,6 +90,7 @@ pub fn probe<L: Lane, const D: usize, K: Kernel<D>, A: Term<D>>(
         f_j: f,
         mobile: L::one(),
         body_force: [L::zero(); D],
+        lattice_moment: L::one(),
         i: &own,
         j: &other,
         layout: PhantomData,
