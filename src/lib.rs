@@ -59,6 +59,7 @@
 //! | [`material`] | equations of state, viscosity laws and named materials with their sources |
 //! | [`schemes`] | ready schemes |
 //! | [`simulation`] | steps, criteria of the time step, ledgers, questions about particles |
+//! | [`observe`] | pressure probes, wave gauges, flow through planes |
 //! | [`output`] | tables, plots, particle files, progress |
 //! | [`study`] | exact and reference solutions, norms, orders of convergence |
 //! | [`error`] | what went wrong, where, and what to try |
@@ -162,6 +163,7 @@ pub mod integrator;
 pub mod kernel;
 pub mod material;
 pub mod neighbors;
+pub mod observe;
 pub mod output;
 pub mod particles;
 pub mod prelude;

@@ -7,6 +7,8 @@
 //! | [`MirrorPlane::wall`] | the reflection, in contact that opens | rigid walls, at rest or moving |
 //! | [`MirrorPlane::symmetry`] | the reflection, bonded | half of a symmetric problem |
 //! | [`Periodic`] | the copy one period on | waves, homogeneous flow |
+//! | [`Wall`] | – (particles of its own) | tanks, obstacles, pistons of any shape, for liquids |
+//! | [`Outlet`] | – (particles leave) | liquid that is driven out |
 //!
 //! Boundaries combine: a later one also shows images of the images of earlier ones, which fills edges
 //! and corners. Images are found when neighbour lists are made, and follow their particles until the
@@ -19,6 +21,7 @@
 
 mod mirror;
 mod motion;
+mod outlet;
 mod periodic;
 mod wall;
 
@@ -27,6 +30,7 @@ use core::fmt::Debug;
 
 pub use mirror::MirrorPlane;
 pub use motion::{Crush, Motion, Pose, Rotation, Translation};
+pub use outlet::Outlet;
 pub use periodic::Periodic;
 pub use wall::{Slip, Wall};
 

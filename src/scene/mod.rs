@@ -34,7 +34,7 @@ mod check;
 
 pub use body::{Body, Start};
 
-use crate::boundary::{Boundary, Wall};
+use crate::boundary::{Boundary, Outlet, Wall};
 use crate::error::{BuildError, Error, Problem, Result};
 use crate::integrator::{Integrator, KickDriftKick};
 use crate::particles::{Columns, Field, Fields};
@@ -62,6 +62,7 @@ use crate::sweep::{InstructionSet, Interaction};
 pub struct Scene<T: Real, const D: usize> {
     bodies: Vec<Body<T, D>>,
     walls: Vec<Wall<D>>,
+    outlets: Vec<Outlet<D>>,
     boundaries: Vec<Box<dyn Boundary<T, D>>>,
     scheme: Scheme<T, D>,
     integrator: Box<dyn Integrator>,
@@ -84,6 +85,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         Self {
             bodies: Vec::new(),
             walls: Vec::new(),
+            outlets: Vec::new(),
             boundaries: Vec::new(),
             scheme,
             integrator: Box::new(KickDriftKick),
@@ -106,6 +108,13 @@ impl<T: Real, const D: usize> Scene<T, D> {
     #[must_use]
     pub fn wall(mut self, wall: Wall<D>) -> Self {
         self.walls.push(wall);
+        self
+    }
+
+    /// Adds an outlet, beyond which particles leave.
+    #[must_use]
+    pub fn outlet(mut self, outlet: Outlet<D>) -> Self {
+        self.outlets.push(outlet);
         self
     }
 
@@ -207,6 +216,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             bodies.push(BodyState {
                 name: body.name.clone(),
                 material: body.material.clone(),
+                ids: own.clone(),
                 slots: own,
                 end: start,
                 spacing: body.spacing,
@@ -246,6 +256,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             skin,
         );
         group.instructions = self.instructions;
+        group.outlets = self.outlets;
         group.take_reference();
         let mut simulation = Simulation::new(group, self.integrator, self.control, self.loads);
         simulation.evaluate()?;

@@ -1,7 +1,7 @@
 //! A group: the bodies that share a scheme, with their columns, neighbour lists and images.
 //! It knows where particles are and who their neighbours are; physics happens in `evaluate`.
 
-use crate::boundary::{Boundary, Motion, Pose, Slip};
+use crate::boundary::{Boundary, Motion, Outlet, Pose, Slip};
 use crate::material::Material;
 use crate::material::eos::GuardCounts;
 use crate::neighbors::{Block, ClusterLists, Grid, Radii, SearchInput};
@@ -23,6 +23,8 @@ pub struct BodyState<T: Real> {
     pub(crate) slots: Range<usize>,
     /// One past the last slot of its run, a whole number of clusters.
     pub(crate) end: usize,
+    /// Identities that its particles have had.
+    pub(crate) ids: Range<usize>,
     pub(crate) spacing: f64,
 }
 
@@ -30,6 +32,30 @@ impl<T: Real> BodyState<T> {
     /// Its slots with the repeats.
     pub(crate) fn run(&self) -> Range<usize> {
         self.slots.start..self.end
+    }
+}
+
+/// What has left a simulation through its outlets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Removed<const D: usize> {
+    /// Particles.
+    pub particles: u64,
+    /// Mass \[kg\].
+    pub mass: f64,
+    /// Momentum \[kg m/s\].
+    pub momentum: [f64; D],
+    /// Kinetic energy \[J\].
+    pub kinetic: f64,
+}
+
+impl<const D: usize> Default for Removed<D> {
+    fn default() -> Self {
+        Self {
+            particles: 0,
+            mass: 0.0,
+            momentum: [0.0; D],
+            kinetic: 0.0,
+        }
     }
 }
 
@@ -60,6 +86,9 @@ pub(crate) struct Group<T: Real, const D: usize> {
     pub columns: Columns<T, D>,
     pub bodies: Vec<BodyState<T>>,
     pub walls: Vec<WallState<D>>,
+    pub outlets: Vec<Outlet<D>>,
+    /// What has left through outlets.
+    pub removed: Removed<D>,
     /// Slots below this move by forces; walls come behind.
     pub mobile: usize,
     /// What the loads give \[m/s²\].
@@ -142,6 +171,8 @@ impl<T: Real, const D: usize> Group<T, D> {
             mobile: walls.first().map_or(slots, |wall| wall.slots.start),
             bodies,
             walls,
+            outlets: Vec::new(),
+            removed: Removed::default(),
             gravity: [0.0; D],
             body_force: [T::zero(); D],
             boundaries,
@@ -254,6 +285,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.rebuilds += 1;
         self.listed_time = time;
         self.wrap();
+        self.remove();
         let reach = self.reach();
         if D > 1 {
             self.sort(0.5 * reach);
@@ -344,16 +376,61 @@ impl<T: Real, const D: usize> Group<T, D> {
                 .collect();
             let own = &mut order[slots.clone()];
             own.par_sort_by_key(|&slot| keys[slot as usize - slots.start]);
-            let last = order[slots.end - 1];
-            order[slots.end..end].fill(last);
+            if let Some(&last) = order[slots.clone()].last() {
+                order[slots.end..end].fill(last);
+            }
         }
+        self.reorder(&order);
+    }
+
+    /// Takes out what outlets take; the slots behind the last particle of a body repeat it.
+    fn remove(&mut self) {
+        if self.outlets.is_empty() {
+            return;
+        }
+        let mut order: Vec<u32> = (0..self.columns.slots() as u32).collect();
+        let mut any = false;
+        for k in 0..self.bodies.len() {
+            let (slots, end) = (self.bodies[k].slots.clone(), self.bodies[k].end);
+            let mut kept = slots.start;
+            for slot in slots.clone() {
+                let x = self.columns.vectors(Field::Position)[slot].map(Real::to_f64);
+                if !self.outlets.iter().any(|outlet| outlet.takes(&x)) {
+                    order[kept] = slot as u32;
+                    kept += 1;
+                    continue;
+                }
+                any = true;
+                self.slot_of[self.ids[slot] as usize] = u32::MAX;
+                let mass = self.columns.raw(Field::Mass)[slot].to_f64();
+                let v = self.columns.vectors(Field::Velocity)[slot].map(Real::to_f64);
+                self.removed.particles += 1;
+                self.removed.mass += mass;
+                for d in 0..D {
+                    self.removed.momentum[d] += mass * v[d];
+                    self.removed.kinetic += 0.5 * mass * v[d] * v[d];
+                }
+            }
+            if kept > slots.start {
+                let last = order[kept - 1];
+                order[kept..end].fill(last);
+            }
+            self.bodies[k].slots.end = kept;
+        }
+        if any {
+            self.reorder(&order);
+        }
+    }
+
+    /// Rearranges the slots, and remembers it for states outside.
+    fn reorder(&mut self, order: &[u32]) {
         if order.iter().enumerate().all(|(k, &from)| k as u32 == from) {
             return;
         }
-        self.columns.permute(&order);
-        self.rows.permute(&order);
+        self.columns.permute(order);
+        self.rows.permute(order);
         if self.moved.order.is_empty() {
-            self.moved.order.clone_from(&order);
+            self.moved.order.extend_from_slice(order);
         } else {
             let before = core::mem::take(&mut self.moved.order);
             self.moved.order = order.iter().map(|&k| before[k as usize]).collect();
