@@ -2,6 +2,8 @@
 //! Whatever was written before a crash stays readable.
 
 pub mod csv;
+mod deflate;
+pub mod png;
 pub mod progress;
 pub mod svg;
 pub mod table;

@@ -2,6 +2,7 @@
 //! Thinned to what can be seen, so that long histories make small files.
 
 mod axis;
+mod bar;
 mod cloud;
 mod color;
 mod draw;
