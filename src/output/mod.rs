@@ -3,6 +3,7 @@
 
 pub mod csv;
 mod deflate;
+pub mod picture;
 pub mod png;
 pub mod progress;
 pub mod svg;

@@ -11,7 +11,7 @@ use std::fmt::Write as _;
 const WIDTH: f64 = 12.0;
 const LABEL: f64 = 12.5;
 /// The number of colours.
-pub(in crate::output) const LEVELS: usize = 64;
+pub(super) const LEVELS: usize = 64;
 /// The colour of values that have no place on the scale.
 const UNKNOWN: Color = Color(170, 170, 170);
 

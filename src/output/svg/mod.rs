@@ -17,11 +17,14 @@ mod slope;
 mod text;
 
 pub use axis::Axis;
+pub(super) use bar::{Bar, level_color};
 pub use color::{Color, PALETTE, viridis};
 pub use figure::Figure;
+pub(super) use figure::page;
 pub use fit::{PowerLaw, power_law};
 pub use legend::Legend;
 pub use panel::Panel;
+pub(super) use path::px;
 pub use series::{Cloud, Marker, Series};
 
 #[cfg(test)]
