@@ -58,7 +58,7 @@
 //! | [`material`] | equations of state and named materials with their sources |
 //! | [`schemes`] | ready schemes |
 //! | [`simulation`] | steps, criteria of the time step, ledgers, questions about particles |
-//! | [`output`] | tables, plots, particle files, progress |
+//! | [`output`] | tables, plots, pictures, particle files, progress |
 //! | [`study`] | exact and reference solutions, norms, orders of convergence |
 //! | [`error`] | what went wrong, where, and what to try |
 //! | [`boundary`] | mirror planes and periodic directions; a trait for others |

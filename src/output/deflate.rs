@@ -7,7 +7,7 @@ const WINDOW: usize = 1 << 15;
 const SHORTEST: usize = 4;
 const LONGEST: usize = 258;
 /// How many earlier places are tried: more makes files a few per cent smaller, and slower.
-const TRIES: usize = 24;
+const TRIES: usize = 64;
 const HASH_BITS: u32 = 15;
 const NOWHERE: u32 = u32::MAX;
 

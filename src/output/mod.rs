@@ -1,4 +1,4 @@
-//! What a run leaves behind: tables, plots, particle files, reports and a progress line.
+//! What a run leaves behind: tables, plots, pictures, particle files, reports and a progress line.
 //! Whatever was written before a crash stays readable.
 
 pub mod csv;

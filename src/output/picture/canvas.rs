@@ -8,8 +8,9 @@ use crate::output::svg::Color;
 const LIGHT: [f32; 3] = [-0.36, -0.48, 0.8];
 /// The brightness where light does not reach.
 const SHADOW: f32 = 0.45;
-/// Steps of brightness. Few make small files.
-const STEPS: f32 = 12.0;
+/// Steps of brightness for each pixel of the radius, at least 3 and at most 12. More would be lost
+/// on small spheres, and make files larger.
+const STEPS: f32 = 0.5;
 /// Spheres are drawn at least this large \[pixels\], so that none gets lost.
 const SMALLEST: f64 = 0.75;
 const INK: [f32; 3] = [60.0; 3];
@@ -67,6 +68,7 @@ impl Canvas {
         };
         let inverse = 1.0 / radius as f32;
         let (depth, radius) = (z as f32, radius as f32);
+        let steps = (STEPS * radius).clamp(3.0, 12.0).round();
         let offset = |pixel: usize, at: f64| (pixel as f64 + 0.5 - at) as f32 * inverse;
         for row in range(y, self.height) {
             let ny = offset(row, y);
@@ -83,7 +85,7 @@ impl Canvas {
                     continue;
                 }
                 let light = (nx * LIGHT[0] + ny * LIGHT[1] + nz * LIGHT[2]).max(0.0);
-                let light = (STEPS * light).round() / STEPS;
+                let light = (steps * light).round() / steps;
                 let bright = SHADOW + (1.0 - SHADOW) * light;
                 *dot = Dot {
                     depth,
