@@ -60,7 +60,7 @@
 //! | [`schemes`] | ready schemes |
 //! | [`simulation`] | steps, criteria of the time step, ledgers, questions about particles |
 //! | [`observe`] | pressure probes, wave gauges, flow through planes |
-//! | [`output`] | tables, plots, particle files, progress |
+//! | [`output`] | tables, plots, pictures, particle files, progress |
 //! | [`study`] | exact and reference solutions, norms, orders of convergence |
 //! | [`error`] | what went wrong, where, and what to try |
 //! | [`boundary`] | mirror planes and periodic directions; a trait for others |
