@@ -275,7 +275,9 @@ impl<T: Real, const D: usize> Scene<T, D> {
             let finite = |pose: &Pose<D>| {
                 (0..3).all(|order| {
                     let shift = pose.shift[order].iter();
-                    shift.chain(pose.linear[order].iter()).all(|x| x.is_finite())
+                    shift
+                        .chain(pose.linear[order].iter())
+                        .all(|x| x.is_finite())
                 })
             };
             if pose.as_ref().is_some_and(|pose| !finite(pose)) {

@@ -450,7 +450,9 @@ impl<T: Real, const D: usize> Group<T, D> {
         for wall in &self.walls {
             let pose = wall.motion.as_ref().map(|motion| motion.pose(time));
             if wall.carries {
-                let acceleration = pose.as_ref().map_or([0.0; D], |pose| pose.of(2, &wall.rest[0]));
+                let acceleration = pose
+                    .as_ref()
+                    .map_or([0.0; D], |pose| pose.of(2, &wall.rest[0]));
                 for d in 0..D {
                     self.body_force[d] -= T::from_f64(acceleration[d]);
                 }

@@ -89,6 +89,7 @@ pub fn probe<L: Lane, const D: usize, K: Kernel<D>, A: Term<D>>(
         f_i: f,
         f_j: f,
         mobile: L::one(),
+        mobile_i: L::one(),
         body_force: [L::zero(); D],
         lattice_moment: L::one(),
         i: &own,
