@@ -120,6 +120,8 @@ pub(crate) struct Group<T: Real, const D: usize> {
     pub instructions: InstructionSet,
     pub guards: GuardCounts,
     pub limited_h: u64,
+    /// Densities of torn liquid that were held, in particle steps.
+    pub held_densities: u64,
     pub rebuilds: u64,
     pub unilateral: bool,
     /// What list builds have done to particles since states outside of the group were last told.
@@ -195,6 +197,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             instructions: InstructionSet::detect(),
             guards: GuardCounts::default(),
             limited_h: 0,
+            held_densities: 0,
             rebuilds: 0,
             unilateral,
             moved: Moves::default(),
