@@ -135,10 +135,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         if group.scheme.liquid.is_none() {
             return;
         }
-        let share = std::env::var("MESH_FLOOR")
-            .ok()
-            .and_then(|s| s.parse::<f64>().ok())
-            .unwrap_or(TORN);
         let [density, residual] = group
             .columns
             .many_mut([Field::Density, Field::DensityResidual]);
@@ -151,21 +147,20 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let Some(torn) = torn else {
                 continue;
             };
-            let least = T::from_f64(share * torn);
+            let least = T::from_f64(TORN * torn);
             let run = body.slots.clone();
             held += density[run.clone()]
                 .par_iter_mut()
-                .enumerate()
                 .with_min_len(GRAIN)
-                .map(|(k, density)| {
+                .map(|density| {
+                    // What is no number stays one, and ends the run.
                     let low = *density < least;
                     if low {
                         *density = least;
                     }
-                    (k, low)
+                    usize::from(low)
                 })
-                .filter(|(_, low)| *low)
-                .count();
+                .sum::<usize>();
             // What rounding has left belongs to the density that was.
             if let Some(residual) = residual.get_mut(run.clone()) {
                 residual
