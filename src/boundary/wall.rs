@@ -39,6 +39,7 @@ pub struct Wall<const D: usize> {
     pub(crate) spacing: f64,
     pub(crate) motion: Option<Arc<dyn Motion<D>>>,
     pub(crate) slip: Slip,
+    pub(crate) sliding: [f64; D],
     pub(crate) carries: bool,
 }
 
@@ -52,6 +53,7 @@ impl<const D: usize> Wall<D> {
             spacing,
             motion: None,
             slip: Slip::Free,
+            sliding: [0.0; D],
             carries: false,
         }
     }
@@ -110,6 +112,15 @@ impl<const D: usize> Wall<D> {
         self
     }
 
+    /// Lets its surface run at `velocity` \[m/s\] beside its motion, while its particles keep their
+    /// place: a lid or a belt without end, along which the velocity must lie. It drags what
+    /// [sticks](Self::no_slip) to it.
+    #[must_use]
+    pub fn sliding(mut self, velocity: [f64; D]) -> Self {
+        self.sliding = velocity;
+        self
+    }
+
     /// Says that the wall carries the liquid with it, as a tank does and a piston does not.
     ///
     /// A density diffusion that leaves the hydrostatic part out ([`Fourtakas`](crate::term::Fourtakas))
@@ -135,7 +146,14 @@ mod tests {
     fn layers_fill_edges_and_corners() {
         let tank = Wall::around("tank", [0.0; 3], [1.0; 3], 0.1, 3, [[true; 2]; 3]);
         assert_eq!(tank.points().len(), 16 * 16 * 16 - 1000);
-        let open = Wall::around("cup", [0.0; 2], [1.0; 2], 0.1, 2, [[true; 2], [true, false]]);
+        let open = Wall::around(
+            "cup",
+            [0.0; 2],
+            [1.0; 2],
+            0.1,
+            2,
+            [[true; 2], [true, false]],
+        );
         assert_eq!(open.points().len(), 14 * 12 - 100);
         assert!(open.points().iter().all(|x| x[1] < 1.0));
     }

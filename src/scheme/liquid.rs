@@ -40,6 +40,8 @@ impl Shifting {
 pub(crate) struct Liquid<T: Real, const D: usize> {
     /// The sums of wall particles over liquid.
     pub wall: Box<dyn PairSweep<T, D>>,
+    /// The velocity gradient that a viscosity follows, where it does.
+    pub shear: Option<Box<dyn PairSweep<T, D>>>,
     /// Lowest pressure of a wall \[Pa\].
     pub wall_floor: f64,
     /// How particles are kept evenly spread.
@@ -167,7 +169,7 @@ impl<K, V, W, R, S> LiquidBuilder<K, V, W, R, S> {
     pub fn shifting<const D: usize>(
         mut self,
         shifting: Shifting,
-    ) -> LiquidBuilder<K, V, W, R, Crowding>
+    ) -> LiquidBuilder<K, V, W, R, Crowding<D>>
     where
         K: Kernel<D>,
     {
@@ -180,7 +182,7 @@ impl<K, V, W, R, S> LiquidBuilder<K, V, W, R, S> {
             self.kernel.normalisation() * Kernel::<D>::shape(&self.kernel, 1.0 / h_over_dx);
         self.shifting = Some(shifting);
         self.with(|k, v, w, r, _| {
-            let crowding = Crowding {
+            let crowding = Crowding::<D> {
                 repulsion,
                 at_spacing,
             };
@@ -213,8 +215,14 @@ impl<K, V, W, R, S> LiquidBuilder<K, V, W, R, S> {
         self.wall_floor = floor;
         self
     }
-    /// Lets the viscosity follow the rate of shear, for liquids that are not Newtonian. It costs a
-    /// sweep for the velocity gradient.
+    /// Lets the viscosity follow the shear rate γ̇ = √(2 D:D) by the
+    /// [law of each material](crate::material::Material::with_rheology), for liquids that are not
+    /// Newtonian. D is the symmetric part of the velocity gradient without its trace, to which a wall
+    /// without slip shows the velocity that makes the liquid stick.
+    ///
+    /// It costs a sweep for the velocity gradient, and needs a
+    /// [physical viscosity](Self::laminar_viscosity). Without it such a material keeps the viscosity it
+    /// has at rest.
     #[must_use]
     pub fn generalised_newtonian(mut self) -> Self {
         self.general_viscosity = true;
@@ -249,15 +257,18 @@ impl<K, V, W, R, S> LiquidBuilder<K, V, W, R, S> {
                     (DensityGradient,),
                     mode,
                 )))
-            } else if self.general_viscosity {
-                Some(Box::new(Program::<_, _, UNIFORM>::new(
-                    kernel,
-                    (VelocityGradient,),
-                    mode,
-                )))
             } else {
                 None
             };
+        let shear: Option<Box<dyn PairSweep<T, D>>> = if self.general_viscosity {
+            Some(Box::new(Program::<_, _, UNIFORM>::new(
+                kernel,
+                (VelocityGradient,),
+                mode,
+            )))
+        } else {
+            None
+        };
         let viscosity_problems = self.viscosity.problems();
         let viscous = const { R::READS.contains(Field::DynamicViscosity) };
         let wall: Box<dyn PairSweep<T, D>> = if viscous {
@@ -321,6 +332,7 @@ impl<K, V, W, R, S> LiquidBuilder<K, V, W, R, S> {
             },
             liquid: Some(Liquid {
                 wall,
+                shear,
                 wall_floor: self.wall_floor,
                 shifting: self.shifting,
             }),

@@ -11,14 +11,14 @@ use crate::scalar::Lane;
 /// W₀ is the kernel at the spacing: the second summand keeps particles from pairing (Monaghan 2000;
 /// Lind et al. 2012, eq. 24).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Crowding {
+pub struct Crowding<const D: usize> {
     /// Strength R of the repulsion; 0.2.
     pub repulsion: f64,
-    /// hᴰ W₀, the kernel at the spacing for h = 1.
+    /// hᴰ W₀, the kernel in D dimensions at the spacing for h = 1.
     pub at_spacing: f64,
 }
 
-impl<const D: usize> Term<D> for Crowding {
+impl<const D: usize> Term<D> for Crowding<D> {
     const READS: Fields = Fields::of(&[Field::Weight]);
     const WRITES: Outputs = Outputs::of(&[Output::Crowding, Output::Moment]);
     #[inline(always)]
