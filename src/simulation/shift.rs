@@ -12,6 +12,9 @@ use rayon::prelude::*;
 /// First moment −Σ V r·∇W/D of the neighbourhood at and below which a particle lies at a free
 /// surface and is not shifted, and from which on it is shifted in full. A flat surface has a half.
 const SURFACE: [f64; 2] = [0.75, 0.95];
+/// Largest coefficient of the concentration's gradient in h²: shifting diffuses particles in explicit
+/// steps, and overshoots beyond about a half (Skillen et al. 2013).
+const STABLE: f64 = 0.3;
 /// Longest shift in units of the smoothing length: larger ones come from pairs that have collapsed.
 const LONGEST: f64 = 0.1;
 
@@ -27,22 +30,29 @@ impl<T: Real, const D: usize> Group<T, D> {
             return;
         };
         let (rows, h, mobile) = (&self.scratch_rows, self.smoothing_length, self.mobile);
-        let [x, residual, transport, v, c] = self.columns.many_mut([
+        let [x, residual, v, c] = self.columns.many_mut([
             Field::Position,
             Field::PositionResidual,
-            Field::TransportVelocity,
             Field::Velocity,
             Field::SoundSpeed,
         ]);
         let (v, c) = (&*v, &*c);
         let displacement = |slot: usize| -> [T; D] {
             let factor = match shifting {
-                Shifting::Concentration { strength } => {
+                Shifting::Concentration {
+                    strength,
+                    free_surface,
+                } => {
                     let v = &v[slot * D..(slot + 1) * D];
                     let speed = v.iter().fold(0.0, |s, v| s + v.to_f64().powi(2)).sqrt();
                     let moment = rows.get(Output::Moment, 0, slot).to_f64();
                     let inside = (moment - SURFACE[0]) / (SURFACE[1] - SURFACE[0]);
-                    strength * h * speed * dt * inside.clamp(0.0, 1.0)
+                    let share = if free_surface {
+                        inside.clamp(0.0, 1.0)
+                    } else {
+                        1.0
+                    };
+                    (strength * h * speed * dt).min(STABLE * h * h) * share
                 }
                 // Σ (Vᵢ² + Vⱼ²) ∇W with nearly equal volumes, over the mass ρ V.
                 Shifting::TransportVelocity { background } => {
@@ -61,19 +71,6 @@ impl<T: Real, const D: usize> Group<T, D> {
             };
             sum.map(|g| T::from_f64(-factor * g))
         };
-        if !transport.is_empty() {
-            let per_time = T::from_f64(1.0 / dt);
-            transport[..mobile * D]
-                .par_chunks_mut(D)
-                .enumerate()
-                .with_min_len(GRAIN)
-                .for_each(|(slot, out)| {
-                    let by = displacement(slot);
-                    for d in 0..D {
-                        out[d] = by[d] * per_time;
-                    }
-                });
-        }
         if residual.is_empty() {
             x[..mobile * D]
                 .par_chunks_mut(D)
