@@ -27,7 +27,9 @@ impl<const D: usize> FlowPlane<D> {
     #[must_use]
     pub fn mass_beyond<T: Real>(&self, simulation: &Simulation<T, D>) -> f64 {
         let beyond = |x: [f64; D]| {
-            let height: f64 = (0..D).map(|d| (x[d] - self.point[d]) * self.normal[d]).sum();
+            let height: f64 = (0..D)
+                .map(|d| (x[d] - self.point[d]) * self.normal[d])
+                .sum();
             height > 0.0
         };
         let inside: f64 = simulation

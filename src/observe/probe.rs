@@ -160,7 +160,9 @@ mod tests {
         assert_eq!(points.len(), 19);
         let mut mean = [0.0; 3];
         for x in &points {
-            let along: f64 = (0..3).map(|d| (x[d] - probe.centre[d]) * probe.normal[d]).sum();
+            let along: f64 = (0..3)
+                .map(|d| (x[d] - probe.centre[d]) * probe.normal[d])
+                .sum();
             let r2: f64 = (0..3).map(|d| (x[d] - probe.centre[d]).powi(2)).sum();
             assert!(along.abs() < 1e-15 && r2.sqrt() < 0.1);
             for d in 0..3 {
@@ -170,7 +172,12 @@ mod tests {
         // The mean square radius of a disc is half its radius squared.
         let spread: f64 = points
             .iter()
-            .map(|x| (0..3).map(|d| (x[d] - probe.centre[d]).powi(2)).sum::<f64>() / 19.0)
+            .map(|x| {
+                (0..3)
+                    .map(|d| (x[d] - probe.centre[d]).powi(2))
+                    .sum::<f64>()
+                    / 19.0
+            })
             .sum();
         assert!((spread / 0.005 - 1.0).abs() < 0.06, "{spread}");
         assert!((0..3).all(|d| (mean[d] - probe.centre[d]).abs() < 1e-14));

@@ -2,7 +2,7 @@
 //! A message names the field, the value, and what to do.
 
 use super::Scene;
-use crate::boundary::Pose;
+use crate::boundary::{Outlet, Pose};
 use crate::error::Problem;
 use crate::neighbors::Cells;
 use crate::scalar::Real;
@@ -229,6 +229,13 @@ impl<T: Real, const D: usize> Scene<T, D> {
     }
 
     fn check_walls(&self, problems: &mut Vec<Problem>) {
+        for (what, value, must_be) in self.outlets.iter().flat_map(Outlet::problems) {
+            problems.push(Problem::Parameter {
+                what: format!("{what} of an outlet"),
+                value,
+                must_be,
+            });
+        }
         let spacing = self.bodies.first().map_or(0.0, |body| body.spacing);
         for (k, wall) in self.walls.iter().enumerate() {
             if self.scheme.liquid.is_none() {
@@ -275,7 +282,9 @@ impl<T: Real, const D: usize> Scene<T, D> {
             let finite = |pose: &Pose<D>| {
                 (0..3).all(|order| {
                     let shift = pose.shift[order].iter();
-                    shift.chain(pose.linear[order].iter()).all(|x| x.is_finite())
+                    shift
+                        .chain(pose.linear[order].iter())
+                        .all(|x| x.is_finite())
                 })
             };
             if pose.as_ref().is_some_and(|pose| !finite(pose)) {

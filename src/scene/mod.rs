@@ -318,6 +318,15 @@ impl<T: Real, const D: usize> Scene<T, D> {
         set(Field::SoundSpeed, sound_speed);
         set(Field::Mass, density * wall.spacing.powi(D as i32));
         set(Field::SmoothingLength, self.scheme.h_over_dx * wall.spacing);
+        // The liquid corrects the gradients; a wall takes them as they are.
+        if let Some(rows) = columns
+            .raw_mut(Field::Correction)
+            .get_mut(slot * D * D..(slot + 1) * D * D)
+        {
+            for d in 0..D {
+                rows[d * (D + 1)] = T::one();
+            }
+        }
     }
 
     /// What every block does to every other: bodies, walls, images of bodies by boundary, and images of

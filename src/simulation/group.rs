@@ -395,7 +395,8 @@ impl<T: Real, const D: usize> Group<T, D> {
             let mut kept = slots.start;
             for slot in slots.clone() {
                 let x = self.columns.vectors(Field::Position)[slot].map(Real::to_f64);
-                if !self.outlets.iter().any(|outlet| outlet.takes(&x)) {
+                let v = self.columns.vectors(Field::Velocity)[slot].map(Real::to_f64);
+                if !self.outlets.iter().any(|outlet| outlet.takes(&x, &v)) {
                     order[kept] = slot as u32;
                     kept += 1;
                     continue;
@@ -403,7 +404,6 @@ impl<T: Real, const D: usize> Group<T, D> {
                 any = true;
                 self.slot_of[self.ids[slot] as usize] = u32::MAX;
                 let mass = self.columns.raw(Field::Mass)[slot].to_f64();
-                let v = self.columns.vectors(Field::Velocity)[slot].map(Real::to_f64);
                 self.removed.particles += 1;
                 self.removed.mass += mass;
                 for d in 0..D {
@@ -450,7 +450,9 @@ impl<T: Real, const D: usize> Group<T, D> {
         for wall in &self.walls {
             let pose = wall.motion.as_ref().map(|motion| motion.pose(time));
             if wall.carries {
-                let acceleration = pose.as_ref().map_or([0.0; D], |pose| pose.of(2, &wall.rest[0]));
+                let acceleration = pose
+                    .as_ref()
+                    .map_or([0.0; D], |pose| pose.of(2, &wall.rest[0]));
                 for d in 0..D {
                     self.body_force[d] -= T::from_f64(acceleration[d]);
                 }
