@@ -71,7 +71,7 @@ impl<const D: usize> Outlet<D> {
             }
             Reason::Outside { low, high } => (0..D)
                 .map(|d| high[d] - low[d])
-                .find(|size| !(*size > 0.0))
+                .find(|size| size.is_nan() || *size <= 0.0)
                 .map(|size| {
                     (
                         "size",
@@ -79,9 +79,11 @@ impl<const D: usize> Outlet<D> {
                         "the box must have a positive size along every axis",
                     )
                 }),
-            Reason::Faster { speed } => {
-                (!(*speed > 0.0)).then_some(("speed", *speed, "must be positive, in m/s"))
-            }
+            Reason::Faster { speed } => (speed.is_nan() || *speed <= 0.0).then_some((
+                "speed",
+                *speed,
+                "must be positive, in m/s",
+            )),
         }
         .into_iter()
         .collect()

@@ -7,6 +7,7 @@ use crate::error::Problem;
 use crate::neighbors::Cells;
 use crate::scalar::Real;
 use crate::scheme::EnergyForm;
+use crate::simulation::Load;
 
 /// Share of the spacing below which two particles of different bodies cannot be neighbours by intent.
 const TOO_CLOSE: f64 = 0.6;
@@ -271,7 +272,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 parameter("position", bad, "it must be finite, in metres");
             }
             // A lattice that is fitted to a box is stretched by less than half a particle in a row.
-            if !((wall.spacing - spacing).abs() <= 0.1 * spacing) {
+            let off = (wall.spacing - spacing).abs();
+            if off.is_nan() || off > 0.1 * spacing {
                 parameter(
                     "spacing",
                     wall.spacing,
@@ -295,14 +297,13 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 );
             }
         }
-        if let (Some(load), 0) = (self.loads.first(), problems.len()) {
-            if let Some(bad) = load(0.0).into_iter().find(|a| !a.is_finite()) {
-                problems.push(Problem::Parameter {
-                    what: "acceleration at t = 0".into(),
-                    value: bad,
-                    must_be: "it must be finite, in m/s²",
-                });
-            }
+        let bad = |load: &Load<D>| load(0.0).into_iter().find(|a| !a.is_finite());
+        if let Some(value) = self.loads.iter().find_map(bad) {
+            problems.push(Problem::Parameter {
+                what: "acceleration at t = 0".into(),
+                value,
+                must_be: "it must be finite, in m/s²",
+            });
         }
     }
 
