@@ -230,6 +230,23 @@ impl<T: Real, const D: usize> Scene<T, D> {
     }
 
     fn check_walls(&self, problems: &mut Vec<Problem>) {
+        for inlet in &self.inlets {
+            for (what, value, must_be) in inlet.problems() {
+                problems.push(Problem::Parameter {
+                    what: format!("{what} of the inlet of body `{}`", inlet.body),
+                    value,
+                    must_be,
+                });
+            }
+            if !self.bodies.iter().any(|body| body.name == inlet.body) {
+                let known: Vec<_> = self.bodies.iter().map(|body| body.name.as_str()).collect();
+                problems.push(Problem::UnknownName {
+                    kind: "body",
+                    name: inlet.body.clone(),
+                    known: known.join(", "),
+                });
+            }
+        }
         for (what, value, must_be) in self.outlets.iter().flat_map(Outlet::problems) {
             problems.push(Problem::Parameter {
                 what: format!("{what} of an outlet"),

@@ -1,7 +1,8 @@
 //! A group: the bodies that share a scheme, with their columns, neighbour lists and images.
 //! It knows where particles are and who their neighbours are; physics happens in `evaluate`.
 
-use crate::boundary::{Boundary, Motion, Outlet, Pose, Slip};
+use crate::boundary::{Boundary, Emitter, Motion, Outlet, Pose, Slip};
+use crate::error::{Error, Problem, Result};
 use crate::material::Material;
 use crate::material::eos::GuardCounts;
 use crate::neighbors::{Block, ClusterLists, Grid, Radii, SearchInput};
@@ -87,6 +88,8 @@ pub(crate) struct Group<T: Real, const D: usize> {
     pub bodies: Vec<BodyState<T>>,
     pub walls: Vec<WallState<D>>,
     pub outlets: Vec<Outlet<D>>,
+    /// Inlets, each with the body that it feeds.
+    pub emitters: Vec<(usize, Emitter<D>)>,
     /// What has left through outlets.
     pub removed: Removed<D>,
     /// Slots below this move by forces; walls come behind.
@@ -172,6 +175,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             bodies,
             walls,
             outlets: Vec::new(),
+            emitters: Vec::new(),
             removed: Removed::default(),
             gravity: [0.0; D],
             body_force: [T::zero(); D],
@@ -420,6 +424,76 @@ impl<T: Real, const D: usize> Group<T, D> {
         if any {
             self.reorder(&order);
         }
+    }
+
+    /// Lets particles enter that are due at `time`; whether there were any.
+    ///
+    /// # Errors
+    /// If a body's reserve is used up.
+    pub fn emit(&mut self, time: f64) -> Result<bool> {
+        let mut any = false;
+        for k in 0..self.emitters.len() {
+            while let Some((layer, velocity)) = self.emitters[k].1.due(time) {
+                any = true;
+                for x in layer {
+                    self.insert(self.emitters[k].0, x, velocity)?;
+                }
+            }
+        }
+        if any {
+            // Lists do not know the new ones.
+            self.rebuild(time);
+        }
+        Ok(any)
+    }
+
+    /// Appends one particle to a body, like its material at rest.
+    fn insert(&mut self, body: usize, x: [f64; D], velocity: [f64; D]) -> Result<()> {
+        let (slots, end) = (self.bodies[body].slots.clone(), self.bodies[body].end);
+        let free = self.bodies[body]
+            .ids
+            .clone()
+            .find(|&id| self.slot_of[id] == u32::MAX);
+        let (Some(id), true) = (free, slots.end < end) else {
+            return Err(Error::Argument(Problem::Parameter {
+                what: format!("reserve of the inlet of body `{}`", self.bodies[body].name),
+                value: slots.len() as f64,
+                must_be: "all of it has entered and none has left: give the inlet a larger reserve, \
+                          or put an outlet where the flow ends",
+            }));
+        };
+        let slot = slots.end;
+        let source = if slots.is_empty() {
+            slot
+        } else {
+            slots.end - 1
+        };
+        self.columns.copy_slot(source, slot);
+        let density = self.bodies[body].material.reference_density();
+        let mass = density * self.bodies[body].spacing.powi(D as i32);
+        let rounded = x.map(T::from_f64);
+        self.columns.vectors_mut(Field::Position)[slot] = rounded;
+        self.columns.vectors_mut(Field::Velocity)[slot] = velocity.map(T::from_f64);
+        if let Some(residual) = self
+            .columns
+            .vectors_mut(Field::PositionResidual)
+            .get_mut(slot)
+        {
+            *residual = core::array::from_fn(|d| T::from_f64(x[d] - rounded[d].to_f64()));
+        }
+        for (field, value) in [
+            (Field::Density, density),
+            (Field::DensityResidual, 0.0),
+            (Field::Mass, mass),
+        ] {
+            if let Some(place) = self.columns.raw_mut(field).get_mut(slot) {
+                *place = T::from_f64(value);
+            }
+        }
+        self.bodies[body].slots.end = slot + 1;
+        self.ids[slot] = id as u32;
+        self.slot_of[id] = slot as u32;
+        Ok(())
     }
 
     /// Rearranges the slots, and remembers it for states outside.

@@ -201,6 +201,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// # Errors
     /// As [`run_until`](Simulation::run_until).
     pub fn step_at_most(&mut self, limit: f64) -> Result<f64> {
+        if self.group.emit(self.time)? {
+            self.rates_at_hand = false;
+        }
         if !self.rates_at_hand {
             crate::integrator::System::evaluate(self, 0.0)?;
         }
