@@ -16,7 +16,7 @@ use meshfree::term::{
     KernelMoment, KernelSum, LaminarViscosity, LiquidAlongWall, LiquidNearWall, Molteni,
     PressureCurvature, PressureForce, PressureGradient, Probe, RenormalisedCompression,
     RenormalisedPressureForce, RiemannDiffusion, SlopeInH, Term, Unity, VelocityGradient,
-    Viscosity, probe,
+    Viscosity, ViscosityAtWall, probe,
 };
 
 macro_rules! for_each_viscosity_of {
@@ -71,6 +71,7 @@ macro_rules! for_each_term {
         });
         $check::<$D, _>(LiquidNearWall);
         $check::<$D, _>(LiquidAlongWall);
+        $check::<$D, _>(ViscosityAtWall);
         $check::<$D, _>(RenormalisedPressureForce);
         $check::<$D, _>(RenormalisedCompression);
         for_each_viscosity_of!(

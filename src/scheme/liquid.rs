@@ -9,7 +9,7 @@ use crate::sweep::{PairSweep, Program, SmoothingMode};
 use crate::term::{
     ArtificialViscosity, Compression, Crowding, DensityGradient, LiquidAlongWall, LiquidNearWall,
     Nothing, PressureForce, RenormalisedCompression, RenormalisedPressureForce, Term,
-    TransportStress, VelocityGradient, Viscosity,
+    TransportStress, VelocityGradient, Viscosity, ViscosityAtWall,
 };
 
 /// How particles are kept evenly spread.
@@ -227,8 +227,8 @@ impl<K, V, W, R, S, const MODES: u8, const RENORMALISED: bool>
     ) -> LiquidBuilder<K, V, W, R, S, { SmoothingMode::Mean.bit() }, RENORMALISED> {
         self.with(|k, v, w, r, s| (k, v, w, r, s))
     }
-    /// Corrects gradients of pressure force and compression, so that they are exact for linear fields:
-    /// a sweep more, and angular momentum is no longer conserved.
+    /// Corrects gradients of pressure force and compression, so that they are exact for linear fields, for
+    /// the price of a sweep.
     #[must_use]
     pub fn renormalised(self) -> LiquidBuilder<K, V, W, R, S, MODES, true> {
         self.without_normalisation()
@@ -307,10 +307,11 @@ impl<K, V, W, R, S, const MODES: u8, const RENORMALISED: bool>
         let viscosity_problems = self.viscosity.problems();
         let wall: Box<dyn PairSweep<T, D>> = if const { R::READS.contains(Field::DynamicViscosity) }
         {
-            let terms = (LiquidNearWall, LiquidAlongWall);
+            let terms = (LiquidNearWall, LiquidAlongWall, ViscosityAtWall);
             Box::new(Program::<_, _, MODES>::new(kernel, terms, mode))
         } else {
-            Box::new(Program::<_, _, MODES>::new(kernel, (LiquidNearWall,), mode))
+            let terms = (LiquidNearWall, LiquidAlongWall);
+            Box::new(Program::<_, _, MODES>::new(kernel, terms, mode))
         };
         let transport = matches!(self.shifting, Some(Shifting::TransportVelocity { .. }));
         let viscosity = Viscosity(self.viscosity);

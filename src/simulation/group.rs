@@ -531,10 +531,10 @@ impl<T: Real, const D: usize> Group<T, D> {
                     self.body_force[d] -= T::from_f64(acceleration[d]);
                 }
             }
-            // What sticks to a wall at rest has overwritten its velocity.
-            let stuck = wall.slip == Slip::None;
-            let first_time = self.rebuilds == 0;
-            if pose.is_none() && !stuck && !first_time {
+            // Viscosities have seen another velocity than the wall's own.
+            if pose.is_none() && self.rebuilds > 0 {
+                let own = wall.slots.start * D..wall.end * D;
+                self.columns.raw_mut(Field::Velocity)[own].fill(T::zero());
                 continue;
             }
             let pose = pose.unwrap_or_else(Pose::rest);

@@ -17,7 +17,7 @@
 //! | [`LaminarViscosity`], [`CentralViscosity`] | momentum | force of a physical viscosity |
 //! | [`Molteni`], [`Fourtakas`], [`Antuono`], [`RiemannDiffusion`] | density | diffusion against noise |
 //! | [`Crowding`], [`TransportStress`] | position | what shifting needs, and the force it brings |
-//! | [`LiquidNearWall`], [`LiquidAlongWall`] | walls | pressure and velocity of wall particles |
+//! | [`LiquidNearWall`], [`LiquidAlongWall`], [`ViscosityAtWall`] | walls | what wall particles take from the liquid |
 //!
 //! [`probe()`] evaluates a term for one pair, for tests of terms of your own.
 //!
@@ -112,7 +112,7 @@ pub use probe::{Probe, probe};
 pub use renormalised::{RenormalisedCompression, RenormalisedPressureForce};
 pub use sums::{Compression, KernelMoment, KernelSum, SlopeInH, Unity};
 pub use viscosity::{ArtificialViscosity, Viscosity, Viscous};
-pub use wall::{LiquidAlongWall, LiquidNearWall};
+pub use wall::{LiquidAlongWall, LiquidNearWall, ViscosityAtWall};
 
 /// Most numbers that a packed record can hold.
 pub const MOST_READS: usize = 40;

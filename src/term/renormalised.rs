@@ -16,8 +16,10 @@ fn corrected<L: Lane, const D: usize>(r: &[L; D], f: L, value: impl Fn(usize) ->
 /// The pressure force with the corrected gradient of each side:
 /// mᵢ dvᵢ/dt = −Σⱼ Bᵢ Bⱼ (Xᵢ Lᵢ + Xⱼ Lⱼ) ∇W, L the inverse of −Σ V r ⊗ ∇W.
 ///
-/// Opposite for the two sides, so linear momentum is conserved; it does not point along the line of
-/// centres, so angular momentum is not.
+/// Opposite for the two sides, so linear momentum is conserved. It does not point along the line of
+/// centres, but with weights by volume the torques of a particle's neighbours cancel, because L is the
+/// inverse of their moment: angular momentum is conserved too (Bonet & Lok 1999). With weights by mass it
+/// is not, where densities differ.
 #[derive(Clone, Copy, Debug)]
 pub struct RenormalisedPressureForce;
 
@@ -43,7 +45,7 @@ impl<const D: usize> Term<D> for RenormalisedPressureForce {
         TermDoc {
             name: "renormalised pressure force".into(),
             equation: "mᵢ dvᵢ/dt = −Σⱼ Bᵢ Bⱼ (Xᵢ Lᵢ + Xⱼ Lⱼ) ∇Wᵢⱼ",
-            source: "Randles & Libersky 1996; Vila 1999",
+            source: "Randles & Libersky 1996; Bonet & Lok 1999",
         }
     }
 }
