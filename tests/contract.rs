@@ -65,7 +65,7 @@ macro_rules! for_each_term {
         $check::<$D, _>(Fourtakas::default());
         $check::<$D, _>(Antuono::default());
         $check::<$D, _>(RiemannDiffusion);
-        $check::<$D, _>(Crowding {
+        $check::<$D, _>(Crowding::<$D> {
             repulsion: 0.2,
             at_spacing: 1.0,
         });

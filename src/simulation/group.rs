@@ -71,6 +71,8 @@ pub(crate) struct WallState<const D: usize> {
     pub rest: Vec<[f64; D]>,
     pub motion: Option<Arc<dyn Motion<D>>>,
     pub slip: Slip,
+    /// Velocity of its surface beside its motion \[m/s\].
+    pub sliding: [f64; D],
     pub carries: bool,
 }
 
@@ -531,16 +533,20 @@ impl<T: Real, const D: usize> Group<T, D> {
                     self.body_force[d] -= T::from_f64(acceleration[d]);
                 }
             }
-            // Viscosities have seen another velocity than the wall's own.
+            // What sticks to a wall at rest has overwritten its velocity.
             if pose.is_none() && self.rebuilds > 0 {
-                let own = wall.slots.start * D..wall.end * D;
-                self.columns.raw_mut(Field::Velocity)[own].fill(T::zero());
+                if wall.slip == Slip::None {
+                    let own = wall.slots.start..wall.end;
+                    let v = wall.sliding.map(T::from_f64);
+                    self.columns.vectors_mut(Field::Velocity)[own].fill(v);
+                }
                 continue;
             }
             let pose = pose.unwrap_or_else(Pose::rest);
             for slot in wall.slots.start..wall.end {
                 let at = (self.ids[slot] as usize - wall.slots.start).min(wall.rest.len() - 1);
-                let (x, v) = (pose.of(0, &wall.rest[at]), pose.of(1, &wall.rest[at]));
+                let (x, own) = (pose.of(0, &wall.rest[at]), pose.of(1, &wall.rest[at]));
+                let v: [f64; D] = core::array::from_fn(|d| own[d] + wall.sliding[d]);
                 let rounded = x.map(T::from_f64);
                 self.columns.vectors_mut(Field::Position)[slot] = rounded;
                 self.columns.vectors_mut(Field::Velocity)[slot] = v.map(T::from_f64);

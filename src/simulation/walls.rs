@@ -9,9 +9,8 @@ use crate::scalar::Real;
 use rayon::prelude::*;
 
 impl<T: Real, const D: usize> Group<T, D> {
-    /// Gives wall particles the pressure of the liquid before them, and the velocity that viscosities
-    /// see: the mirrored one where the liquid sticks, and elsewhere the liquid's own along the wall, so
-    /// that a viscosity sees approach and no sliding.
+    /// Gives wall particles the pressure of the liquid before them, and where it sticks to them the
+    /// mirrored velocity and the viscosity.
     pub fn fill_walls(&mut self, time: f64) {
         let Some(liquid) = &self.scheme.liquid else {
             return;
@@ -53,35 +52,22 @@ impl<T: Real, const D: usize> Group<T, D> {
                     });
                     *pressure = (sum / unity).max(floor);
                 });
-            let sticks = wall.slip == Slip::None;
-            velocity[run.start * D..run.end * D]
-                .par_chunks_mut(D)
-                .enumerate()
-                .with_min_len(GRAIN)
-                .for_each(|(k, v)| {
-                    let slot = first + k;
-                    let unity = rows.get(Output::Unity, 0, slot);
-                    if unity <= T::from_f64(DRY) {
-                        return;
-                    }
-                    let liquid = rows.vector(Output::LiquidVelocity, slot).map(|v| v / unity);
-                    if sticks {
-                        for d in 0..D {
-                            v[d] = v[d] + v[d] - liquid[d];
+            let sticks = wall.slip == Slip::None && !viscosity.is_empty();
+            if sticks {
+                velocity[run.start * D..run.end * D]
+                    .par_chunks_mut(D)
+                    .enumerate()
+                    .with_min_len(GRAIN)
+                    .for_each(|(k, v)| {
+                        let unity = rows.get(Output::Unity, 0, first + k);
+                        if unity > T::from_f64(DRY) {
+                            for (d, v) in v.iter_mut().enumerate() {
+                                let liquid = rows.get(Output::LiquidVelocity, d, first + k);
+                                *v = *v + *v - liquid / unity;
+                            }
                         }
-                        return;
-                    }
-                    // The arm of the pressure points from the liquid into the wall.
-                    let arm = rows.vector(Output::LiquidMoment, slot);
-                    let arm2 = arm.iter().fold(T::zero(), |sum, &a| sum + a * a);
-                    if arm2 <= T::zero() {
-                        return;
-                    }
-                    let lag = (0..D).fold(T::zero(), |sum, d| sum + (v[d] - liquid[d]) * arm[d]);
-                    for d in 0..D {
-                        v[d] = liquid[d] + arm[d] * (lag / arm2);
-                    }
-                });
+                    });
+            }
             if viscosity.is_empty() {
                 continue;
             }

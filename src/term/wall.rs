@@ -52,8 +52,8 @@ impl<const D: usize> Term<D> for LiquidAlongWall {
     }
     fn document(&self) -> TermDoc {
         TermDoc {
-            name: "velocity of walls".into(),
-            equation: "without slip v_w = 2 v_wall − Σ v_f W / Σ W; with slip the part along the wall is the liquid's",
+            name: "velocity of walls without slip".into(),
+            equation: "v_w = 2 v_wall − Σ v_f W / Σ W",
             source: "Adami, Hu & Adams 2012, eqs. 22, 23",
         }
     }
