@@ -408,7 +408,8 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                     kept = sums.take_kernel_sum();
                 }
                 let neighbors = &list.neighbors[segment.start as usize..segment.end as usize];
-                let mobile = L::of(f64::from(u8::from(!self.blocks[other].wall)));
+                let mobile = [block, other]
+                    .map(|block| L::of(f64::from(u8::from(!self.blocks[block].wall))));
                 self.segment::<L, HOW>(contact, mobile, &own, first, neighbors, &mut sums);
                 if contact {
                     own = full;
@@ -454,7 +455,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
     fn segment<L: Lane<Scalar = T>, const HOW: u8>(
         &self,
         contact: bool,
-        mobile: L,
+        mobile: [L; 2],
         own: &[L; MOST_READS],
         first: usize,
         neighbors: &[u32],
@@ -532,7 +533,8 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                 f,
                 f_i,
                 f_j,
-                mobile,
+                mobile: mobile[1],
+                mobile_i: mobile[0],
                 body_force,
                 lattice_moment,
                 i: own,

@@ -157,6 +157,8 @@ pub struct Pair<'a, L: Lane, const D: usize, P: Layout> {
     pub f_j: L,
     /// One where j moves by forces, zero where it belongs to a wall.
     pub mobile: L,
+    /// One where i moves by forces, zero where it belongs to a wall.
+    pub mobile_i: L,
     /// The acceleration \[m/s²\] that acts on all particles, in the frame of their container.
     pub body_force: [L; D],
     /// First moment −Σ V r·∇W/D of the lattice, for terms that are divided by it; one in schemes whose

@@ -90,6 +90,7 @@ pub fn probe<L: Lane, const D: usize, K: Kernel<D>, A: Term<D>>(
         f_i: f,
         f_j: f,
         mobile: L::one(),
+        mobile_i: L::one(),
         body_force: core::array::from_fn(|d| if d == 0 { L::one() } else { L::zero() }),
         lattice_moment: L::one(),
         i: &own,

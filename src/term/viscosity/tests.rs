@@ -102,6 +102,7 @@ fn ask<V: ArtificialViscosity<D>, const D: usize>(
         f_i: -1.0,
         f_j: -1.0,
         mobile: 1.0,
+        mobile_i: 1.0,
         body_force: [0.0; D],
         lattice_moment: 1.0,
         i: &own,

@@ -1,0 +1,398 @@
+//! What the examples of violent flow share: their options, and runs watched by probes and gauges.
+//! Used by `dam_break` and `sloshing_roll`.
+
+use crate::common::{Failure, Options, Own};
+use meshfree::observe::{PressureProbe, WaveGauge};
+use meshfree::output::csv::CsvWriter;
+use meshfree::output::progress::Progress;
+use meshfree::output::vtu::{Pvd, Vtu};
+use meshfree::prelude::*;
+use meshfree::study::records::Record;
+use meshfree::term::Fourtakas;
+use meshfree::term::viscosity::{MonaghanGingold, Riemann};
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// Options that the examples of violent flow take beside those of all.
+pub const OWN: [Own; 10] = [
+    own("--alpha", "A", "artificial viscosity (0.02; riemann: 1)"),
+    own("--delta", "D", "density diffusion (0.1)"),
+    own("--h-over-dx", "R", "smoothing length over spacing (1.5)"),
+    own("--sound-speed", "M/S", "ten times the speed expected"),
+    own(
+        "--gate",
+        "M/S",
+        "pulls the gate up at this speed (it vanishes at once)",
+    ),
+    own(
+        "--cut-off-pa",
+        "P",
+        "least pressure of the liquid (0: it tears)",
+    ),
+    own(
+        "--frames",
+        "N",
+        "particle files and pictures (20; 0 for none)",
+    ),
+    own("--reference", "DIR", "measured records (../shared/data)"),
+    own("--case", "NAME", "see above"),
+    own("--bars", "", "compares with the measured numbers"),
+];
+
+const fn own(name: &'static str, value: &'static str, help: &'static str) -> Own {
+    Own { name, value, help }
+}
+
+/// The schemes that can be asked for by name.
+pub const SCHEMES: [&str; 3] = ["weakly-compressible", "riemann", "shifting"];
+
+/// What the options mean.
+#[derive(Clone, Debug)]
+pub struct Choices {
+    pub scheme: String,
+    pub alpha: Option<f64>,
+    pub delta: f64,
+    pub h_over_dx: f64,
+    pub sound_speed: Option<f64>,
+    pub gate: Option<f64>,
+    pub cut_off: f64,
+    pub frames: usize,
+    pub reference: PathBuf,
+    pub bars: bool,
+}
+
+impl Choices {
+    /// From the command line.
+    pub fn of(options: &Options) -> Result<Self, Failure> {
+        let number = |name: &str, low: f64, takes: &str| {
+            let Some(text) = options.text(name) else {
+                return Ok(None);
+            };
+            let value = text.trim().parse::<f64>().ok();
+            let value = value.filter(|value| value.is_finite() && *value >= low);
+            value.map(Some).ok_or_else(|| {
+                format!("{name}: `{text}` is not accepted; it takes {takes}, in SI units")
+            })
+        };
+        let not_negative = |name: &str| number(name, 0.0, "a number, 0 or more");
+        let usual = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
+        let frames = not_negative("--frames")?.unwrap_or(if options.quick { 4.0 } else { 20.0 });
+        Ok(Self {
+            scheme: options.scheme.clone(),
+            alpha: not_negative("--alpha")?,
+            delta: not_negative("--delta")?.unwrap_or(0.1),
+            h_over_dx: not_negative("--h-over-dx")?.unwrap_or(1.5),
+            sound_speed: not_negative("--sound-speed")?,
+            gate: not_negative("--gate")?.filter(|speed| *speed > 0.0),
+            cut_off: number("--cut-off-pa", f64::MIN, "a number")?.unwrap_or(0.0),
+            frames: frames as usize,
+            reference: options.text("--reference").map_or(usual, PathBuf::from),
+            bars: options.has("--bars"),
+        })
+    }
+
+    /// The record of that name, or a note that it is not there.
+    pub fn record(&self, name: &str) -> Option<Record> {
+        match Record::read(self.reference.join(name)) {
+            Ok(record) => Some(record),
+            Err(error) => {
+                println!("without the record {name}: {error}");
+                None
+            }
+        }
+    }
+
+    /// Layers of wall particles that the kernel does not look through.
+    pub fn layers(&self) -> usize {
+        (2.0 * self.h_over_dx).ceil() as usize
+    }
+
+    /// The scheme, composed.
+    pub fn compose<T: Real, const D: usize>(&self) -> Scheme<T, D>
+    where
+        WendlandC2: Kernel<D>,
+    {
+        let base = schemes::weakly_compressible()
+            .density_diffusion(Fourtakas { delta: self.delta })
+            .h_over_dx(self.h_over_dx);
+        let alpha = |standard: f64| self.alpha.unwrap_or(standard);
+        match self.scheme.as_str() {
+            "riemann" => base
+                .with_viscosity(Riemann {
+                    alpha: alpha(1.0),
+                    ..Riemann::STANDARD
+                })
+                .named("weakly compressible, Riemann viscosity")
+                .compose(),
+            "shifting" => base
+                .with_viscosity(plain(alpha(0.02)))
+                .shifting::<D>(Shifting::STANDARD)
+                .named("weakly compressible, shifting")
+                .compose(),
+            _ => base.with_viscosity(plain(alpha(0.02))).compose(),
+        }
+    }
+}
+
+fn plain(alpha: f64) -> MonaghanGingold {
+    MonaghanGingold { alpha, beta: 0.0 }
+}
+
+/// What watches a run.
+#[derive(Default)]
+pub struct Watch<const D: usize> {
+    pub probes: Vec<PressureProbe<D>>,
+    pub gauges: Vec<WaveGauge<D>>,
+}
+
+/// A history: a time and a value for each step, by name.
+#[derive(Clone, Debug, Default)]
+pub struct History {
+    pub time: Vec<f64>,
+    pub names: Vec<String>,
+    pub columns: Vec<Vec<f64>>,
+    pub steps: u64,
+    pub wall_clock: f64,
+    pub particles: usize,
+    pub lost: usize,
+}
+
+impl History {
+    /// The values under a name.
+    pub fn column(&self, name: &str) -> &[f64] {
+        let index = self.names.iter().position(|own| own == name);
+        index.map_or(&[], |index| &self.columns[index])
+    }
+
+    /// Points of a curve, scaled.
+    pub fn points(&self, name: &str, time: f64, value: f64) -> Vec<(f64, f64)> {
+        let pairs = self.time.iter().zip(self.column(name));
+        pairs.map(|(t, v)| (t / time, v / value)).collect()
+    }
+
+    /// The mean between two times.
+    pub fn mean(&self, name: &str, from: f64, to: f64) -> f64 {
+        let values = self.column(name);
+        // Steps differ in length: trapezoids.
+        let (mut area, mut width) = (0.0, 0.0);
+        for k in 1..values.len() {
+            if self.time[k - 1] >= from && self.time[k] <= to {
+                let dt = self.time[k] - self.time[k - 1];
+                area += 0.5 * dt * (values[k] + values[k - 1]);
+                width += dt;
+            }
+        }
+        if width > 0.0 { area / width } else { f64::NAN }
+    }
+
+    /// The value at a time, between steps.
+    pub fn at(&self, name: &str, time: f64) -> f64 {
+        let values = self.column(name);
+        let right = self.time.partition_point(|t| *t < time);
+        if right == 0 || right >= values.len() {
+            return f64::NAN;
+        }
+        let (t0, t1) = (self.time[right - 1], self.time[right]);
+        values[right - 1] + (values[right] - values[right - 1]) * (time - t0) / (t1 - t0)
+    }
+
+    /// First time from `from` on at which the value exceeds a threshold.
+    pub fn first_above(&self, name: &str, threshold: f64, from: f64) -> f64 {
+        let mut pairs = self.time.iter().zip(self.column(name));
+        pairs
+            .find(|(t, v)| **t >= from && **v > threshold)
+            .map_or(f64::NAN, |(t, _)| *t)
+    }
+
+    /// The same history averaged over a time window around each step.
+    pub fn smoothed(&self, window: f64) -> Self {
+        let (mut first, mut last) = (0, 0);
+        let mut columns = vec![Vec::with_capacity(self.time.len()); self.columns.len()];
+        for &t in &self.time {
+            while self.time[first] < t - 0.5 * window {
+                first += 1;
+            }
+            while last < self.time.len() && self.time[last] <= t + 0.5 * window {
+                last += 1;
+            }
+            for (smooth, own) in columns.iter_mut().zip(&self.columns) {
+                smooth.push(own[first..last].iter().sum::<f64>() / (last - first) as f64);
+            }
+        }
+        Self {
+            columns,
+            ..self.clone()
+        }
+    }
+
+    /// Largest value between two times, and when.
+    pub fn peak(&self, name: &str, from: f64, to: f64) -> (f64, f64) {
+        let pairs = self.time.iter().zip(self.column(name));
+        pairs.filter(|(t, _)| (from..=to).contains(*t)).fold(
+            (f64::NAN, f64::NEG_INFINITY),
+            |best, (&t, &v)| {
+                if v > best.1 { (t, v) } else { best }
+            },
+        )
+    }
+
+    /// Writes it, no row closer to the last than `apart` \[s\].
+    pub fn write(&self, path: &Path, comment: &str, apart: f64) -> Result<(), Failure> {
+        let mut names = vec!["time_s".to_string()];
+        names.extend(self.names.iter().cloned());
+        let mut file = CsvWriter::create_with_comment(path, comment, &names)?;
+        let mut next = f64::NEG_INFINITY;
+        for k in 0..self.time.len() {
+            if self.time[k] < next {
+                continue;
+            }
+            next = self.time[k] + apart;
+            let mut row = vec![self.time[k]];
+            row.extend(self.columns.iter().map(|column| column[k]));
+            file.row(&row)?;
+        }
+        Ok(())
+    }
+
+    /// Two lines about the run itself.
+    pub fn summary(&self) -> String {
+        let mut text = format!(
+            "{} particles of liquid, {} steps in {:.1} s",
+            self.particles, self.steps, self.wall_clock
+        );
+        if self.steps > 0 {
+            let each = 1e6 * self.wall_clock / self.steps as f64 / self.particles as f64;
+            let _ = write!(text, " ({each:.2} µs a particle and step)");
+        }
+        text + &format!("; {} left the tank", self.lost)
+    }
+}
+
+/// Runs a simulation to `until` \[s\] and keeps what probes (`NAME_pa`), gauges (`NAME_m`) and the
+/// front along the first axis (`front_m`) read in every step; `frame` sees frames.
+///
+/// Particles outside of `inside` at the end count as lost.
+pub fn run<T: Real, const D: usize>(
+    frames: usize,
+    simulation: &mut Simulation<T, D>,
+    until: f64,
+    watch: &Watch<D>,
+    inside: impl Fn(&Simulation<T, D>, [f64; D]) -> bool,
+    mut frame: impl FnMut(&Simulation<T, D>, usize) -> Result<(), Failure>,
+) -> Result<History, Failure> {
+    let mut history = History {
+        names: watch
+            .probes
+            .iter()
+            .map(|probe| format!("{}_pa", probe.name()))
+            .chain(
+                watch
+                    .gauges
+                    .iter()
+                    .map(|gauge| format!("{}_m", gauge.name())),
+            )
+            .chain(["front_m".into()])
+            .collect(),
+        particles: simulation.particles(),
+        ..History::default()
+    };
+    history.columns = vec![Vec::new(); history.names.len()];
+    let spacing = simulation.spacing();
+    let started = Instant::now();
+    let mut progress = Progress::new("flow");
+    let (mut shown, mut failed) = (0, None);
+    // Gauges and fronts move by less than a hundredth of the spacing in a step: every eighth will do.
+    let mut slow = vec![0.0; watch.gauges.len() + 1];
+    simulation.run_with(until, |now| {
+        history.time.push(now.time());
+        if now.steps() % 8 == 1 {
+            for (value, gauge) in slow.iter_mut().zip(&watch.gauges) {
+                *value = gauge.height(now);
+            }
+            let front = now.all().fold(0.0_f64, |most, p| most.max(p.position()[0]));
+            slow[watch.gauges.len()] = front + 0.5 * spacing;
+        }
+        let probes = watch.probes.iter().map(|probe| probe.pressure(now));
+        let values: Vec<f64> = probes.chain(slow.iter().copied()).collect();
+        for (column, value) in history.columns.iter_mut().zip(values) {
+            column.push(value);
+        }
+        let due = until * shown as f64 / frames.max(1) as f64 * (1.0 - 1e-9);
+        if frames > 0 && now.time() >= due && failed.is_none() {
+            failed = frame(now, shown).err();
+            shown += 1;
+        }
+        progress.update(now.time() / until, format_args!("t = {:.3} s", now.time()));
+    })?;
+    progress.finish();
+    if let Some(failure) = failed {
+        return Err(failure);
+    }
+    history.steps = simulation.steps();
+    history.wall_clock = started.elapsed().as_secs_f64();
+    history.lost = simulation
+        .all()
+        .filter(|particle| !inside(simulation, particle.position()))
+        .count();
+    Ok(history)
+}
+
+/// Adds a frame for ParaView: the liquid with pressure, density and velocity, and the walls.
+pub fn paraview<T: Real, const D: usize>(
+    series: &mut Pvd,
+    now: &Simulation<T, D>,
+) -> Result<(), Failure> {
+    let walls = now.walls().count();
+    let all = || now.all().chain((0..walls).flat_map(|wall| now.wall(wall)));
+    let liquid = now.particles();
+    let vtu = Vtu::new(all().map(|p| p.position()))
+        .scalar("pressure", all().map(|p| p.pressure() as f32))
+        .scalar("density", all().map(|p| p.density() as f32))
+        .vector("velocity", all().map(|p| p.velocity().map(|v| v as f32)))
+        .scalar(
+            "wall",
+            all().enumerate().map(|(k, _)| u8::from(k >= liquid)),
+        )
+        .time(now.time());
+    series.frame(now.time(), &vtu)?;
+    Ok(())
+}
+
+/// One line of a comparison with something measured.
+pub struct Bar {
+    pub what: String,
+    pub computed: f64,
+    pub wanted: String,
+    pub holds: bool,
+}
+
+impl Bar {
+    /// Within a distance of a value.
+    pub fn near(what: &str, computed: f64, value: f64, distance: f64) -> Self {
+        Self::between(what, computed, value - distance, value + distance)
+    }
+
+    /// Between two values.
+    pub fn between(what: &str, computed: f64, low: f64, high: f64) -> Self {
+        let digits = |v: f64| meshfree::output::table::significant(v, 4);
+        Self {
+            what: what.into(),
+            computed,
+            wanted: format!("{} to {}", digits(low), digits(high)),
+            holds: (low..=high).contains(&computed),
+        }
+    }
+}
+
+/// Prints a comparison.
+pub fn print_bars(title: &str, bars: &[Bar]) {
+    let head = ["quantity", "computed", "wanted", "holds"];
+    let mut table = meshfree::output::table::Table::new(head).title(title);
+    for bar in bars {
+        let computed = meshfree::output::table::significant(bar.computed, 4);
+        let holds = if bar.holds { "yes" } else { "no" };
+        table.row([bar.what.clone(), computed, bar.wanted.clone(), holds.into()]);
+    }
+    println!("{}", table.markdown());
+}

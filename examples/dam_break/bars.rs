@@ -1,0 +1,188 @@
+//! What a dam break must meet, and whether it does.
+//! Measured numbers are quoted from the papers; bounds are those of the crate's issue list.
+
+use crate::common::Failure;
+use crate::figures::MARTIN_MOYCE_FRONT;
+use crate::flat::Flat;
+use crate::violent::{Bar, Choices, History, print_bars};
+
+/// Slope of a line through points, by least squares.
+fn slope(points: &[(f64, f64)]) -> f64 {
+    let n = points.len() as f64;
+    let (mx, my) = points
+        .iter()
+        .fold((0.0, 0.0), |(a, b), (x, y)| (a + x / n, b + y / n));
+    let (xy, xx) = points.iter().fold((0.0, 0.0), |(a, b), (x, y)| {
+        (a + (x - mx) * (y - my), b + (x - mx) * (x - mx))
+    });
+    xy / xx
+}
+
+/// The plane cases.
+pub fn flat(case: &Flat, history: &History, choices: &Choices) -> Result<(), Failure> {
+    let units = case.units()?;
+    let mut bars = vec![Bar::between(
+        "particles outside of the tank",
+        history.lost as f64,
+        0.0,
+        0.0,
+    )];
+    let mut front = |what: &str, measured: &[(f64, f64)]| {
+        let late: Vec<_> = measured
+            .iter()
+            .copied()
+            .filter(|(t, _)| *t > 1.15)
+            .collect();
+        let place = |t: f64| history.at("front_m", t * units.front_time_unit()) / units.width();
+        let computed: Vec<_> = late.iter().map(|(t, _)| (*t, place(*t))).collect();
+        let wanted = slope(&late);
+        bars.push(Bar::near(what, slope(&computed), wanted, 0.05 * wanted));
+        for (place, measured) in computed.iter().zip(&late).step_by(4) {
+            println!(
+                "T = {:.2}: front {:.3}, measured {:.3}",
+                place.0, place.1, measured.1
+            );
+        }
+    };
+    match case.name {
+        "martin-moyce" => front("slope of the front dZ/dT", &MARTIN_MOYCE_FRONT),
+        "koshizuka" => {
+            for (file, columns, unit) in [
+                ("koshizuka_oka_1996_pysph.csv", ["T", "Z"], 1.0),
+                // A column one metre wide at g = 9.81.
+                (
+                    "koshizuka_oka_1996_dualsphysics.csv",
+                    ["time_s", "x_m"],
+                    19.62_f64.sqrt(),
+                ),
+                ("koshizuka_oka_1996_mps.csv", ["T", "Z"], 1.0),
+            ] {
+                if let Some(record) = choices.record(&format!("dambreak2d_front/{file}")) {
+                    let times = record.column(columns[0])?.into_iter().map(|t| t * unit);
+                    let points: Vec<_> = times.zip(record.column(columns[1])?).collect();
+                    front(&format!("slope of the front dZ/dT, {file}"), &points);
+                }
+            }
+        }
+        _ => lobovsky(case, history, &mut bars)?,
+    }
+    let title = format!(
+        "{}, spacing {} mm, {}",
+        case.name,
+        1e3 * case.spacing,
+        choices.scheme
+    );
+    print_bars(&title, &bars);
+    Ok(())
+}
+
+/// Lobovský et al. 2014: sensor 2 over 100 runs, the others in a single record.
+fn lobovsky(case: &Flat, history: &History, bars: &mut Vec<Bar>) -> Result<(), Failure> {
+    let units = case.units()?;
+    let (time, unit) = (
+        units.pressure_time_unit(),
+        units.pressure_unit(case.density),
+    );
+    let smooth = history.smoothed(1e-3);
+    let arrival = smooth.first_above("p1_pa", 0.2 * unit, 0.0) / time;
+    bars.push(Bar::near("arrival at sensor 1, T", arrival, 2.43, 0.05));
+    let (_, peak1) = smooth.peak("p1_pa", 0.0, 3.0 * time);
+    let (when, peak) = smooth.peak("p2_pa", 0.0, 3.0 * time);
+    bars.push(Bar::between(
+        "first peak of sensor 2",
+        peak / unit,
+        1.77,
+        2.03,
+    ));
+    bars.push(Bar::near("its time, T", when / time, 2.60, 0.1));
+    let level = history.mean("p2_pa", 3.6 * time, 4.6 * time) / unit;
+    bars.push(Bar::near(
+        "mean of sensor 2, T = 3.6 to 4.6",
+        level,
+        0.59,
+        0.05 * 0.59,
+    ));
+    let (_, peak3) = smooth.peak("p3_pa", 0.0, 3.2 * time);
+    bars.push(Bar::near("first peak of sensor 3", peak3 / unit, 1.52, 0.2));
+    let level4 = history.mean("p4_pa", 3.4 * time, 4.4 * time) / unit;
+    bars.push(Bar::near(
+        "mean of sensor 4, T = 3.4 to 4.4",
+        level4,
+        0.56,
+        0.05,
+    ));
+    let (second, height) = smooth.peak("p2_pa", 5.0 * time, 7.0 * time);
+    bars.push(Bar::near("second event, T", second / time, 6.0, 0.3));
+    println!(
+        "sensor 1 peak {:.2} (single record 2.84); second event {:.2} (0.85)",
+        peak1 / unit,
+        height / unit
+    );
+    Ok(())
+}
+
+/// SPHERIC 2: numbers of the record of Kleefsman et al. 2005, of which H1 and H3 are exchanged.
+pub fn obstacle(history: &History, spacing: f64, choices: &Choices) {
+    // Time, H2 and H4 in metres.
+    const HEIGHTS: [(f64, f64, f64); 9] = [
+        (0.5, 0.099, 0.426),
+        (1.0, 0.179, 0.279),
+        (1.5, 0.236, 0.182),
+        (2.0, 0.287, 0.130),
+        (2.5, 0.281, 0.104),
+        (3.0, 0.203, 0.202),
+        (4.0, 0.136, 0.332),
+        (5.0, 0.252, 0.233),
+        (6.0, 0.214, 0.186),
+    ];
+    // Means of P1 over a tenth of a second around these times, in pascals.
+    const DECAY: [(f64, f64); 4] = [(1.0, 2978.0), (2.0, 3091.0), (3.0, 1837.0), (4.0, 1263.0)];
+    let until = history.time.last().copied().unwrap_or(0.0);
+    let mut bars = vec![Bar::between(
+        "particles outside of the tank",
+        history.lost as f64,
+        0.0,
+        0.0,
+    )];
+    for (t, h2, h4) in HEIGHTS.into_iter().filter(|(t, ..)| *t < until) {
+        let mean = |name: &str| history.mean(name, t - 0.02, t + 0.02);
+        bars.push(Bar::near(
+            &format!("H2 at {t} s [m]"),
+            mean("h2_m"),
+            h2,
+            0.03,
+        ));
+        if t <= 2.5 {
+            bars.push(Bar::near(
+                &format!("H4 at {t} s [m]"),
+                mean("h4_m"),
+                h4,
+                0.0165,
+            ));
+        }
+    }
+    let smooth = history.smoothed(5e-3);
+    let arrival = history.first_above("p1_pa", 500.0, 0.0);
+    bars.push(Bar::near("arrival at P1 [s]", arrival, 0.393, 0.02));
+    let (_, peak) = smooth.peak("p1_pa", 0.0, 0.7);
+    bars.push(Bar::near(
+        "peak of P1, mean over 5 ms [Pa]",
+        peak,
+        10_620.0,
+        0.2 * 10_620.0,
+    ));
+    for (k, wanted) in [(2, 8130.0), (3, 6560.0), (4, 7200.0)] {
+        let (_, peak) = smooth.peak(&format!("p{k}_pa"), 0.0, 0.7);
+        println!("peak of P{k}: {peak:.0} Pa, measured {wanted} Pa");
+    }
+    for (t, p) in DECAY.into_iter().filter(|(t, _)| *t < until) {
+        let mean = history.mean("p1_pa", t - 0.05, t + 0.05);
+        bars.push(Bar::near(&format!("P1 at {t} s [Pa]"), mean, p, 0.15 * p));
+    }
+    let title = format!(
+        "SPHERIC 2, spacing {:.1} mm, {}",
+        1e3 * spacing,
+        choices.scheme
+    );
+    print_bars(&title, &bars);
+}

@@ -1,0 +1,239 @@
+//! Figures of dam breaks: histories with the measured ones in the same axes, and frames.
+//! What is not in the reference folder is left out, by name.
+
+use crate::common::Failure;
+use crate::flat::Flat;
+use crate::obstacle::{BOX, TANK};
+use crate::violent::{Choices, History};
+use meshfree::output::picture::Picture;
+use meshfree::output::svg::{Axis, Cloud, Color, Figure, Panel, Series};
+use meshfree::prelude::*;
+use std::path::Path;
+
+/// Martin & Moyce 1952, table 2: T = t √(2g/a) and Z = x/a of the front, n² = 2, a = 57.15 mm.
+pub const MARTIN_MOYCE_FRONT: [(f64, f64); 15] = [
+    (0.41, 1.11),
+    (0.84, 1.22),
+    (1.19, 1.44),
+    (1.43, 1.67),
+    (1.63, 1.89),
+    (1.83, 2.11),
+    (1.98, 2.33),
+    (2.20, 2.56),
+    (2.32, 2.78),
+    (2.51, 3.00),
+    (2.65, 3.22),
+    (2.83, 3.44),
+    (2.98, 3.67),
+    (3.11, 3.89),
+    (3.33, 4.11),
+];
+
+/// Martin & Moyce 1952, table 6: t √(g/a) and η/(2a) at the rear wall, n² = 2, a = 57.15 mm.
+pub const MARTIN_MOYCE_REAR: [(f64, f64); 13] = [
+    (0.56, 0.94),
+    (0.77, 0.89),
+    (0.93, 0.83),
+    (1.08, 0.78),
+    (1.28, 0.72),
+    (1.46, 0.67),
+    (1.66, 0.61),
+    (1.84, 0.56),
+    (2.00, 0.50),
+    (2.21, 0.44),
+    (2.45, 0.39),
+    (2.70, 0.33),
+    (3.06, 0.28),
+];
+
+/// Points of a measured record as a series of markers, where the record is there.
+fn measured(
+    choices: &Choices,
+    file: &str,
+    label: &str,
+    columns: [&str; 2],
+) -> Result<Option<Series>, Failure> {
+    let Some(record) = choices.record(file) else {
+        return Ok(None);
+    };
+    let (x, y) = (record.column(columns[0])?, record.column(columns[1])?);
+    Ok(Some(Series::markers(label, x.into_iter().zip(y))))
+}
+
+/// Particles coloured by pressure at one instant.
+pub fn plane<T: Real>(case: &Flat, now: &Simulation<T, 2>, path: &Path) -> Result<(), Failure> {
+    let top = (2.0 * case.column[1]).min(case.tank[1]);
+    let hydrostatic = case.density * crate::flat::GRAVITY * case.column[1];
+    let value = Axis::linear("pressure", "kPa").range(0.0, 1e-3 * hydrostatic);
+    let walls = (0..now.walls().count()).flat_map(|wall| now.wall(wall));
+    let water = now.all().map(|p| (p.position(), 1e-3 * p.pressure()));
+    Picture::new(1600, (1600.0 * top / case.tank[0]) as usize)
+        .bounds([0.0, 0.0], [case.tank[0], top])
+        .particles(value.clone(), case.spacing, water)
+        .plain(
+            Color(150, 150, 150),
+            1.0,
+            case.spacing,
+            walls.map(|p| p.position()),
+        )
+        .save_png(path.with_extension("png"))?;
+    let points = now.all().map(|particle| {
+        let [x, y] = particle.position();
+        (x, y, 1e-3 * particle.pressure())
+    });
+    let panel = Panel::new(
+        Axis::linear("x", "m").range(0.0, case.tank[0]),
+        Axis::linear("y", "m").range(0.0, top),
+    )
+    .title(&format!("t = {:.3} s", now.time()))
+    .equal_aspect()
+    .cloud(Cloud::new(value, points).diameter(case.spacing));
+    let figure = Figure::new().panel_size(720.0, 720.0 * top / case.tank[0]);
+    Ok(figure.panel(panel).save(path.with_extension("svg"))?)
+}
+
+/// Fronts, heights and pressures of a plane case.
+pub fn histories(
+    case: &Flat,
+    history: &History,
+    choices: &Choices,
+    folder: &Path,
+) -> Result<(), Failure> {
+    let units = case.units()?;
+    let mut panels = Vec::new();
+    let front = history.points("front_m", units.front_time_unit(), units.width());
+    let wet = front
+        .into_iter()
+        .take_while(|(_, z)| *z < 0.995 * case.tank[0] / units.width());
+    let mut panel = Panel::new(Axis::linear("t √(2g/a)", ""), Axis::linear("front x/a", ""))
+        .title("front")
+        .series(Series::line("computed", wet))
+        .series(Series::markers("Martin & Moyce 1952", MARTIN_MOYCE_FRONT));
+    if case.name == "koshizuka" {
+        let file = "dambreak2d_front/koshizuka_oka_1996_pysph.csv";
+        let label = "Koshizuka & Oka 1996";
+        if let Some(series) = measured(choices, file, label, ["T", "Z"])? {
+            panel = panel.series(series);
+        }
+        let file = "dambreak2d_front/koshizuka_oka_1996_mps.csv";
+        if let Some(series) = measured(choices, file, "their computation", ["T", "Z"])? {
+            panel = panel.series(series);
+        }
+    }
+    panels.push(panel);
+    let rear = history.points("rear_m", units.height_time_unit(), units.height());
+    panels.push(
+        Panel::new(
+            Axis::linear("t √(g/a)", ""),
+            Axis::linear("height at the rear η/h", ""),
+        )
+        .title("rear wall")
+        .series(Series::line("computed", rear))
+        .series(Series::markers("Martin & Moyce 1952", MARTIN_MOYCE_REAR)),
+    );
+    let smooth = history.smoothed(1e-3);
+    for (k, height) in case.sensors.iter().enumerate() {
+        let time = Axis::linear("t √(g/h)", "").from(2.0);
+        let mut panel = Panel::new(time, Axis::linear("p/(ρgh)", "")).title(&format!(
+            "{:.0} mm above the bottom, mean over 1 ms",
+            1e3 * height
+        ));
+        let unit = units.pressure_unit(case.density);
+        let points = smooth.points(&format!("p{}_pa", k + 1), units.pressure_time_unit(), unit);
+        panel = panel.series(Series::line("computed", points));
+        let name = format!("dambreak2d_pressure/lobovsky_2014_H300_P{}.csv", k + 1);
+        if k == 1 {
+            let file = "dambreak2d_pressure/lobovsky_2014_H300_sensor2_percentiles.csv";
+            for (column, label) in [
+                ("P_2.5pct", "Lobovský et al. 2014: 2.5, 50, 97.5 %"),
+                ("P_median", ""),
+                ("P_97.5pct", ""),
+            ] {
+                if let Some(record) = choices.record(file) {
+                    let points = record.column("T")?.into_iter().zip(record.column(column)?);
+                    panel = panel.series(Series::line(label, points).reference());
+                }
+            }
+        } else if let Some(series) = measured(choices, &name, "Lobovský et al. 2014", ["T", "P"])?
+        {
+            panel = panel.series(series);
+        }
+        panels.push(panel);
+    }
+    let figure = panels.into_iter().fold(Figure::new(), Figure::panel);
+    let title = format!(
+        "Dam break, {}, spacing {} mm",
+        case.name,
+        1e3 * case.spacing
+    );
+    figure
+        .title(&title)
+        .columns(2)
+        .panel_size(520.0, 320.0)
+        .save(folder.join("histories.svg"))?;
+    Ok(())
+}
+
+/// The flow around the box at one instant.
+pub fn space<T: Real>(now: &Simulation<T, 3>, path: &Path) -> Result<(), Failure> {
+    let value = Axis::linear("pressure", "kPa").range(0.0, 5.0);
+    let water = now.all().map(|p| (p.position(), 1e-3 * p.pressure()));
+    let [low, high] = BOX;
+    let obstacle = now.wall(1).map(|p| p.position());
+    let picture = Picture::new(1400, 700)
+        .title(&format!("t = {:.2} s", now.time()))
+        .bounds([0.0; 3], TANK)
+        .particles(value, now.spacing(), water)
+        .plain(Color(120, 120, 120), 1.0, now.spacing(), obstacle)
+        .edges([0.0; 3], TANK)
+        .edges(low, high);
+    picture.save(path.with_extension("svg"))?;
+    Ok(picture.save_png(path.with_extension("png"))?)
+}
+
+/// Heights and pressures of SPHERIC 2.
+pub fn obstacle(
+    history: &History,
+    spacing: f64,
+    choices: &Choices,
+    folder: &Path,
+) -> Result<(), Failure> {
+    let until = history.time.last().copied().unwrap_or(0.0);
+    let heights = choices.record("spheric02_dambreak3d/water_heights.csv");
+    let pressures = choices.record("spheric02_dambreak3d/pressures.csv");
+    let smooth = history.smoothed(2e-3);
+    let mut figure = Figure::new();
+    let names = (1..=4).map(|k| (format!("h{k}"), true));
+    for (name, height) in names.chain((1..=8).map(|k| (format!("p{k}"), false))) {
+        let (unit, column, axis, scale) = if height {
+            ("m", format!("{name}_m"), "height", 1.0)
+        } else {
+            ("kPa", format!("{name}_pa"), "pressure", 1000.0)
+        };
+        let time = Axis::linear("time", "s").range(0.0, until);
+        let points = smooth.points(&column, 1.0, scale);
+        let mut panel = Panel::new(time, Axis::linear(axis, unit))
+            .title(&name.to_uppercase())
+            .series(Series::line("computed", points));
+        // In the record the columns of H1 and H3 are exchanged against the sketch.
+        let named = match name.as_str() {
+            "h1" => "H3".into(),
+            "h3" => "H1".into(),
+            _ => name.to_uppercase(),
+        };
+        if let Some(record) = if height { &heights } else { &pressures } {
+            let values = record.column(&named)?.into_iter().map(|v| v / scale);
+            let points = record.column("time_s")?.into_iter().zip(values);
+            let series = Series::line("Kleefsman et al. 2005", points).reference();
+            panel = panel.series(series);
+        }
+        figure = figure.panel(panel);
+    }
+    figure
+        .title(&format!("SPHERIC 2, spacing {:.1} mm", 1e3 * spacing))
+        .columns(3)
+        .panel_size(420.0, 260.0)
+        .shared_legend()
+        .save(folder.join("histories.svg"))?;
+    Ok(())
+}

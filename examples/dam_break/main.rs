@@ -1,0 +1,44 @@
+//! Dam breaks against experiments: Lobovský, Koshizuka & Oka, Martin & Moyce, and SPHERIC 2.
+//! `cargo run --release --example dam_break -- --help` lists the options.
+
+mod bars;
+#[path = "../common/mod.rs"]
+mod common;
+mod figures;
+mod flat;
+mod obstacle;
+#[path = "../common/violent.rs"]
+mod violent;
+
+use common::{Example, Failure, Options};
+use meshfree::scalar::Real;
+use std::process::ExitCode;
+use violent::Choices;
+
+const EXAMPLE: Example = Example {
+    name: "dam_break",
+    about: "Dam breaks against experiments.
+
+--case NAME is lobovsky, koshizuka or martin-moyce, in a plane, or spheric2, in space.",
+    schemes: &violent::SCHEMES,
+    own: &violent::OWN,
+};
+
+fn main() -> ExitCode {
+    common::main(&EXAMPLE, perform::<f32>, perform::<f64>)
+}
+
+fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
+    let choices = Choices::of(options)?;
+    match options.text("--case").unwrap_or("lobovsky") {
+        "spheric2" => obstacle::perform::<T>(options, &choices),
+        name => match flat::Flat::of(name, options, &choices) {
+            Some(case) => flat::perform::<T>(&case, options, &choices),
+            None => Err(format!(
+                "--case: `{name}` is not accepted; it takes one of lobovsky, koshizuka, \
+                 martin-moyce, spheric2"
+            )
+            .into()),
+        },
+    }
+}
