@@ -39,6 +39,7 @@ pub struct Wall<const D: usize> {
     pub(crate) spacing: f64,
     pub(crate) motion: Option<Arc<dyn Motion<D>>>,
     pub(crate) slip: Slip,
+    pub(crate) sliding: [f64; D],
     pub(crate) carries: bool,
 }
 
@@ -52,6 +53,7 @@ impl<const D: usize> Wall<D> {
             spacing,
             motion: None,
             slip: Slip::Free,
+            sliding: [0.0; D],
             carries: false,
         }
     }
@@ -111,6 +113,15 @@ impl<const D: usize> Wall<D> {
     #[must_use]
     pub fn no_slip(mut self) -> Self {
         self.slip = Slip::None;
+        self
+    }
+
+    /// Lets its surface run at `velocity` \[m/s\] beside its motion, while its particles keep their
+    /// place: a lid or a belt without end, along which the velocity must lie. It drags what
+    /// [sticks](Self::no_slip) to it.
+    #[must_use]
+    pub fn sliding(mut self, velocity: [f64; D]) -> Self {
+        self.sliding = velocity;
         self
     }
 

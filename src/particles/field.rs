@@ -192,8 +192,6 @@ quantities! {
     DynamicViscosity, Scalar, "dynamic_viscosity", "Pa s";
     /// Density gradient ∇ρ.
     DensityGradient, Vector, "density_gradient", "kg/m⁴";
-    /// By how much particles move faster than their momentum, to keep their arrangement.
-    TransportVelocity, Vector, "transport_velocity", "m/s";
     /// Free for a user's own terms.
     UserA, Scalar, "user_a", "";
     /// Free for a user's own terms.

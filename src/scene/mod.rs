@@ -236,6 +236,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 rest: wall.points.clone(),
                 motion: wall.motion.clone(),
                 slip: wall.slip,
+                sliding: wall.sliding,
                 carries: wall.carries,
             });
         }
@@ -292,7 +293,10 @@ impl<T: Real, const D: usize> Scene<T, D> {
         set(Field::ReferenceDensity, start.density);
         set(Field::Mass, start.density * body.spacing.powi(D as i32));
         set(Field::Energy, start.energy);
-        let viscosity = body.material.dynamic_viscosity.unwrap_or(0.0);
+        let viscosity = body
+            .material
+            .rheology()
+            .map_or(0.0, |law| law.viscosity(0.0));
         set(Field::DynamicViscosity, viscosity);
         set(Field::SmoothingLength, self.scheme.h_over_dx * body.spacing);
         set(

@@ -161,6 +161,11 @@ impl<T: Real, const D: usize> Scheme<T, D> {
             .into_iter()
             .filter_map(|sweep| sweep.as_deref())
             .chain(self.liquid.iter().map(|liquid| liquid.wall.as_ref()))
+            .chain(
+                self.liquid
+                    .iter()
+                    .filter_map(|liquid| liquid.shear.as_deref()),
+            )
             .chain(core::iter::once(self.rates.as_ref()))
     }
 

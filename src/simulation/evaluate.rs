@@ -6,7 +6,7 @@ use crate::material::eos::GuardCounts;
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::scheme::{DensityForm, EnergyForm, Smoothing};
-use crate::sweep::{PairSweep, Pass, SweepInput};
+use crate::sweep::{PairSweep, Pass, Rows, SweepInput};
 use crate::tensor::{Matrix, inverse};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -231,6 +231,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.fill_walls(time);
         self.set_coefficients();
         self.find_gradients();
+        self.find_viscosities();
         self.sum_rates();
     }
 
@@ -451,22 +452,14 @@ impl<T: Real, const D: usize> Group<T, D> {
             Field::DensityGradient,
         ]);
         let with_velocity = !velocity.is_empty();
-        let correction = |slot: usize| {
-            let moment =
-                Matrix::<T, D>::from_fn(|a, b| rows.get(Output::MomentMatrix, a * D + b, slot));
-            // A thin jet has no gradient across itself: leave the sum uncorrected there.
-            inverse(&moment, SINGULAR).unwrap_or_else(Matrix::identity)
-        };
+        let correction = |slot: usize| correction(rows, slot);
         if with_velocity {
             velocity[..mobile * D * D]
                 .par_chunks_mut(D * D)
                 .enumerate()
                 .with_min_len(GRAIN)
                 .for_each(|(slot, out)| {
-                    let sum = Matrix::<T, D>::from_fn(|a, b| {
-                        rows.get(Output::VelocityGradient, a * D + b, slot)
-                    });
-                    let gradient = sum * correction(slot);
+                    let gradient = velocity_gradient(rows, slot);
                     for (k, value) in out.iter_mut().enumerate() {
                         *value = gradient[(k / D, k % D)];
                     }
@@ -491,6 +484,42 @@ impl<T: Real, const D: usize> Group<T, D> {
                             total + rows.get(sum, a, slot) * correction[(a, b)]
                         });
                     }
+                });
+        }
+    }
+
+    /// Dynamic viscosities from shear rates by the materials' laws. Walls show what sticks to them, and
+    /// the viscosity of the last evaluation.
+    fn find_viscosities(&mut self) {
+        let shear = |group: &Self| {
+            group
+                .scheme
+                .liquid
+                .as_ref()
+                .is_some_and(|liquid| liquid.shear.is_some())
+        };
+        if !shear(self) {
+            return;
+        }
+        self.scratch_sweep(|group| group.scheme.liquid.as_ref()?.shear.as_deref());
+        let rows = &self.scratch_rows;
+        let viscosity = self.columns.raw_mut(Field::DynamicViscosity);
+        for body in &self.bodies {
+            let Some(law) = body.material.rheology() else {
+                continue;
+            };
+            let own = body.run();
+            viscosity[own.clone()]
+                .par_chunks_mut(SHEARED)
+                .enumerate()
+                .with_min_len(GRAIN / SHEARED)
+                .for_each(|(chunk, viscosity)| {
+                    let first = own.start + chunk * SHEARED;
+                    let mut rates = [T::zero(); SHEARED];
+                    for (k, rate) in rates[..viscosity.len()].iter_mut().enumerate() {
+                        *rate = shear_rate(rows, first + k);
+                    }
+                    law.viscosities(&rates[..viscosity.len()], viscosity);
                 });
         }
     }
@@ -531,6 +560,37 @@ impl<T: Real, const D: usize> Group<T, D> {
     }
 }
 
+/// The inverse of a particle's moment matrix.
+fn correction<T: Real, const D: usize>(rows: &Rows<T, D>, slot: usize) -> Matrix<T, D> {
+    let moment = Matrix::<T, D>::from_fn(|a, b| rows.get(Output::MomentMatrix, a * D + b, slot));
+    // A thin jet has no gradient across itself: leave the sum uncorrected there.
+    inverse(&moment, SINGULAR).unwrap_or_else(Matrix::identity)
+}
+
+/// ∇v of a particle from the sums of its sweep \[1/s\].
+fn velocity_gradient<T: Real, const D: usize>(rows: &Rows<T, D>, slot: usize) -> Matrix<T, D> {
+    let sum = Matrix::<T, D>::from_fn(|a, b| rows.get(Output::VelocityGradient, a * D + b, slot));
+    sum * correction(rows, slot)
+}
+
+/// √(2 D:D) \[1/s\] with D the symmetric part of ∇v without its trace.
+fn shear_rate<T: Real, const D: usize>(rows: &Rows<T, D>, slot: usize) -> T {
+    let gradient = velocity_gradient(rows, slot);
+    let half = T::from_f64(0.5);
+    let mean = gradient.trace() / T::from_f64(D as f64);
+    let mut square = T::zero();
+    for a in 0..D {
+        for b in 0..D {
+            let own = (gradient[(a, b)] + gradient[(b, a)]) * half;
+            let own = if a == b { own - mean } else { own };
+            square += own * own;
+        }
+    }
+    (square + square).sqrt()
+}
+
+/// Particles whose shear rates are on the stack at a time.
+const SHEARED: usize = 64;
 /// Partition of unity below which a particle counts as an end: the last of a row has 0.78, the next 0.97.
 const END_UNITY: f64 = 0.9;
 /// Smallest pivot of a moment matrix that is inverted, relative to its largest entry.

@@ -70,6 +70,8 @@ pub(crate) struct WallState<const D: usize> {
     pub rest: Vec<[f64; D]>,
     pub motion: Option<Arc<dyn Motion<D>>>,
     pub slip: Slip,
+    /// Velocity of its surface beside its motion \[m/s\].
+    pub sliding: [f64; D],
     pub carries: bool,
 }
 
@@ -450,7 +452,9 @@ impl<T: Real, const D: usize> Group<T, D> {
         for wall in &self.walls {
             let pose = wall.motion.as_ref().map(|motion| motion.pose(time));
             if wall.carries {
-                let acceleration = pose.as_ref().map_or([0.0; D], |pose| pose.of(2, &wall.rest[0]));
+                let acceleration = pose
+                    .as_ref()
+                    .map_or([0.0; D], |pose| pose.of(2, &wall.rest[0]));
                 for d in 0..D {
                     self.body_force[d] -= T::from_f64(acceleration[d]);
                 }
@@ -464,7 +468,8 @@ impl<T: Real, const D: usize> Group<T, D> {
             let pose = pose.unwrap_or_else(Pose::rest);
             for slot in wall.slots.start..wall.end {
                 let at = (self.ids[slot] as usize - wall.slots.start).min(wall.rest.len() - 1);
-                let (x, v) = (pose.of(0, &wall.rest[at]), pose.of(1, &wall.rest[at]));
+                let (x, own) = (pose.of(0, &wall.rest[at]), pose.of(1, &wall.rest[at]));
+                let v: [f64; D] = core::array::from_fn(|d| own[d] + wall.sliding[d]);
                 let rounded = x.map(T::from_f64);
                 self.columns.vectors_mut(Field::Position)[slot] = rounded;
                 self.columns.vectors_mut(Field::Velocity)[slot] = v.map(T::from_f64);

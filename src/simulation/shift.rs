@@ -18,14 +18,18 @@ const LONGEST: f64 = 0.1;
 impl<T: Real, const D: usize> Group<T, D> {
     /// Shifts particles with the sums of the last sweep for compression, over `dt` \[s\].
     pub fn shift(&mut self, dt: f64) {
-        let Some(shifting) = self.scheme.liquid.as_ref().and_then(|liquid| liquid.shifting) else {
+        let Some(shifting) = self
+            .scheme
+            .liquid
+            .as_ref()
+            .and_then(|liquid| liquid.shifting)
+        else {
             return;
         };
         let (rows, h, mobile) = (&self.scratch_rows, self.smoothing_length, self.mobile);
-        let [x, residual, transport, v, c] = self.columns.many_mut([
+        let [x, residual, v, c] = self.columns.many_mut([
             Field::Position,
             Field::PositionResidual,
-            Field::TransportVelocity,
             Field::Velocity,
             Field::SoundSpeed,
         ]);
@@ -56,19 +60,6 @@ impl<T: Real, const D: usize> Group<T, D> {
             };
             sum.map(|g| T::from_f64(-factor * g))
         };
-        if !transport.is_empty() {
-            let per_time = T::from_f64(1.0 / dt);
-            transport[..mobile * D]
-                .par_chunks_mut(D)
-                .enumerate()
-                .with_min_len(GRAIN)
-                .for_each(|(slot, out)| {
-                    let by = displacement(slot);
-                    for d in 0..D {
-                        out[d] = by[d] * per_time;
-                    }
-                });
-        }
         if residual.is_empty() {
             x[..mobile * D]
                 .par_chunks_mut(D)

@@ -11,14 +11,14 @@ use crate::scalar::Lane;
 /// W₀ is the kernel at the spacing: the second summand keeps particles from pairing (Monaghan 2000;
 /// Lind et al. 2012, eq. 24).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Crowding {
+pub struct Crowding<const D: usize> {
     /// Strength R of the repulsion; 0.2.
     pub repulsion: f64,
-    /// hᴰ W₀, the kernel at the spacing for h = 1.
+    /// hᴰ W₀, the kernel in D dimensions at the spacing for h = 1.
     pub at_spacing: f64,
 }
 
-impl<const D: usize> Term<D> for Crowding {
+impl<const D: usize> Term<D> for Crowding<D> {
     const READS: Fields = Fields::of(&[Field::Weight]);
     const WRITES: Outputs = Outputs::of(&[Output::Crowding, Output::Moment]);
     #[inline(always)]
@@ -37,48 +37,6 @@ impl<const D: usize> Term<D> for Crowding {
             name: format!("crowding of particles, R = {}", self.repulsion),
             equation: "∇Cᵢ = Σⱼ Vⱼ (1 + R (W/W₀)⁴) ∇W",
             source: "Lind et al. 2012, eq. 24; Sun et al. 2017",
-        }
-    }
-}
-
-/// The force that belongs to particles which move otherwise than their momentum:
-/// Fᵢ = ½ Σⱼ (Vᵢ² + Vⱼ²) (Aᵢ + Aⱼ) ∇W / 2 with A = ρ v ⊗ δv (Adami, Hu & Adams 2013, eq. 13).
-///
-/// It conserves linear momentum. It reads velocities themselves, so it is right in the frame in which
-/// walls are at rest.
-#[derive(Clone, Copy, Debug)]
-pub struct TransportStress;
-
-impl<const D: usize> Term<D> for TransportStress {
-    const READS: Fields = Fields::of(&[
-        Field::Velocity,
-        Field::Mass,
-        Field::Density,
-        Field::TransportVelocity,
-    ]);
-    const WRITES: Outputs = Outputs::of(&[Output::Force]);
-    #[inline(always)]
-    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let (rho_i, rho_j) = (pair.i(Field::Density), pair.j(Field::Density));
-        let (v_i, v_j) = (pair.i(Field::Mass) / rho_i, pair.j(Field::Mass) / rho_j);
-        let factor = v_i.mul_add(v_i, v_j * v_j) * pair.f * L::of(0.5) * pair.mobile;
-        let (mut along_i, mut along_j) = (L::zero(), L::zero());
-        for d in 0..D {
-            along_i = pair.r[d].mul_add(pair.i_at(Field::TransportVelocity, d), along_i);
-            along_j = pair.r[d].mul_add(pair.j_at(Field::TransportVelocity, d), along_j);
-        }
-        let (along_i, along_j) = (along_i * rho_i * factor, along_j * rho_j * factor);
-        for d in 0..D {
-            let v = Field::Velocity;
-            let force = along_i.mul_add(pair.i_at(v, d), along_j * pair.j_at(v, d));
-            sums.add_at(Output::Force, d, force);
-        }
-    }
-    fn document(&self) -> TermDoc {
-        TermDoc {
-            name: "stress of the transport velocity".into(),
-            equation: "mᵢ dvᵢ/dt = ½ Σⱼ (Vᵢ² + Vⱼ²) (ρᵢ vᵢ δvᵢ + ρⱼ vⱼ δvⱼ)·∇W",
-            source: "Adami, Hu & Adams 2013, eqs. 8, 13",
         }
     }
 }

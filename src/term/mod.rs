@@ -15,7 +15,7 @@
 //! | [`InternalEnergy`] | energy | half the power of all forces |
 //! | [`LaminarViscosity`], [`CentralViscosity`] | momentum | force of a physical viscosity |
 //! | [`Molteni`], [`Fourtakas`], [`Antuono`], [`RiemannDiffusion`] | density | diffusion against noise |
-//! | [`Crowding`], [`TransportStress`] | position | what shifting needs, and the force it brings |
+//! | [`Crowding`] | position | what shifting needs |
 //! | [`LiquidNearWall`], [`LiquidAlongWall`] | walls | pressure and velocity of wall particles |
 //!
 //! [`probe()`] evaluates a term for one pair, for tests of terms of your own.
@@ -101,7 +101,7 @@ mod sums;
 pub mod viscosity;
 mod wall;
 
-pub use crowding::{Crowding, Nothing, TransportStress};
+pub use crowding::{Crowding, Nothing};
 pub use density_diffusion::{Antuono, Fourtakas, Molteni, RiemannDiffusion, STANDARD_DELTA};
 pub use gradient::{DensityGradient, PressureGradient, VelocityGradient};
 pub use laminar_viscosity::{CentralViscosity, LaminarViscosity};

@@ -1,0 +1,68 @@
+//! What the examples of liquids share: options, threads and precision, progress, files of particles.
+//! An example describes itself, names what runs in each precision, and is left with its scene.
+//!
+//! ```text
+//! mod common;
+//! use common::{Example, Failure, Options};
+//!
+//! const EXAMPLE: Example = Example { name: "dam_break", about: "...", schemes: &["default"], own: &[] };
+//!
+//! fn main() -> std::process::ExitCode {
+//!     common::main(&EXAMPLE, perform::<f32>, perform::<f64>)
+//! }
+//! fn perform<T: Real>(options: &Options) -> Result<(), Failure> { ... }
+//! ```
+
+// Each example uses a part of this.
+#![allow(dead_code, unused_imports)]
+
+mod options;
+mod watch;
+
+pub use options::{Example, Options, Own};
+pub use watch::{Movie, Shade, Summary, evenly, picture, watch};
+
+use std::process::ExitCode;
+
+/// What can end an example early.
+pub type Failure = Box<dyn std::error::Error + Send + Sync>;
+
+/// Reads the command line, sets the threads, and runs the example in the precision asked for.
+///
+/// Exit status 2 is a command line or a scene that cannot be followed, 1 a run that failed.
+pub fn main(
+    example: &Example,
+    in_f32: fn(&Options) -> Result<(), Failure>,
+    in_f64: fn(&Options) -> Result<(), Failure>,
+) -> ExitCode {
+    let options = match example.parse(std::env::args().skip(1)) {
+        Ok(Some(options)) => options,
+        Ok(None) => {
+            print!("{}", example.help());
+            return ExitCode::SUCCESS;
+        }
+        Err(bad) => {
+            eprintln!("{bad}");
+            return ExitCode::from(2);
+        }
+    };
+    if let Some(threads) = options.threads
+        && let Err(failure) = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build_global()
+    {
+        eprintln!("--threads: {failure}");
+        return ExitCode::from(1);
+    }
+    let run = if options.single { in_f32 } else { in_f64 };
+    match run(&options) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("{failure}");
+            let bad_scene = failure
+                .downcast_ref::<meshfree::error::Error>()
+                .is_some_and(|error| matches!(error, meshfree::error::Error::Build(_)));
+            ExitCode::from(if bad_scene { 2 } else { 1 })
+        }
+    }
+}
