@@ -61,8 +61,8 @@ pub struct Record {
     pub momentum: [f64; 3],
     /// Difference of the momentum of water and what walls and gravity gave, over the impulse on the tank.
     pub imbalance: f64,
-    /// Integral of the probes' pressure over the struck wall against the force on it, as a difference
-    /// over the force, at the times asked for.
+    /// Integral of the probes' pressure over the ends of the tank against the force along it, as a
+    /// difference over the force, at the times asked for.
     pub integrals: Vec<(f64, f64)>,
     /// Space that the water takes against its volume, as a difference over it, at 38 ms and at the end.
     pub volume: [f64; 2],
@@ -86,12 +86,22 @@ impl Record {
     }
     /// Mean of a quantity over a span of time.
     pub fn mean(&self, [from, to]: [f64; 2], of: impl Fn(&Sample) -> f64) -> f64 {
-        (self.integral(to, &of) - self.integral(from, &of)) / (to - from)
+        let inside = self
+            .samples
+            .windows(2)
+            .filter(|p| p[0].time >= from && p[1].time <= to);
+        let (mut sum, mut span) = (0.0, 0.0);
+        for pair in inside {
+            let dt = pair[1].time - pair[0].time;
+            sum += 0.5 * dt * (of(&pair[0]) + of(&pair[1]));
+            span += dt;
+        }
+        sum / span
     }
 }
 
 /// Runs a case; files are written if there is a folder, `integrals` are the times at which the
-/// probes are integrated over the struck wall.
+/// probes are integrated over the ends of the tank.
 pub fn run<T: Real>(
     case: &Case,
     folder: Option<&Path>,
@@ -200,27 +210,24 @@ pub fn in_tank<T: Real>(now: &Simulation<T, 3>) -> impl Iterator<Item = ([f64; 3
     })
 }
 
-/// The pressures of sensors all over the struck wall, summed with their areas, against the force on it.
+/// The pressures of sensors all over both ends of the tank, summed with their areas, against the force
+/// of the water along it.
 fn wall_integral<T: Real>(case: &Case, now: &Simulation<T, 3>) -> f64 {
     let [length, width, height] = case.size;
-    let counts = [width, height].map(|size| (size / case.spacing).round().max(1.0));
-    let area = width * height / (counts[0] * counts[1]);
+    let counts = [width, height].map(|size| (size / case.spacing).round().max(1.0) as usize);
+    let area = width * height / (counts[0] * counts[1]) as f64;
     let mut sum = 0.0;
-    for k in 0..(counts[0] * counts[1]) as usize {
-        let (j, i) = ((k as f64 / counts[0]).floor(), k as f64 % counts[0]);
-        let place = [
-            length,
-            width * (i + 0.5) / counts[0],
-            height * (j + 0.5) / counts[1],
-        ];
-        let sensor = PressureProbe::disc("part", place, [-1.0, 0.0, 0.0], case.spacing).on_wall(0);
-        sum += area * sensor.pressure(now);
+    for k in 0..counts[0] * counts[1] {
+        let place = [k % counts[0], k / counts[0]].map(|index| index as f64 + 0.5);
+        let y = width * place[0] / counts[0] as f64;
+        let z = height * place[1] / counts[1] as f64;
+        for (x, outwards) in [(0.0, -1.0), (length, 1.0)] {
+            let normal = [-outwards, 0.0, 0.0];
+            let part = PressureProbe::disc("part", [x, y, z], normal, case.spacing).on_wall(0);
+            sum += outwards * area * part.pressure(now);
+        }
     }
-    let shift = now.wall_pose(Some(0)).shift[0][0];
-    let forces = now.wall_particle_forces();
-    let behind = forces.iter().filter(|(x, _)| x[0] - shift > length);
-    let force: f64 = behind.map(|(_, force)| force[0]).sum();
-    sum / force - 1.0
+    sum / now.wall_force(0)[0] - 1.0
 }
 
 fn far_wall<T: Real>(case: &Case, now: &Simulation<T, 3>) -> FarWall {
