@@ -30,6 +30,18 @@ impl<const D: usize> Pose<D> {
     pub fn of(&self, order: usize, x: &[f64; D]) -> [f64; D] {
         (self.linear[order] * Vector::from(*x) + self.shift[order]).into()
     }
+    /// This pose with place and velocity of the middle of a straight way between two poses at two
+    /// times \[s\], as particles go in a drift.
+    pub(crate) fn on_chord(mut self, [from, to]: [Self; 2], [begin, end]: [f64; 2]) -> Self {
+        if end != begin {
+            let per_time = 1.0 / (end - begin);
+            self.linear[0] = (from.linear[0] + to.linear[0]) * 0.5;
+            self.linear[1] = (to.linear[0] - from.linear[0]) * per_time;
+            self.shift[0] = (from.shift[0] + to.shift[0]) * 0.5;
+            self.shift[1] = (to.shift[0] - from.shift[0]) * per_time;
+        }
+        self
+    }
 }
 
 /// A prescribed motion.
