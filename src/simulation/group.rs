@@ -112,6 +112,8 @@ pub(crate) struct Group<T: Real, const D: usize> {
     listed: Vec<[T; D]>,
     listed_h: Vec<T>,
     listed_time: f64,
+    /// Beginning and end \[s\] of the drift under way.
+    pub chord: Option<[f64; 2]>,
     pub records: Records<T>,
     pub work_records: Records<T>,
     pub scratch_records: Records<T>,
@@ -191,6 +193,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             listed: Vec::new(),
             listed_h: Vec::new(),
             listed_time: 0.0,
+            chord: None,
             records: Records::default(),
             work_records: Records::default(),
             scratch_records: Records::default(),
@@ -524,7 +527,12 @@ impl<T: Real, const D: usize> Group<T, D> {
     fn place_walls(&mut self, time: f64) {
         self.body_force = self.gravity.map(T::from_f64);
         for wall in &self.walls {
-            let pose = wall.motion.as_ref().map(|motion| motion.pose(time));
+            let pose = wall.motion.as_ref().map(|motion| match self.chord {
+                Some(ends) => motion
+                    .pose(time)
+                    .on_chord(ends.map(|end| motion.pose(end)), ends),
+                None => motion.pose(time),
+            });
             if wall.carries {
                 let acceleration = pose
                     .as_ref()
