@@ -47,6 +47,19 @@ pub enum Problem {
         /// Where \[m\].
         position: Vec<f64>,
     },
+    /// A wall that the kernel looks through.
+    #[error(
+        "wall `{wall}` is thinner than the kernel reaches ({reach} m): liquid behind it would be felt, and its \
+         pressure is too low; give it {layers} layers of particles"
+    )]
+    ThinWall {
+        /// The wall.
+        wall: String,
+        /// Reach of the kernel \[m\].
+        reach: f64,
+        /// Layers that are enough.
+        layers: usize,
+    },
     /// A material that the catalogue does not have.
     #[error("no material is called `{name}`: the catalogue has {known}")]
     UnknownMaterial {

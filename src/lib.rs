@@ -59,7 +59,8 @@
 //! | [`material`] | equations of state, viscosity laws and named materials with their sources |
 //! | [`schemes`] | ready schemes |
 //! | [`simulation`] | steps, criteria of the time step, ledgers, questions about particles |
-//! | [`output`] | tables, plots, particle files, progress |
+//! | [`observe`] | pressure probes, wave gauges, flow through planes |
+//! | [`output`] | tables, plots, pictures, particle files, progress |
 //! | [`study`] | exact and reference solutions, norms, orders of convergence |
 //! | [`error`] | what went wrong, where, and what to try |
 //! | [`boundary`] | mirror planes and periodic directions; a trait for others |
@@ -162,6 +163,7 @@ pub mod integrator;
 pub mod kernel;
 pub mod material;
 pub mod neighbors;
+pub mod observe;
 pub mod output;
 pub mod particles;
 pub mod prelude;

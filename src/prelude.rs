@@ -4,7 +4,9 @@
 //! `Result` is not among them, so the standard one keeps its name.
 
 #[doc(no_inline)]
-pub use crate::boundary::{Boundary, MirrorPlane, Periodic};
+pub use crate::boundary::{
+    Boundary, Crush, MirrorPlane, Motion, Outlet, Periodic, Rotation, Translation, Wall,
+};
 #[doc(no_inline)]
 pub use crate::error::{BuildError, Error};
 #[doc(no_inline)]
@@ -29,7 +31,9 @@ pub use crate::scalar::{Lane, Real};
 #[doc(no_inline)]
 pub use crate::scene::{Body, Scene};
 #[doc(no_inline)]
-pub use crate::scheme::{DensityForm, EnergyForm, Scheme, SchemeBuilder, Smoothing};
+pub use crate::scheme::{
+    DensityForm, EnergyForm, LiquidBuilder, Scheme, SchemeBuilder, Shifting, Smoothing,
+};
 #[doc(no_inline)]
 pub use crate::schemes;
 #[doc(no_inline)]

@@ -12,8 +12,11 @@ use meshfree::term::viscosity::{
     Riemann, SignalVelocity,
 };
 use meshfree::term::{
-    Compression, InternalEnergy, KernelMoment, KernelSum, PressureCurvature, PressureForce,
-    PressureGradient, Probe, SlopeInH, Term, Unity, VelocityGradient, Viscosity, probe,
+    Antuono, CentralViscosity, Compression, Crowding, DensityGradient, Fourtakas, InternalEnergy,
+    KernelMoment, KernelSum, LaminarViscosity, LiquidAlongWall, LiquidNearWall, Molteni,
+    PressureCurvature, PressureForce, PressureGradient, Probe, RenormalisedCompression,
+    RenormalisedPressureForce, RiemannDiffusion, SlopeInH, Term, Unity, VelocityGradient,
+    Viscosity, probe,
 };
 
 macro_rules! for_each_viscosity_of {
@@ -55,6 +58,21 @@ macro_rules! for_each_term {
         $check::<$D, _>(Compression);
         $check::<$D, _>(VelocityGradient);
         $check::<$D, _>(PressureGradient);
+        $check::<$D, _>(DensityGradient);
+        $check::<$D, _>(LaminarViscosity);
+        $check::<$D, _>(CentralViscosity);
+        $check::<$D, _>(Molteni::default());
+        $check::<$D, _>(Fourtakas::default());
+        $check::<$D, _>(Antuono::default());
+        $check::<$D, _>(RiemannDiffusion);
+        $check::<$D, _>(Crowding {
+            repulsion: 0.2,
+            at_spacing: 1.0,
+        });
+        $check::<$D, _>(LiquidNearWall);
+        $check::<$D, _>(LiquidAlongWall);
+        $check::<$D, _>(RenormalisedPressureForce);
+        $check::<$D, _>(RenormalisedCompression);
         for_each_viscosity_of!(
             $check,
             $D,

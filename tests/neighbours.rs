@@ -45,7 +45,10 @@ fn points<const D: usize>(seed: u64, outliers: bool) -> Points<D> {
             set.positions.push(set.positions[end - 1]);
             set.h.push(set.h[end - 1]);
         }
-        set.blocks.push(Block { slots: start..end, wall: false });
+        set.blocks.push(Block {
+            slots: start..end,
+            wall: false,
+        });
     }
     set.slots = set.positions.len();
     let images = random.below(40);
@@ -53,7 +56,10 @@ fn points<const D: usize>(seed: u64, outliers: bool) -> Points<D> {
         set.positions.push(random.vector(4.5));
         set.h.push(1.0 + 0.8 * random.sign());
     }
-    set.blocks.push(Block { slots: set.slots..set.slots + images, wall: false });
+    set.blocks.push(Block {
+        slots: set.slots..set.slots + images,
+        wall: false,
+    });
     set
 }
 

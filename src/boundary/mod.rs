@@ -7,6 +7,9 @@
 //! | [`MirrorPlane::wall`] | the reflection, in contact that opens | rigid walls, at rest or moving |
 //! | [`MirrorPlane::symmetry`] | the reflection, bonded | half of a symmetric problem |
 //! | [`Periodic`] | the copy one period on | waves, homogeneous flow |
+//! | [`Wall`] | – (particles of its own) | tanks, obstacles, pistons of any shape, for liquids |
+//! | [`Inlet`] | – (particles enter) | channels, jets |
+//! | [`Outlet`] | – (particles leave) | liquid that is driven out |
 //!
 //! Boundaries combine: a later one also shows images of the images of earlier ones, which fills edges
 //! and corners. Images are found when neighbour lists are made, and follow their particles until the
@@ -17,16 +20,21 @@
 //! meet. It slips along the plane. Walls of other shapes are [`Wall`]s of particles of their own: they
 //! hold liquids, move as [prescribed](Motion), and may deny slip.
 
+mod inlet;
 mod mirror;
 mod motion;
+mod outlet;
 mod periodic;
 mod wall;
 
 use crate::sweep::{Interaction, Transform};
 use core::fmt::Debug;
 
+pub(crate) use inlet::Emitter;
+pub use inlet::Inlet;
 pub use mirror::MirrorPlane;
 pub use motion::{Crush, Motion, Pose, Rotation, Translation};
+pub use outlet::Outlet;
 pub use periodic::Periodic;
 pub use wall::{Slip, Wall};
 

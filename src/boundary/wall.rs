@@ -135,7 +135,14 @@ mod tests {
     fn layers_fill_edges_and_corners() {
         let tank = Wall::around("tank", [0.0; 3], [1.0; 3], 0.1, 3, [[true; 2]; 3]);
         assert_eq!(tank.points().len(), 16 * 16 * 16 - 1000);
-        let open = Wall::around("cup", [0.0; 2], [1.0; 2], 0.1, 2, [[true; 2], [true, false]]);
+        let open = Wall::around(
+            "cup",
+            [0.0; 2],
+            [1.0; 2],
+            0.1,
+            2,
+            [[true; 2], [true, false]],
+        );
         assert_eq!(open.points().len(), 14 * 12 - 100);
         assert!(open.points().iter().all(|x| x[1] < 1.0));
     }

@@ -1,7 +1,10 @@
-//! What a run leaves behind: tables, plots, particle files, reports and a progress line.
+//! What a run leaves behind: tables, plots, pictures, particle files, reports and a progress line.
 //! Whatever was written before a crash stays readable.
 
 pub mod csv;
+mod deflate;
+pub mod picture;
+pub mod png;
 pub mod progress;
 pub mod svg;
 pub mod table;

@@ -151,6 +151,24 @@ impl<T: Real, const D: usize> Body<T, D> {
         self.start(|_, start| Start { density, ..start })
     }
 
+    /// Starts all particles at the pressure that a liquid at rest has under `acceleration` \[m/s²\] with a
+    /// free surface through `surface` \[m\], p = ρ₀ g·(x − x_s): its density is that of the material there.
+    ///
+    /// Above the surface, and where the law does not reach the pressure, particles keep their density.
+    #[must_use]
+    pub fn hydrostatic(self, acceleration: [f64; D], surface: [f64; D]) -> Self {
+        let material = self.material.clone();
+        let rest = material.reference_density();
+        self.start(|x, start| {
+            let depth: f64 = (0..D).map(|d| acceleration[d] * (x[d] - surface[d])).sum();
+            let pressure = rest * depth;
+            match material.eos().density_at(pressure, start.energy) {
+                Some(density) if pressure > 0.0 => Start { density, ..start },
+                _ => start,
+            }
+        })
+    }
+
     /// Starts all particles at a specific internal energy \[J/kg\]; zero if not given.
     #[must_use]
     pub fn energy(self, energy: f64) -> Self {

@@ -102,7 +102,9 @@ impl DensityForm {
     #[inline]
     pub(crate) fn compression<T: Real>(self, sum: T, density: T, rest: T, moment: T) -> T {
         match self {
-            Self::Summation | Self::Normalised | Self::ContinuityByMass | Self::Lam => sum / density,
+            Self::Summation | Self::Normalised | Self::ContinuityByMass | Self::Lam => {
+                sum / density
+            }
             Self::NumberDensity => sum * (rest / density) / moment,
             Self::Continuity => sum / moment,
         }
@@ -112,7 +114,9 @@ impl DensityForm {
     #[inline]
     pub(crate) fn coefficient<T: Real>(self, p: T, density: T, rest: T, moment: T) -> T {
         match self {
-            Self::Summation | Self::Normalised | Self::ContinuityByMass | Self::Lam => p / (density * density),
+            Self::Summation | Self::Normalised | Self::ContinuityByMass | Self::Lam => {
+                p / (density * density)
+            }
             Self::NumberDensity => p * (rest / density) * (rest / density) / moment,
             Self::Continuity => p / moment,
         }

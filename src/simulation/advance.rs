@@ -221,6 +221,7 @@ fn add_scaled<T: Real>(x: &mut [T], residual: &mut [T], v: &[T], dt: T) {
 impl<T: Real, const D: usize> System for Simulation<T, D> {
     fn evaluate(&mut self, offset: f64) -> Result<()> {
         let time = self.time + offset;
+        self.evaluated = time;
         self.group.gravity = self.body_acceleration(time);
         self.gravity = self.group.gravity.map(T::from_f64);
         self.group.evaluate(time);
@@ -260,6 +261,7 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
             self.heat(dt, false);
         }
         self.record_impulses(dt);
+        self.record_work(dt);
         self.kick_velocity(dt);
     }
 

@@ -185,8 +185,10 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// Volumes `dt` \[s\] ahead with the last rates of compression, for sums at the middle of a drift.
     pub fn predict_weights(&mut self, dt: f64) {
-        // The rates of a liquid do not sum compression; its volumes change by little in a step.
-        if self.scheme.liquid.is_some() {
+        // The rates of a liquid do not sum compression, and its volumes change by little in a step;
+        // masses do not change at all.
+        let by_mass = self.scheme.density == DensityForm::ContinuityByMass;
+        if self.scheme.liquid.is_some() || by_mass {
             return;
         }
         if !self.scheme.density.is_integrated()
@@ -445,10 +447,11 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.scratch_sweep(|group| group.scheme.gradient.as_deref());
         let rows = &self.scratch_rows;
         let mobile = self.mobile;
-        let [velocity, pressure, density] = self.columns.many_mut([
+        let [velocity, pressure, density, corrections] = self.columns.many_mut([
             Field::VelocityGradient,
             Field::PressureGradient,
             Field::DensityGradient,
+            Field::Correction,
         ]);
         let with_velocity = !velocity.is_empty();
         let correction = |slot: usize| {
@@ -469,6 +472,18 @@ impl<T: Real, const D: usize> Group<T, D> {
                     let gradient = sum * correction(slot);
                     for (k, value) in out.iter_mut().enumerate() {
                         *value = gradient[(k / D, k % D)];
+                    }
+                });
+        }
+        if !corrections.is_empty() {
+            corrections[..mobile * D * D]
+                .par_chunks_mut(D * D)
+                .enumerate()
+                .with_min_len(GRAIN)
+                .for_each(|(slot, out)| {
+                    let correction = correction(slot);
+                    for (k, value) in out.iter_mut().enumerate() {
+                        *value = correction[(k / D, k % D)];
                     }
                 });
         }

@@ -1,7 +1,8 @@
 //! A group: the bodies that share a scheme, with their columns, neighbour lists and images.
 //! It knows where particles are and who their neighbours are; physics happens in `evaluate`.
 
-use crate::boundary::{Boundary, Motion, Pose, Slip};
+use crate::boundary::{Boundary, Emitter, Motion, Outlet, Pose, Slip};
+use crate::error::{Error, Problem, Result};
 use crate::material::Material;
 use crate::material::eos::GuardCounts;
 use crate::neighbors::{Block, ClusterLists, Grid, Radii, SearchInput};
@@ -23,6 +24,8 @@ pub struct BodyState<T: Real> {
     pub(crate) slots: Range<usize>,
     /// One past the last slot of its run, a whole number of clusters.
     pub(crate) end: usize,
+    /// Identities that its particles have had.
+    pub(crate) ids: Range<usize>,
     pub(crate) spacing: f64,
 }
 
@@ -30,6 +33,30 @@ impl<T: Real> BodyState<T> {
     /// Its slots with the repeats.
     pub(crate) fn run(&self) -> Range<usize> {
         self.slots.start..self.end
+    }
+}
+
+/// What has left a simulation through its outlets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Removed<const D: usize> {
+    /// Particles.
+    pub particles: u64,
+    /// Mass \[kg\].
+    pub mass: f64,
+    /// Momentum \[kg m/s\].
+    pub momentum: [f64; D],
+    /// Kinetic energy \[J\].
+    pub kinetic: f64,
+}
+
+impl<const D: usize> Default for Removed<D> {
+    fn default() -> Self {
+        Self {
+            particles: 0,
+            mass: 0.0,
+            momentum: [0.0; D],
+            kinetic: 0.0,
+        }
     }
 }
 
@@ -60,6 +87,11 @@ pub(crate) struct Group<T: Real, const D: usize> {
     pub columns: Columns<T, D>,
     pub bodies: Vec<BodyState<T>>,
     pub walls: Vec<WallState<D>>,
+    pub outlets: Vec<Outlet<D>>,
+    /// Inlets, each with the body that it feeds.
+    pub emitters: Vec<(usize, Emitter<D>)>,
+    /// What has left through outlets.
+    pub removed: Removed<D>,
     /// Slots below this move by forces; walls come behind.
     pub mobile: usize,
     /// What the loads give \[m/s²\].
@@ -142,6 +174,9 @@ impl<T: Real, const D: usize> Group<T, D> {
             mobile: walls.first().map_or(slots, |wall| wall.slots.start),
             bodies,
             walls,
+            outlets: Vec::new(),
+            emitters: Vec::new(),
+            removed: Removed::default(),
             gravity: [0.0; D],
             body_force: [T::zero(); D],
             boundaries,
@@ -254,6 +289,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.rebuilds += 1;
         self.listed_time = time;
         self.wrap();
+        self.remove();
         let reach = self.reach();
         if D > 1 {
             self.sort(0.5 * reach);
@@ -344,16 +380,131 @@ impl<T: Real, const D: usize> Group<T, D> {
                 .collect();
             let own = &mut order[slots.clone()];
             own.par_sort_by_key(|&slot| keys[slot as usize - slots.start]);
-            let last = order[slots.end - 1];
-            order[slots.end..end].fill(last);
+            if let Some(&last) = order[slots.clone()].last() {
+                order[slots.end..end].fill(last);
+            }
         }
+        self.reorder(&order);
+    }
+
+    /// Takes out what outlets take; the slots behind the last particle of a body repeat it.
+    fn remove(&mut self) {
+        if self.outlets.is_empty() {
+            return;
+        }
+        let mut order: Vec<u32> = (0..self.columns.slots() as u32).collect();
+        let mut any = false;
+        for k in 0..self.bodies.len() {
+            let (slots, end) = (self.bodies[k].slots.clone(), self.bodies[k].end);
+            let mut kept = slots.start;
+            for slot in slots.clone() {
+                let x = self.columns.vectors(Field::Position)[slot].map(Real::to_f64);
+                let v = self.columns.vectors(Field::Velocity)[slot].map(Real::to_f64);
+                if !self.outlets.iter().any(|outlet| outlet.takes(&x, &v)) {
+                    order[kept] = slot as u32;
+                    kept += 1;
+                    continue;
+                }
+                any = true;
+                self.slot_of[self.ids[slot] as usize] = u32::MAX;
+                let mass = self.columns.raw(Field::Mass)[slot].to_f64();
+                self.removed.particles += 1;
+                self.removed.mass += mass;
+                for d in 0..D {
+                    self.removed.momentum[d] += mass * v[d];
+                    self.removed.kinetic += 0.5 * mass * v[d] * v[d];
+                }
+            }
+            if kept > slots.start {
+                let last = order[kept - 1];
+                order[kept..end].fill(last);
+            }
+            self.bodies[k].slots.end = kept;
+        }
+        if any {
+            self.reorder(&order);
+        }
+    }
+
+    /// Lets particles enter that are due at `time`; whether there were any.
+    ///
+    /// # Errors
+    /// If a body's reserve is used up.
+    pub fn emit(&mut self, time: f64) -> Result<bool> {
+        let mut any = false;
+        for k in 0..self.emitters.len() {
+            while let Some((layer, velocity)) = self.emitters[k].1.due(time) {
+                any = true;
+                for x in layer {
+                    self.insert(self.emitters[k].0, x, velocity)?;
+                }
+            }
+        }
+        if any {
+            // Lists do not know the new ones.
+            self.rebuild(time);
+        }
+        Ok(any)
+    }
+
+    /// Appends one particle to a body, like its material at rest.
+    fn insert(&mut self, body: usize, x: [f64; D], velocity: [f64; D]) -> Result<()> {
+        let (slots, end) = (self.bodies[body].slots.clone(), self.bodies[body].end);
+        let free = self.bodies[body]
+            .ids
+            .clone()
+            .find(|&id| self.slot_of[id] == u32::MAX);
+        let (Some(id), true) = (free, slots.end < end) else {
+            return Err(Error::Argument(Problem::Parameter {
+                what: format!("reserve of the inlet of body `{}`", self.bodies[body].name),
+                value: slots.len() as f64,
+                must_be: "all of it has entered and none has left: give the inlet a larger reserve, \
+                          or put an outlet where the flow ends",
+            }));
+        };
+        let slot = slots.end;
+        let source = if slots.is_empty() {
+            slot
+        } else {
+            slots.end - 1
+        };
+        self.columns.copy_slot(source, slot);
+        let density = self.bodies[body].material.reference_density();
+        let mass = density * self.bodies[body].spacing.powi(D as i32);
+        let rounded = x.map(T::from_f64);
+        self.columns.vectors_mut(Field::Position)[slot] = rounded;
+        self.columns.vectors_mut(Field::Velocity)[slot] = velocity.map(T::from_f64);
+        if let Some(residual) = self
+            .columns
+            .vectors_mut(Field::PositionResidual)
+            .get_mut(slot)
+        {
+            *residual = core::array::from_fn(|d| T::from_f64(x[d] - rounded[d].to_f64()));
+        }
+        for (field, value) in [
+            (Field::Density, density),
+            (Field::DensityResidual, 0.0),
+            (Field::Mass, mass),
+        ] {
+            if let Some(place) = self.columns.raw_mut(field).get_mut(slot) {
+                *place = T::from_f64(value);
+            }
+        }
+        self.bodies[body].slots.end = slot + 1;
+        self.ids[slot] = id as u32;
+        self.slot_of[id] = slot as u32;
+        Ok(())
+    }
+
+    /// Rearranges the slots, and remembers it for states outside.
+    fn reorder(&mut self, order: &[u32]) {
         if order.iter().enumerate().all(|(k, &from)| k as u32 == from) {
             return;
         }
-        self.columns.permute(&order);
-        self.rows.permute(&order);
+        self.columns.permute(order);
+        self.rows.permute(order);
         if self.moved.order.is_empty() {
-            self.moved.order.clone_from(&order);
+            self.moved.order.extend_from_slice(order);
         } else {
             let before = core::mem::take(&mut self.moved.order);
             self.moved.order = order.iter().map(|&k| before[k as usize]).collect();
@@ -373,7 +524,9 @@ impl<T: Real, const D: usize> Group<T, D> {
         for wall in &self.walls {
             let pose = wall.motion.as_ref().map(|motion| motion.pose(time));
             if wall.carries {
-                let acceleration = pose.as_ref().map_or([0.0; D], |pose| pose.of(2, &wall.rest[0]));
+                let acceleration = pose
+                    .as_ref()
+                    .map_or([0.0; D], |pose| pose.of(2, &wall.rest[0]));
                 for d in 0..D {
                     self.body_force[d] -= T::from_f64(acceleration[d]);
                 }

@@ -23,6 +23,9 @@
 //! | smoothing lengths held at a limit | [`Simulation::limited_smoothing_lengths`] |
 //! | mass, momentum, kinetic and internal energy of every body, impulse of boundaries | [`Simulation::ledger`] |
 //! | force between two bodies, or a body and a boundary | [`Simulation::force_between`] |
+//! | force and impulse on a wall | [`Simulation::wall_force`], [`Simulation::wall_impulse`] |
+//! | energy of a liquid, work on it, dissipation | [`Simulation::energy`] |
+//! | what left through outlets | [`Simulation::removed`] |
 //! | memory | [`Simulation::bytes`] |
 //!
 //! # Questions about particles
@@ -50,6 +53,7 @@
 
 mod advance;
 mod control;
+mod energy;
 mod evaluate;
 mod group;
 mod ledger;
@@ -59,9 +63,11 @@ mod switching;
 mod walls;
 
 pub use control::{Criterion, StepControl, Vote};
+pub use energy::EnergyLedger;
 pub use ledger::{Budget, Ledger};
 pub use query::ParticleView;
 
+pub use group::Removed;
 pub(crate) use group::{BodyState, Group, WallState, width};
 
 use crate::error::{Error, Problem, Result};
@@ -90,6 +96,10 @@ pub struct Simulation<T: Real, const D: usize> {
     first_step: Option<f64>,
     last_vote: Option<Vote>,
     impulses: Impulses,
+    /// Work done on a liquid, where it is kept.
+    work: Option<energy::Work>,
+    /// The time \[s\] of the last evaluation.
+    evaluated: f64,
     predicted: Kept<T>,
     kept: Vec<Kept<T>>,
     /// Time \[s\] over which viscosity coefficients have yet to follow the flow.
@@ -126,6 +136,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             first_step: None,
             last_vote: None,
             impulses: Impulses::default(),
+            work: None,
+            evaluated: 0.0,
             predicted: Kept::default(),
             kept: Vec::new(),
             switch_due: 0.0,
@@ -189,6 +201,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// # Errors
     /// As [`run_until`](Simulation::run_until).
     pub fn step_at_most(&mut self, limit: f64) -> Result<f64> {
+        if self.group.emit(self.time)? {
+            self.rates_at_hand = false;
+        }
         if !self.rates_at_hand {
             crate::integrator::System::evaluate(self, 0.0)?;
         }

@@ -2,8 +2,11 @@
 //! Values come out as `f64`, whatever the scalar of the simulation.
 
 use super::Simulation;
-use crate::particles::Field;
+use super::group::Removed;
+use crate::boundary::Pose;
+use crate::particles::{Field, Output};
 use crate::scalar::Real;
+use crate::sweep::{Pass, Rows, SweepInput};
 
 /// A particle as it is now.
 #[derive(Clone, Copy, Debug)]
@@ -85,19 +88,21 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.group.bodies.iter().map(|body| body.name.as_str())
     }
 
-    /// The particles of a body, by its index, in the order in which the scene placed them.
+    /// The particles of a body, by its index, in the order in which the scene placed them; those that
+    /// have left through an outlet are missing.
     pub fn body(&self, body: usize) -> impl Iterator<Item = ParticleView<'_, T, D>> {
         let ids = self
             .group
             .bodies
             .get(body)
-            .map_or(0..0, |body| body.slots.clone());
-        ids.map(|id| self.particle(id))
+            .map_or(0..0, |body| body.ids.clone());
+        let there = |&id: &usize| self.group.slot_of[id] != u32::MAX;
+        ids.filter(there).map(|id| self.particle(id))
     }
 
     /// Sets every velocity \[m/s\] as a function of position \[m\] and present velocity, between steps.
     pub fn set_velocities(&mut self, velocity: impl Fn([f64; D], [f64; D]) -> [f64; D]) {
-        for slot in 0..self.group.columns.slots() {
+        for slot in 0..self.group.mobile {
             let now = ParticleView {
                 simulation: self,
                 slot,
@@ -121,6 +126,99 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// All particles, body after body.
     pub fn all(&self) -> impl Iterator<Item = ParticleView<'_, T, D>> {
         (0..self.group.bodies.len()).flat_map(|body| self.body(body))
+    }
+
+    /// Names of the walls, in the order of the scene.
+    pub fn walls(&self) -> impl Iterator<Item = &str> {
+        self.group.walls.iter().map(|wall| wall.name.as_str())
+    }
+
+    /// The particles of a wall, by its index, in the order of memory.
+    pub fn wall(&self, wall: usize) -> impl Iterator<Item = ParticleView<'_, T, D>> {
+        let slots = self
+            .group
+            .walls
+            .get(wall)
+            .map_or(0..0, |wall| wall.slots.clone());
+        slots.map(|slot| ParticleView {
+            simulation: self,
+            slot,
+            id: self.group.ids[slot] as usize,
+        })
+    }
+
+    /// Where a wall is now: the pose of its motion; at rest without one.
+    #[must_use]
+    pub fn wall_pose(&self, wall: Option<usize>) -> Pose<D> {
+        wall.and_then(|wall| self.group.walls.get(wall))
+            .and_then(|wall| wall.motion.as_ref())
+            .map_or_else(Pose::rest, |motion| motion.pose(self.time))
+    }
+
+    /// Shows every particle, of bodies and walls, within `reach` \[m\] of a point.
+    pub(crate) fn near(
+        &self,
+        point: &[f64; D],
+        reach: f64,
+        mut visit: impl FnMut(ParticleView<'_, T, D>),
+    ) {
+        let walls = self.group.walls.iter().map(|wall| wall.slots.clone());
+        let bodies = self.group.bodies.iter().map(|body| body.slots.clone());
+        let positions = self.group.columns.vectors(Field::Position);
+        for slot in bodies.chain(walls).flatten() {
+            let r2: f64 = (0..D)
+                .map(|d| (positions[slot][d].to_f64() - point[d]).powi(2))
+                .sum();
+            if r2 < reach * reach {
+                visit(ParticleView {
+                    simulation: self,
+                    slot,
+                    id: self.group.ids[slot] as usize,
+                });
+            }
+        }
+    }
+
+    /// The force \[N\] of the bodies on every wall particle at the last evaluation, with its position
+    /// \[m\]: the forces on the bodies with the opposite sign. A sweep over the walls, when asked for.
+    #[must_use]
+    pub fn wall_particle_forces(&self) -> Vec<([f64; D], [f64; D])> {
+        let group = &self.group;
+        let mut rows = Rows::default();
+        let input = SweepInput {
+            targets: group.mobile..group.columns.slots(),
+            ..group.input()
+        };
+        group
+            .scheme
+            .rates
+            .run(Pass::Rates, &input, &group.records, &mut rows);
+        let walls = group.walls.iter().flat_map(|wall| wall.slots.clone());
+        walls
+            .map(|slot| {
+                let x = group.columns.vectors(Field::Position)[slot];
+                let force = rows.vector(Output::Force, slot);
+                (x.map(Real::to_f64), force.map(Real::to_f64))
+            })
+            .collect()
+    }
+
+    /// What has left through outlets.
+    #[must_use]
+    pub fn removed(&self) -> Removed<D> {
+        self.group.removed
+    }
+
+    /// Smoothing length \[m\] of the bodies as built.
+    #[must_use]
+    pub fn smoothing_length(&self) -> f64 {
+        self.group.smoothing_length
+    }
+
+    /// Spacing \[m\] of the first body.
+    #[must_use]
+    pub fn spacing(&self) -> f64 {
+        self.group.bodies.first().map_or(0.0, |body| body.spacing)
     }
 
     /// Counts of what guards did, by kind, since the start.

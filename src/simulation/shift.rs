@@ -18,7 +18,12 @@ const LONGEST: f64 = 0.1;
 impl<T: Real, const D: usize> Group<T, D> {
     /// Shifts particles with the sums of the last sweep for compression, over `dt` \[s\].
     pub fn shift(&mut self, dt: f64) {
-        let Some(shifting) = self.scheme.liquid.as_ref().and_then(|liquid| liquid.shifting) else {
+        let Some(shifting) = self
+            .scheme
+            .liquid
+            .as_ref()
+            .and_then(|liquid| liquid.shifting)
+        else {
             return;
         };
         let (rows, h, mobile) = (&self.scratch_rows, self.smoothing_length, self.mobile);

@@ -23,11 +23,9 @@ impl<T: Real, const D: usize> Group<T, D> {
             group.scheme.liquid.as_ref().map(|liquid| &*liquid.wall)
         });
         let rows = &self.scratch_rows;
-        let [pressure, velocity, viscosity] = self.columns.many_mut([
-            Field::Pressure,
-            Field::Velocity,
-            Field::DynamicViscosity,
-        ]);
+        let [pressure, velocity, viscosity] =
+            self.columns
+                .many_mut([Field::Pressure, Field::Velocity, Field::DynamicViscosity]);
         for wall in &self.walls {
             let run = wall.slots.start..wall.end;
             let pose = wall.motion.as_ref().map(|motion| motion.pose(time));

@@ -383,7 +383,13 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                 .blocks
                 .get(block)
                 .is_some_and(|b| b.slots.contains(&first));
-            if !(live && self.targets.contains(&first)) {
+            if !self.targets.contains(&first) {
+                continue;
+            }
+            if !live {
+                // Slots that no particle owns any more feel nothing.
+                let row = c * width_out * L::WIDTH..(c + 1) * width_out * L::WIDTH;
+                out[row].fill(T::zero());
                 continue;
             }
             let mut own = [L::zero(); MOST_READS];

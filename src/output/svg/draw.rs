@@ -2,7 +2,7 @@
 //! Data is clipped by a nested picture, so that no names are needed that could clash on a page.
 
 use super::axis::{Scale, Ticks, signed};
-use super::cloud::BAR;
+use super::bar::Bar;
 use super::color::{Color, PALETTE};
 use super::fit::power_law;
 use super::ink::{Point, label, markers, stroke, upright};
@@ -70,8 +70,8 @@ pub(super) struct Prepared<'a> {
     pub(super) y: Scale,
     x_ticks: Ticks,
     y_ticks: Ticks,
-    /// The scale and ticks of the colour bar.
-    pub(super) bar: Option<(Scale, Ticks)>,
+    /// The colour bar.
+    pub(super) bar: Option<Bar>,
     pub(super) margins: Margins,
 }
 
@@ -103,19 +103,14 @@ impl<'a> Prepared<'a> {
         let x = panel.x.scale(xs, side);
         let y = panel.y.scale(ys, room);
         let bar = panel.cloud.as_ref().map(|cloud| {
-            let scale = cloud.value.scale(cloud.points.iter().map(|p| p.2), 0.0);
-            (scale, scale.ticks((size.1 - 70.0) / 38.0))
+            let values = cloud.points.iter().map(|p| p.2);
+            Bar::new(&cloud.value, values, size.1 - 70.0)
         });
         let x_ticks = x.ticks(((size.0 - 80.0) / 62.0).max(2.0));
         let y_ticks = y.ticks(((size.1 - 70.0) / 38.0).max(2.0));
         let named = |text: &str, room: f64| if text.is_empty() { 0.0 } else { room };
-        let power = bar.iter().any(|(_, ticks)| ticks.power != 0) || y_ticks.power != 0;
-        let beside = match (&panel.cloud, &bar) {
-            (Some(cloud), Some((_, ticks))) => {
-                10.0 + BAR + 8.0 + widest(ticks) + named(&cloud.value.label, 20.0)
-            }
-            _ => 0.0,
-        };
+        let power = bar.iter().any(|bar| bar.ticks.power != 0) || y_ticks.power != 0;
+        let beside = bar.as_ref().map_or(0.0, Bar::room);
         let margins = Margins {
             left: 20.0 + widest(&y_ticks) + named(&panel.y.label, 20.0),
             right: 16.0 + beside,
@@ -179,7 +174,9 @@ impl<'a> Prepared<'a> {
         let curves = self.data(body, w, h);
         body.push_str("</svg>\n");
         self.axes(body, w, h);
-        self.color_bar(body, w, h);
+        if let Some(bar) = &self.bar {
+            bar.draw(body, w, h);
+        }
         let samples = spread(&curves, w, h);
         let mut taken = Vec::new();
         if with_legend {

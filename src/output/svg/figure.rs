@@ -9,7 +9,6 @@ use super::path::px;
 use super::text;
 use crate::error::Result;
 use core::fmt;
-use std::fmt::Write as _;
 use std::path::Path;
 
 /// One or several panels on a page.
@@ -202,29 +201,28 @@ impl fmt::Display for Figure {
             }
             height += shared_legend(&mut body, &entries, width, height + 8.0);
         }
-        writeln!(
-            f,
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-             viewBox=\"0 0 {width} {height}\" font-family=\"Helvetica, Arial, sans-serif\" \
-             font-size=\"11\" fill=\"#222222\" xml:space=\"preserve\">"
-        )?;
-        if !self.title.is_empty() {
-            writeln!(f, "<title>{}</title>", xml_escape(&self.title))?;
-        }
-        writeln!(
-            f,
-            "<rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>"
-        )?;
-        if !self.title.is_empty() {
-            writeln!(
-                f,
-                "<text x=\"{}\" y=\"24\" text-anchor=\"middle\" font-size=\"15\" \
-                 font-weight=\"bold\">{}</text>",
-                px(0.5 * width),
-                text::markup(&self.title, 15.0)
-            )?;
-        }
-        write!(f, "{body}</svg>")?;
-        f.write_char('\n')
+        f.write_str(&page(width, height, &self.title, &body))
     }
+}
+
+/// A page of this size in pixels, with a title in its uppermost 34, around what is drawn.
+pub(in crate::output) fn page(width: f64, height: f64, title: &str, body: &str) -> String {
+    let mut page = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+         viewBox=\"0 0 {width} {height}\" font-family=\"Helvetica, Arial, sans-serif\" \
+         font-size=\"11\" fill=\"#222222\" xml:space=\"preserve\">\n"
+    );
+    if !title.is_empty() {
+        page += &format!("<title>{}</title>\n", xml_escape(title));
+    }
+    page += &format!("<rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n");
+    if !title.is_empty() {
+        page += &format!(
+            "<text x=\"{}\" y=\"24\" text-anchor=\"middle\" font-size=\"15\" \
+             font-weight=\"bold\">{}</text>\n",
+            px(0.5 * width),
+            text::markup(title, 15.0)
+        );
+    }
+    page + body + "</svg>\n"
 }

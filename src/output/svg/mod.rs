@@ -1,7 +1,34 @@
 //! Plots as SVG: lines, steps, markers and coloured particles, in one panel or a grid of them.
 //! Thinned to what can be seen, so that long histories make small files.
+//!
+//! Particles of a plane coloured by pressure, a metre as long across as up:
+//!
+//! ```
+//! use meshfree::output::svg::{Axis, Cloud, Figure, Panel};
+//! let (spacing, surface) = (0.05, 1.0);
+//! let places = (0..800).map(|i| [i % 40, i / 40].map(|k| spacing * (f64::from(k) + 0.5)));
+//! let water = places.map(|[x, y]| (x, y, 9.81 * (surface - y)));
+//!
+//! // Ranges are fixed, so that the frames of a film agree in place and colour.
+//! let pressure = Axis::linear("pressure", "kPa").range(0.0, 10.0);
+//! let tank = Panel::new(
+//!     Axis::linear("x", "m").range(0.0, 4.0),
+//!     Axis::linear("y", "m").range(0.0, 2.0),
+//! );
+//! let panel = tank.equal_aspect().cloud(Cloud::new(pressure, water).diameter(spacing));
+//! let figure = Figure::new().panel_size(720.0, 400.0).panel(panel.title("t = 0.00 s"));
+//! # assert!(figure.to_string().contains("pressure [kPa]"));
+//! # let _ = || -> meshfree::error::Result<()> {
+//! figure.save("out/frame_00000.svg")?;
+//! # Ok(())
+//! # };
+//! ```
+//!
+//! In a run `water` is `simulation.all()`, each particle mapped to the components of its `position()`
+//! and its `pressure()`. Particles in space are a [`Picture`](super::picture::Picture).
 
 mod axis;
+mod bar;
 mod cloud;
 mod color;
 mod draw;
@@ -16,11 +43,14 @@ mod slope;
 mod text;
 
 pub use axis::Axis;
+pub(super) use bar::{Bar, level_color};
 pub use color::{Color, PALETTE, viridis};
 pub use figure::Figure;
+pub(super) use figure::page;
 pub use fit::{PowerLaw, power_law};
 pub use legend::Legend;
 pub use panel::Panel;
+pub(super) use path::px;
 pub use series::{Cloud, Marker, Series};
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 type Point = (f64, f64);
 
 /// Two decimals are enough for a pixel.
-pub(super) fn px(value: f64) -> f64 {
+pub(in crate::output) fn px(value: f64) -> f64 {
     (value * 100.0).round() / 100.0 + 0.0
 }
 

@@ -1,0 +1,185 @@
+//! Pressure on a wall: averaged over a disc as a sensor does, and as force over area.
+//! A probe moves with the wall that it is fixed to.
+
+use super::weight;
+use crate::scalar::Real;
+use crate::simulation::Simulation;
+use crate::tensor::{Vector, length};
+
+/// Rings of points on which a disc is sampled.
+const RINGS: usize = 2;
+
+/// A pressure sensor on a wall: a disc in 3D, a length in 2D, a point in 1D.
+///
+/// The pressure at a point of the surface is p = Σ V p W / Σ V W over liquid and wall: the sides lie half
+/// a spacing before and behind it, so the mean is that of the surface to second order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PressureProbe<const D: usize> {
+    name: String,
+    centre: [f64; D],
+    normal: [f64; D],
+    diameter: f64,
+    wall: Option<usize>,
+}
+
+impl<const D: usize> PressureProbe<D> {
+    /// A sensor of `diameter` \[m\] around `centre` \[m\] on a surface with `normal`, in the scene as built.
+    #[must_use]
+    pub fn disc(name: &str, centre: [f64; D], normal: [f64; D], diameter: f64) -> Self {
+        let size = length(&Vector::from(normal));
+        Self {
+            name: name.into(),
+            centre,
+            normal: normal.map(|n| n / size),
+            diameter,
+            wall: None,
+        }
+    }
+
+    /// Fixes it to a wall, by its index, whose motion it follows.
+    #[must_use]
+    pub fn on_wall(mut self, wall: usize) -> Self {
+        self.wall = Some(wall);
+        self
+    }
+
+    /// Its name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Where it is in the scene as built \[m\].
+    #[must_use]
+    pub fn centre(&self) -> [f64; D] {
+        self.centre
+    }
+
+    /// Points of the disc, of equal area, in the scene as built.
+    fn points(&self) -> Vec<[f64; D]> {
+        let normal = Vector::<f64, D>::from(self.normal);
+        // Two directions along the surface, by taking the normal out of the axes least along it.
+        let mut axes: Vec<Vector<f64, D>> = Vec::new();
+        let mut order: Vec<usize> = (0..D).collect();
+        order.sort_by(|&a, &b| normal[a].abs().total_cmp(&normal[b].abs()));
+        for &d in order.iter().take(D - 1) {
+            let mut axis = Vector::<f64, D>::from_fn(|a, _| f64::from(u8::from(a == d)));
+            for other in core::iter::once(&normal).chain(&axes) {
+                axis -= other * axis.dot(other);
+            }
+            axes.push(axis / length(&axis));
+        }
+        let radius = 0.5 * self.diameter;
+        let centre = Vector::from(self.centre);
+        let mut points = vec![self.centre];
+        match axes.as_slice() {
+            [] => {}
+            [along] => {
+                // Five points on a length, each the middle of a fifth.
+                for s in [-0.8, -0.4, 0.4, 0.8] {
+                    points.push((centre + along * (s * radius)).into());
+                }
+            }
+            [first, second, ..] => {
+                // A centre and rings of 6 k points: 1 + 6 + 12 patches of equal area.
+                let total = (1 + 3 * RINGS * (RINGS + 1)) as f64;
+                for ring in 1..=RINGS {
+                    let inner = (1 + 3 * ring * (ring - 1)) as f64;
+                    let outer = (1 + 3 * ring * (ring + 1)) as f64;
+                    let r = radius * (0.5 * (inner + outer) / total).sqrt();
+                    for k in 0..6 * ring {
+                        let angle = core::f64::consts::TAU * k as f64 / (6 * ring) as f64;
+                        let (sine, cosine) = angle.sin_cos();
+                        points.push((centre + first * (r * cosine) + second * (r * sine)).into());
+                    }
+                }
+            }
+        }
+        points
+    }
+
+    /// The pressure \[Pa\] averaged over the disc, at the last evaluation; zero where it is dry.
+    #[must_use]
+    pub fn pressure<T: Real>(&self, simulation: &Simulation<T, D>) -> f64 {
+        let pose = simulation.wall_pose(self.wall);
+        let points: Vec<[f64; D]> = self.points().iter().map(|x| pose.of(0, x)).collect();
+        let h = simulation.smoothing_length();
+        let reach = 2.0 * h + 0.5 * self.diameter;
+        let mut sums = vec![[0.0; 2]; points.len()];
+        simulation.near(&pose.of(0, &self.centre), reach, |particle| {
+            let x = particle.position();
+            let volume = particle.mass() / particle.density();
+            for (point, sum) in points.iter().zip(&mut sums) {
+                let r2: f64 = (0..D).map(|d| (x[d] - point[d]).powi(2)).sum();
+                let q = r2.sqrt() / h;
+                if q < 2.0 {
+                    let weight = volume * weight(q);
+                    sum[0] += weight;
+                    sum[1] += weight * particle.pressure();
+                }
+            }
+        });
+        let mean = |sum: &[f64; 2]| if sum[0] > 0.0 { sum[1] / sum[0] } else { 0.0 };
+        sums.iter().map(mean).sum::<f64>() / sums.len() as f64
+    }
+
+    /// The force \[N\] of the liquid on the wall particles behind the disc, along the normal and into the
+    /// wall, over the area of their columns: the pressure that the wall really feels.
+    #[must_use]
+    pub fn contact_pressure<T: Real>(&self, simulation: &Simulation<T, D>) -> f64 {
+        let pose = simulation.wall_pose(self.wall);
+        let centre = Vector::<f64, D>::from(pose.of(0, &self.centre));
+        let normal = pose.linear[0] * Vector::from(self.normal);
+        let (mut force, mut columns) = (0.0, 0_usize);
+        let spacing = simulation.spacing();
+        for (x, on) in simulation.wall_particle_forces() {
+            let r = Vector::from(x) - centre;
+            let along = r.dot(&normal);
+            let aside = length(&(r - normal * along));
+            // As wide as the disc, and at least one column of particles.
+            if aside <= (0.5 * self.diameter).max(0.71 * spacing) && along <= 0.0 {
+                force -= Vector::from(on).dot(&normal);
+                columns += usize::from(along > -spacing);
+            }
+        }
+        if columns == 0 {
+            return 0.0;
+        }
+        force / (columns as f64 * spacing.powi(D as i32 - 1))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_lie_on_the_disc_and_balance() {
+        let probe = PressureProbe::disc("p", [1.0, 2.0, 3.0], [0.0, 3.0, 4.0], 0.2);
+        let points = probe.points();
+        assert_eq!(points.len(), 19);
+        let mut mean = [0.0; 3];
+        for x in &points {
+            let along: f64 = (0..3)
+                .map(|d| (x[d] - probe.centre[d]) * probe.normal[d])
+                .sum();
+            let r2: f64 = (0..3).map(|d| (x[d] - probe.centre[d]).powi(2)).sum();
+            assert!(along.abs() < 1e-15 && r2.sqrt() < 0.1);
+            for d in 0..3 {
+                mean[d] += x[d] / 19.0;
+            }
+        }
+        // The mean square radius of a disc is half its radius squared.
+        let spread: f64 = points
+            .iter()
+            .map(|x| {
+                (0..3)
+                    .map(|d| (x[d] - probe.centre[d]).powi(2))
+                    .sum::<f64>()
+                    / 19.0
+            })
+            .sum();
+        assert!((spread / 0.005 - 1.0).abs() < 0.06, "{spread}");
+        assert!((0..3).all(|d| (mean[d] - probe.centre[d]).abs() < 1e-14));
+    }
+}

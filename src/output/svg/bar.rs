@@ -1,0 +1,100 @@
+//! The bar beside coloured particles that says which colour is which value.
+//! Values share a few dozen colours, so that all dots of one can share a path.
+
+use super::axis::{Axis, Scale, Ticks};
+use super::color::{Color, viridis};
+use super::draw::{TICK, power_label, widest};
+use super::ink::{label, stroke, upright};
+use super::path::px;
+use std::fmt::Write as _;
+
+const WIDTH: f64 = 12.0;
+const LABEL: f64 = 12.5;
+/// The number of colours.
+pub(super) const LEVELS: usize = 64;
+/// The colour of values that have no place on the scale.
+const UNKNOWN: Color = Color(170, 170, 170);
+
+/// A colour bar whose scale and ticks are known.
+#[derive(Debug)]
+pub(in crate::output) struct Bar {
+    label: String,
+    scale: Scale,
+    pub(super) ticks: Ticks,
+}
+
+impl Bar {
+    /// The bar for these values, with as many ticks as a height has room for.
+    pub(in crate::output) fn new(
+        axis: &Axis,
+        values: impl Iterator<Item = f64>,
+        height: f64,
+    ) -> Self {
+        let scale = axis.scale(values, 0.0);
+        Self {
+            label: axis.label.clone(),
+            scale,
+            ticks: scale.ticks(height / 38.0),
+        }
+    }
+
+    /// The number of a value's colour, or [`LEVELS`] where it has none.
+    pub(in crate::output) fn level(&self, value: f64) -> usize {
+        let fraction = self.scale.place(value);
+        if fraction.is_nan() {
+            LEVELS
+        } else {
+            ((fraction * LEVELS as f64).max(0.0) as usize).min(LEVELS - 1)
+        }
+    }
+
+    /// The room that it takes beside a picture.
+    pub(in crate::output) fn room(&self) -> f64 {
+        let named = if self.label.is_empty() { 0.0 } else { 20.0 };
+        10.0 + WIDTH + 8.0 + widest(&self.ticks) + named
+    }
+
+    /// Draws it beside a picture of width `w`.
+    pub(in crate::output) fn draw(&self, body: &mut String, w: f64, h: f64) {
+        let left = w + 10.0;
+        let step = h / LEVELS as f64;
+        for level in 0..LEVELS {
+            let y = h - step * (level + 1) as f64;
+            // Each reaches beneath the one above, so that no seam shows.
+            let height = if level == 0 { step } else { 1.5 * step };
+            let _ = writeln!(
+                body,
+                "<rect x=\"{}\" y=\"{}\" width=\"{WIDTH}\" height=\"{}\" fill=\"{}\"/>",
+                px(left),
+                px(y),
+                px(height),
+                level_color(level)
+            );
+        }
+        let mut lines = format!("M{} 0h{WIDTH}v{}h-{WIDTH}z", px(left), px(h));
+        let mut free = f64::INFINITY;
+        for (value, text) in &self.ticks.major {
+            let at = h * (1.0 - self.scale.place(*value));
+            let _ = write!(lines, "M{} {}h4", px(left + WIDTH), px(at));
+            // A flat map has a short bar: labels that would touch the one below are left out.
+            if at + 6.0 <= free {
+                let place = (left + WIDTH + 7.0, at + 4.0);
+                label(body, place, TICK, "start", "", text);
+                free = at - 7.0;
+            }
+        }
+        stroke(body, &lines, Color(60, 60, 60), 0.9, None);
+        let power = power_label(&self.ticks);
+        label(body, (left, -5.0), TICK, "start", "", &power);
+        let beside = (left + WIDTH + 22.0 + widest(&self.ticks), 0.5 * h);
+        upright(body, beside, LABEL, &self.label);
+    }
+}
+
+/// The colour of a level.
+pub(in crate::output) fn level_color(level: usize) -> Color {
+    if level >= LEVELS {
+        return UNKNOWN;
+    }
+    viridis((level as f64 + 0.5) / LEVELS as f64)
+}

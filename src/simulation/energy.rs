@@ -1,0 +1,156 @@
+//! The energy ledger of liquids: what loads and walls did, where it is, and what was dissipated.
+//! Kept on request, because summing momentum in every kick is not free.
+
+use super::Simulation;
+use crate::particles::Field;
+use crate::scalar::Real;
+use crate::tensor::length;
+
+/// Energies \[J\] of a liquid, and the work done on it since the start.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct EnergyLedger {
+    /// Kinetic energy now.
+    pub kinetic: f64,
+    /// Energy stored in compression now, Σ m ∫ p/ρ² dρ from the density at rest.
+    pub compression: f64,
+    /// Work of the loads (gravity, the frame) since the start.
+    pub load_work: f64,
+    /// Work of the walls since the start.
+    pub wall_work: f64,
+    /// Kinetic energy that left through outlets.
+    pub left: f64,
+    /// What viscosities, diffusion, shifting and the steps have taken: the work done less the gain in
+    /// energy. Physical and numerical dissipation are not told apart.
+    pub dissipated: f64,
+}
+
+/// The running sums behind an [`EnergyLedger`].
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Work {
+    start: f64,
+    load: f64,
+    wall: f64,
+}
+
+impl<T: Real, const D: usize> Simulation<T, D> {
+    /// Starts to keep the energy ledger, from the present state on. It costs a sum over particles in
+    /// every kick, and with walls that turn or deform a sweep over them.
+    pub fn keep_energy(&mut self) {
+        let (kinetic, compression) = self.stored();
+        self.work = Some(Work {
+            start: kinetic + compression,
+            ..Work::default()
+        });
+    }
+
+    /// The energy ledger, or `None` if it was not [kept](Simulation::keep_energy).
+    #[must_use]
+    pub fn energy(&self) -> Option<EnergyLedger> {
+        let work = self.work?;
+        let (kinetic, compression) = self.stored();
+        let left = self.group.removed.kinetic;
+        Some(EnergyLedger {
+            kinetic,
+            compression,
+            load_work: work.load,
+            wall_work: work.wall,
+            left,
+            dissipated: work.start + work.load + work.wall - kinetic - compression - left,
+        })
+    }
+
+    /// Kinetic energy, and energy stored in compression.
+    fn stored(&self) -> (f64, f64) {
+        let columns = &self.group.columns;
+        let (mass, density) = (columns.raw(Field::Mass), columns.raw(Field::Density));
+        let (mut kinetic, mut compression) = (0.0, 0.0);
+        for body in &self.group.bodies {
+            for slot in body.slots.clone() {
+                let mass = mass[slot].to_f64();
+                let v = columns.vectors(Field::Velocity)[slot];
+                let v2: f64 = v.iter().map(|v| v.to_f64().powi(2)).sum();
+                kinetic += 0.5 * mass * v2;
+                let eos = body.material.eos();
+                compression += mass * eos.compression_energy(density[slot].to_f64());
+            }
+        }
+        (kinetic, compression)
+    }
+
+    /// Adds the work of a kick over `dt` \[s\], with the velocities at its middle.
+    pub(super) fn record_work(&mut self, dt: f64) {
+        if self.work.is_none() {
+            return;
+        }
+        let group = &self.group;
+        let (mut mass, mut momentum) = (0.0, [0.0; D]);
+        for slot in group.bodies.iter().flat_map(|body| body.slots.clone()) {
+            let own = group.columns.raw(Field::Mass)[slot].to_f64();
+            let v = group.columns.vectors(Field::Velocity)[slot];
+            mass += own;
+            for d in 0..D {
+                momentum[d] += own * v[d].to_f64();
+            }
+        }
+        // Half of what the kick will add: pair forces between bodies cancel, walls and loads remain.
+        for reaction in group.rows.reactions() {
+            if reaction.from as usize >= group.bodies.len() {
+                for d in 0..D {
+                    momentum[d] += 0.5 * dt * reaction.force[d];
+                }
+            }
+        }
+        let mut load = 0.0;
+        for d in 0..D {
+            momentum[d] += 0.5 * dt * mass * group.gravity[d];
+            load += dt * group.gravity[d] * momentum[d];
+        }
+        let wall = dt * self.wall_power();
+        if let Some(work) = &mut self.work {
+            work.load += load;
+            work.wall += wall;
+        }
+    }
+
+    /// Power \[W\] of the walls on the bodies with the forces at hand.
+    fn wall_power(&self) -> f64 {
+        let moving = || {
+            let walls = self.group.walls.iter().enumerate();
+            walls.filter_map(|(k, wall)| wall.motion.as_ref().map(|motion| (k, motion)))
+        };
+        if moving().next().is_none() {
+            return 0.0;
+        }
+        // Kicks begin and end a step; the pose of the last evaluation is that of the forces.
+        let time = self.evaluated;
+        let rigid = moving().all(|(_, motion)| {
+            let turning = motion.pose(time).linear[1];
+            (0..D).all(|d| length(&turning.column(d).into_owned()) == 0.0)
+        });
+        if rigid {
+            return moving()
+                .map(|(k, motion)| {
+                    let v = motion.pose(time).shift[1];
+                    let force = self.wall_force(k);
+                    (0..D).map(|d| -force[d] * v[d]).sum::<f64>()
+                })
+                .sum();
+        }
+        let mut forces = self.wall_particle_forces().into_iter();
+        let mut power = 0.0;
+        for wall in &self.group.walls {
+            let pose = wall.motion.as_ref().map(|motion| motion.pose(time));
+            for slot in wall.slots.clone() {
+                let Some((_, force)) = forces.next() else {
+                    break;
+                };
+                let at = self.group.ids[slot] as usize - wall.slots.start;
+                if let Some(pose) = &pose {
+                    let v = pose.of(1, &wall.rest[at.min(wall.rest.len() - 1)]);
+                    power -= (0..D).map(|d| force[d] * v[d]).sum::<f64>();
+                }
+            }
+        }
+        power
+    }
+}
