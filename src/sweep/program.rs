@@ -495,7 +495,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
     fn segment<L: Lane<Scalar = T>, const HOW: u8>(
         &self,
         contact: bool,
-        mobile: L,
+        mobile: [L; 2],
         own: &[L; MOST_READS],
         first: usize,
         neighbors: &[u32],
