@@ -29,11 +29,15 @@ use crate::term::{
 /// | transport velocity, 10 ρc² | −2.3 % | −0.5 % |
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shifting {
-    /// Against the gradient of their concentration, by A h |v| dt, and not at a free surface
-    /// (Lind et al. 2012; Skillen et al. 2013, eq. 15).
+    /// Against the gradient of their concentration, by A h |v| dt
+    /// (Lind et al. 2012; Skillen et al. 2013, eq. 15). The speed is that in the frame of the scene, so
+    /// a tank that moves fast is better given as an [acceleration](crate::scene::Scene::acceleration).
     Concentration {
         /// Strength A; Skillen et al. use 1 to 6, in flows that stay better ordered.
         strength: f64,
+        /// Whether a free surface is left alone. In a flow without one, voids must not pass for one, or
+        /// nothing closes them.
+        free_surface: bool,
     },
     /// By a background pressure that moves particles and not their momentum: by
     /// −dt² p_b/m Σ (Vᵢ² + Vⱼ²) ∇W/2 in a step (Adami, Hu & Adams 2013, eq. 8). For flow without free
@@ -50,9 +54,15 @@ pub enum Shifting {
 
 impl Shifting {
     /// Free-surface shifting, A = 2.
-    pub const STANDARD: Self = Self::Concentration { strength: 2.0 };
+    pub const STANDARD: Self = Self::Concentration {
+        strength: 2.0,
+        free_surface: true,
+    };
     /// For flow that walls or periods enclose, A = 20.
-    pub const CLOSED: Self = Self::Concentration { strength: 20.0 };
+    pub const CLOSED: Self = Self::Concentration {
+        strength: 20.0,
+        free_surface: false,
+    };
     /// The transport velocity, 10 ρc².
     pub const TRANSPORT: Self = Self::TransportVelocity { background: 10.0 };
 }

@@ -36,12 +36,20 @@ impl<T: Real, const D: usize> Group<T, D> {
         let (v, c) = (&*v, &*c);
         let displacement = |slot: usize| -> [T; D] {
             let factor = match shifting {
-                Shifting::Concentration { strength } => {
+                Shifting::Concentration {
+                    strength,
+                    free_surface,
+                } => {
                     let v = &v[slot * D..(slot + 1) * D];
                     let speed = v.iter().fold(0.0, |s, v| s + v.to_f64().powi(2)).sqrt();
                     let moment = rows.get(Output::Moment, 0, slot).to_f64();
                     let inside = (moment - SURFACE[0]) / (SURFACE[1] - SURFACE[0]);
-                    strength * h * speed * dt * inside.clamp(0.0, 1.0)
+                    let share = if free_surface {
+                        inside.clamp(0.0, 1.0)
+                    } else {
+                        1.0
+                    };
+                    strength * h * speed * dt * share
                 }
                 // Σ (Vᵢ² + Vⱼ²) ∇W with nearly equal volumes, over the mass ρ V.
                 Shifting::TransportVelocity { background } => {

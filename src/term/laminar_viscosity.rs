@@ -7,9 +7,11 @@ use crate::scalar::Lane;
 
 /// Laminar viscosity by central differences of the velocity along the pair.
 ///
-/// mᵢ dvᵢ/dt = Σⱼ Vᵢ Vⱼ 2 μ̄ᵢⱼ (r·∇W)/(r² + 0.01 h²) vᵢⱼ with μ̄ = 2 μᵢμⱼ/(μᵢ + μⱼ)
+/// mᵢ dvᵢ/dt = Σⱼ Vᵢ Vⱼ 2 μ̄ᵢⱼ F vᵢⱼ with μ̄ = 2 μᵢμⱼ/(μᵢ + μⱼ)
 ///
 /// (Morris, Fox & Zhu 1997, eq. 22, with the harmonic mean of Hu & Adams 2006 for unlike viscosities).
+/// F is their (r·∇W)/(r² + 0.01 h²) without the 0.01 h²: it is finite by itself, and the addend took 1 %
+/// of the viscosity.
 /// It conserves linear momentum and not angular momentum, and is exact for shear between walls: the
 /// default of channels. A wall with free slip has no viscosity, so the mean vanishes there.
 #[derive(Clone, Copy, Debug, Default)]
@@ -17,14 +19,15 @@ pub struct LaminarViscosity;
 
 /// Laminar viscosity along the line of centres.
 ///
-/// mᵢ dvᵢ/dt = Σⱼ Vᵢ Vⱼ 2 (D + 2) μ̄ᵢⱼ (vᵢⱼ·r)/(r² + 0.01 h²) ∇W with the same μ̄
+/// mᵢ dvᵢ/dt = Σⱼ Vᵢ Vⱼ 2 (D + 2) μ̄ᵢⱼ (vᵢⱼ·r)/r² ∇W with the same μ̄
 ///
-/// (Cleary 1998; Monaghan 2005, eq. 4.29 in the form for D dimensions). It conserves linear and
+/// (Cleary 1998; Monaghan 2005, eq. 4.29 in the form for D dimensions; instead of their 0.01 h² a mere
+/// 10⁻⁶ h² keeps the fraction finite). It conserves linear and
 /// angular momentum: the choice for rotating flow and free surfaces.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CentralViscosity;
 
-/// Vᵢ Vⱼ μ̄ F/(r² + 0.01 h²), over the first moment of the lattice.
+/// 2 Vᵢ Vⱼ μ̄ F, over the first moment of the lattice.
 #[inline(always)]
 fn factor<L: Lane, const D: usize, P: Layout>(pair: &Pair<'_, L, D, P>) -> L {
     let (mu_i, mu_j) = (
@@ -36,8 +39,7 @@ fn factor<L: Lane, const D: usize, P: Layout>(pair: &Pair<'_, L, D, P>) -> L {
     let mu = (mu_i + mu_i) * mu_j / sum;
     let volumes = pair.i(Field::Mass) * pair.j(Field::Mass)
         / (pair.i(Field::Density) * pair.j(Field::Density));
-    let r2 = pair.h.mul_add(pair.h * L::of(0.01), pair.r2);
-    volumes * mu * pair.f / (r2 * pair.lattice_moment)
+    (volumes + volumes) * mu * pair.f / pair.lattice_moment
 }
 
 const READS: Fields = Fields::of(&[
@@ -52,12 +54,12 @@ impl<const D: usize> Term<D> for LaminarViscosity {
     const WRITES: Outputs = Outputs::of(&[Output::Force]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        sums.shear += factor(pair) * pair.r2 * L::of(2.0);
+        sums.shear += factor(pair);
     }
     fn document(&self) -> TermDoc {
         TermDoc {
             name: "laminar viscosity".into(),
-            equation: "mᵢ dvᵢ/dt = Σⱼ Vᵢ Vⱼ 2 μ̄ (r·∇W)/(r² + 0.01 h²) vᵢⱼ",
+            equation: "mᵢ dvᵢ/dt = Σⱼ Vᵢ Vⱼ 2 μ̄ F vᵢⱼ",
             source: "Morris, Fox & Zhu 1997, eq. 22",
         }
     }
@@ -68,13 +70,13 @@ impl<const D: usize> Term<D> for CentralViscosity {
     const WRITES: Outputs = Outputs::of(&[Output::Force]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let coefficient = L::of(2.0 * (D as f64 + 2.0));
-        sums.radial += factor(pair) * pair.v_dot_r * coefficient;
+        let r2 = pair.h.mul_add(pair.h * L::of(1e-6), pair.r2);
+        sums.radial += factor(pair) * pair.v_dot_r * L::of(D as f64 + 2.0) / r2;
     }
     fn document(&self) -> TermDoc {
         TermDoc {
             name: "laminar viscosity along the line of centres".into(),
-            equation: "mᵢ dvᵢ/dt = Σⱼ Vᵢ Vⱼ 2 (D + 2) μ̄ (v·r)/(r² + 0.01 h²) ∇W",
+            equation: "mᵢ dvᵢ/dt = Σⱼ Vᵢ Vⱼ 2 (D + 2) μ̄ (v·r)/r² ∇W",
             source: "Cleary 1998; Monaghan 2005",
         }
     }

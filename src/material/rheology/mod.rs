@@ -15,8 +15,8 @@
 //! | [`HerschelBulkley`] | K γ̇ⁿ⁻¹ + τ_y (1 − e^(−mγ̇)) / γ̇ | muds, pastes, fresh concrete |
 //!
 //! Every law is bounded: its [greatest viscosity](ViscosityLaw::greatest_viscosity) sets the viscous
-//! time step, about h² ρ/(8 μ). A material carries its law for terms that ask for it; none of the
-//! ready schemes does yet.
+//! time step, about h² ρ/(8 μ). Liquids follow their laws under a scheme with
+//! [`generalised_newtonian`](crate::scheme::LiquidBuilder::generalised_newtonian).
 //!
 //! ```
 //! use meshfree::material::{Material, catalogue, rheology::CarreauYasuda};
