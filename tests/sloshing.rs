@@ -200,6 +200,7 @@ fn reactions_balance_and_nothing_leaks() {
         simulation.run_until(until).unwrap();
         if until == 0.005 {
             let lack = wall_integral(&case, &simulation);
+
             assert!(lack.abs() < 0.01, "{lack}");
         }
     }

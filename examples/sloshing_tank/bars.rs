@@ -150,8 +150,8 @@ fn balances(runs: &[(Case, Record)]) -> Table {
         "Point 1 impulse, disc [Pa s]",
         "contact [Pa s]",
         "momentum",
-        "wall integral at 5, 60 ms",
-        "leaked",
+        "pressure integral at 5, 60 ms",
+        "leaked, deepest in wall [spacings]",
         "space at 38 ms, end",
         "impulse on tank [N s]",
         "time [s]",
@@ -170,7 +170,12 @@ fn balances(runs: &[(Case, Record)]) -> Table {
             significant(record.integral(case.until, |s| s.contact), 4),
             format!("{:.1e}", record.imbalance),
             integrals.join(", "),
-            format!("{} of {}", record.leaked, record.particles),
+            format!(
+                "{} of {}, {:.1}",
+                record.leaked,
+                record.particles,
+                record.deepest / case.spacing
+            ),
             format!(
                 "{:+.1} %, {:+.1} %",
                 1e2 * record.volume[0],

@@ -66,8 +66,11 @@ pub struct Record {
     pub integrals: Vec<(f64, f64)>,
     /// Space that the water takes against its volume, as a difference over it, at 38 ms and at the end.
     pub volume: [f64; 2],
-    /// Particles farther outside of the tank than half a spacing.
+    /// Particles more than a spacing behind the surface of the walls at the end.
     pub leaked: usize,
+    /// Deepest that a particle was behind the surface of the walls \[m\]: drops that strike them alone
+    /// dive before they bounce.
+    pub deepest: f64,
     pub particles: usize,
     pub steps: u64,
     pub seconds: f64,
@@ -143,6 +146,8 @@ pub fn run<T: Real>(
                     }
                 }
                 record.samples.push(sample);
+                let places = in_tank(now).map(|(x, _)| outside(case, &x));
+                record.deepest = places.fold(record.deepest, f64::max);
                 progress.update(
                     time / case.until,
                     format_args!("t = {:.2} ms, {} steps", 1e3 * time, now.steps()),
@@ -180,9 +185,7 @@ pub fn run<T: Real>(
         record.imbalance = size(lack) / size(record.impulse);
     }
     record.leaked = in_tank(&simulation)
-        .filter(|(x, _)| {
-            (0..3).any(|d| x[d] < -0.5 * case.spacing || x[d] > case.size[d] + 0.5 * case.spacing)
-        })
+        .filter(|(x, _)| outside(case, x) > case.spacing)
         .count();
     Ok(record)
 }
@@ -196,6 +199,12 @@ fn sample<T: Real>(now: &Simulation<T, 3>, sensors: &[PressureProbe<3>]) -> Samp
             .map_or(0.0, |sensor| sensor.contact_pressure(now)),
         force: now.wall_force(0),
     }
+}
+
+/// How far a place is outside of the tank \[m\], negative inside.
+fn outside(case: &Case, x: &[f64; 3]) -> f64 {
+    let beyond = (0..3).map(|d| (-x[d]).max(x[d] - case.size[d]));
+    beyond.fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// Places in the tank \[m\] and pressures \[Pa\] of the water.

@@ -250,6 +250,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 slip: wall.slip,
                 sliding: wall.sliding,
                 carries: wall.carries,
+                mass: self.wall_mass(wall),
             });
         }
         let widest = bodies
@@ -342,6 +343,13 @@ impl<T: Real, const D: usize> Scene<T, D> {
         emitters
     }
 
+    /// Mass \[kg\] of a wall particle: its volume, filled with the first liquid at rest.
+    fn wall_mass(&self, wall: &Wall<D>) -> f64 {
+        let body = self.bodies.first();
+        let density = body.map_or(0.0, |body| body.material.reference_density());
+        density * wall.spacing.powi(D as i32)
+    }
+
     /// Gives a wall particle what does not change. It has the density of the first liquid at rest: its
     /// volume is what the liquid's pressure acts on.
     fn place_wall(&self, columns: &mut Columns<T, D>, wall: &Wall<D>, slot: usize) {
@@ -357,7 +365,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         };
         set(Field::Density, density);
         set(Field::SoundSpeed, sound_speed);
-        set(Field::Mass, density * wall.spacing.powi(D as i32));
+        set(Field::Mass, self.wall_mass(wall));
         set(Field::SmoothingLength, self.scheme.h_over_dx * wall.spacing);
         // The liquid corrects the gradients; a wall takes them as they are.
         if let Some(rows) = columns

@@ -10,7 +10,7 @@ use crate::particles::{Columns, Field};
 use crate::scalar::{Lane, Real};
 use crate::scheme::Scheme;
 use crate::sweep::{Image, InstructionSet, Interaction, Records, Rows, SweepInput, Transform};
-use crate::tensor::{Vector, length};
+use crate::tensor::{Vector, determinant, length};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::Arc;
@@ -74,6 +74,8 @@ pub(crate) struct WallState<const D: usize> {
     /// Velocity of its surface beside its motion \[m/s\].
     pub sliding: [f64; D],
     pub carries: bool,
+    /// Mass of a particle as built, in the liquid's density \[kg\].
+    pub mass: f64,
 }
 
 /// How an image's transform comes about: the boundary's own, after that of the image it mirrors.
@@ -551,6 +553,15 @@ impl<T: Real, const D: usize> Group<T, D> {
                 continue;
             }
             let pose = pose.unwrap_or_else(Pose::rest);
+            // A wall that is crushed has its particles closer, and each stands for less volume.
+            let mass = T::from_f64(wall.mass * determinant(&pose.linear[0]).abs());
+            if let Some(masses) = self
+                .columns
+                .raw_mut(Field::Mass)
+                .get_mut(wall.slots.start..wall.end)
+            {
+                masses.fill(mass);
+            }
             for slot in wall.slots.start..wall.end {
                 let at = (self.ids[slot] as usize - wall.slots.start).min(wall.rest.len() - 1);
                 let (x, own) = (pose.of(0, &wall.rest[at]), pose.of(1, &wall.rest[at]));

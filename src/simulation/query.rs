@@ -203,6 +203,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             .collect()
     }
 
+    /// Whether a particle belongs to a body and not to a wall.
+    pub(crate) fn is_mobile(&self, particle: &ParticleView<'_, T, D>) -> bool {
+        particle.slot < self.group.mobile
+    }
+
     /// What has left through outlets.
     #[must_use]
     pub fn removed(&self) -> Removed<D> {
