@@ -1,6 +1,9 @@
 //! What the examples of violent flow share: their options, and runs watched by probes and gauges.
 //! Used by `dam_break` and `sloshing_roll`.
 
+// Each example uses a part of this.
+#![allow(dead_code)]
+
 use crate::common::{Failure, Options, Own};
 use meshfree::observe::{PressureProbe, WaveGauge};
 use meshfree::output::csv::CsvWriter;
