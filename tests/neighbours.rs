@@ -105,7 +105,9 @@ fn lists_hold_all<const D: usize>(
         }
         entries += listed.len();
         prop_assert!(
-            segments.windows(2).all(|pair| pair[0].block < pair[1].block),
+            segments
+                .windows(2)
+                .all(|pair| pair[0].block < pair[1].block),
             "order of blocks"
         );
         let once: std::collections::BTreeSet<u32> = listed.iter().copied().collect();
