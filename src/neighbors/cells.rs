@@ -46,6 +46,18 @@ impl<const D: usize> Grid<D> {
         }
     }
 
+    /// The same with the lowest point in the middle of a cell and not on its face, so that a lattice of
+    /// spacing `size` has one point a cell.
+    #[must_use]
+    pub fn centred<T: Real>(points: &[[T; D]], size: f64) -> Self {
+        let mut grid = Self::over(points, size);
+        for d in 0..D {
+            grid.origin[d] -= 0.5 * grid.size;
+            grid.counts[d] += 1;
+        }
+        grid
+    }
+
     /// Edge of a cell.
     #[must_use]
     pub fn size(&self) -> f64 {

@@ -14,6 +14,7 @@ use crate::tensor::{Vector, determinant, length};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::Arc;
+use std::time::Instant;
 
 /// A body in a simulation.
 #[derive(Clone, Debug)]
@@ -118,7 +119,8 @@ pub(crate) struct Group<T: Real, const D: usize> {
     pub chord: Option<[f64; 2]>,
     pub records: Records<T>,
     pub work_records: Records<T>,
-    pub scratch_records: Records<T>,
+    /// Whether the records are those of the rates; all sweeps share them.
+    pub records_of_rates: bool,
     pub rows: Rows<T, D>,
     pub scratch_rows: Rows<T, D>,
     /// Identity of the particle in each slot, and the slot of each particle.
@@ -130,6 +132,10 @@ pub(crate) struct Group<T: Real, const D: usize> {
     pub guards: GuardCounts,
     pub limited_h: u64,
     pub rebuilds: u64,
+    /// Where the time went.
+    pub phases: super::Phases,
+    /// Entries of the lists after the last sort.
+    sorted_entries: usize,
     pub unilateral: bool,
     /// What list builds have done to particles since states outside of the group were last told.
     pub moved: Moves<T, D>,
@@ -153,6 +159,9 @@ impl<T, const D: usize> Default for Moves<T, D> {
         }
     }
 }
+
+/// Growth of the lists since the last sort at which particles are sorted again.
+const UNSORTED: f64 = 1.03;
 
 pub(crate) fn width<T: Real>() -> usize {
     <T::Wide<false> as Lane>::WIDTH
@@ -198,7 +207,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             chord: None,
             records: Records::default(),
             work_records: Records::default(),
-            scratch_records: Records::default(),
+            records_of_rates: false,
             rows: Rows::default(),
             scratch_rows: Rows::default(),
             smoothing_length,
@@ -207,6 +216,8 @@ impl<T: Real, const D: usize> Group<T, D> {
             guards: GuardCounts::default(),
             limited_h: 0,
             rebuilds: 0,
+            phases: super::Phases::default(),
+            sorted_entries: 0,
             unilateral,
             moved: Moves::default(),
         }
@@ -243,12 +254,14 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// Brings images and lists up to date with the positions at `time`.
     pub fn refresh(&mut self, time: f64) {
+        let start = Instant::now();
         self.place_walls(time);
         if self.lists.chunks().is_empty() || self.outdated(time) {
             self.rebuild(time);
         } else if self.boundaries.iter().any(|b| b.moves()) {
             self.place_transforms(time);
         }
+        self.phases.lists += start.elapsed();
     }
 
     /// Whether a particle has moved, or its support has grown, by more than the skin allows.
@@ -298,8 +311,11 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.wrap();
         self.remove();
         let reach = self.reach();
-        if D > 1 {
-            self.sort(0.5 * reach);
+        // Particles need new places in memory only when their rows have lost their shape.
+        let entries = self.lists.entries() as f64;
+        let sort = D > 1 && entries >= UNSORTED * self.sorted_entries as f64;
+        if sort {
+            self.sort();
         }
         let width = width::<T>();
         self.listed.clear();
@@ -340,6 +356,9 @@ impl<T: Real, const D: usize> Group<T, D> {
             slots: self.columns.slots(),
             skin: self.skin,
         });
+        if sort {
+            self.sorted_entries = self.lists.entries();
+        }
     }
 
     /// Lets particles that have left a periodic domain re-enter.
@@ -367,10 +386,15 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
     }
 
-    /// Sorts every body along the space-filling curve.
-    fn sort(&mut self, cell: f64) {
+    /// Sorts every body along the space-filling curve, in cells that hold a particle each, so that the
+    /// members of a cluster are the corners of a cube as far as the flow allows.
+    fn sort(&mut self) {
         let positions = self.columns.vectors(Field::Position);
-        let grid = Grid::over(positions, cell);
+        let spacing = self
+            .bodies
+            .iter()
+            .fold(f64::INFINITY, |least, body| least.min(body.spacing));
+        let grid = Grid::centred(positions, spacing);
         let mut order: Vec<u32> = (0..self.columns.slots() as u32).collect();
         // Walls keep their shape, so sorting them once serves.
         let walls = if self.rebuilds > 1 {
@@ -702,7 +726,6 @@ impl<T: Real, const D: usize> Group<T, D> {
             + self.lists.bytes()
             + self.records.bytes()
             + self.work_records.bytes()
-            + self.scratch_records.bytes()
             + self.rows.bytes()
             + self.scratch_rows.bytes()
             + self.listed.capacity() * size_of::<[T; D]>()

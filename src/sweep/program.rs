@@ -236,7 +236,12 @@ impl<K, P, const MODES: u8> Program<K, P, MODES> {
         let width = <T::Wide<false> as Lane>::WIDTH;
         rows.outputs = Composed::<T, P, D, HOW>::WRITES;
         let row = rows.outputs.width(D) * width;
-        let length = row * (input.columns.slots() / width);
+        // Only chunks with wanted slots have rows.
+        let slots = CHUNK * width;
+        let skipped = input.targets.start / slots;
+        rows.first = skipped * slots;
+        let wanted = input.targets.end.saturating_sub(rows.first);
+        let length = row * wanted.div_ceil(width);
         // Sweeps take turns on the same rows: only growth costs.
         if rows.data.len() < length {
             rows.data.resize(length, T::zero());
@@ -260,14 +265,14 @@ impl<K, P, const MODES: u8> Program<K, P, MODES> {
             reach2: T::from_f64((self.kernel.support() * input.smoothing_length).powi(2) * BEYOND),
             kernel_norm: T::from_f64(self.kernel.normalisation()),
         };
+        rows.reactions.iter_mut().for_each(Vec::clear);
         rows.data[..length]
             .par_chunks_mut((row * CHUNK).max(1))
-            .zip(rows.reactions.par_iter_mut())
-            .zip(input.lists.chunks().par_iter())
+            .zip(rows.reactions[skipped..].par_iter_mut())
+            .zip(input.lists.chunks()[skipped..].par_iter())
             .enumerate()
             .for_each(|(chunk, ((out, reactions), list))| {
-                reactions.clear();
-                task.dispatch::<HOW>(instructions, chunk, list, out, reactions);
+                task.dispatch::<HOW>(instructions, skipped + chunk, list, out, reactions);
             });
     }
 }
