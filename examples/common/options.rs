@@ -57,14 +57,11 @@ fn bad(option: &str, value: &str, accepted: &str) -> BadOption {
 impl Example {
     /// What `--help` prints.
     pub fn help(&self) -> String {
-        let own: String = self
-            .own
-            .iter()
-            .map(|own| {
-                let usage = format!("{} {}", own.name, own.value);
-                format!("  {usage:<22}  {}\n", own.help)
-            })
-            .collect();
+        let mut own = String::new();
+        for option in self.own {
+            let usage = format!("{} {}", option.name, option.value);
+            own += &format!("  {usage:<22}  {}\n", option.help);
+        }
         format!(
             "{}\n\n{own}{COMMON}  --scheme NAME           {}\n",
             self.about,

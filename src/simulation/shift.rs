@@ -12,6 +12,9 @@ use rayon::prelude::*;
 /// First moment −Σ V r·∇W/D of the neighbourhood at and below which a particle lies at a free
 /// surface and is not shifted, and from which on it is shifted in full. A flat surface has a half.
 const SURFACE: [f64; 2] = [0.75, 0.95];
+/// Largest coefficient of the concentration's gradient in h²: shifting diffuses particles in explicit
+/// steps, and overshoots beyond about a half (Skillen et al. 2013).
+const STABLE: f64 = 0.3;
 /// Longest shift in units of the smoothing length: larger ones come from pairs that have collapsed.
 const LONGEST: f64 = 0.1;
 
@@ -49,7 +52,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                     } else {
                         1.0
                     };
-                    strength * h * speed * dt * share
+                    (strength * h * speed * dt).min(STABLE * h * h) * share
                 }
                 // Σ (Vᵢ² + Vⱼ²) ∇W with nearly equal volumes, over the mass ρ V.
                 Shifting::TransportVelocity { background } => {
