@@ -21,7 +21,8 @@ fn column<T: Real>(wide: f64, high: f64, length: f64, spacing: f64, alpha: f64) 
     let sound_speed = 20.0 * (GRAVITY * high).sqrt();
     let scheme =
         schemes::weakly_compressible().with_viscosity(MonaghanGingold { alpha, beta: 0.0 });
-    let body = Body::block("water", water(sound_speed), [0.0; 2], [wide, high], spacing)
+    let water = water(sound_speed).with_pressure_cut_off(0.0);
+    let body = Body::block("water", water, [0.0; 2], [wide, high], spacing)
         .hydrostatic([0.0, -GRAVITY], [0.0, high]);
     let closed = [[true, true], [true, false]];
     Scene::new(scheme)
@@ -60,9 +61,10 @@ fn slope(points: &[(f64, f64)]) -> f64 {
     xy / xx
 }
 
-/// The measured front of Martin & Moyce 1952, table 2, from T = 1.19 on; and Ritter's as the bound.
+/// Between the measured front of Martin & Moyce 1952, table 2, whose bed has friction and whose gate takes
+/// its time, and that of shallow water without either (Ritter 1892).
 #[test]
-fn the_front_runs_as_measured_and_below_the_bound_of_shallow_water() {
+fn the_front_is_ahead_of_the_measured_one_and_behind_that_of_shallow_water() {
     let measured = [
         (1.19, 1.44),
         (1.43, 1.67),
@@ -74,18 +76,19 @@ fn the_front_runs_as_measured_and_below_the_bound_of_shallow_water() {
         (3.33, 4.11),
     ];
     let units = Column::new(WIDTH, 2.0 * WIDTH).unwrap();
-    let mut simulation = martin_moyce::<f64>(24.0).build().unwrap();
+    let mut simulation = martin_moyce::<f64>(20.0).build().unwrap();
     let mut computed = Vec::new();
-    for (time, _) in measured {
+    for (time, place) in measured {
         simulation
             .run_until(time * units.front_time_unit())
             .unwrap();
-        let place = front(&simulation);
-        assert!(place - WIDTH < units.ritter_front(simulation.time()));
-        computed.push((time, place / WIDTH));
+        let own = front(&simulation) / WIDTH;
+        let bound = 1.0 + units.ritter_front(simulation.time()) / WIDTH;
+        assert!(place < own && own < bound, "{place} {own} {bound}");
+        computed.push((time, own));
     }
     let ratio = slope(&computed) / slope(&measured);
-    assert!((ratio - 1.0).abs() < 0.05, "{ratio} {computed:?}");
+    assert!((1.0..1.1).contains(&ratio), "{ratio} {computed:?}");
     // No water is lost, and none is in a wall.
     for particle in simulation.all() {
         let [x, y] = particle.position();
@@ -170,14 +173,15 @@ fn the_energy_ledger_closes_and_dissipation_is_not_negative() {
         .unwrap();
     let end = simulation.energy().unwrap();
     let fall = before - potential(&simulation);
+    // Work is summed in kicks and the fall in drifts, which differ by the third power of a step.
     assert!(
-        (end.load_work / fall - 1.0).abs() < 1e-9,
+        (end.load_work / fall - 1.0).abs() < 1e-5,
         "{} {fall}",
         end.load_work
     );
     let kinetic = simulation.ledger().whole.kinetic;
     let closing = start.kinetic + start.compression + fall - kinetic - end.compression;
-    assert!((end.dissipated - closing).abs() < 1e-9 * fall);
+    assert!((end.dissipated - closing).abs() < 1e-5 * fall);
     assert!(least > -1e-4 * fall, "{least} {fall}");
     // The impact on the far wall has cost something by then.
     assert!(end.dissipated > 0.01 * fall, "{} {fall}", end.dissipated);
@@ -224,10 +228,10 @@ fn single_precision_carries_the_same_flow() {
 }
 
 /// A wall that draws away leaves the liquid behind. With suction allowed it takes the liquid along: the
-/// control, which shows that the first is the floor's doing.
+/// control, which shows that the first is the doing of the floor and the cut-off.
 #[test]
 fn separating_walls_let_go_unless_suction_is_allowed() {
-    let drawn = |floor: f64| {
+    let drawn = |floor: f64, cut_off: f64| {
         let spacing = 0.01;
         let points = (0..3 * 20).map(|k| {
             let [i, j] = [k % 3, k / 3].map(|n| (f64::from(n) + 0.5) * spacing);
@@ -235,20 +239,51 @@ fn separating_walls_let_go_unless_suction_is_allowed() {
         });
         let wall =
             Wall::of("wall", points.collect(), spacing).motion(Translation::steady([-1.0, 0.0]));
-        let body = Body::block("water", water::<f64>(20.0), [0.0; 2], [0.2, 0.2], spacing);
-        let mut simulation = Scene::new(schemes::weakly_compressible().wall_pressure_floor(floor))
-            .body(body)
-            .wall(wall)
-            .build()
-            .unwrap();
-        simulation.run_until(0.01).unwrap();
+        let water = water::<f64>(20.0).with_pressure_cut_off(cut_off);
+        let body = Body::block("water", water, [0.0; 2], [0.2, 0.2], spacing);
+        let scheme = schemes::weakly_compressible().wall_pressure_floor(floor);
+        let mut simulation = Scene::new(scheme).body(body).wall(wall).build().unwrap();
+        simulation.run_until(0.02).unwrap();
         let whole = simulation.ledger().whole;
         whole.momentum[0] / whole.mass
     };
-    assert!(drawn(0.0).abs() < 1e-3, "{}", drawn(0.0));
+    let (lets_go, floor_alone) = (drawn(0.0, 0.0), drawn(0.0, -1e9));
+    let sucked = drawn(f64::NEG_INFINITY, -1e9);
+    assert!(lets_go.abs() < 1e-6, "{lets_go}");
+    assert!(sucked < -0.1, "{sucked}");
+    // The floor takes the wall's suction away, and leaves the tension of the liquid itself.
     assert!(
-        drawn(f64::NEG_INFINITY) < -0.05,
-        "{}",
-        drawn(f64::NEG_INFINITY)
+        floor_alone.abs() < 0.3 * sucked.abs(),
+        "{floor_alone} {sucked}"
     );
+}
+
+/// A drop that is blown apart tears, and what flies off keeps nine tenths of its density; without a
+/// cut-off it holds together.
+#[test]
+fn spray_stays_water() {
+    let blown = |cut_off: f64| {
+        let water = water::<f64>(20.0).with_pressure_cut_off(cut_off);
+        let drop = Body::block("drop", water, [-0.05; 2], [0.05; 2], 0.01).start(|x, start| {
+            meshfree::scene::Start {
+                velocity: x.map(|x| 100.0 * x),
+                ..start
+            }
+        });
+        let mut simulation = Scene::new(schemes::weakly_compressible())
+            .body(drop)
+            .build()
+            .unwrap();
+        simulation.run_until(0.05).unwrap();
+        let least = simulation
+            .all()
+            .fold(f64::INFINITY, |least, p| least.min(p.density()));
+        (least, simulation.held_densities())
+    };
+    let (least, held) = blown(0.0);
+    assert!(
+        (least / 900.0 - 1.0).abs() < 1e-3 && held > 0,
+        "{least} {held}"
+    );
+    assert_eq!(blown(-1e9).1, 0);
 }

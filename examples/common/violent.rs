@@ -268,7 +268,7 @@ impl History {
             let each = 1e6 * self.wall_clock / self.steps as f64 / self.particles as f64;
             let _ = write!(text, " ({each:.2} µs a particle and step)");
         }
-        text + &format!("; {} left the tank", self.lost)
+        text + &format!("; {} in the walls", self.lost)
     }
 }
 

@@ -60,8 +60,7 @@ impl Flat {
                 spacing: 0.05715 / 50.0,
                 until: 0.2,
             },
-            // Lobovský et al. 2014: 600 mm × 300 mm in 1610 mm. The tank is higher than theirs, so that
-            // what runs up the wall falls back into it, as it did.
+            // Lobovský et al. 2014: 600 mm × 300 mm in 1610 mm. The walls are higher than theirs.
             "lobovsky" => Self {
                 name: "lobovsky",
                 column: [0.6, 0.3],
@@ -141,9 +140,10 @@ impl Flat {
         let mut simulation = self.scene::<T>(choices).build()?;
         println!("{}", simulation.scheme());
         let mut series = Pvd::create(options.file("particles.pvd"))?;
+        // Above the rim it may fly.
         let [length, top] = self.tank;
         let inside = |_: &Simulation<T, 2>, [x, y]: [f64; 2]| {
-            (0.0..=length).contains(&x) && (0.0..=top).contains(&y)
+            y > top || (0.0..=length).contains(&x) && y >= 0.0
         };
         let frame = |now: &Simulation<T, 2>, k: usize| {
             violent::paraview(&mut series, now)?;

@@ -120,7 +120,7 @@ pub fn perform<T: Real>(options: &Options, choices: &Choices) -> Result<(), Fail
     println!("{}", simulation.scheme());
     let mut series = Pvd::create(options.file("particles.pvd"))?;
     let inside = |_: &Simulation<T, 3>, x: [f64; 3]| {
-        (0..3).all(|d| x[d] >= 0.0 && (d == 2 || x[d] <= TANK[d]))
+        x[2] > TANK[2] || (0..3).all(|d| x[d] >= 0.0 && x[d] <= TANK[d])
     };
     let frame = |now: &Simulation<T, 3>, k: usize| {
         violent::paraview(&mut series, now)?;

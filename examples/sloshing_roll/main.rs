@@ -268,7 +268,7 @@ fn bars(history: &History, spacing: f64, choices: &Choices) {
     let until = history.time.last().copied().unwrap_or(0.0);
     let smooth = history.smoothed(1e-3);
     let mut bars = vec![Bar::between(
-        "particles outside of the tank",
+        "particles in the walls",
         history.lost as f64,
         0.0,
         0.0,

@@ -131,6 +131,8 @@ pub(crate) struct Group<T: Real, const D: usize> {
     pub instructions: InstructionSet,
     pub guards: GuardCounts,
     pub limited_h: u64,
+    /// Densities of torn liquid that were held, in particle steps.
+    pub held_densities: u64,
     pub rebuilds: u64,
     /// Where the time went.
     pub phases: super::Phases,
@@ -215,6 +217,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             instructions: InstructionSet::detect(),
             guards: GuardCounts::default(),
             limited_h: 0,
+            held_densities: 0,
             rebuilds: 0,
             phases: super::Phases::default(),
             sorted_entries: 0,

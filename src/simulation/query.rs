@@ -243,6 +243,13 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.group.limited_h
     }
 
+    /// Densities of liquid torn at its cut-off that were held from thinning out further, in particle steps
+    /// since the start.
+    #[must_use]
+    pub fn held_densities(&self) -> u64 {
+        self.group.held_densities
+    }
+
     /// Builds of the neighbour lists since the start.
     #[must_use]
     pub fn list_builds(&self) -> u64 {
