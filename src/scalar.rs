@@ -308,6 +308,10 @@ impl<const W: usize> Mask for LaneMask<W> {
     fn test(self, k: usize) -> bool {
         self.0[k]
     }
+    #[inline(always)]
+    fn any(self) -> bool {
+        self.0.iter().fold(false, |any, &set| any | set)
+    }
 }
 
 macro_rules! mask_operator {

@@ -21,8 +21,8 @@
 use crate::kernel::{CubicSpline, WendlandC2};
 use crate::scheme::{DensityForm, EnergyForm, LiquidBuilder, SchemeBuilder};
 use crate::sweep::SmoothingMode;
-use crate::term::Fourtakas;
-use crate::term::viscosity::{LimitedMonaghanGingold, MonaghanGingold};
+use crate::term::viscosity::{LimitedMonaghanGingold, MonaghanGingold, Riemann};
+use crate::term::{Fourtakas, Nothing, RiemannDiffusion};
 
 /// What [`impact`] returns: a scheme with curvature of the pressure, to be changed further.
 pub type ImpactBuilder =
@@ -85,4 +85,73 @@ pub fn weakly_compressible() -> LiquidBuilder<WendlandC2, MonaghanGingold, Fourt
     )
     .named("weakly compressible")
     .density_diffusion(Fourtakas::default())
+}
+
+/// The artificial viscosity of the LS-DYNA schemes: the linear and quadratic coefficients of its bulk
+/// viscosity, 0.06 and 1.5.
+const BULK: MonaghanGingold = MonaghanGingold {
+    alpha: 0.06,
+    beta: 1.5,
+};
+/// Limits of the smoothing length in units of the first (HMIN and HMAX of its section card).
+const LIMITS: [f64; 2] = [0.2, 2.0];
+
+/// Builder of [`ls_dyna_default`] and [`ls_dyna_fluid`], and with `true` of their renormalised forms.
+pub type LsDynaBuilder<const RENORMALISED: bool> = LiquidBuilder<
+    CubicSpline,
+    MonaghanGingold,
+    Nothing,
+    Nothing,
+    Nothing,
+    { SmoothingMode::Mean.bit() },
+    RENORMALISED,
+>;
+
+/// FORM 5 of LS-DYNA, "fluid particle approximation": continuity and pressure by volume, cubic spline at
+/// h/dx 1.2, bulk viscosity, smoothing length that follows the divergence between 0.2 and 2 of the first,
+/// neither density diffusion nor normalisation.
+///
+/// The equations behind the forms are as generally understood; its theory manual was not at hand. Its
+/// renormalised sibling FORM 6 is [`ls_dyna_fluid_renormalised`].
+#[must_use]
+pub fn ls_dyna_fluid() -> LsDynaBuilder<false> {
+    LiquidBuilder::new(CubicSpline, BULK)
+        .named("LS-DYNA FORM 5, fluid")
+        .h_over_dx(1.2)
+        .without_normalisation()
+        .smoothing(LIMITS[0], LIMITS[1])
+}
+
+/// FORM 0 of LS-DYNA, the default: continuity by mass with the σ/ρ² force; the rest as
+/// [`ls_dyna_fluid`].
+#[must_use]
+pub fn ls_dyna_default() -> LsDynaBuilder<false> {
+    ls_dyna_fluid().by_mass().named("LS-DYNA FORM 0, default")
+}
+
+/// FORM 1 of LS-DYNA: [`ls_dyna_default`] with renormalised gradients.
+#[must_use]
+pub fn ls_dyna_renormalised() -> LsDynaBuilder<true> {
+    ls_dyna_default()
+        .renormalised()
+        .named("LS-DYNA FORM 1, renormalised")
+}
+
+/// FORM 6 of LS-DYNA: [`ls_dyna_fluid`] with renormalised gradients.
+#[must_use]
+pub fn ls_dyna_fluid_renormalised() -> LsDynaBuilder<true> {
+    ls_dyna_fluid()
+        .renormalised()
+        .named("LS-DYNA FORM 6, fluid renormalised")
+}
+
+/// Violent liquids without a coefficient to choose: the dissipation of a Riemann solver between
+/// particles in momentum and continuity (Zhang, Hu & Adams 2017), the rest as
+/// [`weakly_compressible`].
+#[must_use]
+pub fn riemann_liquid() -> LiquidBuilder<WendlandC2, Riemann, RiemannDiffusion> {
+    weakly_compressible()
+        .named("Riemann liquid")
+        .with_viscosity(Riemann::STANDARD)
+        .density_diffusion(RiemannDiffusion)
 }

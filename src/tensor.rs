@@ -59,9 +59,57 @@ pub fn inverse<T: Real, const D: usize>(matrix: &Matrix<T, D>, floor: f64) -> Op
     Some(inverse)
 }
 
+/// The determinant of a `D × D` matrix by elimination with row pivoting: the factor by which a linear
+/// map changes volumes.
+///
+/// ```
+/// use meshfree::tensor::{Matrix, determinant};
+/// assert_eq!(determinant(&Matrix::<f64, 2>::new(2.0, 1.0, 4.0, 3.0)), 2.0);
+/// ```
+#[must_use]
+pub fn determinant<T: Real, const D: usize>(matrix: &Matrix<T, D>) -> T {
+    let mut a = *matrix;
+    let mut product = T::one();
+    for column in 0..D {
+        let mut pivot = column;
+        for row in column + 1..D {
+            if a[(row, column)].abs() > a[(pivot, column)].abs() {
+                pivot = row;
+            }
+        }
+        if a[(pivot, column)] == T::zero() {
+            return T::zero();
+        }
+        if pivot != column {
+            a.swap_rows(pivot, column);
+            product = -product;
+        }
+        product *= a[(column, column)];
+        for row in column + 1..D {
+            let factor = a[(row, column)] / a[(column, column)];
+            for k in column..D {
+                let from = a[(column, k)];
+                a[(row, k)] -= factor * from;
+            }
+        }
+    }
+    product
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn determinants_of_products_multiply() {
+        let m = Matrix::<f64, 3>::new(0.0, -1.0, 0.5, 2.0, 3.0, 1.0, 4.0, 0.2, -1.0);
+        let n = Matrix::<f64, 3>::new(1.0, 2.0, 0.0, 0.0, 0.0, 3.0, 0.7, -1.0, 2.0);
+        let product = determinant(&m) * determinant(&n);
+        assert!((determinant(&(m * n)) - product).abs() < 1e-13 * product.abs());
+        // By Sarrus' rule.
+        assert!((determinant(&m) - (-4.0 - 2.0 + 0.2 - 6.0)).abs() < 1e-14);
+        assert_eq!(determinant(&Matrix::<f64, 2>::new(1.0, 2.0, 2.0, 4.0)), 0.0);
+    }
 
     #[test]
     fn inverse_times_matrix_is_identity() {

@@ -105,9 +105,13 @@ fn lists_hold_all<const D: usize>(
         }
         entries += listed.len();
         prop_assert!(
-            listed.windows(2).all(|pair| pair[0] < pair[1]),
-            "order or repeats"
+            segments
+                .windows(2)
+                .all(|pair| pair[0].block < pair[1].block),
+            "order of blocks"
         );
+        let once: std::collections::BTreeSet<u32> = listed.iter().copied().collect();
+        prop_assert_eq!(once.len(), listed.len(), "repeats");
         for i in cluster * WIDTH..(cluster + 1) * WIDTH {
             for j in set.blocks.iter().flat_map(|block| block.slots.clone()) {
                 let apart: f64 = (0..D)

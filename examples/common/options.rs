@@ -137,8 +137,13 @@ impl Example {
                 "--scheme" if self.schemes.contains(&value.as_str()) => options.scheme = value,
                 "--scheme" => return Err(bad(&name, &value, &self.schemes.join(", "))),
                 "--out" => options.out = PathBuf::from(value),
+                // What is given several times is a list, with spaces between.
                 _ => {
-                    options.own.insert(name, value);
+                    let all = options.own.entry(name).or_default();
+                    if !all.is_empty() {
+                        all.push(' ');
+                    }
+                    all.push_str(&value);
                 }
             }
         }

@@ -8,6 +8,7 @@
 //! | [`MirrorPlane::symmetry`] | the reflection, bonded | half of a symmetric problem |
 //! | [`Periodic`] | the copy one period on | waves, homogeneous flow |
 //! | [`Wall`] | – (particles of its own) | tanks, obstacles, pistons of any shape, for liquids |
+//! | [`Inlet`] | – (particles enter) | channels, jets |
 //! | [`Outlet`] | – (particles leave) | liquid that is driven out |
 //!
 //! Boundaries combine: a later one also shows images of the images of earlier ones, which fills edges
@@ -19,6 +20,7 @@
 //! meet. It slips along the plane. Walls of other shapes are [`Wall`]s of particles of their own: they
 //! hold liquids, move as [prescribed](Motion), and may deny slip.
 
+mod inlet;
 mod mirror;
 mod motion;
 mod outlet;
@@ -28,6 +30,8 @@ mod wall;
 use crate::sweep::{Interaction, Transform};
 use core::fmt::Debug;
 
+pub(crate) use inlet::Emitter;
+pub use inlet::Inlet;
 pub use mirror::MirrorPlane;
 pub use motion::{Crush, Motion, Pose, Rotation, Translation};
 pub use outlet::Outlet;

@@ -1,6 +1,7 @@
 //! Prescribed motion of walls: where a point of a rigid or affinely deforming wall is at a time.
 //! A motion is evaluated once a wall and step, and applied to all of its particles.
 
+use crate::error::{Error, Problem, Result};
 use crate::tensor::{Matrix, Vector};
 use core::fmt;
 
@@ -28,6 +29,18 @@ impl<const D: usize> Pose<D> {
     #[must_use]
     pub fn of(&self, order: usize, x: &[f64; D]) -> [f64; D] {
         (self.linear[order] * Vector::from(*x) + self.shift[order]).into()
+    }
+    /// This pose with place and velocity of the middle of a straight way between two poses at two
+    /// times \[s\], as particles go in a drift.
+    pub(crate) fn on_chord(mut self, [from, to]: [Self; 2], [begin, end]: [f64; 2]) -> Self {
+        if end != begin {
+            let per_time = 1.0 / (end - begin);
+            self.linear[0] = (from.linear[0] + to.linear[0]) * 0.5;
+            self.linear[1] = (to.linear[0] - from.linear[0]) * per_time;
+            self.shift[0] = (from.shift[0] + to.shift[0]) * 0.5;
+            self.shift[1] = (to.shift[0] - from.shift[0]) * per_time;
+        }
+        self
     }
 }
 
@@ -92,6 +105,108 @@ impl<const D: usize> Translation<D> {
             move |_| velocity,
             |_| [0.0; D],
         )
+    }
+
+    /// From a record of acceleration: times \[s\], which increase, with acceleration \[m/s²\].
+    ///
+    /// It is a straight line between two rows and zero before the first and after the last. Velocity and
+    /// displacement are its integrals without any error of a quadrature: with s = t − tₖ and the slope
+    /// j = (aₖ₊₁ − aₖ)/(tₖ₊₁ − tₖ) they are v = vₖ + aₖ s + j s²/2 and x = xₖ + vₖ s + aₖ s²/2 + j s³/6,
+    /// both zero at the first row.
+    ///
+    /// ```
+    /// use meshfree::boundary::{Motion, Translation};
+    /// // Up to 30 g in 5 ms, and held.
+    /// let ramp = [(0.0, [0.0]), (0.005, [294.2]), (0.080, [294.2])];
+    /// let sled = Translation::from_acceleration(&ramp)?;
+    /// let velocity = sled.pose(0.080).of(1, &[0.0]);
+    /// assert!((velocity[0] - 294.2 * (0.0025 + 0.075)).abs() < 1e-12);
+    /// # Ok::<(), meshfree::error::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Argument`] if there are fewer than two rows, a number is not finite, or a time is not
+    /// later than the one before; it names the row, the first being 1.
+    pub fn from_acceleration(record: &[(f64, [f64; D])]) -> Result<Self> {
+        let refuse = |what: String, value: f64, must_be: &'static str| {
+            let what = format!("{what} of the record of acceleration");
+            Err(Error::Argument(Problem::Parameter {
+                what,
+                value,
+                must_be,
+            }))
+        };
+        if record.len() < 2 {
+            let rows = record.len() as f64;
+            return refuse("number of rows".into(), rows, "it must be at least two");
+        }
+        let mut pieces: Vec<Piece<D>> = Vec::with_capacity(record.len());
+        for (k, &(time, acceleration)) in record.iter().enumerate() {
+            let row = k + 1;
+            if let Some(bad) = acceleration.into_iter().find(|a| !a.is_finite()) {
+                let must_be = "it must be a finite number in m/s²: mend the row, or take it out";
+                return refuse(format!("acceleration in row {row}"), bad, must_be);
+            }
+            if !time.is_finite() || pieces.last().is_some_and(|last| time <= last.time) {
+                let must_be =
+                    "it must be finite, in seconds, and later than that of the row before";
+                return refuse(format!("time in row {row}"), time, must_be);
+            }
+            let mut piece = Piece {
+                time,
+                state: [[0.0; D], [0.0; D], acceleration],
+                slope: [0.0; D],
+            };
+            if let Some(last) = pieces.last_mut() {
+                let span = time - last.time;
+                let slope = core::array::from_fn(|d| (acceleration[d] - last.state[2][d]) / span);
+                last.slope = slope;
+                piece.state[0] = last.at(0, time);
+                piece.state[1] = last.at(1, time);
+            }
+            pieces.push(piece);
+        }
+        let path = move |order: usize| {
+            let pieces = pieces.clone();
+            move |time: f64| {
+                let passed = pieces.partition_point(|piece| piece.time <= time);
+                match passed.checked_sub(1) {
+                    None => [0.0; D],
+                    Some(k) if k + 1 == pieces.len() && time > pieces[k].time => {
+                        let mut free = pieces[k];
+                        free.state[2] = [0.0; D];
+                        free.at(order, time)
+                    }
+                    Some(k) => pieces[k].at(order, time),
+                }
+            }
+        };
+        Ok(Self::new(path(0), path(1), path(2)))
+    }
+}
+
+/// A stretch of straight acceleration.
+#[derive(Clone, Copy)]
+struct Piece<const D: usize> {
+    /// Where it begins \[s\].
+    time: f64,
+    /// Displacement, velocity and acceleration there.
+    state: [[f64; D]; 3],
+    /// Slope of the acceleration \[m/s³\].
+    slope: [f64; D],
+}
+
+impl<const D: usize> Piece<D> {
+    /// Displacement, velocity or acceleration at a time.
+    fn at(&self, order: usize, time: f64) -> [f64; D] {
+        let s = time - self.time;
+        let [x, v, a] = self.state;
+        let j = self.slope;
+        core::array::from_fn(|d| match order {
+            0 => x[d] + s * (v[d] + s * (a[d] / 2.0 + s * j[d] / 6.0)),
+            1 => v[d] + s * (a[d] + s * j[d] / 2.0),
+            _ => a[d] + s * j[d],
+        })
     }
 }
 
@@ -228,7 +343,62 @@ mod tests {
         derivatives_agree(&Crush::along(1, 0.4, wave), [1.0, 0.5, 2.0]);
         let swing = Translation::new(|t| [t.sin()], |t| [t.cos()], |t| [-t.sin()]);
         derivatives_agree(&swing, [0.7]);
+        let rows = [(0.1, [1.0, 0.0]), (0.3, [-3.0, 2.0]), (0.5, [4.0, 1.0])];
+        let recorded = Translation::from_acceleration(&rows).unwrap();
+        derivatives_agree(&recorded, [0.7, 0.0]);
         let plane = Crush::along(1, 0.4, wave).pose(0.9).of(0, &[2.0, 0.4]);
         assert!((plane[1] - 0.4).abs() < 1e-15 && plane[0] == 2.0);
+    }
+
+    /// A half sine by straight lines has the speed and the travel of the sine to the square of the step.
+    #[test]
+    fn a_recorded_half_sine_is_the_half_sine() {
+        use core::f64::consts::PI;
+        let (peak, length) = (294.2, 0.08);
+        let rows: Vec<_> = (0..=800)
+            .map(|k| f64::from(k) / 800.0)
+            .map(|s| (length * s, [peak * (PI * s).sin()]))
+            .collect();
+        let pulse = Translation::from_acceleration(&rows).unwrap();
+        for t in [0.0, 0.0101, 0.038, 0.07996, 0.08] {
+            let (w, pose) = (PI / length, pulse.pose(t));
+            let speed = peak / w * (1.0 - (w * t).cos());
+            let travel = peak / w * (t - (w * t).sin() / w);
+            let [x] = pose.of(0, &[0.0]);
+            let [v] = pose.of(1, &[0.0]);
+            assert!((v - speed).abs() < 2e-6 * 14.98 && (x - travel).abs() < 2e-6 * 0.6);
+        }
+        // Afterwards it goes on as it was, before it rests.
+        let [x] = pulse.pose(0.09).of(0, &[0.0]);
+        let [end] = pulse.pose(0.08).of(0, &[0.0]);
+        let speed = 2.0 * peak * length / PI;
+        assert!(((x - end) / (0.01 * speed) - 1.0).abs() < 2e-6);
+        assert_eq!(pulse.pose(0.09).of(2, &[0.0]), [0.0]);
+        assert_eq!(pulse.pose(-0.01), Pose::rest());
+    }
+
+    #[test]
+    fn a_bad_record_is_refused_with_its_row() {
+        let message = |rows: &[(f64, [f64; 1])]| {
+            Translation::from_acceleration(rows)
+                .err()
+                .map(|error| error.to_string())
+        };
+        let wrong = [
+            (vec![(0.0, [1.0])], "number of rows"),
+            (
+                vec![(0.0, [1.0]), (1.0, [f64::NAN])],
+                "acceleration in row 2",
+            ),
+            (vec![(0.0, [1.0]), (0.0, [1.0])], "time in row 2"),
+            (vec![(0.0, [1.0]), (f64::INFINITY, [1.0])], "time in row 2"),
+            (vec![(f64::NAN, [1.0]), (1.0, [1.0])], "time in row 1"),
+        ];
+        for (rows, part) in wrong {
+            assert!(
+                message(&rows).is_some_and(|text| text.contains(part)),
+                "{part}"
+            );
+        }
     }
 }

@@ -95,7 +95,11 @@ impl<const D: usize> Wall<D> {
             }
             break;
         }
-        Self::of(name, points, spacing)
+        // Of the volume of a cell as fitted, as the liquid's are: the force on the wall is in proportion.
+        let volume: f64 = (0..D)
+            .map(|d| (high[d] - low[d]) / counts[d] as f64)
+            .product();
+        Self::of(name, points, volume.abs().powf(1.0 / D as f64))
     }
 
     /// Gives it a prescribed motion.
@@ -156,5 +160,8 @@ mod tests {
         );
         assert_eq!(open.points().len(), 14 * 12 - 100);
         assert!(open.points().iter().all(|x| x[1] < 1.0));
+        // Three cells of a third in a length of one, asked for 0.3.
+        let fitted = Wall::around("fitted", [0.0; 2], [1.0; 2], 0.3, 1, [[true; 2]; 2]);
+        assert!((fitted.spacing - 1.0 / 3.0).abs() < 1e-15);
     }
 }

@@ -4,6 +4,7 @@
 use super::hilbert::hilbert_index;
 use crate::scalar::Real;
 use std::collections::HashMap;
+use std::ops::Range;
 
 /// A uniform grid of cubic cells over a bounding box.
 #[derive(Clone, Debug)]
@@ -45,6 +46,18 @@ impl<const D: usize> Grid<D> {
         }
     }
 
+    /// The same with the lowest point in the middle of a cell and not on its face, so that a lattice of
+    /// spacing `size` has one point a cell.
+    #[must_use]
+    pub fn centred<T: Real>(points: &[[T; D]], size: f64) -> Self {
+        let mut grid = Self::over(points, size);
+        for d in 0..D {
+            grid.origin[d] -= 0.5 * grid.size;
+            grid.counts[d] += 1;
+        }
+        grid
+    }
+
     /// Edge of a cell.
     #[must_use]
     pub fn size(&self) -> f64 {
@@ -62,6 +75,14 @@ impl<const D: usize> Grid<D> {
     pub fn coordinate(&self, x: f64, d: usize) -> u32 {
         // The cast takes NaN and values below the origin to zero.
         (((x - self.origin[d]) * self.inverse_size) as u32).min(self.counts[d] - 1)
+    }
+
+    /// Whether a box has anything in common with the grid's.
+    fn meets(&self, low: &[f64; D], high: &[f64; D]) -> bool {
+        (0..D).all(|d| {
+            let end = self.origin[d] + f64::from(self.counts[d]) * self.size;
+            high[d] >= self.origin[d] && low[d] <= end
+        })
     }
 
     fn bits(&self) -> u32 {
@@ -150,8 +171,28 @@ impl<const D: usize> Cells<D> {
         }
     }
 
+    /// The points, cell after cell.
+    #[must_use]
+    pub fn points(&self) -> &[u32] {
+        &self.points
+    }
+
     /// Calls `visit` with the run of points of every cell that meets the box `low..high`.
     pub fn for_each_run(&self, low: [f64; D], high: [f64; D], mut visit: impl FnMut(&[u32])) {
+        self.for_each_range(low, high, |range| visit(&self.points[range]));
+    }
+
+    /// Calls `visit` with where in [`points`](Self::points) the run of every cell stands that meets the
+    /// box `low..high`.
+    pub fn for_each_range(
+        &self,
+        low: [f64; D],
+        high: [f64; D],
+        mut visit: impl FnMut(Range<usize>),
+    ) {
+        if !self.grid.meets(&low, &high) {
+            return;
+        }
         let first: [u32; D] = core::array::from_fn(|d| self.grid.coordinate(low[d], d));
         let last: [u32; D] = core::array::from_fn(|d| self.grid.coordinate(high[d], d));
         let spanned = (0..D).fold(1_u64, |n, d| {
@@ -159,7 +200,7 @@ impl<const D: usize> Cells<D> {
         });
         // A box that a far outlier stretches has more cells than there are points.
         if spanned > self.points.len() as u64 + 64 {
-            visit(&self.points);
+            visit(0..self.points.len());
             return;
         }
         let mut cell = first;
@@ -169,12 +210,12 @@ impl<const D: usize> Cells<D> {
                 // Cells along the first axis follow one another, and so do their points.
                 Table::Dense(starts) => {
                     let end = row + (last[0] - first[0]) as usize + 1;
-                    visit(&self.points[starts[row] as usize..starts[end] as usize]);
+                    visit(starts[row] as usize..starts[end] as usize);
                 }
                 Table::Hashed(runs) => {
                     for k in 0..=u64::from(last[0] - first[0]) {
                         if let Some(&(start, end)) = runs.get(&(row as u64 + k)) {
-                            visit(&self.points[start as usize..end as usize]);
+                            visit(start as usize..end as usize);
                         }
                     }
                 }

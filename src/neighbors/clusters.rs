@@ -2,7 +2,8 @@
 //! A row of W particles shares one list, so the pair loop broadcasts each neighbour to full lanes.
 
 use super::cells::Cells;
-use crate::scalar::Real;
+use crate::scalar::{Lane, Mask, Real};
+use crate::sweep::InstructionSet;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -32,7 +33,7 @@ pub struct Segment {
 /// The neighbour lists of [`CHUNK`] clusters.
 #[derive(Clone, Debug, Default)]
 pub struct ChunkList {
-    /// Slots of neighbours, cluster after cluster, ascending inside a cluster.
+    /// Slots of neighbours, cluster after cluster, by block inside a cluster.
     pub neighbors: Vec<u32>,
     /// Segments, cluster after cluster.
     pub segments: Vec<Segment>,
@@ -64,6 +65,14 @@ pub struct SearchInput<'a, T, const D: usize> {
     pub slots: usize,
     /// Added to the radius so that the lists stay valid while particles move.
     pub skin: f64,
+}
+
+impl<T, const D: usize> SearchInput<'_, T, D> {
+    /// Whether members of block `own` list those of block `other`.
+    fn lists(&self, own: usize, other: usize) -> bool {
+        let at = own * self.blocks.len() + other;
+        self.listed.get(at).is_none_or(|&listed| listed)
+    }
 }
 
 /// Support radii of the particles.
@@ -109,37 +118,22 @@ impl ClusterLists {
 
     /// Finds the neighbours of every cluster.
     pub fn rebuild<T: Real, const D: usize>(&mut self, input: &SearchInput<'_, T, D>) {
-        let points: Vec<u32> = input
-            .blocks
-            .iter()
-            .flat_map(|b| b.slots.start as u32..b.slots.end as u32)
+        let instructions = InstructionSet::detect();
+        let sources: Vec<Source<T, D>> = (0..input.blocks.len())
+            .map(|block| Source::new(input, block))
             .collect();
-        let largest = match input.radii {
-            Radii::Uniform(radius) => radius,
-            Radii::Varying(..) => points
-                .iter()
-                .fold(0.0_f64, |m, &p| m.max(input.radii.of(p as usize))),
-        };
-        let reach = largest + input.skin;
-        // Cells of half the reach fit the boxes of clusters better than cells of the full reach.
-        let cells = Cells::build(
-            input.positions,
-            &points,
-            if D == 1 { reach } else { 0.5 * reach },
-        );
         let clusters = input.slots / input.width;
         self.chunks
             .resize_with(clusters.div_ceil(CHUNK), ChunkList::default);
         self.chunks
             .par_iter_mut()
             .enumerate()
-            .for_each_init(Vec::new, |found, (c, chunk)| {
+            .for_each_init(Vec::new, |ranges, (c, chunk)| {
                 chunk.neighbors.clear();
                 chunk.segments.clear();
                 chunk.starts.clear();
                 for cluster in c * CHUNK..clusters.min((c + 1) * CHUNK) {
                     chunk.starts.push(chunk.segments.len() as u32);
-                    found.clear();
                     let members = cluster * input.width..(cluster + 1) * input.width;
                     let block = input
                         .blocks
@@ -150,9 +144,7 @@ impl ClusterLists {
                         .get(block)
                         .is_some_and(|b| b.slots.contains(&members.start));
                     if owned {
-                        search(input, &cells, members, largest, found);
-                        found.sort_unstable();
-                        append(input, block, found, chunk);
+                        search(input, &sources, block, members, instructions, ranges, chunk);
                     }
                 }
                 chunk.starts.push(chunk.segments.len() as u32);
@@ -160,13 +152,57 @@ impl ClusterLists {
     }
 }
 
-/// Collects every point within reach of any member.
+/// The particles of a block, as the search for neighbours meets them.
+struct Source<T, const D: usize> {
+    cells: Cells<D>,
+    /// Positions in the order of the cells.
+    positions: Vec<[T; D]>,
+    /// The largest support radius.
+    largest: f64,
+}
+
+impl<T: Real, const D: usize> Source<T, D> {
+    fn new(input: &SearchInput<'_, T, D>, block: usize) -> Self {
+        let blocks = input.blocks.len();
+        let wanted = (0..blocks).any(|own| input.lists(own, block));
+        let slots = input.blocks[block].slots.clone();
+        let points: Vec<u32> = if wanted {
+            (slots.start as u32..slots.end as u32).collect()
+        } else {
+            Vec::new()
+        };
+        let largest = match input.radii {
+            Radii::Uniform(radius) => radius,
+            Radii::Varying(..) => points
+                .iter()
+                .fold(0.0_f64, |m, &p| m.max(input.radii.of(p as usize))),
+        };
+        let reach = largest + input.skin;
+        // Cells of half the reach fit the boxes of clusters better than cells of the full reach.
+        let size = if D == 1 { reach } else { 0.5 * reach };
+        let cells = Cells::build(input.positions, &points, size);
+        let positions = cells
+            .points()
+            .iter()
+            .map(|&j| input.positions[j as usize])
+            .collect();
+        Self {
+            cells,
+            positions,
+            largest,
+        }
+    }
+}
+
+/// Lists every point within reach of any member, block after block.
 fn search<T: Real, const D: usize>(
     input: &SearchInput<'_, T, D>,
-    cells: &Cells<D>,
+    sources: &[Source<T, D>],
+    block: usize,
     members: Range<usize>,
-    largest: f64,
-    found: &mut Vec<u32>,
+    instructions: InstructionSet,
+    ranges: &mut Vec<Range<usize>>,
+    chunk: &mut ChunkList,
 ) {
     let rows = &input.positions[members.clone()];
     let (mut low, mut high) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
@@ -179,64 +215,126 @@ fn search<T: Real, const D: usize>(
     let own = members
         .clone()
         .fold(0.0_f64, |m, k| m.max(input.radii.of(k)));
-    let uniform = matches!(input.radii, Radii::Uniform(_));
-    // A pair acts within the mean of the two supports (or, where each side uses its own smoothing
-    // length, within the larger): the larger covers both.
-    let reach = own.max(largest) + input.skin;
-    let box_low = core::array::from_fn(|d| low[d] - reach);
-    let box_high = core::array::from_fn(|d| high[d] + reach);
-    cells.for_each_run(box_low, box_high, |run| {
-        for &j in run {
-            let xj = input.positions[j as usize].map(Real::to_f64);
-            let reach = if uniform {
-                reach
-            } else {
-                own.max(input.radii.of(j as usize)) + input.skin
-            };
-            let reach = reach * reach;
-            let outside: f64 = (0..D)
-                .map(|d| (low[d] - xj[d]).max(xj[d] - high[d]).max(0.0))
-                .map(|gap| gap * gap)
-                .sum();
-            if outside > reach {
-                continue;
-            }
-            let near = rows.iter().any(|x| {
-                let r2: f64 = (0..D).map(|d| (x[d].to_f64() - xj[d]).powi(2)).sum();
-                r2 <= reach
-            });
-            if near {
-                found.push(j);
-            }
+    for (other, source) in sources.iter().enumerate() {
+        if !input.lists(block, other) {
+            continue;
         }
-    });
+        // A pair acts within the mean of the two supports (or, where each side uses its own smoothing
+        // length, within the larger): the larger covers both.
+        let reach = own.max(source.largest) + input.skin;
+        let box_low = core::array::from_fn(|d| low[d] - reach);
+        let box_high = core::array::from_fn(|d| high[d] + reach);
+        let start = chunk.neighbors.len();
+        ranges.clear();
+        source
+            .cells
+            .for_each_range(box_low, box_high, |range| ranges.push(range));
+        let sieve = Sieve {
+            input,
+            rows,
+            own,
+            reach,
+            source,
+            ranges,
+        };
+        sieve.dispatch(instructions, &mut chunk.neighbors);
+        let end = chunk.neighbors.len();
+        if end > start {
+            chunk.segments.push(Segment {
+                start: start as u32,
+                end: end as u32,
+                block: other as u32,
+            });
+        }
+    }
 }
 
-fn append<T, const D: usize>(
-    input: &SearchInput<'_, T, D>,
-    own: usize,
-    found: &[u32],
-    chunk: &mut ChunkList,
-) {
-    let blocks = input.blocks;
-    let listed = |other: usize| {
-        let at = own * blocks.len() + other;
-        input.listed.get(at).is_none_or(|&listed| listed)
-    };
-    let mut rest = found;
-    while let Some(&first) = rest.first() {
-        let block = blocks.partition_point(|b| b.slots.end <= first as usize);
-        let end = blocks.get(block).map_or(usize::MAX, |b| b.slots.end);
-        let (here, others) = rest.split_at(rest.partition_point(|&j| (j as usize) < end));
-        if listed(block) {
-            let start = chunk.neighbors.len() as u32;
-            chunk.neighbors.extend_from_slice(here);
-            chunk.segments.push(Segment {
-                start,
-                end: chunk.neighbors.len() as u32,
-                block: block as u32,
-            });
+/// One cluster against some runs of points.
+struct Sieve<'a, T, const D: usize> {
+    input: &'a SearchInput<'a, T, D>,
+    rows: &'a [[T; D]],
+    own: f64,
+    reach: f64,
+    source: &'a Source<T, D>,
+    ranges: &'a [Range<usize>],
+}
+
+impl<T: Real, const D: usize> Sieve<'_, T, D> {
+    #[inline(always)]
+    fn dispatch(&self, instructions: InstructionSet, found: &mut Vec<u32>) {
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: `InstructionSet::detect` found them on this machine.
+        match instructions {
+            InstructionSet::Avx512 => unsafe { return self.run_avx512(found) },
+            InstructionSet::Avx2 => unsafe { return self.run_avx2(found) },
+            InstructionSet::Baseline => {}
         }
-        rest = others;
+        let _ = instructions;
+        self.run::<T::Wide<false>>(found);
     }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx512f,avx512vl,avx512dq,fma")]
+    fn run_avx512(&self, found: &mut Vec<u32>) {
+        self.run::<T::Wide<true>>(found);
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2,fma")]
+    fn run_avx2(&self, found: &mut Vec<u32>) {
+        self.run::<T::Wide<true>>(found);
+    }
+
+    /// Members from `first` on; the last is repeated where there are no more.
+    #[inline(always)]
+    fn row<L: Lane<Scalar = T>>(&self, first: usize) -> [L; D] {
+        let mut row = [L::zero(); D];
+        let last = self.rows.len() - 1;
+        for (d, x) in row.iter_mut().enumerate() {
+            *x = L::from_fn(|lane| self.rows[(first + lane).min(last)][d]);
+        }
+        row
+    }
+
+    /// Adds the points that are within reach of any member.
+    #[inline(always)]
+    fn run<L: Lane<Scalar = T>>(&self, found: &mut Vec<u32>) {
+        let mut count = found.len();
+        let candidates: usize = self.ranges.iter().map(ExactSizeIterator::len).sum();
+        found.resize(count + candidates, 0);
+        let last = self.rows.len() - 1;
+        let first = self.row::<L>(0);
+        for range in self.ranges {
+            let slots = &self.source.cells.points()[range.clone()];
+            for (x, &j) in self.source.positions[range.clone()].iter().zip(slots) {
+                let reach = match self.input.radii {
+                    Radii::Uniform(_) => self.reach,
+                    Radii::Varying(..) => {
+                        self.own.max(self.input.radii.of(j as usize)) + self.input.skin
+                    }
+                };
+                // Rounding leaves out none.
+                let rounding = if T::COMPENSATED { 1e-6 } else { 1e-15 };
+                let reach2 = L::of(reach * reach * (1.0 + rounding));
+                let mut any = near(&first, x, reach2);
+                for k in (L::WIDTH..=last).step_by(L::WIDTH) {
+                    any |= near(&self.row::<L>(k), x, reach2);
+                }
+                found[count] = j;
+                count += usize::from(any);
+            }
+        }
+        found.truncate(count);
+    }
+}
+
+/// Whether a point is within reach of any of a row.
+#[inline(always)]
+fn near<L: Lane, const D: usize>(row: &[L; D], x: &[L::Scalar; D], reach2: L) -> bool {
+    let mut r2 = L::zero();
+    for d in 0..D {
+        let r = row[d] - L::splat(x[d]);
+        r2 = r.mul_add(r, r2);
+    }
+    r2.le(reach2).any()
 }

@@ -1,10 +1,14 @@
 //! Pressure on a wall: averaged over a disc as a sensor does, and as force over area.
 //! A probe moves with the wall that it is fixed to.
 
-use super::weight;
+use super::{normalisation, weight};
 use crate::scalar::Real;
 use crate::simulation::Simulation;
 use crate::tensor::{Vector, length};
+
+/// Share of the kernel above which a place counts as full of liquid and wall: what full places have, less
+/// the scatter of particles.
+const FULL: f64 = 0.95;
 
 /// Rings of points on which a disc is sampled.
 const RINGS: usize = 2;
@@ -12,7 +16,8 @@ const RINGS: usize = 2;
 /// A pressure sensor on a wall: a disc in 3D, a length in 2D, a point in 1D.
 ///
 /// The pressure at a point of the surface is p = Σ V p W / Σ V W over liquid and wall: the sides lie half
-/// a spacing before and behind it, so the mean is that of the surface to second order.
+/// a spacing before and behind it, so the mean is that of the surface to second order. What liquid and
+/// wall leave empty counts with no pressure, as the dry part of a sensor does.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PressureProbe<const D: usize> {
     name: String,
@@ -105,21 +110,33 @@ impl<const D: usize> PressureProbe<D> {
         let points: Vec<[f64; D]> = self.points().iter().map(|x| pose.of(0, x)).collect();
         let h = simulation.smoothing_length();
         let reach = 2.0 * h + 0.5 * self.diameter;
-        let mut sums = vec![[0.0; 2]; points.len()];
+        let norm = normalisation(D) / h.powi(D as i32);
+        // Σ V W and Σ V p W, over liquid and over walls.
+        let mut sums = vec![[[0.0; 2]; 2]; points.len()];
         simulation.near(&pose.of(0, &self.centre), reach, |particle| {
             let x = particle.position();
-            let volume = particle.mass() / particle.density();
+            let volume = particle.mass() / particle.density() * norm;
+            let side = usize::from(!simulation.is_mobile(&particle));
             for (point, sum) in points.iter().zip(&mut sums) {
                 let r2: f64 = (0..D).map(|d| (x[d] - point[d]).powi(2)).sum();
                 let q = r2.sqrt() / h;
                 if q < 2.0 {
                     let weight = volume * weight(q);
-                    sum[0] += weight;
-                    sum[1] += weight * particle.pressure();
+                    sum[side][0] += weight;
+                    sum[side][1] += weight * particle.pressure();
                 }
             }
         });
-        let mean = |sum: &[f64; 2]| if sum[0] > 0.0 { sum[1] / sum[0] } else { 0.0 };
+        let mean = |[[liquid, pressed], [wall, pressing]]: &[[f64; 2]; 2]| {
+            if *liquid <= 0.0 {
+                return 0.0;
+            }
+            // Above the liquid walls show the pressure of what they feel from below: they count as
+            // much as liquid does.
+            let share = (liquid / wall.max(f64::MIN_POSITIVE)).min(1.0);
+            let wet = (liquid / (FULL * (1.0 - wall)).max(*liquid)).min(1.0);
+            wet * (pressed + share * pressing) / (liquid + share * wall)
+        };
         sums.iter().map(mean).sum::<f64>() / sums.len() as f64
     }
 

@@ -103,6 +103,16 @@ impl<T: Real, const D: usize> Columns<T, D> {
         }
     }
 
+    /// Makes slot `to` what slot `from` is.
+    pub(crate) fn copy_slot(&mut self, from: usize, to: usize) {
+        for (field, column) in Field::ALL.iter().zip(&mut self.data) {
+            if self.fields.contains(*field) {
+                let width = field.components(D);
+                column.copy_within(from * width..(from + 1) * width, to * width);
+            }
+        }
+    }
+
     /// Rearranges the slots: slot k becomes what slot `order[k]` was.
     pub fn permute(&mut self, order: &[u32]) {
         self.slots = order.len();

@@ -2,11 +2,12 @@
 //! A message names the field, the value, and what to do.
 
 use super::Scene;
-use crate::boundary::Pose;
+use crate::boundary::{Outlet, Pose};
 use crate::error::Problem;
 use crate::neighbors::Cells;
 use crate::scalar::Real;
 use crate::scheme::EnergyForm;
+use crate::simulation::Load;
 
 /// Share of the spacing below which two particles of different bodies cannot be neighbours by intent.
 const TOO_CLOSE: f64 = 0.6;
@@ -229,6 +230,30 @@ impl<T: Real, const D: usize> Scene<T, D> {
     }
 
     fn check_walls(&self, problems: &mut Vec<Problem>) {
+        for inlet in &self.inlets {
+            for (what, value, must_be) in inlet.problems() {
+                problems.push(Problem::Parameter {
+                    what: format!("{what} of the inlet of body `{}`", inlet.body),
+                    value,
+                    must_be,
+                });
+            }
+            if !self.bodies.iter().any(|body| body.name == inlet.body) {
+                let known: Vec<_> = self.bodies.iter().map(|body| body.name.as_str()).collect();
+                problems.push(Problem::UnknownName {
+                    kind: "body",
+                    name: inlet.body.clone(),
+                    known: known.join(", "),
+                });
+            }
+        }
+        for (what, value, must_be) in self.outlets.iter().flat_map(Outlet::problems) {
+            problems.push(Problem::Parameter {
+                what: format!("{what} of an outlet"),
+                value,
+                must_be,
+            });
+        }
         let spacing = self.bodies.first().map_or(0.0, |body| body.spacing);
         for (k, wall) in self.walls.iter().enumerate() {
             if self.scheme.liquid.is_none() {
@@ -264,7 +289,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 parameter("position", bad, "it must be finite, in metres");
             }
             // A lattice that is fitted to a box is stretched by less than half a particle in a row.
-            if !((wall.spacing - spacing).abs() <= 0.1 * spacing) {
+            let off = (wall.spacing - spacing).abs();
+            if off.is_nan() || off > 0.1 * spacing {
                 parameter(
                     "spacing",
                     wall.spacing,
@@ -288,14 +314,13 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 );
             }
         }
-        if let (Some(load), 0) = (self.loads.first(), problems.len()) {
-            if let Some(bad) = load(0.0).into_iter().find(|a| !a.is_finite()) {
-                problems.push(Problem::Parameter {
-                    what: "acceleration at t = 0".into(),
-                    value: bad,
-                    must_be: "it must be finite, in m/s²",
-                });
-            }
+        let bad = |load: &Load<D>| load(0.0).into_iter().find(|a| !a.is_finite());
+        if let Some(value) = self.loads.iter().find_map(bad) {
+            problems.push(Problem::Parameter {
+                what: "acceleration at t = 0".into(),
+                value,
+                must_be: "it must be finite, in m/s²",
+            });
         }
     }
 

@@ -34,7 +34,7 @@ mod check;
 
 pub use body::{Body, Start};
 
-use crate::boundary::{Boundary, Outlet, Wall};
+use crate::boundary::{Boundary, Emitter, Inlet, Outlet, Wall};
 use crate::error::{BuildError, Error, Problem, Result};
 use crate::integrator::{Integrator, KickDriftKick};
 use crate::particles::{Columns, Field, Fields};
@@ -63,6 +63,7 @@ pub struct Scene<T: Real, const D: usize> {
     bodies: Vec<Body<T, D>>,
     walls: Vec<Wall<D>>,
     outlets: Vec<Outlet<D>>,
+    inlets: Vec<Inlet<D>>,
     boundaries: Vec<Box<dyn Boundary<T, D>>>,
     scheme: Scheme<T, D>,
     integrator: Box<dyn Integrator>,
@@ -86,6 +87,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             bodies: Vec::new(),
             walls: Vec::new(),
             outlets: Vec::new(),
+            inlets: Vec::new(),
             boundaries: Vec::new(),
             scheme,
             integrator: Box::new(KickDriftKick),
@@ -108,6 +110,13 @@ impl<T: Real, const D: usize> Scene<T, D> {
     #[must_use]
     pub fn wall(mut self, wall: Wall<D>) -> Self {
         self.walls.push(wall);
+        self
+    }
+
+    /// Adds an inlet, through which particles enter.
+    #[must_use]
+    pub fn inlet(mut self, inlet: Inlet<D>) -> Self {
+        self.inlets.push(inlet);
         self
     }
 
@@ -182,11 +191,12 @@ impl<T: Real, const D: usize> Scene<T, D> {
     ///
     /// # Errors
     /// [`Error::Build`] with every problem that was found.
-    pub fn build(self) -> Result<Simulation<T, D>> {
+    pub fn build(mut self) -> Result<Simulation<T, D>> {
         let problems = self.problems();
         if !problems.is_empty() {
             return Err(Error::Build(BuildError { problems }));
         }
+        let emitters = self.place_inlets();
         let interactions = self.interactions();
         let unilateral = interactions.contains(&Interaction::Unilateral);
         let mut fields = self.scheme.fields();
@@ -194,7 +204,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             fields = fields.union(Fields::of(&[Field::Touching, Field::TouchingSum]));
         }
         let width = width::<T>();
-        let counts = self.bodies.iter().map(|body| body.points.len());
+        let counts = self.bodies.iter().map(|body| self.room(body));
         let slots = counts
             .chain(self.walls.iter().map(|wall| wall.points.len()))
             .map(|count| count.next_multiple_of(width))
@@ -204,7 +214,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
         let mut start = 0;
         for body in &self.bodies {
             let own = start..start + body.points.len();
-            for slot in start..own.end.next_multiple_of(width) {
+            let end = (start + self.room(body)).next_multiple_of(width);
+            for slot in start..end {
                 self.place(
                     &mut columns,
                     body,
@@ -212,11 +223,12 @@ impl<T: Real, const D: usize> Scene<T, D> {
                     (slot - start).min(body.points.len() - 1),
                 );
             }
-            start = own.end.next_multiple_of(width);
+            let ids = start..start + self.room(body);
+            start = end;
             bodies.push(BodyState {
                 name: body.name.clone(),
                 material: body.material.clone(),
-                ids: own.clone(),
+                ids,
                 slots: own,
                 end: start,
                 spacing: body.spacing,
@@ -238,6 +250,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 slip: wall.slip,
                 sliding: wall.sliding,
                 carries: wall.carries,
+                mass: self.wall_mass(wall),
             });
         }
         let widest = bodies
@@ -258,6 +271,12 @@ impl<T: Real, const D: usize> Scene<T, D> {
         );
         group.instructions = self.instructions;
         group.outlets = self.outlets;
+        group.emitters = emitters;
+        for body in &group.bodies {
+            for id in body.slots.end..body.ids.end {
+                group.slot_of[id] = u32::MAX;
+            }
+        }
         group.take_reference();
         let mut simulation = Simulation::new(group, self.integrator, self.control, self.loads);
         simulation.evaluate()?;
@@ -305,6 +324,32 @@ impl<T: Real, const D: usize> Scene<T, D> {
         );
     }
 
+    /// Particles that a body can have: those that it starts with, and what inlets may add.
+    fn room(&self, body: &Body<T, D>) -> usize {
+        let inlets = self.inlets.iter().filter(|inlet| inlet.body == body.name);
+        body.points.len() + inlets.map(|inlet| inlet.reserve).sum::<usize>()
+    }
+
+    /// Puts a buffer behind every inlet, and returns what hands its layers over.
+    fn place_inlets(&mut self) -> Vec<(usize, Emitter<D>)> {
+        let reach = self.scheme.kernel.support * self.scheme.h_over_dx;
+        let mut emitters = Vec::new();
+        for inlet in &self.inlets {
+            let (wall, emitter) = inlet.buffer(reach.ceil() as usize + 1);
+            self.walls.push(wall);
+            let fed = self.bodies.iter().position(|body| body.name == inlet.body);
+            emitters.extend(fed.map(|body| (body, emitter)));
+        }
+        emitters
+    }
+
+    /// Mass \[kg\] of a wall particle: its volume, filled with the first liquid at rest.
+    fn wall_mass(&self, wall: &Wall<D>) -> f64 {
+        let body = self.bodies.first();
+        let density = body.map_or(0.0, |body| body.material.reference_density());
+        density * wall.spacing.powi(D as i32)
+    }
+
     /// Gives a wall particle what does not change. It has the density of the first liquid at rest: its
     /// volume is what the liquid's pressure acts on.
     fn place_wall(&self, columns: &mut Columns<T, D>, wall: &Wall<D>, slot: usize) {
@@ -320,8 +365,17 @@ impl<T: Real, const D: usize> Scene<T, D> {
         };
         set(Field::Density, density);
         set(Field::SoundSpeed, sound_speed);
-        set(Field::Mass, density * wall.spacing.powi(D as i32));
+        set(Field::Mass, self.wall_mass(wall));
         set(Field::SmoothingLength, self.scheme.h_over_dx * wall.spacing);
+        // The liquid corrects the gradients; a wall takes them as they are.
+        if let Some(rows) = columns
+            .raw_mut(Field::Correction)
+            .get_mut(slot * D * D..(slot + 1) * D * D)
+        {
+            for d in 0..D {
+                rows[d * (D + 1)] = T::one();
+            }
+        }
     }
 
     /// What every block does to every other: bodies, walls, images of bodies by boundary, and images of

@@ -8,7 +8,8 @@ use crate::scalar::Real;
 use crate::sweep::{PairSweep, Program, SmoothingMode};
 use crate::term::{
     ArtificialViscosity, Compression, Crowding, DensityGradient, LiquidAlongWall, LiquidNearWall,
-    Nothing, PressureForce, Term, VelocityGradient, Viscosity,
+    Nothing, PressureForce, RenormalisedCompression, RenormalisedPressureForce, Term,
+    VelocityGradient, Viscosity, ViscosityAtWall,
 };
 
 /// How particles are kept evenly spread.
@@ -91,7 +92,15 @@ pub(crate) struct Liquid<T: Real, const D: usize> {
 /// assert!(scheme.to_string().contains("laminar viscosity"));
 /// ```
 #[derive(Clone, Debug)]
-pub struct LiquidBuilder<K, V, W = Nothing, R = Nothing, S = Nothing> {
+pub struct LiquidBuilder<
+    K,
+    V,
+    W = Nothing,
+    R = Nothing,
+    S = Nothing,
+    const MODES: u8 = { SmoothingMode::Uniform.bit() },
+    const RENORMALISED: bool = false,
+> {
     name: String,
     kernel: K,
     viscosity: V,
@@ -131,7 +140,9 @@ impl<K, V> LiquidBuilder<K, V> {
     }
 }
 
-impl<K, V, R> LiquidBuilder<K, V, Nothing, R, Nothing> {
+impl<K, V, R, const MODES: u8, const RENORMALISED: bool>
+    LiquidBuilder<K, V, Nothing, R, Nothing, MODES, RENORMALISED>
+{
     /// Continuity and pressure in their mass form, [`DensityForm::ContinuityByMass`]. Diffusion and
     /// shifting weigh neighbours by volume, which this form does not carry.
     #[must_use]
@@ -141,11 +152,13 @@ impl<K, V, R> LiquidBuilder<K, V, Nothing, R, Nothing> {
     }
 }
 
-impl<K, V, W, R, S> LiquidBuilder<K, V, W, R, S> {
-    fn with<K2, V2, W2, R2, S2>(
+impl<K, V, W, R, S, const MODES: u8, const RENORMALISED: bool>
+    LiquidBuilder<K, V, W, R, S, MODES, RENORMALISED>
+{
+    fn with<K2, V2, W2, R2, S2, const M: u8, const N: bool>(
         self,
         change: impl FnOnce(K, V, W, R, S) -> (K2, V2, W2, R2, S2),
-    ) -> LiquidBuilder<K2, V2, W2, R2, S2> {
+    ) -> LiquidBuilder<K2, V2, W2, R2, S2, M, N> {
         let (kernel, viscosity, diffusion, laminar, crowding) = change(
             self.kernel,
             self.viscosity,
@@ -172,24 +185,33 @@ impl<K, V, W, R, S> LiquidBuilder<K, V, W, R, S> {
     }
     /// The same choices with another kernel.
     #[must_use]
-    pub fn with_kernel<L>(self, kernel: L) -> LiquidBuilder<L, V, W, R, S> {
+    pub fn with_kernel<L>(self, kernel: L) -> LiquidBuilder<L, V, W, R, S, MODES, RENORMALISED> {
         self.with(|_, v, w, r, s| (kernel, v, w, r, s))
     }
     /// The same choices with another artificial viscosity;
     /// [`Inviscid`](crate::term::viscosity::Inviscid) for none.
     #[must_use]
-    pub fn with_viscosity<X>(self, viscosity: X) -> LiquidBuilder<K, X, W, R, S> {
+    pub fn with_viscosity<X>(
+        self,
+        viscosity: X,
+    ) -> LiquidBuilder<K, X, W, R, S, MODES, RENORMALISED> {
         self.with(|k, _, w, r, s| (k, viscosity, w, r, s))
     }
     /// The same choices with another density diffusion; [`Nothing`] for none.
     #[must_use]
-    pub fn density_diffusion<X>(self, diffusion: X) -> LiquidBuilder<K, V, X, R, S> {
+    pub fn density_diffusion<X>(
+        self,
+        diffusion: X,
+    ) -> LiquidBuilder<K, V, X, R, S, MODES, RENORMALISED> {
         self.with(|k, v, _, r, s| (k, v, diffusion, r, s))
     }
     /// A physical viscosity, [`LaminarViscosity`](crate::term::LaminarViscosity) or
     /// [`CentralViscosity`](crate::term::CentralViscosity), of the liquids' own dynamic viscosity.
     #[must_use]
-    pub fn laminar_viscosity<X>(self, laminar: X) -> LiquidBuilder<K, V, W, X, S> {
+    pub fn laminar_viscosity<X>(
+        self,
+        laminar: X,
+    ) -> LiquidBuilder<K, V, W, X, S, MODES, RENORMALISED> {
         self.with(|k, v, w, _, s| (k, v, w, laminar, s))
     }
     /// Keeps particles evenly spread and leaves a free surface alone.
@@ -197,7 +219,7 @@ impl<K, V, W, R, S> LiquidBuilder<K, V, W, R, S> {
     pub fn shifting<const D: usize>(
         mut self,
         shifting: Shifting,
-    ) -> LiquidBuilder<K, V, W, R, Crowding<D>>
+    ) -> LiquidBuilder<K, V, W, R, Crowding<D>, MODES, RENORMALISED>
     where
         K: Kernel<D>,
     {
@@ -216,6 +238,31 @@ impl<K, V, W, R, S> LiquidBuilder<K, V, W, R, S> {
             };
             (k, v, w, r, crowding)
         })
+    }
+    /// Lets the smoothing length follow the divergence within limits
+    /// ([`Smoothing::Divergence`]), as LS-DYNA does.
+    #[must_use]
+    pub fn smoothing(
+        mut self,
+        smallest: f64,
+        largest: f64,
+    ) -> LiquidBuilder<K, V, W, R, S, { SmoothingMode::Mean.bit() }, RENORMALISED> {
+        self.smoothing = Smoothing::Divergence { smallest, largest };
+        self.with(|k, v, w, r, s| (k, v, w, r, s))
+    }
+    /// Allows bodies of different spacing: pairs use the mean of their smoothing lengths.
+    #[must_use]
+    pub fn mixed_spacing(
+        self,
+    ) -> LiquidBuilder<K, V, W, R, S, { SmoothingMode::Mean.bit() }, RENORMALISED> {
+        self.with(|k, v, w, r, s| (k, v, w, r, s))
+    }
+    /// Corrects gradients of pressure force and compression, so that they are exact for linear fields, for
+    /// the price of a sweep.
+    #[must_use]
+    pub fn renormalised(self) -> LiquidBuilder<K, V, W, R, S, MODES, true> {
+        self.without_normalisation()
+            .with(|k, v, w, r, s| (k, v, w, r, s))
     }
     /// A name for reports.
     #[must_use]
@@ -275,46 +322,52 @@ impl<K, V, W, R, S> LiquidBuilder<K, V, W, R, S> {
         R: Term<D>,
         S: Term<D>,
     {
-        const UNIFORM: u8 = SmoothingMode::Uniform.bit();
-        let (kernel, mode) = (self.kernel, SmoothingMode::Uniform);
+        let kernel = self.kernel;
+        let mode = if const { MODES == SmoothingMode::Uniform.bit() } {
+            SmoothingMode::Uniform
+        } else {
+            SmoothingMode::Mean
+        };
         let h_over_dx = self.h_over_dx.unwrap_or(kernel.h_over_dx());
-        let boxed_gradient: Option<Box<dyn PairSweep<T, D>>> =
+        let gradient: Option<Box<dyn PairSweep<T, D>>> =
             if const { W::READS.contains(Field::DensityGradient) } {
-                Some(Box::new(Program::<_, _, UNIFORM>::new(
-                    kernel,
-                    (DensityGradient,),
-                    mode,
-                )))
+                let terms = (DensityGradient,);
+                Some(Box::new(Program::<_, _, MODES>::new(kernel, terms, mode)))
+            } else if const { RENORMALISED } {
+                let terms = (VelocityGradient,);
+                Some(Box::new(Program::<_, _, MODES>::new(kernel, terms, mode)))
             } else {
                 None
             };
         let shear: Option<Box<dyn PairSweep<T, D>>> = if self.general_viscosity {
-            Some(Box::new(Program::<_, _, UNIFORM>::new(
-                kernel,
-                (VelocityGradient,),
-                mode,
-            )))
+            let terms = (VelocityGradient,);
+            Some(Box::new(Program::<_, _, MODES>::new(kernel, terms, mode)))
         } else {
             None
         };
         let viscosity_problems = self.viscosity.problems();
-        let viscous = const { R::READS.contains(Field::DynamicViscosity) };
-        let wall: Box<dyn PairSweep<T, D>> = if viscous {
-            Box::new(Program::<_, _, UNIFORM>::new(
-                kernel,
-                (LiquidNearWall, LiquidAlongWall),
-                mode,
-            ))
+        let wall: Box<dyn PairSweep<T, D>> = if const { R::READS.contains(Field::DynamicViscosity) }
+        {
+            let terms = (LiquidNearWall, LiquidAlongWall, ViscosityAtWall);
+            Box::new(Program::<_, _, MODES>::new(kernel, terms, mode))
         } else {
-            Box::new(Program::<_, _, UNIFORM>::new(
-                kernel,
-                (LiquidNearWall,),
-                mode,
-            ))
+            Box::new(Program::<_, _, MODES>::new(kernel, (LiquidNearWall,), mode))
         };
-        let terms = (PressureForce, Viscosity(self.viscosity), self.laminar);
-        let rates = Box::new(Program::<_, _, UNIFORM>::new(kernel, terms, mode));
-        let compression = (Compression, self.diffusion, self.crowding);
+        let viscosity = Viscosity(self.viscosity);
+        let rates: Box<dyn PairSweep<T, D>> = if const { RENORMALISED } {
+            let terms = (RenormalisedPressureForce, viscosity, self.laminar);
+            Box::new(Program::<_, _, MODES>::new(kernel, terms, mode))
+        } else {
+            let terms = (PressureForce, viscosity, self.laminar);
+            Box::new(Program::<_, _, MODES>::new(kernel, terms, mode))
+        };
+        let compression: Box<dyn PairSweep<T, D>> = if const { RENORMALISED } {
+            let terms = (RenormalisedCompression, self.diffusion, self.crowding);
+            Box::new(Program::<_, _, MODES>::new(kernel, terms, mode))
+        } else {
+            let terms = (Compression, self.diffusion, self.crowding);
+            Box::new(Program::<_, _, MODES>::new(kernel, terms, mode))
+        };
         Scheme {
             name: self.name,
             kernel: KernelFacts {
@@ -335,12 +388,8 @@ impl<K, V, W, R, S> LiquidBuilder<K, V, W, R, S> {
             switch: None,
             reference: None,
             sums: None,
-            compression: Some(Box::new(Program::<_, _, UNIFORM>::new(
-                kernel,
-                compression,
-                mode,
-            ))),
-            gradient: boxed_gradient,
+            compression: Some(compression),
+            gradient,
             rates,
             lattice_moment: if self.normalised {
                 lattice_moment(&kernel, h_over_dx)
@@ -377,7 +426,8 @@ fn lattice_moment<K: Kernel<D>, const D: usize>(kernel: &K, h_over_dx: f64) -> f
     sum * kernel.normalisation() / (D as f64 * h_over_dx.powi(D as i32 + 2))
 }
 
-impl<T, const D: usize, K, V, W, R, S> From<LiquidBuilder<K, V, W, R, S>> for Scheme<T, D>
+impl<T, const D: usize, K, V, W, R, S, const MODES: u8, const RENORMALISED: bool>
+    From<LiquidBuilder<K, V, W, R, S, MODES, RENORMALISED>> for Scheme<T, D>
 where
     T: Real,
     K: Kernel<D>,
@@ -386,7 +436,7 @@ where
     R: Term<D>,
     S: Term<D>,
 {
-    fn from(builder: LiquidBuilder<K, V, W, R, S>) -> Self {
+    fn from(builder: LiquidBuilder<K, V, W, R, S, MODES, RENORMALISED>) -> Self {
         builder.compose()
     }
 }

@@ -327,7 +327,13 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
         }
         self.group.predict_weights(0.5 * dt);
         self.move_particles(0.5 * dt);
-        self.group.refresh(self.time + offset + 0.5 * dt);
+        // Loads and walls at the middle of the drift, and walls go straight through it as particles do:
+        // a tank that moves is then a tank at rest in a frame that does.
+        let begin = self.time + offset;
+        self.group.gravity = self.body_acceleration(begin + 0.5 * dt);
+        self.group.chord = Some([begin, begin + dt]);
+        self.group.refresh(begin + 0.5 * dt);
+        self.group.chord = None;
         self.follow_moves();
         self.group.sum_compression();
         self.compress(dt);
@@ -359,16 +365,14 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
     }
 
     fn predict(&mut self, dt: f64) {
-        let columns = &self.group.columns;
-        self.predicted.columns.resize_with(2, Vec::new);
-        for (kept, field) in self
-            .predicted
-            .columns
-            .iter_mut()
-            .zip([Field::Velocity, Field::Energy])
-        {
-            kept.clear();
-            kept.extend_from_slice(columns.raw(field));
+        let fields = [Field::Velocity, Field::Energy];
+        self.predicted.columns.resize_with(fields.len(), Vec::new);
+        for (kept, field) in self.predicted.columns.iter_mut().zip(fields) {
+            let column = self.group.columns.raw(field);
+            kept.resize(column.len(), T::zero());
+            kept.par_chunks_mut(GRAIN)
+                .zip(column.par_chunks(GRAIN))
+                .for_each(|(kept, now)| kept.copy_from_slice(now));
         }
         self.kick_velocity(dt);
         if self.carries_energy() {
@@ -383,7 +387,7 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
             .iter_mut()
             .zip([Field::Velocity, Field::Energy])
         {
-            self.group.columns.raw_mut(field).copy_from_slice(kept);
+            core::mem::swap(self.group.columns.column_mut(field), kept);
         }
     }
 

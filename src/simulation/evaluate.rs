@@ -10,6 +10,7 @@ use crate::sweep::{PairSweep, Pass, Rows, SweepInput};
 use crate::tensor::{Matrix, inverse};
 use rayon::prelude::*;
 use std::ops::Range;
+use std::time::Instant;
 
 /// Particles that a thread takes at a time in loops over particles.
 pub(crate) const GRAIN: usize = 4096;
@@ -35,17 +36,22 @@ impl<T: Real, const D: usize> Group<T, D> {
         targets: Range<usize>,
         choose: impl Fn(&Self) -> Option<&dyn PairSweep<T, D>>,
     ) {
-        let mut records = core::mem::take(&mut self.scratch_records);
+        let mut records = core::mem::take(&mut self.records);
+        self.records_of_rates = false;
         let mut rows = core::mem::take(&mut self.scratch_rows);
         if let Some(sweep) = choose(self) {
             let input = SweepInput {
                 targets,
                 ..self.input()
             };
+            let start = Instant::now();
             sweep.pack(Pass::Rates, &input, &mut records);
+            let packed = Instant::now();
             sweep.run(Pass::Rates, &input, &records, &mut rows);
+            self.phases.packing += packed - start;
+            self.phases.pairs += packed.elapsed();
         }
-        self.scratch_records = records;
+        self.records = records;
         self.scratch_rows = rows;
     }
 
@@ -185,8 +191,10 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// Volumes `dt` \[s\] ahead with the last rates of compression, for sums at the middle of a drift.
     pub fn predict_weights(&mut self, dt: f64) {
-        // The rates of a liquid do not sum compression; its volumes change by little in a step.
-        if self.scheme.liquid.is_some() {
+        // The rates of a liquid do not sum compression, and its volumes change by little in a step;
+        // masses do not change at all.
+        let by_mass = self.scheme.density == DensityForm::ContinuityByMass;
+        if self.scheme.liquid.is_some() || by_mass {
             return;
         }
         if !self.scheme.density.is_integrated()
@@ -227,9 +235,19 @@ impl<T: Real, const D: usize> Group<T, D> {
             self.set_weights(self.scheme.density);
         }
         self.find_density(time);
+        let start = Instant::now();
         self.close_materials();
+        self.phases.materials += start.elapsed();
+        // The sweep over walls is booked with them.
+        let (start, before) = (Instant::now(), self.phases);
         self.fill_walls(time);
+        self.phases = super::Phases {
+            walls: before.walls + start.elapsed(),
+            ..before
+        };
+        let start = Instant::now();
         self.set_coefficients();
+        self.phases.materials += start.elapsed();
         self.find_gradients();
         self.find_viscosities();
         self.sum_rates();
@@ -446,10 +464,11 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.scratch_sweep(|group| group.scheme.gradient.as_deref());
         let rows = &self.scratch_rows;
         let mobile = self.mobile;
-        let [velocity, pressure, density] = self.columns.many_mut([
+        let [velocity, pressure, density, corrections] = self.columns.many_mut([
             Field::VelocityGradient,
             Field::PressureGradient,
             Field::DensityGradient,
+            Field::Correction,
         ]);
         let with_velocity = !velocity.is_empty();
         let correction = |slot: usize| correction(rows, slot);
@@ -462,6 +481,18 @@ impl<T: Real, const D: usize> Group<T, D> {
                     let gradient = velocity_gradient(rows, slot);
                     for (k, value) in out.iter_mut().enumerate() {
                         *value = gradient[(k / D, k % D)];
+                    }
+                });
+        }
+        if !corrections.is_empty() {
+            corrections[..mobile * D * D]
+                .par_chunks_mut(D * D)
+                .enumerate()
+                .with_min_len(GRAIN)
+                .for_each(|(slot, out)| {
+                    let correction = correction(slot);
+                    for (k, value) in out.iter_mut().enumerate() {
+                        *value = correction[(k / D, k % D)];
                     }
                 });
         }
@@ -527,10 +558,15 @@ impl<T: Real, const D: usize> Group<T, D> {
     fn sum_rates(&mut self) {
         let mut records = core::mem::take(&mut self.records);
         let mut rows = core::mem::take(&mut self.rows);
+        self.records_of_rates = true;
         let input = self.input();
         let sweep = self.scheme.rates.as_ref();
+        let start = Instant::now();
         sweep.pack(Pass::Rates, &input, &mut records);
+        let packed = Instant::now();
         sweep.run(Pass::Rates, &input, &records, &mut rows);
+        self.phases.packing += packed - start;
+        self.phases.pairs += packed.elapsed();
         self.records = records;
         self.rows = rows;
         if self.scheme.energy == EnergyForm::Compatible {

@@ -1,7 +1,8 @@
 //! A group: the bodies that share a scheme, with their columns, neighbour lists and images.
 //! It knows where particles are and who their neighbours are; physics happens in `evaluate`.
 
-use crate::boundary::{Boundary, Motion, Outlet, Pose, Slip};
+use crate::boundary::{Boundary, Emitter, Motion, Outlet, Pose, Slip};
+use crate::error::{Error, Problem, Result};
 use crate::material::Material;
 use crate::material::eos::GuardCounts;
 use crate::neighbors::{Block, ClusterLists, Grid, Radii, SearchInput};
@@ -9,10 +10,11 @@ use crate::particles::{Columns, Field};
 use crate::scalar::{Lane, Real};
 use crate::scheme::Scheme;
 use crate::sweep::{Image, InstructionSet, Interaction, Records, Rows, SweepInput, Transform};
-use crate::tensor::{Vector, length};
+use crate::tensor::{Vector, determinant, length};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::Arc;
+use std::time::Instant;
 
 /// A body in a simulation.
 #[derive(Clone, Debug)]
@@ -73,6 +75,8 @@ pub(crate) struct WallState<const D: usize> {
     /// Velocity of its surface beside its motion \[m/s\].
     pub sliding: [f64; D],
     pub carries: bool,
+    /// Mass of a particle as built, in the liquid's density \[kg\].
+    pub mass: f64,
 }
 
 /// How an image's transform comes about: the boundary's own, after that of the image it mirrors.
@@ -89,6 +93,8 @@ pub(crate) struct Group<T: Real, const D: usize> {
     pub bodies: Vec<BodyState<T>>,
     pub walls: Vec<WallState<D>>,
     pub outlets: Vec<Outlet<D>>,
+    /// Inlets, each with the body that it feeds.
+    pub emitters: Vec<(usize, Emitter<D>)>,
     /// What has left through outlets.
     pub removed: Removed<D>,
     /// Slots below this move by forces; walls come behind.
@@ -109,9 +115,12 @@ pub(crate) struct Group<T: Real, const D: usize> {
     listed: Vec<[T; D]>,
     listed_h: Vec<T>,
     listed_time: f64,
+    /// Beginning and end \[s\] of the drift under way.
+    pub chord: Option<[f64; 2]>,
     pub records: Records<T>,
     pub work_records: Records<T>,
-    pub scratch_records: Records<T>,
+    /// Whether the records are those of the rates; all sweeps share them.
+    pub records_of_rates: bool,
     pub rows: Rows<T, D>,
     pub scratch_rows: Rows<T, D>,
     /// Identity of the particle in each slot, and the slot of each particle.
@@ -125,6 +134,10 @@ pub(crate) struct Group<T: Real, const D: usize> {
     /// Densities of torn liquid that were held, in particle steps.
     pub held_densities: u64,
     pub rebuilds: u64,
+    /// Where the time went.
+    pub phases: super::Phases,
+    /// Entries of the lists after the last sort.
+    sorted_entries: usize,
     pub unilateral: bool,
     /// What list builds have done to particles since states outside of the group were last told.
     pub moved: Moves<T, D>,
@@ -148,6 +161,9 @@ impl<T, const D: usize> Default for Moves<T, D> {
         }
     }
 }
+
+/// Growth of the lists since the last sort at which particles are sorted again.
+const UNSORTED: f64 = 1.03;
 
 pub(crate) fn width<T: Real>() -> usize {
     <T::Wide<false> as Lane>::WIDTH
@@ -176,6 +192,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             bodies,
             walls,
             outlets: Vec::new(),
+            emitters: Vec::new(),
             removed: Removed::default(),
             gravity: [0.0; D],
             body_force: [T::zero(); D],
@@ -189,9 +206,10 @@ impl<T: Real, const D: usize> Group<T, D> {
             listed: Vec::new(),
             listed_h: Vec::new(),
             listed_time: 0.0,
+            chord: None,
             records: Records::default(),
             work_records: Records::default(),
-            scratch_records: Records::default(),
+            records_of_rates: false,
             rows: Rows::default(),
             scratch_rows: Rows::default(),
             smoothing_length,
@@ -201,6 +219,8 @@ impl<T: Real, const D: usize> Group<T, D> {
             limited_h: 0,
             held_densities: 0,
             rebuilds: 0,
+            phases: super::Phases::default(),
+            sorted_entries: 0,
             unilateral,
             moved: Moves::default(),
         }
@@ -237,12 +257,14 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// Brings images and lists up to date with the positions at `time`.
     pub fn refresh(&mut self, time: f64) {
+        let start = Instant::now();
         self.place_walls(time);
         if self.lists.chunks().is_empty() || self.outdated(time) {
             self.rebuild(time);
         } else if self.boundaries.iter().any(|b| b.moves()) {
             self.place_transforms(time);
         }
+        self.phases.lists += start.elapsed();
     }
 
     /// Whether a particle has moved, or its support has grown, by more than the skin allows.
@@ -292,8 +314,11 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.wrap();
         self.remove();
         let reach = self.reach();
-        if D > 1 {
-            self.sort(0.5 * reach);
+        // Particles need new places in memory only when their rows have lost their shape.
+        let entries = self.lists.entries() as f64;
+        let sort = D > 1 && entries >= UNSORTED * self.sorted_entries as f64;
+        if sort {
+            self.sort();
         }
         let width = width::<T>();
         self.listed.clear();
@@ -334,6 +359,9 @@ impl<T: Real, const D: usize> Group<T, D> {
             slots: self.columns.slots(),
             skin: self.skin,
         });
+        if sort {
+            self.sorted_entries = self.lists.entries();
+        }
     }
 
     /// Lets particles that have left a periodic domain re-enter.
@@ -361,10 +389,15 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
     }
 
-    /// Sorts every body along the space-filling curve.
-    fn sort(&mut self, cell: f64) {
+    /// Sorts every body along the space-filling curve, in cells that hold a particle each, so that the
+    /// members of a cluster are the corners of a cube as far as the flow allows.
+    fn sort(&mut self) {
         let positions = self.columns.vectors(Field::Position);
-        let grid = Grid::over(positions, cell);
+        let spacing = self
+            .bodies
+            .iter()
+            .fold(f64::INFINITY, |least, body| least.min(body.spacing));
+        let grid = Grid::centred(positions, spacing);
         let mut order: Vec<u32> = (0..self.columns.slots() as u32).collect();
         // Walls keep their shape, so sorting them once serves.
         let walls = if self.rebuilds > 1 {
@@ -400,7 +433,8 @@ impl<T: Real, const D: usize> Group<T, D> {
             let mut kept = slots.start;
             for slot in slots.clone() {
                 let x = self.columns.vectors(Field::Position)[slot].map(Real::to_f64);
-                if !self.outlets.iter().any(|outlet| outlet.takes(&x)) {
+                let v = self.columns.vectors(Field::Velocity)[slot].map(Real::to_f64);
+                if !self.outlets.iter().any(|outlet| outlet.takes(&x, &v)) {
                     order[kept] = slot as u32;
                     kept += 1;
                     continue;
@@ -408,7 +442,6 @@ impl<T: Real, const D: usize> Group<T, D> {
                 any = true;
                 self.slot_of[self.ids[slot] as usize] = u32::MAX;
                 let mass = self.columns.raw(Field::Mass)[slot].to_f64();
-                let v = self.columns.vectors(Field::Velocity)[slot].map(Real::to_f64);
                 self.removed.particles += 1;
                 self.removed.mass += mass;
                 for d in 0..D {
@@ -425,6 +458,76 @@ impl<T: Real, const D: usize> Group<T, D> {
         if any {
             self.reorder(&order);
         }
+    }
+
+    /// Lets particles enter that are due at `time`; whether there were any.
+    ///
+    /// # Errors
+    /// If a body's reserve is used up.
+    pub fn emit(&mut self, time: f64) -> Result<bool> {
+        let mut any = false;
+        for k in 0..self.emitters.len() {
+            while let Some((layer, velocity)) = self.emitters[k].1.due(time) {
+                any = true;
+                for x in layer {
+                    self.insert(self.emitters[k].0, x, velocity)?;
+                }
+            }
+        }
+        if any {
+            // Lists do not know the new ones.
+            self.rebuild(time);
+        }
+        Ok(any)
+    }
+
+    /// Appends one particle to a body, like its material at rest.
+    fn insert(&mut self, body: usize, x: [f64; D], velocity: [f64; D]) -> Result<()> {
+        let (slots, end) = (self.bodies[body].slots.clone(), self.bodies[body].end);
+        let free = self.bodies[body]
+            .ids
+            .clone()
+            .find(|&id| self.slot_of[id] == u32::MAX);
+        let (Some(id), true) = (free, slots.end < end) else {
+            return Err(Error::Argument(Problem::Parameter {
+                what: format!("reserve of the inlet of body `{}`", self.bodies[body].name),
+                value: slots.len() as f64,
+                must_be: "all of it has entered and none has left: give the inlet a larger reserve, \
+                          or put an outlet where the flow ends",
+            }));
+        };
+        let slot = slots.end;
+        let source = if slots.is_empty() {
+            slot
+        } else {
+            slots.end - 1
+        };
+        self.columns.copy_slot(source, slot);
+        let density = self.bodies[body].material.reference_density();
+        let mass = density * self.bodies[body].spacing.powi(D as i32);
+        let rounded = x.map(T::from_f64);
+        self.columns.vectors_mut(Field::Position)[slot] = rounded;
+        self.columns.vectors_mut(Field::Velocity)[slot] = velocity.map(T::from_f64);
+        if let Some(residual) = self
+            .columns
+            .vectors_mut(Field::PositionResidual)
+            .get_mut(slot)
+        {
+            *residual = core::array::from_fn(|d| T::from_f64(x[d] - rounded[d].to_f64()));
+        }
+        for (field, value) in [
+            (Field::Density, density),
+            (Field::DensityResidual, 0.0),
+            (Field::Mass, mass),
+        ] {
+            if let Some(place) = self.columns.raw_mut(field).get_mut(slot) {
+                *place = T::from_f64(value);
+            }
+        }
+        self.bodies[body].slots.end = slot + 1;
+        self.ids[slot] = id as u32;
+        self.slot_of[id] = slot as u32;
+        Ok(())
     }
 
     /// Rearranges the slots, and remembers it for states outside.
@@ -453,7 +556,12 @@ impl<T: Real, const D: usize> Group<T, D> {
     fn place_walls(&mut self, time: f64) {
         self.body_force = self.gravity.map(T::from_f64);
         for wall in &self.walls {
-            let pose = wall.motion.as_ref().map(|motion| motion.pose(time));
+            let pose = wall.motion.as_ref().map(|motion| match self.chord {
+                Some(ends) => motion
+                    .pose(time)
+                    .on_chord(ends.map(|end| motion.pose(end)), ends),
+                None => motion.pose(time),
+            });
             if wall.carries {
                 let acceleration = pose
                     .as_ref()
@@ -463,12 +571,24 @@ impl<T: Real, const D: usize> Group<T, D> {
                 }
             }
             // What sticks to a wall at rest has overwritten its velocity.
-            let stuck = wall.slip == Slip::None;
-            let first_time = self.rebuilds == 0;
-            if pose.is_none() && !stuck && !first_time {
+            if pose.is_none() && self.rebuilds > 0 {
+                if wall.slip == Slip::None {
+                    let own = wall.slots.start..wall.end;
+                    let v = wall.sliding.map(T::from_f64);
+                    self.columns.vectors_mut(Field::Velocity)[own].fill(v);
+                }
                 continue;
             }
             let pose = pose.unwrap_or_else(Pose::rest);
+            // A wall that is crushed has its particles closer, and each stands for less volume.
+            let mass = T::from_f64(wall.mass * determinant(&pose.linear[0]).abs());
+            if let Some(masses) = self
+                .columns
+                .raw_mut(Field::Mass)
+                .get_mut(wall.slots.start..wall.end)
+            {
+                masses.fill(mass);
+            }
             for slot in wall.slots.start..wall.end {
                 let at = (self.ids[slot] as usize - wall.slots.start).min(wall.rest.len() - 1);
                 let (x, own) = (pose.of(0, &wall.rest[at]), pose.of(1, &wall.rest[at]));
@@ -609,7 +729,6 @@ impl<T: Real, const D: usize> Group<T, D> {
             + self.lists.bytes()
             + self.records.bytes()
             + self.work_records.bytes()
-            + self.scratch_records.bytes()
             + self.rows.bytes()
             + self.scratch_rows.bytes()
             + self.listed.capacity() * size_of::<[T; D]>()

@@ -27,6 +27,7 @@
 //! | energy of a liquid, work on it, dissipation | [`Simulation::energy`] |
 //! | what left through outlets | [`Simulation::removed`] |
 //! | memory | [`Simulation::bytes`] |
+//! | time, by phase of a step | [`Simulation::phases`] |
 //!
 //! # Questions about particles
 //!
@@ -57,6 +58,7 @@ mod energy;
 mod evaluate;
 mod group;
 mod ledger;
+mod phases;
 mod query;
 mod shift;
 mod switching;
@@ -65,6 +67,7 @@ mod walls;
 pub use control::{Criterion, StepControl, Vote};
 pub use energy::EnergyLedger;
 pub use ledger::{Budget, Ledger};
+pub use phases::Phases;
 pub use query::ParticleView;
 
 pub use group::Removed;
@@ -201,6 +204,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// # Errors
     /// As [`run_until`](Simulation::run_until).
     pub fn step_at_most(&mut self, limit: f64) -> Result<f64> {
+        if self.group.emit(self.time)? {
+            self.rates_at_hand = false;
+        }
+        let (start, before) = (std::time::Instant::now(), self.group.phases);
         if !self.rates_at_hand {
             crate::integrator::System::evaluate(self, 0.0)?;
         }
@@ -254,6 +261,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         stepped?;
         self.time += vote.step;
         self.steps += 1;
+        self.book_step(start, before);
         Ok(vote.step)
     }
 

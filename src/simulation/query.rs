@@ -6,7 +6,7 @@ use super::group::Removed;
 use crate::boundary::Pose;
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
-use crate::sweep::{Pass, Rows, SweepInput};
+use crate::sweep::{Pass, Records, Rows, SweepInput};
 
 /// A particle as it is now.
 #[derive(Clone, Copy, Debug)]
@@ -189,10 +189,15 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             targets: group.mobile..group.columns.slots(),
             ..group.input()
         };
-        group
-            .scheme
-            .rates
-            .run(Pass::Rates, &input, &group.records, &mut rows);
+        let rates = group.scheme.rates.as_ref();
+        if group.records_of_rates {
+            rates.run(Pass::Rates, &input, &group.records, &mut rows);
+        } else {
+            // Another sweep has used the records since.
+            let mut records = Records::default();
+            rates.pack(Pass::Rates, &input, &mut records);
+            rates.run(Pass::Rates, &input, &records, &mut rows);
+        }
         let walls = group.walls.iter().flat_map(|wall| wall.slots.clone());
         walls
             .map(|slot| {
@@ -201,6 +206,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 (x.map(Real::to_f64), force.map(Real::to_f64))
             })
             .collect()
+    }
+
+    /// Whether a particle belongs to a body and not to a wall.
+    pub(crate) fn is_mobile(&self, particle: &ParticleView<'_, T, D>) -> bool {
+        particle.slot < self.group.mobile
     }
 
     /// What has left through outlets.

@@ -9,8 +9,8 @@ use crate::scalar::Real;
 use rayon::prelude::*;
 
 impl<T: Real, const D: usize> Group<T, D> {
-    /// Gives wall particles the pressure of the liquid before them, and where it sticks to them its
-    /// velocity and viscosity.
+    /// Gives wall particles the pressure of the liquid before them, and where it sticks to them the
+    /// mirrored velocity and the viscosity.
     pub fn fill_walls(&mut self, time: f64) {
         let Some(liquid) = &self.scheme.liquid else {
             return;
@@ -52,23 +52,32 @@ impl<T: Real, const D: usize> Group<T, D> {
                     });
                     *pressure = (sum / unity).max(floor);
                 });
+            let sticks = wall.slip == Slip::None && !viscosity.is_empty();
+            if sticks {
+                velocity[run.start * D..run.end * D]
+                    .par_chunks_mut(D)
+                    .enumerate()
+                    .with_min_len(GRAIN)
+                    .for_each(|(k, v)| {
+                        let unity = rows.get(Output::Unity, 0, first + k);
+                        if unity > T::from_f64(DRY) {
+                            for (d, v) in v.iter_mut().enumerate() {
+                                let liquid = rows.get(Output::LiquidVelocity, d, first + k);
+                                *v = *v + *v - liquid / unity;
+                            }
+                        }
+                    });
+            }
             if viscosity.is_empty() {
                 continue;
             }
             for slot in run {
                 let unity = rows.get(Output::Unity, 0, slot);
-                let sticks = wall.slip == Slip::None && unity > T::from_f64(DRY);
-                viscosity[slot] = if sticks {
+                viscosity[slot] = if sticks && unity > T::from_f64(DRY) {
                     rows.get(Output::LiquidViscosity, 0, slot) / unity
                 } else {
                     T::zero()
                 };
-                for d in 0..D {
-                    let v = &mut velocity[slot * D + d];
-                    if sticks {
-                        *v = *v + *v - rows.get(Output::LiquidVelocity, d, slot) / unity;
-                    }
-                }
             }
         }
     }

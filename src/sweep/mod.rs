@@ -13,8 +13,9 @@
 //! - **Clusters.** W consecutive particles, 8 in `f64` and 16 in `f32`, form a cluster with one list of
 //!   neighbours. Particles are sorted along a space-filling curve, so a cluster is compact.
 //! - **Lanes.** The cluster is a row of W lanes. Each neighbour is loaded once and broadcast to all of
-//!   them; lanes need arithmetic only, no gathering and no sum across. Pairs beyond the support are
-//!   computed too and add zero, because W and F vanish there.
+//!   them; lanes need arithmetic only, no gathering and no sum across. Where one smoothing length serves
+//!   all, a first look at the distances leaves out neighbours that no lane reaches. The other pairs
+//!   beyond the support are computed too and add zero, because W and F vanish there.
 //! - **Directions last.** A term adds to the force along rᵢⱼ and along vᵢⱼ as two numbers. The loop
 //!   turns them into vectors once for all terms, so a tuple of terms costs what one written-out loop
 //!   costs.
@@ -24,7 +25,8 @@
 //!
 //! # The same bits on any number of threads
 //!
-//! Each particle sums over its own neighbours in ascending order; no thread adds to what belongs to
+//! Each particle sums over its own neighbours in the order of its list, which is the same whoever made
+//! it; no thread adds to what belongs to
 //! another, so there are no locks and no atomics. Threads take chunks of 32 clusters
 //! ([`CHUNK`](crate::neighbors::CHUNK)), a number that depends on nothing, and reductions have a fixed
 //! shape. Another instruction set, or another skin of the lists, changes rounding.

@@ -7,7 +7,7 @@ use super::{InstructionSet, Interaction, SmoothingMode};
 use crate::kernel::Kernel;
 use crate::neighbors::{Block, CHUNK, ChunkList, ClusterLists, Segment};
 use crate::particles::{Columns, Field, Fields, Output, Outputs};
-use crate::scalar::{Lane, Real};
+use crate::scalar::{Lane, Mask, Real};
 use crate::term::{Layout, MOST_READS, MOST_SUMS, Pair, Sums, TermDoc, Terms};
 use core::fmt::Debug;
 use core::marker::PhantomData;
@@ -236,7 +236,12 @@ impl<K, P, const MODES: u8> Program<K, P, MODES> {
         let width = <T::Wide<false> as Lane>::WIDTH;
         rows.outputs = Composed::<T, P, D, HOW>::WRITES;
         let row = rows.outputs.width(D) * width;
-        let length = row * (input.columns.slots() / width);
+        // Only chunks with wanted slots have rows.
+        let slots = CHUNK * width;
+        let skipped = input.targets.start / slots;
+        rows.first = skipped * slots;
+        let wanted = input.targets.end.saturating_sub(rows.first);
+        let length = row * wanted.div_ceil(width);
         // Sweeps take turns on the same rows: only growth costs.
         if rows.data.len() < length {
             rows.data.resize(length, T::zero());
@@ -257,16 +262,17 @@ impl<K, P, const MODES: u8> Program<K, P, MODES> {
             body_force: input.body_force,
             lattice_moment: T::from_f64(input.lattice_moment),
             h,
+            reach2: T::from_f64((self.kernel.support() * input.smoothing_length).powi(2) * BEYOND),
             kernel_norm: T::from_f64(self.kernel.normalisation()),
         };
+        rows.reactions.iter_mut().for_each(Vec::clear);
         rows.data[..length]
             .par_chunks_mut((row * CHUNK).max(1))
-            .zip(rows.reactions.par_iter_mut())
-            .zip(input.lists.chunks().par_iter())
+            .zip(rows.reactions[skipped..].par_iter_mut())
+            .zip(input.lists.chunks()[skipped..].par_iter())
             .enumerate()
             .for_each(|(chunk, ((out, reactions), list))| {
-                reactions.clear();
-                task.dispatch::<HOW>(instructions, chunk, list, out, reactions);
+                task.dispatch::<HOW>(instructions, skipped + chunk, list, out, reactions);
             });
     }
 }
@@ -285,8 +291,17 @@ struct Task<'a, T, K, P, const D: usize> {
     body_force: [T; D],
     lattice_moment: T,
     h: T,
+    /// Square of the distance beyond which nothing acts where there is one smoothing length.
+    reach2: T,
     kernel_norm: T,
 }
+
+/// What the square of the support is multiplied with before pairs are left out, so that rounding
+/// (of `f32` positions without their residuals, too) leaves out none that acts.
+const BEYOND: f64 = 1.001;
+
+/// Neighbours that are looked through at once.
+const BATCH: usize = 256;
 
 impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
     #[inline(always)]
@@ -447,12 +462,72 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         image.map_or(j, |image| image.source as usize)
     }
 
-    /// One cluster against the neighbours of one segment.
+    /// Those of some neighbours that are within the support of any of the row, in their order; returns
+    /// how many there are.
+    ///
+    /// What a skin lists and what a row of several particles lists for only one of them is mostly too
+    /// far away, and finding that out costs a tenth of what the terms cost.
+    #[inline(always)]
+    fn within_reach<L: Lane<Scalar = T>, const HOW: u8>(
+        &self,
+        own: &[L; MOST_READS],
+        neighbors: &[u32],
+        near: &mut [u32; BATCH],
+    ) -> usize
+    where
+        P: Terms<D>,
+    {
+        let reads = const { Composed::<T, P, D, HOW>::READS };
+        let stride = const { Composed::<T, P, D, HOW>::READS.width(D) };
+        let position = reads.offset(Field::Position, D);
+        let reach2 = L::splat(self.reach2);
+        let mut count = 0;
+        for &j in neighbors {
+            let record = &self.records[j as usize * stride..j as usize * stride + stride];
+            let mut r2 = L::zero();
+            for d in 0..D {
+                let r = own[position + d] - L::splat(record[position + d]);
+                r2 = r.mul_add(r, r2);
+            }
+            near[count % BATCH] = j;
+            count += usize::from(r2.lt(reach2).any());
+        }
+        count
+    }
+
+    /// One cluster against the neighbours of one segment, as far as they are within reach.
+    #[inline(always)]
+    fn segment<L: Lane<Scalar = T>, const HOW: u8>(
+        &self,
+        contact: bool,
+        mobile: [L; 2],
+        own: &[L; MOST_READS],
+        first: usize,
+        neighbors: &[u32],
+        sums: &mut Sums<L, D, Composed<T, P, D, HOW>>,
+    ) where
+        K: Kernel<D>,
+        P: Terms<D>,
+    {
+        // In one dimension a list has few entries too many, and with several smoothing lengths the
+        // reach is not known before the pair is.
+        if HOW & (MEAN | OWN) != 0 || D == 1 {
+            self.pairs::<L, HOW>(contact, mobile, own, first, neighbors, sums);
+            return;
+        }
+        let mut near = [0; BATCH];
+        for batch in neighbors.chunks(BATCH) {
+            let count = self.within_reach::<L, HOW>(own, batch, &mut near);
+            self.pairs::<L, HOW>(contact, mobile, own, first, &near[..count], sums);
+        }
+    }
+
+    /// One cluster against some neighbours.
     ///
     /// Across a contact that may open (`contact`) a pair acts only where one of the two touches, shows the
     /// other side only pressure that compresses, and its kernel sum is kept apart.
     #[inline(always)]
-    fn segment<L: Lane<Scalar = T>, const HOW: u8>(
+    fn pairs<L: Lane<Scalar = T>, const HOW: u8>(
         &self,
         contact: bool,
         mobile: [L; 2],

@@ -19,6 +19,8 @@ pub struct Reaction<const D: usize> {
 #[derive(Clone, Debug)]
 pub struct Rows<T, const D: usize> {
     pub(super) data: Vec<T>,
+    /// The slot that the sums start with.
+    pub(super) first: usize,
     pub(super) outputs: Outputs,
     pub(super) reactions: Vec<Vec<Reaction<D>>>,
 }
@@ -27,6 +29,7 @@ impl<T: Real, const D: usize> Default for Rows<T, D> {
     fn default() -> Self {
         Self {
             data: Vec::new(),
+            first: 0,
             outputs: Outputs::NONE,
             reactions: Vec::new(),
         }
@@ -42,16 +45,17 @@ impl<T: Real, const D: usize> Rows<T, D> {
         self.outputs
     }
 
-    /// Component `k` of a sum of the particle in `slot`; zero if the sum was not asked for.
+    /// Component `k` of a sum of the particle in `slot`; zero if the sum was not asked for, or not of
+    /// that particle.
     #[inline(always)]
     #[must_use]
     pub fn get(&self, output: Output, k: usize, slot: usize) -> T {
-        if !self.outputs.contains(output) {
+        if !self.outputs.contains(output) || slot < self.first {
             return T::zero();
         }
-        let stride = self.outputs.width(D);
         let offset = self.outputs.offset(output, D) + k;
-        self.data[(slot / Self::WIDTH * stride + offset) * Self::WIDTH + slot % Self::WIDTH]
+        let at = self.at(slot - self.first, offset);
+        self.data.get(at).copied().unwrap_or(T::zero())
     }
 
     /// A vector sum of the particle in `slot`.
@@ -61,21 +65,32 @@ impl<T: Real, const D: usize> Rows<T, D> {
         core::array::from_fn(|d| self.get(output, d, slot))
     }
 
-    /// Rearranges the slots: slot k gets the sums of what slot `order[k]` was.
+    /// Where component `offset` of the n-th particle stands.
+    #[inline(always)]
+    fn at(&self, n: usize, offset: usize) -> usize {
+        let stride = self.outputs.width(D);
+        (n / Self::WIDTH * stride + offset) * Self::WIDTH + n % Self::WIDTH
+    }
+
+    /// Rearranges the slots of sums that start with the first: slot k gets the sums of what slot
+    /// `order[k]` was.
     pub(crate) fn permute(&mut self, order: &[u32]) {
         let stride = self.outputs.width(D);
-        if stride == 0 || self.data.len() < stride * order.len() {
+        let held = self.data.len().checked_div(stride).unwrap_or(0);
+        let Some(last) = order.iter().rposition(|&from| (from as usize) < held) else {
             return;
-        }
-        let at = |slot: usize, k: usize| {
-            (slot / Self::WIDTH * stride + k) * Self::WIDTH + slot % Self::WIDTH
         };
-        let before = self.data[..stride * order.len()].to_vec();
-        for (slot, &from) in order.iter().enumerate() {
-            for k in 0..stride {
-                self.data[at(slot, k)] = before[at(from as usize, k)];
+        let slots = (last + 1).next_multiple_of(Self::WIDTH);
+        let mut sorted = vec![T::zero(); stride * slots];
+        for (slot, &from) in order.iter().enumerate().take(last + 1) {
+            let from = from as usize;
+            if from < held {
+                for k in 0..stride {
+                    sorted[self.at(slot, k)] = self.data[self.at(from, k)];
+                }
             }
         }
+        self.data = sorted;
     }
 
     /// Forces between blocks, cluster by cluster in order.

@@ -13,10 +13,11 @@
 //! | [`PressureForce`], [`PressureCurvature`] | momentum | force |
 //! | [`Viscosity`] | momentum | force and signal of an [artificial viscosity](viscosity) |
 //! | [`InternalEnergy`] | energy | half the power of all forces |
+//! | [`RenormalisedPressureForce`], [`RenormalisedCompression`] | momentum, density | the same with corrected gradients |
 //! | [`LaminarViscosity`], [`CentralViscosity`] | momentum | force of a physical viscosity |
 //! | [`Molteni`], [`Fourtakas`], [`Antuono`], [`RiemannDiffusion`] | density | diffusion against noise |
 //! | [`Crowding`] | position | what shifting needs |
-//! | [`LiquidNearWall`], [`LiquidAlongWall`] | walls | pressure and velocity of wall particles |
+//! | [`LiquidNearWall`], [`LiquidAlongWall`], [`ViscosityAtWall`] | walls | what wall particles take from the liquid |
 //!
 //! [`probe()`] evaluates a term for one pair, for tests of terms of your own.
 //!
@@ -97,6 +98,7 @@ mod gradient;
 mod laminar_viscosity;
 mod momentum;
 mod probe;
+mod renormalised;
 mod sums;
 pub mod viscosity;
 mod wall;
@@ -107,14 +109,15 @@ pub use gradient::{DensityGradient, PressureGradient, VelocityGradient};
 pub use laminar_viscosity::{CentralViscosity, LaminarViscosity};
 pub use momentum::{InternalEnergy, PressureCurvature, PressureForce};
 pub use probe::{Probe, probe};
+pub use renormalised::{RenormalisedCompression, RenormalisedPressureForce};
 pub use sums::{Compression, KernelMoment, KernelSum, SlopeInH, Unity};
 pub use viscosity::{ArtificialViscosity, Viscosity, Viscous};
-pub use wall::{LiquidAlongWall, LiquidNearWall};
+pub use wall::{LiquidAlongWall, LiquidNearWall, ViscosityAtWall};
 
 /// Most numbers that a packed record can hold.
 pub const MOST_READS: usize = 40;
 /// Most numbers that the sums of a sweep can hold.
-pub const MOST_SUMS: usize = 40;
+pub const MOST_SUMS: usize = 56;
 
 /// What the terms of one sweep read and write together; known at compile time.
 pub trait Layout: 'static {

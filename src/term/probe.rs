@@ -37,7 +37,8 @@ impl<const D: usize, A: Term<D>> Layout for Alone<A, D> {
     const WRITES: Outputs = Outputs::ALL;
 }
 
-/// Evaluates one term for one pair under `kernel` with the mean of the two smoothing lengths.
+/// Evaluates one term for one pair under `kernel` with the mean of the two smoothing lengths, and a body
+/// force of 1 m/s² along the first axis.
 /// `i` and `j` give component k of a field.
 ///
 /// ```
@@ -90,7 +91,7 @@ pub fn probe<L: Lane, const D: usize, K: Kernel<D>, A: Term<D>>(
         f_j: f,
         mobile: L::one(),
         mobile_i: L::one(),
-        body_force: [L::zero(); D],
+        body_force: core::array::from_fn(|d| if d == 0 { L::one() } else { L::zero() }),
         lattice_moment: L::one(),
         i: &own,
         j: &other,

@@ -35,31 +35,16 @@ impl<const D: usize> Term<D> for LiquidNearWall {
     }
 }
 
-/// The sums from which a wall particle takes the velocity that makes the liquid stick, and the
-/// viscosity by which it does.
+/// The sum from which a wall particle takes the velocity of the liquid along it, Σ V v W.
 #[derive(Clone, Copy, Debug)]
 pub struct LiquidAlongWall;
 
 impl<const D: usize> Term<D> for LiquidAlongWall {
-    const READS: Fields = Fields::of(&[
-        Field::Mass,
-        Field::Density,
-        Field::Velocity,
-        Field::DynamicViscosity,
-    ]);
-    const WRITES: Outputs = Outputs::of(&[
-        Output::Unity,
-        Output::LiquidVelocity,
-        Output::LiquidViscosity,
-    ]);
+    const READS: Fields = Fields::of(&[Field::Mass, Field::Density, Field::Velocity]);
+    const WRITES: Outputs = Outputs::of(&[Output::LiquidVelocity]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        // The first term of a wall's sweep sums the volume.
         let volume = pair.j(Field::Mass) / pair.j(Field::Density) * pair.w * pair.mobile;
-        sums.add(
-            Output::LiquidViscosity,
-            volume * pair.j(Field::DynamicViscosity),
-        );
         for d in 0..D {
             let v = pair.j_at(Field::Velocity, d);
             sums.add_at(Output::LiquidVelocity, d, volume * v);
@@ -70,6 +55,28 @@ impl<const D: usize> Term<D> for LiquidAlongWall {
             name: "velocity of walls without slip".into(),
             equation: "v_w = 2 v_wall − Σ v_f W / Σ W",
             source: "Adami, Hu & Adams 2012, eqs. 22, 23",
+        }
+    }
+}
+
+/// The sum from which a wall particle without slip takes its viscosity, Σ V μ W.
+#[derive(Clone, Copy, Debug)]
+pub struct ViscosityAtWall;
+
+impl<const D: usize> Term<D> for ViscosityAtWall {
+    const READS: Fields = Fields::of(&[Field::Mass, Field::Density, Field::DynamicViscosity]);
+    const WRITES: Outputs = Outputs::of(&[Output::LiquidViscosity]);
+    #[inline(always)]
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+        let volume = pair.j(Field::Mass) / pair.j(Field::Density) * pair.w * pair.mobile;
+        let viscosity = pair.j(Field::DynamicViscosity);
+        sums.add(Output::LiquidViscosity, volume * viscosity);
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: "viscosity of walls without slip".into(),
+            equation: "μ_w = Σ μ_f W / Σ W",
+            source: "the interpolation of Adami, Hu & Adams 2012, eq. 22, for viscosities that vary",
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Monaghan–Gingold viscosity on what linear reconstruction leaves of the velocity jump.
 //! Christensen 1990; Frontiere, Raskin & Owen 2017; limiter of van Leer 1979.
 
-use super::{ArtificialViscosity, Viscous, approach, between, coefficients};
+use super::{ArtificialViscosity, Viscous, between, coefficients};
 use crate::particles::{Field, Fields};
 use crate::scalar::Lane;
 use crate::term::{Layout, Pair, TermDoc};
@@ -40,8 +40,12 @@ impl<const D: usize> ArtificialViscosity<D> for LimitedMonaghanGingold {
     const READS: Fields = Fields::of(&[Field::VelocityGradient]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>) -> Viscous<L> {
-        let jump = approach(pair, limited_jump(pair));
-        between(pair, jump, L::of(self.alpha), L::of(self.beta))
+        between(
+            pair,
+            limited_jump(pair),
+            L::of(self.alpha),
+            L::of(self.beta),
+        )
     }
     fn document(&self) -> TermDoc {
         TermDoc {

@@ -125,11 +125,14 @@ impl<const D: usize, V: ArtificialViscosity<D>> Term<D> for Viscosity<V> {
     }
 }
 
-/// Π and signal of an approach μ ≤ 0 with the means of sound speed and density.
+/// Π and signal with the means of sound speed and density, from the jump of v·r that dissipates.
+///
+/// μ = h jump/(r² + 0.01 h²) of an approaching pair, zero otherwise; whether it approaches is asked of
+/// the full velocity difference.
 #[inline(always)]
 fn between<L: Lane, const D: usize, P: Layout>(
     pair: &Pair<'_, L, D, P>,
-    mu: L,
+    jump: L,
     alpha: L,
     beta: L,
 ) -> Viscous<L> {
@@ -137,22 +140,18 @@ fn between<L: Lane, const D: usize, P: Layout>(
     let sound_speed = (pair.i(Field::SoundSpeed) + pair.j(Field::SoundSpeed)) * half;
     let density = (pair.i(Field::Density) + pair.j(Field::Density)) * half;
     let linear = alpha * sound_speed;
-    let pi = mu * (beta * mu - linear) / density;
+    let approaching = pair.v_dot_r.lt(L::zero()) & jump.lt(L::zero());
+    let h_jump = L::select(approaching, pair.h * jump, L::zero());
+    let r2 = pair.h.mul_add(pair.h * L::of(0.01), pair.r2);
+    // One division serves μ and Π: it takes longer than all else here.
+    let inverse = (r2 * density).recip();
+    let mu = h_jump * density * inverse;
+    let pi = mu * (beta * mu - linear) * (r2 * inverse);
     // Monaghan 1992, eq. 10.5: a viscous pair needs h/(c + 0.6 (α c + β |μ|)).
     Viscous {
         pi,
         signal: (linear - beta * mu) * L::of(0.6),
     }
-}
-
-/// μ of an approaching pair, zero otherwise: h (v·r)/(r² + 0.01 h²).
-///
-/// Whether the pair approaches is asked of the full velocity difference.
-#[inline(always)]
-fn approach<L: Lane, const D: usize, P: Layout>(pair: &Pair<'_, L, D, P>, jump: L) -> L {
-    let approaching = pair.v_dot_r.lt(L::zero()) & jump.lt(L::zero());
-    let mu = pair.h * jump / pair.h.mul_add(pair.h * L::of(0.01), pair.r2);
-    L::select(approaching, mu, L::zero())
 }
 
 /// −vᵢⱼ·rᵢⱼ/|rᵢⱼ| of an approaching pair, zero otherwise \[m/s\].
@@ -171,8 +170,7 @@ fn between_own<L: Lane, const D: usize, P: Layout>(
 ) -> Viscous<L> {
     let field = Field::ViscosityCoefficient;
     let alpha = (pair.i(field) + pair.j(field)) * L::of(0.5);
-    let mu = approach(pair, pair.v_dot_r);
-    between(pair, mu, alpha, alpha * L::of(beta_over_alpha))
+    between(pair, pair.v_dot_r, alpha, alpha * L::of(beta_over_alpha))
 }
 
 /// What is wrong with a fixed pair of coefficients.

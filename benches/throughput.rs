@@ -1,0 +1,475 @@
+//! Speed and memory of liquids in a breaking dam: interactions a second, time by phase, bytes a particle,
+//! what each term costs, and the composed pair loop against one that is written out by hand.
+//!
+//! `cargo bench --bench throughput [-- --quick]`. An interaction is an ordered pair of particles inside
+//! of the support, the first of them liquid. Times are medians over steps, ratios medians over pairs of
+//! runs that take turns.
+
+use meshfree::boundary::Wall;
+use meshfree::kernel::{Kernel, WendlandC2};
+use meshfree::material::catalogue;
+use meshfree::neighbors::{Block, CHUNK, Cells, ClusterLists, Radii, SearchInput};
+use meshfree::particles::{Columns, Field, Fields, Output};
+use meshfree::prelude::*;
+use meshfree::scalar::{Lane, Lanes, Mask};
+use meshfree::scheme::Scheme;
+use meshfree::sweep::{
+    InstructionSet, Interaction, PairSweep, Pass, Program, Records, Rows, SmoothingMode, SweepInput,
+};
+use meshfree::term::viscosity::{Inviscid, MonaghanGingold};
+use meshfree::term::{Nothing, PressureForce, Viscosity};
+use std::time::{Duration, Instant};
+
+const GRAVITY: f64 = 9.81;
+
+/// What is measured of a run.
+struct Measured {
+    liquid: usize,
+    all: usize,
+    pairs: u64,
+    step: f64,
+    evaluation: f64,
+    /// Lists, packing, pairs, walls, materials and integration, each a share of the step.
+    shares: [f64; 6],
+    bytes: usize,
+    steps_a_build: f64,
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+/// A dam of about `count` particles that breaks in a tank, after it has fallen for a while.
+fn dam<T: Real, const D: usize>(scheme: impl Into<Scheme<T, D>>, count: usize) -> Simulation<T, D> {
+    let size: [f64; D] = core::array::from_fn(|d| {
+        if d == D - 1 {
+            0.56
+        } else {
+            1.2 - 0.2 * d as f64
+        }
+    });
+    let tank: [f64; D] = core::array::from_fn(|d| if d == D - 1 { 1.0 } else { [3.2, 1.0][d] });
+    let dx = (size.iter().product::<f64>() / count as f64).powf(1.0 / D as f64);
+    let faces = core::array::from_fn(|d| [true, d < D - 1]);
+    let water = catalogue::weakly_compressible_water((2.0 * GRAVITY * 0.56).sqrt());
+    let mut down = [0.0; D];
+    down[D - 1] = -GRAVITY;
+    Scene::new(scheme)
+        .body(Body::block("water", water, [0.0; D], size, dx))
+        .wall(Wall::around("tank", [0.0; D], tank, dx, 3, faces))
+        .acceleration(move |_| down)
+        .build()
+        .expect("a scene that makes sense")
+}
+
+/// Ordered pairs within the support: liquid with liquid, and liquid with walls.
+fn count_pairs<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> (u64, usize) {
+    let mut positions: Vec<[f64; D]> = simulation.all().map(|p| p.position()).collect();
+    let liquid = positions.len();
+    positions.extend(simulation.wall_particle_forces().iter().map(|(x, _)| *x));
+    let h = simulation
+        .body(0)
+        .next()
+        .map_or(0.0, |p| p.smoothing_length());
+    let reach = 2.0 * h;
+    let points: Vec<u32> = (0..positions.len() as u32).collect();
+    let cells = Cells::build(&positions, &points, reach);
+    let mut pairs = 0;
+    for (i, x) in positions[..liquid].iter().enumerate() {
+        cells.for_each_run(x.map(|x| x - reach), x.map(|x| x + reach), |run| {
+            for &j in run {
+                let y = &positions[j as usize];
+                let r2: f64 = (0..D).map(|d| (x[d] - y[d]).powi(2)).sum();
+                pairs += u64::from(r2 < reach * reach && j as usize != i);
+            }
+        });
+    }
+    (pairs, positions.len())
+}
+
+/// Steps in a pool of threads; `fall` \[s\] passes first.
+fn measure<T: Real, const D: usize>(
+    scheme: impl Into<Scheme<T, D>> + Send,
+    count: usize,
+    threads: usize,
+    fall: f64,
+    steps: usize,
+) -> Measured {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .expect("a pool of threads");
+    pool.install(|| {
+        let mut simulation = dam::<T, D>(scheme, count);
+        simulation.run_until(fall).expect("a run");
+        simulation.step().expect("a step");
+        let (mut times, mut evaluations) = (Vec::new(), Vec::new());
+        let (first, builds) = (simulation.phases(), simulation.list_builds());
+        for _ in 0..steps {
+            let (start, before) = (Instant::now(), simulation.phases());
+            simulation.step().expect("a step");
+            times.push(start.elapsed().as_secs_f64());
+            evaluations.push(
+                simulation
+                    .phases()
+                    .since(&before)
+                    .evaluation()
+                    .as_secs_f64(),
+            );
+        }
+        let spent = simulation.phases().since(&first);
+        let total = spent.total().as_secs_f64();
+        let share = |phase: Duration| phase.as_secs_f64() / total;
+        let builds = simulation.list_builds() - builds;
+        let bytes = simulation.bytes();
+        let (pairs, all) = count_pairs(&simulation);
+        Measured {
+            liquid: simulation.particles(),
+            all,
+            pairs,
+            // List builds fall into some steps only, so a step costs the mean and not the median.
+            step: times.iter().sum::<f64>() / steps as f64,
+            evaluation: median(evaluations),
+            shares: [
+                spent.lists,
+                spent.packing,
+                spent.pairs,
+                spent.walls,
+                spent.materials,
+                spent.integration,
+            ]
+            .map(share),
+            bytes,
+            steps_a_build: steps as f64 / builds.max(1) as f64,
+        }
+    })
+}
+
+fn print_head() {
+    println!(
+        "| D | scalar | liquid | with walls | threads | neighbours | M/s and thread, evaluation | step | ns a step and liquid particle | lists | packing | pairs | walls | materials | integration | bytes a liquid particle | a particle | steps a build |"
+    );
+    println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
+}
+
+fn print<const D: usize>(name: &str, threads: usize, m: &Measured) {
+    let rate = |time: f64| m.pairs as f64 / time / threads as f64 * 1e-6;
+    let shares: Vec<String> = m
+        .shares
+        .iter()
+        .map(|share| format!("{:.0} %", 100.0 * share))
+        .collect();
+    println!(
+        "| {D} | {name} | {} | {} | {threads} | {:.1} | {:.0} | {:.0} | {:.0} | {} | {} | {} | {:.1} |",
+        m.liquid,
+        m.all,
+        m.pairs as f64 / m.liquid as f64,
+        rate(m.evaluation),
+        rate(m.step),
+        m.step / m.liquid as f64 * 1e9,
+        shares.join(" | "),
+        m.bytes / m.liquid,
+        m.bytes / m.all,
+        m.steps_a_build,
+    );
+}
+
+/// What each term costs: the same scene without it.
+fn terms(count: usize, fall: f64, steps: usize) {
+    println!("\n| 3D, f64, one thread | ns a step and liquid particle | bytes a liquid particle |");
+    println!("|---|---|---|");
+    let row = |name: &str, m: Measured| {
+        let each = m.step / m.liquid as f64 * 1e9;
+        println!("| {name} | {each:.0} | {} |", m.bytes / m.liquid);
+    };
+    let whole = || schemes::weakly_compressible().h_over_dx(1.3);
+    row(
+        "all terms",
+        measure::<f64, 3>(whole(), count, 1, fall, steps),
+    );
+    let scheme = whole().density_diffusion(Nothing);
+    row(
+        "without density diffusion",
+        measure::<f64, 3>(scheme, count, 1, fall, steps),
+    );
+    let scheme = whole().with_viscosity(Inviscid);
+    row(
+        "without artificial viscosity",
+        measure::<f64, 3>(scheme, count, 1, fall, steps),
+    );
+}
+
+type Row = Lanes<f64, 8, true>;
+
+/// Pressure force and Monaghan–Gingold viscosity of rows, written out: what the composed loop is held
+/// against. Records are x, v, m, ρ, c, B and X.
+struct Fused<'a> {
+    records: &'a [f64],
+    lists: &'a ClusterLists,
+    h: f64,
+    norm: f64,
+    alpha: f64,
+}
+
+impl Fused<'_> {
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx512f,avx512vl,avx512dq,fma")]
+    fn run_avx512(&self, out: &mut [f64]) {
+        self.run(out);
+    }
+
+    #[inline(always)]
+    fn run(&self, out: &mut [f64]) {
+        const STRIDE: usize = 11;
+        let (inverse, reach2) = (1.0 / self.h, 4.004 * self.h * self.h);
+        let gradient = self.norm * inverse.powi(5);
+        let epsilon = 0.01 * self.h * self.h;
+        let mut near = [0_u32; 256];
+        for (c, chunk) in self.lists.chunks().iter().enumerate() {
+            for (k, bounds) in chunk.starts.windows(2).enumerate() {
+                let first = (c * CHUNK + k) * 8;
+                let mut own = [Row::splat(0.0); STRIDE];
+                for (k, value) in own.iter_mut().enumerate() {
+                    *value = Row::from_fn(|lane| self.records[(first + lane) * STRIDE + k]);
+                }
+                let mut force = [Row::splat(0.0); 3];
+                let mut signal = Row::splat(0.0);
+                for segment in &chunk.segments[bounds[0] as usize..bounds[1] as usize] {
+                    let listed = &chunk.neighbors[segment.start as usize..segment.end as usize];
+                    for batch in listed.chunks(near.len()) {
+                        let mut count = 0;
+                        for &j in batch {
+                            let at = j as usize * STRIDE;
+                            let x = &self.records[at..at + 3];
+                            let mut r2 = Row::splat(0.0);
+                            for d in 0..3 {
+                                let r = own[d] - Row::splat(x[d]);
+                                r2 = r.mul_add(r, r2);
+                            }
+                            near[count % 256] = j;
+                            count += usize::from(r2.lt(Row::splat(reach2)).any());
+                        }
+                        for &j in &near[..count] {
+                            let at = j as usize * STRIDE;
+                            let other = &self.records[at..at + STRIDE];
+                            let r0 = own[0] - Row::splat(other[0]);
+                            let r1 = own[1] - Row::splat(other[1]);
+                            let r2 = own[2] - Row::splat(other[2]);
+                            let v0 = own[3] - Row::splat(other[3]);
+                            let v1 = own[4] - Row::splat(other[4]);
+                            let v2 = own[5] - Row::splat(other[5]);
+                            let d2 = r2.mul_add(r2, r1.mul_add(r1, r0 * r0));
+                            let vr = v2.mul_add(r2, v1.mul_add(r1, v0 * r0));
+                            let q = d2.sqrt() * Row::splat(inverse);
+                            let t = q.mul_add(Row::splat(-0.5), Row::splat(1.0)).positive_part();
+                            let f = t * t * t * Row::splat(-5.0 * gradient);
+                            let approach = Row::splat(self.h)
+                                * Row::select(vr.lt(Row::splat(0.0)), vr, Row::splat(0.0));
+                            let c = (own[8] + Row::splat(other[8])) * Row::splat(0.5 * self.alpha);
+                            let density = (own[7] + Row::splat(other[7])) * Row::splat(0.5);
+                            let shifted = d2 + Row::splat(epsilon);
+                            let once = Row::splat(1.0) / (shifted * density);
+                            let pi = -(approach * c * once);
+                            let inside = f.lt(Row::splat(0.0));
+                            signal = signal.max(Row::select(
+                                inside,
+                                c * Row::splat(0.6),
+                                Row::splat(0.0),
+                            ));
+                            let weights = own[9] * Row::splat(other[9]);
+                            let masses = own[6] * Row::splat(other[6]);
+                            let stress = own[10] + Row::splat(other[10]);
+                            let radial = -(weights * stress + masses * pi) * f;
+                            force[0] = radial.mul_add(r0, force[0]);
+                            force[1] = radial.mul_add(r1, force[1]);
+                            force[2] = radial.mul_add(r2, force[2]);
+                        }
+                    }
+                }
+                let row = &mut out[first * 4..(first + 8) * 4];
+                for (k, sum) in [force[0], force[1], force[2], signal]
+                    .into_iter()
+                    .enumerate()
+                {
+                    for lane in 0..8 {
+                        row[k * 8 + lane] = sum.extract(lane);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Composed against written out, over the same lists, taking turns.
+fn composed_against_fused(side: usize, turns: usize) {
+    if InstructionSet::detect() != InstructionSet::Avx512 {
+        println!("\ncomposed against written out: skipped, the machine has no AVX-512");
+        return;
+    }
+    let (alpha, h) = (0.02, 1.3);
+    let mut positions = Vec::new();
+    // Blocks of two by two by two, so that clusters are compact without a sort.
+    for block in 0..(side / 2).pow(3) {
+        let corner = [
+            block % (side / 2),
+            block / (side / 2) % (side / 2),
+            block / (side / 2).pow(2),
+        ];
+        for k in 0..8_usize {
+            let cell = [k & 1, k >> 1 & 1, k >> 2];
+            positions.push(core::array::from_fn::<f64, 3, _>(|d| {
+                let noise = (1e4 * ((8 * block + k) as f64 * (0.7 + d as f64)).sin()).fract();
+                (2 * corner[d] + cell[d]) as f64 + 0.1 * noise
+            }));
+        }
+    }
+    let slots = positions.len();
+    let sweep = Program::<_, _, { SmoothingMode::Uniform.bit() }>::new(
+        WendlandC2,
+        (
+            PressureForce,
+            Viscosity(MonaghanGingold { alpha, beta: 0.0 }),
+        ),
+        SmoothingMode::Uniform,
+    );
+    let sweep: &dyn PairSweep<f64, 3> = &sweep;
+    let mut columns =
+        Columns::<f64, 3>::new(sweep.fields().union(Fields::of(&[Field::Position])), slots);
+    for (slot, x) in positions.iter().enumerate() {
+        columns.vectors_mut(Field::Position)[slot] = *x;
+        columns.vectors_mut(Field::Velocity)[slot] = x.map(|x| (0.3 * x).sin());
+        for (field, value) in [
+            (Field::Mass, 1000.0),
+            (Field::Density, 1000.0 + (0.2 * x[0]).sin()),
+            (Field::SoundSpeed, 30.0),
+            (Field::Weight, 1.0),
+            (Field::PressureCoefficient, 500.0 * (0.1 * x[2]).cos()),
+        ] {
+            columns.raw_mut(field)[slot] = value;
+        }
+    }
+    let blocks = [Block {
+        slots: 0..slots,
+        wall: false,
+    }];
+    let mut lists = ClusterLists::default();
+    lists.rebuild(&SearchInput {
+        positions: &positions,
+        radii: Radii::Uniform(2.0 * h),
+        blocks: &blocks,
+        listed: &[],
+        width: 8,
+        slots,
+        skin: 0.2 * h,
+    });
+    let input = SweepInput {
+        columns: &columns,
+        images: &[],
+        transforms: &[],
+        lists: &lists,
+        blocks: &blocks,
+        interactions: &[Interaction::Bonded],
+        smoothing_length: h,
+        targets: 0..slots,
+        body_force: [0.0; 3],
+        lattice_moment: 1.0,
+        instructions: InstructionSet::Avx512,
+    };
+    let (mut records, mut rows) = (Records::default(), Rows::default());
+    sweep.pack(Pass::Rates, &input, &mut records);
+    let fused = Fused {
+        records: records.data(),
+        lists: &lists,
+        h,
+        norm: Kernel::<3>::normalisation(&WendlandC2),
+        alpha,
+    };
+    let mut out = vec![0.0; 4 * slots];
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build()
+        .expect("a pool of threads");
+    let mut ratios = pool.install(|| {
+        (0..=turns)
+            .map(|_| {
+                let start = Instant::now();
+                sweep.run(Pass::Rates, &input, &records, &mut rows);
+                let composed = start.elapsed().as_secs_f64();
+                let start = Instant::now();
+                #[cfg(target_arch = "x86_64")]
+                // SAFETY: the machine has been asked above.
+                unsafe {
+                    fused.run_avx512(&mut out);
+                }
+                composed / start.elapsed().as_secs_f64()
+            })
+            .skip(1)
+            .collect::<Vec<f64>>()
+    });
+    // Both make the same sums, or the comparison says nothing.
+    let largest = out.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    for slot in 0..slots {
+        for d in 0..3 {
+            let (a, b) = (
+                rows.get(Output::Force, d, slot),
+                out[(slot / 8 * 4 + d) * 8 + slot % 8],
+            );
+            assert!((a - b).abs() < 1e-9 * largest, "slot {slot}: {a} and {b}");
+        }
+    }
+    ratios.sort_by(f64::total_cmp);
+    let n = ratios.len();
+    // Order statistics that hold the median in 95 % of all samples.
+    let off = (0.98 * (n as f64).sqrt()).ceil() as usize;
+    println!(
+        "\ncomposed against written out, {slots} particles, {n} turns: median ratio {:.3}, 95 % interval {:.3} to {:.3}",
+        ratios[n / 2],
+        ratios[(n / 2).saturating_sub(off)],
+        ratios[(n / 2 + off).min(n - 1)],
+    );
+}
+
+fn main() {
+    // `cargo test` runs benches without `--bench`: then small and once.
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let given = |name: &str| arguments.iter().any(|a| a == name);
+    let (quick, full) = (given("--quick"), given("--bench"));
+    let sizes: &[usize] = match (full, quick) {
+        (false, _) => &[2_000],
+        (true, true) => &[20_000, 100_000],
+        (true, false) => &[20_000, 100_000, 1_000_000],
+    };
+    let (fall, steps) = if full { (0.05, 30) } else { (0.0, 3) };
+    composed_against_fused(if full { 32 } else { 12 }, if full { 60 } else { 5 });
+    println!();
+    print_head();
+    let scheme = || schemes::weakly_compressible().h_over_dx(1.3);
+    for &size in sizes {
+        // A larger dam takes as many steps to fall as a small one takes to run out.
+        let fall = if size > 200_000 { 0.01 } else { fall };
+        for threads in [1, 2] {
+            print::<3>(
+                "f64",
+                threads,
+                &measure::<f64, 3>(scheme(), size, threads, fall, steps),
+            );
+            print::<3>(
+                "f32",
+                threads,
+                &measure::<f32, 3>(scheme(), size, threads, fall, steps),
+            );
+            print::<2>(
+                "f64",
+                threads,
+                &measure::<f64, 2>(scheme(), size, threads, fall, steps),
+            );
+            print::<2>(
+                "f32",
+                threads,
+                &measure::<f32, 2>(scheme(), size, threads, fall, steps),
+            );
+        }
+    }
+    terms(if full { 20_000 } else { 2_000 }, fall, steps);
+}

@@ -1,0 +1,229 @@
+//! One case: the scene, the run, and what is sampled on the way.
+//! x is the way out, z the direction of the crush; the depth y is one cell between planes of symmetry.
+
+use crate::common::{Failure, Movie};
+use meshfree::geometry::{Cuboid, OpenCell, Shape, fill};
+use meshfree::material::{Liquid, SoundSpeed};
+use meshfree::observe::FlowPlane;
+use meshfree::output::csv::CsvWriter;
+use meshfree::output::picture::Picture;
+use meshfree::output::progress::Progress;
+use meshfree::output::svg::{Axis, Color};
+use meshfree::prelude::*;
+use meshfree::term::LaminarViscosity;
+use std::path::Path;
+use std::time::Instant;
+
+/// Rate of strain \[1/s\] of the paper.
+pub const RATE: f64 = 1000.0;
+/// Diameter of the holes \[m\] of the paper.
+const HOLE: f64 = 3e-3;
+/// Smoothing length over spacing: short, for the walls between the holes are thin.
+const H_OVER_DX: f64 = 1.3;
+/// Layers of the plates.
+const LAYERS: usize = 3;
+/// Samples of a run.
+const SAMPLES: usize = 120;
+/// Frames for ParaView.
+const FRAMES: usize = 12;
+
+/// What the paper does not state.
+pub const CHOICES: &str = "\
+Vesenjak & Ren (2007): holes of 3 mm, walls of 1.5, 1.0 and 0.5 mm, strain rate 1000 1/s, water.
+Our choice, which the paper does not state: cells in a block one deep between planes of symmetry, open at
+one end and symmetric at the other, plates above and below; walls move in an affine crush; the water starts
+in the flow that this would drive in free space; viscosities 1e-3 to 1 Pa s; physical sound speed.";
+
+/// A structure, its filler, and the crush.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// Thickness between the holes \[m\].
+    pub wall: f64,
+    /// Dynamic viscosity \[Pa s\].
+    pub viscosity: f64,
+    /// Cells along x and z.
+    pub cells: [usize; 2],
+    /// Spacing that is asked for \[m\]; a whole number fits a cell.
+    pub spacing: f64,
+    /// Final strain.
+    pub strain: f64,
+}
+
+/// What was measured at one time.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample {
+    pub strain: f64,
+    /// Force \[N\] on the top plate that does the work of the crush.
+    pub force: f64,
+    /// Work of the walls on the water \[J\].
+    pub work: f64,
+    /// Volume driven out over the loss of void.
+    pub expelled: f64,
+    pub dissipated: f64,
+    pub kinetic: f64,
+}
+
+/// A run.
+#[derive(Clone, Debug, Default)]
+pub struct Record {
+    pub samples: Vec<Sample>,
+    pub relative_density: f64,
+    pub particles: usize,
+    pub steps: u64,
+    pub seconds: f64,
+}
+
+impl Case {
+    pub fn name(&self) -> String {
+        format!("c{:.1}mm_mu{:.0e}", 1e3 * self.wall, self.viscosity)
+    }
+    fn cell(&self) -> OpenCell {
+        OpenCell::new(HOLE, self.wall).tiled([self.cells[0], 1, self.cells[1]])
+    }
+    /// The spacing \[m\] of which a whole number fits a cell.
+    fn fitted(&self) -> f64 {
+        let side = HOLE + self.wall;
+        side / (side / self.spacing).round().max(1.0)
+    }
+    /// Length, depth and height \[m\].
+    fn size(&self) -> [f64; 3] {
+        [self.cells[0], 1, self.cells[1]].map(|cells| cells as f64 * (HOLE + self.wall))
+    }
+
+    fn build<T: Real>(&self) -> Result<Simulation<T, 3>, Error> {
+        let (dx, size) = (self.fitted(), self.size());
+        let [length, depth, height] = size;
+        let liquid = Liquid::new(1000.0, 1480.0, self.viscosity);
+        let water = liquid
+            .material::<T>("water", SoundSpeed::Physical)
+            .with_pressure_cut_off(0.0);
+        let start = |x: [f64; 3]| [RATE * x[0], 0.0, -RATE * x[2]];
+        let places = fill(&self.cell().void(), dx, [0.0; 3])?;
+        let water =
+            Body::points_of("water", water, places, dx).start(|x, own| meshfree::scene::Start {
+                velocity: start(x),
+                ..own
+            });
+        // The structure, and plates below and above it.
+        let thick = LAYERS as f64 * dx;
+        let mut walls = fill(&self.cell().solid(), dx, [0.0; 3])?;
+        for low in [-thick, height] {
+            let plate = Cuboid::new([0.0, 0.0, low], [length, depth, low + thick]);
+            walls.extend(fill(&plate, dx, plate.bounds().0)?);
+        }
+        let crush = Crush::along(2, 0.0, |t| [RATE * t, RATE, 0.0]);
+        let scheme = schemes::weakly_compressible()
+            .h_over_dx(H_OVER_DX)
+            .laminar_viscosity(LaminarViscosity);
+        Scene::<T, 3>::new(scheme)
+            .body(water)
+            .wall(Wall::of("structure", walls, dx).motion(crush).no_slip())
+            .boundary(MirrorPlane::symmetry([0.0; 3], [-1.0, 0.0, 0.0]))
+            .boundary(MirrorPlane::symmetry([0.0; 3], [0.0, -1.0, 0.0]))
+            .boundary(MirrorPlane::symmetry([0.0, depth, 0.0], [0.0, 1.0, 0.0]))
+            .outlet(Outlet::plane([1.5 * length, 0.0, 0.0], [1.0, 0.0, 0.0]))
+            .build()
+    }
+}
+
+/// Runs a case into a folder.
+pub fn run<T: Real>(case: &Case, folder: &Path) -> Result<Record, Failure> {
+    let mut simulation = case.build::<T>()?;
+    simulation.keep_energy();
+    let started = Instant::now();
+    let size = case.size();
+    let (cell, dx) = (case.cell(), case.fitted());
+    // The loss of the void as particles fill it: of the water that is there.
+    let water: f64 = simulation
+        .all()
+        .map(|particle| particle.mass() / 1000.0)
+        .sum();
+    let out = FlowPlane::new([size[0], 0.0, 0.0], [1.0, 0.0, 0.0]);
+    let mut record = Record {
+        relative_density: cell.relative_density(),
+        particles: simulation.particles(),
+        ..Record::default()
+    };
+    let columns = [
+        "time_s",
+        "strain",
+        "force_n",
+        "work_j",
+        "kinetic_j",
+        "dissipated_j",
+        "expelled_volume_m3",
+        "void_loss_m3",
+    ];
+    let mut file = CsvWriter::create(folder.join("filler.csv"), &columns)?;
+    let mut movie = Movie::create(folder.join("water.pvd"))?;
+    movie.frame(&simulation)?;
+    let mut progress = Progress::new(case.name());
+    let end = case.strain / RATE;
+    let mut before = 0.0;
+    for k in 1..=SAMPLES {
+        let time = end * k as f64 / SAMPLES as f64;
+        simulation.run_with(time, |now| {
+            progress.update(now.time() / end, format_args!("{:.1} µs", 1e6 * now.time()));
+        })?;
+        let energy = simulation.energy().unwrap_or_default();
+        let strain = RATE * time;
+        // The top goes down by the height times the strain.
+        let travel = size[2] * case.strain / SAMPLES as f64;
+        let expelled = out.mass_beyond(&simulation) / 1000.0;
+        let sample = Sample {
+            strain,
+            force: (energy.wall_work - before) / travel,
+            work: energy.wall_work,
+            expelled: expelled / (water * strain),
+            dissipated: energy.dissipated,
+            kinetic: energy.kinetic + energy.left,
+        };
+        before = energy.wall_work;
+        file.row(&[
+            time,
+            strain,
+            sample.force,
+            sample.work,
+            sample.kinetic,
+            sample.dissipated,
+            expelled,
+            water * strain,
+        ])?;
+        if k % (SAMPLES / FRAMES) == 0 {
+            movie.frame(&simulation)?;
+        }
+        record.samples.push(sample);
+    }
+    progress.finish();
+    picture(&simulation, size, dx, &case.name(), folder)?;
+    record.steps = simulation.steps();
+    record.seconds = started.elapsed().as_secs_f64();
+    Ok(record)
+}
+
+/// The water coloured by pressure, and the structure seen through.
+fn picture<T: Real>(
+    simulation: &Simulation<T, 3>,
+    size: [f64; 3],
+    dx: f64,
+    name: &str,
+    folder: &Path,
+) -> Result<(), Error> {
+    let places = simulation
+        .all()
+        .map(|particle| (particle.position(), 1e-6 * particle.pressure()));
+    let front = simulation.wall(0).map(|particle| particle.position());
+    let picture = Picture::new(1200, 800)
+        .title(&format!("{name}, {:.0} µs", 1e6 * simulation.time()))
+        .view(-75.0, 15.0)
+        .bounds([0.0; 3], [1.4 * size[0], size[1], size[2]])
+        .particles(Axis::linear("pressure", "MPa").from(0.0), dx, places)
+        .plain(
+            Color(150, 150, 150),
+            0.15,
+            dx,
+            front.filter(|x| x[1] > 0.5 * size[1]),
+        );
+    picture.save(folder.join("water.svg"))?;
+    picture.save_png(folder.join("water.png"))
+}

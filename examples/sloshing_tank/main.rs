@@ -1,0 +1,195 @@
+//! A water tank thrown sideways at 30 g, after Vesenjak & Ren (2007): pressures, forces, the surface.
+//! `cargo run --release --example sloshing_tank -- --help` lists the options.
+
+mod bars;
+#[path = "../common/mod.rs"]
+mod common;
+mod pulse;
+mod report;
+mod run;
+mod surface;
+mod tank;
+
+use common::{Example, Failure, Options, Own};
+use meshfree::material::SoundSpeed;
+use meshfree::scalar::Real;
+use pulse::Pulse;
+use run::Record;
+use std::process::ExitCode;
+use tank::Case;
+
+const EXAMPLE: Example = Example {
+    name: "sloshing_tank",
+    about: "A closed tank, 60 % full of water, accelerated at about 30 g for 80 ms (Vesenjak & Ren 2007).\n\
+            Coordinates are the tank's: origin at the inner corner, z up, x towards the wall that the\n\
+            water is thrown at.",
+    schemes: &tank::SCHEMES,
+    own: &[
+        own("--peak-g", "G", "peak of the pulse; 30"),
+        own(
+            "--pulse",
+            "NAME",
+            "half-sine, trapezoid, constant, or a CSV file with time_s, acceleration",
+        ),
+        own(
+            "--fill",
+            "SHARE",
+            "share of the tank that is full, as 0.6 or 60%; 0.6",
+        ),
+        own("--length", "M", "inner size along x; 0.5"),
+        own("--width", "M", "inner size along y; 0.3"),
+        own("--height", "M", "inner size along z; 0.3"),
+        own(
+            "--cut-off-pa",
+            "PA",
+            "lowest pressure, 0 or negative (air: 0; vacuum: -101325); 0",
+        ),
+        own(
+            "--sound-speed",
+            "NAME",
+            "physical (1480 m/s), artificial (Mach 0.1), or a number in m/s",
+        ),
+        own(
+            "--probe",
+            "X,Y,Z",
+            "a sensor on a wall, may be given several times; six heights at x = L",
+        ),
+        own(
+            "--in-frame",
+            "",
+            "the tank rests and its frame is accelerated",
+        ),
+        own("--compare", "", "all schemes side by side"),
+        own("--bars", "", "measures what must hold"),
+    ],
+};
+
+const fn own(name: &'static str, value: &'static str, help: &'static str) -> Own {
+    Own { name, value, help }
+}
+
+/// Heights \[m\] of the sensors on the struck wall, Point 1 first.
+const HEIGHTS: [f64; 6] = [0.05, 0.01, 0.10, 0.15, 0.20, 0.25];
+
+fn main() -> ExitCode {
+    common::main(&EXAMPLE, perform::<f32>, perform::<f64>)
+}
+
+fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
+    let case = case(options)?;
+    println!("{}", case.choices());
+    if options.has("--bars") {
+        return bars::measure::<T>(&case, options);
+    }
+    let mut runs: Vec<(String, Record)> = Vec::new();
+    let schemes = if options.has("--compare") {
+        EXAMPLE.schemes.to_vec()
+    } else {
+        vec![case.scheme.as_str()]
+    };
+    for scheme in schemes {
+        let folder = if options.has("--compare") {
+            options.folder().join(scheme)
+        } else {
+            options.folder().to_path_buf()
+        };
+        let case = Case {
+            scheme: scheme.into(),
+            ..case.clone()
+        };
+        runs.push((scheme.into(), run::run::<T>(&case, Some(&folder), &[])?));
+    }
+    let runs: Vec<_> = runs
+        .iter()
+        .map(|(name, record)| (name.clone(), record))
+        .collect();
+    report::figure(&case, &runs)?.save(options.file("probes.svg"))?;
+    let table = report::table(&case, &runs);
+    println!("{table}");
+    std::fs::write(
+        options.file("report.md"),
+        format!("{}\n{}", case.choices(), table.markdown()),
+    )?;
+    for (name, record) in &runs {
+        let far = record.far_wall;
+        println!(
+            "{name}: {} particles, leaked {}, momentum of the water against pair reactions {:.1e}, far wall at \
+             38 ms: lowest pressure {:.0} Pa, {} evaluations cut",
+            record.particles, record.leaked, record.imbalance, far.lowest, far.cuts
+        );
+    }
+    println!("written to {}", options.folder().display());
+    Ok(())
+}
+
+/// The case of the command line.
+fn case(options: &Options) -> Result<Case, Failure> {
+    let size = [
+        options.number("--length", 0.5)?,
+        options.number("--width", 0.3)?,
+        options.number("--height", 0.3)?,
+    ];
+    let peak_g = options.number("--peak-g", 30.0)?;
+    let probes = match options.text("--probe") {
+        Some(text) => text
+            .split_whitespace()
+            .map(place)
+            .collect::<Result<_, _>>()?,
+        None => HEIGHTS
+            .into_iter()
+            .filter(|&z| z < size[2])
+            .map(|z| [size[0], 0.5 * size[1], z])
+            .collect(),
+    };
+    let speed = (2.0 * peak_g * pulse::STANDARD_GRAVITY * size[0])
+        .sqrt()
+        .max(2.0);
+    let sound_speed = match options.text("--sound-speed") {
+        None if options.quick => SoundSpeed::artificial(speed),
+        None | Some("physical") => SoundSpeed::Physical,
+        Some("artificial") => SoundSpeed::artificial(speed),
+        Some(text) => SoundSpeed::Artificial {
+            mach: speed / number("--sound-speed", text)?,
+            speed,
+        },
+    };
+    Ok(Case {
+        size,
+        fill: match options.text("--fill") {
+            None => 0.6,
+            Some(text) => match text.strip_suffix('%') {
+                Some(percent) => 0.01 * number("--fill", percent)?,
+                None => number("--fill", text)?,
+            },
+        },
+        spacing: options.spacing_or(0.02, 0.03),
+        pulse: Pulse::named(options.text("--pulse").unwrap_or("half-sine")),
+        peak_g,
+        cut_off: options
+            .text("--cut-off-pa")
+            .map_or(Ok(0.0), |text| number("--cut-off-pa", text))?,
+        sound_speed,
+        scheme: options.scheme.clone(),
+        probes,
+        in_frame: options.has("--in-frame"),
+        until: options.until_or(0.08, 0.08),
+        step: None,
+    })
+}
+
+/// `X,Y,Z` in metres.
+fn place(text: &str) -> Result<[f64; 3], Failure> {
+    let coordinates: Vec<f64> = text
+        .split(',')
+        .map(|part| number("--probe", part))
+        .collect::<Result<_, _>>()?;
+    coordinates
+        .try_into()
+        .map_err(|_| format!("--probe: `{text}` is not accepted; it takes X,Y,Z in metres").into())
+}
+
+fn number(option: &str, text: &str) -> Result<f64, Failure> {
+    text.trim()
+        .parse()
+        .map_err(|_| format!("{option}: `{text}` is not accepted; it takes a number").into())
+}

@@ -1,0 +1,340 @@
+//! Running a case: what is sampled on the way, and what is kept at 38 ms and at the end.
+//! All coordinates are the tank's own: metres, origin at the inner corner, x towards the struck wall.
+
+use crate::common::Failure;
+use crate::surface::Occupancy;
+use crate::tank::{Case, GRAVITY, WATER};
+use meshfree::observe::PressureProbe;
+use meshfree::output::csv::CsvWriter;
+use meshfree::output::picture::Picture;
+use meshfree::output::progress::Progress;
+use meshfree::output::svg::Axis;
+use meshfree::output::vtu::{Pvd, Vtu};
+use meshfree::prelude::*;
+use std::path::Path;
+use std::time::Instant;
+
+/// When the paper shows the surface \[s\].
+pub const SNAPSHOT: f64 = 0.038;
+/// Time between samples \[s\].
+const SAMPLING: f64 = 5e-5;
+/// Time between frames for ParaView \[s\].
+const FRAMES: f64 = 0.002;
+/// Width of the band before the far wall whose water is its film \[m\], whatever the spacing.
+const FILM: f64 = 0.03;
+
+/// What was measured at one time.
+#[derive(Clone, Debug)]
+pub struct Sample {
+    pub time: f64,
+    /// Pressure at each probe \[Pa\].
+    pub pressures: Vec<f64>,
+    /// Force on the wall behind the first probe over its area \[Pa\].
+    pub contact: f64,
+    /// Force of the water on the tank \[N\].
+    pub force: [f64; 3],
+}
+
+/// The wall that the water leaves, at 38 ms.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FarWall {
+    /// Highest water within a smoothing length of the wall \[m\].
+    pub wetted: f64,
+    /// Mass of water within 30 mm of the wall \[kg\].
+    pub film: f64,
+    /// Lowest pressure of the wall and of the water within a smoothing length of it \[Pa\].
+    pub lowest: f64,
+    /// Evaluations in which a particle's pressure was cut, since the start.
+    pub cuts: u64,
+}
+
+/// A run.
+#[derive(Clone, Debug, Default)]
+pub struct Record {
+    pub samples: Vec<Sample>,
+    /// Points of the free surface in the plane of mid width at 38 ms.
+    pub surface: Vec<[f64; 2]>,
+    pub far_wall: FarWall,
+    /// Impulse of the water on the tank \[N s\].
+    pub impulse: [f64; 3],
+    /// Momentum of the water, the tank's frame being at rest or not \[N s\].
+    pub momentum: [f64; 3],
+    /// Difference of the momentum of water and what walls and gravity gave, over the impulse on the tank.
+    pub imbalance: f64,
+    /// Integral of the probes' pressure over the ends of the tank against the force along it, as a
+    /// difference over the force, at the times asked for.
+    pub integrals: Vec<(f64, f64)>,
+    /// Space that the water takes against its volume, as a difference over it, at 38 ms and at the end.
+    pub volume: [f64; 2],
+    /// Particles more than a spacing behind the surface of the walls at the end.
+    pub leaked: usize,
+    /// Deepest that a particle was behind the surface of the walls \[m\]: drops that strike them alone
+    /// dive before they bounce.
+    pub deepest: f64,
+    pub particles: usize,
+    pub steps: u64,
+    pub seconds: f64,
+}
+
+impl Record {
+    /// ∫ p dt \[Pa s\] of a quantity until `end` \[s\], by trapezoids.
+    pub fn integral(&self, end: f64, of: impl Fn(&Sample) -> f64) -> f64 {
+        let pairs = self
+            .samples
+            .windows(2)
+            .filter(|pair| pair[1].time <= end * 1.000_001);
+        pairs
+            .map(|pair| 0.5 * (pair[1].time - pair[0].time) * (of(&pair[0]) + of(&pair[1])))
+            .sum()
+    }
+    /// Mean of a quantity over a span of time.
+    pub fn mean(&self, [from, to]: [f64; 2], of: impl Fn(&Sample) -> f64) -> f64 {
+        let inside = self
+            .samples
+            .windows(2)
+            .filter(|p| p[0].time >= from && p[1].time <= to);
+        let (mut sum, mut span) = (0.0, 0.0);
+        for pair in inside {
+            let dt = pair[1].time - pair[0].time;
+            sum += 0.5 * dt * (of(&pair[0]) + of(&pair[1]));
+            span += dt;
+        }
+        sum / span
+    }
+}
+
+/// Runs a case; files are written if there is a folder, `integrals` are the times at which the
+/// probes are integrated over the ends of the tank.
+pub fn run<T: Real>(
+    case: &Case,
+    folder: Option<&Path>,
+    integrals: &[f64],
+) -> Result<Record, Failure> {
+    let mut simulation = case.build::<T>()?;
+    let sensors = case.sensors();
+    let mut files = folder
+        .map(|folder| Files::create(case, folder))
+        .transpose()?;
+    let started = Instant::now();
+    let mut record = Record {
+        particles: simulation.particles(),
+        ..Record::default()
+    };
+    let water = case.mass() / WATER;
+    let mut progress = Progress::new(case.scheme.as_str());
+    let mut stops: Vec<f64> = integrals
+        .iter()
+        .copied()
+        .filter(|&t| t < case.until)
+        .collect();
+    stops.extend([SNAPSHOT.min(case.until), case.until]);
+    stops.sort_by(f64::total_cmp);
+    stops.dedup();
+    let (mut next, mut next_frame) = (0.0, 0.0);
+    let mut failed: Result<(), Error> = Ok(());
+    for stop in stops {
+        simulation.run_with(stop, |now| {
+            let time = now.time();
+            if time >= next || time >= case.until {
+                next = time + SAMPLING;
+                let sample = sample(now, &sensors);
+                if let (Some(files), Ok(())) = (&mut files, &failed) {
+                    failed = files.sample(&sample);
+                    if time >= next_frame && failed.is_ok() {
+                        next_frame += FRAMES;
+                        failed = files.frame(now);
+                    }
+                }
+                record.samples.push(sample);
+                let places = in_tank(now).map(|(x, _)| outside(case, &x));
+                record.deepest = places.fold(record.deepest, f64::max);
+                progress.update(
+                    time / case.until,
+                    format_args!("t = {:.2} ms, {} steps", 1e3 * time, now.steps()),
+                );
+            }
+        })?;
+        failed?;
+        failed = Ok(());
+        if integrals.contains(&stop) {
+            record
+                .integrals
+                .push((stop, wall_integral(case, &simulation)));
+        }
+        if stop == SNAPSHOT.min(case.until) {
+            let occupied = Occupancy::of(case, &simulation);
+            record.surface = occupied.mid_plane();
+            record.volume[0] = occupied.volume() / water - 1.0;
+            record.far_wall = far_wall(case, &simulation);
+            if let Some(folder) = folder {
+                snapshot(case, &simulation, &record.surface, folder)?;
+            }
+        }
+    }
+    progress.finish();
+    record.volume[1] = Occupancy::of(case, &simulation).volume() / water - 1.0;
+    record.seconds = started.elapsed().as_secs_f64();
+    record.steps = simulation.steps();
+    record.impulse = simulation.wall_impulse(0);
+    let whole = simulation.ledger().whole;
+    record.momentum = core::array::from_fn(|d| whole.momentum[d]);
+    let gravity = [0.0, 0.0, -whole.mass * GRAVITY * simulation.time()];
+    if !case.in_frame {
+        let size = |v: [f64; 3]| v.iter().map(|v| v * v).sum::<f64>().sqrt();
+        let lack = core::array::from_fn(|d| record.momentum[d] + record.impulse[d] - gravity[d]);
+        record.imbalance = size(lack) / size(record.impulse);
+    }
+    record.leaked = in_tank(&simulation)
+        .filter(|(x, _)| outside(case, x) > case.spacing)
+        .count();
+    Ok(record)
+}
+
+fn sample<T: Real>(now: &Simulation<T, 3>, sensors: &[PressureProbe<3>]) -> Sample {
+    Sample {
+        time: now.time(),
+        pressures: sensors.iter().map(|sensor| sensor.pressure(now)).collect(),
+        contact: sensors
+            .first()
+            .map_or(0.0, |sensor| sensor.contact_pressure(now)),
+        force: now.wall_force(0),
+    }
+}
+
+/// How far a place is outside of the tank \[m\], negative inside.
+fn outside(case: &Case, x: &[f64; 3]) -> f64 {
+    let beyond = (0..3).map(|d| (-x[d]).max(x[d] - case.size[d]));
+    beyond.fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// Places in the tank \[m\] and pressures \[Pa\] of the water.
+pub fn in_tank<T: Real>(now: &Simulation<T, 3>) -> impl Iterator<Item = ([f64; 3], f64)> + '_ {
+    let shift = now.wall_pose(Some(0)).shift[0];
+    now.all().map(move |particle| {
+        let x = particle.position();
+        (
+            core::array::from_fn(|d| x[d] - shift[d]),
+            particle.pressure(),
+        )
+    })
+}
+
+/// The pressures of sensors all over both ends of the tank, summed with their areas, against the force
+/// of the water along it.
+fn wall_integral<T: Real>(case: &Case, now: &Simulation<T, 3>) -> f64 {
+    let [length, width, height] = case.size;
+    let counts = [width, height].map(|size| (size / case.spacing).round().max(1.0) as usize);
+    let area = width * height / (counts[0] * counts[1]) as f64;
+    let mut sum = 0.0;
+    for k in 0..counts[0] * counts[1] {
+        let place = [k % counts[0], k / counts[0]].map(|index| index as f64 + 0.5);
+        let y = width * place[0] / counts[0] as f64;
+        let z = height * place[1] / counts[1] as f64;
+        for (x, outwards) in [(0.0, -1.0), (length, 1.0)] {
+            let normal = [-outwards, 0.0, 0.0];
+            let part = PressureProbe::disc("part", [x, y, z], normal, case.spacing).on_wall(0);
+            sum += outwards * area * part.pressure(now);
+        }
+    }
+    sum / now.wall_force(0)[0] - 1.0
+}
+
+fn far_wall<T: Real>(case: &Case, now: &Simulation<T, 3>) -> FarWall {
+    let h = now.smoothing_length();
+    let mass = case.mass() / now.particles() as f64;
+    let mut found = FarWall {
+        cuts: now.guard_counts().cut_off,
+        lowest: f64::INFINITY,
+        ..FarWall::default()
+    };
+    for (x, pressure) in in_tank(now) {
+        if x[0] < h {
+            found.wetted = found.wetted.max(x[2]);
+            found.lowest = found.lowest.min(pressure);
+        }
+        if x[0] < FILM {
+            found.film += mass;
+        }
+    }
+    let shift = now.wall_pose(Some(0)).shift[0][0];
+    let walls = now
+        .wall(0)
+        .filter(|particle| particle.position()[0] - shift < 0.0);
+    found.lowest = walls.fold(found.lowest, |least, wall| least.min(wall.pressure()));
+    found
+}
+
+/// Surface, picture and particles at 38 ms.
+fn snapshot<T: Real>(
+    case: &Case,
+    now: &Simulation<T, 3>,
+    surface: &[[f64; 2]],
+    folder: &Path,
+) -> Result<(), Error> {
+    let comment = format!("free surface at mid width, t = {:.3} ms", 1e3 * now.time());
+    let path = folder.join("surface.csv");
+    let mut file = CsvWriter::create_with_comment(path, &comment, &["x_m", "z_m"])?;
+    file.rows(surface)?;
+    let top = 1e-3 * 1000.0 * case.peak() * case.size[0] * case.fill;
+    let picture = Picture::new(1200, 800)
+        .title(&format!("{comment}, {} particles", now.particles()))
+        .view(-70.0, 15.0)
+        .particles(
+            Axis::linear("pressure", "kPa").range(0.0, top.max(1.0)),
+            case.spacing,
+            in_tank(now).map(|(x, p)| (x, 1e-3 * p)),
+        )
+        .edges([0.0; 3], case.size);
+    picture.save(folder.join("particles_38ms.svg"))?;
+    picture.save_png(folder.join("particles_38ms.png"))
+}
+
+/// The files that grow while a case runs.
+struct Files {
+    probes: CsvWriter,
+    contact: CsvWriter,
+    movie: Pvd,
+}
+
+impl Files {
+    fn create(case: &Case, folder: &Path) -> Result<Self, Error> {
+        let mut columns = vec!["time_s".to_string()];
+        for [x, y, z] in &case.probes {
+            columns.push(format!("pressure_pa@{x},{y},{z}"));
+        }
+        columns.extend(["x", "y", "z"].map(|axis| format!("force_{axis}_n")));
+        let first = case.probes.first().copied().unwrap_or_default();
+        let [x, y, z] = first;
+        let contact = [
+            "time_s".to_string(),
+            format!("contact_pressure_pa@{x},{y},{z}"),
+        ];
+        Ok(Self {
+            probes: CsvWriter::create(folder.join("probes.csv"), &columns)?,
+            contact: CsvWriter::create(folder.join("contact.csv"), &contact)?,
+            movie: Pvd::create(folder.join("water.pvd"))?,
+        })
+    }
+
+    fn sample(&mut self, sample: &Sample) -> Result<(), Error> {
+        let row: Vec<f64> = core::iter::once(sample.time)
+            .chain(sample.pressures.iter().copied())
+            .chain(sample.force)
+            .collect();
+        self.probes.row(&row)?;
+        self.contact.row(&[sample.time, sample.contact])
+    }
+
+    fn frame<T: Real>(&mut self, now: &Simulation<T, 3>) -> Result<(), Error> {
+        let velocity = now.wall_pose(Some(0)).shift[1];
+        let relative = now.all().map(|particle| {
+            let v = particle.velocity();
+            core::array::from_fn::<f32, 3, _>(|d| (v[d] - velocity[d]) as f32)
+        });
+        let vtu = Vtu::new(in_tank(now).map(|(x, _)| x.map(|x| x as f32)))
+            .scalar("pressure_pa", in_tank(now).map(|(_, p)| p as f32))
+            .vector("velocity_in_tank_m_s", relative)
+            .time(now.time());
+        self.movie.frame(now.time(), &vtu).map(|_| ())
+    }
+}
