@@ -28,12 +28,14 @@ pub fn flat(case: &Flat, history: &History, choices: &Choices) -> Result<(), Fai
         0.0,
     )];
     let mut front = |what: &str, measured: &[(f64, f64)]| {
+        let place = |t: f64| history.at("front_m", t * units.front_time_unit()) / units.width();
+        // Until the front meets the far wall, or the run ends.
+        let free = 0.97 * case.tank[0] / units.width();
         let late: Vec<_> = measured
             .iter()
             .copied()
-            .filter(|(t, _)| *t > 1.15)
+            .filter(|(t, _)| *t > 1.15 && place(*t) < free)
             .collect();
-        let place = |t: f64| history.at("front_m", t * units.front_time_unit()) / units.width();
         let computed: Vec<_> = late.iter().map(|(t, _)| (*t, place(*t))).collect();
         let wanted = slope(&late);
         bars.push(Bar::near(what, slope(&computed), wanted, 0.05 * wanted));
