@@ -208,23 +208,36 @@ impl History {
             .map_or(f64::NAN, |(t, _)| *t)
     }
 
-    /// The same history averaged over a time window around each step.
+    /// The same history averaged over a time window around each step, shorter at the ends.
     pub fn smoothed(&self, window: f64) -> Self {
-        let (mut first, mut last) = (0, 0);
-        let mut columns = vec![Vec::with_capacity(self.time.len()); self.columns.len()];
-        for &t in &self.time {
-            while self.time[first] < t - 0.5 * window {
-                first += 1;
+        let time = &self.time;
+        let mean = |values: &Vec<f64>| {
+            // The integral up to each step, by trapezoids: steps are shorter where pressures are high.
+            let mut sums = vec![0.0; time.len()];
+            for k in 1..time.len() {
+                let area = 0.5 * (time[k] - time[k - 1]) * (values[k] + values[k - 1]);
+                sums[k] = sums[k - 1] + area;
             }
-            while last < self.time.len() && self.time[last] <= t + 0.5 * window {
-                last += 1;
-            }
-            for (smooth, own) in columns.iter_mut().zip(&self.columns) {
-                smooth.push(own[first..last].iter().sum::<f64>() / (last - first) as f64);
-            }
+            let up_to = |t: f64| {
+                let right = time
+                    .partition_point(|own| *own < t)
+                    .clamp(1, time.len() - 1);
+                let share = (t - time[right - 1]) / (time[right] - time[right - 1]);
+                sums[right - 1] + share * (sums[right] - sums[right - 1])
+            };
+            let ends = [time[0], time[time.len() - 1]];
+            let around = |t: &f64| {
+                let from = (t - 0.5 * window).max(ends[0]);
+                let to = (t + 0.5 * window).min(ends[1]);
+                (up_to(to) - up_to(from)) / (to - from)
+            };
+            time.iter().map(around).collect()
+        };
+        if time.len() < 2 {
+            return self.clone();
         }
         Self {
-            columns,
+            columns: self.columns.iter().map(mean).collect(),
             ..self.clone()
         }
     }
