@@ -22,7 +22,11 @@ pub const OWN: [Own; 10] = [
     own("--alpha", "A", "artificial viscosity (0.02; riemann: 1)"),
     own("--delta", "D", "density diffusion (0.1)"),
     own("--h-over-dx", "R", "smoothing length over spacing (1.5)"),
-    own("--sound-speed", "M/S", "ten times the speed expected"),
+    own(
+        "--sound-speed",
+        "M/S",
+        "20 √(gh); in the rolling tank 60 √(gh)",
+    ),
     own(
         "--gate",
         "M/S",
