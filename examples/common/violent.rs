@@ -25,7 +25,7 @@ pub const OWN: [Own; 10] = [
     own(
         "--sound-speed",
         "M/S",
-        "20 √(gh); in the rolling tank 60 √(gh)",
+        "20 √(gh), ten times the speed expected",
     ),
     own(
         "--gate",

@@ -69,7 +69,7 @@ pub fn flat(case: &Flat, history: &History, choices: &Choices) -> Result<(), Fai
         _ => lobovsky(case, history, choices, &mut bars)?,
     }
     let title = format!(
-        "{}, spacing {} mm, {}",
+        "{}, spacing {:.2} mm, {}",
         case.name,
         1e3 * case.spacing,
         choices.scheme

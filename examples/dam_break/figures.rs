@@ -162,7 +162,7 @@ pub fn histories(
     }
     let figure = panels.into_iter().fold(Figure::new(), Figure::panel);
     let title = format!(
-        "Dam break, {}, spacing {} mm",
+        "Dam break, {}, spacing {:.2} mm",
         case.name,
         1e3 * case.spacing
     );

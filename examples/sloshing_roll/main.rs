@@ -141,9 +141,8 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
     let choices = Choices::of(options)?;
     let spacing = options.spacing_or(DEPTH / 31.0, DEPTH / 12.0);
     let until = options.until_or(6.5, 2.6);
-    // Thirty times the speed of the water along the bottom, 2 √(gh), and not ten: a flat front strikes at
-    // ρ c v until sound has crossed it, which at ten is longer than the impact itself.
-    let usual = 60.0 * (GRAVITY * DEPTH).sqrt();
+    // Ten times the speed of the water along the bottom, which is less than 2 √(gh).
+    let usual = 20.0 * (GRAVITY * DEPTH).sqrt();
     let sound_speed = choices.sound_speed.unwrap_or(usual);
     let (roll, source) = roll(options, &choices)?;
     println!(
