@@ -15,7 +15,7 @@ const EXAMPLE: Example = Example {
     name: "cellular_filler",
     about: "Water in cubes of side d + c with three holes of d = 3 mm, crushed at 1000 1/s to 30 %\n\
             (Vesenjak & Ren 2007). The walls move as prescribed; what is measured is the filler alone.",
-    schemes: &["standard"],
+    schemes: &["standard", "shifting"],
     own: &[
         own(
             "--walls",
@@ -75,6 +75,7 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
                 wall: 1e-3 * wall,
                 viscosity,
                 cells,
+                shifting: options.scheme == "shifting",
                 spacing: options.spacing_or(2.5e-4, 3.5e-4),
                 strain,
             };

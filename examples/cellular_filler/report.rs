@@ -24,9 +24,9 @@ pub fn figure(runs: &[(Case, Record)]) -> Figure {
         .shared_legend()
 }
 
-/// Mean force from a tenth of the final strain on, when the sound of the start has left.
+/// Mean force over the second half of the run, at the full rate of strain.
 fn force(record: &Record) -> f64 {
-    let later = &record.samples[record.samples.len() / 10..];
+    let later = &record.samples[record.samples.len() / 2..];
     later.iter().map(|s| s.force).sum::<f64>() / later.len().max(1) as f64
 }
 

@@ -9,6 +9,8 @@ mod report;
 mod run;
 mod surface;
 mod tank;
+#[cfg(test)]
+mod tests;
 
 use common::{Example, Failure, Options, Own};
 use meshfree::material::SoundSpeed;

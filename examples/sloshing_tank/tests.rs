@@ -1,0 +1,140 @@
+//! Wrong input of the tank, each with the message that names it.
+//! What a right tank does is in `tests/sloshing.rs`.
+
+use crate::pulse::Pulse;
+use crate::tank::Case;
+use meshfree::material::SoundSpeed;
+
+fn case() -> Case {
+    Case {
+        size: [0.5, 0.3, 0.3],
+        fill: 0.6,
+        spacing: 0.04,
+        pulse: Pulse::HalfSine,
+        peak_g: 30.0,
+        cut_off: 0.0,
+        sound_speed: SoundSpeed::artificial(17.2),
+        scheme: "standard".into(),
+        probes: vec![[0.5, 0.15, 0.05]],
+        in_frame: false,
+        until: 0.08,
+        step: None,
+    }
+}
+
+fn message(case: &Case) -> String {
+    case.build::<f64>()
+        .err()
+        .map_or_else(String::new, |error| error.to_string())
+}
+
+#[test]
+fn a_right_tank_is_built() {
+    assert_eq!(message(&case()), "");
+}
+
+#[test]
+fn wrong_tanks_are_refused_with_the_field() {
+    let outside = vec![[0.5, 0.15, 0.35]];
+    let off_the_wall = vec![[0.4, 0.15, 0.05]];
+    let wrong: [(&str, &str, Case); 7] = [
+        (
+            "fill is 1.1",
+            "100 %",
+            Case {
+                fill: 1.1,
+                ..case()
+            },
+        ),
+        (
+            "fill is NaN",
+            "100 %",
+            Case {
+                fill: f64::NAN,
+                ..case()
+            },
+        ),
+        (
+            "spacing is 0.06",
+            "quarter",
+            Case {
+                spacing: 0.06,
+                ..case()
+            },
+        ),
+        (
+            "coordinate z",
+            "inside",
+            Case {
+                probes: outside,
+                ..case()
+            },
+        ),
+        (
+            "probe at [0.4",
+            "on a wall",
+            Case {
+                probes: off_the_wall,
+                ..case()
+            },
+        ),
+        (
+            "length of the tank is -1",
+            "positive",
+            Case {
+                size: [-1.0, 0.3, 0.3],
+                ..case()
+            },
+        ),
+        (
+            "pressure_cut_off",
+            "negative",
+            Case {
+                cut_off: 5.0,
+                ..case()
+            },
+        ),
+    ];
+    for (field, remedy, case) in wrong {
+        let text = message(&case);
+        assert!(
+            text.contains(field) && text.contains(remedy),
+            "{field}: {text}"
+        );
+    }
+    let slow = Case {
+        sound_speed: SoundSpeed::Artificial {
+            mach: 0.2,
+            speed: 17.2,
+        },
+        ..case()
+    };
+    assert!(
+        message(&slow).contains("ten times the expected"),
+        "{}",
+        message(&slow)
+    );
+}
+
+#[test]
+fn a_pulse_file_with_a_gap_is_refused_with_its_row() {
+    let path = std::env::temp_dir().join(format!("meshfree_pulse_{}.csv", std::process::id()));
+    let with = |text: &str| {
+        std::fs::write(&path, text).unwrap();
+        message(&Case {
+            pulse: Pulse::File(path.clone()),
+            ..case()
+        })
+    };
+    assert_eq!(with("time_s,acceleration\n0,0\n0.01,100\n0.08,0\n"), "");
+    let text = with("time_s,acceleration\n0,0\n0.01,NaN\n0.08,0\n");
+    assert!(
+        text.contains("acceleration in row 2") && text.contains("NaN"),
+        "{text}"
+    );
+    let text = with("time_s,acceleration\n0,0\n0.01,1\n0.01,0\n");
+    assert!(text.contains("time in row 3"), "{text}");
+    let text = with("time_s,speed\n0,0\n0.01,1\n");
+    assert!(text.contains("acceleration"), "{text}");
+    std::fs::remove_file(&path).unwrap();
+}
