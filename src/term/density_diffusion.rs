@@ -82,15 +82,17 @@ impl Default for Fourtakas {
     }
 }
 
-/// pᵢ − pⱼ less its hydrostatic part.
+/// pᵢ − pⱼ less its hydrostatic part, which liquid that has no pressure does not have: where it falls or
+/// is torn there is nothing to leave out.
 #[inline(always)]
 fn dynamic_jump<L: Lane, const D: usize, P: Layout>(pair: &Pair<'_, L, D, P>) -> L {
-    let jump = pair.i(Field::Pressure) - pair.j(Field::Pressure);
+    let (p_i, p_j) = (pair.i(Field::Pressure), pair.j(Field::Pressure));
     let density = (pair.i(Field::Density) + pair.j(Field::Density)) * L::of(-0.5);
     let along = (1..D).fold(pair.body_force[0] * pair.r[0], |sum, d| {
         pair.body_force[d].mul_add(pair.r[d], sum)
     });
-    density.mul_add(along, jump)
+    let pressed = (p_i + p_j).gt(L::zero());
+    L::select(pressed, density * along, L::zero()) + (p_i - p_j)
 }
 
 impl<const D: usize> Term<D> for Fourtakas {
