@@ -440,3 +440,57 @@ where
         builder.compose()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::particles::Output;
+    use crate::schemes::weakly_compressible;
+    use crate::term::{Antuono, LaminarViscosity};
+
+    #[test]
+    fn an_effect_that_is_not_named_has_no_column_and_no_sum() {
+        let plain = weakly_compressible().compose::<f64, 3>();
+        let added = |scheme: &Scheme<f64, 3>| -> Vec<Field> {
+            let own = scheme.fields().iter();
+            own.filter(|&field| !plain.fields().contains(field))
+                .collect()
+        };
+        let sticky = weakly_compressible()
+            .laminar_viscosity(LaminarViscosity)
+            .compose();
+        assert_eq!(added(&sticky), [Field::DynamicViscosity]);
+        let curved = weakly_compressible()
+            .density_diffusion(Antuono::default())
+            .compose();
+        assert_eq!(added(&curved), [Field::DensityGradient]);
+        assert_eq!(
+            added(&weakly_compressible().renormalised().compose()),
+            [Field::Correction]
+        );
+        assert_eq!(
+            added(&weakly_compressible().smoothing(0.5, 2.0).compose()),
+            [Field::SmoothingLength]
+        );
+        // 3 + 3 + 6 numbers: places, velocities, and what pressure and continuity need.
+        assert_eq!(plain.fields().width(3), 12);
+        assert!(!plain.fields().contains(Field::Energy));
+
+        let sums = |scheme: &Scheme<f64, 3>| -> Vec<Output> {
+            scheme
+                .compression
+                .iter()
+                .flat_map(|sweep| sweep.outputs().iter().collect::<Vec<_>>())
+                .collect()
+        };
+        let bare = weakly_compressible().density_diffusion(Nothing).compose();
+        assert_eq!(sums(&bare), [Output::Compression]);
+        assert_eq!(
+            sums(&plain),
+            [Output::Compression, Output::DensityDiffusion]
+        );
+        let shifted = weakly_compressible().shifting(Shifting::STANDARD).compose();
+        assert_eq!(sums(&shifted)[2..], [Output::Moment, Output::Crowding]);
+        assert_eq!(shifted.fields(), plain.fields());
+    }
+}
