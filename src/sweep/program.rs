@@ -466,7 +466,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
     /// how many there are.
     ///
     /// What a skin lists and what a row of several particles lists for only one of them is mostly too
-    /// far away, and finding that out costs a tenth of what the terms cost.
+    /// far away, and finding that out costs less than the terms would.
     #[inline(always)]
     fn within_reach<L: Lane<Scalar = T>, const HOW: u8>(
         &self,
