@@ -54,7 +54,7 @@ impl<const D: usize> Pose<D> {
 ///     |t| [-294.2 * t, 0.0],
 ///     |_| [-294.2, 0.0],
 /// );
-/// assert_eq!(braked.pose(0.01).of(1, &[0.3, 0.2]), [-2.942, 0.0]);
+/// assert_eq!(braked.pose(0.5).of(1, &[0.3, 0.2]), [-147.1, 0.0]);
 /// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a motion in {D} dimensions",

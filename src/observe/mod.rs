@@ -16,8 +16,9 @@
 //! use meshfree::prelude::*;
 //! let depth = 0.2;
 //! let water = catalogue::weakly_compressible_water(2.0);
+//! let body = Body::block("water", water, [0.0; 2], [0.3, depth], 0.02);
 //! let mut simulation = Scene::<f64, 2>::new(schemes::weakly_compressible())
-//!     .body(Body::block("water", water, [0.0; 2], [0.3, depth], 0.02))
+//!     .body(body.hydrostatic([0.0, -9.81], [0.0, depth]))
 //!     .wall(Wall::around("tank", [0.0; 2], [0.3, 0.3], 0.02, 3, [[true, true], [true, false]]))
 //!     .acceleration(|_| [0.0, -9.81])
 //!     .build()?;
