@@ -18,9 +18,14 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Options that the examples of violent flow take beside those of all.
-pub const OWN: [Own; 10] = [
+pub const OWN: [Own; 11] = [
     own("--alpha", "A", "artificial viscosity (0.02; riemann: 1)"),
     own("--delta", "D", "density diffusion (0.1)"),
+    own(
+        "--damping",
+        "L",
+        "bulk viscosity against sound, over rho c h (0.3; 0 for none)",
+    ),
     own("--h-over-dx", "R", "smoothing length over spacing (1.5)"),
     own(
         "--sound-speed",
@@ -60,6 +65,7 @@ pub struct Choices {
     pub scheme: String,
     pub alpha: Option<f64>,
     pub delta: f64,
+    pub damping: f64,
     pub h_over_dx: f64,
     pub sound_speed: Option<f64>,
     pub gate: Option<f64>,
@@ -89,6 +95,7 @@ impl Choices {
             scheme: options.scheme.clone(),
             alpha: not_negative("--alpha")?,
             delta: not_negative("--delta")?.unwrap_or(0.1),
+            damping: not_negative("--damping")?.unwrap_or(0.3),
             h_over_dx: not_negative("--h-over-dx")?.unwrap_or(1.5),
             sound_speed: not_negative("--sound-speed")?,
             gate: not_negative("--gate")?.filter(|speed| *speed > 0.0),
@@ -120,9 +127,12 @@ impl Choices {
     where
         WendlandC2: Kernel<D>,
     {
-        let base = schemes::weakly_compressible()
+        let mut base = schemes::weakly_compressible()
             .density_diffusion(Fourtakas { delta: self.delta })
             .h_over_dx(self.h_over_dx);
+        if self.damping > 0.0 {
+            base = base.acoustic_damping(self.damping);
+        }
         let alpha = |standard: f64| self.alpha.unwrap_or(standard);
         match self.scheme.as_str() {
             "riemann" => base

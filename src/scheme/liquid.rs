@@ -75,6 +75,8 @@ pub(crate) struct Liquid<T: Real, const D: usize> {
     pub wall_floor: f64,
     /// How particles are kept evenly spread.
     pub shifting: Option<Shifting>,
+    /// Bulk viscosity over ρ c h.
+    pub acoustic_damping: Option<f64>,
 }
 
 /// Chooses the parts of a scheme for liquids.
@@ -112,6 +114,7 @@ pub struct LiquidBuilder<
     step_factor: f64,
     wall_floor: f64,
     shifting: Option<Shifting>,
+    acoustic_damping: Option<f64>,
     smoothing: Smoothing,
     general_viscosity: bool,
     normalised: bool,
@@ -133,6 +136,7 @@ impl<K, V> LiquidBuilder<K, V> {
             step_factor: DEFAULT_STEP_FACTOR,
             wall_floor: 0.0,
             shifting: None,
+            acoustic_damping: None,
             smoothing: Smoothing::Fixed,
             general_viscosity: false,
             normalised: true,
@@ -178,6 +182,7 @@ impl<K, V, W, R, S, const MODES: u8, const RENORMALISED: bool>
             step_factor: self.step_factor,
             wall_floor: self.wall_floor,
             shifting: self.shifting,
+            acoustic_damping: self.acoustic_damping,
             smoothing: self.smoothing,
             general_viscosity: self.general_viscosity,
             normalised: self.normalised,
@@ -290,6 +295,17 @@ impl<K, V, W, R, S, const MODES: u8, const RENORMALISED: bool>
         self.wall_floor = floor;
         self
     }
+    /// Damps sound by a bulk viscosity ζ = λ ρ c h: liquid shows its neighbours the pressure p − ζ ∇·v
+    /// (after Sun, Pilloton, Antuono & Colagrossi 2023).
+    ///
+    /// The sound of a weakly compressible liquid is not that of the real one, and what an impact leaves
+    /// ringing in a corner no dissipation between particles reaches. A wave of wave number k decays by
+    /// exp(−λ c h k² t/2); shear is not touched. The step shortens, at λ = 0.3 by a quarter.
+    #[must_use]
+    pub fn acoustic_damping(mut self, strength: f64) -> Self {
+        self.acoustic_damping = Some(strength);
+        self
+    }
     /// Lets the viscosity follow the shear rate γ̇ = √(2 D:D) by the
     /// [law of each material](crate::material::Material::with_rheology), for liquids that are not
     /// Newtonian. D is the symmetric part of the velocity gradient without its trace, to which a wall
@@ -382,7 +398,8 @@ impl<K, V, W, R, S, const MODES: u8, const RENORMALISED: bool>
             energy: EnergyForm::None,
             smoothing: self.smoothing,
             h_over_dx,
-            step_factor: self.step_factor,
+            step_factor: self.step_factor
+                * damped_step(self.acoustic_damping, kernel.stable_step()),
             normalised: false,
             viscosity_problems,
             switch: None,
@@ -401,9 +418,21 @@ impl<K, V, W, R, S, const MODES: u8, const RENORMALISED: bool>
                 shear,
                 wall_floor: self.wall_floor,
                 shifting: self.shifting,
+                acoustic_damping: self.acoustic_damping,
             }),
         }
     }
+}
+
+/// By what a bulk viscosity shortens the stable step Δ \[h/c\] of a leapfrog.
+///
+/// It acts half a step late, so a wave that the step samples at ω dt is stable while
+/// (ω dt)² (λ h/(2 c dt) + 1/4) ≤ 1, of which the shortest wave makes dt = √(λ² + Δ²) − λ.
+fn damped_step(strength: Option<f64>, stable: f64) -> f64 {
+    strength.map_or(1.0, |strength| {
+        let ratio = strength / stable;
+        (ratio * ratio + 1.0).sqrt() - ratio
+    })
 }
 
 /// −Σ V r·∇W/D over a cubic lattice, by which sums of gradients fall short or exceed.

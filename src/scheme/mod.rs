@@ -217,6 +217,10 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         if matches!(self.smoothing, Smoothing::Consistent { .. }) {
             fields = fields.union(Fields::of(&[Field::GradH]));
         }
+        let damped = |liquid: &Liquid<T, D>| liquid.acoustic_damping.is_some();
+        if self.liquid.as_ref().is_some_and(damped) {
+            fields = fields.union(Fields::of(&[Field::Divergence]));
+        }
         match self.switch {
             Some(Switch::CullenDehnen { .. }) => {
                 // In one dimension there is no shear to tell from a shock.

@@ -220,7 +220,7 @@ const TORN: f64 = 0.9;
 
 /// Rate of compression (1/ρ) dρ/dt of a particle from its sum over neighbours.
 #[inline(always)]
-fn rate<T: Real, const D: usize>(
+pub(super) fn rate<T: Real, const D: usize>(
     form: DensityForm,
     rows: &Rows<T, D>,
     (rest, moment, lattice): Reference<'_, T>,
@@ -234,7 +234,7 @@ fn rate<T: Real, const D: usize>(
 }
 
 /// Densities and first moments at rest, and the moment of those that do not carry their own.
-type Reference<'a, T> = (&'a [T], &'a [T], T);
+pub(super) type Reference<'a, T> = (&'a [T], &'a [T], T);
 
 /// Whether a column of [`STATE`] is advanced in time, and does not follow from positions.
 fn is_state<T: Real, const D: usize>(scheme: &Scheme<T, D>, field: Field) -> bool {
@@ -337,6 +337,7 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
         self.follow_moves();
         self.group.sum_compression();
         self.compress(dt);
+        self.group.keep_divergence();
         self.hold_densities();
         self.group.shift(dt);
         self.move_particles(0.5 * dt);

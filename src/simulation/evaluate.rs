@@ -237,6 +237,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.find_density(time);
         let start = Instant::now();
         self.close_materials();
+        self.damp_sound();
         self.phases.materials += start.elapsed();
         // The sweep over walls is booked with them.
         let (start, before) = (Instant::now(), self.phases);

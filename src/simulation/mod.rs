@@ -54,6 +54,7 @@
 
 mod advance;
 mod control;
+mod damping;
 mod energy;
 mod evaluate;
 mod group;
