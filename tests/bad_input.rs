@@ -2,7 +2,7 @@
 
 mod common;
 
-use meshfree::boundary::{MirrorPlane, Periodic};
+use meshfree::boundary::{MirrorPlane, Periodic, Wall};
 use meshfree::error::{Error, Problem};
 use meshfree::integrator::{LamLeapfrog, RungeKutta4};
 use meshfree::material::catalogue;
@@ -408,6 +408,69 @@ fn boundaries_that_make_no_sense() {
     );
     let flat = MirrorPlane::wall([0.02], [0.0]);
     is_parameter(&problem(good().boundary(flat)), "normal", "normal not zero");
+}
+
+/// A scene of liquid in a square, which a wall or an inlet is added to.
+fn pool() -> Scene<f64, 2> {
+    let water = catalogue::weakly_compressible_water(1.0);
+    Scene::new(schemes::weakly_compressible()).body(Body::block(
+        "water",
+        water,
+        [0.0; 2],
+        [0.1, 0.1],
+        0.01,
+    ))
+}
+
+#[test]
+fn walls_around_what_is_no_box() {
+    let tank = |low: [f64; 2], high: [f64; 2], spacing: f64, layers: usize| {
+        let tank = Wall::around("tank", low, high, spacing, layers, [[true; 2]; 2]);
+        problem(pool().wall(tank))
+    };
+    assert!(
+        pool()
+            .wall(Wall::around(
+                "tank",
+                [0.0; 2],
+                [0.1; 2],
+                0.01,
+                3,
+                [[true; 2]; 2]
+            ))
+            .build()
+            .is_ok()
+    );
+    for spacing in [0.0, -0.01, f64::NAN, f64::INFINITY] {
+        let found = tank([0.0; 2], [0.1; 2], spacing, 3);
+        is_parameter(
+            &found,
+            "spacing of wall `tank`",
+            "finite and positive, in metres",
+        );
+    }
+    for corner in [0.0, -0.1, f64::NAN, f64::INFINITY] {
+        let found = tank([0.0; 2], [0.1, corner], 0.01, 3);
+        is_parameter(
+            &found,
+            "size of wall `tank`",
+            "corners must be finite and in order",
+        );
+    }
+    for (spacing, layers) in [(1e-12, 3), (1e-300, 3), (0.01, usize::MAX)] {
+        let found = tank([0.0; 2], [0.1; 2], spacing, layers);
+        is_parameter(
+            &found,
+            "number of particles of wall `tank`",
+            "is the spacing in metres?",
+        );
+    }
+    assert_eq!(
+        tank([0.0; 2], [0.1; 2], 0.01, 0),
+        Problem::EmptyBody {
+            body: "tank".into()
+        }
+    );
 }
 
 #[test]

@@ -273,11 +273,6 @@ impl<T: Real, const D: usize> Scene<T, D> {
                     remedy: "give every body and wall a name of its own",
                 });
             }
-            if wall.points.is_empty() {
-                problems.push(Problem::EmptyBody {
-                    body: wall.name.clone(),
-                });
-            }
             let mut parameter = |what: &str, value: f64, must_be: &'static str| {
                 problems.push(Problem::Parameter {
                     what: format!("{what} of wall `{}`", wall.name),
@@ -285,6 +280,10 @@ impl<T: Real, const D: usize> Scene<T, D> {
                     must_be,
                 });
             };
+            if let Err((what, value, must_be)) = wall.shape {
+                parameter(what, value, must_be);
+                continue;
+            }
             if let Some(&bad) = wall.points.iter().flatten().find(|x| !x.is_finite()) {
                 parameter("position", bad, "it must be finite, in metres");
             }
@@ -312,6 +311,11 @@ impl<T: Real, const D: usize> Scene<T, D> {
                     f64::NAN,
                     "position, velocity and acceleration must be finite: look for gaps in its table",
                 );
+            }
+            if wall.points.is_empty() {
+                problems.push(Problem::EmptyBody {
+                    body: wall.name.clone(),
+                });
             }
         }
         let bad = |load: &Load<D>| load(0.0).into_iter().find(|a| !a.is_finite());
