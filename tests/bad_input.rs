@@ -2,7 +2,7 @@
 
 mod common;
 
-use meshfree::boundary::{MirrorPlane, Periodic, Wall};
+use meshfree::boundary::{Inlet, MirrorPlane, Periodic, Wall};
 use meshfree::error::{Error, Problem};
 use meshfree::integrator::{LamLeapfrog, RungeKutta4};
 use meshfree::material::catalogue;
@@ -471,6 +471,54 @@ fn walls_around_what_is_no_box() {
             body: "tank".into()
         }
     );
+}
+
+#[test]
+fn inlets_that_make_no_sense() {
+    let opening = |low: f64| {
+        (0..10)
+            .map(|k| [low, 0.01 * (f64::from(k) + 0.5)])
+            .collect()
+    };
+    let inlet = |velocity: f64, spacing: f64, reserve: usize| {
+        Inlet::new("water", opening(0.0), [velocity, 0.0], spacing, reserve)
+    };
+    let with = |inlet: Inlet<2>| problem(pool().inlet(inlet));
+    assert!(pool().inlet(inlet(1.0, 0.01, 100)).build().is_ok());
+    for spacing in [0.0, -0.01, f64::NAN, f64::INFINITY] {
+        let found = with(inlet(1.0, spacing, 100));
+        is_parameter(
+            &found,
+            "spacing of the inlet of body `water`",
+            "finite and positive, in metres",
+        );
+    }
+    incompatible(
+        &with(inlet(1.0, 0.011, 100)),
+        "the inlet of body `water` has a spacing of 0.011 m",
+        "the spacing of the body",
+    );
+    for velocity in [0.0, f64::NAN, f64::INFINITY] {
+        is_parameter(&with(inlet(velocity, 0.01, 100)), "velocity", "in m/s");
+    }
+    is_parameter(
+        &with(inlet(1.0, 0.01, usize::MAX)),
+        "reserve",
+        "must stay below 4e9",
+    );
+    for bad in [f64::NAN, f64::INFINITY] {
+        let inlet = Inlet::new("water", opening(bad), [1.0, 0.0], 0.01, 100);
+        is_parameter(&with(inlet), "opening", "points must be finite");
+    }
+    let closed = Inlet::new("water", Vec::new(), [1.0, 0.0], 0.01, 100);
+    is_parameter(&with(closed), "opening", "at least one point");
+    let solid = Inlet::new("rod", vec![[0.0]], [1.0], DX, 10);
+    incompatible(&problem(good().inlet(solid)), "impact", "scheme of liquids");
+    let unknown = Inlet::new("wine", opening(0.0), [1.0, 0.0], 0.01, 100);
+    assert!(matches!(
+        with(unknown),
+        Problem::UnknownName { kind: "body", .. }
+    ));
 }
 
 #[test]
