@@ -8,6 +8,7 @@ use meshfree::integrator::{LamLeapfrog, RungeKutta4};
 use meshfree::material::catalogue;
 use meshfree::material::eos::IdealGas;
 use meshfree::material::{Material, eos::Linear};
+use meshfree::observe::{FlowPlane, PressureProbe, WaveGauge};
 use meshfree::scene::{Body, Scene, Start};
 use meshfree::scheme::EnergyForm;
 use meshfree::schemes;
@@ -519,6 +520,69 @@ fn inlets_that_make_no_sense() {
         with(unknown),
         Problem::UnknownName { kind: "body", .. }
     ));
+}
+
+#[test]
+fn observers_that_would_read_nothing() {
+    let closed = [[true; 2]; 2];
+    let tank = Wall::around("tank", [0.0; 2], [0.2, 0.1], 0.01, 3, closed);
+    let tank = pool().wall(tank).build().unwrap();
+    let open = pool().build().unwrap();
+    let refused = |error: Error, name: &str, advice: &str| {
+        let Error::Argument(problem) = &error else {
+            panic!("{error:?}");
+        };
+        is_parameter(problem, name, advice);
+    };
+
+    let probe = |x: [f64; 2], normal: [f64; 2], diameter: f64| {
+        PressureProbe::disc(&tank, "p", x, normal, diameter)
+    };
+    let (place, normal) = ([0.2, 0.05], [-1.0, 0.0]);
+    assert!(probe(place, normal, 0.01).unwrap().on_wall(0).is_ok());
+    for normal in [[0.0, 0.0], [f64::NAN, 1.0], [f64::INFINITY, 0.0]] {
+        let error = probe(place, normal, 0.01).unwrap_err();
+        refused(error, "normal of observer `p`", "finite and not zero");
+    }
+    for diameter in [0.0, -0.01, f64::NAN, f64::INFINITY] {
+        let error = probe(place, normal, diameter).unwrap_err();
+        refused(error, "diameter of observer `p`", "finite and positive");
+    }
+    for bad in [f64::NAN, f64::NEG_INFINITY] {
+        let error = probe([0.2, bad], normal, 0.01).unwrap_err();
+        refused(error, "position of observer `p`", "finite, in metres");
+    }
+    // The walls end at 0.23 m, and the kernel reaches 0.03 m beyond their last particles.
+    assert!(probe([0.25, 0.05], normal, 0.01).is_ok());
+    for far in [[0.26, 0.05], [-0.06, 0.05], [0.1, 0.16], [200.0, 50.0]] {
+        let error = probe(far, normal, 0.01).unwrap_err();
+        let advice = "near the bodies and walls of the scene as built";
+        refused(error, "of observer `p`", advice);
+    }
+    let error = probe(place, normal, 0.01).unwrap().on_wall(1).unwrap_err();
+    refused(error, "wall of observer `p`", "index of a wall");
+
+    let gauge = |foot: [f64; 2], axis: usize| WaveGauge::upwards(&tank, "h", foot, axis);
+    // Heights may count from anywhere below.
+    assert!(gauge([0.1, -7.0], 1).unwrap().on_wall(0).is_ok());
+    let error = gauge([0.1, 0.0], 2).unwrap_err();
+    refused(error, "axis of observer `h`", "below the dimension");
+    let error = gauge([0.1, f64::NAN], 1).unwrap_err();
+    refused(error, "position of observer `h`", "finite");
+    let error = gauge([0.3, 0.0], 1).unwrap_err();
+    refused(error, "coordinate 0 of observer `h`", "near the bodies");
+    let error = gauge([0.1, 0.0], 1).unwrap().on_wall(7).unwrap_err();
+    refused(error, "wall of observer `h`", "index of a wall");
+
+    // Without walls liquid can come anywhere.
+    assert!(WaveGauge::upwards(&open, "far", [9.0, 0.0], 1).is_ok());
+    assert!(PressureProbe::disc(&open, "far", [9.0, 0.0], normal, 0.01).is_ok());
+
+    assert!(FlowPlane::new([9.0, 0.0], [1.0, 0.0]).is_ok());
+    let error = FlowPlane::new([0.0; 2], [0.0; 2]).unwrap_err();
+    refused(error, "normal of observer `flow plane`", "not zero");
+    let error = FlowPlane::new([f64::NAN, 0.0], [1.0, 0.0]).unwrap_err();
+    refused(error, "position of observer `flow plane`", "finite");
 }
 
 #[test]

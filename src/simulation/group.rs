@@ -104,6 +104,8 @@ pub(crate) struct Group<T: Real, const D: usize> {
     /// The same in the frame of the wall that carries the liquid.
     pub body_force: [T; D],
     pub boundaries: Vec<Box<dyn Boundary<T, D>>>,
+    /// The box around bodies and walls as built \[m\], where walls alone bound the scene.
+    pub domain: Option<[[f64; D]; 2]>,
     pub scheme: Scheme<T, D>,
     pub blocks: Vec<Block>,
     pub interactions: Vec<Interaction>,
@@ -197,6 +199,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             gravity: [0.0; D],
             body_force: [T::zero(); D],
             boundaries,
+            domain: None,
             scheme,
             interactions,
             images: Vec::new(),
