@@ -3,8 +3,8 @@
 //! A body is a set of particles that carry mass and move with the material. What a field is between
 //! them, and how it changes in space, follows from sums over neighbours weighted with a kernel. There
 //! is no mesh, so bodies may collide, part and deform without limit. This crate computes impact of
-//! solids and shocks in gases that way, gives exact and reference solutions to hold the result
-//! against, and counts what it had to limit.
+//! solids, shocks in gases and violent liquids that way, gives exact and reference solutions to hold
+//! the result against, and counts what it had to limit.
 //!
 //! # A first program
 //!
@@ -63,7 +63,7 @@
 //! | [`output`] | tables, plots, pictures, particle files, progress |
 //! | [`study`] | exact and reference solutions, norms, orders of convergence |
 //! | [`error`] | what went wrong, where, and what to try |
-//! | [`boundary`] | mirror planes and periodic directions; a trait for others |
+//! | [`boundary`] | mirror planes and periodic directions, a trait for others; walls, inlets and outlets of liquids |
 //! | [`integrator`] | leapfrogs, Runge–Kutta methods, the printed method of Lam, Shen & Gong |
 //! | [`scheme`] | how a scheme is composed: density form, energy form, smoothing |
 //! | [`kernel`] | seven smoothing kernels |
@@ -97,6 +97,10 @@
 //! | solids that meet at weak to moderate shocks and keep their shape | [`schemes::impact`] |
 //! | the same with large motion | [`schemes::impact_by_continuity`] |
 //! | a result of Lam, Shen & Gong (2002) to repeat | [`schemes::lam2002`] with [`LamLeapfrog`](integrator::LamLeapfrog), bodies bonded |
+//! | a liquid with a free surface, still or violent | [`schemes::weakly_compressible`] |
+//! | the same, without a coefficient to choose | [`schemes::riemann_liquid`] |
+//! | a liquid that fills what encloses it | [`schemes::weakly_compressible`] with [`Shifting::CLOSED`](scheme::Shifting::CLOSED) and a [wall pressure floor](scheme::LiquidBuilder::wall_pressure_floor) of −∞ |
+//! | a result of LS-DYNA to repeat | [`schemes::ls_dyna_default`], [`schemes::ls_dyna_fluid`] and their renormalised forms |
 //! | a gas | [`SchemeBuilder`](scheme::SchemeBuilder) with [`DensityForm::Summation`](scheme::DensityForm), smoothing [consistent](scheme::Smoothing) with the density, [`WendlandC4`](kernel::WendlandC4) |
 //!
 //! A scheme prints itself, with its equations, their sources and the fields that a particle carries.

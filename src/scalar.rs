@@ -1,6 +1,10 @@
 //! Scalars and lanes: the only place that knows machine types.
 //! One text of physics serves `f32` and `f64`, one particle at a time or a block of them.
 
+mod instructions;
+
+pub use instructions::InstructionSet;
+
 use core::fmt::{Debug, Display, LowerExp};
 use core::iter::Sum;
 use core::ops::{

@@ -1,7 +1,8 @@
 //! Ready schemes: the lists of terms that a user would write, with defaults that are measured.
 //! Each prints itself with equations, fields and sources.
 //!
-//! All three return a [`SchemeBuilder`], so a single choice can be changed and the rest kept:
+//! Each returns a [`SchemeBuilder`], for liquids a [`LiquidBuilder`], so a single choice can be changed and
+//! the rest kept:
 //!
 //! ```
 //! use meshfree::prelude::*;
@@ -17,6 +18,17 @@
 //! | normalised by the moment at rest | yes | yes | no |
 //! | energy | compatible | compatible | symmetric |
 //! | step factor | 0.55 | 0.55 | 0.5 |
+//!
+//! | for liquids | [`weakly_compressible`] | [`riemann_liquid`] | [`ls_dyna_default`] | [`ls_dyna_fluid`] |
+//! |---|---|---|---|---|
+//! | continuity | by volume | by volume | by mass | by volume |
+//! | viscosity | plain, α = 0.02 | Riemann | plain, α = 0.06, β = 1.5 | the same |
+//! | density diffusion | Fourtakas, δ = 0.1 | Riemann | none | none |
+//! | kernel, h/dx | Wendland C2, 1.5 | Wendland C2, 1.5 | cubic spline, 1.2 | cubic spline, 1.2 |
+//! | smoothing length | fixed | fixed | by divergence | by divergence |
+//! | normalised by the moment of the lattice | yes | yes | no | no |
+//!
+//! [`ls_dyna_renormalised`] and [`ls_dyna_fluid_renormalised`] correct the gradients of the last two.
 
 use crate::kernel::{CubicSpline, WendlandC2};
 use crate::scheme::{DensityForm, EnergyForm, LiquidBuilder, SchemeBuilder};

@@ -2,12 +2,13 @@
 
 mod common;
 
-use meshfree::boundary::{MirrorPlane, Periodic};
+use meshfree::boundary::{Inlet, MirrorPlane, Periodic, Wall};
 use meshfree::error::{Error, Problem};
 use meshfree::integrator::{LamLeapfrog, RungeKutta4};
 use meshfree::material::catalogue;
 use meshfree::material::eos::IdealGas;
 use meshfree::material::{Material, eos::Linear};
+use meshfree::observe::{FlowPlane, PressureProbe, WaveGauge};
 use meshfree::scene::{Body, Scene, Start};
 use meshfree::scheme::EnergyForm;
 use meshfree::schemes;
@@ -408,6 +409,180 @@ fn boundaries_that_make_no_sense() {
     );
     let flat = MirrorPlane::wall([0.02], [0.0]);
     is_parameter(&problem(good().boundary(flat)), "normal", "normal not zero");
+}
+
+/// A scene of liquid in a square, which a wall or an inlet is added to.
+fn pool() -> Scene<f64, 2> {
+    let water = catalogue::weakly_compressible_water(1.0);
+    Scene::new(schemes::weakly_compressible()).body(Body::block(
+        "water",
+        water,
+        [0.0; 2],
+        [0.1, 0.1],
+        0.01,
+    ))
+}
+
+#[test]
+fn walls_around_what_is_no_box() {
+    let tank = |low: [f64; 2], high: [f64; 2], spacing: f64, layers: usize| {
+        let tank = Wall::around("tank", low, high, spacing, layers, [[true; 2]; 2]);
+        problem(pool().wall(tank))
+    };
+    assert!(
+        pool()
+            .wall(Wall::around(
+                "tank",
+                [0.0; 2],
+                [0.1; 2],
+                0.01,
+                3,
+                [[true; 2]; 2]
+            ))
+            .build()
+            .is_ok()
+    );
+    for spacing in [0.0, -0.01, f64::NAN, f64::INFINITY] {
+        let found = tank([0.0; 2], [0.1; 2], spacing, 3);
+        is_parameter(
+            &found,
+            "spacing of wall `tank`",
+            "finite and positive, in metres",
+        );
+    }
+    for corner in [0.0, -0.1, f64::NAN, f64::INFINITY] {
+        let found = tank([0.0; 2], [0.1, corner], 0.01, 3);
+        is_parameter(
+            &found,
+            "size of wall `tank`",
+            "corners must be finite and in order",
+        );
+    }
+    for (spacing, layers) in [(1e-12, 3), (1e-300, 3), (0.01, usize::MAX)] {
+        let found = tank([0.0; 2], [0.1; 2], spacing, layers);
+        is_parameter(
+            &found,
+            "number of particles of wall `tank`",
+            "is the spacing in metres?",
+        );
+    }
+    assert_eq!(
+        tank([0.0; 2], [0.1; 2], 0.01, 0),
+        Problem::EmptyBody {
+            body: "tank".into()
+        }
+    );
+}
+
+#[test]
+fn inlets_that_make_no_sense() {
+    let opening = |low: f64| {
+        (0..10)
+            .map(|k| [low, 0.01 * (f64::from(k) + 0.5)])
+            .collect()
+    };
+    let inlet = |velocity: f64, spacing: f64, reserve: usize| {
+        Inlet::new("water", opening(0.0), [velocity, 0.0], spacing, reserve)
+    };
+    let with = |inlet: Inlet<2>| problem(pool().inlet(inlet));
+    assert!(pool().inlet(inlet(1.0, 0.01, 100)).build().is_ok());
+    for spacing in [0.0, -0.01, f64::NAN, f64::INFINITY] {
+        let found = with(inlet(1.0, spacing, 100));
+        is_parameter(
+            &found,
+            "spacing of the inlet of body `water`",
+            "finite and positive, in metres",
+        );
+    }
+    incompatible(
+        &with(inlet(1.0, 0.011, 100)),
+        "the inlet of body `water` has a spacing of 0.011 m",
+        "the spacing of the body",
+    );
+    for velocity in [0.0, f64::NAN, f64::INFINITY] {
+        is_parameter(&with(inlet(velocity, 0.01, 100)), "velocity", "in m/s");
+    }
+    is_parameter(
+        &with(inlet(1.0, 0.01, usize::MAX)),
+        "reserve",
+        "must stay below 4e9",
+    );
+    for bad in [f64::NAN, f64::INFINITY] {
+        let inlet = Inlet::new("water", opening(bad), [1.0, 0.0], 0.01, 100);
+        is_parameter(&with(inlet), "opening", "points must be finite");
+    }
+    let closed = Inlet::new("water", Vec::new(), [1.0, 0.0], 0.01, 100);
+    is_parameter(&with(closed), "opening", "at least one point");
+    let solid = Inlet::new("rod", vec![[0.0]], [1.0], DX, 10);
+    incompatible(&problem(good().inlet(solid)), "impact", "scheme of liquids");
+    let unknown = Inlet::new("wine", opening(0.0), [1.0, 0.0], 0.01, 100);
+    assert!(matches!(
+        with(unknown),
+        Problem::UnknownName { kind: "body", .. }
+    ));
+}
+
+#[test]
+fn observers_that_would_read_nothing() {
+    let closed = [[true; 2]; 2];
+    let tank = Wall::around("tank", [0.0; 2], [0.2, 0.1], 0.01, 3, closed);
+    let tank = pool().wall(tank).build().unwrap();
+    let open = pool().build().unwrap();
+    let refused = |error: Error, name: &str, advice: &str| {
+        let Error::Argument(problem) = &error else {
+            panic!("{error:?}");
+        };
+        is_parameter(problem, name, advice);
+    };
+
+    let probe = |x: [f64; 2], normal: [f64; 2], diameter: f64| {
+        PressureProbe::disc(&tank, "p", x, normal, diameter)
+    };
+    let (place, normal) = ([0.2, 0.05], [-1.0, 0.0]);
+    assert!(probe(place, normal, 0.01).unwrap().on_wall(0).is_ok());
+    for normal in [[0.0, 0.0], [f64::NAN, 1.0], [f64::INFINITY, 0.0]] {
+        let error = probe(place, normal, 0.01).unwrap_err();
+        refused(error, "normal of observer `p`", "finite and not zero");
+    }
+    for diameter in [0.0, -0.01, f64::NAN, f64::INFINITY] {
+        let error = probe(place, normal, diameter).unwrap_err();
+        refused(error, "diameter of observer `p`", "finite and positive");
+    }
+    for bad in [f64::NAN, f64::NEG_INFINITY] {
+        let error = probe([0.2, bad], normal, 0.01).unwrap_err();
+        refused(error, "position of observer `p`", "finite, in metres");
+    }
+    // The walls end at 0.23 m, and the kernel reaches 0.03 m beyond their last particles.
+    assert!(probe([0.25, 0.05], normal, 0.01).is_ok());
+    for far in [[0.26, 0.05], [-0.06, 0.05], [0.1, 0.16], [200.0, 50.0]] {
+        let error = probe(far, normal, 0.01).unwrap_err();
+        let advice = "near the bodies and walls of the scene as built";
+        refused(error, "of observer `p`", advice);
+    }
+    let error = probe(place, normal, 0.01).unwrap().on_wall(1).unwrap_err();
+    refused(error, "wall of observer `p`", "index of a wall");
+
+    let gauge = |foot: [f64; 2], axis: usize| WaveGauge::upwards(&tank, "h", foot, axis);
+    // Heights may count from anywhere below.
+    assert!(gauge([0.1, -7.0], 1).unwrap().on_wall(0).is_ok());
+    let error = gauge([0.1, 0.0], 2).unwrap_err();
+    refused(error, "axis of observer `h`", "below the dimension");
+    let error = gauge([0.1, f64::NAN], 1).unwrap_err();
+    refused(error, "position of observer `h`", "finite");
+    let error = gauge([0.3, 0.0], 1).unwrap_err();
+    refused(error, "coordinate 0 of observer `h`", "near the bodies");
+    let error = gauge([0.1, 0.0], 1).unwrap().on_wall(7).unwrap_err();
+    refused(error, "wall of observer `h`", "index of a wall");
+
+    // Without walls liquid can come anywhere.
+    assert!(WaveGauge::upwards(&open, "far", [9.0, 0.0], 1).is_ok());
+    assert!(PressureProbe::disc(&open, "far", [9.0, 0.0], normal, 0.01).is_ok());
+
+    assert!(FlowPlane::new([9.0, 0.0], [1.0, 0.0]).is_ok());
+    let error = FlowPlane::new([0.0; 2], [0.0; 2]).unwrap_err();
+    refused(error, "normal of observer `flow plane`", "not zero");
+    let error = FlowPlane::new([f64::NAN, 0.0], [1.0, 0.0]).unwrap_err();
+    refused(error, "position of observer `flow plane`", "finite");
 }
 
 #[test]

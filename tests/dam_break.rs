@@ -106,10 +106,12 @@ fn the_end_is_a_pool_of_the_same_volume_at_hydrostatic_pressure() {
         .unwrap();
     simulation.run_until(2.0).unwrap();
     let depth = side * side / length;
-    let gauges = [0.05, 0.1, 0.15].map(|x| WaveGauge::upwards("h", [x, 0.0], 1));
+    let places = [0.05, 0.1, 0.15].map(|x| [x, 0.0]);
+    let gauges = places.map(|foot| WaveGauge::upwards(&simulation, "h", foot, 1).unwrap());
     let mean = gauges.iter().map(|g| g.height(&simulation)).sum::<f64>() / 3.0;
     assert!((mean / depth - 1.0).abs() < 0.04, "{mean}");
-    let probes = [0.05, 0.1, 0.15].map(|x| PressureProbe::disc("p", [x, 0.0], [0.0, 1.0], 0.02));
+    let probes =
+        places.map(|x| PressureProbe::disc(&simulation, "p", x, [0.0, 1.0], 0.02).unwrap());
     let pressure = probes.iter().map(|p| p.pressure(&simulation)).sum::<f64>() / 3.0;
     let expected = 1000.0 * GRAVITY * depth;
     assert!(

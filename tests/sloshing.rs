@@ -100,8 +100,9 @@ impl Case {
     }
 }
 
-fn sensor(place: [f64; 2]) -> PressureProbe<2> {
-    PressureProbe::disc("sensor", place, [-1.0, 0.0], 0.02).on_wall(0)
+fn sensor(simulation: &Simulation<f64, 2>, place: [f64; 2]) -> PressureProbe<2> {
+    let sensor = PressureProbe::disc(simulation, "sensor", place, [-1.0, 0.0], 0.02);
+    sensor.unwrap().on_wall(0).unwrap()
 }
 
 /// Times and pressures at places on the struck wall, sampled in every step.
@@ -110,7 +111,10 @@ fn history(
     places: &[[f64; 2]],
     until: f64,
 ) -> Vec<(f64, Vec<f64>)> {
-    let sensors: Vec<_> = places.iter().map(|place| sensor(*place)).collect();
+    let sensors: Vec<_> = places
+        .iter()
+        .map(|place| sensor(simulation, *place))
+        .collect();
     let mut samples = Vec::new();
     simulation
         .run_with(until, |now| {
@@ -231,7 +235,8 @@ fn wall_integral(case: &Case, simulation: &Simulation<f64, 2>) -> f64 {
     for k in 0..count as u32 {
         let z = length * (f64::from(k) + 0.5);
         for (x, outwards) in [(0.0, -1.0), (LENGTH, 1.0)] {
-            let part = PressureProbe::disc("part", [x, z], [-outwards, 0.0], length).on_wall(0);
+            let part = PressureProbe::disc(simulation, "part", [x, z], [-outwards, 0.0], length);
+            let part = part.unwrap().on_wall(0).unwrap();
             sum += outwards * length * part.pressure(simulation);
         }
     }

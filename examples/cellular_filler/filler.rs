@@ -168,7 +168,7 @@ pub fn run<T: Real>(case: &Case, folder: &Path) -> Result<Record, Failure> {
         .all()
         .map(|particle| particle.mass() / 1000.0)
         .sum();
-    let out = FlowPlane::new([size[0], 0.0, 0.0], [1.0, 0.0, 0.0]);
+    let out = FlowPlane::new([size[0], 0.0, 0.0], [1.0, 0.0, 0.0])?;
     let mut record = Record {
         relative_density: cell.relative_density(),
         particles: simulation.particles(),

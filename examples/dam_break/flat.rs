@@ -122,17 +122,18 @@ impl Flat {
         scene
     }
 
-    fn watch(&self) -> Watch<2> {
+    fn watch<T: Real>(&self, now: &Simulation<T, 2>) -> Result<Watch<2>, Error> {
         let sensor = |(k, &z): (usize, &f64)| {
-            let centre = [self.tank[0], z];
-            PressureProbe::disc(&format!("p{}", k + 1), centre, [-1.0, 0.0], self.diameter)
+            let (name, centre) = (format!("p{}", k + 1), [self.tank[0], z]);
+            PressureProbe::disc(now, &name, centre, [-1.0, 0.0], self.diameter)
         };
         // A support of the kernel off the rear wall.
         let rear = [4.0 * self.spacing, 0.0];
-        Watch {
-            probes: self.sensors.iter().enumerate().map(sensor).collect(),
-            gauges: vec![WaveGauge::upwards("rear", rear, 1)],
-        }
+        let probes: Result<_, Error> = self.sensors.iter().enumerate().map(sensor).collect();
+        Ok(Watch {
+            probes: probes?,
+            gauges: vec![WaveGauge::upwards(now, "rear", rear, 1)?],
+        })
     }
 
     /// Runs it, with frames into the folder of the options.
@@ -149,7 +150,7 @@ impl Flat {
             violent::paraview(&mut series, now)?;
             figures::plane(self, now, &options.file(&format!("frame_{k:05}")))
         };
-        let watch = self.watch();
+        let watch = self.watch(&simulation)?;
         violent::run(
             choices.frames,
             &mut simulation,

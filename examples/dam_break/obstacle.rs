@@ -74,7 +74,7 @@ fn scene<T: Real>(spacing: f64, choices: &Choices) -> Result<Scene<T, 3>, Failur
         .acceleration(|_| [0.0, 0.0, -GRAVITY]))
 }
 
-fn watch() -> Watch<3> {
+fn watch<T: Real>(now: &Simulation<T, 3>) -> Result<Watch<3>, Error> {
     let [_, [face, _, top]] = BOX;
     // The sensors are small against any spacing that one can afford.
     let diameter = 0.01;
@@ -82,30 +82,24 @@ fn watch() -> Watch<3> {
     for (k, z) in SENSORS.iter().enumerate() {
         let name = format!("p{}", k + 1);
         let centre = [face, SENSOR_SIDE, *z];
-        probes.push(PressureProbe::disc(
-            &name,
-            centre,
-            [1.0, 0.0, 0.0],
-            diameter,
-        ));
+        let normal = [1.0, 0.0, 0.0];
+        probes.push(PressureProbe::disc(now, &name, centre, normal, diameter)?);
     }
     for (k, behind) in SENSORS.iter().enumerate() {
         let name = format!("p{}", k + 5);
         let centre = [face - behind, SENSOR_SIDE, top];
-        probes.push(PressureProbe::disc(
-            &name,
-            centre,
-            [0.0, 0.0, 1.0],
-            diameter,
-        ));
+        let normal = [0.0, 0.0, 1.0];
+        probes.push(PressureProbe::disc(now, &name, centre, normal, diameter)?);
     }
     let gauge = |(k, x): (usize, &f64)| {
-        WaveGauge::upwards(&format!("h{}", k + 1), [*x, 0.5 * TANK[1], 0.0], 2)
+        let foot = [*x, 0.5 * TANK[1], 0.0];
+        WaveGauge::upwards(now, &format!("h{}", k + 1), foot, 2)
     };
-    Watch {
+    let gauges: Result<_, Error> = GAUGES.iter().enumerate().map(gauge).collect();
+    Ok(Watch {
         probes,
-        gauges: GAUGES.iter().enumerate().map(gauge).collect(),
-    }
+        gauges: gauges?,
+    })
 }
 
 /// Runs the case, writes its tables and figures, and compares where asked to.
@@ -127,7 +121,8 @@ pub fn perform<T: Real>(options: &Options, choices: &Choices) -> Result<(), Fail
         figures::space(now, &options.file(&format!("frame_{k:05}")))
     };
     let frames = choices.frames;
-    let history = violent::run(frames, &mut simulation, until, &watch(), inside, frame)?;
+    let watch = watch(&simulation)?;
+    let history = violent::run(frames, &mut simulation, until, &watch, inside, frame)?;
     println!("{}", history.summary());
     history.write(&options.file("history.csv"), "SPHERIC 2", 5e-4)?;
     figures::obstacle(&history, spacing, choices, options.folder())?;

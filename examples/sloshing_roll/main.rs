@@ -170,10 +170,10 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
     println!("{}", simulation.scheme());
     let sensor = |name: &str, x: f64, normal: f64| {
         // The sensors of the experiment have 9 mm.
-        PressureProbe::disc(name, [x, DEPTH], [normal, 0.0], 0.009).on_wall(0)
+        PressureProbe::disc(&simulation, name, [x, DEPTH], [normal, 0.0], 0.009)?.on_wall(0)
     };
     let watch = Watch {
-        probes: vec![sensor("left", -half, 1.0), sensor("right", half, -1.0)],
+        probes: vec![sensor("left", -half, 1.0)?, sensor("right", half, -1.0)?],
         gauges: Vec::new(),
     };
     let mut series = Pvd::create(options.file("particles.pvd"))?;

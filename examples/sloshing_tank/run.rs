@@ -111,7 +111,7 @@ pub fn run<T: Real>(
     integrals: &[f64],
 ) -> Result<Record, Failure> {
     let mut simulation = case.build::<T>()?;
-    let sensors = case.sensors();
+    let sensors = case.sensors(&simulation)?;
     let mut files = folder
         .map(|folder| Files::create(case, folder))
         .transpose()?;
@@ -159,7 +159,7 @@ pub fn run<T: Real>(
         if integrals.contains(&stop) {
             record
                 .integrals
-                .push((stop, wall_integral(case, &simulation)));
+                .push((stop, wall_integral(case, &simulation)?));
         }
         if stop == SNAPSHOT.min(case.until) {
             let occupied = Occupancy::of(case, &simulation);
@@ -221,7 +221,7 @@ pub fn in_tank<T: Real>(now: &Simulation<T, 3>) -> impl Iterator<Item = ([f64; 3
 
 /// The pressures of sensors all over both ends of the tank, summed with their areas, against the force
 /// of the water along it.
-fn wall_integral<T: Real>(case: &Case, now: &Simulation<T, 3>) -> f64 {
+fn wall_integral<T: Real>(case: &Case, now: &Simulation<T, 3>) -> Result<f64, Error> {
     let [length, width, height] = case.size;
     let counts = [width, height].map(|size| (size / case.spacing).round().max(1.0) as usize);
     let area = width * height / (counts[0] * counts[1]) as f64;
@@ -232,11 +232,11 @@ fn wall_integral<T: Real>(case: &Case, now: &Simulation<T, 3>) -> f64 {
         let z = height * place[1] / counts[1] as f64;
         for (x, outwards) in [(0.0, -1.0), (length, 1.0)] {
             let normal = [-outwards, 0.0, 0.0];
-            let part = PressureProbe::disc("part", [x, y, z], normal, case.spacing).on_wall(0);
-            sum += outwards * area * part.pressure(now);
+            let part = PressureProbe::disc(now, "part", [x, y, z], normal, case.spacing)?;
+            sum += outwards * area * part.on_wall(0)?.pressure(now);
         }
     }
-    sum / now.wall_force(0)[0] - 1.0
+    Ok(sum / now.wall_force(0)[0] - 1.0)
 }
 
 fn far_wall<T: Real>(case: &Case, now: &Simulation<T, 3>) -> FarWall {

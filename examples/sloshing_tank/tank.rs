@@ -139,11 +139,15 @@ impl Case {
     }
 
     /// The sensors, on the wall that the scene has.
-    pub fn sensors(&self) -> Vec<PressureProbe<3>> {
+    pub fn sensors<T: Real>(
+        &self,
+        simulation: &Simulation<T, 3>,
+    ) -> Result<Vec<PressureProbe<3>>, Error> {
         let sensor = |probe: &[f64; 3]| {
             let normal = self.normal(probe)?;
             let name = format!("{},{},{}", probe[0], probe[1], probe[2]);
-            Some(PressureProbe::disc(&name, *probe, normal, SENSOR).on_wall(0))
+            let sensor = PressureProbe::disc(simulation, &name, *probe, normal, SENSOR);
+            Some(sensor.and_then(|sensor| sensor.on_wall(0)))
         };
         self.probes.iter().filter_map(sensor).collect()
     }

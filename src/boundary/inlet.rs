@@ -2,6 +2,7 @@
 //! A buffer of moving wall particles stands behind the opening and hands over its front layer.
 
 use super::{Motion, Pose, Wall};
+use crate::geometry::{MOST_PARTICLES, POSITIVE};
 use crate::tensor::{Vector, length};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -36,8 +37,8 @@ pub struct Inlet<const D: usize> {
 
 impl<const D: usize> Inlet<D> {
     /// Lets particles of `body` enter at `velocity` \[m/s\] through an `opening`, given as the points
-    /// \[m\] of its plane that have a particle each, `spacing` apart. `reserve` particles can enter, less
-    /// those that left: memory for them is kept from the start.
+    /// \[m\] of its plane that have a particle each, `spacing` \[m\] apart, which is that of the body.
+    /// `reserve` particles can enter, less those that left: memory for them is kept from the start.
     #[must_use]
     pub fn new(
         body: &str,
@@ -92,10 +93,20 @@ impl<const D: usize> Inlet<D> {
         let mut problems = Vec::new();
         let speed = length(&Vector::from(self.velocity));
         if !speed.is_finite() || speed == 0.0 {
-            problems.push(("velocity", speed, "must be finite and not zero, in m/s"));
+            problems.push(("velocity", speed, "it must be finite and not zero, in m/s"));
         }
         if self.opening.is_empty() {
-            problems.push(("opening", 0.0, "must have at least one point"));
+            problems.push(("opening", 0.0, "it must have at least one point"));
+        }
+        if let Some(&bad) = self.opening.iter().flatten().find(|x| !x.is_finite()) {
+            problems.push(("opening", bad, "its points must be finite, in metres"));
+        }
+        if !(self.spacing.is_finite() && self.spacing > 0.0) {
+            problems.push(("spacing", self.spacing, POSITIVE));
+        }
+        if self.reserve as f64 > MOST_PARTICLES {
+            let must_be = "memory for it is kept from the start: it must stay below 4e9 particles";
+            problems.push(("reserve", self.reserve as f64, must_be));
         }
         problems
     }

@@ -2,6 +2,7 @@
 //! A wall particle takes its pressure from the liquid before it (Adami, Hu & Adams 2012).
 
 use super::Motion;
+use crate::geometry::{FEWER, Flaw, MOST_PARTICLES, POSITIVE};
 use std::sync::Arc;
 
 /// Whether liquid slides along a wall.
@@ -41,6 +42,7 @@ pub struct Wall<const D: usize> {
     pub(crate) slip: Slip,
     pub(crate) sliding: [f64; D],
     pub(crate) carries: bool,
+    pub(crate) shape: Result<(), Flaw>,
 }
 
 impl<const D: usize> Wall<D> {
@@ -55,6 +57,7 @@ impl<const D: usize> Wall<D> {
             slip: Slip::Free,
             sliding: [0.0; D],
             carries: false,
+            shape: Ok(()),
         }
     }
 
@@ -72,18 +75,39 @@ impl<const D: usize> Wall<D> {
         layers: usize,
         closed: [[bool; 2]; D],
     ) -> Self {
-        let counts: [i64; D] =
-            core::array::from_fn(|d| ((high[d] - low[d]) / spacing).round().max(1.0) as i64);
-        let depth = layers as i64;
-        let first: [i64; D] = core::array::from_fn(|d| if closed[d][0] { -depth } else { 0 });
+        let size: [f64; D] = core::array::from_fn(|d| high[d] - low[d]);
+        let refused = |flaw: Flaw| Self {
+            shape: Err(flaw),
+            ..Self::of(name, Vec::new(), spacing)
+        };
+        if !(spacing.is_finite() && spacing > 0.0) {
+            return refused(("spacing", spacing, POSITIVE));
+        }
+        if let Some(&bad) = size.iter().find(|s| !(s.is_finite() && **s > 0.0)) {
+            return refused((
+                "size",
+                bad,
+                "corners must be finite and in order, in metres",
+            ));
+        }
+        let most = 2.0 * MOST_PARTICLES;
+        let counts = size.map(|s| (s / spacing).round().clamp(1.0, most) as i64);
+        let depth = layers.min(most as usize) as i64;
+        let first = closed.map(|[lower, _]| if lower { -depth } else { 0 });
         let last: [i64; D] =
             core::array::from_fn(|d| counts[d] + if closed[d][1] { depth } else { 0 });
+        let total: f64 = (0..D).map(|d| (last[d] - first[d]) as f64).product();
+        let inside: f64 = counts.iter().map(|&n| n as f64).product();
         let mut points = Vec::new();
+        let room = (total - inside) as usize;
+        if total > MOST_PARTICLES || points.try_reserve_exact(room).is_err() {
+            return refused(("number of particles", total, FEWER));
+        }
         let mut at = first;
         'all: loop {
             if (0..D).any(|d| at[d] < 0 || at[d] >= counts[d]) {
                 points.push(core::array::from_fn(|d| {
-                    low[d] + (high[d] - low[d]) * (at[d] as f64 + 0.5) / counts[d] as f64
+                    low[d] + size[d] * (at[d] as f64 + 0.5) / counts[d] as f64
                 }));
             }
             for d in 0..D {
@@ -96,10 +120,8 @@ impl<const D: usize> Wall<D> {
             break;
         }
         // Of the volume of a cell as fitted, as the liquid's are: the force on the wall is in proportion.
-        let volume: f64 = (0..D)
-            .map(|d| (high[d] - low[d]) / counts[d] as f64)
-            .product();
-        Self::of(name, points, volume.abs().powf(1.0 / D as f64))
+        let volume: f64 = (0..D).map(|d| size[d] / counts[d] as f64).product();
+        Self::of(name, points, volume.powf(1.0 / D as f64))
     }
 
     /// Gives it a prescribed motion.

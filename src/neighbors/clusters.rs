@@ -2,8 +2,7 @@
 //! A row of W particles shares one list, so the pair loop broadcasts each neighbour to full lanes.
 
 use super::cells::Cells;
-use crate::scalar::{Lane, Mask, Real};
-use crate::sweep::InstructionSet;
+use crate::scalar::{InstructionSet, Lane, Mask, Real};
 use rayon::prelude::*;
 use std::ops::Range;
 

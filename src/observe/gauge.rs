@@ -1,50 +1,60 @@
 //! Wave gauges: the height of the free surface along a line.
 //! The surface is where the liquid fills half of the kernel.
 
+use super::place::{Place, refused};
 use super::{normalisation, weight};
+use crate::error::Result;
 use crate::scalar::Real;
 use crate::simulation::Simulation;
 
 /// A gauge that measures from its foot along an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WaveGauge<const D: usize> {
-    name: String,
-    foot: [f64; D],
+    foot: Place<D>,
     axis: usize,
-    wall: Option<usize>,
 }
 
 impl<const D: usize> WaveGauge<D> {
     /// From `foot` \[m\] along `axis` (2 is z), upwards. Keep it a support away from walls, which take
     /// away part of the liquid's side.
-    #[must_use]
-    pub fn upwards(name: &str, foot: [f64; D], axis: usize) -> Self {
-        Self {
-            name: name.into(),
-            foot,
-            axis: axis.min(D - 1),
-            wall: None,
+    ///
+    /// # Errors
+    /// If the foot is not finite, the axis not below the dimension, or the line
+    /// [outside of the scene](super#places).
+    pub fn upwards<T: Real>(
+        simulation: &Simulation<T, D>,
+        name: &str,
+        foot: [f64; D],
+        axis: usize,
+    ) -> Result<Self> {
+        if axis >= D {
+            let must_be = "it must be below the dimension: 0 is x, 1 is y, 2 is z";
+            return Err(refused(name, "axis", axis as f64, must_be));
         }
+        let foot = Place::new(simulation, name, foot, Some(axis))?;
+        Ok(Self { foot, axis })
     }
 
     /// Fixes its foot to a wall, by its index; the axis keeps its direction.
-    #[must_use]
-    pub fn on_wall(mut self, wall: usize) -> Self {
-        self.wall = Some(wall);
-        self
+    ///
+    /// # Errors
+    /// If the scene does not have that wall.
+    pub fn on_wall(self, wall: usize) -> Result<Self> {
+        let foot = self.foot.on_wall(wall)?;
+        Ok(Self { foot, ..self })
     }
 
     /// Its name.
     #[must_use]
     pub fn name(&self) -> &str {
-        &self.name
+        &self.foot.name
     }
 
     /// Height \[m\] above the foot of the highest point at which liquid fills half of the kernel, zero
     /// where there is none: drops thinner than a kernel are not seen.
     #[must_use]
     pub fn height<T: Real>(&self, simulation: &Simulation<T, D>) -> f64 {
-        let foot = simulation.wall_pose(self.wall).of(0, &self.foot);
+        let foot = self.foot.pose(simulation).of(0, &self.foot.point);
         let h = simulation.smoothing_length();
         let norm = normalisation(D) / h.powi(D as i32);
         let mut column: Vec<(f64, f64, f64)> = Vec::new();

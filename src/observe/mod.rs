@@ -22,16 +22,24 @@
 //!     .wall(Wall::around("tank", [0.0; 2], [0.3, 0.3], 0.02, 3, [[true, true], [true, false]]))
 //!     .acceleration(|_| [0.0, -9.81])
 //!     .build()?;
-//! let probe = PressureProbe::disc("bottom", [0.15, 0.0], [0.0, 1.0], 0.02);
-//! let gauge = WaveGauge::upwards("middle", [0.15, 0.0], 1);
+//! let probe = PressureProbe::disc(&simulation, "bottom", [0.15, 0.0], [0.0, 1.0], 0.02)?;
+//! let gauge = WaveGauge::upwards(&simulation, "middle", [0.15, 0.0], 1)?;
 //! simulation.run_until(0.3)?;
 //! let expected = 1000.0 * 9.81 * depth;
 //! assert!((probe.pressure(&simulation) / expected - 1.0).abs() < 0.1);
 //! assert!((gauge.height(&simulation) - depth).abs() < 0.01);
 //! # Ok::<(), Error>(())
 //! ```
+//!
+//! # Places
+//!
+//! A probe or gauge is put into a simulation, which refuses one that would read nothing because it is
+//! outside of the scene: farther than the kernel reaches from the box around its bodies and walls as
+//! built. Where walls alone do not bound a scene, because it has none or has other boundaries or inlets
+//! too, liquid can come anywhere, and every place is accepted.
 
 mod gauge;
+mod place;
 mod plane;
 mod probe;
 

@@ -1,8 +1,11 @@
 //! Flow through a plane: the mass beyond it, what has left through outlets included.
 //! The rate is the change of that mass between two readings.
 
+use super::place::{DIRECTION, refused};
+use crate::error::Result;
 use crate::scalar::Real;
 use crate::simulation::Simulation;
+use crate::tensor::{Vector, length};
 
 /// A plane that liquid flows through.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,13 +17,28 @@ pub struct FlowPlane<const D: usize> {
 
 impl<const D: usize> FlowPlane<D> {
     /// Through `point` \[m\]; `normal` points to the side whose mass counts.
-    #[must_use]
-    pub fn new(point: [f64; D], normal: [f64; D]) -> Self {
-        Self {
+    ///
+    /// # Errors
+    /// If the point is not finite, or the normal zero or not finite.
+    pub fn new(point: [f64; D], normal: [f64; D]) -> Result<Self> {
+        if let Some(&bad) = point.iter().find(|x| !x.is_finite()) {
+            let must_be = "it must be finite, in metres";
+            return Err(refused("flow plane", "position", bad, must_be));
+        }
+        let size = length(&Vector::from(normal));
+        if !(size.is_finite() && size > 0.0) {
+            return Err(refused(
+                "flow plane",
+                "length of the normal",
+                size,
+                DIRECTION,
+            ));
+        }
+        Ok(Self {
             point,
             normal,
             last: None,
-        }
+        })
     }
 
     /// Mass \[kg\] beyond the plane, with what has left through [outlets](crate::boundary::Outlet).

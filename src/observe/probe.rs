@@ -1,7 +1,10 @@
 //! Pressure on a wall: averaged over a disc as a sensor does, and as force over area.
 //! A probe moves with the wall that it is fixed to.
 
+use super::place::{DIRECTION, Place, refused};
 use super::{normalisation, weight};
+use crate::error::Result;
+use crate::geometry::POSITIVE;
 use crate::scalar::Real;
 use crate::simulation::Simulation;
 use crate::tensor::{Vector, length};
@@ -20,44 +23,57 @@ const RINGS: usize = 2;
 /// wall leave empty counts with no pressure, as the dry part of a sensor does.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PressureProbe<const D: usize> {
-    name: String,
-    centre: [f64; D],
+    centre: Place<D>,
     normal: [f64; D],
     diameter: f64,
-    wall: Option<usize>,
 }
 
 impl<const D: usize> PressureProbe<D> {
     /// A sensor of `diameter` \[m\] around `centre` \[m\] on a surface with `normal`, in the scene as built.
-    #[must_use]
-    pub fn disc(name: &str, centre: [f64; D], normal: [f64; D], diameter: f64) -> Self {
+    ///
+    /// # Errors
+    /// If the centre is not finite or [outside of the scene](super#places), the normal zero or not
+    /// finite, or the diameter not positive.
+    pub fn disc<T: Real>(
+        simulation: &Simulation<T, D>,
+        name: &str,
+        centre: [f64; D],
+        normal: [f64; D],
+        diameter: f64,
+    ) -> Result<Self> {
         let size = length(&Vector::from(normal));
-        Self {
-            name: name.into(),
-            centre,
+        if !(size.is_finite() && size > 0.0) {
+            return Err(refused(name, "length of the normal", size, DIRECTION));
+        }
+        if !(diameter.is_finite() && diameter > 0.0) {
+            return Err(refused(name, "diameter", diameter, POSITIVE));
+        }
+        Ok(Self {
+            centre: Place::new(simulation, name, centre, None)?,
             normal: normal.map(|n| n / size),
             diameter,
-            wall: None,
-        }
+        })
     }
 
     /// Fixes it to a wall, by its index, whose motion it follows.
-    #[must_use]
-    pub fn on_wall(mut self, wall: usize) -> Self {
-        self.wall = Some(wall);
-        self
+    ///
+    /// # Errors
+    /// If the scene does not have that wall.
+    pub fn on_wall(self, wall: usize) -> Result<Self> {
+        let centre = self.centre.on_wall(wall)?;
+        Ok(Self { centre, ..self })
     }
 
     /// Its name.
     #[must_use]
     pub fn name(&self) -> &str {
-        &self.name
+        &self.centre.name
     }
 
     /// Where it is in the scene as built \[m\].
     #[must_use]
     pub fn centre(&self) -> [f64; D] {
-        self.centre
+        self.centre.point
     }
 
     /// Points of the disc, of equal area, in the scene as built.
@@ -75,8 +91,8 @@ impl<const D: usize> PressureProbe<D> {
             axes.push(axis / length(&axis));
         }
         let radius = 0.5 * self.diameter;
-        let centre = Vector::from(self.centre);
-        let mut points = vec![self.centre];
+        let centre = Vector::from(self.centre.point);
+        let mut points = vec![self.centre.point];
         match axes.as_slice() {
             [] => {}
             [along] => {
@@ -106,14 +122,14 @@ impl<const D: usize> PressureProbe<D> {
     /// The pressure \[Pa\] averaged over the disc, at the last evaluation; zero where it is dry.
     #[must_use]
     pub fn pressure<T: Real>(&self, simulation: &Simulation<T, D>) -> f64 {
-        let pose = simulation.wall_pose(self.wall);
+        let pose = self.centre.pose(simulation);
         let points: Vec<[f64; D]> = self.points().iter().map(|x| pose.of(0, x)).collect();
         let h = simulation.smoothing_length();
         let reach = 2.0 * h + 0.5 * self.diameter;
         let norm = normalisation(D) / h.powi(D as i32);
         // Σ V W and Σ V p W, over liquid and over walls.
         let mut sums = vec![[[0.0; 2]; 2]; points.len()];
-        simulation.near(&pose.of(0, &self.centre), reach, |particle| {
+        simulation.near(&pose.of(0, &self.centre.point), reach, |particle| {
             let x = particle.position();
             let volume = particle.mass() / particle.density() * norm;
             let side = usize::from(!simulation.is_mobile(&particle));
@@ -144,8 +160,8 @@ impl<const D: usize> PressureProbe<D> {
     /// wall, over the area of their columns: the pressure that the wall really feels.
     #[must_use]
     pub fn contact_pressure<T: Real>(&self, simulation: &Simulation<T, D>) -> f64 {
-        let pose = simulation.wall_pose(self.wall);
-        let centre = Vector::<f64, D>::from(pose.of(0, &self.centre));
+        let pose = self.centre.pose(simulation);
+        let centre = Vector::<f64, D>::from(pose.of(0, &self.centre.point));
         let normal = pose.linear[0] * Vector::from(self.normal);
         let (mut force, mut columns) = (0.0, 0_usize);
         let spacing = simulation.spacing();
@@ -172,15 +188,24 @@ mod tests {
 
     #[test]
     fn points_lie_on_the_disc_and_balance() {
-        let probe = PressureProbe::disc("p", [1.0, 2.0, 3.0], [0.0, 3.0, 4.0], 0.2);
+        let probe = PressureProbe {
+            centre: Place {
+                name: "p".into(),
+                point: [1.0, 2.0, 3.0],
+                wall: None,
+                walls: 0,
+            },
+            normal: [0.0, 0.6, 0.8],
+            diameter: 0.2,
+        };
         let points = probe.points();
         assert_eq!(points.len(), 19);
         let mut mean = [0.0; 3];
         for x in &points {
             let along: f64 = (0..3)
-                .map(|d| (x[d] - probe.centre[d]) * probe.normal[d])
+                .map(|d| (x[d] - probe.centre()[d]) * probe.normal[d])
                 .sum();
-            let r2: f64 = (0..3).map(|d| (x[d] - probe.centre[d]).powi(2)).sum();
+            let r2: f64 = (0..3).map(|d| (x[d] - probe.centre()[d]).powi(2)).sum();
             assert!(along.abs() < 1e-15 && r2.sqrt() < 0.1);
             for d in 0..3 {
                 mean[d] += x[d] / 19.0;
@@ -191,12 +216,12 @@ mod tests {
             .iter()
             .map(|x| {
                 (0..3)
-                    .map(|d| (x[d] - probe.centre[d]).powi(2))
+                    .map(|d| (x[d] - probe.centre()[d]).powi(2))
                     .sum::<f64>()
                     / 19.0
             })
             .sum();
         assert!((spread / 0.005 - 1.0).abs() < 0.06, "{spread}");
-        assert!((0..3).all(|d| (mean[d] - probe.centre[d]).abs() < 1e-14));
+        assert!((0..3).all(|d| (mean[d] - probe.centre()[d]).abs() < 1e-14));
     }
 }

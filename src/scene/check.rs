@@ -18,6 +18,8 @@ const AROUND: f64 = 0.95;
 /// Share of the spacing below which two particles of one body are the same particle twice: within a
 /// body a user may place points as densely as a gas needs.
 const SAME: f64 = 6e-4;
+/// Share by which the spacing of an inlet may differ from that of its body, as the density that enters.
+const SAME_SPACING: f64 = 1e-3;
 
 /// How many particles of another body around one are an overlap.
 const fn surrounding(dimension: usize) -> usize {
@@ -38,6 +40,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         self.check_scheme(&mut problems);
         self.check_names(&mut problems);
         self.check_boundaries(&mut problems);
+        self.check_openings(&mut problems);
         self.check_walls(&mut problems);
         if problems.is_empty() {
             self.check_overlap(&mut problems);
@@ -229,7 +232,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
         }
     }
 
-    fn check_walls(&self, problems: &mut Vec<Problem>) {
+    /// Inlets and outlets.
+    fn check_openings(&self, problems: &mut Vec<Problem>) {
         for inlet in &self.inlets {
             for (what, value, must_be) in inlet.problems() {
                 problems.push(Problem::Parameter {
@@ -238,12 +242,33 @@ impl<T: Real, const D: usize> Scene<T, D> {
                     must_be,
                 });
             }
-            if !self.bodies.iter().any(|body| body.name == inlet.body) {
+            if self.scheme.liquid.is_none() {
+                problems.push(Problem::Incompatible {
+                    what: format!(
+                        "the inlet of body `{}` has a buffer of wall particles, which the scheme {} does not see",
+                        inlet.body, self.scheme.name
+                    ),
+                    remedy: "take a scheme of liquids (schemes::weakly_compressible)",
+                });
+            }
+            let Some(body) = self.bodies.iter().find(|body| body.name == inlet.body) else {
                 let known: Vec<_> = self.bodies.iter().map(|body| body.name.as_str()).collect();
                 problems.push(Problem::UnknownName {
                     kind: "body",
                     name: inlet.body.clone(),
                     known: known.join(", "),
+                });
+                continue;
+            };
+            // What is no number has its own problem.
+            let off = (inlet.spacing - body.spacing).abs();
+            if inlet.spacing > 0.0 && off.is_finite() && off > SAME_SPACING * body.spacing {
+                problems.push(Problem::Incompatible {
+                    what: format!(
+                        "the inlet of body `{}` has a spacing of {} m, and the body of {} m as fitted to its shape",
+                        body.name, inlet.spacing, body.spacing
+                    ),
+                    remedy: "give the inlet the spacing of the body, or the flow has another density",
                 });
             }
         }
@@ -254,6 +279,9 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 must_be,
             });
         }
+    }
+
+    fn check_walls(&self, problems: &mut Vec<Problem>) {
         let spacing = self.bodies.first().map_or(0.0, |body| body.spacing);
         for (k, wall) in self.walls.iter().enumerate() {
             if self.scheme.liquid.is_none() {
@@ -273,11 +301,6 @@ impl<T: Real, const D: usize> Scene<T, D> {
                     remedy: "give every body and wall a name of its own",
                 });
             }
-            if wall.points.is_empty() {
-                problems.push(Problem::EmptyBody {
-                    body: wall.name.clone(),
-                });
-            }
             let mut parameter = |what: &str, value: f64, must_be: &'static str| {
                 problems.push(Problem::Parameter {
                     what: format!("{what} of wall `{}`", wall.name),
@@ -285,6 +308,10 @@ impl<T: Real, const D: usize> Scene<T, D> {
                     must_be,
                 });
             };
+            if let Err((what, value, must_be)) = wall.shape {
+                parameter(what, value, must_be);
+                continue;
+            }
             if let Some(&bad) = wall.points.iter().flatten().find(|x| !x.is_finite()) {
                 parameter("position", bad, "it must be finite, in metres");
             }
@@ -312,6 +339,11 @@ impl<T: Real, const D: usize> Scene<T, D> {
                     f64::NAN,
                     "position, velocity and acceleration must be finite: look for gaps in its table",
                 );
+            }
+            if wall.points.is_empty() {
+                problems.push(Problem::EmptyBody {
+                    body: wall.name.clone(),
+                });
             }
         }
         let bad = |load: &Load<D>| load(0.0).into_iter().find(|a| !a.is_finite());

@@ -196,6 +196,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         if !problems.is_empty() {
             return Err(Error::Build(BuildError { problems }));
         }
+        let domain = self.domain();
         let emitters = self.place_inlets();
         let interactions = self.interactions();
         let unilateral = interactions.contains(&Interaction::Unilateral);
@@ -272,6 +273,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         group.instructions = self.instructions;
         group.outlets = self.outlets;
         group.emitters = emitters;
+        group.domain = domain;
         for body in &group.bodies {
             for id in body.slots.end..body.ids.end {
                 group.slot_of[id] = u32::MAX;
@@ -341,6 +343,21 @@ impl<T: Real, const D: usize> Scene<T, D> {
             emitters.extend(fed.map(|body| (body, emitter)));
         }
         emitters
+    }
+
+    /// The box around bodies and walls \[m\], where walls alone bound the scene.
+    fn domain(&self) -> Option<[[f64; D]; 2]> {
+        if self.walls.is_empty() || !self.inlets.is_empty() || !self.boundaries.is_empty() {
+            return None;
+        }
+        let bodies = self.bodies.iter().flat_map(|body| &body.points);
+        let all = bodies.chain(self.walls.iter().flat_map(|wall| &wall.points));
+        let start = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
+        Some(all.fold(start, |[low, high], x| {
+            let corner =
+                |of: fn(f64, f64) -> f64, far: [f64; D]| core::array::from_fn(|d| of(far[d], x[d]));
+            [corner(f64::min, low), corner(f64::max, high)]
+        }))
     }
 
     /// Mass \[kg\] of a wall particle: its volume, filled with the first liquid at rest.

@@ -386,13 +386,7 @@ impl<K, V, W, R, S, const MODES: u8, const RENORMALISED: bool>
         };
         Scheme {
             name: self.name,
-            kernel: KernelFacts {
-                name: kernel.name(),
-                support: kernel.support(),
-                h_over_dx: kernel.h_over_dx(),
-                range: kernel.h_over_dx_range(),
-                stable_step: kernel.stable_step(),
-            },
+            kernel: KernelFacts::of(&kernel),
             density: self.density,
             pressure_form: self.density,
             energy: EnergyForm::None,
@@ -473,6 +467,7 @@ where
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kernel::WendlandC2;
     use crate::particles::Output;
     use crate::schemes::weakly_compressible;
     use crate::term::{Antuono, LaminarViscosity};
@@ -521,5 +516,16 @@ mod tests {
         let shifted = weakly_compressible().shifting(Shifting::STANDARD).compose();
         assert_eq!(sums(&shifted)[2..], [Output::Moment, Output::Crowding]);
         assert_eq!(shifted.fields(), plain.fields());
+    }
+    #[test]
+    fn the_moment_of_a_lattice_is_that_of_its_sum() {
+        // Σ r |dW/dr| / 2 over the unit lattice, with the slope by differences of W.
+        for (h_over_dx, expected) in [(1.3, 0.973_921), (1.5, 0.997_399)] {
+            let moment = lattice_moment::<_, 2>(&WendlandC2, h_over_dx);
+            assert!((moment - expected).abs() < 1e-6, "{h_over_dx}: {moment}");
+        }
+        // In a row at h = dx the neighbours at 1 alone count, W' = -5/8 · 3 q (1 - q/2)² = -15/32.
+        let row = lattice_moment::<_, 1>(&WendlandC2, 1.0);
+        assert!((row - 15.0 / 16.0).abs() < 1e-15, "{row}");
     }
 }

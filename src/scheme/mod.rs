@@ -110,6 +110,18 @@ pub struct KernelFacts {
     pub stable_step: f64,
 }
 
+impl KernelFacts {
+    fn of<const D: usize>(kernel: &impl Kernel<D>) -> Self {
+        Self {
+            name: kernel.name(),
+            support: kernel.support(),
+            h_over_dx: kernel.h_over_dx(),
+            range: kernel.h_over_dx_range(),
+            stable_step: kernel.stable_step(),
+        }
+    }
+}
+
 /// A composed scheme: what a group of bodies obeys. Built by [`SchemeBuilder`], or ready in
 /// [`schemes`](crate::schemes).
 #[derive(Debug)]
@@ -503,13 +515,7 @@ impl<K, V, const MODES: u8, const CURVED: bool> SchemeBuilder<K, V, MODES, CURVE
         };
         Scheme {
             name: self.name,
-            kernel: KernelFacts {
-                name: kernel.name(),
-                support: kernel.support(),
-                h_over_dx: kernel.h_over_dx(),
-                range: kernel.h_over_dx_range(),
-                stable_step: kernel.stable_step(),
-            },
+            kernel: KernelFacts::of(&kernel),
             density: self.density,
             pressure_form: self.pressure_form.unwrap_or(self.density),
             energy: self.energy,

@@ -58,8 +58,10 @@ mod damping;
 mod energy;
 mod evaluate;
 mod group;
+mod images;
 mod ledger;
 mod phases;
+mod population;
 mod query;
 mod shift;
 mod switching;
@@ -71,8 +73,9 @@ pub use ledger::{Budget, Ledger};
 pub use phases::Phases;
 pub use query::ParticleView;
 
-pub use group::Removed;
-pub(crate) use group::{BodyState, Group, WallState, width};
+pub(crate) use group::{BodyState, Group, width};
+pub use population::Removed;
+pub(crate) use walls::WallState;
 
 use crate::error::{Error, Problem, Result};
 use crate::integrator::Integrator;

@@ -2,7 +2,7 @@
 //! Values come out as `f64`, whatever the scalar of the simulation.
 
 use super::Simulation;
-use super::group::Removed;
+use super::population::Removed;
 use crate::boundary::Pose;
 use crate::particles::{Field, Output};
 use crate::scalar::Real;

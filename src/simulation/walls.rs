@@ -1,14 +1,113 @@
-//! Walls of particles: their pressure, and the velocity that makes a liquid stick to them.
+//! Walls of particles: their places, their pressure, and the velocity that makes a liquid stick to them.
 //! Adami, Hu & Adams 2012; a wall floor keeps separating liquid from being held.
 
 use super::evaluate::GRAIN;
 use super::group::Group;
-use crate::boundary::Slip;
+use crate::boundary::{Motion, Pose, Slip};
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
+use crate::tensor::determinant;
 use rayon::prelude::*;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// A wall in a simulation: particles that a motion places.
+#[derive(Clone, Debug)]
+pub(crate) struct WallState<const D: usize> {
+    pub name: String,
+    /// Slots of its particles; the rest of the last cluster repeats the last of them.
+    pub slots: Range<usize>,
+    pub end: usize,
+    /// Where its particles were in the scene, by identity.
+    pub rest: Vec<[f64; D]>,
+    pub motion: Option<Arc<dyn Motion<D>>>,
+    pub slip: Slip,
+    /// Velocity of its surface beside its motion \[m/s\].
+    pub sliding: [f64; D],
+    pub carries: bool,
+    /// Mass of a particle as built, in the liquid's density \[kg\].
+    pub mass: f64,
+}
 
 impl<T: Real, const D: usize> Group<T, D> {
+    /// Brings walls that move to their places, and gives all walls their own velocity.
+    pub(super) fn place_walls(&mut self, time: f64) {
+        self.body_force = self.gravity.map(T::from_f64);
+        for wall in &self.walls {
+            let pose = wall.motion.as_ref().map(|motion| match self.chord {
+                Some(ends) => motion
+                    .pose(time)
+                    .on_chord(ends.map(|end| motion.pose(end)), ends),
+                None => motion.pose(time),
+            });
+            if wall.carries {
+                let acceleration = pose
+                    .as_ref()
+                    .map_or([0.0; D], |pose| pose.of(2, &wall.rest[0]));
+                for d in 0..D {
+                    self.body_force[d] -= T::from_f64(acceleration[d]);
+                }
+            }
+            // What sticks to a wall at rest has overwritten its velocity.
+            if pose.is_none() && self.rebuilds > 0 {
+                if wall.slip == Slip::None {
+                    let own = wall.slots.start..wall.end;
+                    let v = wall.sliding.map(T::from_f64);
+                    self.columns.vectors_mut(Field::Velocity)[own].fill(v);
+                }
+                continue;
+            }
+            let pose = pose.unwrap_or_else(Pose::rest);
+            // A wall that is crushed has its particles closer, and each stands for less volume.
+            let mass = T::from_f64(wall.mass * determinant(&pose.linear[0]).abs());
+            if let Some(masses) = self
+                .columns
+                .raw_mut(Field::Mass)
+                .get_mut(wall.slots.start..wall.end)
+            {
+                masses.fill(mass);
+            }
+            for slot in wall.slots.start..wall.end {
+                let at = (self.ids[slot] as usize - wall.slots.start).min(wall.rest.len() - 1);
+                let (x, own) = (pose.of(0, &wall.rest[at]), pose.of(1, &wall.rest[at]));
+                let v: [f64; D] = core::array::from_fn(|d| own[d] + wall.sliding[d]);
+                let rounded = x.map(T::from_f64);
+                self.columns.vectors_mut(Field::Position)[slot] = rounded;
+                self.columns.vectors_mut(Field::Velocity)[slot] = v.map(T::from_f64);
+                if let Some(residual) = self
+                    .columns
+                    .vectors_mut(Field::PositionResidual)
+                    .get_mut(slot)
+                {
+                    *residual = core::array::from_fn(|d| T::from_f64(x[d] - rounded[d].to_f64()));
+                }
+                for boundary in &self.boundaries {
+                    if let Some(back) = boundary.wrap(&rounded) {
+                        let [x, residual, v] = self.columns.many_mut([
+                            Field::Position,
+                            Field::PositionResidual,
+                            Field::Velocity,
+                        ]);
+                        back.re_enter(slot, x, residual, v);
+                    }
+                }
+            }
+        }
+    }
+
+    /// How far the wall that carries the liquid has gone since the last list build \[m\].
+    pub(super) fn carried(&self, time: f64) -> [f64; D] {
+        let Some(wall) = self.walls.iter().find(|wall| wall.carries) else {
+            return [0.0; D];
+        };
+        let Some(motion) = &wall.motion else {
+            return [0.0; D];
+        };
+        let now = motion.pose(time).of(0, &wall.rest[0]);
+        let then = motion.pose(self.listed_time).of(0, &wall.rest[0]);
+        core::array::from_fn(|d| now[d] - then[d])
+    }
+
     /// Gives wall particles the pressure of the liquid before them, and where it sticks to them the
     /// mirrored velocity and the viscosity.
     pub fn fill_walls(&mut self, time: f64) {

@@ -50,6 +50,8 @@ pub(crate) use records::two_sum;
 pub use records::{Image, Records, Transform};
 pub use rows::{Reaction, Rows};
 
+pub use crate::scalar::InstructionSet;
+
 /// What a pair of blocks does to each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Interaction {
@@ -93,53 +95,5 @@ impl SmoothingMode {
     #[must_use]
     pub const fn bit(self) -> u8 {
         1 << self as u8
-    }
-}
-
-/// The instruction set that the pair loop runs on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum InstructionSet {
-    /// What every machine of the target has; no fused multiply-add, the same bits everywhere.
-    Baseline,
-    /// x86-64 with AVX2 and FMA.
-    Avx2,
-    /// x86-64 with AVX-512 F, VL and DQ.
-    Avx512,
-}
-
-impl InstructionSet {
-    /// The best that this machine has.
-    #[must_use]
-    pub fn detect() -> Self {
-        #[cfg(target_arch = "x86_64")]
-        {
-            if is_x86_feature_detected!("avx512f")
-                && is_x86_feature_detected!("avx512vl")
-                && is_x86_feature_detected!("avx512dq")
-                && is_x86_feature_detected!("fma")
-            {
-                return Self::Avx512;
-            }
-            if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
-                return Self::Avx2;
-            }
-        }
-        Self::Baseline
-    }
-
-    /// The set itself if this machine has it, the baseline if not.
-    #[must_use]
-    pub fn or_baseline(self) -> Self {
-        if self.available() {
-            self
-        } else {
-            Self::Baseline
-        }
-    }
-
-    /// Whether this machine has it.
-    #[must_use]
-    pub fn available(self) -> bool {
-        self <= Self::detect()
     }
 }

@@ -1,6 +1,5 @@
 //! Rheology: how the viscosity of a liquid follows from its shear rate, one file for each law.
 //! A law is evaluated once a particle and step, like an equation of state.
-
 //!
 //! A generalised Newtonian liquid has the viscous stress τ = 2 μ(γ̇) D, with D \[1/s\] the symmetric
 //! part of the velocity gradient without its trace, γ̇ = √(2 D:D) \[1/s\] the shear rate and μ \[Pa s\]

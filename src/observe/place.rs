@@ -1,0 +1,75 @@
+//! Where an observer stands: a checked place in the scene as built, at rest or on a wall.
+//! A place that no particle can come near is an error and not a reading of zero.
+
+use crate::boundary::Pose;
+use crate::error::{Error, Problem, Result};
+use crate::scalar::Real;
+use crate::simulation::Simulation;
+
+/// A place in the scene as built.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Place<const D: usize> {
+    pub name: String,
+    pub point: [f64; D],
+    pub wall: Option<usize>,
+    /// Walls of the scene.
+    pub walls: usize,
+}
+
+impl<const D: usize> Place<D> {
+    /// At `point` \[m\], or anywhere on the line through it along an axis.
+    pub fn new<T: Real>(
+        simulation: &Simulation<T, D>,
+        name: &str,
+        point: [f64; D],
+        line: Option<usize>,
+    ) -> Result<Self> {
+        let reach = 2.0 * simulation.smoothing_length();
+        for (d, &x) in point.iter().enumerate() {
+            if !x.is_finite() {
+                return Err(refused(name, "position", x, "it must be finite, in metres"));
+            }
+            let inside = |[low, high]: [[f64; D]; 2]| low[d] - reach <= x && x <= high[d] + reach;
+            if line != Some(d) && !simulation.group.domain.is_none_or(inside) {
+                let must_be =
+                    "it must be near the bodies and walls of the scene as built, in metres";
+                return Err(refused(name, &format!("coordinate {d}"), x, must_be));
+            }
+        }
+        Ok(Self {
+            name: name.into(),
+            point,
+            wall: None,
+            walls: simulation.walls().count(),
+        })
+    }
+
+    /// The same place on a wall, by its index.
+    pub fn on_wall(self, wall: usize) -> Result<Self> {
+        if wall >= self.walls {
+            let must_be = "it must be the index of a wall of the scene, 0 for the first";
+            return Err(refused(&self.name, "wall", wall as f64, must_be));
+        }
+        Ok(Self {
+            wall: Some(wall),
+            ..self
+        })
+    }
+
+    /// Where its wall is now.
+    pub fn pose<T: Real>(&self, simulation: &Simulation<T, D>) -> Pose<D> {
+        simulation.wall_pose(self.wall)
+    }
+}
+
+/// What a normal must be.
+pub(super) const DIRECTION: &str = "it must be finite and not zero";
+
+/// What is wrong with an observer.
+pub(super) fn refused(name: &str, what: &str, value: f64, must_be: &'static str) -> Error {
+    Error::Argument(Problem::Parameter {
+        what: format!("{what} of observer `{name}`"),
+        value,
+        must_be,
+    })
+}

@@ -1,0 +1,243 @@
+//! Which particles there are, and in which order: what enters, leaves, re-enters a period, and is sorted.
+//! States outside of a group are told of every change.
+
+use super::group::Group;
+use crate::error::{Error, Problem, Result};
+use crate::neighbors::Grid;
+use crate::particles::Field;
+use crate::scalar::Real;
+use crate::sweep::Transform;
+use rayon::prelude::*;
+
+/// What has left a simulation through its outlets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Removed<const D: usize> {
+    /// Particles.
+    pub particles: u64,
+    /// Mass \[kg\].
+    pub mass: f64,
+    /// Momentum \[kg m/s\].
+    pub momentum: [f64; D],
+    /// Kinetic energy \[J\].
+    pub kinetic: f64,
+}
+
+impl<const D: usize> Default for Removed<D> {
+    fn default() -> Self {
+        Self {
+            particles: 0,
+            mass: 0.0,
+            momentum: [0.0; D],
+            kinetic: 0.0,
+        }
+    }
+}
+
+/// How list builds moved particles: what re-entered a period, and the new order of the slots.
+/// States that an integrator keeps must follow.
+#[derive(Clone, Debug)]
+pub(crate) struct Moves<T, const D: usize> {
+    /// Slots, in the order before sorting, that re-entered through a transform.
+    pub wraps: Vec<(u32, Transform<T, D>)>,
+    /// Slot k is what slot `order[k]` was; empty if the order is the old one.
+    pub order: Vec<u32>,
+}
+
+impl<T, const D: usize> Default for Moves<T, D> {
+    fn default() -> Self {
+        Self {
+            wraps: Vec::new(),
+            order: Vec::new(),
+        }
+    }
+}
+
+impl<T: Real, const D: usize> Group<T, D> {
+    /// Lets particles that have left a periodic domain re-enter.
+    pub(super) fn wrap(&mut self) {
+        for boundary in &self.boundaries {
+            for slot in 0..self.mobile {
+                let x = self.columns.vectors(Field::Position)[slot];
+                let Some(back) = boundary.wrap(&x) else {
+                    continue;
+                };
+                let [x, residual, v] = self.columns.many_mut([
+                    Field::Position,
+                    Field::PositionResidual,
+                    Field::Velocity,
+                ]);
+                back.re_enter(slot, x, residual, v);
+                // Wraps are told by the order that outside states have now.
+                let told = self.moved.order.get(slot).map_or(slot as u32, |&old| old);
+                // Repeats have lost their own places in a new order, and follow their original.
+                let repeat = self.bodies.iter().all(|body| !body.slots.contains(&slot));
+                if !repeat || self.moved.order.is_empty() {
+                    self.moved.wraps.push((told, back));
+                }
+            }
+        }
+    }
+
+    /// Sorts every body along the space-filling curve, in cells that hold a particle each, so that the
+    /// members of a cluster are the corners of a cube as far as the flow allows.
+    pub(super) fn sort(&mut self) {
+        let positions = self.columns.vectors(Field::Position);
+        let spacing = self
+            .bodies
+            .iter()
+            .fold(f64::INFINITY, |least, body| least.min(body.spacing));
+        let grid = Grid::centred(positions, spacing);
+        let mut order: Vec<u32> = (0..self.columns.slots() as u32).collect();
+        // Walls keep their shape, so sorting them once serves.
+        let walls = if self.rebuilds > 1 {
+            &[][..]
+        } else {
+            &self.walls
+        };
+        let walls = walls.iter().map(|wall| (&wall.slots, wall.end));
+        let bodies = self.bodies.iter().map(|body| (&body.slots, body.end));
+        for (slots, end) in bodies.chain(walls) {
+            let keys: Vec<u64> = positions[slots.clone()]
+                .par_iter()
+                .map(|x| grid.order(x))
+                .collect();
+            let own = &mut order[slots.clone()];
+            own.par_sort_by_key(|&slot| keys[slot as usize - slots.start]);
+            if let Some(&last) = order[slots.clone()].last() {
+                order[slots.end..end].fill(last);
+            }
+        }
+        self.reorder(&order);
+    }
+
+    /// Takes out what outlets take; the slots behind the last particle of a body repeat it.
+    pub(super) fn remove(&mut self) {
+        if self.outlets.is_empty() {
+            return;
+        }
+        let mut order: Vec<u32> = (0..self.columns.slots() as u32).collect();
+        let mut any = false;
+        for k in 0..self.bodies.len() {
+            let (slots, end) = (self.bodies[k].slots.clone(), self.bodies[k].end);
+            let mut kept = slots.start;
+            for slot in slots.clone() {
+                let x = self.columns.vectors(Field::Position)[slot].map(Real::to_f64);
+                let v = self.columns.vectors(Field::Velocity)[slot].map(Real::to_f64);
+                if !self.outlets.iter().any(|outlet| outlet.takes(&x, &v)) {
+                    order[kept] = slot as u32;
+                    kept += 1;
+                    continue;
+                }
+                any = true;
+                self.slot_of[self.ids[slot] as usize] = u32::MAX;
+                let mass = self.columns.raw(Field::Mass)[slot].to_f64();
+                self.removed.particles += 1;
+                self.removed.mass += mass;
+                for d in 0..D {
+                    self.removed.momentum[d] += mass * v[d];
+                    self.removed.kinetic += 0.5 * mass * v[d] * v[d];
+                }
+            }
+            if kept > slots.start {
+                let last = order[kept - 1];
+                order[kept..end].fill(last);
+            }
+            self.bodies[k].slots.end = kept;
+        }
+        if any {
+            self.reorder(&order);
+        }
+    }
+
+    /// Lets particles enter that are due at `time`; whether there were any.
+    ///
+    /// # Errors
+    /// If a body's reserve is used up.
+    pub fn emit(&mut self, time: f64) -> Result<bool> {
+        let mut any = false;
+        for k in 0..self.emitters.len() {
+            while let Some((layer, velocity)) = self.emitters[k].1.due(time) {
+                any = true;
+                for x in layer {
+                    self.insert(self.emitters[k].0, x, velocity)?;
+                }
+            }
+        }
+        if any {
+            // Lists do not know the new ones.
+            self.rebuild(time);
+        }
+        Ok(any)
+    }
+
+    /// Appends one particle to a body, like its material at rest.
+    fn insert(&mut self, body: usize, x: [f64; D], velocity: [f64; D]) -> Result<()> {
+        let (slots, end) = (self.bodies[body].slots.clone(), self.bodies[body].end);
+        let free = self.bodies[body]
+            .ids
+            .clone()
+            .find(|&id| self.slot_of[id] == u32::MAX);
+        let (Some(id), true) = (free, slots.end < end) else {
+            return Err(Error::Argument(Problem::Parameter {
+                what: format!("reserve of the inlet of body `{}`", self.bodies[body].name),
+                value: slots.len() as f64,
+                must_be: "all of it has entered and none has left: give the inlet a larger reserve, \
+                          or put an outlet where the flow ends",
+            }));
+        };
+        let slot = slots.end;
+        let source = if slots.is_empty() {
+            slot
+        } else {
+            slots.end - 1
+        };
+        self.columns.copy_slot(source, slot);
+        let density = self.bodies[body].material.reference_density();
+        let mass = density * self.bodies[body].spacing.powi(D as i32);
+        let rounded = x.map(T::from_f64);
+        self.columns.vectors_mut(Field::Position)[slot] = rounded;
+        self.columns.vectors_mut(Field::Velocity)[slot] = velocity.map(T::from_f64);
+        if let Some(residual) = self
+            .columns
+            .vectors_mut(Field::PositionResidual)
+            .get_mut(slot)
+        {
+            *residual = core::array::from_fn(|d| T::from_f64(x[d] - rounded[d].to_f64()));
+        }
+        for (field, value) in [
+            (Field::Density, density),
+            (Field::DensityResidual, 0.0),
+            (Field::Mass, mass),
+        ] {
+            if let Some(place) = self.columns.raw_mut(field).get_mut(slot) {
+                *place = T::from_f64(value);
+            }
+        }
+        self.bodies[body].slots.end = slot + 1;
+        self.ids[slot] = id as u32;
+        self.slot_of[id] = slot as u32;
+        Ok(())
+    }
+
+    /// Rearranges the slots, and remembers it for states outside.
+    fn reorder(&mut self, order: &[u32]) {
+        if order.iter().enumerate().all(|(k, &from)| k as u32 == from) {
+            return;
+        }
+        self.columns.permute(order);
+        self.rows.permute(order);
+        if self.moved.order.is_empty() {
+            self.moved.order.extend_from_slice(order);
+        } else {
+            let before = core::mem::take(&mut self.moved.order);
+            self.moved.order = order.iter().map(|&k| before[k as usize]).collect();
+        }
+        self.ids = order.iter().map(|&from| self.ids[from as usize]).collect();
+        let walls = self.walls.iter().map(|wall| &wall.slots);
+        for slots in self.bodies.iter().map(|body| &body.slots).chain(walls) {
+            for slot in slots.clone() {
+                self.slot_of[self.ids[slot] as usize] = slot as u32;
+            }
+        }
+    }
+}
