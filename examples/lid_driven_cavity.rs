@@ -53,7 +53,8 @@ fn scene<T: Real>(options: &Options, reynolds: f64, spacing: f64) -> Scene<T, 2>
     let scheme = schemes::weakly_compressible()
         .with_viscosity(Inviscid)
         .laminar_viscosity(LaminarViscosity)
-        .wall_pressure_floor(f64::NEG_INFINITY);
+        .wall_pressure_floor(f64::NEG_INFINITY)
+        .volume_consistency(VolumeConsistency::CLOSED);
     let scheme: Scheme<T, 2> = match options.scheme.as_str() {
         "transport" => scheme.shifting(Shifting::TRANSPORT).compose(),
         _ => scheme.shifting(Shifting::CLOSED).compose(),

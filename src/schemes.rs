@@ -115,6 +115,7 @@ pub type LsDynaBuilder<const RENORMALISED: bool> = LiquidBuilder<
     Nothing,
     Nothing,
     Nothing,
+    Nothing,
     { SmoothingMode::Mean.bit() },
     RENORMALISED,
 >;

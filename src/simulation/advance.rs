@@ -4,6 +4,7 @@
 use super::Simulation;
 use super::evaluate::GRAIN;
 use super::ledger::Impulses;
+use super::shift::inside;
 use crate::error::Result;
 use crate::integrator::System;
 use crate::particles::{Field, Output};
@@ -96,16 +97,33 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let form = self.group.scheme.density;
         let lattice = T::from_f64(self.group.scheme.lattice_moment);
         let (rows, mobile) = (&self.group.scratch_rows, self.group.mobile);
-        let [density, residual, rest, moment] = self.group.columns.many_mut([
+        let consistency =
+            (self.group.scheme.liquid.as_ref()).and_then(|liquid| liquid.volume_consistency);
+        let h = self.group.smoothing_length;
+        let [density, residual, rest, moment, sound_speed] = self.group.columns.many_mut([
             Field::Density,
             Field::DensityResidual,
             Field::ReferenceDensity,
             Field::Normalisation,
+            Field::SoundSpeed,
         ]);
         let rest: Reference<'_, T> = (rest, moment, lattice);
+        let sound_speed = &*sound_speed;
+        let overlap = |slot: usize| {
+            let Some((law, unity)) = consistency else {
+                return T::zero();
+            };
+            let full = rows.get(Output::Unity, 0, slot).to_f64() / unity;
+            let share = if law.free_surface {
+                inside(rows.get(Output::Moment, 0, slot).to_f64())
+            } else {
+                1.0
+            };
+            sound_speed[slot] * T::from_f64(law.strength / h * share * (full - 1.0))
+        };
         let change = |slot: usize, density: T| {
-            density * expm1(rate(form, rows, rest, slot, density) * dt)
-                + dt * rows.get(Output::DensityDiffusion, 0, slot)
+            let rate = rate(form, rows, rest, slot, density) + overlap(slot);
+            density * expm1(rate * dt) + dt * rows.get(Output::DensityDiffusion, 0, slot)
         };
         let density = &mut density[..mobile];
         if residual.is_empty() {
