@@ -54,7 +54,7 @@ fn scene<T: Real>(options: &Options, reynolds: f64, spacing: f64) -> Scene<T, 2>
         .with_viscosity(Inviscid)
         .laminar_viscosity(LaminarViscosity)
         .wall_pressure_floor(f64::NEG_INFINITY)
-        .volume_consistency(VolumeConsistency::CLOSED);
+        .volume_consistency(0.05);
     let scheme: Scheme<T, 2> = match options.scheme.as_str() {
         "transport" => scheme.shifting(Shifting::TRANSPORT).compose(),
         _ => scheme.shifting(Shifting::CLOSED).compose(),

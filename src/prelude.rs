@@ -33,7 +33,6 @@ pub use crate::scene::{Body, Scene};
 #[doc(no_inline)]
 pub use crate::scheme::{
     DensityForm, EnergyForm, LiquidBuilder, Scheme, SchemeBuilder, Shifting, Smoothing,
-    VolumeConsistency,
 };
 #[doc(no_inline)]
 pub use crate::schemes;

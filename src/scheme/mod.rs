@@ -36,7 +36,7 @@ mod liquid;
 
 pub use density::DensityForm;
 pub(crate) use liquid::Liquid;
-pub use liquid::{LiquidBuilder, Shifting, VolumeConsistency};
+pub use liquid::{LiquidBuilder, Shifting};
 
 use crate::kernel::Kernel;
 use crate::particles::{Field, Fields};

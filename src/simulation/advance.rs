@@ -4,7 +4,6 @@
 use super::Simulation;
 use super::evaluate::GRAIN;
 use super::ledger::Impulses;
-use super::shift::inside;
 use crate::error::Result;
 use crate::integrator::System;
 use crate::particles::{Field, Output};
@@ -110,16 +109,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let rest: Reference<'_, T> = (rest, moment, lattice);
         let sound_speed = &*sound_speed;
         let overlap = |slot: usize| {
-            let Some((law, unity)) = consistency else {
-                return T::zero();
-            };
-            let full = rows.get(Output::Unity, 0, slot).to_f64() / unity;
-            let share = if law.free_surface {
-                inside(rows.get(Output::Moment, 0, slot).to_f64())
-            } else {
-                1.0
-            };
-            sound_speed[slot] * T::from_f64(law.strength / h * share * (full - 1.0))
+            consistency.map_or(T::zero(), |(strength, unity)| {
+                let excess = rows.get(Output::Unity, 0, slot) / T::from_f64(unity) - T::one();
+                T::from_f64(strength / h) * sound_speed[slot] * excess
+            })
         };
         let change = |slot: usize, density: T| {
             let rate = rate(form, rows, rest, slot, density) + overlap(slot);

@@ -12,12 +12,6 @@ use rayon::prelude::*;
 /// First moment −Σ V r·∇W/D of the neighbourhood at and below which a particle lies at a free
 /// surface and is not shifted, and from which on it is shifted in full. A flat surface has a half.
 const SURFACE: [f64; 2] = [0.75, 0.95];
-
-/// How far a particle with this first moment is inside of the liquid, from 0 to 1.
-pub(super) fn inside(moment: f64) -> f64 {
-    ((moment - SURFACE[0]) / (SURFACE[1] - SURFACE[0])).clamp(0.0, 1.0)
-}
-
 /// Largest coefficient of the concentration's gradient in h²: shifting diffuses particles in explicit
 /// steps, and overshoots beyond about a half (Skillen et al. 2013).
 const STABLE: f64 = 0.3;
@@ -52,7 +46,12 @@ impl<T: Real, const D: usize> Group<T, D> {
                     let v = &v[slot * D..(slot + 1) * D];
                     let speed = v.iter().fold(0.0, |s, v| s + v.to_f64().powi(2)).sqrt();
                     let moment = rows.get(Output::Moment, 0, slot).to_f64();
-                    let share = if free_surface { inside(moment) } else { 1.0 };
+                    let inside = (moment - SURFACE[0]) / (SURFACE[1] - SURFACE[0]);
+                    let share = if free_surface {
+                        inside.clamp(0.0, 1.0)
+                    } else {
+                        1.0
+                    };
                     (strength * h * speed * dt).min(STABLE * h * h) * share
                 }
                 // Σ (Vᵢ² + Vⱼ²) ∇W with nearly equal volumes, over the mass ρ V.

@@ -41,22 +41,16 @@ impl<const D: usize> Term<D> for Crowding<D> {
     }
 }
 
-/// How full the neighbourhood of a particle is, Σⱼ Vⱼ W, and the first moment that tells a free surface.
+/// How full the neighbourhood of a particle is, Σⱼ Vⱼ W.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PartitionOfUnity;
 
 impl<const D: usize> Term<D> for PartitionOfUnity {
     const READS: Fields = Fields::of(&[Field::Weight]);
-    const WRITES: Outputs = Outputs::of(&[Output::Unity, Output::Moment]);
+    const WRITES: Outputs = Outputs::of(&[Output::Unity]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let volume = pair.j(Field::Weight);
-        sums.add(Output::Unity, volume * pair.w);
-        // Crowding sums the moment where both are named.
-        if const { !P::WRITES.contains(Output::Crowding) } {
-            let moment = volume * pair.f * pair.r2 * L::of(-1.0 / D as f64);
-            sums.add(Output::Moment, moment);
-        }
+        sums.add(Output::Unity, pair.j(Field::Weight) * pair.w);
     }
     fn document(&self) -> TermDoc {
         TermDoc {
