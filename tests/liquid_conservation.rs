@@ -27,6 +27,8 @@ fn schemes_of_liquids() -> Vec<(Scheme<f64, 2>, bool)> {
         (base().density_diffusion(Antuono::default()).compose(), true),
         (base().density_diffusion(Nothing).compose(), true),
         (schemes::riemann_liquid().compose(), true),
+        (base().acoustic_damping(0.3).compose(), true),
+        (base().volume_consistency(0.02).compose(), true),
         (
             base()
                 .with_viscosity(Riemann::STANDARD)

@@ -117,6 +117,22 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 must_be,
             });
         }
+        if let Some(liquid) = &scheme.liquid {
+            let consistency = liquid.volume_consistency.map(|(strength, _)| strength);
+            for (what, strength) in [
+                ("acoustic damping", liquid.acoustic_damping),
+                ("volume consistency", consistency),
+            ] {
+                let Some(value) = strength.filter(|s| !(s.is_finite() && *s >= 0.0)) else {
+                    continue;
+                };
+                problems.push(Problem::Parameter {
+                    what: format!("strength of the {what}"),
+                    value,
+                    must_be: "it must be finite and not negative",
+                });
+            }
+        }
         let mut positive = |what: &str, value: f64| {
             if !(value.is_finite() && value > 0.0) {
                 problems.push(Problem::Parameter {

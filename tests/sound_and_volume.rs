@@ -1,0 +1,120 @@
+//! The two cures of liquids that act on density alone, against exact decay: bulk viscosity on a wave of
+//! sound, and volume consistency on densities that have drifted; each with its control.
+
+use meshfree::boundary::Periodic;
+use meshfree::kernel::WendlandC2;
+use meshfree::material::{Liquid, Material, SoundSpeed};
+use meshfree::prelude::*;
+use meshfree::scene::Start;
+use meshfree::scheme::LiquidBuilder;
+use meshfree::simulation::ParticleView;
+use meshfree::term::Nothing;
+use meshfree::term::viscosity::Inviscid;
+
+const SOUND: f64 = 10.0;
+const DENSITY: f64 = 1000.0;
+
+fn liquid() -> Material<f64> {
+    let liquid = Liquid::new(DENSITY, 1480.0, 0.0).linear();
+    liquid.material("liquid", SoundSpeed::Chosen(SOUND))
+}
+
+/// A scheme that dissipates nothing by itself.
+fn plain() -> LiquidBuilder<WendlandC2, Inviscid> {
+    LiquidBuilder::new(WendlandC2, Inviscid).h_over_dx(1.5)
+}
+
+/// The share of a standing wave's energy that is left after `periods`; a wave is 48 particles long.
+fn energy_left(scheme: impl Into<Scheme<f64, 2>>, periods: f64) -> f64 {
+    let (dx, wavenumber) = (1.0 / 48.0, core::f64::consts::TAU);
+    let body = Body::block("liquid", liquid(), [0.0; 2], [1.0, 8.0 * dx], dx);
+    let body = body.start(|x, start| Start {
+        velocity: [1e-4 * SOUND * (wavenumber * x[0]).sin(), 0.0],
+        ..start
+    });
+    let mut simulation = Scene::new(scheme)
+        .body(body)
+        .boundary(Periodic::along(0, 0.0, 1.0))
+        .boundary(Periodic::along(1, 0.0, 8.0 * dx))
+        .build()
+        .expect("a sound scene");
+    simulation.keep_energy();
+    // Compression is measured from the density at rest, which is that of the start.
+    let stored = |now: &Simulation<f64, 2>| {
+        let energy = now.energy().expect("a ledger");
+        energy.kinetic + energy.compression
+    };
+    let first = stored(&simulation);
+    simulation.run_until(periods / SOUND).expect("a stable run");
+    stored(&simulation) / first
+}
+
+#[test]
+fn a_bulk_viscosity_damps_sound_as_it_says() {
+    // Energy decays by exp(−λ c h k² t).
+    let strength = 0.3;
+    let (h, wavenumber) = (1.5 / 48.0, core::f64::consts::TAU);
+    let exact = (-strength * SOUND * h * wavenumber.powi(2) * 2.0 / SOUND).exp();
+    let damped = energy_left(plain().acoustic_damping(strength), 2.0);
+    let free = energy_left(plain(), 2.0);
+    assert!(
+        (damped.ln() / exact.ln() - 1.0).abs() < 0.03,
+        "{damped} of the energy is left, exactly {exact}"
+    );
+    assert!((free - 1.0).abs() < 0.01, "{free} is left without");
+}
+
+/// How far densities are from what mass and space of the particles make, in units of the first, after
+/// `time`: a lattice drawn 1 % too narrow.
+fn drift_left(scheme: impl Into<Scheme<f64, 2>>, time: f64) -> f64 {
+    let (dx, narrow) = (0.05, 0.99 * 0.05);
+    let places = (0..100).map(|k| [k % 10, k / 10].map(|n| (f64::from(n) + 0.5) * narrow));
+    let body = Body::points_of("liquid", liquid(), places.collect(), dx);
+    let mut simulation = Scene::new(scheme)
+        .body(body)
+        .boundary(Periodic::along(0, 0.0, 10.0 * narrow))
+        .boundary(Periodic::along(1, 0.0, 10.0 * narrow))
+        .build()
+        .expect("a sound scene");
+    simulation.run_until(time).expect("a stable run");
+    let true_density = DENSITY * (dx / narrow).powi(2);
+    let departure = |p: ParticleView<'_, f64, 2>| true_density - p.density();
+    simulation.all().map(departure).fold(0.0, f64::max) / (true_density - DENSITY)
+}
+
+#[test]
+fn volume_consistency_brings_densities_back_to_the_space_of_particles() {
+    // dρ/dt = κ (c/h) (ρ_true − ρ) while particles stay on their lattice.
+    let (strength, time) = (0.05, 0.15);
+    let exact = (-strength * SOUND / (1.5 * 0.05) * time).exp();
+    let held = drift_left(plain().volume_consistency(strength), time);
+    let free = drift_left(plain(), time);
+    // The lattice sum at this h over the narrow spacing is 2 % of the departure below the one at rest.
+    assert!((held - exact).abs() < 0.02, "{held}, exactly {exact}");
+    assert!((free - 1.0).abs() < 1e-9, "{free} without");
+    let both = plain().density_diffusion(Nothing).volume_consistency(0.0);
+    assert!((drift_left(both, time) - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn strengths_that_are_no_numbers_are_refused() {
+    for (scheme, name) in [
+        (
+            plain().acoustic_damping(f64::NAN).compose::<f64, 2>(),
+            "acoustic damping",
+        ),
+        (plain().acoustic_damping(-0.1).compose(), "acoustic damping"),
+        (
+            plain().volume_consistency(f64::INFINITY).compose(),
+            "volume consistency",
+        ),
+    ] {
+        let body = Body::block("liquid", liquid(), [0.0; 2], [0.5, 0.5], 0.05);
+        let error = Scene::new(scheme)
+            .body(body)
+            .build()
+            .unwrap_err()
+            .to_string();
+        assert!(error.contains(name), "{error}");
+    }
+}
