@@ -26,7 +26,17 @@ const ALPHA: f64 = 0.002;
 const FEWEST: f64 = 4.0;
 
 /// The forms of the scheme that can be compared.
-pub const SCHEMES: [&str; 5] = ["standard", "riemann", "shifting", "molteni", "by-mass"];
+pub const SCHEMES: [&str; 9] = [
+    "standard",
+    "riemann",
+    "shifting",
+    "molteni",
+    "by-mass",
+    "ls-dyna-default",
+    "ls-dyna-renormalised",
+    "ls-dyna-fluid",
+    "ls-dyna-fluid-renormalised",
+];
 
 /// The tank and how it is computed.
 #[derive(Clone, Debug)]
@@ -212,6 +222,18 @@ impl Case {
                 .wall_pressure_floor(self.cut_off)
                 .named("by mass, without diffusion")
                 .by_mass()
+                .compose(),
+            "ls-dyna-default" => schemes::ls_dyna_default()
+                .wall_pressure_floor(self.cut_off)
+                .compose(),
+            "ls-dyna-renormalised" => schemes::ls_dyna_renormalised()
+                .wall_pressure_floor(self.cut_off)
+                .compose(),
+            "ls-dyna-fluid" => schemes::ls_dyna_fluid()
+                .wall_pressure_floor(self.cut_off)
+                .compose(),
+            "ls-dyna-fluid-renormalised" => schemes::ls_dyna_fluid_renormalised()
+                .wall_pressure_floor(self.cut_off)
                 .compose(),
             other => {
                 return Err(Error::Argument(Problem::UnknownName {
