@@ -173,6 +173,7 @@ pub struct History {
     pub wall_clock: f64,
     pub particles: usize,
     pub lost: usize,
+    pub left: u64,
 }
 
 impl History {
@@ -295,7 +296,7 @@ impl History {
             let each = 1e6 * self.wall_clock / self.steps as f64 / self.particles as f64;
             let _ = write!(text, " ({each:.2} µs a particle and step)");
         }
-        text + &format!("; {} in the walls", self.lost)
+        text + &format!("; {} in the walls, {} left", self.lost, self.left)
     }
 }
 
@@ -361,6 +362,7 @@ pub fn run<T: Real, const D: usize>(
     }
     history.steps = simulation.steps();
     history.wall_clock = started.elapsed().as_secs_f64();
+    history.left = simulation.removed().particles;
     history.lost = simulation
         .all()
         .filter(|particle| !inside(simulation, particle.position()))

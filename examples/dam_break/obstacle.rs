@@ -71,7 +71,17 @@ fn scene<T: Real>(spacing: f64, choices: &Choices) -> Result<Scene<T, 3>, Failur
             "tank", [0.0; 3], TANK, spacing, layers, closed,
         ))
         .wall(obstacle(spacing, layers)?)
+        .outlet(over_the_rim(layers as f64 * spacing))
         .acceleration(|_| [0.0, 0.0, -GRAVITY]))
+}
+
+/// The tank is open: what splashes over its rim, beyond walls of that thickness \[m\], leaves.
+fn over_the_rim(thickness: f64) -> Outlet<3> {
+    let [length, width, height] = TANK;
+    Outlet::outside_box(
+        [-thickness; 3],
+        [length + thickness, width + thickness, 10.0 * height],
+    )
 }
 
 fn watch<T: Real>(now: &Simulation<T, 3>) -> Result<Watch<3>, Error> {
@@ -114,7 +124,8 @@ pub fn perform<T: Real>(options: &Options, choices: &Choices) -> Result<(), Fail
     println!("{}", simulation.scheme());
     let mut series = Pvd::create(options.file("particles.pvd"))?;
     let inside = |_: &Simulation<T, 3>, x: [f64; 3]| {
-        x[2] > TANK[2] || (0..3).all(|d| x[d] >= 0.0 && x[d] <= TANK[d])
+        let boxed = (0..3).all(|d| x[d] > BOX[0][d] && x[d] < BOX[1][d]);
+        x[2] > TANK[2] || (!boxed && (0..3).all(|d| x[d] >= 0.0 && x[d] <= TANK[d]))
     };
     let frame = |now: &Simulation<T, 3>, k: usize| {
         violent::paraview(&mut series, now)?;
