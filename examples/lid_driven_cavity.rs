@@ -22,7 +22,7 @@ const EXAMPLE: Example = Example {
     own: &[Own {
         name: "--reynolds",
         value: "RE",
-        help: "100 or 1000, for which there is a reference; 100. At 1000 the method fails yet",
+        help: "100 or 1000, for which there is a reference; 100",
     }],
 };
 
