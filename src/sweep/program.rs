@@ -8,7 +8,7 @@ use crate::kernel::Kernel;
 use crate::neighbors::{Block, CHUNK, ChunkList, ClusterLists, Segment};
 use crate::particles::{Columns, Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Mask, Real};
-use crate::term::{Layout, MOST_READS, MOST_SUMS, Pair, Sums, TermDoc, Terms};
+use crate::term::{Along, Layout, MOST_READS, MOST_SUMS, Pair, Sums, TermDoc, Terms};
 use core::fmt::Debug;
 use core::marker::PhantomData;
 use rayon::prelude::*;
@@ -522,6 +522,35 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         }
     }
 
+    /// Where the row stands from a neighbour: rᵢⱼ, its square and its length.
+    #[inline(always)]
+    fn separation<L: Lane<Scalar = T>, const HOW: u8>(
+        &self,
+        own: &[L; MOST_READS],
+        j: u32,
+    ) -> ([L; D], L, L)
+    where
+        P: Terms<D>,
+    {
+        let reads = const { Composed::<T, P, D, HOW>::READS };
+        let stride = const { Composed::<T, P, D, HOW>::READS.width(D) };
+        let position = reads.offset(Field::Position, D);
+        let residual = reads.offset(Field::PositionResidual, D);
+        let record = &self.records[j as usize * stride..j as usize * stride + stride];
+        let mut r = [L::zero(); D];
+        for d in 0..D {
+            r[d] = own[position + d] - L::splat(record[position + d]);
+            if reads.contains(Field::PositionResidual) {
+                r[d] += own[residual + d] - L::splat(record[residual + d]);
+            }
+        }
+        let mut r2 = r[0] * r[0];
+        for d in 1..D {
+            r2 = r[d].mul_add(r[d], r2);
+        }
+        (r, r2, r2.sqrt())
+    }
+
     /// One cluster against some neighbours.
     ///
     /// Across a contact that may open (`contact`) a pair acts only where one of the two touches, shows the
@@ -541,11 +570,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
     {
         let reads = const { Composed::<T, P, D, HOW>::READS };
         let stride = const { Composed::<T, P, D, HOW>::READS.width(D) };
-        let (position, velocity) = (
-            reads.offset(Field::Position, D),
-            reads.offset(Field::Velocity, D),
-        );
-        let residual = reads.offset(Field::PositionResidual, D);
+        let velocity = reads.offset(Field::Velocity, D);
         let h_at = reads.offset(Field::SmoothingLength, D);
         let norm = L::splat(self.kernel_norm);
         let uniform = Scale::new(L::splat(self.h), norm, D);
@@ -557,26 +582,29 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         let body_force = self.body_force.map(L::splat);
         let lattice_moment = L::splat(self.lattice_moment);
         let mut shown = [T::zero(); MOST_READS];
-        for &j in neighbors {
+        // Copies that nothing else points to stay in registers.
+        let terms = self.terms.clone();
+        let mut kept = sums.copied();
+        let (total, sums) = (sums, &mut kept);
+        let Some(&first_j) = neighbors.first() else {
+            return;
+        };
+        // The distance of the next pair is under way while the terms of this one are summed.
+        let mut next = self.separation::<L, HOW>(own, first_j);
+        for (k, &j) in neighbors.iter().enumerate() {
+            let (r, r2, distance) = next;
+            next = self.separation::<L, HOW>(own, *neighbors.get(k + 1).unwrap_or(&j));
             let record = &self.records[j as usize * stride..j as usize * stride + stride];
-            let mut r = [L::zero(); D];
             let mut v = [L::zero(); D];
-            for d in 0..D {
-                r[d] = own[position + d] - L::splat(record[position + d]);
-                if reads.contains(Field::PositionResidual) {
-                    r[d] += own[residual + d] - L::splat(record[residual + d]);
-                }
-                if reads.contains(Field::Velocity) {
+            if reads.contains(Field::Velocity) {
+                for d in 0..D {
                     v[d] = own[velocity + d] - L::splat(record[velocity + d]);
                 }
             }
-            let mut r2 = r[0] * r[0];
             let mut v_dot_r = v[0] * r[0];
             for d in 1..D {
-                r2 = r[d].mul_add(r[d], r2);
                 v_dot_r = v[d].mul_add(r[d], v_dot_r);
             }
-            let distance = r2.sqrt();
             let (h, w, f, f_i, f_j);
             if HOW & OWN != 0 {
                 let other = Scale::new(L::splat(record[h_at]), norm, D);
@@ -626,11 +654,12 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                 compressive(reads, &mut shown, D);
                 pair.j = &shown[..stride];
             }
-            sums.radial = L::zero();
-            sums.shear = L::zero();
-            self.terms.pair(&pair, sums);
+            sums.radial = Along::NOTHING;
+            sums.shear = Along::NOTHING;
+            terms.pair(&pair, sums);
             apply::<L, D, HOW, _>(&pair, sums, &P::WRITES, own, record, reads);
         }
+        total.take(&kept);
     }
 }
 
@@ -651,18 +680,23 @@ fn apply<L: Lane, const D: usize, const HOW: u8, C: Layout>(
         let mean = reads.offset(Field::MeanVelocity, D);
         let mut work = L::zero();
         for d in 0..D {
-            let force = sums.radial.mul_add(pair.r[d], sums.shear * pair.v[d]);
+            let force = sums
+                .radial
+                .mul_add(pair.r[d], sums.shear.mul_add(pair.v[d], L::zero()));
             work = force.mul_add(L::splat(record[mean + d]) - own[mean + d], work);
         }
         sums.add(Output::Power, work * L::of(0.5));
         return;
     }
     for d in 0..D {
-        let force = sums.radial.mul_add(pair.r[d], sums.shear * pair.v[d]);
-        sums.add_at(Output::Force, d, force);
+        let kept = &mut sums.kept[C::WRITES.offset(Output::Force, D) + d];
+        *kept = sums.radial.mul_add(pair.r[d], *kept);
+        *kept = sums.shear.mul_add(pair.v[d], *kept);
     }
     if writes.contains(Output::Power) {
-        let power = sums.radial.mul_add(pair.v_dot_r, sums.shear * pair.v2());
+        let power = sums
+            .radial
+            .mul_add(pair.v_dot_r, sums.shear.mul_add(pair.v2(), L::zero()));
         sums.add(Output::Power, power * L::of(-0.5));
     }
 }
