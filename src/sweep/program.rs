@@ -548,7 +548,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         for d in 1..D {
             r2 = r[d].mul_add(r[d], r2);
         }
-        (r, r2, r2.sqrt())
+        (r, r2, r2.root())
     }
 
     /// One cluster against some neighbours.
