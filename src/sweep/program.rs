@@ -423,9 +423,10 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                     kept = sums.take_kernel_sum();
                 }
                 let neighbors = &list.neighbors[segment.start as usize..segment.end as usize];
+                let staying = (segment.near_end - segment.start) as usize;
                 let mobile = [block, other]
                     .map(|block| L::of(f64::from(u8::from(!self.blocks[block].wall))));
-                self.segment::<L, HOW>(contact, mobile, &own, first, neighbors, &mut sums);
+                self.segment::<L, HOW>(contact, mobile, &own, first, neighbors, staying, &mut sums);
                 if contact {
                     own = full;
                     sums.divert_kernel_sum(kept);
@@ -463,7 +464,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
     }
 
     /// Those of some neighbours that are within the support of any of the row, in their order; returns
-    /// how many there are.
+    /// how many there are. The first `staying` were so near when they were listed that they still are.
     ///
     /// What a skin lists and what a row of several particles lists for only one of them is mostly too
     /// far away, and finding that out costs less than the terms would.
@@ -472,6 +473,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         &self,
         own: &[L; MOST_READS],
         neighbors: &[u32],
+        staying: usize,
         near: &mut [u32; BATCH],
     ) -> usize
     where
@@ -481,8 +483,10 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         let stride = const { Composed::<T, P, D, HOW>::READS.width(D) };
         let position = reads.offset(Field::Position, D);
         let reach2 = L::splat(self.reach2);
-        let mut count = 0;
-        for &j in neighbors {
+        let (staying, leaving) = neighbors.split_at(staying);
+        let mut count = staying.len();
+        near[..count].copy_from_slice(staying);
+        for &j in leaving {
             let record = &self.records[j as usize * stride..j as usize * stride + stride];
             let mut r2 = L::zero();
             for d in 0..D {
@@ -504,6 +508,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         own: &[L; MOST_READS],
         first: usize,
         neighbors: &[u32],
+        staying: usize,
         sums: &mut Sums<L, D, Composed<T, P, D, HOW>>,
     ) where
         K: Kernel<D>,
@@ -516,8 +521,9 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
             return;
         }
         let mut near = [0; BATCH];
-        for batch in neighbors.chunks(BATCH) {
-            let count = self.within_reach::<L, HOW>(own, batch, &mut near);
+        for (k, batch) in neighbors.chunks(BATCH).enumerate() {
+            let staying = staying.saturating_sub(k * BATCH).min(batch.len());
+            let count = self.within_reach::<L, HOW>(own, batch, staying, &mut near);
             self.pairs::<L, HOW>(contact, mobile, own, first, &near[..count], sums);
         }
     }
