@@ -734,7 +734,7 @@ impl<L: Lane> Scale<L> {
     }
     #[inline(always)]
     fn gradient<K: Kernel<D>, const D: usize>(&self, kernel: &K, r: L) -> L {
-        self.gradient * kernel.slope_over_q(r * self.inverse)
+        kernel.gradient(r, self.inverse, self.gradient)
     }
 }
 

@@ -140,10 +140,10 @@ fn between<L: Lane, const D: usize, P: Layout>(
     let sound_speeds = pair.i(Field::SoundSpeed) + pair.j(Field::SoundSpeed);
     let densities = pair.i(Field::Density) + pair.j(Field::Density);
     let approaching = pair.v_dot_r.lt(L::zero()) & jump.lt(L::zero());
-    let h_jump = L::select(approaching, pair.h * jump, L::zero());
-    let r2 = pair.h.mul_add(pair.h * L::of(0.01), pair.r2);
+    let r2_over_h = pair.r2.mul_add(pair.h.recip(), pair.h * L::of(0.01));
     // One division serves μ and Π: it takes longer than all else here.
-    let mu_over_densities = h_jump * (r2 * densities).recip();
+    let quotient = jump / (r2_over_h * densities);
+    let mu_over_densities = L::select(approaching, quotient, L::zero());
     let mu = mu_over_densities * densities;
     // 2 (α c̄ − β μ)
     let speed = mu.mul_add(-(beta + beta), alpha * sound_speeds);
