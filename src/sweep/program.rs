@@ -234,7 +234,7 @@ impl<K, P, const MODES: u8> Program<K, P, MODES> {
         P: Terms<D>,
     {
         let width = <T::Wide<false> as Lane>::WIDTH;
-        rows.outputs = Composed::<T, P, D, HOW>::WRITES;
+        rows.lay_out(Composed::<T, P, D, HOW>::WRITES);
         let row = rows.outputs.width(D) * width;
         // Only chunks with wanted slots have rows.
         let slots = CHUNK * width;
