@@ -353,7 +353,8 @@ impl<T: Real, const D: usize> Sieve<'_, T, D> {
                 found[count] = j;
                 count += usize::from(near);
                 far[far_count] = j;
-                far_count += usize::from(any & !near);
+                // Who stays is within reach, too.
+                far_count += usize::from(any != near);
             }
         }
         found.truncate(count);

@@ -422,11 +422,13 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                     compressive(reads, &mut own, D);
                     kept = sums.take_kernel_sum();
                 }
-                let neighbors = &list.neighbors[segment.start as usize..segment.end as usize];
-                let staying = (segment.near_end - segment.start) as usize;
+                let listed = (
+                    &list.neighbors[segment.start as usize..segment.end as usize],
+                    (segment.near_end - segment.start) as usize,
+                );
                 let mobile = [block, other]
                     .map(|block| L::of(f64::from(u8::from(!self.blocks[block].wall))));
-                self.segment::<L, HOW>(contact, mobile, &own, first, neighbors, staying, &mut sums);
+                self.segment::<L, HOW>(contact, mobile, &own, first, listed, &mut sums);
                 if contact {
                     own = full;
                     sums.divert_kernel_sum(kept);
@@ -499,7 +501,8 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         count
     }
 
-    /// One cluster against the neighbours of one segment, as far as they are within reach.
+    /// One cluster against the neighbours of one segment, as far as they are within reach, which the number
+    /// of them that comes with the list need not be asked.
     #[inline(always)]
     fn segment<L: Lane<Scalar = T>, const HOW: u8>(
         &self,
@@ -507,8 +510,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         mobile: [L; 2],
         own: &[L; MOST_READS],
         first: usize,
-        neighbors: &[u32],
-        staying: usize,
+        (neighbors, staying): (&[u32], usize),
         sums: &mut Sums<L, D, Composed<T, P, D, HOW>>,
     ) where
         K: Kernel<D>,

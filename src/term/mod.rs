@@ -427,3 +427,21 @@ tuple!(A, B, C, E, F);
 tuple!(A, B, C, E, F, G);
 tuple!(A, B, C, E, F, G, H);
 tuple!(A, B, C, E, F, G, H, I);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_force_that_no_term_sets_is_not_even_multiplied() {
+        let mut force = Along::<f64>::NOTHING;
+        assert_eq!(force.value(), 0.0);
+        // Zero times this would be no number.
+        assert_eq!(force.mul_add(f64::INFINITY, 2.0), 2.0);
+        force -= 3.0;
+        force.add_product(2.0, 4.0);
+        force += 1.0;
+        assert_eq!(force.value(), 6.0);
+        assert_eq!(force.mul_add(0.5, 2.0), 5.0);
+    }
+}
