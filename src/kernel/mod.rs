@@ -114,6 +114,12 @@ pub trait Kernel<const D: usize>: Copy + Debug + Send + Sync + 'static {
     fn shape<L: Lane>(&self, q: L) -> L;
     /// The slope divided by q, f′(q)/q, q ≥ 0; finite at q = 0.
     fn slope_over_q<L: Lane>(&self, q: L) -> L;
+    /// `scale` f′(q)/q at q = `r` `inverse_h`, where the pair loop needs it: a kernel that can fold the two
+    /// constants into its own saves products.
+    #[inline(always)]
+    fn gradient<L: Lane>(&self, r: L, inverse_h: L, scale: L) -> L {
+        scale * self.slope_over_q(r * inverse_h)
+    }
 }
 
 /// Calls a macro with the list of all kernels, as `Type "name on the command line"` separated by
@@ -254,7 +260,8 @@ macro_rules! family {
     ($Kernel:ident, $name:literal, support $support:literal; $(
         $D:literal => { normalisation: $normalisation:expr, h_over_dx: $h_over_dx:literal,
             range: $range:expr, stable_step: $stable_step:literal
-            $(, shape: $shape:ident, slope_over_q: $slope:ident)? };
+            $(, shape: $shape:ident, slope_over_q: $slope:ident)?
+            $(, gradient: $gradient:ident)? };
     )*) => {
         $(impl $crate::kernel::Kernel<$D> for $Kernel {
             fn name(&self) -> &'static str {
@@ -287,6 +294,12 @@ macro_rules! family {
             fn slope_over_q<L: $crate::scalar::Lane>(&self, q: L) -> L {
                 $crate::kernel::first_function!($($slope,)? slope_over_q)(q)
             }
+            $(
+                #[inline(always)]
+                fn gradient<L: $crate::scalar::Lane>(&self, r: L, inverse_h: L, scale: L) -> L {
+                    $gradient(r, inverse_h, scale)
+                }
+            )?
         })*
     };
 }

@@ -76,6 +76,19 @@ fn is_finite_at_zero<const D: usize, K: Kernel<D>>(kernel: K) {
     }
 }
 
+fn folds_constants_into_the_same_gradient<const D: usize, K: Kernel<D>>(kernel: K) {
+    let (h, scale) = (0.7, 3.0);
+    for k in 0..=400 {
+        let r = f64::from(k) * 0.01 * h;
+        let (folded, plain) = (
+            kernel.gradient(r, 1.0 / h, scale),
+            scale * kernel.slope_over_q(r / h),
+        );
+        let largest = scale * kernel.slope_over_q(0.0).abs();
+        assert!((folded - plain).abs() < 1e-14 * largest, "r = {r}");
+    }
+}
+
 fn falls_with_distance<const D: usize, K: Kernel<D>>(kernel: K) {
     for k in 0..1000 {
         let q = kernel.support() * k as f64 / 1000.0;
@@ -275,6 +288,7 @@ macro_rules! tests_of_all {
                 is_zero_beyond_support
                 slope_is_the_derivative
                 is_finite_at_zero
+                folds_constants_into_the_same_gradient
                 falls_with_distance
                 lanes_equal_scalars
                 recommends_what_it_accepts

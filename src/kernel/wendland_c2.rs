@@ -22,8 +22,10 @@ family! {
     WendlandC2, "Wendland C2", support 2.0;
     1 => { normalisation: 5.0 / 8.0, h_over_dx: 1.5, range: (1.0, 2.0), stable_step: 1.44,
            shape: shape_1d, slope_over_q: slope_over_q_1d };
-    2 => { normalisation: 7.0 / (4.0 * PI), h_over_dx: 1.5, range: (1.2, 2.0), stable_step: 1.15 };
-    3 => { normalisation: 21.0 / (16.0 * PI), h_over_dx: 1.5, range: (1.2, 2.0), stable_step: 1.14 };
+    2 => { normalisation: 7.0 / (4.0 * PI), h_over_dx: 1.5, range: (1.2, 2.0), stable_step: 1.15,
+           gradient: gradient };
+    3 => { normalisation: 21.0 / (16.0 * PI), h_over_dx: 1.5, range: (1.2, 2.0), stable_step: 1.14,
+           gradient: gradient };
 }
 
 #[inline(always)]
@@ -37,6 +39,13 @@ fn shape<L: Lane>(q: L) -> L {
 fn slope_over_q<L: Lane>(q: L) -> L {
     let (_, t) = inside(q);
     t * t * t * L::of(-5.0)
+}
+
+/// The same with the constants of a pair folded into those of the kernel.
+#[inline(always)]
+fn gradient<L: Lane>(r: L, inverse_h: L, scale: L) -> L {
+    let t = r.mul_add(inverse_h * L::of(-0.5), L::one()).positive_part();
+    t * t * t * (scale * L::of(-5.0))
 }
 
 #[inline(always)]

@@ -23,6 +23,9 @@ pub struct Block {
 pub struct Segment {
     /// First entry in the chunk's list.
     pub start: u32,
+    /// One past the last entry that was nearer to some member than its support less the skin. While the
+    /// lists are valid these need no look at their distance before a pair is summed.
+    pub near_end: u32,
     /// One past the last entry.
     pub end: u32,
     /// The block that the neighbours belong to.
@@ -124,10 +127,9 @@ impl ClusterLists {
         let clusters = input.slots / input.width;
         self.chunks
             .resize_with(clusters.div_ceil(CHUNK), ChunkList::default);
-        self.chunks
-            .par_iter_mut()
-            .enumerate()
-            .for_each_init(Vec::new, |ranges, (c, chunk)| {
+        self.chunks.par_iter_mut().enumerate().for_each_init(
+            Scratch::default,
+            |scratch, (c, chunk)| {
                 chunk.neighbors.clear();
                 chunk.segments.clear();
                 chunk.starts.clear();
@@ -143,11 +145,20 @@ impl ClusterLists {
                         .get(block)
                         .is_some_and(|b| b.slots.contains(&members.start));
                     if owned {
-                        search(input, &sources, block, members, instructions, ranges, chunk);
+                        search(
+                            input,
+                            &sources,
+                            block,
+                            members,
+                            instructions,
+                            scratch,
+                            chunk,
+                        );
                     }
                 }
                 chunk.starts.push(chunk.segments.len() as u32);
-            });
+            },
+        );
     }
 }
 
@@ -193,16 +204,26 @@ impl<T: Real, const D: usize> Source<T, D> {
     }
 }
 
-/// Lists every point within reach of any member, block after block.
+/// What a thread's searches use again.
+#[derive(Default)]
+struct Scratch {
+    /// Runs of points in cells that meet a cluster's box.
+    ranges: Vec<Range<usize>>,
+    /// Neighbours that may leave the support before the lists are built again.
+    far: Vec<u32>,
+}
+
+/// Lists every point within reach of any member, block after block: first those that stay in the support.
 fn search<T: Real, const D: usize>(
     input: &SearchInput<'_, T, D>,
     sources: &[Source<T, D>],
     block: usize,
     members: Range<usize>,
     instructions: InstructionSet,
-    ranges: &mut Vec<Range<usize>>,
+    scratch: &mut Scratch,
     chunk: &mut ChunkList,
 ) {
+    let Scratch { ranges, far } = scratch;
     let rows = &input.positions[members.clone()];
     let (mut low, mut high) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
     for x in rows {
@@ -236,11 +257,14 @@ fn search<T: Real, const D: usize>(
             source,
             ranges,
         };
-        sieve.dispatch(instructions, &mut chunk.neighbors);
+        sieve.dispatch(instructions, &mut chunk.neighbors, far);
+        let near_end = chunk.neighbors.len();
+        chunk.neighbors.extend_from_slice(far);
         let end = chunk.neighbors.len();
         if end > start {
             chunk.segments.push(Segment {
                 start: start as u32,
+                near_end: near_end as u32,
                 end: end as u32,
                 block: other as u32,
             });
@@ -260,28 +284,28 @@ struct Sieve<'a, T, const D: usize> {
 
 impl<T: Real, const D: usize> Sieve<'_, T, D> {
     #[inline(always)]
-    fn dispatch(&self, instructions: InstructionSet, found: &mut Vec<u32>) {
+    fn dispatch(&self, instructions: InstructionSet, found: &mut Vec<u32>, far: &mut Vec<u32>) {
         #[cfg(target_arch = "x86_64")]
         // SAFETY: `InstructionSet::detect` found them on this machine.
         match instructions {
-            InstructionSet::Avx512 => unsafe { return self.run_avx512(found) },
-            InstructionSet::Avx2 => unsafe { return self.run_avx2(found) },
+            InstructionSet::Avx512 => unsafe { return self.run_avx512(found, far) },
+            InstructionSet::Avx2 => unsafe { return self.run_avx2(found, far) },
             InstructionSet::Baseline => {}
         }
         let _ = instructions;
-        self.run::<T::Wide<false>>(found);
+        self.run::<T::Wide<false>>(found, far);
     }
 
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx512f,avx512vl,avx512dq,fma")]
-    fn run_avx512(&self, found: &mut Vec<u32>) {
-        self.run::<T::Wide<true>>(found);
+    fn run_avx512(&self, found: &mut Vec<u32>, far: &mut Vec<u32>) {
+        self.run::<T::Wide<true>>(found, far);
     }
 
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2,fma")]
-    fn run_avx2(&self, found: &mut Vec<u32>) {
-        self.run::<T::Wide<true>>(found);
+    fn run_avx2(&self, found: &mut Vec<u32>, far: &mut Vec<u32>) {
+        self.run::<T::Wide<true>>(found, far);
     }
 
     /// Members from `first` on; the last is repeated where there are no more.
@@ -295,12 +319,14 @@ impl<T: Real, const D: usize> Sieve<'_, T, D> {
         row
     }
 
-    /// Adds the points that are within reach of any member.
+    /// Adds the points that are within reach of any member to what was found, and fills `far` with those
+    /// of them that may leave the support by the time the skin is used up.
     #[inline(always)]
-    fn run<L: Lane<Scalar = T>>(&self, found: &mut Vec<u32>) {
-        let mut count = found.len();
+    fn run<L: Lane<Scalar = T>>(&self, found: &mut Vec<u32>, far: &mut Vec<u32>) {
+        let (mut count, mut far_count) = (found.len(), 0);
         let candidates: usize = self.ranges.iter().map(ExactSizeIterator::len).sum();
         found.resize(count + candidates, 0);
+        far.resize(candidates, 0);
         let last = self.rows.len() - 1;
         let first = self.row::<L>(0);
         for range in self.ranges {
@@ -315,25 +341,87 @@ impl<T: Real, const D: usize> Sieve<'_, T, D> {
                 // Rounding leaves out none.
                 let rounding = if T::COMPENSATED { 1e-6 } else { 1e-15 };
                 let reach2 = L::of(reach * reach * (1.0 + rounding));
-                let mut any = near(&first, x, reach2);
+                let stays = (reach - 2.0 * self.input.skin).max(0.0);
+                let stays2 = L::of(stays * stays);
+                let (mut any, mut near) = within(&first, x, reach2, stays2);
                 for k in (L::WIDTH..=last).step_by(L::WIDTH) {
-                    any |= near(&self.row::<L>(k), x, reach2);
+                    let more = within(&self.row::<L>(k), x, reach2, stays2);
+                    any |= more.0;
+                    near |= more.1;
                 }
                 found[count] = j;
-                count += usize::from(any);
+                count += usize::from(near);
+                far[far_count] = j;
+                // Who stays is within reach, too.
+                far_count += usize::from(any != near);
             }
         }
         found.truncate(count);
+        far.truncate(far_count);
     }
 }
 
-/// Whether a point is within reach of any of a row.
+/// Whether a point is within either of two distances of any of a row.
 #[inline(always)]
-fn near<L: Lane, const D: usize>(row: &[L; D], x: &[L::Scalar; D], reach2: L) -> bool {
+fn within<L: Lane, const D: usize>(
+    row: &[L; D],
+    x: &[L::Scalar; D],
+    reach2: L,
+    stays2: L,
+) -> (bool, bool) {
     let mut r2 = L::zero();
     for d in 0..D {
         let r = row[d] - L::splat(x[d]);
         r2 = r.mul_add(r, r2);
     }
-    r2.le(reach2).any()
+    (r2.le(reach2).any(), r2.lt(stays2).any())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn neighbours_that_stay_in_the_support_come_first() {
+        let positions: Vec<[f64; 2]> = (0..400)
+            .map(|k| {
+                let k = f64::from(k);
+                [(k * 0.618).fract(), (k * 0.414).fract()]
+            })
+            .collect();
+        let (radius, skin) = (0.12, 0.03);
+        let mut lists = ClusterLists::default();
+        lists.rebuild(&SearchInput {
+            positions: &positions,
+            radii: Radii::Uniform(radius),
+            blocks: &[Block {
+                slots: 0..400,
+                wall: false,
+            }],
+            listed: &[],
+            width: 8,
+            slots: 400,
+            skin,
+        });
+        let (mut near, mut far) = (0, 0);
+        for (c, chunk) in lists.chunks().iter().enumerate() {
+            for (k, bounds) in chunk.starts.windows(2).enumerate() {
+                let first = (c * CHUNK + k) * 8;
+                for segment in &chunk.segments[bounds[0] as usize..bounds[1] as usize] {
+                    for entry in segment.start..segment.end {
+                        let x = positions[chunk.neighbors[entry as usize] as usize];
+                        let least = positions[first..first + 8]
+                            .iter()
+                            .map(|y| (x[0] - y[0]).hypot(x[1] - y[1]))
+                            .fold(f64::INFINITY, f64::min);
+                        assert_eq!(entry < segment.near_end, least < radius - skin);
+                        assert!(least < radius + skin);
+                        near += usize::from(entry < segment.near_end);
+                        far += usize::from(entry >= segment.near_end);
+                    }
+                }
+            }
+        }
+        assert!(near > 0 && far > 0);
+    }
 }

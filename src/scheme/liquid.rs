@@ -572,6 +572,14 @@ mod tests {
             sums(&plain),
             [Output::Compression, Output::DensityDiffusion]
         );
+        // What a row stores a particle: a term that is left out stores nothing.
+        let stored = |scheme: &Scheme<f64, 3>| -> Option<usize> {
+            scheme
+                .compression
+                .as_ref()
+                .map(|sweep| sweep.outputs().width(3))
+        };
+        assert_eq!((stored(&bare), stored(&plain)), (Some(1), Some(2)));
         let shifted = weakly_compressible().shifting(Shifting::STANDARD).compose();
         assert_eq!(sums(&shifted)[2..], [Output::Moment, Output::Crowding]);
         assert_eq!(shifted.fields(), plain.fields());

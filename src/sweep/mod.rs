@@ -14,8 +14,12 @@
 //!   neighbours. Particles are sorted along a space-filling curve, so a cluster is compact.
 //! - **Lanes.** The cluster is a row of W lanes. Each neighbour is loaded once and broadcast to all of
 //!   them; lanes need arithmetic only, no gathering and no sum across. Where one smoothing length serves
-//!   all, a first look at the distances leaves out neighbours that no lane reaches. The other pairs
-//!   beyond the support are computed too and add zero, because W and F vanish there.
+//!   all, a first look at the distances leaves out neighbours that no lane reaches; lists have those first
+//!   that need no look, because the skin cannot carry them so far. The other pairs beyond the support are
+//!   computed too and add zero, because W and F vanish there.
+//! - **Two pairs under way.** The distance of the next pair is begun before the terms of this one: a root
+//!   takes longer than a processor looks ahead. In `f64` it is made of products ([`Lane::root`]): the
+//!   divider would take three times as long.
 //! - **Directions last.** A term adds to the force along rᵢⱼ and along vᵢⱼ as two numbers. The loop
 //!   turns them into vectors once for all terms, so a tuple of terms costs what one written-out loop
 //!   costs.
@@ -39,6 +43,7 @@
 //! the difference of the residuals to the difference of the positions. The price is D numbers a record
 //! and 2D additions a pair. `f64` has neither.
 //!
+//! [`Lane::root`]: crate::scalar::Lane::root
 //! [`Field::PositionResidual`]: crate::particles::Field::PositionResidual
 
 mod program;

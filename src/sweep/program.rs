@@ -8,7 +8,7 @@ use crate::kernel::Kernel;
 use crate::neighbors::{Block, CHUNK, ChunkList, ClusterLists, Segment};
 use crate::particles::{Columns, Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Mask, Real};
-use crate::term::{Layout, MOST_READS, MOST_SUMS, Pair, Sums, TermDoc, Terms};
+use crate::term::{Along, Layout, MOST_READS, MOST_SUMS, Pair, Sums, TermDoc, Terms};
 use core::fmt::Debug;
 use core::marker::PhantomData;
 use rayon::prelude::*;
@@ -234,7 +234,7 @@ impl<K, P, const MODES: u8> Program<K, P, MODES> {
         P: Terms<D>,
     {
         let width = <T::Wide<false> as Lane>::WIDTH;
-        rows.outputs = Composed::<T, P, D, HOW>::WRITES;
+        rows.lay_out(Composed::<T, P, D, HOW>::WRITES);
         let row = rows.outputs.width(D) * width;
         // Only chunks with wanted slots have rows.
         let slots = CHUNK * width;
@@ -422,10 +422,13 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                     compressive(reads, &mut own, D);
                     kept = sums.take_kernel_sum();
                 }
-                let neighbors = &list.neighbors[segment.start as usize..segment.end as usize];
+                let listed = (
+                    &list.neighbors[segment.start as usize..segment.end as usize],
+                    (segment.near_end - segment.start) as usize,
+                );
                 let mobile = [block, other]
                     .map(|block| L::of(f64::from(u8::from(!self.blocks[block].wall))));
-                self.segment::<L, HOW>(contact, mobile, &own, first, neighbors, &mut sums);
+                self.segment::<L, HOW>(contact, mobile, &own, first, listed, &mut sums);
                 if contact {
                     own = full;
                     sums.divert_kernel_sum(kept);
@@ -463,7 +466,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
     }
 
     /// Those of some neighbours that are within the support of any of the row, in their order; returns
-    /// how many there are.
+    /// how many there are. The first `staying` were so near when they were listed that they still are.
     ///
     /// What a skin lists and what a row of several particles lists for only one of them is mostly too
     /// far away, and finding that out costs less than the terms would.
@@ -472,6 +475,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         &self,
         own: &[L; MOST_READS],
         neighbors: &[u32],
+        staying: usize,
         near: &mut [u32; BATCH],
     ) -> usize
     where
@@ -481,8 +485,10 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         let stride = const { Composed::<T, P, D, HOW>::READS.width(D) };
         let position = reads.offset(Field::Position, D);
         let reach2 = L::splat(self.reach2);
-        let mut count = 0;
-        for &j in neighbors {
+        let (staying, leaving) = neighbors.split_at(staying);
+        let mut count = staying.len();
+        near[..count].copy_from_slice(staying);
+        for &j in leaving {
             let record = &self.records[j as usize * stride..j as usize * stride + stride];
             let mut r2 = L::zero();
             for d in 0..D {
@@ -495,7 +501,8 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         count
     }
 
-    /// One cluster against the neighbours of one segment, as far as they are within reach.
+    /// One cluster against the neighbours of one segment, as far as they are within reach, which the number
+    /// of them that comes with the list need not be asked.
     #[inline(always)]
     fn segment<L: Lane<Scalar = T>, const HOW: u8>(
         &self,
@@ -503,7 +510,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         mobile: [L; 2],
         own: &[L; MOST_READS],
         first: usize,
-        neighbors: &[u32],
+        (neighbors, staying): (&[u32], usize),
         sums: &mut Sums<L, D, Composed<T, P, D, HOW>>,
     ) where
         K: Kernel<D>,
@@ -516,10 +523,40 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
             return;
         }
         let mut near = [0; BATCH];
-        for batch in neighbors.chunks(BATCH) {
-            let count = self.within_reach::<L, HOW>(own, batch, &mut near);
+        for (k, batch) in neighbors.chunks(BATCH).enumerate() {
+            let staying = staying.saturating_sub(k * BATCH).min(batch.len());
+            let count = self.within_reach::<L, HOW>(own, batch, staying, &mut near);
             self.pairs::<L, HOW>(contact, mobile, own, first, &near[..count], sums);
         }
+    }
+
+    /// Where the row stands from a neighbour: rᵢⱼ, its square and its length.
+    #[inline(always)]
+    fn separation<L: Lane<Scalar = T>, const HOW: u8>(
+        &self,
+        own: &[L; MOST_READS],
+        j: u32,
+    ) -> ([L; D], L, L)
+    where
+        P: Terms<D>,
+    {
+        let reads = const { Composed::<T, P, D, HOW>::READS };
+        let stride = const { Composed::<T, P, D, HOW>::READS.width(D) };
+        let position = reads.offset(Field::Position, D);
+        let residual = reads.offset(Field::PositionResidual, D);
+        let record = &self.records[j as usize * stride..j as usize * stride + stride];
+        let mut r = [L::zero(); D];
+        for d in 0..D {
+            r[d] = own[position + d] - L::splat(record[position + d]);
+            if reads.contains(Field::PositionResidual) {
+                r[d] += own[residual + d] - L::splat(record[residual + d]);
+            }
+        }
+        let mut r2 = r[0] * r[0];
+        for d in 1..D {
+            r2 = r[d].mul_add(r[d], r2);
+        }
+        (r, r2, r2.root())
     }
 
     /// One cluster against some neighbours.
@@ -541,11 +578,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
     {
         let reads = const { Composed::<T, P, D, HOW>::READS };
         let stride = const { Composed::<T, P, D, HOW>::READS.width(D) };
-        let (position, velocity) = (
-            reads.offset(Field::Position, D),
-            reads.offset(Field::Velocity, D),
-        );
-        let residual = reads.offset(Field::PositionResidual, D);
+        let velocity = reads.offset(Field::Velocity, D);
         let h_at = reads.offset(Field::SmoothingLength, D);
         let norm = L::splat(self.kernel_norm);
         let uniform = Scale::new(L::splat(self.h), norm, D);
@@ -557,26 +590,29 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         let body_force = self.body_force.map(L::splat);
         let lattice_moment = L::splat(self.lattice_moment);
         let mut shown = [T::zero(); MOST_READS];
-        for &j in neighbors {
+        // Copies that nothing else points to stay in registers.
+        let terms = self.terms.clone();
+        let mut kept = sums.copied();
+        let (total, sums) = (sums, &mut kept);
+        let Some(&first_j) = neighbors.first() else {
+            return;
+        };
+        // The distance of the next pair is under way while the terms of this one are summed.
+        let mut next = self.separation::<L, HOW>(own, first_j);
+        for (k, &j) in neighbors.iter().enumerate() {
+            let (r, r2, distance) = next;
+            next = self.separation::<L, HOW>(own, *neighbors.get(k + 1).unwrap_or(&j));
             let record = &self.records[j as usize * stride..j as usize * stride + stride];
-            let mut r = [L::zero(); D];
             let mut v = [L::zero(); D];
-            for d in 0..D {
-                r[d] = own[position + d] - L::splat(record[position + d]);
-                if reads.contains(Field::PositionResidual) {
-                    r[d] += own[residual + d] - L::splat(record[residual + d]);
-                }
-                if reads.contains(Field::Velocity) {
+            if reads.contains(Field::Velocity) {
+                for d in 0..D {
                     v[d] = own[velocity + d] - L::splat(record[velocity + d]);
                 }
             }
-            let mut r2 = r[0] * r[0];
             let mut v_dot_r = v[0] * r[0];
             for d in 1..D {
-                r2 = r[d].mul_add(r[d], r2);
                 v_dot_r = v[d].mul_add(r[d], v_dot_r);
             }
-            let distance = r2.sqrt();
             let (h, w, f, f_i, f_j);
             if HOW & OWN != 0 {
                 let other = Scale::new(L::splat(record[h_at]), norm, D);
@@ -626,11 +662,12 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                 compressive(reads, &mut shown, D);
                 pair.j = &shown[..stride];
             }
-            sums.radial = L::zero();
-            sums.shear = L::zero();
-            self.terms.pair(&pair, sums);
+            sums.radial = Along::NOTHING;
+            sums.shear = Along::NOTHING;
+            terms.pair(&pair, sums);
             apply::<L, D, HOW, _>(&pair, sums, &P::WRITES, own, record, reads);
         }
+        total.take(&kept);
     }
 }
 
@@ -651,18 +688,23 @@ fn apply<L: Lane, const D: usize, const HOW: u8, C: Layout>(
         let mean = reads.offset(Field::MeanVelocity, D);
         let mut work = L::zero();
         for d in 0..D {
-            let force = sums.radial.mul_add(pair.r[d], sums.shear * pair.v[d]);
+            let force = sums
+                .radial
+                .mul_add(pair.r[d], sums.shear.mul_add(pair.v[d], L::zero()));
             work = force.mul_add(L::splat(record[mean + d]) - own[mean + d], work);
         }
         sums.add(Output::Power, work * L::of(0.5));
         return;
     }
     for d in 0..D {
-        let force = sums.radial.mul_add(pair.r[d], sums.shear * pair.v[d]);
-        sums.add_at(Output::Force, d, force);
+        let kept = &mut sums.kept[C::WRITES.offset(Output::Force, D) + d];
+        *kept = sums.radial.mul_add(pair.r[d], *kept);
+        *kept = sums.shear.mul_add(pair.v[d], *kept);
     }
     if writes.contains(Output::Power) {
-        let power = sums.radial.mul_add(pair.v_dot_r, sums.shear * pair.v2());
+        let power = sums
+            .radial
+            .mul_add(pair.v_dot_r, sums.shear.mul_add(pair.v2(), L::zero()));
         sums.add(Output::Power, power * L::of(-0.5));
     }
 }
@@ -694,7 +736,7 @@ impl<L: Lane> Scale<L> {
     }
     #[inline(always)]
     fn gradient<K: Kernel<D>, const D: usize>(&self, kernel: &K, r: L) -> L {
-        self.gradient * kernel.slope_over_q(r * self.inverse)
+        kernel.gradient(r, self.inverse, self.gradient)
     }
 }
 

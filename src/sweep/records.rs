@@ -111,7 +111,8 @@ impl<T: Real> Records<T> {
         self.stride = stride;
         self.data.resize(stride * (slots + images.len()), T::zero());
         let (own, mirrored) = self.data.split_at_mut(stride * slots);
-        const GRAIN: usize = 1024;
+        // So few that their records stay in the first cache from field to field.
+        const GRAIN: usize = 256;
         own.par_chunks_mut(GRAIN * stride.max(1))
             .enumerate()
             .for_each(|(chunk, records)| {
@@ -121,16 +122,23 @@ impl<T: Real> Records<T> {
                 for field in reads.iter() {
                     let width = field.components(D);
                     let column = &columns.raw(field)[first * width..(first + count) * width];
-                    if width == 1 {
-                        for (record, &value) in records.chunks_exact_mut(stride).zip(column) {
-                            record[offset] = value;
+                    let records = records.chunks_exact_mut(stride);
+                    // Widths that the compiler knows: a copy of three numbers is not worth a call.
+                    match field.shape() {
+                        Shape::Scalar => {
+                            for (record, &value) in records.zip(column) {
+                                record[offset] = value;
+                            }
                         }
-                    } else {
-                        for (record, values) in records
-                            .chunks_exact_mut(stride)
-                            .zip(column.chunks_exact(width))
-                        {
-                            record[offset..offset + width].copy_from_slice(values);
+                        Shape::Matrix => {
+                            for (record, values) in records.zip(column.chunks_exact(width)) {
+                                record[offset..offset + width].copy_from_slice(values);
+                            }
+                        }
+                        _ => {
+                            for (record, values) in records.zip(column.as_chunks::<D>().0) {
+                                record[offset..offset + D].copy_from_slice(values);
+                            }
                         }
                     }
                     offset += width;

@@ -15,6 +15,9 @@ pub struct Reaction<const D: usize> {
     pub force: [f64; D],
 }
 
+/// The place of a sum that is not here.
+const ABSENT: u32 = u32::MAX;
+
 /// The sums of a sweep.
 #[derive(Clone, Debug)]
 pub struct Rows<T, const D: usize> {
@@ -22,6 +25,11 @@ pub struct Rows<T, const D: usize> {
     /// The slot that the sums start with.
     pub(super) first: usize,
     pub(super) outputs: Outputs,
+    /// Where each sum starts among the numbers of a particle, [`ABSENT`] if it is not here. To count the
+    /// bits of `outputs` for every number that is read costs more than to read it.
+    offsets: [u32; Output::COUNT],
+    /// Numbers a particle.
+    stride: usize,
     pub(super) reactions: Vec<Vec<Reaction<D>>>,
 }
 
@@ -31,6 +39,8 @@ impl<T: Real, const D: usize> Default for Rows<T, D> {
             data: Vec::new(),
             first: 0,
             outputs: Outputs::NONE,
+            offsets: [ABSENT; Output::COUNT],
+            stride: 0,
             reactions: Vec::new(),
         }
     }
@@ -38,6 +48,16 @@ impl<T: Real, const D: usize> Default for Rows<T, D> {
 
 impl<T: Real, const D: usize> Rows<T, D> {
     const WIDTH: usize = <T::Wide<false> as Lane>::WIDTH;
+
+    /// Prepares for other sums.
+    pub(super) fn lay_out(&mut self, outputs: Outputs) {
+        self.outputs = outputs;
+        self.stride = outputs.width(D);
+        self.offsets = [ABSENT; Output::COUNT];
+        for output in outputs.iter() {
+            self.offsets[output as usize] = outputs.offset(output, D) as u32;
+        }
+    }
 
     /// The sums that are here.
     #[must_use]
@@ -50,11 +70,11 @@ impl<T: Real, const D: usize> Rows<T, D> {
     #[inline(always)]
     #[must_use]
     pub fn get(&self, output: Output, k: usize, slot: usize) -> T {
-        if !self.outputs.contains(output) || slot < self.first {
+        let offset = self.offsets[output as usize];
+        if offset == ABSENT || slot < self.first {
             return T::zero();
         }
-        let offset = self.outputs.offset(output, D) + k;
-        let at = self.at(slot - self.first, offset);
+        let at = self.at(slot - self.first, offset as usize + k);
         self.data.get(at).copied().unwrap_or(T::zero())
     }
 
@@ -68,14 +88,13 @@ impl<T: Real, const D: usize> Rows<T, D> {
     /// Where component `offset` of the n-th particle stands.
     #[inline(always)]
     fn at(&self, n: usize, offset: usize) -> usize {
-        let stride = self.outputs.width(D);
-        (n / Self::WIDTH * stride + offset) * Self::WIDTH + n % Self::WIDTH
+        (n / Self::WIDTH * self.stride + offset) * Self::WIDTH + n % Self::WIDTH
     }
 
     /// Rearranges the slots of sums that start with the first: slot k gets the sums of what slot
     /// `order[k]` was.
     pub(crate) fn permute(&mut self, order: &[u32]) {
-        let stride = self.outputs.width(D);
+        let stride = self.stride;
         let held = self.data.len().checked_div(stride).unwrap_or(0);
         let Some(last) = order.iter().rposition(|&from| (from as usize) < held) else {
             return;

@@ -87,12 +87,13 @@ impl Default for Fourtakas {
 #[inline(always)]
 fn dynamic_jump<L: Lane, const D: usize, P: Layout>(pair: &Pair<'_, L, D, P>) -> L {
     let (p_i, p_j) = (pair.i(Field::Pressure), pair.j(Field::Pressure));
-    let density = (pair.i(Field::Density) + pair.j(Field::Density)) * L::of(-0.5);
-    let along = (1..D).fold(pair.body_force[0] * pair.r[0], |sum, d| {
-        pair.body_force[d].mul_add(pair.r[d], sum)
+    let densities = pair.i(Field::Density) + pair.j(Field::Density);
+    let weight = (0..D).fold(L::zero(), |sum, d| {
+        (pair.body_force[d] * L::of(-0.5)).mul_add(pair.r[d], sum)
     });
-    let pressed = (p_i + p_j).gt(L::zero());
-    L::select(pressed, density * along, L::zero()) + (p_i - p_j)
+    let jump = p_i - p_j;
+    let pressed = p_j.gt(-p_i);
+    L::select(pressed, densities.mul_add(weight, jump), jump)
 }
 
 impl<const D: usize> Term<D> for Fourtakas {
@@ -101,9 +102,9 @@ impl<const D: usize> Term<D> for Fourtakas {
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
         // What depends on i alone is the compiler's to lift out of the loop.
-        let own = pair.h * L::of(2.0 * self.delta) / pair.i(Field::SoundSpeed);
-        let rate = own * pair.j(Field::Weight) * pair.f * dynamic_jump(pair);
-        sums.add(Output::DensityDiffusion, rate * pair.mobile);
+        let own = pair.h * L::of(2.0 * self.delta) * pair.mobile / pair.i(Field::SoundSpeed);
+        let rate = pair.j(Field::Weight) * pair.f * own;
+        sums.add_product(Output::DensityDiffusion, rate, dynamic_jump(pair));
     }
     fn document(&self) -> TermDoc {
         TermDoc {

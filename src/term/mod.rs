@@ -92,6 +92,7 @@ use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Lane;
 use core::fmt::Debug;
 use core::marker::PhantomData;
+use core::ops::{AddAssign, SubAssign};
 
 mod crowding;
 mod density_diffusion;
@@ -209,13 +210,61 @@ impl<L: Lane, const D: usize, P: Layout> Pair<'_, L, D, P> {
     }
 }
 
+/// A force of a pair along one direction, which costs nothing where no term sets it.
+#[derive(Clone, Copy, Debug)]
+pub struct Along<L>(Option<L>);
+
+impl<L: Lane> Along<L> {
+    pub(crate) const NOTHING: Self = Self(None);
+
+    /// The sum of what terms have set; zero where none has.
+    #[inline(always)]
+    #[must_use]
+    pub fn value(self) -> L {
+        self.0.unwrap_or_else(L::zero)
+    }
+    /// Adds a product, with one rounding where lanes are fused.
+    #[inline(always)]
+    pub fn add_product(&mut self, a: L, b: L) {
+        self.0 = Some(match self.0 {
+            Some(sum) => a.mul_add(b, sum),
+            None => a * b,
+        });
+    }
+    /// The force times the component `along` of its direction, and `sum`.
+    #[inline(always)]
+    pub(crate) fn mul_add(self, along: L, sum: L) -> L {
+        match self.0 {
+            Some(force) => force.mul_add(along, sum),
+            None => sum,
+        }
+    }
+}
+
+impl<L: Lane> AddAssign<L> for Along<L> {
+    #[inline(always)]
+    fn add_assign(&mut self, force: L) {
+        self.0 = Some(match self.0 {
+            Some(sum) => sum + force,
+            None => force,
+        });
+    }
+}
+
+impl<L: Lane> SubAssign<L> for Along<L> {
+    #[inline(always)]
+    fn sub_assign(&mut self, force: L) {
+        *self += -force;
+    }
+}
+
 /// The sums of a row of particles over their neighbours.
 #[derive(Debug)]
 pub struct Sums<L: Lane, const D: usize, P: Layout> {
     /// This pair's force on i along rᵢⱼ, divided by rᵢⱼ \[N/m\]: symmetric in i and j.
-    pub radial: L,
+    pub radial: Along<L>,
     /// This pair's force on i along vᵢⱼ, divided by vᵢⱼ \[N s/m\]: symmetric in i and j.
-    pub shear: L,
+    pub shear: Along<L>,
     pub(crate) kept: [L; MOST_SUMS],
     layout: PhantomData<P>,
 }
@@ -225,16 +274,37 @@ impl<L: Lane, const D: usize, P: Layout> Sums<L, D, P> {
     pub(crate) fn new() -> Self {
         let zero = L::zero();
         Self {
-            radial: zero,
-            shear: zero,
+            radial: Along::NOTHING,
+            shear: Along::NOTHING,
             kept: [zero; MOST_SUMS],
             layout: PhantomData,
         }
+    }
+    /// The sums that are kept, copied.
+    #[inline(always)]
+    pub(crate) fn copied(&self) -> Self {
+        let mut copy = Self::new();
+        copy.take(self);
+        copy
+    }
+    /// Takes over the sums that are kept.
+    #[inline(always)]
+    pub(crate) fn take(&mut self, from: &Self) {
+        let width = P::WRITES.width(D);
+        self.kept[..width].copy_from_slice(&from.kept[..width]);
     }
     /// Adds to a scalar sum.
     #[inline(always)]
     pub fn add(&mut self, output: Output, value: L) {
         self.add_at(output, 0, value);
+    }
+    /// Adds a product to a scalar sum, with one rounding where lanes are fused.
+    #[inline(always)]
+    pub fn add_product(&mut self, output: Output, a: L, b: L) {
+        if P::WRITES.contains(output) {
+            let kept = &mut self.kept[P::WRITES.offset(output, D)];
+            *kept = a.mul_add(b, *kept);
+        }
     }
     /// Adds to component `k` of a sum.
     #[inline(always)]
@@ -358,3 +428,21 @@ tuple!(A, B, C, E, F);
 tuple!(A, B, C, E, F, G);
 tuple!(A, B, C, E, F, G, H);
 tuple!(A, B, C, E, F, G, H, I);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_force_that_no_term_sets_is_not_even_multiplied() {
+        let mut force = Along::<f64>::NOTHING;
+        assert_eq!(force.value(), 0.0);
+        // Zero times this would be no number.
+        assert_eq!(force.mul_add(f64::INFINITY, 2.0), 2.0);
+        force -= 3.0;
+        force.add_product(2.0, 4.0);
+        force += 1.0;
+        assert_eq!(force.value(), 6.0);
+        assert_eq!(force.mul_add(0.5, 2.0), 5.0);
+    }
+}

@@ -100,8 +100,8 @@ pub fn probe<L: Lane, const D: usize, K: Kernel<D>, A: Term<D>>(
     let mut sums = Sums::new();
     term.pair(&pair, &mut sums);
     Probe {
-        radial: sums.radial,
-        shear: sums.shear,
+        radial: sums.radial.value(),
+        shear: sums.shear.value(),
         sums: sums.kept,
     }
 }

@@ -98,9 +98,10 @@ impl<const D: usize> Term<D> for Compression {
     const WRITES: Outputs = Outputs::of(&[Output::Compression]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        sums.add(
+        sums.add_product(
             Output::Compression,
-            pair.j(Field::Weight) * pair.v_dot_r * pair.f,
+            pair.j(Field::Weight) * pair.f,
+            pair.v_dot_r,
         );
     }
     fn document(&self) -> TermDoc {

@@ -114,8 +114,8 @@ impl<const D: usize, V: ArtificialViscosity<D>> Term<D> for Viscosity<V> {
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
         let viscous = self.0.pair(pair);
-        let masses = pair.i(Field::Mass) * pair.j(Field::Mass) * (pair.mobile * pair.mobile_i);
-        sums.radial -= masses * viscous.pi * pair.f;
+        let masses = pair.i(Field::Mass) * (pair.mobile * pair.mobile_i) * pair.j(Field::Mass);
+        sums.radial.add_product(-(masses * viscous.pi), pair.f);
         let inside = pair.f.lt(L::zero());
         sums.raise(Output::Signal, L::select(inside, viscous.signal, L::zero()));
         self.0.sums(pair, sums);
@@ -136,21 +136,21 @@ fn between<L: Lane, const D: usize, P: Layout>(
     alpha: L,
     beta: L,
 ) -> Viscous<L> {
-    let half = L::of(0.5);
-    let sound_speed = (pair.i(Field::SoundSpeed) + pair.j(Field::SoundSpeed)) * half;
-    let density = (pair.i(Field::Density) + pair.j(Field::Density)) * half;
-    let linear = alpha * sound_speed;
+    // Twice the means: their halves cancel in Π.
+    let sound_speeds = pair.i(Field::SoundSpeed) + pair.j(Field::SoundSpeed);
+    let densities = pair.i(Field::Density) + pair.j(Field::Density);
     let approaching = pair.v_dot_r.lt(L::zero()) & jump.lt(L::zero());
-    let h_jump = L::select(approaching, pair.h * jump, L::zero());
-    let r2 = pair.h.mul_add(pair.h * L::of(0.01), pair.r2);
+    let r2_over_h = pair.r2.mul_add(pair.h.recip(), pair.h * L::of(0.01));
     // One division serves μ and Π: it takes longer than all else here.
-    let inverse = (r2 * density).recip();
-    let mu = h_jump * density * inverse;
-    let pi = mu * (beta * mu - linear) * (r2 * inverse);
+    let quotient = jump / (r2_over_h * densities);
+    let mu_over_densities = L::select(approaching, quotient, L::zero());
+    let mu = mu_over_densities * densities;
+    // 2 (α c̄ − β μ)
+    let speed = mu.mul_add(-(beta + beta), alpha * sound_speeds);
     // Monaghan 1992, eq. 10.5: a viscous pair needs h/(c + 0.6 (α c + β |μ|)).
     Viscous {
-        pi,
-        signal: (linear - beta * mu) * L::of(0.6),
+        pi: -(mu_over_densities * speed),
+        signal: speed * L::of(0.3),
     }
 }
 
