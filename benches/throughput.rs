@@ -224,7 +224,6 @@ impl Fused<'_> {
         const STRIDE: usize = 11;
         let (inverse, reach2) = (1.0 / self.h, 4.004 * self.h * self.h);
         let gradient = self.norm * inverse.powi(5);
-        let epsilon = 0.01 * self.h * self.h;
         let mut near = [0_u32; 256];
         for (c, chunk) in self.lists.chunks().iter().enumerate() {
             for (k, bounds) in chunk.starts.windows(2).enumerate() {
@@ -237,9 +236,12 @@ impl Fused<'_> {
                 let mut signal = Row::splat(0.0);
                 for segment in &chunk.segments[bounds[0] as usize..bounds[1] as usize] {
                     let listed = &chunk.neighbors[segment.start as usize..segment.end as usize];
-                    for batch in listed.chunks(near.len()) {
-                        let mut count = 0;
-                        for &j in batch {
+                    let staying = (segment.near_end - segment.start) as usize;
+                    for (b, batch) in listed.chunks(near.len()).enumerate() {
+                        let staying = staying.saturating_sub(b * near.len()).min(batch.len());
+                        let mut count = staying;
+                        near[..count].copy_from_slice(&batch[..count]);
+                        for &j in &batch[count..] {
                             let at = j as usize * STRIDE;
                             let x = &self.records[at..at + 3];
                             let mut r2 = Row::splat(0.0);
@@ -261,20 +263,23 @@ impl Fused<'_> {
                             let v2 = own[5] - Row::splat(other[5]);
                             let d2 = r2.mul_add(r2, r1.mul_add(r1, r0 * r0));
                             let vr = v2.mul_add(r2, v1.mul_add(r1, v0 * r0));
-                            let q = d2.sqrt() * Row::splat(inverse);
-                            let t = q.mul_add(Row::splat(-0.5), Row::splat(1.0)).positive_part();
+                            let t = d2
+                                .root()
+                                .mul_add(Row::splat(-0.5 * inverse), Row::splat(1.0))
+                                .positive_part();
                             let f = t * t * t * Row::splat(-5.0 * gradient);
-                            let approach = Row::splat(self.h)
-                                * Row::select(vr.lt(Row::splat(0.0)), vr, Row::splat(0.0));
-                            let c = (own[8] + Row::splat(other[8])) * Row::splat(0.5 * self.alpha);
-                            let density = (own[7] + Row::splat(other[7])) * Row::splat(0.5);
-                            let shifted = d2 + Row::splat(epsilon);
-                            let once = Row::splat(1.0) / (shifted * density);
-                            let pi = -(approach * c * once);
+                            let sounds = own[8] + Row::splat(other[8]);
+                            let densities = own[7] + Row::splat(other[7]);
+                            let over_h = d2.mul_add(Row::splat(inverse), Row::splat(0.01 * self.h));
+                            let jump = vr / (over_h * densities);
+                            let approach =
+                                Row::select(vr.lt(Row::splat(0.0)), jump, Row::splat(0.0));
+                            let speed = sounds * Row::splat(self.alpha);
+                            let pi = -(approach * speed);
                             let inside = f.lt(Row::splat(0.0));
                             signal = signal.max(Row::select(
                                 inside,
-                                c * Row::splat(0.6),
+                                speed * Row::splat(0.3),
                                 Row::splat(0.0),
                             ));
                             let weights = own[9] * Row::splat(other[9]);

@@ -28,6 +28,10 @@ const EXAMPLE: Example = Example {
 
 /// Sound speed in units of the lid's.
 const SOUND: f64 = 10.0;
+/// Samples of the profiles that their means are taken over.
+const SAMPLES: usize = 20;
+/// Places on a centre line.
+const PLACES: usize = 257;
 /// Layers of wall particles.
 const LAYERS: usize = 4;
 
@@ -115,9 +119,26 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
     let mut movie = Movie::create(options.file(&format!("{name}.pvd")))?;
     let columns = ["time_s", "kinetic_energy_j_m"];
     let mut history = CsvWriter::create(options.file(&format!("{name}_energy.csv")), &columns)?;
-    let summary = watch(EXAMPLE.name, &mut simulation, &evenly(until, 21), |now| {
+    // Eddies of the size of a few particles come and go: the profiles are means over the last quarter.
+    let times = evenly(until, 4 * SAMPLES + 1);
+    let places = evenly(1.0, PLACES);
+    let mut profiles = [[0.0; PLACES]; 2];
+    let mut taken = 0;
+    let summary = watch(EXAMPLE.name, &mut simulation, &times, |now| {
         history.row(&[now.time(), now.ledger().whole.kinetic])?;
-        movie.frame(now)?;
+        if taken % 4 == 0 {
+            movie.frame(now)?;
+        }
+        taken += 1;
+        if taken <= 3 * SAMPLES + 1 {
+            return Ok(());
+        }
+        for (profile, (_, component, _, point)) in profiles.iter_mut().zip(LINES) {
+            for (mean, place) in profile.iter_mut().zip(&places) {
+                let own = velocity(now, point(*place), component, 2.5 * spacing);
+                *mean += own / SAMPLES as f64;
+            }
+        }
         Ok(())
     })?;
 
@@ -125,12 +146,18 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
     let mut csv = CsvWriter::create(options.file(&format!("{name}.csv")), &columns)?;
     let mut figure = Figure::new().columns(3);
     let (mut worst, mut squares, mut count) = (0.0_f64, 0.0, 0.0);
-    for (title, component, reference, point) in LINES {
+    for (profile, (title, component, reference, _)) in profiles.iter().zip(LINES) {
         let value = |p: &CentreLinePoint| match reynolds {
             1000.0 => p.reynolds_1000,
             _ => p.reynolds_100,
         };
-        let computed = |place: f64| velocity(&simulation, point(place), component, 2.5 * spacing);
+        // Between the places of the profile, which the reference falls between.
+        let computed = |place: f64| {
+            let at = place * (PLACES - 1) as f64;
+            let left = (at as usize).min(PLACES - 2);
+            let share = at - left as f64;
+            profile[left] + share * (profile[left + 1] - profile[left])
+        };
         for p in reference {
             let own = computed(p.place);
             csv.row(&[component as f64, p.place, own, value(p)])?;
@@ -142,7 +169,7 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
             }
         }
         let table = reference.iter().map(|p| (p.place, value(p)));
-        let curve = evenly(1.0, 101).into_iter().map(|s| (s, computed(s)));
+        let curve = places.iter().copied().zip(profile.iter().copied());
         let panel = Panel::new(Axis::linear("place", "L"), Axis::linear("velocity", "U"));
         figure = figure.panel(
             panel

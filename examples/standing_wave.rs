@@ -17,7 +17,7 @@ use std::process::ExitCode;
 const EXAMPLE: Example = Example {
     name: "standing_wave",
     about: "A standing wave, 2 m long on 1 m of water, in a tank of half its length.",
-    schemes: &["plain", "shifting"],
+    schemes: &["plain", "shifting", "renormalised"],
     own: &[Own {
         name: "--amplitude",
         value: "M",
@@ -55,6 +55,7 @@ fn scene<T: Real>(options: &Options, wave: StandingWave, spacing: f64) -> Scene<
     let scheme = schemes::weakly_compressible().h_over_dx(2.0);
     let scheme: Scheme<T, 2> = match options.scheme.as_str() {
         "shifting" => scheme.shifting(Shifting::STANDARD).compose(),
+        "renormalised" => scheme.renormalised().compose(),
         _ => scheme.compose(),
     };
     Scene::new(scheme)

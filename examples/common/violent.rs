@@ -10,12 +10,13 @@ use meshfree::output::csv::CsvWriter;
 use meshfree::output::progress::Progress;
 use meshfree::output::vtu::{Pvd, Vtu};
 use meshfree::prelude::*;
+use meshfree::simulation::Phases;
 use meshfree::study::records::Record;
 use meshfree::term::Fourtakas;
 use meshfree::term::viscosity::{MonaghanGingold, Riemann};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Options that the examples of violent flow take beside those of all.
 pub const OWN: [Own; 11] = [
@@ -174,6 +175,7 @@ pub struct History {
     pub particles: usize,
     pub lost: usize,
     pub left: u64,
+    pub phases: Phases,
 }
 
 impl History {
@@ -286,7 +288,7 @@ impl History {
         Ok(())
     }
 
-    /// Two lines about the run itself.
+    /// Three lines about the run itself.
     pub fn summary(&self) -> String {
         let mut text = format!(
             "{} particles of liquid, {} steps in {:.1} s",
@@ -296,7 +298,29 @@ impl History {
             let each = 1e6 * self.wall_clock / self.steps as f64 / self.particles as f64;
             let _ = write!(text, " ({each:.2} µs a particle and step)");
         }
-        text + &format!("; {} in the walls, {} left", self.lost, self.left)
+        let _ = write!(text, "; {} in the walls, {} left", self.lost, self.left);
+        let share = |of: Duration| 100.0 * of.as_secs_f64() / self.wall_clock;
+        let Phases {
+            lists,
+            packing,
+            pairs,
+            walls,
+            materials,
+            integration,
+        } = self.phases;
+        let watching = 100.0 - share(self.phases.total());
+        let _ = write!(
+            text,
+            "\nof the time lists {:.0} %, packing {:.0} %, pairs {:.0} %, walls {:.0} %, materials {:.0} %, \
+             integration {:.0} %, probes and files {watching:.0} %",
+            share(lists),
+            share(packing),
+            share(pairs),
+            share(walls),
+            share(materials),
+            share(integration),
+        );
+        text
     }
 }
 
@@ -361,6 +385,7 @@ pub fn run<T: Real, const D: usize>(
         return Err(failure);
     }
     history.steps = simulation.steps();
+    history.phases = simulation.phases();
     history.wall_clock = started.elapsed().as_secs_f64();
     history.left = simulation.removed().particles;
     history.lost = simulation

@@ -22,7 +22,7 @@ fn slope(points: &[(f64, f64)]) -> f64 {
 pub fn flat(case: &Flat, history: &History, choices: &Choices) -> Result<(), Failure> {
     let units = case.units()?;
     let mut bars = vec![Bar::between(
-        "particles in the walls",
+        "particles over half a spacing deep in walls",
         history.lost as f64,
         0.0,
         0.0,
@@ -164,7 +164,7 @@ pub fn obstacle(history: &History, spacing: f64, choices: &Choices) {
     const DECAY: [(f64, f64); 4] = [(1.0, 3036.0), (2.0, 3055.0), (3.0, 1836.0), (4.0, 1246.0)];
     let until = history.time.last().copied().unwrap_or(0.0);
     let mut bars = vec![Bar::between(
-        "particles in the walls",
+        "particles over half a spacing deep in walls",
         history.lost as f64,
         0.0,
         0.0,

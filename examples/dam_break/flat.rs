@@ -143,8 +143,10 @@ impl Flat {
         let mut series = Pvd::create(options.file("particles.pvd"))?;
         // Above the rim it may fly.
         let [length, top] = self.tank;
+        // A drop that strikes a wall alone dives a little before it bounces.
+        let deep = 0.5 * self.spacing;
         let inside = |_: &Simulation<T, 2>, [x, y]: [f64; 2]| {
-            y > top || (0.0..=length).contains(&x) && y >= 0.0
+            y > top || (-deep..=length + deep).contains(&x) && y >= -deep
         };
         let frame = |now: &Simulation<T, 2>, k: usize| {
             violent::paraview(&mut series, now)?;

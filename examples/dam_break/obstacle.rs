@@ -124,8 +124,11 @@ pub fn perform<T: Real>(options: &Options, choices: &Choices) -> Result<(), Fail
     println!("{}", simulation.scheme());
     let mut series = Pvd::create(options.file("particles.pvd"))?;
     let inside = |_: &Simulation<T, 3>, x: [f64; 3]| {
-        let boxed = (0..3).all(|d| x[d] > BOX[0][d] && x[d] < BOX[1][d]);
-        x[2] > TANK[2] || (!boxed && (0..3).all(|d| x[d] >= 0.0 && x[d] <= TANK[d]))
+        // A drop that strikes a wall alone dives a little before it bounces.
+        let deep = 0.5 * spacing;
+        let boxed = (0..3).all(|d| x[d] > BOX[0][d] + deep && x[d] < BOX[1][d] - deep);
+        let in_tank = (0..3).all(|d| x[d] >= -deep && x[d] <= TANK[d] + deep);
+        x[2] > TANK[2] || (in_tank && !boxed)
     };
     let frame = |now: &Simulation<T, 3>, k: usize| {
         violent::paraview(&mut series, now)?;

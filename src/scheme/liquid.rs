@@ -15,15 +15,15 @@ use crate::term::{
 /// How particles are kept evenly spread.
 ///
 /// Where a flow strains, a lattice breaks up, and the kernel sums of a disordered neighbourhood read
-/// as pressure. Taylor–Green vortices at Re 100 on 50² particles (Wendland C2, h/dx 1.5) after 1 s, when
-/// the speed should be 0.454 of the first; the error of the root of the kinetic energy:
+/// as pressure. Taylor–Green vortices at Re 100 on 50² particles (Wendland C2, h/dx 1.5), whose speed falls
+/// to 0.454 of the first within 1 s; the largest error of that speed:
 ///
-/// | none | concentration, A = 2 | A = 20 | transport velocity, 1 ρc² | 10 ρc² |
-/// |---|---|---|---|---|
-/// | −76 % | −53 % | −0.4 % | −14 % | −3 % |
+/// | none | [`CLOSED`](Self::CLOSED), A = 20 | [`TRANSPORT`](Self::TRANSPORT), 10 ρc² |
+/// |---|---|---|
+/// | −77 % | −0.4 % | −3.6 % |
 ///
-/// Densities do not follow the shifts. Where viscosity is too weak to keep order, in a driven cavity at
-/// Re 1000 on 50² particles, they drift away.
+/// Densities do not follow the shifts, and drift where viscosity is too weak to keep order:
+/// [`volume_consistency`](LiquidBuilder::volume_consistency) holds them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shifting {
     /// Against the gradient of their concentration, by A h |v| dt, at most 0.3 h²
