@@ -53,6 +53,7 @@
 //! ```
 
 mod advance;
+mod continuity;
 mod control;
 mod damping;
 mod density;
