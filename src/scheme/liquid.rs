@@ -1,7 +1,10 @@
 //! Schemes of weakly compressible liquids: density integrated with diffusion, walls of particles.
 //! Two sweeps a step: the forces, and the rate of density at the middle of the drift.
 
-use super::{DEFAULT_STEP_FACTOR, DensityForm, EnergyForm, KernelFacts, Scheme, Smoothing};
+use super::lattice::{lattice_moment, lattice_unity};
+use super::{
+    DEFAULT_STEP_FACTOR, DensityForm, EnergyForm, KernelFacts, Scheme, Shifting, Smoothing,
+};
 use crate::kernel::Kernel;
 use crate::particles::Field;
 use crate::scalar::Real;
@@ -11,58 +14,6 @@ use crate::term::{
     Nothing, PartitionOfUnity, PressureForce, RenormalisedCompression, RenormalisedPressureForce,
     Term, VelocityGradient, Viscosity, ViscosityAtWall,
 };
-
-/// How particles are kept evenly spread.
-///
-/// Where a flow strains, a lattice breaks up, and the kernel sums of a disordered neighbourhood read
-/// as pressure. Taylor–Green vortices at Re 100 on 50² particles (Wendland C2, h/dx 1.5), whose speed falls
-/// to 0.454 of the first within 1 s; the largest error of that speed:
-///
-/// | none | [`CLOSED`](Self::CLOSED), A = 20 | [`TRANSPORT`](Self::TRANSPORT), 10 ρc² |
-/// |---|---|---|
-/// | −77 % | −0.4 % | −3.6 % |
-///
-/// Densities do not follow the shifts, and drift where viscosity is too weak to keep order:
-/// [`volume_consistency`](LiquidBuilder::volume_consistency) holds them.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Shifting {
-    /// Against the gradient of their concentration, by A h |v| dt, at most 0.3 h²
-    /// (Lind et al. 2012; Skillen et al. 2013, eq. 15). The speed is that in the frame of the scene, so
-    /// a tank that moves fast is better given as an [acceleration](crate::scene::Scene::acceleration).
-    Concentration {
-        /// Strength A; Skillen et al. use 1 to 6, in flows that stay better ordered.
-        strength: f64,
-        /// Whether a free surface is left alone. In a flow without one, voids must not pass for one, or
-        /// nothing closes them.
-        free_surface: bool,
-    },
-    /// By a background pressure that moves particles and not their momentum: by
-    /// −dt² p_b/m Σ (Vᵢ² + Vⱼ²) ∇W/2 in a step (Adami, Hu & Adams 2013, eq. 8). For flow without free
-    /// surface.
-    ///
-    /// The stress by which Adami et al. make momentum follow (their eq. 13) is left out: with it the
-    /// vortices gained 11 % where they lose 0.8 % without (3 ρc² at h/dx 2), and with the other sign
-    /// they lost 20 %.
-    TransportVelocity {
-        /// Background pressure in units of ρ c².
-        background: f64,
-    },
-}
-
-impl Shifting {
-    /// Free-surface shifting, A = 2.
-    pub const STANDARD: Self = Self::Concentration {
-        strength: 2.0,
-        free_surface: true,
-    };
-    /// For flow that walls or periods enclose, A = 20.
-    pub const CLOSED: Self = Self::Concentration {
-        strength: 20.0,
-        free_surface: false,
-    };
-    /// The transport velocity, 10 ρc².
-    pub const TRANSPORT: Self = Self::TransportVelocity { background: 10.0 };
-}
 
 /// What a scheme of liquids adds to one of solids and gases.
 #[derive(Debug)]
@@ -468,45 +419,6 @@ fn damped_step(strength: Option<f64>, stable: f64) -> f64 {
     })
 }
 
-/// −Σ V r·∇W/D over a cubic lattice, by which sums of gradients fall short or exceed.
-fn lattice_moment<K: Kernel<D>, const D: usize>(kernel: &K, h_over_dx: f64) -> f64 {
-    let sum = lattice_sum(kernel, h_over_dx, |r| {
-        -r * r * Kernel::<D>::slope_over_q(kernel, r / h_over_dx)
-    });
-    sum / (D as f64 * h_over_dx.powi(2))
-}
-
-/// Σ V W over a cubic lattice.
-fn lattice_unity<K: Kernel<D>, const D: usize>(kernel: &K, h_over_dx: f64) -> f64 {
-    lattice_sum(kernel, h_over_dx, |r| {
-        Kernel::<D>::shape(kernel, r / h_over_dx)
-    })
-}
-
-/// The sum of `of` (distance in spacings) over a cubic lattice, times the kernel's norm for this h.
-fn lattice_sum<K: Kernel<D>, const D: usize>(
-    kernel: &K,
-    h_over_dx: f64,
-    of: impl Fn(f64) -> f64,
-) -> f64 {
-    let reach = (kernel.support() * h_over_dx).ceil() as i64;
-    let side = (2 * reach + 1) as usize;
-    let sum: f64 = (0..side.pow(D as u32))
-        .map(|k| {
-            let mut rest = k;
-            let r2: f64 = (0..D)
-                .map(|_| {
-                    let offset = (rest % side) as i64 - reach;
-                    rest /= side;
-                    (offset * offset) as f64
-                })
-                .sum();
-            of(r2.sqrt())
-        })
-        .sum();
-    sum * kernel.normalisation() / h_over_dx.powi(D as i32)
-}
-
 impl<T, const D: usize, K, V, W, R, S, U, const MODES: u8, const RENORMALISED: bool>
     From<LiquidBuilder<K, V, W, R, S, U, MODES, RENORMALISED>> for Scheme<T, D>
 where
@@ -526,7 +438,6 @@ where
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kernel::WendlandC2;
     use crate::particles::Output;
     use crate::schemes::weakly_compressible;
     use crate::term::{Antuono, LaminarViscosity};
@@ -583,16 +494,5 @@ mod tests {
         let shifted = weakly_compressible().shifting(Shifting::STANDARD).compose();
         assert_eq!(sums(&shifted)[2..], [Output::Moment, Output::Crowding]);
         assert_eq!(shifted.fields(), plain.fields());
-    }
-    #[test]
-    fn the_moment_of_a_lattice_is_that_of_its_sum() {
-        // Σ r |dW/dr| / 2 over the unit lattice, with the slope by differences of W.
-        for (h_over_dx, expected) in [(1.3, 0.973_921), (1.5, 0.997_399)] {
-            let moment = lattice_moment::<_, 2>(&WendlandC2, h_over_dx);
-            assert!((moment - expected).abs() < 1e-6, "{h_over_dx}: {moment}");
-        }
-        // In a row at h = dx the neighbours at 1 alone count, W' = -5/8 · 3 q (1 - q/2)² = -15/32.
-        let row = lattice_moment::<_, 1>(&WendlandC2, 1.0);
-        assert!((row - 15.0 / 16.0).abs() < 1e-15, "{row}");
     }
 }

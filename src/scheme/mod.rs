@@ -32,11 +32,14 @@
 //! long the step. [`EnergyForm::Symmetric`] saves that pass, and drifts with the order of the step.
 
 mod density;
+mod lattice;
 mod liquid;
+mod shifting;
 
 pub use density::DensityForm;
 pub(crate) use liquid::Liquid;
-pub use liquid::{LiquidBuilder, Shifting};
+pub use liquid::LiquidBuilder;
+pub use shifting::Shifting;
 
 use crate::kernel::Kernel;
 use crate::particles::{Field, Fields};

@@ -1,7 +1,7 @@
 //! Damping of sound by a bulk viscosity that follows the last rate of compression.
 //! After the acoustic damper of Sun, Pilloton, Antuono & Colagrossi 2023.
 
-use super::advance::{Reference, rate};
+use super::continuity::{Reference, rate};
 use super::evaluate::GRAIN;
 use super::group::Group;
 use crate::particles::Field;

@@ -53,16 +53,20 @@
 //! ```
 
 mod advance;
+mod continuity;
 mod control;
 mod damping;
+mod density;
 mod energy;
 mod evaluate;
+mod gradients;
 mod group;
 mod images;
 mod ledger;
 mod phases;
 mod population;
 mod query;
+mod reference;
 mod shift;
 mod switching;
 mod walls;

@@ -49,6 +49,7 @@
 mod program;
 mod records;
 mod rows;
+mod task;
 
 pub use program::{PairSweep, Pass, Program, SweepInput};
 pub(crate) use records::two_sum;

@@ -1,0 +1,70 @@
+//! Kernel sums over a cubic lattice: what a neighbourhood at rest adds up to.
+//! Schemes divide by them, so that liquid at rest has the weight and the space that it should.
+
+use crate::kernel::Kernel;
+
+/// −Σ V r·∇W/D over a cubic lattice, by which sums of gradients fall short or exceed.
+pub(super) fn lattice_moment<K: Kernel<D>, const D: usize>(kernel: &K, h_over_dx: f64) -> f64 {
+    let sum = lattice_sum(kernel, h_over_dx, |r| {
+        -r * r * Kernel::<D>::slope_over_q(kernel, r / h_over_dx)
+    });
+    sum / (D as f64 * h_over_dx.powi(2))
+}
+
+/// Σ V W over a cubic lattice.
+pub(super) fn lattice_unity<K: Kernel<D>, const D: usize>(kernel: &K, h_over_dx: f64) -> f64 {
+    lattice_sum(kernel, h_over_dx, |r| {
+        Kernel::<D>::shape(kernel, r / h_over_dx)
+    })
+}
+
+/// The sum of `of` (distance in spacings) over a cubic lattice, times the kernel's norm for this h.
+fn lattice_sum<K: Kernel<D>, const D: usize>(
+    kernel: &K,
+    h_over_dx: f64,
+    of: impl Fn(f64) -> f64,
+) -> f64 {
+    let reach = (kernel.support() * h_over_dx).ceil() as i64;
+    let side = (2 * reach + 1) as usize;
+    let sum: f64 = (0..side.pow(D as u32))
+        .map(|k| {
+            let mut rest = k;
+            let r2: f64 = (0..D)
+                .map(|_| {
+                    let offset = (rest % side) as i64 - reach;
+                    rest /= side;
+                    (offset * offset) as f64
+                })
+                .sum();
+            of(r2.sqrt())
+        })
+        .sum();
+    sum * kernel.normalisation() / h_over_dx.powi(D as i32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::WendlandC2;
+
+    #[test]
+    fn the_moment_of_a_lattice_is_that_of_its_sum() {
+        // Σ r |dW/dr| / 2 over the unit lattice, with the slope by differences of W.
+        for (h_over_dx, expected) in [(1.3, 0.973_921), (1.5, 0.997_399)] {
+            let moment = lattice_moment::<_, 2>(&WendlandC2, h_over_dx);
+            assert!((moment - expected).abs() < 1e-6, "{h_over_dx}: {moment}");
+        }
+        // In a row at h = dx the neighbours at 1 alone count, W' = -5/8 · 3 q (1 - q/2)² = -15/32.
+        let row = lattice_moment::<_, 1>(&WendlandC2, 1.0);
+        assert!((row - 15.0 / 16.0).abs() < 1e-15, "{row}");
+    }
+
+    #[test]
+    fn a_lattice_fills_space_to_a_hundredth() {
+        // Sums of the 3D and 2D kernels, added up elsewhere.
+        let plane = lattice_unity::<_, 2>(&WendlandC2, 1.5);
+        assert!((plane - 1.005_142_340_777).abs() < 1e-12, "{plane}");
+        let space = lattice_unity::<_, 3>(&WendlandC2, 1.3);
+        assert!((space - 1.009_500_783_785).abs() < 1e-12, "{space}");
+    }
+}
