@@ -4,7 +4,7 @@
 use crate::run::{Record, SNAPSHOT};
 use crate::tank::{Case, GRAVITY, WATER};
 use meshfree::error::Error;
-use meshfree::output::svg::{Axis, Figure, Panel, Series};
+use meshfree::output::svg::{Axis, Color, Figure, Panel, Series};
 use meshfree::output::table::{Table, significant};
 use meshfree::study::impulsive_tank::{FarWall, ImpulsiveTank};
 
@@ -27,9 +27,19 @@ pub fn bracket(case: &Case, height: f64) -> Option<[f64; 2]> {
     Some([of(FarWall::Attached)?, of(FarWall::Detached)?])
 }
 
+/// The curve of a run. LS-DYNA's forms are dashed: there are more schemes than colours.
+fn curve(name: &str, points: impl IntoIterator<Item = (f64, f64)>) -> Series {
+    let line = Series::line(name, points);
+    if name.starts_with("ls-dyna") {
+        line.dashed()
+    } else {
+        line
+    }
+}
+
 /// Histories at the probes on the struck wall, and the surface at 38 ms.
 pub fn figure(case: &Case, runs: &[(String, &Record)]) -> Result<Figure, Error> {
-    let mut figure = Figure::new().columns(2);
+    let mut figure = Figure::new().columns(2).shared_legend();
     let times: Vec<f64> = runs
         .first()
         .map(|(_, record)| record.samples.iter().map(|sample| sample.time).collect())
@@ -48,7 +58,7 @@ pub fn figure(case: &Case, runs: &[(String, &Record)]) -> Result<Figure, Error> 
                 .samples
                 .iter()
                 .map(|s| (1e3 * s.time, 1e-3 * s.pressures[k]));
-            panel = panel.series(Series::line(name, points));
+            panel = panel.series(curve(name, points));
         }
         let on_struck_wall = (probe[0] - case.size[0]).abs() < 1e-9;
         if on_struck_wall {
@@ -69,7 +79,8 @@ pub fn figure(case: &Case, runs: &[(String, &Record)]) -> Result<Figure, Error> 
             let points = pulse
                 .iter()
                 .map(|(time, a)| (1e3 * time, 1e-3 * WATER * a * slab));
-            panel = panel.series(Series::line("ρ a l, water against the wall", points).dashed());
+            let slab = Series::line("ρ a l, water against the wall", points);
+            panel = panel.series(slab.dashed().color(Color(0, 0, 0)));
         }
         figure = figure.panel(panel);
     }
@@ -79,7 +90,7 @@ pub fn figure(case: &Case, runs: &[(String, &Record)]) -> Result<Figure, Error> 
     ));
     for (name, record) in runs {
         let points = record.surface.iter().map(|[x, z]| (*x, *z));
-        panel = panel.series(Series::markers(name, points));
+        panel = panel.series(curve(name, points));
     }
     let [length, _, height] = case.size;
     let walls = [

@@ -262,9 +262,8 @@ impl<K, V, W, R, S, U, const MODES: u8, const RENORMALISED: bool>
     /// Continuity integrates velocities, and knows nothing of where disorder and [`Shifting`] have moved
     /// particles: volumes m/ρ and the space between particles part. This is the re-initialisation of density
     /// by kernel sums (Colagrossi & Landrini 2003) done a little in every step; walls fill space too. A cavity
-    /// at Re 1000 on 100² particles comes within 3.6 % of the lid's speed at κ = 0.05 and within 4.7 % at
-    /// 0.02; on 50² it is 60 % off without and 11 % off at 0.02, and 21 % at 0.1, where noise of the sums
-    /// enters the pressure. Taylor–Green vortices lose less than 0.1 % more.
+    /// at Re 1000 on 100² particles comes within 3.1 % of the lid's speed at κ = 0.05; on 50² it is 60 % off
+    /// without, 11 % off at 0.02, and 21 % at 0.1, where noise of the sums enters the pressure. Taylor–Green vortices lose less than 0.1 % more.
     ///
     /// At a free surface neighbourhoods are not full and the law is wrong: confined to particles inside, it
     /// still stirred a column at rest to 0.0025 c.
