@@ -444,6 +444,9 @@ mod tests {
     #[test]
     fn an_effect_that_is_not_named_has_no_column_and_no_sum() {
         let plain = weakly_compressible().compose::<f64, 3>();
+        let damped = weakly_compressible()
+            .acoustic_damping(0.3)
+            .compose::<f64, 3>();
         let added = |scheme: &Scheme<f64, 3>| -> Vec<Field> {
             let own = scheme.fields().iter();
             own.filter(|&field| !plain.fields().contains(field))
@@ -465,6 +468,8 @@ mod tests {
             added(&weakly_compressible().smoothing(0.5, 2.0).compose()),
             [Field::SmoothingLength]
         );
+        assert_eq!(added(&damped), [Field::Divergence]);
+        assert!(damped.to_string().contains("against sound, λ = 0.3"));
         // 3 + 3 + 6 numbers: places, velocities, and what pressure and continuity need.
         assert_eq!(plain.fields().width(3), 12);
         assert!(!plain.fields().contains(Field::Energy));

@@ -187,7 +187,16 @@ impl<T: Real, const D: usize> Scheme<T, D> {
     /// The terms, in the order in which a step meets them.
     #[must_use]
     pub fn terms(&self) -> Vec<TermDoc> {
-        self.sweeps().flat_map(PairSweep::document).collect()
+        let damping = self.liquid.as_ref().and_then(|own| own.acoustic_damping);
+        let damping = damping.map(|strength| TermDoc {
+            name: format!("bulk viscosity against sound, λ = {strength}"),
+            equation: "p ← p − λ ρ c h ∇·v",
+            source: "after Sun, Pilloton, Antuono & Colagrossi 2023",
+        });
+        self.sweeps()
+            .flat_map(PairSweep::document)
+            .chain(damping)
+            .collect()
     }
 
     /// The fields that a particle carries under this scheme.
