@@ -157,3 +157,19 @@ fn strengths_that_are_no_numbers_are_refused() {
         assert!(error.contains(name), "{error}");
     }
 }
+
+#[test]
+fn volume_consistency_wants_one_smoothing_length() {
+    for scheme in [
+        plain().volume_consistency(0.05).mixed_spacing().compose(),
+        plain()
+            .volume_consistency(0.05)
+            .smoothing(0.5, 2.0)
+            .compose(),
+    ] {
+        let body = Body::block("liquid", liquid(), [0.0; 2], [0.5, 0.5], 0.05);
+        let built = Scene::<f64, 2>::new(scheme).body(body).build();
+        let error = built.unwrap_err().to_string();
+        assert!(error.contains("one smoothing length"), "{error}");
+    }
+}

@@ -5,6 +5,7 @@ use super::Scene;
 use crate::boundary::{Outlet, Pose};
 use crate::error::Problem;
 use crate::neighbors::Cells;
+use crate::particles::Field;
 use crate::scalar::Real;
 use crate::scheme::EnergyForm;
 use crate::simulation::Load;
@@ -118,6 +119,15 @@ impl<T: Real, const D: usize> Scene<T, D> {
             });
         }
         if let Some(liquid) = &scheme.liquid {
+            let lengths_vary = scheme.fields().contains(Field::SmoothingLength);
+            if liquid.volume_consistency.is_some() && lengths_vary {
+                problems.push(Problem::Incompatible {
+                    what: "volume consistency holds kernel sums to those of a lattice at one smoothing length, \
+                           and the smoothing lengths of this scheme vary or differ"
+                        .into(),
+                    remedy: "leave out either volume_consistency or smoothing and mixed_spacing",
+                });
+            }
             let consistency = liquid.volume_consistency.map(|(strength, _)| strength);
             for (what, strength) in [
                 ("acoustic damping", liquid.acoustic_damping),
