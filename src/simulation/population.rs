@@ -207,6 +207,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         for (field, value) in [
             (Field::Density, density),
             (Field::DensityResidual, 0.0),
+            (Field::Divergence, 0.0),
             (Field::Mass, mass),
         ] {
             if let Some(place) = self.columns.raw_mut(field).get_mut(slot) {
