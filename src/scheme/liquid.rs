@@ -11,8 +11,8 @@ use crate::scalar::Real;
 use crate::sweep::{PairSweep, Program, SmoothingMode};
 use crate::term::{
     ArtificialViscosity, Compression, Crowding, DensityGradient, LiquidAlongWall, LiquidNearWall,
-    Nothing, PartitionOfUnity, PressureForce, RenormalisedCompression, RenormalisedPressureForce,
-    Term, VelocityGradient, Viscosity, ViscosityAtWall,
+    Nothing, PressureForce, RenormalisedCompression, RenormalisedPressureForce, Term, Unity,
+    VelocityGradient, Viscosity, ViscosityAtWall,
 };
 
 /// What a scheme of liquids adds to one of solids and gases.
@@ -35,7 +35,8 @@ pub(crate) struct Liquid<T: Real, const D: usize> {
 /// Chooses the parts of a scheme for liquids.
 ///
 /// The type parameters are terms, so what a scheme does not name is not compiled into it: the kernel,
-/// the artificial viscosity, the density diffusion, the physical viscosity, and the sums of shifting.
+/// the artificial viscosity, the density diffusion, the physical viscosity, the sums of shifting, and that of
+/// volume consistency.
 ///
 /// ```
 /// use meshfree::prelude::*;
@@ -263,17 +264,19 @@ impl<K, V, W, R, S, U, const MODES: u8, const RENORMALISED: bool>
     /// particles: volumes m/ρ and the space between particles part. This is the re-initialisation of density
     /// by kernel sums (Colagrossi & Landrini 2003) done a little in every step; walls fill space too. A cavity
     /// at Re 1000 on 100² particles comes within 3.1 % of the lid's speed at κ = 0.05; on 50² it is 60 % off
-    /// without, 11 % off at 0.02, and 21 % at 0.1, where noise of the sums enters the pressure. Taylor–Green vortices lose less than 0.1 % more.
+    /// without, 11 % off at 0.02, and 21 % at 0.1, where noise of the sums enters the pressure. Taylor–Green
+    /// vortices lose less than 0.1 % more.
     ///
+    /// U₀ belongs to one smoothing length, so the law does not go with lengths that vary or differ.
     /// At a free surface neighbourhoods are not full and the law is wrong: confined to particles inside, it
     /// still stirred a column at rest to 0.0025 c.
     #[must_use]
     pub fn volume_consistency(
         mut self,
         strength: f64,
-    ) -> LiquidBuilder<K, V, W, R, S, PartitionOfUnity, MODES, RENORMALISED> {
+    ) -> LiquidBuilder<K, V, W, R, S, Unity, MODES, RENORMALISED> {
         self.volume_consistency = Some(strength);
-        self.with(|k, v, w, r, s, _| (k, v, w, r, s, PartitionOfUnity))
+        self.with(|k, v, w, r, s, _| (k, v, w, r, s, Unity))
     }
     /// Damps sound by a bulk viscosity ζ = λ ρ c h: liquid shows its neighbours the pressure p − ζ ∇·v
     /// (after Sun, Pilloton, Antuono & Colagrossi 2023).

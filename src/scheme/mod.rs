@@ -187,15 +187,23 @@ impl<T: Real, const D: usize> Scheme<T, D> {
     /// The terms, in the order in which a step meets them.
     #[must_use]
     pub fn terms(&self) -> Vec<TermDoc> {
-        let damping = self.liquid.as_ref().and_then(|own| own.acoustic_damping);
+        let liquid = self.liquid.as_ref();
+        let damping = liquid.and_then(|own| own.acoustic_damping);
         let damping = damping.map(|strength| TermDoc {
             name: format!("bulk viscosity against sound, λ = {strength}"),
             equation: "p ← p − λ ρ c h ∇·v",
             source: "after Sun, Pilloton, Antuono & Colagrossi 2023",
         });
+        let consistency = liquid.and_then(|own| own.volume_consistency);
+        let consistency = consistency.map(|(strength, _)| TermDoc {
+            name: format!("volume consistency, κ = {strength}"),
+            equation: "dρᵢ/dt += κ (c/h) ρᵢ (uᵢ/u₀ − 1)",
+            source: "after Colagrossi & Landrini 2003",
+        });
         self.sweeps()
             .flat_map(PairSweep::document)
             .chain(damping)
+            .chain(consistency)
             .collect()
     }
 

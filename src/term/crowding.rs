@@ -41,26 +41,6 @@ impl<const D: usize> Term<D> for Crowding<D> {
     }
 }
 
-/// How full the neighbourhood of a particle is, Σⱼ Vⱼ W.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PartitionOfUnity;
-
-impl<const D: usize> Term<D> for PartitionOfUnity {
-    const READS: Fields = Fields::of(&[Field::Weight]);
-    const WRITES: Outputs = Outputs::of(&[Output::Unity]);
-    #[inline(always)]
-    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        sums.add(Output::Unity, pair.j(Field::Weight) * pair.w);
-    }
-    fn document(&self) -> TermDoc {
-        TermDoc {
-            name: "densities held to the space of particles".into(),
-            equation: "dρᵢ/dt += κ (c/h) ρᵢ (Σⱼ Vⱼ Wᵢⱼ/U₀ − 1)",
-            source: "after Colagrossi & Landrini 2003",
-        }
-    }
-}
-
 /// Nothing: the place of a term that a scheme does without.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Nothing;

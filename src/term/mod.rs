@@ -17,7 +17,6 @@
 //! | [`LaminarViscosity`], [`CentralViscosity`] | momentum | force of a physical viscosity |
 //! | [`Molteni`], [`Fourtakas`], [`Antuono`], [`RiemannDiffusion`] | density | diffusion against noise |
 //! | [`Crowding`] | position | what shifting needs |
-//! | [`PartitionOfUnity`] | density | what holds densities to the space of particles |
 //! | [`LiquidNearWall`], [`LiquidAlongWall`], [`ViscosityAtWall`] | walls | what wall particles take from the liquid |
 //!
 //! [`probe()`] evaluates a term for one pair, for tests of terms of your own.
@@ -105,7 +104,7 @@ mod sums;
 pub mod viscosity;
 mod wall;
 
-pub use crowding::{Crowding, Nothing, PartitionOfUnity};
+pub use crowding::{Crowding, Nothing};
 pub use density_diffusion::{Antuono, Fourtakas, Molteni, RiemannDiffusion, STANDARD_DELTA};
 pub use gradient::{DensityGradient, PressureGradient, VelocityGradient};
 pub use laminar_viscosity::{CentralViscosity, LaminarViscosity};
