@@ -18,7 +18,32 @@ use meshfree::sweep::{
 };
 use meshfree::term::viscosity::{Inviscid, MonaghanGingold};
 use meshfree::term::{Nothing, PressureForce, Viscosity};
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
+
+/// Bytes on the heap now, and the most since [`PEAK`] was last set: sorting particles and building lists
+/// need room for a while.
+static HELD: AtomicUsize = AtomicUsize::new(0);
+static PEAK: AtomicUsize = AtomicUsize::new(0);
+
+struct Counting;
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+// SAFETY: everything is passed on to the system's allocator.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        let held = HELD.fetch_add(layout.size(), Ordering::Relaxed) + layout.size();
+        PEAK.fetch_max(held, Ordering::Relaxed);
+        unsafe { System.alloc(layout) }
+    }
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        HELD.fetch_sub(layout.size(), Ordering::Relaxed);
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
 
 const GRAVITY: f64 = 9.81;
 
@@ -32,6 +57,8 @@ struct Measured {
     /// Lists, packing, pairs, walls, materials and integration, each a share of the step.
     shares: [f64; 6],
     bytes: usize,
+    /// The most bytes on the heap while particles were sorted and lists built.
+    peak: usize,
     steps_a_build: f64,
 }
 
@@ -101,9 +128,16 @@ fn measure<T: Real, const D: usize>(
         .build()
         .expect("a pool of threads");
     pool.install(|| {
+        let elsewhere = HELD.load(Ordering::Relaxed);
         let mut simulation = dam::<T, D>(scheme, count);
-        simulation.run_until(fall).expect("a run");
+        // The first step sorts all particles, walls as well.
+        PEAK.store(HELD.load(Ordering::Relaxed), Ordering::Relaxed);
         simulation.step().expect("a step");
+        simulation
+            .run_until(fall.max(simulation.time()))
+            .expect("a run");
+        simulation.step().expect("a step");
+        let peak = PEAK.load(Ordering::Relaxed) - elsewhere;
         let (mut times, mut evaluations) = (Vec::new(), Vec::new());
         let (first, builds) = (simulation.phases(), simulation.list_builds());
         for _ in 0..steps {
@@ -141,6 +175,7 @@ fn measure<T: Real, const D: usize>(
             ]
             .map(share),
             bytes,
+            peak,
             steps_a_build: steps as f64 / builds.max(1) as f64,
         }
     })
@@ -148,9 +183,9 @@ fn measure<T: Real, const D: usize>(
 
 fn print_head() {
     println!(
-        "| D | scalar | liquid | with walls | threads | neighbours | M/s and thread, evaluation | step | ns a step and liquid particle | lists | packing | pairs | walls | materials | integration | bytes a liquid particle | a particle | steps a build |"
+        "| D | scalar | liquid | with walls | threads | neighbours | M/s and thread, evaluation | step | ns a step and liquid particle | lists | packing | pairs | walls | materials | integration | bytes a liquid particle | a particle | at the peak | steps a build |"
     );
-    println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
+    println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
 }
 
 fn print<const D: usize>(name: &str, threads: usize, m: &Measured) {
@@ -161,7 +196,7 @@ fn print<const D: usize>(name: &str, threads: usize, m: &Measured) {
         .map(|share| format!("{:.0} %", 100.0 * share))
         .collect();
     println!(
-        "| {D} | {name} | {} | {} | {threads} | {:.1} | {:.0} | {:.0} | {:.0} | {} | {} | {} | {:.1} |",
+        "| {D} | {name} | {} | {} | {threads} | {:.1} | {:.0} | {:.0} | {:.0} | {} | {} | {} | {} | {:.1} |",
         m.liquid,
         m.all,
         m.pairs as f64 / m.liquid as f64,
@@ -171,6 +206,7 @@ fn print<const D: usize>(name: &str, threads: usize, m: &Measured) {
         shares.join(" | "),
         m.bytes / m.liquid,
         m.bytes / m.all,
+        m.peak / m.all,
         m.steps_a_build,
     );
 }

@@ -14,8 +14,9 @@ use std::process::ExitCode;
 const EXAMPLE: Example = Example {
     name: "cellular_filler",
     about: "Water in cubes of side d + c with three holes of d = 3 mm, crushed at 1000 1/s to 30 %\n\
-            (Vesenjak & Ren 2007). The walls move as prescribed; what is measured is the filler alone.",
-    schemes: &["standard", "shifting"],
+            (Vesenjak & Ren 2007). The walls move as prescribed; what is measured is the filler alone.\n\
+            standard: densities held to the space of particles, which are kept evenly spread; plain: neither.",
+    schemes: &["standard", "plain"],
     own: &[
         own(
             "--walls",
@@ -78,7 +79,7 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
                 wall: 1e-3 * wall,
                 viscosity,
                 cells,
-                shifting: options.scheme == "shifting",
+                consistent: options.scheme == "standard",
                 spacing: options.spacing_or(2.5e-4, 4.5e-4),
                 strain,
             };

@@ -162,6 +162,8 @@ fn plain(alpha: f64) -> MonaghanGingold {
 pub struct Watch<const D: usize> {
     pub probes: Vec<PressureProbe<D>>,
     pub gauges: Vec<WaveGauge<D>>,
+    /// Whether probes are also read as force over area.
+    pub contact: bool,
 }
 
 /// A history: a time and a value for each step, by name.
@@ -324,8 +326,8 @@ impl History {
     }
 }
 
-/// Runs a simulation to `until` \[s\] and keeps what probes (`NAME_pa`), gauges (`NAME_m`) and the
-/// front along the first axis (`front_m`) read in every step; `frame` sees frames.
+/// Runs a simulation to `until` \[s\] and keeps what probes (`NAME_pa`, and where asked for `NAME_contact_pa`), gauges
+/// (`NAME_m`) and the front along the first axis (`front_m`) read in every step; `frame` sees frames.
 ///
 /// Particles outside of `inside` at the end count as lost.
 pub fn run<T: Real, const D: usize>(
@@ -336,6 +338,11 @@ pub fn run<T: Real, const D: usize>(
     inside: impl Fn(&Simulation<T, D>, [f64; D]) -> bool,
     mut frame: impl FnMut(&Simulation<T, D>, usize) -> Result<(), Failure>,
 ) -> Result<History, Failure> {
+    let felt = if watch.contact {
+        &watch.probes[..]
+    } else {
+        &[]
+    };
     let mut history = History {
         names: watch
             .probes
@@ -348,6 +355,10 @@ pub fn run<T: Real, const D: usize>(
                     .map(|gauge| format!("{}_m", gauge.name())),
             )
             .chain(["front_m".into()])
+            .chain(
+                felt.iter()
+                    .map(|probe| format!("{}_contact_pa", probe.name())),
+            )
             .collect(),
         particles: simulation.particles(),
         ..History::default()
@@ -359,6 +370,8 @@ pub fn run<T: Real, const D: usize>(
     let (mut shown, mut failed) = (0, None);
     // Gauges and fronts move by less than a hundredth of the spacing in a step: every eighth will do.
     let mut slow = vec![0.0; watch.gauges.len() + 1];
+    // A spike lasts for eight steps or so, and forces on walls cost a sweep.
+    let mut contact = vec![0.0; felt.len()];
     simulation.run_with(until, |now| {
         history.time.push(now.time());
         if now.steps() % 8 == 1 {
@@ -369,7 +382,11 @@ pub fn run<T: Real, const D: usize>(
             slow[watch.gauges.len()] = front + 0.5 * spacing;
         }
         let probes = watch.probes.iter().map(|probe| probe.pressure(now));
-        let values: Vec<f64> = probes.chain(slow.iter().copied()).collect();
+        if !felt.is_empty() && now.steps() % 4 == 1 {
+            contact = PressureProbe::contact_pressures(felt, now);
+        }
+        let slow = slow.iter().chain(&contact).copied();
+        let values: Vec<f64> = probes.chain(slow).collect();
         for (column, value) in history.columns.iter_mut().zip(values) {
             column.push(value);
         }

@@ -133,6 +133,7 @@ impl Flat {
         Ok(Watch {
             probes: probes?,
             gauges: vec![WaveGauge::upwards(now, "rear", rear, 1)?],
+            ..Watch::default()
         })
     }
 

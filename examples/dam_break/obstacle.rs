@@ -109,6 +109,8 @@ fn watch<T: Real>(now: &Simulation<T, 3>) -> Result<Watch<3>, Error> {
     Ok(Watch {
         probes,
         gauges: gauges?,
+        // The lowest sensor is nearer to the floor than the kernel reaches.
+        contact: true,
     })
 }
 

@@ -174,7 +174,7 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
     };
     let watch = Watch {
         probes: vec![sensor("left", -half, 1.0)?, sensor("right", half, -1.0)?],
-        gauges: Vec::new(),
+        ..Watch::default()
     };
     let mut series = Pvd::create(options.file("particles.pvd"))?;
     let frame = |now: &Simulation<T, 2>, k: usize| {

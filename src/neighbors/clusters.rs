@@ -121,7 +121,9 @@ impl ClusterLists {
     /// Finds the neighbours of every cluster.
     pub fn rebuild<T: Real, const D: usize>(&mut self, input: &SearchInput<'_, T, D>) {
         let instructions = InstructionSet::detect();
+        // A block is sorted by one thread: liquid and walls by two.
         let sources: Vec<Source<T, D>> = (0..input.blocks.len())
+            .into_par_iter()
             .map(|block| Source::new(input, block))
             .collect();
         let clusters = input.slots / input.width;
@@ -193,7 +195,7 @@ impl<T: Real, const D: usize> Source<T, D> {
         let cells = Cells::build(input.positions, &points, size);
         let positions = cells
             .points()
-            .iter()
+            .par_iter()
             .map(|&j| input.positions[j as usize])
             .collect();
         Self {

@@ -158,20 +158,40 @@ impl<const D: usize> PressureProbe<D> {
 
     /// The force \[N\] of the liquid on the wall particles behind the disc, along the normal and into the
     /// wall, over the area of their columns: the pressure that the wall really feels.
+    ///
+    /// Near an edge of the wall it is to be preferred: there the mean of [`pressure`](Self::pressure) reaches
+    /// into the other wall. It costs a sweep over the walls, which
+    /// [`contact_pressures`](Self::contact_pressures) makes once for many probes.
     #[must_use]
     pub fn contact_pressure<T: Real>(&self, simulation: &Simulation<T, D>) -> f64 {
+        self.felt(simulation, &simulation.wall_particle_forces())
+    }
+
+    /// [`contact_pressure`](Self::contact_pressure) \[Pa\] of each of many probes.
+    #[must_use]
+    pub fn contact_pressures<T: Real>(probes: &[Self], simulation: &Simulation<T, D>) -> Vec<f64> {
+        let forces = simulation.wall_particle_forces();
+        let felt = probes.iter().map(|probe| probe.felt(simulation, &forces));
+        felt.collect()
+    }
+
+    fn felt<T: Real>(&self, simulation: &Simulation<T, D>, forces: &[([f64; D], [f64; D])]) -> f64 {
         let pose = self.centre.pose(simulation);
         let centre = Vector::<f64, D>::from(pose.of(0, &self.centre.point));
         let normal = pose.linear[0] * Vector::from(self.normal);
         let (mut force, mut columns) = (0.0, 0_usize);
         let spacing = simulation.spacing();
-        for (x, on) in simulation.wall_particle_forces() {
-            let r = Vector::from(x) - centre;
+        // What lies deeper feels the liquid on another side of the wall.
+        let deepest = -simulation.scheme().kernel().support * simulation.smoothing_length();
+        for (x, on) in forces {
+            let r = Vector::from(*x) - centre;
             let along = r.dot(&normal);
             let aside = length(&(r - normal * along));
             // As wide as the disc, and at least one column of particles.
-            if aside <= (0.5 * self.diameter).max(0.71 * spacing) && along <= 0.0 {
-                force -= Vector::from(on).dot(&normal);
+            if aside <= (0.5 * self.diameter).max(0.71 * spacing)
+                && (deepest..=0.0).contains(&along)
+            {
+                force -= Vector::from(*on).dot(&normal);
                 columns += usize::from(along > -spacing);
             }
         }
