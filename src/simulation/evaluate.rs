@@ -124,8 +124,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         let start = Instant::now();
         self.set_coefficients();
         self.phases.materials += start.elapsed();
-        self.find_gradients();
-        self.find_viscosities();
+        self.follow_flow(time);
         self.sum_rates();
     }
 

@@ -10,7 +10,37 @@ use crate::tensor::{Matrix, inverse};
 use rayon::prelude::*;
 
 impl<T: Real, const D: usize> Group<T, D> {
-    pub(super) fn find_gradients(&mut self) {
+    /// Gradients, corrections and viscosities at `time` \[s\], where the scheme has them and they are due.
+    pub(super) fn follow_flow(&mut self, time: f64) {
+        let dual = (self.scheme.liquid.as_ref()).is_some_and(|liquid| liquid.dual_criteria);
+        let kept = dual && self.renewed == self.rebuilds && time < self.renewed_until;
+        // Gradients of density and pressure follow sound.
+        let fields = self.columns.fields();
+        let sound = [Field::DensityGradient, Field::PressureGradient];
+        if !kept || sound.into_iter().any(|field| fields.contains(field)) {
+            self.find_gradients();
+        }
+        if kept {
+            return;
+        }
+        self.find_viscosities();
+        if dual {
+            self.renewed = self.rebuilds;
+            self.renewed_until = time + self.diffusion_time();
+        }
+    }
+
+    /// A quarter of h²/ν \[s\] of the most viscous particle: the time in which a creeping flow changes that
+    /// moves no particle far.
+    fn diffusion_time(&self) -> f64 {
+        let viscosity = self.columns.raw(Field::DynamicViscosity);
+        let density = self.columns.raw(Field::Density);
+        let kinematic = viscosity.iter().zip(density).take(self.mobile);
+        let most = kinematic.fold(0.0_f64, |most, (mu, rho)| most.max((*mu / *rho).to_f64()));
+        0.25 * self.smoothing_length * self.smoothing_length / most
+    }
+
+    fn find_gradients(&mut self) {
         if self.scheme.gradient.is_none() {
             return;
         }
@@ -74,7 +104,7 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// Dynamic viscosities from shear rates by the materials' laws. Walls show what sticks to them, and
     /// the viscosity of the last evaluation.
-    pub(super) fn find_viscosities(&mut self) {
+    fn find_viscosities(&mut self) {
         let shear = |group: &Self| {
             group
                 .scheme

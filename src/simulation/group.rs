@@ -87,6 +87,10 @@ pub(crate) struct Group<T: Real, const D: usize> {
     /// Densities of torn liquid that were held, in particle steps.
     pub held_densities: u64,
     pub rebuilds: u64,
+    /// The list build with which corrections and viscosities were renewed.
+    pub(super) renewed: u64,
+    /// The time \[s\] until which they are kept.
+    pub(super) renewed_until: f64,
     /// Where the time went.
     pub phases: super::Phases,
     /// Entries of the lists after the last sort.
@@ -154,6 +158,8 @@ impl<T: Real, const D: usize> Group<T, D> {
             limited_h: 0,
             held_densities: 0,
             rebuilds: 0,
+            renewed: 0,
+            renewed_until: f64::NEG_INFINITY,
             phases: super::Phases::default(),
             sorted_entries: 0,
             unilateral,
