@@ -2,7 +2,7 @@
 //! A message names the field, the value, and what to do.
 
 use super::Scene;
-use crate::boundary::{Outlet, Pose};
+use crate::boundary::{Outlet, Pose, Slip};
 use crate::error::Problem;
 use crate::neighbors::Cells;
 use crate::particles::Field;
@@ -317,6 +317,19 @@ impl<T: Real, const D: usize> Scene<T, D> {
                         wall.name, self.scheme.name
                     ),
                     remedy: "take a scheme of liquids (schemes::weakly_compressible), or a MirrorPlane",
+                });
+            }
+            if self.scheme.kicks_density()
+                && wall.slip == Slip::None
+                && self.scheme.fields().contains(Field::DynamicViscosity)
+            {
+                problems.push(Problem::Incompatible {
+                    what: format!(
+                        "the scheme {} sums forces and compression in one sweep, and the velocity that makes a \
+                         liquid stick to wall `{}` belongs to the forces alone",
+                        self.scheme.name, wall.name
+                    ),
+                    remedy: "take LiquidBuilder::compose, or leave out Wall::no_slip",
                 });
             }
             let names = self.bodies.iter().map(|body| &body.name);
