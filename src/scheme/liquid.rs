@@ -479,7 +479,7 @@ impl<K, V, W, R> LiquidBuilder<K, V, W, R> {
 }
 
 /// By what [`LiquidBuilder::compose_with_one_evaluation`] shortens the step. TODO
-pub const ONE_EVALUATION_STEP: f64 = 0.55;
+pub const ONE_EVALUATION_STEP: f64 = 0.25 / 0.55;
 
 /// By what a bulk viscosity shortens the stable step Δ \[h/c\] of a leapfrog.
 ///
