@@ -121,6 +121,10 @@ fn runge_kutta_integrates_a_liquid_of_one_evaluation() {
     wave.run_until(period).expect("a run");
     let off = (amplitude(&wave) / first - 1.0).norm();
     assert!(off < 2e-3, "{off}");
+    // With two sweeps it would leave densities as they are.
+    let refused = sound(plain().compose()).integrator(RungeKutta4).build();
+    let error = refused.unwrap_err().to_string();
+    assert!(error.contains("the integrator rk4 does not"), "{error}");
 }
 
 /// Water of 1 m depth under the pressure of rest in a tank, 20 particles deep.

@@ -179,6 +179,16 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 "take a density form that follows from positions, or another integrator",
             );
         }
+        if scheme.liquid.is_some() && !scheme.kicks_density() && !self.integrator.kicks() {
+            incompatible(
+                format!(
+                    "the scheme {} sums the rate of density in drifts, which the integrator {} does not take",
+                    scheme.name,
+                    self.integrator.name()
+                ),
+                "take LiquidBuilder::compose_with_one_evaluation, or an integrator that kicks (kick-drift-kick)",
+            );
+        }
         if !self.instructions.available() {
             incompatible(
                 format!("this machine does not have {:?}", self.instructions),
