@@ -131,6 +131,10 @@ fn runge_kutta_integrates_a_liquid_of_one_evaluation() {
         .build();
     let error = refused.unwrap_err().to_string();
     assert!(error.contains("the integrator rk4 does not"), "{error}");
+    let scheme = schemes::weakly_compressible().compose_with_one_evaluation();
+    let walled = tank(scheme, 0.5, |_| [0.0; 2]).integrator(RungeKutta4);
+    let error = walled.build().unwrap_err().to_string();
+    assert!(error.contains("move those of wall `tank`"), "{error}");
 }
 
 /// Water of 1 m depth under the pressure of rest in a tank, 20 particles deep.

@@ -189,6 +189,16 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 "take LiquidBuilder::compose_with_one_evaluation, or an integrator that kicks (kick-drift-kick)",
             );
         }
+        if !self.walls.is_empty() && !self.integrator.kicks() {
+            incompatible(
+                format!(
+                    "the integrator {} combines states of all particles, and would move those of wall `{}`",
+                    self.integrator.name(),
+                    self.walls[0].name
+                ),
+                "take an integrator that kicks (kick-drift-kick), or boundaries of images (MirrorPlane)",
+            );
+        }
         if !self.instructions.available() {
             incompatible(
                 format!("this machine does not have {:?}", self.instructions),
