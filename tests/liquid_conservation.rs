@@ -30,6 +30,10 @@ fn schemes_of_liquids() -> Vec<(Scheme<f64, 2>, bool)> {
         (base().acoustic_damping(0.3).compose(), true),
         (base().volume_consistency(0.02).compose(), true),
         (
+            base().named("one evaluation").compose_with_one_evaluation(),
+            true,
+        ),
+        (
             base()
                 .with_viscosity(Riemann::STANDARD)
                 .density_diffusion(RiemannDiffusion)
@@ -299,10 +303,16 @@ fn an_inlet_without_reserve_says_so() {
 
 #[test]
 fn threads_do_not_change_a_bit() {
-    let run = |threads: usize| {
+    let base = schemes::weakly_compressible;
+    let run = |threads: usize, one_evaluation: bool| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         pool.build().unwrap().install(|| {
-            let mut simulation = Scene::new(schemes::weakly_compressible())
+            let scheme: Scheme<f64, 2> = if one_evaluation {
+                base().compose_with_one_evaluation()
+            } else {
+                base().compose()
+            };
+            let mut simulation = Scene::new(scheme)
                 .body(drop_of(30, 11))
                 .wall(Wall::around(
                     "tank",
@@ -324,7 +334,9 @@ fn threads_do_not_change_a_bit() {
                 .collect::<Vec<_>>()
         })
     };
-    let one = run(1);
-    assert_eq!(one, run(2));
-    assert_eq!(one, run(3));
+    for one_evaluation in [false, true] {
+        let one = run(1, one_evaluation);
+        assert_eq!(one, run(2, one_evaluation));
+        assert_eq!(one, run(3, one_evaluation));
+    }
 }

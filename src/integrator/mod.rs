@@ -40,7 +40,8 @@ pub trait System {
     /// # Errors
     /// If a number is no longer finite.
     fn evaluate(&mut self, offset: f64) -> Result<()>;
-    /// v ← v + `dt` a, and what pair forces work during it into internal energy.
+    /// v ← v + `dt` a, and what pair forces work during it into internal energy; the density too, in a
+    /// scheme of [one evaluation](crate::scheme::LiquidBuilder::compose_with_one_evaluation).
     fn kick(&mut self, dt: f64);
     /// x ← x + `dt` v, and with it the density where it is integrated, at the midpoint of the drift.
     /// `offset` \[s\] is the time of the start of the drift after the start of the step.
@@ -50,7 +51,7 @@ pub trait System {
     fn drift(&mut self, dt: f64, offset: f64) -> Result<()>;
     /// x ← x + `dv` v + `da` a, and nothing else.
     fn shift(&mut self, dv: f64, da: f64);
-    /// Sets velocity and energy `dt` \[s\] ahead with the last rates, for the forces that need them;
+    /// Sets what a kick changes `dt` \[s\] ahead with the last rates, for the forces that need them;
     /// [`retract`](System::retract) takes it back.
     fn predict(&mut self, dt: f64);
     /// Takes the last prediction back.

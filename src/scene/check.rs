@@ -2,7 +2,7 @@
 //! A message names the field, the value, and what to do.
 
 use super::Scene;
-use crate::boundary::{Outlet, Pose};
+use crate::boundary::{Outlet, Pose, Slip};
 use crate::error::Problem;
 use crate::neighbors::Cells;
 use crate::particles::Field;
@@ -179,6 +179,26 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 "take a density form that follows from positions, or another integrator",
             );
         }
+        if scheme.liquid.is_some() && !scheme.kicks_density() && !self.integrator.kicks() {
+            incompatible(
+                format!(
+                    "the scheme {} sums the rate of density in drifts, which the integrator {} does not take",
+                    scheme.name,
+                    self.integrator.name()
+                ),
+                "take LiquidBuilder::compose_with_one_evaluation, or an integrator that kicks (kick-drift-kick)",
+            );
+        }
+        if !self.walls.is_empty() && !self.integrator.kicks() {
+            incompatible(
+                format!(
+                    "the integrator {} combines states of all particles, and would move those of wall `{}`",
+                    self.integrator.name(),
+                    self.walls[0].name
+                ),
+                "take an integrator that kicks (kick-drift-kick), or boundaries of images (MirrorPlane)",
+            );
+        }
         if !self.instructions.available() {
             incompatible(
                 format!("this machine does not have {:?}", self.instructions),
@@ -317,6 +337,19 @@ impl<T: Real, const D: usize> Scene<T, D> {
                         wall.name, self.scheme.name
                     ),
                     remedy: "take a scheme of liquids (schemes::weakly_compressible), or a MirrorPlane",
+                });
+            }
+            if self.scheme.kicks_density()
+                && wall.slip == Slip::None
+                && self.scheme.fields().contains(Field::DynamicViscosity)
+            {
+                problems.push(Problem::Incompatible {
+                    what: format!(
+                        "the scheme {} sums forces and compression in one sweep, and the velocity that makes a \
+                         liquid stick to wall `{}` belongs to the forces alone",
+                        self.scheme.name, wall.name
+                    ),
+                    remedy: "take LiquidBuilder::compose, or leave out Wall::no_slip",
                 });
             }
             let names = self.bodies.iter().map(|body| &body.name);

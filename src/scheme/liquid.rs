@@ -330,7 +330,7 @@ impl<K, V, W, R, S, U, const MODES: u8, const RENORMALISED: bool>
         self
     }
 
-    /// Compiles the choices into sweeps.
+    /// Compiles the choices into sweeps: the forces, and the rate of density at the middle of the drift.
     #[must_use]
     pub fn compose<T: Real, const D: usize>(self) -> Scheme<T, D>
     where
@@ -341,12 +341,47 @@ impl<K, V, W, R, S, U, const MODES: u8, const RENORMALISED: bool>
         S: Term<D>,
         U: Term<D>,
     {
-        let kernel = self.kernel;
-        let mode = if const { MODES == SmoothingMode::Uniform.bit() } {
-            SmoothingMode::Uniform
+        let (kernel, mode) = (self.kernel, Self::MODE);
+        let viscosity = Viscosity(self.viscosity.clone());
+        let (laminar, diffusion) = (self.laminar.clone(), self.diffusion.clone());
+        let (crowding, partition) = (self.crowding.clone(), self.partition.clone());
+        let rates: Box<dyn PairSweep<T, D>> = if const { RENORMALISED } {
+            let terms = (RenormalisedPressureForce, viscosity, laminar);
+            Box::new(Program::<_, _, MODES>::new(kernel, terms, mode))
         } else {
-            SmoothingMode::Mean
+            let terms = (PressureForce, viscosity, laminar);
+            Box::new(Program::<_, _, MODES>::new(kernel, terms, mode))
         };
+        let compression: Box<dyn PairSweep<T, D>> = if const { RENORMALISED } {
+            let terms = (RenormalisedCompression, diffusion, crowding, partition);
+            Box::new(Program::<_, _, MODES>::new(kernel, terms, mode))
+        } else {
+            let terms = (Compression, diffusion, crowding, partition);
+            Box::new(Program::<_, _, MODES>::new(kernel, terms, mode))
+        };
+        self.assemble(rates, Some(compression))
+    }
+
+    const MODE: SmoothingMode = if MODES == SmoothingMode::Uniform.bit() {
+        SmoothingMode::Uniform
+    } else {
+        SmoothingMode::Mean
+    };
+
+    /// The scheme with these sums of forces and of density's rate; without the latter, the forces' sweep
+    /// makes both.
+    fn assemble<T: Real, const D: usize>(
+        self,
+        rates: Box<dyn PairSweep<T, D>>,
+        compression: Option<Box<dyn PairSweep<T, D>>>,
+    ) -> Scheme<T, D>
+    where
+        K: Kernel<D>,
+        V: ArtificialViscosity<D>,
+        W: Term<D>,
+        R: Term<D>,
+    {
+        let (kernel, mode) = (self.kernel, Self::MODE);
         let h_over_dx = self.h_over_dx.unwrap_or(kernel.h_over_dx());
         let gradient: Option<Box<dyn PairSweep<T, D>>> =
             if const { W::READS.contains(Field::DensityGradient) } {
@@ -372,26 +407,6 @@ impl<K, V, W, R, S, U, const MODES: u8, const RENORMALISED: bool>
         } else {
             Box::new(Program::<_, _, MODES>::new(kernel, (LiquidNearWall,), mode))
         };
-        let viscosity = Viscosity(self.viscosity);
-        let rates: Box<dyn PairSweep<T, D>> = if const { RENORMALISED } {
-            let terms = (RenormalisedPressureForce, viscosity, self.laminar);
-            Box::new(Program::<_, _, MODES>::new(kernel, terms, mode))
-        } else {
-            let terms = (PressureForce, viscosity, self.laminar);
-            Box::new(Program::<_, _, MODES>::new(kernel, terms, mode))
-        };
-        let compression: Box<dyn PairSweep<T, D>> = if const { RENORMALISED } {
-            let terms = (
-                RenormalisedCompression,
-                self.diffusion,
-                self.crowding,
-                self.partition,
-            );
-            Box::new(Program::<_, _, MODES>::new(kernel, terms, mode))
-        } else {
-            let terms = (Compression, self.diffusion, self.crowding, self.partition);
-            Box::new(Program::<_, _, MODES>::new(kernel, terms, mode))
-        };
         Scheme {
             name: self.name,
             kernel: KernelFacts::of(&kernel),
@@ -407,7 +422,7 @@ impl<K, V, W, R, S, U, const MODES: u8, const RENORMALISED: bool>
             switch: None,
             reference: None,
             sums: None,
-            compression: Some(compression),
+            compression,
             gradient,
             rates,
             lattice_moment: if self.normalised {
@@ -429,6 +444,68 @@ impl<K, V, W, R, S, U, const MODES: u8, const RENORMALISED: bool>
         }
     }
 }
+
+impl<K, V, W, R> LiquidBuilder<K, V, W, R> {
+    /// [Composes](Self::compose) for one evaluation a step: one sweep sums forces and the rate of density,
+    /// and density is kicked with velocity, where [`compose`](Self::compose) sums density's rate in a sweep
+    /// of its own at the middle of the drift.
+    ///
+    /// The sweep sees velocity and density set a step ahead with the last rates, and
+    /// [`KickDriftKick`](crate::integrator::KickDriftKick) corrects both once with what it finds:
+    ///
+    /// ```text
+    /// y* = yₙ + dt rₙ,  rₙ₊₁ = f(xₙ₊₁, y*),  yₙ₊₁ = yₙ + dt (rₙ + rₙ₊₁)/2,  y = (v, ρ)
+    /// ```
+    ///
+    /// On sound, y' = iω y, a step multiplies y by a root of z² − (1 + 3iω dt/2) z + iω dt/2 = 0, as the
+    /// two-step method of Adams and Bashforth does: |z| = 1 + (ω dt)⁴/4, so sound grows that nothing damps,
+    /// where the sweep at the middle makes a leapfrog that is neutral up to ω dt = 2. It takes density
+    /// diffusion or viscosity to hold the step, which is therefore shortened by [`ONE_EVALUATION_STEP`].
+    ///
+    /// For uniform spacing, without [`shifting`](Self::shifting),
+    /// [`volume_consistency`](Self::volume_consistency) and [`renormalised`](Self::renormalised) gradients,
+    /// and without walls [without slip](crate::boundary::Wall::no_slip): the velocity that makes a liquid
+    /// stick belongs to the forces, not to the compression.
+    ///
+    /// ```
+    /// use meshfree::prelude::*;
+    /// let scheme: Scheme<f64, 2> = schemes::weakly_compressible().compose_with_one_evaluation();
+    /// let two: Scheme<f64, 2> = schemes::weakly_compressible().compose();
+    /// assert_eq!(scheme.fields(), two.fields());
+    /// ```
+    #[must_use]
+    pub fn compose_with_one_evaluation<T: Real, const D: usize>(mut self) -> Scheme<T, D>
+    where
+        K: Kernel<D>,
+        V: ArtificialViscosity<D>,
+        W: Term<D>,
+        R: Term<D>,
+    {
+        self.step_factor *= ONE_EVALUATION_STEP;
+        let terms = (
+            PressureForce,
+            Viscosity(self.viscosity.clone()),
+            self.laminar.clone(),
+            Compression,
+            self.diffusion.clone(),
+        );
+        let rates = Program::<_, _, { SmoothingMode::Uniform.bit() }>::new(
+            self.kernel,
+            terms,
+            SmoothingMode::Uniform,
+        );
+        self.assemble(Box::new(rates), None)
+    }
+}
+
+/// By what [`LiquidBuilder::compose_with_one_evaluation`] shortens the step: 0.25 h/c where two sweeps
+/// take 0.55 h/c.
+///
+/// On a lattice density diffusion holds noise up to 0.55 h/c, that of a Riemann solver up to 0.35 h/c. Liquid
+/// that strikes a wall has fewer neighbours to diffuse to, and walls do not diffuse: of a dam break on 2500
+/// particles 0.25 h/c keeps the fluctuations of density and the greatest speeds that two sweeps have, at
+/// 0.3 h/c they are up to twice as large, at 0.55 h/c the fluctuations four to ten times.
+pub const ONE_EVALUATION_STEP: f64 = 0.25 / 0.55;
 
 /// By what a bulk viscosity shortens the stable step Δ \[h/c\] of a leapfrog.
 ///

@@ -38,7 +38,7 @@ mod shifting;
 
 pub use density::DensityForm;
 pub(crate) use liquid::Liquid;
-pub use liquid::LiquidBuilder;
+pub use liquid::{LiquidBuilder, ONE_EVALUATION_STEP};
 pub use shifting::Shifting;
 
 use crate::kernel::Kernel;
@@ -167,6 +167,11 @@ impl<T: Real, const D: usize> Scheme<T, D> {
     #[must_use]
     pub fn kernel(&self) -> KernelFacts {
         self.kernel
+    }
+
+    /// Whether the forces' sweep sums compression too, so that density is kicked with velocity.
+    pub(crate) fn kicks_density(&self) -> bool {
+        self.liquid.is_some() && self.compression.is_none()
     }
 
     /// All sweeps, in the order in which a step runs them.

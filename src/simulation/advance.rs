@@ -97,6 +97,17 @@ fn is_state<T: Real, const D: usize>(scheme: &Scheme<T, D>, field: Field) -> boo
     }
 }
 
+/// What a kick changes, and a prediction takes back.
+fn kicked<T: Real, const D: usize>(scheme: &Scheme<T, D>) -> &'static [Field] {
+    const KICKED: [Field; 4] = [
+        Field::Velocity,
+        Field::Energy,
+        Field::Density,
+        Field::DensityResidual,
+    ];
+    &KICKED[..if scheme.kicks_density() { 4 } else { 2 }]
+}
+
 /// x ← x + dt v, with the rounding error kept where there is a column for it.
 fn add_scaled<T: Real>(x: &mut [T], residual: &mut [T], v: &[T], dt: T) {
     if residual.is_empty() {
@@ -122,6 +133,9 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
         self.group.gravity = self.body_acceleration(time);
         self.gravity = self.group.gravity.map(T::from_f64);
         self.group.evaluate(time);
+        if self.group.scheme.kicks_density() {
+            self.group.keep_divergence();
+        }
         self.follow_moves();
         self.evaluations += 1;
         self.rates_at_hand = true;
@@ -160,6 +174,10 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
         self.record_impulses(dt);
         self.record_work(dt);
         self.kick_velocity(dt);
+        if self.group.scheme.kicks_density() {
+            self.compress(dt);
+            self.hold_densities();
+        }
     }
 
     fn drift(&mut self, dt: f64, offset: f64) -> Result<()> {
@@ -208,9 +226,9 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
     }
 
     fn predict(&mut self, dt: f64) {
-        let fields = [Field::Velocity, Field::Energy];
-        self.predicted.columns.resize_with(fields.len(), Vec::new);
-        for (kept, field) in self.predicted.columns.iter_mut().zip(fields) {
+        let kicked = kicked(&self.group.scheme);
+        self.predicted.columns.resize_with(kicked.len(), Vec::new);
+        for (kept, &field) in self.predicted.columns.iter_mut().zip(kicked) {
             let column = self.group.columns.raw(field);
             kept.resize(column.len(), T::zero());
             kept.par_chunks_mut(GRAIN)
@@ -221,15 +239,14 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
         if self.carries_energy() {
             self.heat(dt, false);
         }
+        if self.group.scheme.kicks_density() {
+            self.compress(dt);
+        }
     }
 
     fn retract(&mut self) {
-        for (kept, field) in self
-            .predicted
-            .columns
-            .iter_mut()
-            .zip([Field::Velocity, Field::Energy])
-        {
+        let kicked = kicked(&self.group.scheme);
+        for (kept, &field) in self.predicted.columns.iter_mut().zip(kicked) {
             core::mem::swap(self.group.columns.column_mut(field), kept);
         }
     }
@@ -371,7 +388,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 group.rows.get(Output::Force, d, slot) / mass + self.gravity[d]
             }
             Field::Density if group.scheme.density.is_integrated() => {
-                y * rate(form, &group.rows, rest, k, y)
+                let diffusion = group.rows.get(Output::DensityDiffusion, 0, k);
+                y * rate(form, &group.rows, rest, k, y) + diffusion
             }
             Field::Energy => {
                 group.rows.get(Output::Power, 0, k) / group.columns.raw(Field::Mass)[k]

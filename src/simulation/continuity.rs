@@ -1,4 +1,4 @@
-//! Continuity: what the rate of compression does to densities and smoothing lengths in a drift.
+//! Continuity: what the rate of compression does to densities and smoothing lengths in a drift or kick.
 //! Densities of torn liquid are held, and `f32` keeps their rounding error.
 
 use super::Simulation;
@@ -10,7 +10,7 @@ use crate::sweep::{Rows, two_sum};
 use rayon::prelude::*;
 
 impl<T: Real, const D: usize> Simulation<T, D> {
-    /// Density and smoothing length over `dt` from the compression at hand.
+    /// Density and smoothing length over `dt` from the compression at hand: of the sweep for it, or of the rates.
     pub(super) fn compress(&mut self, dt: f64) {
         let dt = T::from_f64(dt);
         self.follow_divergence(dt);
@@ -19,7 +19,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
         let form = self.group.scheme.density;
         let lattice = T::from_f64(self.group.scheme.lattice_moment);
-        let (rows, mobile) = (&self.group.scratch_rows, self.group.mobile);
+        let rows = if self.group.scheme.kicks_density() {
+            &self.group.rows
+        } else {
+            &self.group.scratch_rows
+        };
+        let mobile = self.group.mobile;
         let consistency =
             (self.group.scheme.liquid.as_ref()).and_then(|liquid| liquid.volume_consistency);
         let h = self.group.smoothing_length;

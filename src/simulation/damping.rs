@@ -20,7 +20,12 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
         let form = self.scheme.density;
         let lattice = T::from_f64(self.scheme.lattice_moment);
-        let (rows, mobile) = (&self.scratch_rows, self.mobile);
+        let rows = if self.scheme.kicks_density() {
+            &self.rows
+        } else {
+            &self.scratch_rows
+        };
+        let mobile = self.mobile;
         let [divergence, density] = self.columns.many_mut([Field::Divergence, Field::Density]);
         let rest: Reference<'_, T> = (&[], &[], lattice);
         divergence[..mobile]
