@@ -2,7 +2,7 @@
 //! What must hold: volumes to 2 %, forces that rise with viscosity and with the density of the structure.
 
 use crate::filler::{Case, Record};
-use meshfree::output::svg::{Axis, Figure, Panel, Series};
+use meshfree::output::svg::{Axis, Figure, Panel, Series, viridis};
 use meshfree::output::table::{Table, significant};
 
 /// Force, work and expelled volume against strain.
@@ -12,7 +12,13 @@ pub fn figure(runs: &[(Case, Record)]) -> Figure {
         let mut panel = Panel::new(Axis::linear("strain", "%"), Axis::linear(name, unit));
         for (case, record) in runs {
             let points = record.samples.iter().map(|s| (1e2 * s.strain, of(s)));
-            panel = panel.series(Series::line(&label(case), points));
+            // Colours tell viscosities apart, strokes the thickness of walls.
+            let fluid = (case.viscosity.log10() + 3.0) / 3.0;
+            let color = viridis(0.85 * fluid.clamp(0.0, 1.0));
+            let line = Series::line(&label(case), points).color(color);
+            let line = line.width(0.4 + 1200.0 * case.wall);
+            let thin = case.wall < 0.75e-3;
+            panel = panel.series(if thin { line.dashed() } else { line });
         }
         panel
     };
