@@ -1,5 +1,7 @@
-//! The loop over pairs: one chunk of rows against its neighbours, compiled for each way it can run.
+//! One chunk of rows against its lists of neighbours, compiled for each way it can run.
 //! It allocates nothing, and sums in an order that no number of threads changes.
+
+mod pairs;
 
 use super::records::Image;
 use super::rows::Reaction;
@@ -8,7 +10,7 @@ use crate::kernel::Kernel;
 use crate::neighbors::{Block, CHUNK, ChunkList, Segment};
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Mask, Real};
-use crate::term::{Along, Layout, MOST_READS, MOST_SUMS, Pair, Sums, Terms};
+use crate::term::{Layout, MOST_READS, MOST_SUMS, Sums, Terms};
 use core::marker::PhantomData;
 use std::ops::Range;
 
@@ -214,23 +216,6 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         }
     }
 
-    /// Which members of a row touch the other side of a contact; `None` before contacts are known.
-    #[inline(always)]
-    fn touches<L: Lane<Scalar = T>>(&self, first: usize) -> Option<L> {
-        let row = self.touching.get(first..first + L::WIDTH)?;
-        Some(L::from_fn(|lane| row[lane]))
-    }
-
-    /// The slot of a neighbour, or of the particle that it is an image of.
-    #[inline(always)]
-    fn source(&self, j: u32) -> usize {
-        let j = j as usize;
-        let image = j
-            .checked_sub(self.touching.len())
-            .and_then(|k| self.images.get(k));
-        image.map_or(j, |image| image.source as usize)
-    }
-
     /// Those of some neighbours that are within the support of any of the row, in their order; returns
     /// how many there are. The first `staying` were so near when they were listed that they still are.
     ///
@@ -294,215 +279,6 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
             let count = self.within_reach::<L, HOW>(own, batch, staying, &mut near);
             self.pairs::<L, HOW>(contact, mobile, own, first, &near[..count], sums);
         }
-    }
-
-    /// Where the row stands from a neighbour: rᵢⱼ, its square and its length.
-    #[inline(always)]
-    fn separation<L: Lane<Scalar = T>, const HOW: u8>(
-        &self,
-        own: &[L; MOST_READS],
-        j: u32,
-    ) -> ([L; D], L, L)
-    where
-        P: Terms<D>,
-    {
-        let reads = const { Composed::<T, P, D, HOW>::READS };
-        let stride = const { Composed::<T, P, D, HOW>::READS.width(D) };
-        let position = reads.offset(Field::Position, D);
-        let residual = reads.offset(Field::PositionResidual, D);
-        let record = &self.records[j as usize * stride..j as usize * stride + stride];
-        let mut r = [L::zero(); D];
-        for d in 0..D {
-            r[d] = own[position + d] - L::splat(record[position + d]);
-            if reads.contains(Field::PositionResidual) {
-                r[d] += own[residual + d] - L::splat(record[residual + d]);
-            }
-        }
-        let mut r2 = r[0] * r[0];
-        for d in 1..D {
-            r2 = r[d].mul_add(r[d], r2);
-        }
-        (r, r2, r2.root())
-    }
-
-    /// One cluster against some neighbours.
-    ///
-    /// Across a contact that may open (`contact`) a pair acts only where one of the two touches, shows the
-    /// other side only pressure that compresses, and its kernel sum is kept apart.
-    #[inline(always)]
-    fn pairs<L: Lane<Scalar = T>, const HOW: u8>(
-        &self,
-        contact: bool,
-        mobile: [L; 2],
-        own: &[L; MOST_READS],
-        first: usize,
-        neighbors: &[u32],
-        sums: &mut Sums<L, D, Composed<T, P, D, HOW>>,
-    ) where
-        K: Kernel<D>,
-        P: Terms<D>,
-    {
-        let reads = const { Composed::<T, P, D, HOW>::READS };
-        let stride = const { Composed::<T, P, D, HOW>::READS.width(D) };
-        let velocity = reads.offset(Field::Velocity, D);
-        let h_at = reads.offset(Field::SmoothingLength, D);
-        let norm = L::splat(self.kernel_norm);
-        let uniform = Scale::new(L::splat(self.h), norm, D);
-        let own_scale = if HOW & (MEAN | OWN) == 0 {
-            uniform
-        } else {
-            Scale::new(own[h_at], norm, D)
-        };
-        let body_force = self.body_force.map(L::splat);
-        let lattice_moment = L::splat(self.lattice_moment);
-        let mut shown = [T::zero(); MOST_READS];
-        // Copies that nothing else points to stay in registers.
-        let terms = self.terms.clone();
-        let mut kept = sums.copied();
-        let (total, sums) = (sums, &mut kept);
-        let Some(&first_j) = neighbors.first() else {
-            return;
-        };
-        // The distance of the next pair is under way while the terms of this one are summed.
-        let mut next = self.separation::<L, HOW>(own, first_j);
-        for (k, &j) in neighbors.iter().enumerate() {
-            let (r, r2, distance) = next;
-            next = self.separation::<L, HOW>(own, *neighbors.get(k + 1).unwrap_or(&j));
-            let record = &self.records[j as usize * stride..j as usize * stride + stride];
-            let mut v = [L::zero(); D];
-            if reads.contains(Field::Velocity) {
-                for d in 0..D {
-                    v[d] = own[velocity + d] - L::splat(record[velocity + d]);
-                }
-            }
-            let mut v_dot_r = v[0] * r[0];
-            for d in 1..D {
-                v_dot_r = v[d].mul_add(r[d], v_dot_r);
-            }
-            let (h, w, f, f_i, f_j);
-            if HOW & OWN != 0 {
-                let other = Scale::new(L::splat(record[h_at]), norm, D);
-                h = (own_scale.h + other.h) * L::of(0.5);
-                w = own_scale.value(self.kernel, distance);
-                f_i = own_scale.gradient(self.kernel, distance);
-                f_j = other.gradient(self.kernel, distance);
-                f = (f_i + f_j) * L::of(0.5);
-            } else {
-                let scale = if HOW & MEAN != 0 {
-                    Scale::new((own_scale.h + L::splat(record[h_at])) * L::of(0.5), norm, D)
-                } else {
-                    uniform
-                };
-                h = scale.h;
-                w = scale.value(self.kernel, distance);
-                f = scale.gradient(self.kernel, distance);
-                f_i = f;
-                f_j = f;
-            }
-            let mut pair = Pair {
-                r,
-                r2,
-                v,
-                v_dot_r,
-                h,
-                h_i: own_scale.h,
-                w,
-                f,
-                f_i,
-                f_j,
-                mobile: mobile[1],
-                mobile_i: mobile[0],
-                body_force,
-                lattice_moment,
-                i: own,
-                j: record,
-                layout: PhantomData,
-            };
-            if contact {
-                if let Some(touching) = self.touches::<L>(first) {
-                    pair.f_i *= touching;
-                    pair.f_j *= L::splat(self.touching[self.source(j)]);
-                    pair.f = (pair.f_i + pair.f_j) * L::of(0.5);
-                }
-                shown[..stride].copy_from_slice(record);
-                compressive(reads, &mut shown, D);
-                pair.j = &shown[..stride];
-            }
-            sums.radial = Along::NOTHING;
-            sums.shear = Along::NOTHING;
-            terms.pair(&pair, sums);
-            apply::<L, D, HOW, _>(&pair, sums, &P::WRITES, own, record, reads);
-        }
-        total.take(&kept);
-    }
-}
-
-/// Turns the pair's scalar forces into the kept force, or into work.
-#[inline(always)]
-fn apply<L: Lane, const D: usize, const HOW: u8, C: Layout>(
-    pair: &Pair<'_, L, D, C>,
-    sums: &mut Sums<L, D, C>,
-    writes: &Outputs,
-    own: &[L; MOST_READS],
-    record: &[L::Scalar],
-    reads: Fields,
-) {
-    if !writes.contains(Output::Force) {
-        return;
-    }
-    if HOW & WORK != 0 {
-        let mean = reads.offset(Field::MeanVelocity, D);
-        let mut work = L::zero();
-        for d in 0..D {
-            let force = sums
-                .radial
-                .mul_add(pair.r[d], sums.shear.mul_add(pair.v[d], L::zero()));
-            work = force.mul_add(L::splat(record[mean + d]) - own[mean + d], work);
-        }
-        sums.add(Output::Power, work * L::of(0.5));
-        return;
-    }
-    for d in 0..D {
-        let kept = &mut sums.kept[C::WRITES.offset(Output::Force, D) + d];
-        *kept = sums.radial.mul_add(pair.r[d], *kept);
-        *kept = sums.shear.mul_add(pair.v[d], *kept);
-    }
-    if writes.contains(Output::Power) {
-        let power = sums
-            .radial
-            .mul_add(pair.v_dot_r, sums.shear.mul_add(pair.v2(), L::zero()));
-        sums.add(Output::Power, power * L::of(-0.5));
-    }
-}
-
-/// Kernel factors of a smoothing length.
-#[derive(Clone, Copy)]
-struct Scale<L> {
-    h: L,
-    inverse: L,
-    value: L,
-    gradient: L,
-}
-
-impl<L: Lane> Scale<L> {
-    #[inline(always)]
-    fn new(h: L, norm: L, d: usize) -> Self {
-        let inverse = h.recip();
-        let value = norm * inverse.powi(d as u32);
-        Self {
-            h,
-            inverse,
-            value,
-            gradient: value * inverse * inverse,
-        }
-    }
-    #[inline(always)]
-    fn value<K: Kernel<D>, const D: usize>(&self, kernel: &K, r: L) -> L {
-        self.value * kernel.shape(r * self.inverse)
-    }
-    #[inline(always)]
-    fn gradient<K: Kernel<D>, const D: usize>(&self, kernel: &K, r: L) -> L {
-        kernel.gradient(r, self.inverse, self.gradient)
     }
 }
 
