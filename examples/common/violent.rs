@@ -12,8 +12,8 @@ use meshfree::output::vtu::{Pvd, Vtu};
 use meshfree::prelude::*;
 use meshfree::simulation::Phases;
 use meshfree::study::records::Record;
-use meshfree::term::Fourtakas;
 use meshfree::term::viscosity::{MonaghanGingold, Riemann};
+use meshfree::term::{Fourtakas, LaminarViscosity};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -57,8 +57,8 @@ const fn own(name: &'static str, value: &'static str, help: &'static str) -> Own
     Own { name, value, help }
 }
 
-/// The schemes that can be asked for by name.
-pub const SCHEMES: [&str; 3] = ["weakly-compressible", "riemann", "shifting"];
+/// The schemes that can be asked for by name; "viscous" has the water's own viscosity, and walls without slip.
+pub const SCHEMES: [&str; 4] = ["weakly-compressible", "riemann", "shifting", "viscous"];
 
 /// What the options mean.
 #[derive(Clone, Debug)]
@@ -148,7 +148,21 @@ impl Choices {
                 .shifting::<D>(Shifting::STANDARD)
                 .named("weakly compressible, shifting")
                 .compose(),
+            "viscous" => base
+                .with_viscosity(plain(alpha(0.02)))
+                .laminar_viscosity(LaminarViscosity)
+                .named("weakly compressible, viscous")
+                .compose(),
             _ => base.with_viscosity(plain(alpha(0.02))).compose(),
+        }
+    }
+
+    /// A wall with the slip that the scheme has.
+    pub fn slip<const D: usize>(&self, wall: Wall<D>) -> Wall<D> {
+        if self.scheme == "viscous" {
+            wall.no_slip()
+        } else {
+            wall
         }
     }
 }

@@ -105,9 +105,9 @@ impl Flat {
             .hydrostatic([0.0, -GRAVITY], [0.0, height]);
         let mut scene = Scene::new(choices.compose::<T, 2>())
             .body(column)
-            .wall(Wall::around(
+            .wall(choices.slip(Wall::around(
                 "tank", [0.0; 2], self.tank, dx, layers, closed,
-            ))
+            )))
             .acceleration(|_| [0.0, -GRAVITY]);
         if let Some(speed) = self.gate {
             let rows = (height / dx).ceil() as usize + layers;

@@ -67,10 +67,10 @@ fn scene<T: Real>(spacing: f64, choices: &Choices) -> Result<Scene<T, 3>, Failur
     let closed = [[true, true], [true, true], [true, false]];
     Ok(Scene::new(choices.compose::<T, 3>())
         .body(column)
-        .wall(Wall::around(
+        .wall(choices.slip(Wall::around(
             "tank", [0.0; 3], TANK, spacing, layers, closed,
-        ))
-        .wall(obstacle(spacing, layers)?)
+        )))
+        .wall(choices.slip(obstacle(spacing, layers)?))
         .outlet(over_the_rim(layers as f64 * spacing))
         .acceleration(|_| [0.0, 0.0, -GRAVITY]))
 }

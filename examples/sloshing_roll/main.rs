@@ -159,7 +159,9 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
         .hydrostatic([0.0, -GRAVITY], [0.0, DEPTH]);
     // The record's angle is positive where the left wall goes down first; a rotation from the first axis
     // towards the second lifts the right wall, which is the same.
-    let tank = Wall::around("tank", low, high, spacing, choices.layers(), [[true; 2]; 2])
+    let tank = Wall::around("tank", low, high, spacing, choices.layers(), [[true; 2]; 2]);
+    let tank = choices
+        .slip(tank)
         .motion(Rotation::about([0.0; 2], roll))
         .carries_liquid();
     let mut simulation = Scene::<T, 2>::new(choices.compose::<T, 2>())
