@@ -354,3 +354,47 @@ fn slips_in_the_scene_are_named() {
         "{text}"
     );
 }
+
+/// Between two halves of a tank at rest stands a plate; the water on its other side would cancel what its
+/// sensor feels.
+#[test]
+fn a_sensor_on_a_plate_feels_its_own_side() {
+    let (dx, gravity) = (0.05, [0.0, -GRAVITY]);
+    let half = |name, from: f64| {
+        let water = catalogue::water_at::<f64>(SoundSpeed::Chosen(60.0));
+        Body::block(name, water, [from, 0.0], [from + 0.7, 1.0], dx)
+            .hydrostatic(gravity, [0.0, 1.0])
+    };
+    let sides = [[true; 2], [true, false]];
+    let plate = (0..6 * 30).map(|k| {
+        [
+            0.7 + dx * (0.5 + f64::from(k % 6)),
+            dx * (0.5 + f64::from(k / 6)),
+        ]
+    });
+    let mut tank = Scene::<f64, 2>::new(schemes::weakly_compressible())
+        .body(half("left", 0.0))
+        .body(half("right", 1.0))
+        .wall(Wall::around("tank", [0.0; 2], [1.7, 1.5], dx, 3, sides))
+        .wall(Wall::of("plate", plate.collect(), dx))
+        .acceleration(move |_| gravity)
+        .build()
+        .expect("a tank");
+    tank.run_until(0.05).expect("a run");
+    let at = |face: f64, normal: f64| {
+        let sensor = PressureProbe::disc(&tank, "plate", [face, 0.5], [normal, 0.0], 2.0 * dx);
+        sensor.expect("a sensor")
+    };
+    let sensors = [at(0.7, -1.0), at(1.0, 1.0)];
+    let felt = PressureProbe::contact_pressures(&sensors, &tank);
+    for (sensor, felt) in sensors.iter().zip(&felt) {
+        let pressure = WATER * GRAVITY * 0.5;
+        let text = format!(
+            "feels {felt:.0} Pa, shows {:.0} Pa, of {pressure:.0} Pa",
+            sensor.pressure(&tank)
+        );
+        println!("{text}");
+        assert!((felt / pressure - 1.0).abs() < 0.05, "{text}");
+        assert_eq!(*felt, sensor.contact_pressure(&tank));
+    }
+}
