@@ -1,0 +1,224 @@
+//! What can be wrong with a scene: every check runs, and every problem is reported.
+//! A message names the field, the value, and what to do.
+
+mod scheme;
+mod walls;
+
+use super::Scene;
+use crate::error::Problem;
+use crate::neighbors::Cells;
+use crate::scalar::Real;
+use crate::simulation::Load;
+
+/// Share of the spacing below which two particles of different bodies cannot be neighbours by intent.
+const TOO_CLOSE: f64 = 0.6;
+/// Share of the spacing within which lattices that overlap without such a pair put
+/// [`surrounding`] particles of one body around a particle of the other; a lattice that only touches
+/// puts one there.
+const AROUND: f64 = 0.95;
+/// Share of the spacing below which two particles of one body are the same particle twice: within a
+/// body a user may place points as densely as a gas needs.
+const SAME: f64 = 6e-4;
+
+/// How many particles of another body around one are an overlap.
+const fn surrounding(dimension: usize) -> usize {
+    if dimension < 3 { 3 } else { 4 }
+}
+
+impl<T: Real, const D: usize> Scene<T, D> {
+    /// Everything that is wrong with the scene; empty if it can be built.
+    #[must_use]
+    pub fn problems(&self) -> Vec<Problem> {
+        let mut problems = Vec::new();
+        if self.bodies.is_empty() {
+            problems.push(Problem::EmptyScene);
+        }
+        for body in &self.bodies {
+            self.check_body(body, &mut problems);
+        }
+        self.check_scheme(&mut problems);
+        self.check_names(&mut problems);
+        self.check_boundaries(&mut problems);
+        self.check_openings(&mut problems);
+        self.check_walls(&mut problems);
+        self.check_loads(&mut problems);
+        if problems.is_empty() {
+            self.check_overlap(&mut problems);
+            self.check_wall_places(&mut problems);
+        }
+        problems
+    }
+
+    fn check_body(&self, body: &super::Body<T, D>, problems: &mut Vec<Problem>) {
+        let mut parameter = |what: &str, value: f64, must_be: &'static str| {
+            problems.push(Problem::Parameter {
+                what: format!("{what} of body `{}`", body.name),
+                value,
+                must_be,
+            });
+        };
+        if let Err((what, value, must_be)) = body.shape {
+            parameter(what, value, must_be);
+            return;
+        }
+        for (what, value, must_be) in body.material.problems() {
+            parameter(
+                &format!("{what} of material `{}`", body.material.name),
+                value,
+                must_be,
+            );
+        }
+        let first =
+            |bad: &dyn Fn(&super::Start<D>) -> Option<f64>| body.starts.iter().find_map(bad);
+        if let Some(value) = first(&|s| Some(s.density).filter(|d| !(d.is_finite() && *d > 0.0))) {
+            parameter("density", value, "it must be finite and positive, in kg/m³");
+        }
+        if let Some(value) = first(&|s| s.velocity.into_iter().find(|v| !v.is_finite())) {
+            parameter("velocity", value, "it must be finite, in m/s");
+        }
+        if let Some(value) = first(&|s| Some(s.energy).filter(|e| !e.is_finite())) {
+            parameter("energy", value, "it must be finite, in J/kg");
+        }
+        let position = body.points.iter().flatten().find(|x| !x.is_finite());
+        if let Some(&value) = position {
+            parameter("position", value, "it must be finite, in metres");
+        }
+        let spaced = body.spacing.is_finite() && body.spacing > 0.0;
+        if !(spaced || body.points.is_empty()) {
+            parameter(
+                "spacing",
+                body.spacing,
+                "it must be finite and positive, in metres",
+            );
+        }
+        if body.points.is_empty() {
+            problems.push(Problem::EmptyBody {
+                body: body.name.clone(),
+            });
+        }
+    }
+
+    fn check_names(&self, problems: &mut Vec<Problem>) {
+        let known = || {
+            let names: Vec<_> = self
+                .bodies
+                .iter()
+                .map(|body| format!("`{}`", body.name))
+                .collect();
+            names.join(", ")
+        };
+        for (k, body) in self.bodies.iter().enumerate() {
+            if self.bodies[..k]
+                .iter()
+                .any(|earlier| earlier.name == body.name)
+            {
+                problems.push(Problem::Incompatible {
+                    what: format!("two bodies are called `{}`", body.name),
+                    remedy: "give every body a name of its own",
+                });
+            }
+        }
+        for name in self
+            .contacts
+            .iter()
+            .flat_map(|(first, second, _)| [first, second])
+        {
+            if !self.bodies.iter().any(|body| body.name == *name) {
+                problems.push(Problem::UnknownName {
+                    kind: "body",
+                    name: name.clone(),
+                    known: known(),
+                });
+            }
+        }
+    }
+
+    fn check_boundaries(&self, problems: &mut Vec<Problem>) {
+        let spacing = self
+            .bodies
+            .iter()
+            .fold(0.0_f64, |most, body| most.max(body.spacing));
+        let reach =
+            self.scheme.kernel.support * self.scheme.h_over_dx * spacing * (1.0 + self.skin);
+        for boundary in &self.boundaries {
+            for (what, value, must_be) in boundary.problems(reach) {
+                problems.push(Problem::Parameter {
+                    what: format!("{what} of the {}", boundary.name()),
+                    value,
+                    must_be,
+                });
+            }
+        }
+    }
+
+    fn check_loads(&self, problems: &mut Vec<Problem>) {
+        let bad = |load: &Load<D>| load(0.0).into_iter().find(|a| !a.is_finite());
+        if let Some(value) = self.loads.iter().find_map(bad) {
+            problems.push(Problem::Parameter {
+                what: "acceleration at t = 0".into(),
+                value,
+                must_be: "it must be finite, in m/s²",
+            });
+        }
+    }
+
+    /// Finds the closest pair of particles that are too close to be neighbours.
+    fn check_overlap(&self, problems: &mut Vec<Problem>) {
+        let points: Vec<[f64; D]> = self
+            .bodies
+            .iter()
+            .flat_map(|body| body.points.iter().copied())
+            .collect();
+        let ends: Vec<usize> = self
+            .bodies
+            .iter()
+            .scan(0, |sum, body| {
+                *sum += body.points.len();
+                Some(*sum)
+            })
+            .collect();
+        let spacing = self
+            .bodies
+            .iter()
+            .fold(f64::INFINITY, |least, body| least.min(body.spacing));
+        let all: Vec<u32> = (0..points.len() as u32).collect();
+        let cells = Cells::build(&points, &all, spacing);
+        let body_of = |k: usize| ends.partition_point(|&end| end <= k);
+        let mut reported: Vec<(usize, usize)> = Vec::new();
+        let mut around: Vec<(usize, f64)> = Vec::new();
+        for (i, x) in points.iter().enumerate() {
+            let (own, reach) = (body_of(i), AROUND * spacing);
+            around.clear();
+            cells.for_each_run(x.map(|x| x - reach), x.map(|x| x + reach), |run| {
+                for j in run.iter().map(|&j| j as usize).filter(|&j| j != i) {
+                    let apart = (0..D)
+                        .map(|d| (points[j][d] - x[d]).powi(2))
+                        .sum::<f64>()
+                        .sqrt();
+                    let other = body_of(j);
+                    if apart < if other == own { SAME * spacing } else { reach } {
+                        around.push((other, apart));
+                    }
+                }
+            });
+            let nearest = around.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1));
+            let Some((other, distance)) = nearest else {
+                continue;
+            };
+            let count = around.iter().filter(|near| near.0 == other).count();
+            let pair = (own.min(other), own.max(other));
+            let fits = distance >= TOO_CLOSE * spacing && count < surrounding(D);
+            if fits || reported.contains(&pair) {
+                continue;
+            }
+            reported.push(pair);
+            problems.push(Problem::Overlap {
+                first: self.bodies[pair.0].name.clone(),
+                second: self.bodies[pair.1].name.clone(),
+                distance,
+                spacing,
+                position: x.to_vec(),
+            });
+        }
+    }
+}

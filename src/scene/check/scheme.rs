@@ -1,0 +1,136 @@
+//! What can be wrong with a scheme and with how it is stepped: what lies outside its range,
+//! and what does not go with the integrator, the bodies or the machine.
+
+use crate::error::Problem;
+use crate::particles::Field;
+use crate::scalar::Real;
+use crate::scene::Scene;
+use crate::scheme::EnergyForm;
+
+impl<T: Real, const D: usize> Scene<T, D> {
+    pub(super) fn check_scheme(&self, problems: &mut Vec<Problem>) {
+        let (scheme, kernel) = (&self.scheme, self.scheme.kernel);
+        let (lowest, highest) = kernel.range;
+        if !(lowest..=highest).contains(&scheme.h_over_dx) {
+            problems.push(Problem::SmoothingRatio {
+                kernel: kernel.name,
+                ratio: scheme.h_over_dx,
+                lowest,
+                highest,
+                recommended: kernel.h_over_dx,
+            });
+        }
+        for (what, value, must_be) in &scheme.viscosity_problems {
+            problems.push(Problem::Parameter {
+                what: format!("{what} of the artificial viscosity"),
+                value: *value,
+                must_be,
+            });
+        }
+        if let Some(liquid) = &scheme.liquid {
+            let lengths_vary = scheme.fields().contains(Field::SmoothingLength);
+            if liquid.volume_consistency.is_some() && lengths_vary {
+                problems.push(Problem::Incompatible {
+                    what: "volume consistency holds kernel sums to those of a lattice at one smoothing length, \
+                           and the smoothing lengths of this scheme vary or differ"
+                        .into(),
+                    remedy: "leave out either volume_consistency or smoothing and mixed_spacing",
+                });
+            }
+            let consistency = liquid.volume_consistency.map(|(strength, _)| strength);
+            for (what, strength) in [
+                ("acoustic damping", liquid.acoustic_damping),
+                ("volume consistency", consistency),
+            ] {
+                let Some(value) = strength.filter(|s| !(s.is_finite() && *s >= 0.0)) else {
+                    continue;
+                };
+                problems.push(Problem::Parameter {
+                    what: format!("strength of the {what}"),
+                    value,
+                    must_be: "it must be finite and not negative",
+                });
+            }
+        }
+        let mut positive = |what: &str, value: f64| {
+            if !(value.is_finite() && value > 0.0) {
+                problems.push(Problem::Parameter {
+                    what: what.into(),
+                    value,
+                    must_be: "it must be finite and positive",
+                });
+            }
+        };
+        positive("step factor (courant)", self.control.courant);
+        positive("force factor of the step", self.control.force);
+        positive("skin", self.skin);
+        if let Some(step) = self.control.fixed {
+            positive("fixed time step", step);
+        }
+        let mut incompatible = |what: String, remedy| {
+            problems.push(Problem::Incompatible { what, remedy });
+        };
+        if scheme.energy == EnergyForm::Compatible && !self.integrator.kicks() {
+            incompatible(
+                format!(
+                    "the compatible energy form cannot follow the integrator {}",
+                    self.integrator.name()
+                ),
+                "take EnergyForm::Symmetric, or an integrator that kicks (kick-drift-kick)",
+            );
+        }
+        if scheme.density.is_integrated() && !self.integrator.integrates_density() {
+            incompatible(
+                format!(
+                    "the integrator {} does not integrate density",
+                    self.integrator.name()
+                ),
+                "take a density form that follows from positions, or another integrator",
+            );
+        }
+        if scheme.liquid.is_some() && !scheme.kicks_density() && !self.integrator.kicks() {
+            incompatible(
+                format!(
+                    "the scheme {} sums the rate of density in drifts, which the integrator {} does not take",
+                    scheme.name,
+                    self.integrator.name()
+                ),
+                "take LiquidBuilder::compose_with_one_evaluation, or an integrator that kicks (kick-drift-kick)",
+            );
+        }
+        if !self.walls.is_empty() && !self.integrator.kicks() {
+            incompatible(
+                format!(
+                    "the integrator {} combines states of all particles, and would move those of wall `{}`",
+                    self.integrator.name(),
+                    self.walls[0].name
+                ),
+                "take an integrator that kicks (kick-drift-kick), or boundaries of images (MirrorPlane)",
+            );
+        }
+        if !self.instructions.available() {
+            incompatible(
+                format!("this machine does not have {:?}", self.instructions),
+                "leave the choice to the scene, or take InstructionSet::Baseline",
+            );
+        }
+        let hot = self.bodies.iter().find(|body| {
+            scheme.energy == EnergyForm::None && body.starts.iter().any(|start| start.energy != 0.0)
+        });
+        if let Some(body) = hot {
+            incompatible(
+                format!(
+                    "body `{}` starts with internal energy, which the scheme does not carry",
+                    body.name
+                ),
+                "take an energy form in the scheme, or start without energy",
+            );
+        }
+        if self.is_mixed() && self.is_uniform() {
+            incompatible(
+                "bodies have different spacings, and the scheme has one smoothing length".into(),
+                "give all bodies the same spacing, or allow it with SchemeBuilder::mixed_spacing",
+            );
+        }
+    }
+}

@@ -1,0 +1,210 @@
+//! What can be wrong with walls, inlets and outlets: their own numbers,
+//! whether scheme and liquid go with them, and where walls lie.
+
+use super::TOO_CLOSE;
+use crate::boundary::{Outlet, Pose, Slip};
+use crate::error::Problem;
+use crate::neighbors::Cells;
+use crate::particles::Field;
+use crate::scalar::Real;
+use crate::scene::Scene;
+
+/// Share by which the spacing of an inlet may differ from that of its body, as the density that enters.
+const SAME_SPACING: f64 = 1e-3;
+
+impl<T: Real, const D: usize> Scene<T, D> {
+    /// Inlets and outlets.
+    pub(super) fn check_openings(&self, problems: &mut Vec<Problem>) {
+        for inlet in &self.inlets {
+            for (what, value, must_be) in inlet.problems() {
+                problems.push(Problem::Parameter {
+                    what: format!("{what} of the inlet of body `{}`", inlet.body),
+                    value,
+                    must_be,
+                });
+            }
+            if self.scheme.liquid.is_none() {
+                problems.push(Problem::Incompatible {
+                    what: format!(
+                        "the inlet of body `{}` has a buffer of wall particles, which the scheme {} does not see",
+                        inlet.body, self.scheme.name
+                    ),
+                    remedy: "take a scheme of liquids (schemes::weakly_compressible)",
+                });
+            }
+            let Some(body) = self.bodies.iter().find(|body| body.name == inlet.body) else {
+                let known: Vec<_> = self.bodies.iter().map(|body| body.name.as_str()).collect();
+                problems.push(Problem::UnknownName {
+                    kind: "body",
+                    name: inlet.body.clone(),
+                    known: known.join(", "),
+                });
+                continue;
+            };
+            // What is no number has its own problem.
+            let off = (inlet.spacing - body.spacing).abs();
+            if inlet.spacing > 0.0 && off.is_finite() && off > SAME_SPACING * body.spacing {
+                problems.push(Problem::Incompatible {
+                    what: format!(
+                        "the inlet of body `{}` has a spacing of {} m, and the body of {} m as fitted to its shape",
+                        body.name, inlet.spacing, body.spacing
+                    ),
+                    remedy: "give the inlet the spacing of the body, or the flow has another density",
+                });
+            }
+        }
+        for (what, value, must_be) in self.outlets.iter().flat_map(Outlet::problems) {
+            problems.push(Problem::Parameter {
+                what: format!("{what} of an outlet"),
+                value,
+                must_be,
+            });
+        }
+    }
+
+    pub(super) fn check_walls(&self, problems: &mut Vec<Problem>) {
+        let spacing = self.bodies.first().map_or(0.0, |body| body.spacing);
+        for (k, wall) in self.walls.iter().enumerate() {
+            if self.scheme.liquid.is_none() {
+                problems.push(Problem::Incompatible {
+                    what: format!(
+                        "wall `{}` is made of particles, which the scheme {} does not see",
+                        wall.name, self.scheme.name
+                    ),
+                    remedy: "take a scheme of liquids (schemes::weakly_compressible), or a MirrorPlane",
+                });
+            }
+            if self.scheme.kicks_density()
+                && wall.slip == Slip::None
+                && self.scheme.fields().contains(Field::DynamicViscosity)
+            {
+                problems.push(Problem::Incompatible {
+                    what: format!(
+                        "the scheme {} sums forces and compression in one sweep, and the velocity that makes a \
+                         liquid stick to wall `{}` belongs to the forces alone",
+                        self.scheme.name, wall.name
+                    ),
+                    remedy: "take LiquidBuilder::compose, or leave out Wall::no_slip",
+                });
+            }
+            let names = self.bodies.iter().map(|body| &body.name);
+            let earlier = self.walls[..k].iter().map(|wall| &wall.name);
+            if names.chain(earlier).any(|name| *name == wall.name) {
+                problems.push(Problem::Incompatible {
+                    what: format!("two bodies or walls are called `{}`", wall.name),
+                    remedy: "give every body and wall a name of its own",
+                });
+            }
+            let mut parameter = |what: &str, value: f64, must_be: &'static str| {
+                problems.push(Problem::Parameter {
+                    what: format!("{what} of wall `{}`", wall.name),
+                    value,
+                    must_be,
+                });
+            };
+            if let Err((what, value, must_be)) = wall.shape {
+                parameter(what, value, must_be);
+                continue;
+            }
+            if let Some(&bad) = wall.points.iter().flatten().find(|x| !x.is_finite()) {
+                parameter("position", bad, "it must be finite, in metres");
+            }
+            // A lattice that is fitted to a box is stretched by less than half a particle in a row.
+            let off = (wall.spacing - spacing).abs();
+            if off.is_nan() || off > 0.1 * spacing {
+                parameter(
+                    "spacing",
+                    wall.spacing,
+                    "it must be that of the liquid: fill both on one lattice",
+                );
+            }
+            let pose = wall.motion.as_ref().map(|motion| motion.pose(0.0));
+            let finite = |pose: &Pose<D>| {
+                (0..3).all(|order| {
+                    let shift = pose.shift[order].iter();
+                    shift
+                        .chain(pose.linear[order].iter())
+                        .all(|x| x.is_finite())
+                })
+            };
+            if pose.as_ref().is_some_and(|pose| !finite(pose)) {
+                parameter(
+                    "motion at t = 0",
+                    f64::NAN,
+                    "position, velocity and acceleration must be finite: look for gaps in its table",
+                );
+            }
+            if wall.points.is_empty() {
+                problems.push(Problem::EmptyBody {
+                    body: wall.name.clone(),
+                });
+            }
+        }
+    }
+
+    /// Finds walls that liquid overlaps, and walls that are thinner than the kernel reaches.
+    pub(super) fn check_wall_places(&self, problems: &mut Vec<Problem>) {
+        let Some(spacing) = self.bodies.first().map(|body| body.spacing) else {
+            return;
+        };
+        let liquid: Vec<[f64; D]> = self
+            .bodies
+            .iter()
+            .flat_map(|body| body.points.iter().copied())
+            .collect();
+        let reach = self.scheme.kernel.support * self.scheme.h_over_dx * spacing;
+        let near = |points: &[[f64; D]], cells: &Cells<D>, x: &[f64; D], within: f64| {
+            let mut best: Option<(usize, f64)> = None;
+            cells.for_each_run(x.map(|x| x - within), x.map(|x| x + within), |run| {
+                for &j in run {
+                    let r2: f64 = (0..D).map(|d| (points[j as usize][d] - x[d]).powi(2)).sum();
+                    if r2 < within * within && best.is_none_or(|(_, least)| r2 < least) {
+                        best = Some((j as usize, r2));
+                    }
+                }
+            });
+            best
+        };
+        let every: Vec<u32> = (0..liquid.len() as u32).collect();
+        let liquid_cells = Cells::build(&liquid, &every, spacing);
+        let solid: Vec<[f64; D]> = self
+            .walls
+            .iter()
+            .flat_map(|wall| wall.points.iter().copied())
+            .collect();
+        let every: Vec<u32> = (0..solid.len() as u32).collect();
+        let solid_cells = Cells::build(&solid, &every, spacing);
+        for wall in &self.walls {
+            let (mut faces, mut thin) = (0_usize, 0_usize);
+            for x in &wall.points {
+                let Some((j, r2)) = near(&liquid, &liquid_cells, x, 1.2 * spacing) else {
+                    continue;
+                };
+                let distance = r2.sqrt();
+                if distance < TOO_CLOSE * spacing {
+                    problems.push(Problem::Overlap {
+                        first: wall.name.clone(),
+                        second: self.bodies[0].name.clone(),
+                        distance,
+                        spacing,
+                        position: x.to_vec(),
+                    });
+                    return;
+                }
+                // Straight on from the liquid: is there wall as far as the kernel of that liquid reaches?
+                faces += 1;
+                let along: [f64; D] = core::array::from_fn(|d| (x[d] - liquid[j][d]) / distance);
+                let depth = reach - distance - 0.5 * spacing;
+                let end = core::array::from_fn(|d| x[d] + along[d] * depth.max(0.0));
+                thin += usize::from(near(&solid, &solid_cells, &end, 0.9 * spacing).is_none());
+            }
+            if 2 * thin > faces {
+                problems.push(Problem::ThinWall {
+                    wall: wall.name.clone(),
+                    reach,
+                    layers: (reach / spacing).ceil() as usize,
+                });
+            }
+        }
+    }
+}
