@@ -39,9 +39,21 @@ unsafe impl GlobalAlloc for Counting {
         PEAK.fetch_max(held, Ordering::Relaxed);
         unsafe { System.alloc(layout) }
     }
+    unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
+        let held = HELD.fetch_add(layout.size(), Ordering::Relaxed) + layout.size();
+        PEAK.fetch_max(held, Ordering::Relaxed);
+        unsafe { System.alloc_zeroed(layout) }
+    }
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
         HELD.fetch_sub(layout.size(), Ordering::Relaxed);
         unsafe { System.dealloc(pointer, layout) }
+    }
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        // Where it has to move, old and new are held at once.
+        let held = HELD.fetch_add(size, Ordering::Relaxed) + size;
+        PEAK.fetch_max(held, Ordering::Relaxed);
+        HELD.fetch_sub(layout.size(), Ordering::Relaxed);
+        unsafe { System.realloc(pointer, layout, size) }
     }
 }
 
@@ -57,7 +69,7 @@ struct Measured {
     /// Lists, packing, pairs, walls, materials and integration, each a share of the step.
     shares: [f64; 6],
     bytes: usize,
-    /// The most bytes on the heap while particles were sorted and lists built.
+    /// The most bytes on the heap while the scene was built, particles sorted and lists made.
     peak: usize,
     steps_a_build: f64,
 }
@@ -128,10 +140,10 @@ fn measure<T: Real, const D: usize>(
         .build()
         .expect("a pool of threads");
     pool.install(|| {
+        // Building the scene sorts all particles, walls as well; the fall sorts the liquid again.
         let elsewhere = HELD.load(Ordering::Relaxed);
+        PEAK.store(elsewhere, Ordering::Relaxed);
         let mut simulation = dam::<T, D>(scheme, count);
-        // The first step sorts all particles, walls as well.
-        PEAK.store(HELD.load(Ordering::Relaxed), Ordering::Relaxed);
         simulation.step().expect("a step");
         simulation
             .run_until(fall.max(simulation.time()))

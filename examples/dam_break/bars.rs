@@ -189,7 +189,7 @@ pub fn obstacle(history: &History, spacing: f64, choices: &Choices) {
     let smooth = history.smoothed(5e-3);
     let arrival = history.first_above("p1_pa", 500.0, 0.0);
     bars.push(Bar::near("arrival at P1 [s]", arrival, 0.393, 0.02));
-    // As the mean around a point, and as force over area, which does not reach into the floor.
+    // As the mean around a point, and as force over area, of which the floor takes a share.
     const FIRST: [(&str, &str); 2] = [("P1", "p1_pa"), ("P1 by force", "p1_contact_pa")];
     for (name, column) in FIRST {
         let (_, peak) = smooth.peak(column, 0.0, 0.7);

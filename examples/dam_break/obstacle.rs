@@ -109,7 +109,7 @@ fn watch<T: Real>(now: &Simulation<T, 3>) -> Result<Watch<3>, Error> {
     Ok(Watch {
         probes,
         gauges: gauges?,
-        // The lowest sensor is nearer to the floor than the kernel reaches.
+        // Means around a point and forces differ where drops strike, and next to the floor.
         contact: true,
     })
 }

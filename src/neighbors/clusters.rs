@@ -121,7 +121,7 @@ impl ClusterLists {
     /// Finds the neighbours of every cluster.
     pub fn rebuild<T: Real, const D: usize>(&mut self, input: &SearchInput<'_, T, D>) {
         let instructions = InstructionSet::detect();
-        // A block is sorted by one thread: liquid and walls by two.
+        // Blocks at once: liquid by one thread and walls by another.
         let sources: Vec<Source<T, D>> = (0..input.blocks.len())
             .into_par_iter()
             .map(|block| Source::new(input, block))

@@ -159,8 +159,8 @@ impl<const D: usize> PressureProbe<D> {
     /// The force \[N\] of the liquid on the wall particles behind the disc, along the normal and into the
     /// wall, over the area of their columns: the pressure that the wall really feels.
     ///
-    /// Near an edge of the wall it is to be preferred: there the mean of [`pressure`](Self::pressure) reaches
-    /// into the other wall. It costs a sweep over the walls, which
+    /// Its sum over time is the impulse that the wall got. Within a support of an edge it reads low, by 12 % one
+    /// spacing above a floor: the wall around the corner takes its share; on a plate thinner than two supports it sees the other side. It costs a sweep over the walls, which
     /// [`contact_pressures`](Self::contact_pressures) makes once for many probes.
     #[must_use]
     pub fn contact_pressure<T: Real>(&self, simulation: &Simulation<T, D>) -> f64 {

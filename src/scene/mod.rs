@@ -172,7 +172,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
     }
 
     /// The skin of the neighbour lists in units of the kernel's support; 0.1 if not given. A thicker
-    /// skin makes lists longer and their builds rarer; results differ in rounding only.
+    /// skin makes lists longer and their builds rarer; results differ in rounding only, but for what a scheme of
+    /// [two criteria](crate::scheme::LiquidBuilder::dual_criteria) renews with the lists.
     #[must_use]
     pub fn skin(mut self, skin: f64) -> Self {
         self.skin = skin;

@@ -203,10 +203,11 @@ impl<T: Real, const D: usize> Scheme<T, D> {
             equation: "dρᵢ/dt += κ (c/h) ρᵢ (uᵢ/u₀ − 1)",
             source: "after Colagrossi & Landrini 2003",
         });
-        let dual = liquid.filter(|own| own.dual_criteria);
+        let kept = self.gradient.is_some() || liquid.is_some_and(|own| own.shear.is_some());
+        let dual = liquid.filter(|own| own.dual_criteria && kept);
         let dual = dual.map(|_| TermDoc {
             name: "corrections and viscosities once an advection step".into(),
-            equation: "kept until a particle has moved by 0.1 h, or for h²/(4 ν)",
+            equation: "kept until a particle has moved by half the skin, or for h²/(4 ν)",
             source: "after Zhang, Rezavand & Hu 2020",
         });
         self.sweeps()

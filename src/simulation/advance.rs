@@ -31,6 +31,7 @@ const STATE: [Field; 7] = [
     Field::Energy,
     Field::SmoothingLength,
 ];
+const DENSITIES: [Field; 2] = [Field::Density, Field::DensityResidual];
 
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// x ← x + dt v with v the present velocity.
@@ -285,7 +286,11 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
         };
         let (a_t, b_t, dt_t) = (T::from_f64(a), T::from_f64(b), T::from_f64(dt));
         self.combine_positions(&kept, a, b, dt);
+        let compensated = self.combine_densities(&kept, a, b, dt);
         for (field, kept) in STATE.into_iter().zip(&kept.columns).skip(POSITION_FIELDS) {
+            if compensated && DENSITIES.contains(&field) {
+                continue;
+            }
             let mut column = core::mem::take(self.group.columns.column_mut(field));
             column
                 .par_iter_mut()
@@ -316,7 +321,24 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
             self.group.columns.raw(Field::Velocity),
             dt_t,
         );
+        let mut compensated = false;
+        if let [_, density, lost, ..] = &mut *others {
+            compensated = !lost.is_empty();
+            let now = self.group.columns.raw(Field::Density);
+            density
+                .par_iter_mut()
+                .zip(lost.par_iter_mut())
+                .enumerate()
+                .with_min_len(GRAIN)
+                .for_each(|(k, (kept, lost))| {
+                    let change = dt_t * self.rate_of(Field::Density, k, now[k]);
+                    (*kept, *lost) = two_sum(*kept, *lost + change);
+                });
+        }
         for (field, kept) in STATE.into_iter().skip(POSITION_FIELDS).zip(others) {
+            if compensated && DENSITIES.contains(&field) {
+                continue;
+            }
             let now = self.group.columns.raw(field);
             kept.par_iter_mut()
                 .zip(now)
@@ -402,6 +424,35 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             }
             _ => T::zero(),
         }
+    }
+
+    /// Densities and what their rounding has lost, in `f64`; whether they are integrated and keep it.
+    fn combine_densities(&mut self, kept: &Kept<T>, a: f64, b: f64, dt: f64) -> bool {
+        let [_, _, _, before, lost, ..] = kept.columns.as_slice() else {
+            return false;
+        };
+        if lost.is_empty() {
+            return false;
+        }
+        let [mut density, mut residual] =
+            DENSITIES.map(|field| core::mem::take(self.group.columns.column_mut(field)));
+        density
+            .par_iter_mut()
+            .zip(residual.par_iter_mut())
+            .enumerate()
+            .with_min_len(GRAIN)
+            .for_each(|(k, (y, residual))| {
+                let rate = self.rate_of(Field::Density, k, *y).to_f64();
+                let sum = a * (before[k].to_f64() + lost[k].to_f64())
+                    + b * (y.to_f64() + residual.to_f64())
+                    + dt * rate;
+                *y = T::from_f64(sum);
+                *residual = T::from_f64(sum - y.to_f64());
+            });
+        for (field, column) in DENSITIES.into_iter().zip([density, residual]) {
+            *self.group.columns.column_mut(field) = column;
+        }
+        true
     }
 
     /// Positions and what their rounding has lost, in `f64` where the scalar keeps the loss.

@@ -14,10 +14,8 @@ impl<T: Real, const D: usize> Group<T, D> {
     pub(super) fn follow_flow(&mut self, time: f64) {
         let dual = (self.scheme.liquid.as_ref()).is_some_and(|liquid| liquid.dual_criteria);
         let kept = dual && self.renewed == self.rebuilds && time < self.renewed_until;
-        // Gradients of density and pressure follow sound.
-        let fields = self.columns.fields();
-        let sound = [Field::DensityGradient, Field::PressureGradient];
-        if !kept || sound.into_iter().any(|field| fields.contains(field)) {
+        // Gradients of density follow sound.
+        if !kept || self.columns.fields().contains(Field::DensityGradient) {
             self.find_gradients();
         }
         if kept {

@@ -112,6 +112,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             self.group.columns.vectors_mut(Field::Velocity)[slot] = next.map(T::from_f64);
         }
         self.rates_at_hand = false;
+        self.group.renewed_until = f64::NEG_INFINITY;
     }
 
     /// A particle by its number.

@@ -98,12 +98,13 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 "take LiquidBuilder::compose_with_one_evaluation, or an integrator that kicks (kick-drift-kick)",
             );
         }
-        if !self.walls.is_empty() && !self.integrator.kicks() {
+        // Particles of inlets wait as walls do.
+        let prescribed = !self.walls.is_empty() || !self.inlets.is_empty();
+        if prescribed && !self.integrator.kicks() {
             incompatible(
                 format!(
-                    "the integrator {} combines states of all particles, and would move those of wall `{}`",
-                    self.integrator.name(),
-                    self.walls[0].name
+                    "the integrator {} combines states of all particles, and would move those of walls and inlets",
+                    self.integrator.name()
                 ),
                 "take an integrator that kicks (kick-drift-kick), or boundaries of images (MirrorPlane)",
             );

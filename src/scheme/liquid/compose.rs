@@ -191,7 +191,8 @@ impl<K, V, W, R> LiquidBuilder<K, V, W, R> {
 /// On a lattice density diffusion holds noise up to 0.55 h/c, that of a Riemann solver up to 0.35 h/c. Liquid
 /// that strikes a wall has fewer neighbours to diffuse to, and walls do not diffuse: of a dam break on 2500
 /// particles 0.25 h/c keeps the fluctuations of density and the greatest speeds that two sweeps have, at
-/// 0.3 h/c they are up to twice as large, at 0.55 h/c the fluctuations four to ten times.
+/// 0.3 h/c they are up to twice as large, at 0.55 h/c the fluctuations four to ten times. It belongs to
+/// kick-drift-kick; for a Runge–Kutta method of higher order divide [`step_factor`](LiquidBuilder::step_factor) by it.
 pub const ONE_EVALUATION_STEP: f64 = 0.25 / 0.55;
 
 /// By what a bulk viscosity shortens the stable step Δ \[h/c\] of a leapfrog.

@@ -26,7 +26,7 @@ pub(crate) struct Liquid<T: Real, const D: usize> {
     pub acoustic_damping: Option<f64>,
     /// How strongly densities are held to the space of their particles, and Σ V W on the lattice.
     pub volume_consistency: Option<(f64, f64)>,
-    /// Whether corrections and viscosities are renewed with the neighbour lists only.
+    /// Whether corrections and viscosities are renewed with the neighbour lists, or after h²/(4 ν).
     pub dual_criteria: bool,
 }
 
@@ -245,7 +245,8 @@ impl<K, V, W, R, S, U, const MODES: u8, const RENORMALISED: bool>
         self.h_over_dx = Some(ratio);
         self
     }
-    /// Step in units of h/(c + signal).
+    /// Step in units of h/(c + signal), which
+    /// [`compose_with_one_evaluation`](LiquidBuilder::compose_with_one_evaluation) shortens.
     #[must_use]
     pub fn step_factor(mut self, factor: f64) -> Self {
         self.step_factor = factor;
@@ -311,7 +312,8 @@ impl<K, V, W, R, S, U, const MODES: u8, const RENORMALISED: bool>
     /// every step (after Zhang, Rezavand & Hu 2020).
     ///
     /// Sound sets the step of a weakly compressible liquid, and the flow changes by little in it. Neighbour
-    /// lists are kept in any case until a particle has moved by half of their skin, 0.1 h; with this the
+    /// lists are kept in any case until a particle has moved by half of their
+    /// [skin](crate::scene::Scene::skin), 0.1 h; with this the
     /// corrections of [`renormalised`](Self::renormalised) gradients and the viscosities of
     /// [`generalised_newtonian`](Self::generalised_newtonian) liquids are kept as long, or for h²/(4 ν), and save
     /// their sweep in the steps between: a standing wave with renormalised gradients takes 0.71 of the time, and its
