@@ -107,8 +107,12 @@ pub fn histories(
         .take_while(|(_, z)| *z < 0.995 * case.tank[0] / units.width());
     let mut panel = Panel::new(Axis::linear("t √(2g/a)", ""), Axis::linear("front x/a", ""))
         .title("front")
-        .series(Series::line("computed", wet))
-        .series(Series::markers("Martin & Moyce 1952", MARTIN_MOYCE_FRONT));
+        .series(Series::line("computed", wet));
+    // Their column is twice as high as wide.
+    let tall = case.column[1] > case.column[0];
+    if tall {
+        panel = panel.series(Series::markers("Martin & Moyce 1952", MARTIN_MOYCE_FRONT));
+    }
     if case.name == "koshizuka" {
         let file = "dambreak2d_front/koshizuka_oka_1996_pysph.csv";
         let label = "Koshizuka & Oka 1996";
@@ -122,15 +126,16 @@ pub fn histories(
     }
     panels.push(panel);
     let rear = history.points("rear_m", units.height_time_unit(), units.height());
-    panels.push(
-        Panel::new(
-            Axis::linear("t √(g/a)", ""),
-            Axis::linear("height at the rear η/h", ""),
-        )
-        .title("rear wall")
-        .series(Series::line("computed", rear))
-        .series(Series::markers("Martin & Moyce 1952", MARTIN_MOYCE_REAR)),
-    );
+    let mut panel = Panel::new(
+        Axis::linear("t √(g/a)", ""),
+        Axis::linear("height at the rear η/h", ""),
+    )
+    .title("rear wall")
+    .series(Series::line("computed", rear));
+    if tall {
+        panel = panel.series(Series::markers("Martin & Moyce 1952", MARTIN_MOYCE_REAR));
+    }
+    panels.push(panel);
     let smooth = history.smoothed(1e-3);
     for (k, height) in case.sensors.iter().enumerate() {
         let time = Axis::linear("t √(g/h)", "").from(2.0);

@@ -99,11 +99,15 @@ impl<T: Real, const D: usize> Scene<T, D> {
             );
         }
         // Particles of inlets wait as walls do.
-        let prescribed = !self.walls.is_empty() || !self.inlets.is_empty();
-        if prescribed && !self.integrator.kicks() {
+        let prescribed = match (self.walls.first(), self.inlets.is_empty()) {
+            (Some(wall), _) => Some(format!("wall `{}`", wall.name)),
+            (None, false) => Some("an inlet".into()),
+            (None, true) => None,
+        };
+        if let Some(prescribed) = prescribed.filter(|_| !self.integrator.kicks()) {
             incompatible(
                 format!(
-                    "the integrator {} combines states of all particles, and would move those of walls and inlets",
+                    "the integrator {} combines states of all particles, and would move those of {prescribed}",
                     self.integrator.name()
                 ),
                 "take an integrator that kicks (kick-drift-kick), or boundaries of images (MirrorPlane)",
