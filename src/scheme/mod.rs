@@ -172,6 +172,15 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         self.liquid.is_some() && self.compression.is_none()
     }
 
+    /// Whether it has what a second criterion can keep: corrections without gradients of density, which follow
+    /// sound, or viscosities that follow the shear rate.
+    pub(crate) fn has_slow_fields(&self) -> bool {
+        let fields = self.fields();
+        let corrected =
+            fields.contains(Field::Correction) && !fields.contains(Field::DensityGradient);
+        corrected || (self.liquid.as_ref()).is_some_and(|liquid| liquid.shear.is_some())
+    }
+
     /// All sweeps, in the order in which a step runs them.
     fn sweeps(&self) -> impl Iterator<Item = &dyn PairSweep<T, D>> {
         let optional = [&self.sums, &self.compression, &self.gradient];
@@ -203,8 +212,7 @@ impl<T: Real, const D: usize> Scheme<T, D> {
             equation: "dρᵢ/dt += κ (c/h) ρᵢ (uᵢ/u₀ − 1)",
             source: "after Colagrossi & Landrini 2003",
         });
-        let kept = self.gradient.is_some() || liquid.is_some_and(|own| own.shear.is_some());
-        let dual = liquid.filter(|own| own.dual_criteria && kept);
+        let dual = liquid.filter(|own| own.dual_criteria);
         let dual = dual.map(|_| TermDoc {
             name: "corrections and viscosities once an advection step".into(),
             equation: "kept until a particle has moved by half the skin, or for h²/(4 ν)",

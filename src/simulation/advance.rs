@@ -31,6 +31,7 @@ const STATE: [Field; 7] = [
     Field::Energy,
     Field::SmoothingLength,
 ];
+/// Densities, and what their rounding has lost.
 const DENSITIES: [Field; 2] = [Field::Density, Field::DensityResidual];
 
 impl<T: Real, const D: usize> Simulation<T, D> {

@@ -1,6 +1,8 @@
 //! What the integration tests share: random particle sets, and measures of what a run has done.
 #![allow(dead_code)]
 
+pub mod tank;
+
 use meshfree::kernel::{Kernel, KernelKind};
 use meshfree::material::{Material, catalogue};
 use meshfree::scalar::Lane;

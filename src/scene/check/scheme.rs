@@ -37,6 +37,16 @@ impl<T: Real, const D: usize> Scene<T, D> {
                     remedy: "leave out either volume_consistency or smoothing and mixed_spacing",
                 });
             }
+            if liquid.dual_criteria && !scheme.has_slow_fields() {
+                problems.push(Problem::Incompatible {
+                    what: format!(
+                        "the scheme {} steps by two criteria, and has nothing to keep for an advection step",
+                        scheme.name
+                    ),
+                    remedy: "leave out dual_criteria, or take renormalised gradients without diffusion by gradients \
+                             of density (Antuono), or generalised_newtonian",
+                });
+            }
             let consistency = liquid.volume_consistency.map(|(strength, _)| strength);
             for (what, strength) in [
                 ("acoustic damping", liquid.acoustic_damping),

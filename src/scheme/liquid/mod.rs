@@ -318,7 +318,8 @@ impl<K, V, W, R, S, U, const MODES: u8, const RENORMALISED: bool>
     /// [`generalised_newtonian`](Self::generalised_newtonian) liquids are kept as long, or for h²/(4 ν), and save
     /// their sweep in the steps between: a standing wave with renormalised gradients takes 0.71 of the time, and its
     /// period is 0.16 % long where it was 0.14 %. The other terms share the sweep of the pressure, and would save
-    /// nothing.
+    /// nothing: a scheme with neither is refused, and so are corrections under diffusion by gradients of density
+    /// ([`Antuono`](crate::term::Antuono)), which follow sound.
     #[must_use]
     pub fn dual_criteria(mut self) -> Self {
         self.dual_criteria = true;
