@@ -19,7 +19,8 @@ const EXAMPLE: Example = Example {
     name: "dam_break",
     about: "Dam breaks against experiments.
 
---case NAME is lobovsky, koshizuka or martin-moyce, in a plane, or spheric2, in space.",
+--case NAME is lobovsky, koshizuka or martin-moyce, in a plane, or spheric2, in space.
+The scheme viscous has the water's own viscosity, and walls without slip.",
     schemes: &violent::SCHEMES,
     own: &violent::OWN,
 };

@@ -23,7 +23,7 @@ const EXAMPLE: Example = Example {
     about: "Sloshing in a rolling tank: SPHERIC 10, lateral impact of water (Souto-Iglesias et al. 2011).
 
 --case NAME is record, the roll as measured, or sine, the fit of it (the default where the record is
-not there).",
+not there). The scheme viscous has the water's own viscosity, and walls without slip.",
     schemes: &violent::SCHEMES,
     own: &violent::OWN,
 };

@@ -160,7 +160,8 @@ impl<const D: usize> PressureProbe<D> {
     /// wall, over the area of their columns: the pressure that the wall really feels.
     ///
     /// Its sum over time is the impulse that the wall got. Within a support of an edge it reads low, by 12 % one
-    /// spacing above a floor: the wall around the corner takes its share; on a plate thinner than two supports it sees the other side. It costs a sweep over the walls, which
+    /// spacing above a floor: the wall around the corner takes its share. On a plate thinner than two supports it
+    /// sees the other side. It costs a sweep over the walls, which
     /// [`contact_pressures`](Self::contact_pressures) makes once for many probes.
     #[must_use]
     pub fn contact_pressure<T: Real>(&self, simulation: &Simulation<T, D>) -> f64 {
@@ -175,6 +176,7 @@ impl<const D: usize> PressureProbe<D> {
         felt.collect()
     }
 
+    /// The pressure \[Pa\] that places and forces of all wall particles make on the disc.
     fn felt<T: Real>(&self, simulation: &Simulation<T, D>, forces: &[([f64; D], [f64; D])]) -> f64 {
         let pose = self.centre.pose(simulation);
         let centre = Vector::<f64, D>::from(pose.of(0, &self.centre.point));

@@ -5,7 +5,7 @@ use super::Simulation;
 use super::evaluate::GRAIN;
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
-use crate::scheme::{DensityForm, Smoothing};
+use crate::scheme::{DensityForm, Scheme, Smoothing};
 use crate::sweep::{Rows, two_sum};
 use rayon::prelude::*;
 
@@ -19,16 +19,13 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
         let form = self.group.scheme.density;
         let lattice = T::from_f64(self.group.scheme.lattice_moment);
-        let rows = if self.group.scheme.kicks_density() {
-            &self.group.rows
-        } else {
-            &self.group.scratch_rows
-        };
-        let mobile = self.group.mobile;
+        let group = &mut self.group;
+        let rows = compression_sums(&group.scheme, &group.rows, &group.scratch_rows);
+        let mobile = group.mobile;
         let consistency =
-            (self.group.scheme.liquid.as_ref()).and_then(|liquid| liquid.volume_consistency);
-        let h = self.group.smoothing_length;
-        let [density, residual, rest, moment, sound_speed] = self.group.columns.many_mut([
+            (group.scheme.liquid.as_ref()).and_then(|liquid| liquid.volume_consistency);
+        let h = group.smoothing_length;
+        let [density, residual, rest, moment, sound_speed] = group.columns.many_mut([
             Field::Density,
             Field::DensityResidual,
             Field::ReferenceDensity,
@@ -157,6 +154,15 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 /// negative; at nine tenths volumes are at most a ninth too large, and what was drawn apart a little
 /// still closes without pressure.
 const TORN: f64 = 0.9;
+
+/// Where the compression is summed: with the rates in a step of one evaluation, or in a sweep of its own.
+pub(super) fn compression_sums<'a, T: Real, const D: usize>(
+    scheme: &Scheme<T, D>,
+    rates: &'a Rows<T, D>,
+    own: &'a Rows<T, D>,
+) -> &'a Rows<T, D> {
+    if scheme.kicks_density() { rates } else { own }
+}
 
 /// Rate of compression (1/ρ) dρ/dt of a particle from its sum over neighbours.
 #[inline(always)]

@@ -1,7 +1,7 @@
 //! Damping of sound by a bulk viscosity that follows the last rate of compression.
 //! After the acoustic damper of Sun, Pilloton, Antuono & Colagrossi 2023.
 
-use super::continuity::{Reference, rate};
+use super::continuity::{Reference, compression_sums, rate};
 use super::evaluate::GRAIN;
 use super::group::Group;
 use crate::particles::Field;
@@ -20,11 +20,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
         let form = self.scheme.density;
         let lattice = T::from_f64(self.scheme.lattice_moment);
-        let rows = if self.scheme.kicks_density() {
-            &self.rows
-        } else {
-            &self.scratch_rows
-        };
+        let rows = compression_sums(&self.scheme, &self.rows, &self.scratch_rows);
         let mobile = self.mobile;
         let [divergence, density] = self.columns.many_mut([Field::Divergence, Field::Density]);
         let rest: Reference<'_, T> = (&[], &[], lattice);
