@@ -30,7 +30,7 @@ impl<const D: usize> Place<D> {
                 return Err(refused(name, "position", x, "it must be finite, in metres"));
             }
             let inside = |[low, high]: [[f64; D]; 2]| low[d] - reach <= x && x <= high[d] + reach;
-            if line != Some(d) && !simulation.group.domain.is_none_or(inside) {
+            if line != Some(d) && !simulation.domain.is_none_or(inside) {
                 let must_be =
                     "it must be near the bodies and walls of the scene as built, in metres";
                 return Err(refused(name, &format!("coordinate {d}"), x, must_be));

@@ -132,7 +132,7 @@ impl<const D: usize> PressureProbe<D> {
         simulation.near(&pose.of(0, &self.centre.point), reach, |particle| {
             let x = particle.position();
             let volume = particle.mass() / particle.density() * norm;
-            let side = usize::from(!simulation.is_mobile(&particle));
+            let side = usize::from(!particle.is_mobile());
             for (point, sum) in points.iter().zip(&mut sums) {
                 let r2: f64 = (0..D).map(|d| (x[d] - point[d]).powi(2)).sum();
                 let q = r2.sqrt() / h;
@@ -184,7 +184,7 @@ impl<const D: usize> PressureProbe<D> {
         let (mut force, mut columns) = (0.0, 0_usize);
         let spacing = simulation.spacing();
         // What lies deeper feels the liquid on another side of the wall.
-        let deepest = -simulation.scheme().kernel().support * simulation.smoothing_length();
+        let deepest = -simulation.reach();
         for (x, on) in forces {
             let r = Vector::from(*x) - centre;
             let along = r.dot(&normal);

@@ -1,6 +1,7 @@
 //! A body of a scene: where its particles are, what it is made of, and how it starts.
 //! Boxes and shapes are filled with a lattice; points may be the user's own.
 
+use crate::boundary::Slip;
 use crate::geometry::{FEWER, Flaw, MOST_PARTICLES, POSITIVE, Shape, filled};
 use crate::material::Material;
 use crate::scalar::Real;
@@ -32,6 +33,7 @@ pub struct Body<T: Real, const D: usize> {
     pub(crate) points: Vec<[f64; D]>,
     pub(crate) spacing: f64,
     pub(crate) starts: Vec<Start<D>>,
+    pub(crate) slip: Slip,
     pub(crate) shape: Result<(), Flaw>,
 }
 
@@ -135,7 +137,18 @@ impl<T: Real, const D: usize> Body<T, D> {
             points,
             spacing,
             starts,
+            slip: Slip::Free,
             shape: Ok(()),
+        }
+    }
+
+    /// Lets a liquid of another [group](crate::scene::Scene::group) stick to this body; it slips if not
+    /// given.
+    #[must_use]
+    pub fn no_slip(self) -> Self {
+        Self {
+            slip: Slip::None,
+            ..self
         }
     }
 

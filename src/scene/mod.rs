@@ -28,20 +28,35 @@
 //!     .between("rod", "pad", Interaction::Bonded);
 //! assert_eq!(wrong.problems().len(), 3);
 //! ```
+//!
+//! # Several schemes
+//!
+//! A scheme is what a group of bodies obeys, and [`Scene::group`] adds bodies with one of their own. A
+//! liquid meets solids of other groups as walls that move, and gives back what it feels:
+//!
+//! | bodies | in one group | in two groups |
+//! |---|---|---|
+//! | solid and solid | contact, or bonded | do not meet, which has to be said |
+//! | liquid and liquid | one liquid | do not meet, which has to be said |
+//! | liquid and solid | no: a liquid needs a scheme of liquids | pressure, and friction with [`Body::no_slip`] |
+//!
+//! Solids do not see walls of particles; a [`MirrorPlane`](crate::boundary::MirrorPlane) holds solids and liquids.
 
 mod body;
 mod check;
+mod plan;
 
 pub use body::{Body, Start};
 
-use crate::boundary::{Boundary, Emitter, Inlet, Outlet, Wall};
+use crate::boundary::{Boundary, Inlet, Outlet, Wall};
 use crate::error::{BuildError, Error, Problem, Result};
 use crate::integrator::{Integrator, KickDriftKick};
-use crate::particles::{Columns, Field, Fields};
 use crate::scalar::Real;
-use crate::scheme::{Scheme, Smoothing};
-use crate::simulation::{BodyState, Group, Load, Simulation, StepControl, WallState, width};
+use crate::scheme::Scheme;
+use crate::simulation::{Load, Simulation, StepControl};
 use crate::sweep::{InstructionSet, Interaction};
+use plan::Plan;
+use std::sync::Arc;
 
 /// A scene: bodies, boundaries, a scheme, an integrator, and how parts act on each other.
 ///
@@ -60,18 +75,24 @@ use crate::sweep::{InstructionSet, Interaction};
 /// # Ok::<(), meshfree::error::Error>(())
 /// ```
 pub struct Scene<T: Real, const D: usize> {
-    bodies: Vec<Body<T, D>>,
+    /// Bodies by the schemes that they obey, the scene's own first.
+    parts: Vec<Part<T, D>>,
     walls: Vec<Wall<D>>,
     outlets: Vec<Outlet<D>>,
     inlets: Vec<Inlet<D>>,
-    boundaries: Vec<Box<dyn Boundary<T, D>>>,
-    scheme: Scheme<T, D>,
+    boundaries: Vec<Arc<dyn Boundary<T, D>>>,
     integrator: Box<dyn Integrator>,
     contacts: Vec<(String, String, Interaction)>,
     loads: Vec<Load<D>>,
     control: StepControl,
     skin: f64,
     instructions: InstructionSet,
+}
+
+/// Bodies that share a scheme.
+struct Part<T: Real, const D: usize> {
+    scheme: Arc<Scheme<T, D>>,
+    bodies: Vec<Body<T, D>>,
 }
 
 impl<T: Real, const D: usize> Scene<T, D> {
@@ -84,12 +105,14 @@ impl<T: Real, const D: usize> Scene<T, D> {
             ..StepControl::default()
         };
         Self {
-            bodies: Vec::new(),
+            parts: vec![Part {
+                scheme: Arc::new(scheme),
+                bodies: Vec::new(),
+            }],
             walls: Vec::new(),
             outlets: Vec::new(),
             inlets: Vec::new(),
             boundaries: Vec::new(),
-            scheme,
             integrator: Box::new(KickDriftKick),
             contacts: Vec::new(),
             loads: Vec::new(),
@@ -99,10 +122,53 @@ impl<T: Real, const D: usize> Scene<T, D> {
         }
     }
 
-    /// Adds a body.
+    /// Adds a body that obeys the scene's scheme.
     #[must_use]
     pub fn body(mut self, body: Body<T, D>) -> Self {
-        self.bodies.push(body);
+        self.parts[0].bodies.push(body);
+        self
+    }
+
+    /// Adds bodies that obey a scheme of their own: a group, with columns, neighbour lists and sweeps of
+    /// its own, of which no other group carries anything.
+    ///
+    /// A liquid meets the bodies of a group without liquids, its structures, as walls that move, with
+    /// [`Body::no_slip`] as walls that it sticks to. What a structure feels is what the liquid feels with
+    /// the opposite sign, pair by pair, so momentum is kept to rounding. Its particles must not be farther
+    /// apart than those of the liquid. [`Interaction::None`] between two bodies takes the coupling away;
+    /// two liquids, or two structures, can only be in different groups with it.
+    ///
+    /// All groups take the smallest step that any of them asks for; the factor of
+    /// [`StepControl::courant`] is that of the scene's own scheme, and for another group at most what its
+    /// scheme bears.
+    ///
+    /// ```
+    /// use meshfree::prelude::*;
+    /// // Two millimetres of water are struck by a copper plate at 10 m/s, in one dimension.
+    /// let water = catalogue::weakly_compressible_water(200.0);
+    /// let mut simulation = Scene::<f64, 1>::new(schemes::weakly_compressible())
+    ///     .body(Body::block("water", water, [0.0], [0.002], 2e-5))
+    ///     .group(schemes::impact(), [
+    ///         Body::block("plate", catalogue::copper(), [-0.001], [0.0], 2e-5).velocity([10.0]),
+    ///     ])
+    ///     .build()?;
+    /// let before = simulation.ledger().whole.momentum[0];
+    /// simulation.run_until(1e-6)?;
+    /// let after = simulation.ledger();
+    /// assert!((after.whole.momentum[0] / before - 1.0).abs() < 1e-12);
+    /// assert!(after.bodies[0].1.momentum[0] > 0.0, "the water has begun to move");
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[must_use]
+    pub fn group(
+        mut self,
+        scheme: impl Into<Scheme<T, D>>,
+        bodies: impl IntoIterator<Item = Body<T, D>>,
+    ) -> Self {
+        self.parts.push(Part {
+            scheme: Arc::new(scheme.into()),
+            bodies: bodies.into_iter().collect(),
+        });
         self
     }
 
@@ -130,12 +196,13 @@ impl<T: Real, const D: usize> Scene<T, D> {
     /// Adds a boundary.
     #[must_use]
     pub fn boundary(mut self, boundary: impl Boundary<T, D> + 'static) -> Self {
-        self.boundaries.push(Box::new(boundary));
+        self.boundaries.push(Arc::new(boundary));
         self
     }
 
     /// Says what two bodies do to each other. Where nothing is said, they carry compression and open
-    /// without tension ([`Interaction::Unilateral`]).
+    /// without tension ([`Interaction::Unilateral`]). Of bodies in different [groups](Scene::group) one can
+    /// only say that they do nothing, [`Interaction::None`].
     #[must_use]
     pub fn between(mut self, first: &str, second: &str, interaction: Interaction) -> Self {
         self.contacts
@@ -192,96 +259,17 @@ impl<T: Real, const D: usize> Scene<T, D> {
     ///
     /// # Errors
     /// [`Error::Build`] with every problem that was found.
-    pub fn build(mut self) -> Result<Simulation<T, D>> {
+    pub fn build(self) -> Result<Simulation<T, D>> {
         let problems = self.problems();
         if !problems.is_empty() {
             return Err(Error::Build(BuildError { problems }));
         }
         let domain = self.domain();
-        let emitters = self.place_inlets();
-        let interactions = self.interactions();
-        let unilateral = interactions.contains(&Interaction::Unilateral);
-        let mut fields = self.scheme.fields();
-        if unilateral {
-            fields = fields.union(Fields::of(&[Field::Touching, Field::TouchingSum]));
-        }
-        let width = width::<T>();
-        let counts = self.bodies.iter().map(|body| self.room(body));
-        let slots = counts
-            .chain(self.walls.iter().map(|wall| wall.points.len()))
-            .map(|count| count.next_multiple_of(width))
-            .sum();
-        let mut columns = Columns::<T, D>::new(fields, slots);
-        let mut bodies = Vec::new();
-        let mut start = 0;
-        for body in &self.bodies {
-            let own = start..start + body.points.len();
-            let end = (start + self.room(body)).next_multiple_of(width);
-            for slot in start..end {
-                self.place(
-                    &mut columns,
-                    body,
-                    slot,
-                    (slot - start).min(body.points.len() - 1),
-                );
-            }
-            let ids = start..start + self.room(body);
-            start = end;
-            bodies.push(BodyState {
-                name: body.name.clone(),
-                material: body.material.clone(),
-                ids,
-                slots: own,
-                end: start,
-                spacing: body.spacing,
-            });
-        }
-        let mut walls = Vec::new();
-        for wall in &self.walls {
-            let own = start..start + wall.points.len();
-            start = own.end.next_multiple_of(width);
-            for slot in own.start..start {
-                self.place_wall(&mut columns, wall, slot);
-            }
-            walls.push(WallState {
-                name: wall.name.clone(),
-                slots: own,
-                end: start,
-                rest: wall.points.clone(),
-                motion: wall.motion.clone(),
-                slip: wall.slip,
-                sliding: wall.sliding,
-                carries: wall.carries,
-                mass: self.wall_mass(wall),
-            });
-        }
-        let widest = bodies
-            .iter()
-            .fold(0.0_f64, |most, body| most.max(body.spacing));
-        let h = self.scheme.h_over_dx * widest;
-        let skin = self.skin * self.scheme.kernel.support * h;
+        let groups = self.plans().map(Plan::lay_out).collect();
         let fixed = self.control.fixed;
-        let mut group = Group::new(
-            columns,
-            bodies,
-            walls,
-            self.boundaries,
-            self.scheme,
-            interactions,
-            h,
-            skin,
-        );
-        group.instructions = self.instructions;
-        group.outlets = self.outlets;
-        group.emitters = emitters;
-        group.domain = domain;
-        for body in &group.bodies {
-            for id in body.slots.end..body.ids.end {
-                group.slot_of[id] = u32::MAX;
-            }
-        }
-        group.take_reference();
-        let mut simulation = Simulation::new(group, self.integrator, self.control, self.loads);
+        let mut simulation =
+            Simulation::new(groups, domain, self.integrator, self.control, self.loads);
+        simulation.take_references();
         simulation.evaluate()?;
         let vote = simulation.vote()?;
         match fixed {
@@ -296,54 +284,17 @@ impl<T: Real, const D: usize> Scene<T, D> {
         }
     }
 
-    /// Writes particle `k` of a body into a slot.
-    fn place(&self, columns: &mut Columns<T, D>, body: &Body<T, D>, slot: usize, k: usize) {
-        let (x, start) = (body.points[k], body.starts[k]);
-        let rounded = x.map(T::from_f64);
-        columns.vectors_mut(Field::Position)[slot] = rounded;
-        if columns.fields().contains(Field::PositionResidual) {
-            columns.vectors_mut(Field::PositionResidual)[slot] =
-                core::array::from_fn(|d| T::from_f64(x[d] - rounded[d].to_f64()));
-        }
-        columns.vectors_mut(Field::Velocity)[slot] = start.velocity.map(T::from_f64);
-        let mut set = |field: Field, value: f64| {
-            if let Some(place) = columns.raw_mut(field).get_mut(slot) {
-                *place = T::from_f64(value);
-            }
+    /// All bodies, those of the scene's own scheme first.
+    fn bodies(&self) -> impl Iterator<Item = &Body<T, D>> {
+        self.parts.iter().flat_map(|part| &part.bodies)
+    }
+
+    /// What was said of two bodies.
+    fn said_between(&self, first: &str, second: &str) -> Option<Interaction> {
+        let meant = |(a, b, _): &&(String, String, Interaction)| {
+            (a == first && b == second) || (a == second && b == first)
         };
-        set(Field::Density, start.density);
-        set(Field::ReferenceDensity, start.density);
-        set(Field::Mass, start.density * body.spacing.powi(D as i32));
-        set(Field::Energy, start.energy);
-        let viscosity = body
-            .material
-            .rheology()
-            .map_or(0.0, |law| law.viscosity(0.0));
-        set(Field::DynamicViscosity, viscosity);
-        set(Field::SmoothingLength, self.scheme.h_over_dx * body.spacing);
-        set(
-            Field::ViscosityCoefficient,
-            self.scheme.starting_coefficient(),
-        );
-    }
-
-    /// Particles that a body can have: those that it starts with, and what inlets may add.
-    fn room(&self, body: &Body<T, D>) -> usize {
-        let inlets = self.inlets.iter().filter(|inlet| inlet.body == body.name);
-        body.points.len() + inlets.map(|inlet| inlet.reserve).sum::<usize>()
-    }
-
-    /// Puts a buffer behind every inlet, and returns what hands its layers over.
-    fn place_inlets(&mut self) -> Vec<(usize, Emitter<D>)> {
-        let reach = self.scheme.kernel.support * self.scheme.h_over_dx;
-        let mut emitters = Vec::new();
-        for inlet in &self.inlets {
-            let (wall, emitter) = inlet.buffer(reach.ceil() as usize + 1);
-            self.walls.push(wall);
-            let fed = self.bodies.iter().position(|body| body.name == inlet.body);
-            emitters.extend(fed.map(|body| (body, emitter)));
-        }
-        emitters
+        self.contacts.iter().rfind(meant).map(|contact| contact.2)
     }
 
     /// The box around bodies and walls \[m\], where walls alone bound the scene.
@@ -351,7 +302,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         if self.walls.is_empty() || !self.inlets.is_empty() || !self.boundaries.is_empty() {
             return None;
         }
-        let bodies = self.bodies.iter().flat_map(|body| &body.points);
+        let bodies = self.bodies().flat_map(|body| &body.points);
         let all = bodies.chain(self.walls.iter().flat_map(|wall| &wall.points));
         let start = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
         Some(all.fold(start, |[low, high], x| {
@@ -359,113 +310,6 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 |of: fn(f64, f64) -> f64, far: [f64; D]| core::array::from_fn(|d| of(far[d], x[d]));
             [corner(f64::min, low), corner(f64::max, high)]
         }))
-    }
-
-    /// Mass \[kg\] of a wall particle: its volume, filled with the first liquid at rest.
-    fn wall_mass(&self, wall: &Wall<D>) -> f64 {
-        let body = self.bodies.first();
-        let density = body.map_or(0.0, |body| body.material.reference_density());
-        density * wall.spacing.powi(D as i32)
-    }
-
-    /// Gives a wall particle what does not change. It has the density of the first liquid at rest: its
-    /// volume is what the liquid's pressure acts on.
-    fn place_wall(&self, columns: &mut Columns<T, D>, wall: &Wall<D>, slot: usize) {
-        let Some(body) = self.bodies.first() else {
-            return;
-        };
-        let density = body.material.reference_density();
-        let (_, sound_speed) = body.material.state(density, 0.0);
-        let mut set = |field: Field, value: f64| {
-            if let Some(place) = columns.raw_mut(field).get_mut(slot) {
-                *place = T::from_f64(value);
-            }
-        };
-        set(Field::Density, density);
-        set(Field::SoundSpeed, sound_speed);
-        set(Field::Mass, self.wall_mass(wall));
-        set(Field::SmoothingLength, self.scheme.h_over_dx * wall.spacing);
-        // The liquid corrects the gradients; a wall takes them as they are.
-        if let Some(rows) = columns
-            .raw_mut(Field::Correction)
-            .get_mut(slot * D * D..(slot + 1) * D * D)
-        {
-            for d in 0..D {
-                rows[d * (D + 1)] = T::one();
-            }
-        }
-    }
-
-    /// What every block does to every other: bodies, walls, images of bodies by boundary, and images of
-    /// each wall by boundary.
-    fn interactions(&self) -> Vec<Interaction> {
-        if self.scheme.liquid.is_some() {
-            return self.liquid_interactions();
-        }
-        let (bodies, boundaries) = (self.bodies.len(), self.boundaries.len());
-        let blocks = bodies + boundaries;
-        // Boundaries feel nothing, so their rows name no contact that a scene would pay for.
-        let mut all = vec![Interaction::None; blocks * blocks];
-        for body in 0..bodies {
-            all[body * blocks..body * blocks + bodies].fill(Interaction::Unilateral);
-        }
-        let index = |name: &str| self.bodies.iter().position(|body| body.name == name);
-        for k in 0..blocks {
-            all[k * blocks + k] = Interaction::Bonded;
-        }
-        for (first, second, interaction) in &self.contacts {
-            if let (Some(a), Some(b)) = (index(first), index(second)) {
-                all[a * blocks + b] = *interaction;
-                all[b * blocks + a] = *interaction;
-            }
-        }
-        for (k, boundary) in self.boundaries.iter().enumerate() {
-            for body in 0..bodies {
-                all[body * blocks + bodies + k] = boundary.interaction();
-            }
-        }
-        all
-    }
-
-    /// Liquids act on liquids and walls, and walls ask only for liquids. Nothing opens as a contact
-    /// does: the floor of wall pressures and the cut-off of the material let liquids part.
-    fn liquid_interactions(&self) -> Vec<Interaction> {
-        let (bodies, walls) = (self.bodies.len(), self.walls.len());
-        let boundaries = self.boundaries.len();
-        let blocks = bodies + walls + boundaries * (1 + walls);
-        let is_wall = |block: usize| {
-            (bodies..bodies + walls).contains(&block) || block >= bodies + walls + boundaries
-        };
-        let mut all = vec![Interaction::None; blocks * blocks];
-        for on in 0..bodies + walls {
-            for from in 0..blocks {
-                if !(is_wall(on) && is_wall(from)) {
-                    all[on * blocks + from] = Interaction::Bonded;
-                }
-            }
-        }
-        let index = |name: &str| self.bodies.iter().position(|body| body.name == name);
-        for (first, second, interaction) in &self.contacts {
-            if let (Some(a), Some(b), Interaction::None) =
-                (index(first), index(second), interaction)
-            {
-                all[a * blocks + b] = Interaction::None;
-                all[b * blocks + a] = Interaction::None;
-            }
-        }
-        all
-    }
-
-    fn is_mixed(&self) -> bool {
-        let first = self.bodies.first().map_or(0.0, |body| body.spacing);
-        // A spacing that is no number has its own problem, and differs from nothing.
-        let differs = |spacing: f64| (spacing - first).abs() > 1e-9 * first.abs();
-        self.bodies.iter().any(|body| differs(body.spacing))
-    }
-
-    fn is_uniform(&self) -> bool {
-        self.scheme.smoothing == Smoothing::Fixed
-            && !self.scheme.fields().contains(Field::SmoothingLength)
     }
 }
 

@@ -1,31 +1,30 @@
 //! Continuity: what the rate of compression does to densities and smoothing lengths in a drift or kick.
 //! Densities of torn liquid are held, and `f32` keeps their rounding error.
 
-use super::Simulation;
 use super::evaluate::GRAIN;
+use super::group::Group;
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::scheme::{DensityForm, Scheme, Smoothing};
 use crate::sweep::{Rows, two_sum};
 use rayon::prelude::*;
 
-impl<T: Real, const D: usize> Simulation<T, D> {
+impl<T: Real, const D: usize> Group<T, D> {
     /// Density and smoothing length over `dt` from the compression at hand: of the sweep for it, or of the rates.
     pub(super) fn compress(&mut self, dt: f64) {
         let dt = T::from_f64(dt);
         self.follow_divergence(dt);
-        if !self.group.scheme.density.is_integrated() {
+        if !self.scheme.density.is_integrated() {
             return;
         }
-        let form = self.group.scheme.density;
-        let lattice = T::from_f64(self.group.scheme.lattice_moment);
-        let group = &mut self.group;
-        let rows = compression_sums(&group.scheme, &group.rows, &group.scratch_rows);
-        let mobile = group.mobile;
+        let form = self.scheme.density;
+        let lattice = T::from_f64(self.scheme.lattice_moment);
+        let rows = compression_sums(&self.scheme, &self.rows, &self.scratch_rows);
+        let mobile = self.mobile;
         let consistency =
-            (group.scheme.liquid.as_ref()).and_then(|liquid| liquid.volume_consistency);
-        let h = group.smoothing_length;
-        let [density, residual, rest, moment, sound_speed] = group.columns.many_mut([
+            (self.scheme.liquid.as_ref()).and_then(|liquid| liquid.volume_consistency);
+        let h = self.smoothing_length;
+        let [density, residual, rest, moment, sound_speed] = self.columns.many_mut([
             Field::Density,
             Field::DensityResidual,
             Field::ReferenceDensity,
@@ -68,15 +67,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Keeps a liquid that has torn at its [cut-off](crate::material::Material::with_pressure_cut_off) from
     /// thinning out: spray is still water, and volumes m/ρ weigh its forces.
     pub(super) fn hold_densities(&mut self) {
-        let group = &mut self.group;
-        if group.scheme.liquid.is_none() {
+        if self.scheme.liquid.is_none() {
             return;
         }
-        let [density, residual] = group
+        let [density, residual] = self
             .columns
             .many_mut([Field::Density, Field::DensityResidual]);
         let mut held = 0;
-        for body in &group.bodies {
+        for body in &self.bodies {
             let eos = body.material.eos();
             let torn = eos
                 .pressure_cut_off()
@@ -111,22 +109,21 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                     });
             }
         }
-        group.held_densities += held as u64;
+        self.held_densities += held as u64;
     }
 
     /// dh/dt = h ∇·v / D within limits, over `dt`.
     fn follow_divergence(&mut self, dt: T) {
-        let group = &mut self.group;
-        let Smoothing::Divergence { smallest, largest } = group.scheme.smoothing else {
+        let Smoothing::Divergence { smallest, largest } = self.scheme.smoothing else {
             return;
         };
-        let low = T::from_f64(smallest * group.smoothing_length);
-        let high = T::from_f64(largest * group.smoothing_length);
+        let low = T::from_f64(smallest * self.smoothing_length);
+        let high = T::from_f64(largest * self.smoothing_length);
         let dimension = T::from_f64(D as f64);
-        let form = group.scheme.density;
-        let lattice = T::from_f64(group.scheme.lattice_moment);
-        let (rows, mobile) = (&group.scratch_rows, group.mobile);
-        let [h, density, rest, moment] = group.columns.many_mut([
+        let form = self.scheme.density;
+        let lattice = T::from_f64(self.scheme.lattice_moment);
+        let (rows, mobile) = (&self.scratch_rows, self.mobile);
+        let [h, density, rest, moment] = self.columns.many_mut([
             Field::SmoothingLength,
             Field::Density,
             Field::ReferenceDensity,
@@ -145,7 +142,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 usize::from(*h != next)
             })
             .sum();
-        group.limited_h += limited as u64;
+        self.limited_h += limited as u64;
     }
 }
 

@@ -2,6 +2,7 @@
 //! Reductions have a fixed order, so the step is the same on any number of threads.
 
 use super::Simulation;
+use super::group::Group;
 use crate::error::{Error, Result};
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
@@ -89,84 +90,34 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// # Errors
     /// [`Error::NotFinite`] if a particle's state is no longer finite, or its density not positive.
     pub fn vote(&self) -> Result<Vote> {
-        let group = &self.group;
-        let columns = &group.columns;
-        let factor = self.control.courant * self.integrator.stability();
-        let (c, rho) = (columns.raw(Field::SoundSpeed), columns.raw(Field::Density));
-        let viscosity = columns.raw(Field::DynamicViscosity);
-        let (mass, h) = (
-            columns.raw(Field::Mass),
-            columns.raw(Field::SmoothingLength),
-        );
-        let velocity = columns.vectors(Field::Velocity);
-        let uniform = group.smoothing_length;
-        let bad = Vote {
-            step: -1.0,
-            criterion: Criterion::Fixed,
-            particle: usize::MAX,
-        };
-        let none = Vote {
-            step: f64::INFINITY,
-            criterion: Criterion::Acoustic,
-            particle: usize::MAX,
-        };
-        // The lower slot wins a tie, whatever the order of reduction.
-        let least = |a: Vote, b: Vote| {
-            if b.step < a.step || (b.step == a.step && b.particle < a.particle) {
-                b
+        let stability = self.integrator.stability();
+        let mut all: Option<Vote> = None;
+        for (k, group) in self.groups.iter().enumerate() {
+            // What a user asks of the first scheme may be more than another bears.
+            let own = if k == 0 {
+                f64::INFINITY
             } else {
-                a
+                group.scheme.step_factor
+            };
+            let control = StepControl {
+                courant: self.control.courant.min(own) * stability,
+                ..self.control
+            };
+            let vote = group.vote(&control);
+            if vote.step < 0.0 {
+                return Err(self.broken(group, vote.particle));
             }
-        };
-        let gravity = Vector::<T, D>::from(self.gravity);
-        let best = (0..group.mobile)
-            .into_par_iter()
-            .with_min_len(4096)
-            .map(|slot| {
-                let h = h.get(slot).map_or(uniform, |h| h.to_f64());
-                let signal = group.rows.get(Output::Signal, 0, slot).to_f64();
-                let acoustic = factor * h / (c[slot].to_f64() + signal);
-                let force: Vector<T, D> = group.rows.vector(Output::Force, slot).into();
-                let a = length(&(force / mass[slot] + gravity)).to_f64();
-                let by_force = self.control.force * (h / a.max(f64::MIN_POSITIVE)).sqrt();
-                let speed = velocity[slot].iter().fold(0.0, |s, v| s + v.to_f64().abs());
-                let density = rho[slot].to_f64();
-                let sound = (acoustic + a + speed).is_finite() && density > 0.0;
-                if !sound {
-                    return Vote {
-                        particle: slot,
-                        ..bad
-                    };
-                }
-                let by_viscosity = viscosity.get(slot).map_or(f64::INFINITY, |mu| {
-                    self.control.viscous * h * h * density / mu.to_f64()
-                });
-                let vote = |step, criterion| Vote {
-                    step,
-                    criterion,
-                    particle: slot,
-                };
-                let by_force = vote(by_force, Criterion::Force);
-                let acoustic = vote(acoustic, Criterion::Acoustic);
-                least(
-                    acoustic,
-                    least(by_force, vote(by_viscosity, Criterion::Viscous)),
-                )
-            })
-            .reduce(|| none, least);
-        if best.step < 0.0 {
-            return Err(self.broken(best.particle));
+            if all.is_none_or(|all| vote.step < all.step) {
+                let id = group.ids.get(vote.particle);
+                let particle = id.map_or(usize::MAX, |&id| group.first_id + id as usize);
+                all = Some(Vote { particle, ..vote });
+            }
         }
-        let particle = group
-            .ids
-            .get(best.particle)
-            .map_or(usize::MAX, |&id| id as usize);
-        Ok(Vote { particle, ..best })
+        Ok(all.unwrap_or(NO_VOTE))
     }
 
     /// The error that describes a particle whose state is no longer finite.
-    fn broken(&self, slot: usize) -> Error {
-        let group = &self.group;
+    fn broken(&self, group: &Group<T, D>, slot: usize) -> Error {
         let columns = &group.columns;
         let number = |field: Field| columns.raw(field)[slot].to_f64();
         let force = group.rows.get(Output::Force, 0, slot).to_f64();
@@ -197,5 +148,76 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             time: self.time,
             step: self.steps,
         }
+    }
+}
+
+/// What nothing limits.
+const NO_VOTE: Vote = Vote {
+    step: f64::INFINITY,
+    criterion: Criterion::Acoustic,
+    particle: usize::MAX,
+};
+
+impl<T: Real, const D: usize> Group<T, D> {
+    /// The largest stable step, and the slot that sets it; negative where a state is not finite.
+    fn vote(&self, control: &StepControl) -> Vote {
+        let columns = &self.columns;
+        let (c, rho) = (columns.raw(Field::SoundSpeed), columns.raw(Field::Density));
+        let viscosity = columns.raw(Field::DynamicViscosity);
+        let (mass, h) = (
+            columns.raw(Field::Mass),
+            columns.raw(Field::SmoothingLength),
+        );
+        let velocity = columns.vectors(Field::Velocity);
+        let uniform = self.smoothing_length;
+        let bad = Vote {
+            step: -1.0,
+            criterion: Criterion::Fixed,
+            particle: usize::MAX,
+        };
+        // The lower slot wins a tie, whatever the order of reduction.
+        let least = |a: Vote, b: Vote| {
+            if b.step < a.step || (b.step == a.step && b.particle < a.particle) {
+                b
+            } else {
+                a
+            }
+        };
+        let gravity = Vector::<T, D>::from(self.evaluated_gravity);
+        (0..self.mobile)
+            .into_par_iter()
+            .with_min_len(4096)
+            .map(|slot| {
+                let h = h.get(slot).map_or(uniform, |h| h.to_f64());
+                let signal = self.rows.get(Output::Signal, 0, slot).to_f64();
+                let acoustic = control.courant * h / (c[slot].to_f64() + signal);
+                let force: Vector<T, D> = self.rows.vector(Output::Force, slot).into();
+                let a = length(&(force / mass[slot] + gravity)).to_f64();
+                let by_force = control.force * (h / a.max(f64::MIN_POSITIVE)).sqrt();
+                let speed = velocity[slot].iter().fold(0.0, |s, v| s + v.to_f64().abs());
+                let density = rho[slot].to_f64();
+                let sound = (acoustic + a + speed).is_finite() && density > 0.0;
+                if !sound {
+                    return Vote {
+                        particle: slot,
+                        ..bad
+                    };
+                }
+                let by_viscosity = viscosity.get(slot).map_or(f64::INFINITY, |mu| {
+                    control.viscous * h * h * density / mu.to_f64()
+                });
+                let vote = |step, criterion| Vote {
+                    step,
+                    criterion,
+                    particle: slot,
+                };
+                let by_force = vote(by_force, Criterion::Force);
+                let acoustic = vote(acoustic, Criterion::Acoustic);
+                least(
+                    acoustic,
+                    least(by_force, vote(by_viscosity, Criterion::Viscous)),
+                )
+            })
+            .reduce(|| NO_VOTE, least)
     }
 }

@@ -2,8 +2,10 @@
 //! Kept on request, because summing momentum in every kick is not free.
 
 use super::Simulation;
-use crate::particles::Field;
+use super::group::Group;
+use crate::particles::{Field, Output};
 use crate::scalar::Real;
+use crate::sweep::Rows;
 use crate::tensor::length;
 
 /// Energies \[J\] of a liquid, and the work done on it since the start.
@@ -48,7 +50,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub fn energy(&self) -> Option<EnergyLedger> {
         let work = self.work?;
         let (kinetic, compression) = self.stored();
-        let left = self.group.removed.kinetic;
+        let left = self.removed().kinetic;
         Some(EnergyLedger {
             kinetic,
             compression,
@@ -61,10 +63,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Kinetic energy, and energy stored in compression.
     fn stored(&self) -> (f64, f64) {
-        let columns = &self.group.columns;
-        let (mass, density) = (columns.raw(Field::Mass), columns.raw(Field::Density));
         let (mut kinetic, mut compression) = (0.0, 0.0);
-        for body in &self.group.bodies {
+        for (group, body) in self.all_bodies() {
+            let columns = &group.columns;
+            let (mass, density) = (columns.raw(Field::Mass), columns.raw(Field::Density));
             for slot in body.slots.clone() {
                 let mass = mass[slot].to_f64();
                 let v = columns.vectors(Field::Velocity)[slot];
@@ -82,28 +84,31 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         if self.work.is_none() {
             return;
         }
-        let group = &self.group;
         let (mut mass, mut momentum) = (0.0, [0.0; D]);
-        for slot in group.bodies.iter().flat_map(|body| body.slots.clone()) {
-            let own = group.columns.raw(Field::Mass)[slot].to_f64();
-            let v = group.columns.vectors(Field::Velocity)[slot];
-            mass += own;
-            for d in 0..D {
-                momentum[d] += own * v[d].to_f64();
-            }
-        }
-        // Half of what the kick will add: pair forces between bodies cancel, walls and loads remain.
-        for reaction in group.rows.reactions() {
-            if reaction.from as usize >= group.bodies.len() {
+        for (group, body) in self.all_bodies() {
+            for slot in body.slots.clone() {
+                let own = group.columns.raw(Field::Mass)[slot].to_f64();
+                let v = group.columns.vectors(Field::Velocity)[slot];
+                mass += own;
                 for d in 0..D {
-                    momentum[d] += 0.5 * dt * reaction.force[d];
+                    momentum[d] += own * v[d].to_f64();
                 }
             }
         }
+        // Half of what the kick will add: pair forces between bodies cancel, walls and loads remain.
+        let bodies = self.body_count();
+        for (_, from, force) in self.groups.iter().flat_map(Group::reactions) {
+            if from >= bodies {
+                for d in 0..D {
+                    momentum[d] += 0.5 * dt * force[d];
+                }
+            }
+        }
+        let gravity = self.groups[0].gravity;
         let mut load = 0.0;
         for d in 0..D {
-            momentum[d] += 0.5 * dt * mass * group.gravity[d];
-            load += dt * group.gravity[d] * momentum[d];
+            momentum[d] += 0.5 * dt * mass * gravity[d];
+            load += dt * gravity[d] * momentum[d];
         }
         let wall = dt * self.wall_power();
         if let Some(work) = &mut self.work {
@@ -115,7 +120,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Power \[W\] of the walls on the bodies with the forces at hand.
     fn wall_power(&self) -> f64 {
         let moving = || {
-            let walls = self.group.walls.iter().enumerate();
+            let walls = (0..self.wall_count()).filter_map(|k| Some((k, self.find_wall(k)?.1)));
             walls.filter_map(|(k, wall)| wall.motion.as_ref().map(|motion| (k, motion)))
         };
         if moving().next().is_none() {
@@ -136,18 +141,18 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 })
                 .sum();
         }
-        let mut forces = self.wall_particle_forces().into_iter();
         let mut power = 0.0;
-        for wall in &self.group.walls {
-            let pose = wall.motion.as_ref().map(|motion| motion.pose(time));
-            for slot in wall.slots.clone() {
-                let Some((_, force)) = forces.next() else {
-                    break;
+        for group in &self.groups {
+            let mut rows = Rows::default();
+            group.sum_on_walls(group.mobile..group.columns.slots(), &mut rows);
+            for (k, wall) in group.walls.iter().enumerate() {
+                let Some(pose) = wall.motion.as_ref().map(|motion| motion.pose(time)) else {
+                    continue;
                 };
-                let at = self.group.ids[slot] as usize - wall.slots.start;
-                if let Some(pose) = &pose {
-                    let v = pose.of(1, &wall.rest[at.min(wall.rest.len() - 1)]);
-                    power -= (0..D).map(|d| force[d] * v[d]).sum::<f64>();
+                for slot in wall.slots.clone() {
+                    let force = rows.vector(Output::Force, slot);
+                    let v = pose.of(1, &wall.rest[group.rest_of(k, slot)]);
+                    power -= (0..D).map(|d| force[d].to_f64() * v[d]).sum::<f64>();
                 }
             }
         }

@@ -3,6 +3,7 @@
 
 use super::images::Chain;
 use super::population::{Moves, Removed};
+use super::state::Kept;
 use super::walls::WallState;
 use crate::boundary::{Boundary, Emitter, Outlet};
 use crate::material::Material;
@@ -15,6 +16,7 @@ use crate::sweep::{Image, InstructionSet, Interaction, Records, Rows, SweepInput
 use crate::tensor::{Vector, length};
 use rayon::prelude::*;
 use std::ops::Range;
+use std::sync::Arc;
 use std::time::Instant;
 
 /// A body in a simulation.
@@ -52,12 +54,19 @@ pub(crate) struct Group<T: Real, const D: usize> {
     pub mobile: usize,
     /// What the loads give \[m/s²\].
     pub gravity: [f64; D],
+    /// The same at the last evaluation.
+    pub evaluated_gravity: [T; D],
     /// The same in the frame of the wall that carries the liquid.
     pub body_force: [T; D],
-    pub boundaries: Vec<Box<dyn Boundary<T, D>>>,
-    /// The box around bodies and walls as built \[m\], where walls alone bound the scene.
-    pub domain: Option<[[f64; D]; 2]>,
-    pub scheme: Scheme<T, D>,
+    pub boundaries: Vec<Arc<dyn Boundary<T, D>>>,
+    pub scheme: Arc<Scheme<T, D>>,
+    /// What each of its bodies, walls and boundaries is in the scene: bodies of all groups, then walls,
+    /// then boundaries.
+    pub seats: Vec<usize>,
+    /// How many particles' numbers the groups before it have.
+    pub first_id: usize,
+    /// Whether a liquid of another group meets one of its bodies.
+    pub is_met: bool,
     pub blocks: Vec<Block>,
     pub interactions: Vec<Interaction>,
     pub images: Vec<Image>,
@@ -76,6 +85,8 @@ pub(crate) struct Group<T: Real, const D: usize> {
     pub records_of_rates: bool,
     pub rows: Rows<T, D>,
     pub scratch_rows: Rows<T, D>,
+    /// What its liquid does to the particles of structures, which are walls here.
+    pub structure_rows: Rows<T, D>,
     /// Identity of the particle in each slot, and the slot of each particle.
     pub ids: Vec<u32>,
     pub slot_of: Vec<u32>,
@@ -96,8 +107,12 @@ pub(crate) struct Group<T: Real, const D: usize> {
     /// Entries of the lists after the last sort.
     sorted_entries: usize,
     pub unilateral: bool,
-    /// What list builds have done to particles since states outside of the group were last told.
+    /// What list builds have done to particles since kept states were last told.
     pub moved: Moves<T, D>,
+    /// What a prediction has changed, and takes back.
+    pub(super) predicted: Kept<T>,
+    /// States that an integrator keeps.
+    pub(super) kept: Vec<Kept<T>>,
 }
 
 /// Growth of the lists since the last sort at which particles are sorted again.
@@ -113,8 +128,8 @@ impl<T: Real, const D: usize> Group<T, D> {
         columns: Columns<T, D>,
         bodies: Vec<BodyState<T>>,
         walls: Vec<WallState<D>>,
-        boundaries: Vec<Box<dyn Boundary<T, D>>>,
-        scheme: Scheme<T, D>,
+        boundaries: Vec<Arc<dyn Boundary<T, D>>>,
+        scheme: Arc<Scheme<T, D>>,
         interactions: Vec<Interaction>,
         smoothing_length: f64,
         skin: f64,
@@ -133,10 +148,13 @@ impl<T: Real, const D: usize> Group<T, D> {
             emitters: Vec::new(),
             removed: Removed::default(),
             gravity: [0.0; D],
+            evaluated_gravity: [T::zero(); D],
             body_force: [T::zero(); D],
             boundaries,
-            domain: None,
             scheme,
+            seats: Vec::new(),
+            first_id: 0,
+            is_met: false,
             interactions,
             images: Vec::new(),
             transforms: Vec::new(),
@@ -151,6 +169,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             records_of_rates: false,
             rows: Rows::default(),
             scratch_rows: Rows::default(),
+            structure_rows: Rows::default(),
             smoothing_length,
             skin,
             instructions: InstructionSet::detect(),
@@ -164,7 +183,14 @@ impl<T: Real, const D: usize> Group<T, D> {
             sorted_entries: 0,
             unilateral,
             moved: Moves::default(),
+            predicted: Kept::default(),
+            kept: Vec::new(),
         }
+    }
+
+    /// Whether nobody looks at it on its way through a drift.
+    pub fn drifts_at_once(&self) -> bool {
+        self.scheme.compression.is_none() && !self.is_met
     }
 
     pub fn particles(&self) -> usize {
@@ -177,15 +203,32 @@ impl<T: Real, const D: usize> Group<T, D> {
             .min(self.bodies.len() - 1)
     }
 
-    /// The body, wall or boundary that a block stands for: images of a wall count as the wall.
-    pub fn source_block(&self, block: usize) -> usize {
-        let (bodies, boundaries) = (self.bodies.len(), self.boundaries.len());
+    /// What a block stands for in the scene: images of a wall count as the wall, and a structure as the
+    /// body that it is.
+    pub fn seat(&self, block: u32) -> usize {
+        let (block, bodies, boundaries) =
+            (block as usize, self.bodies.len(), self.boundaries.len());
         let direct = bodies + self.walls.len() + boundaries;
-        if block < direct {
+        self.seats[if block < direct {
             block
         } else {
             bodies + (block - direct) / boundaries
-        }
+        }]
+    }
+
+    /// Forces between blocks at the last evaluation, with what they stand for in the scene: which feels,
+    /// which exerts, and the force \[N\].
+    pub fn reactions(&self) -> impl Iterator<Item = (usize, usize, &[f64; D])> {
+        self.rows
+            .reactions()
+            .chain(self.structure_rows.reactions())
+            .map(|reaction| {
+                (
+                    self.seat(reaction.on),
+                    self.seat(reaction.from),
+                    &reaction.force,
+                )
+            })
     }
 
     fn reach(&self) -> f64 {
@@ -330,6 +373,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             + self.work_records.bytes()
             + self.rows.bytes()
             + self.scratch_rows.bytes()
+            + self.structure_rows.bytes()
             + self.listed.capacity() * size_of::<[T; D]>()
     }
 }

@@ -2,6 +2,7 @@
 //! Sums run in the order of the particles, in `f64` whatever the scalar.
 
 use super::Simulation;
+use super::group::{BodyState, Group};
 use crate::particles::Field;
 use crate::scalar::Real;
 
@@ -72,7 +73,7 @@ impl Impulses {
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// Bodies, walls and boundaries.
     fn blocks(&self) -> usize {
-        self.group.bodies.len() + self.group.walls.len() + self.group.boundaries.len()
+        self.body_count() + self.wall_count() + self.groups[0].boundaries.len()
     }
 
     fn impulse_index(&self, on: usize, from: usize, d: usize) -> usize {
@@ -81,35 +82,31 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     pub(super) fn record_impulses(&mut self, dt: f64) {
         let blocks = self.blocks();
-        for reaction in self.group.rows.reactions() {
-            let from = self.group.source_block(reaction.from as usize);
-            let row = (reaction.on as usize * blocks + from) * D;
-            for (d, force) in reaction.force.iter().enumerate() {
-                self.impulses.add(row + d, dt * force);
+        for (on, from, force) in self.groups.iter().flat_map(Group::reactions) {
+            for (d, force) in force.iter().enumerate() {
+                self.impulses.add((on * blocks + from) * D + d, dt * force);
             }
         }
     }
 
     pub(super) fn impulse_rates(&self) -> Impulses {
         let mut rates = Impulses::default();
-        for reaction in self.group.rows.reactions() {
-            let from = self.group.source_block(reaction.from as usize);
-            let index = self.impulse_index(reaction.on as usize, from, 0);
-            for (d, force) in reaction.force.iter().enumerate() {
-                rates.add(index + d, *force);
+        for (on, from, force) in self.groups.iter().flat_map(Group::reactions) {
+            for (d, force) in force.iter().enumerate() {
+                rates.add(self.impulse_index(on, from, d), *force);
             }
         }
         rates
     }
 
-    /// The present budget of a body, by its index.
-    fn budget(&self, body: usize) -> Budget {
-        let columns = &self.group.columns;
+    /// The present budget of a body.
+    fn budget(group: &Group<T, D>, body: &BodyState<T>) -> Budget {
+        let columns = &group.columns;
         let mut budget = Budget {
             momentum: vec![0.0; D],
             ..Budget::default()
         };
-        for slot in self.group.bodies[body].slots.clone() {
+        for slot in body.slots.clone() {
             let mass = columns.raw(Field::Mass)[slot].to_f64();
             budget.mass += mass;
             let mut speed2 = 0.0;
@@ -130,8 +127,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Mass, momentum and energy now, body by body and together.
     #[must_use]
     pub fn ledger(&self) -> Ledger {
-        let bodies: Vec<_> = (0..self.group.bodies.len())
-            .map(|body| (self.group.bodies[body].name.clone(), self.budget(body)))
+        let bodies: Vec<_> = self
+            .all_bodies()
+            .map(|(group, body)| (body.name.clone(), Self::budget(group, body)))
             .collect();
         let mut whole = Budget {
             momentum: vec![0.0; D],
@@ -145,8 +143,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 whole.momentum[d] += budget.momentum[d];
             }
         }
-        let count = self.group.bodies.len();
-        let boundaries = count + self.group.walls.len()..self.blocks();
+        let count = bodies.len();
+        let boundaries = count + self.wall_count()..self.blocks();
         let boundary_impulse = (0..D)
             .map(|d| {
                 (0..count)
@@ -166,7 +164,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// The momentum \[kg m/s\] that bodies have given a wall since the start, by the wall's index.
     #[must_use]
     pub fn wall_impulse(&self, wall: usize) -> [f64; D] {
-        let bodies = self.group.bodies.len();
+        let bodies = self.body_count();
         core::array::from_fn(|d| {
             (0..bodies)
                 .map(|on| -self.impulses.get(self.impulse_index(on, bodies + wall, d)))
@@ -177,7 +175,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// The force \[N\] that bodies exert on a wall at the last evaluation, by the wall's index.
     #[must_use]
     pub fn wall_force(&self, wall: usize) -> [f64; D] {
-        let bodies = self.group.bodies.len();
+        let bodies = self.body_count();
         (0..bodies).fold([0.0; D], |mut sum, on| {
             let force = self.force_between(on, bodies + wall);
             for d in 0..D {
@@ -192,11 +190,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     #[must_use]
     pub fn force_between(&self, on: usize, from: usize) -> [f64; D] {
         let mut force = [0.0; D];
-        for reaction in self.group.rows.reactions() {
-            let exerts = self.group.source_block(reaction.from as usize) == from;
-            if reaction.on as usize == on && exerts {
+        for (felt, exerted, by) in self.groups.iter().flat_map(Group::reactions) {
+            if (felt, exerted) == (on, from) {
                 for d in 0..D {
-                    force[d] += reaction.force[d];
+                    force[d] += by[d];
                 }
             }
         }

@@ -68,6 +68,8 @@ mod population;
 mod query;
 mod reference;
 mod shift;
+mod state;
+mod structures;
 mod switching;
 mod walls;
 
@@ -79,12 +81,12 @@ pub use query::ParticleView;
 
 pub(crate) use group::{BodyState, Group, width};
 pub use population::Removed;
+pub(crate) use structures::Structure;
 pub(crate) use walls::WallState;
 
 use crate::error::{Error, Problem, Result};
 use crate::integrator::Integrator;
 use crate::scalar::Real;
-use advance::Kept;
 use ledger::Impulses;
 
 /// A load: an acceleration that acts on all particles as a function of time.
@@ -94,13 +96,14 @@ pub type Load<const D: usize> = Box<dyn Fn(f64) -> [f64; D] + Send + Sync>;
 ///
 /// See the [crate page](crate) for a first program.
 pub struct Simulation<T: Real, const D: usize> {
-    pub(crate) group: Group<T, D>,
+    /// Bodies by the schemes that they share; there is one at least.
+    pub(crate) groups: Vec<Group<T, D>>,
+    /// The box around bodies and walls as built \[m\], where walls alone bound the scene.
+    pub(crate) domain: Option<[[f64; D]; 2]>,
     pub(crate) integrator: Box<dyn Integrator>,
     pub(crate) control: StepControl,
     pub(crate) loads: Vec<Load<D>>,
     time: f64,
-    /// What the loads gave at the last evaluation \[m/s²\].
-    gravity: [T; D],
     steps: u64,
     evaluations: u64,
     rates_at_hand: bool,
@@ -111,8 +114,7 @@ pub struct Simulation<T: Real, const D: usize> {
     work: Option<energy::Work>,
     /// The time \[s\] of the last evaluation.
     evaluated: f64,
-    predicted: Kept<T>,
-    kept: Vec<Kept<T>>,
+    kept_impulses: Vec<Impulses>,
     /// Time \[s\] over which viscosity coefficients have yet to follow the flow.
     switch_due: f64,
 }
@@ -122,25 +124,38 @@ impl<T: Real, const D: usize> core::fmt::Debug for Simulation<T, D> {
         f.debug_struct("Simulation")
             .field("time", &self.time)
             .field("steps", &self.steps)
-            .field("particles", &self.group.particles())
+            .field("particles", &self.particles())
             .finish_non_exhaustive()
     }
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
     pub(crate) fn new(
-        group: Group<T, D>,
+        mut groups: Vec<Group<T, D>>,
+        domain: Option<[[f64; D]; 2]>,
         integrator: Box<dyn Integrator>,
         control: StepControl,
         loads: Vec<Load<D>>,
     ) -> Self {
+        let mut slots = 0;
+        for group in &mut groups {
+            group.first_id = slots;
+            slots += group.columns.slots();
+        }
+        let walls = groups.iter().flat_map(|group| &group.walls);
+        let met: Vec<usize> = walls
+            .filter_map(|wall| Some(wall.structure.as_ref()?.group))
+            .collect();
+        for group in met {
+            groups[group].is_met = true;
+        }
         Self {
-            group,
+            groups,
+            domain,
             integrator,
             control,
             loads,
             time: 0.0,
-            gravity: [T::zero(); D],
             steps: 0,
             evaluations: 0,
             rates_at_hand: false,
@@ -149,8 +164,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             impulses: Impulses::default(),
             work: None,
             evaluated: 0.0,
-            predicted: Kept::default(),
-            kept: Vec::new(),
+            kept_impulses: Vec::new(),
             switch_due: 0.0,
         }
     }
@@ -177,6 +191,16 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     #[must_use]
     pub fn last_vote(&self) -> Option<Vote> {
         self.last_vote
+    }
+
+    /// The body that a particle belongs to, and its number there.
+    fn locate(&self, id: usize) -> (String, usize) {
+        let of = |(group, body): (&Group<T, D>, &BodyState<T>)| {
+            let own = id.checked_sub(group.first_id)?;
+            let inside = body.ids.contains(&own);
+            inside.then(|| (body.name.clone(), own - body.ids.start))
+        };
+        self.all_bodies().find_map(of).unwrap_or_default()
     }
 
     fn body_acceleration(&self, time: f64) -> [f64; D] {
@@ -212,10 +236,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// # Errors
     /// As [`run_until`](Simulation::run_until).
     pub fn step_at_most(&mut self, limit: f64) -> Result<f64> {
-        if self.group.emit(self.time)? {
-            self.rates_at_hand = false;
+        for group in &mut self.groups {
+            if group.emit(self.time)? {
+                self.rates_at_hand = false;
+            }
         }
-        let (start, before) = (std::time::Instant::now(), self.group.phases);
+        let (start, before) = (std::time::Instant::now(), self.phases());
         if !self.rates_at_hand {
             crate::integrator::System::evaluate(self, 0.0)?;
         }
@@ -237,18 +263,13 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
         let first = *self.first_step.get_or_insert(vote.step);
         if vote.step < self.control.smallest.unwrap_or(1e-6 * first) {
-            let slot = self
-                .group
-                .slot_of
-                .get(vote.particle)
-                .map_or(0, |&slot| slot as usize);
-            let body = &self.group.bodies[self.group.body_of(slot)];
+            let (body, particle) = self.locate(vote.particle);
             return Err(Error::StepCollapsed {
                 step: vote.step,
                 time: self.time,
                 criterion: vote.criterion.name(),
-                body: body.name.clone(),
-                particle: vote.particle.saturating_sub(body.slots.start),
+                body,
+                particle,
             });
         }
         if vote.step > limit {

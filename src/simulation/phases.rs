@@ -35,6 +35,18 @@ impl Phases {
         self.lists + self.evaluation() + self.integration
     }
 
+    /// With what another group has spent.
+    fn and(self, other: &Self) -> Self {
+        Self {
+            lists: self.lists + other.lists,
+            packing: self.packing + other.packing,
+            pairs: self.pairs + other.pairs,
+            walls: self.walls + other.walls,
+            materials: self.materials + other.materials,
+            integration: self.integration + other.integration,
+        }
+    }
+
     /// What has been spent since an earlier reading.
     #[must_use]
     pub fn since(&self, earlier: &Self) -> Self {
@@ -64,13 +76,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// ```
     #[must_use]
     pub fn phases(&self) -> Phases {
-        self.group.phases
+        self.groups
+            .iter()
+            .fold(Phases::default(), |sum, group| sum.and(&group.phases))
     }
 
     /// Books what a step took that no other phase has counted.
     pub(super) fn book_step(&mut self, start: Instant, before: Phases) {
-        let phases = &mut self.group.phases;
-        let counted = phases.since(&before).total();
-        phases.integration += start.elapsed().saturating_sub(counted);
+        let counted = self.phases().since(&before).total();
+        self.groups[0].phases.integration += start.elapsed().saturating_sub(counted);
     }
 }

@@ -33,6 +33,18 @@ impl<const D: usize> Default for Removed<D> {
     }
 }
 
+impl<const D: usize> Removed<D> {
+    /// With what has left another group.
+    pub(super) fn and(self, other: &Self) -> Self {
+        Self {
+            particles: self.particles + other.particles,
+            mass: self.mass + other.mass,
+            momentum: core::array::from_fn(|d| self.momentum[d] + other.momentum[d]),
+            kinetic: self.kinetic + other.kinetic,
+        }
+    }
+}
+
 /// How list builds moved particles: what re-entered a period, and the new order of the slots.
 /// States that an integrator keeps must follow.
 #[derive(Clone, Debug)]
@@ -88,13 +100,12 @@ impl<T: Real, const D: usize> Group<T, D> {
             .fold(f64::INFINITY, |least, body| least.min(body.spacing));
         let grid = Grid::centred(positions, spacing);
         let mut order: Vec<u32> = (0..self.columns.slots() as u32).collect();
-        // Walls keep their shape, so sorting them once serves.
-        let walls = if self.rebuilds > 1 {
-            &[][..]
-        } else {
-            &self.walls
-        };
-        let walls = walls.iter().map(|wall| (&wall.slots, wall.end));
+        // Walls keep their shape, so sorting them once serves; structures may not.
+        let first = self.rebuilds <= 1;
+        let walls = self.walls.iter();
+        let walls = walls
+            .filter(|wall| first || wall.structure.is_some())
+            .map(|wall| (&wall.slots, wall.end));
         let bodies = self.bodies.iter().map(|body| (&body.slots, body.end));
         for (slots, end) in bodies.chain(walls) {
             let keys: Vec<u64> = positions[slots.clone()]

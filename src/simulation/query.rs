@@ -2,30 +2,37 @@
 //! Values come out as `f64`, whatever the scalar of the simulation.
 
 use super::Simulation;
+use super::group::{BodyState, Group};
 use super::population::Removed;
+use super::walls::WallState;
 use crate::boundary::Pose;
+use crate::material::eos::GuardCounts;
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
-use crate::sweep::{Pass, Records, Rows, SweepInput};
+use crate::scheme::Scheme;
+use crate::sweep::Rows;
 
 /// A particle as it is now.
 #[derive(Clone, Copy, Debug)]
 pub struct ParticleView<'a, T: Real, const D: usize> {
-    simulation: &'a Simulation<T, D>,
+    group: &'a Group<T, D>,
     slot: usize,
-    id: usize,
 }
 
 impl<T: Real, const D: usize> ParticleView<'_, T, D> {
     /// Its number in the whole simulation, which never changes.
     #[must_use]
     pub fn id(&self) -> usize {
-        self.id
+        self.group.first_id + self.group.ids[self.slot] as usize
+    }
+    /// Whether it belongs to a body and not to a wall.
+    pub(crate) fn is_mobile(&self) -> bool {
+        self.slot < self.group.mobile
     }
     /// Position \[m\].
     #[must_use]
     pub fn position(&self) -> [f64; D] {
-        let columns = &self.simulation.group.columns;
+        let columns = &self.group.columns;
         let residual = columns.raw(Field::PositionResidual);
         let x = columns.vectors(Field::Position)[self.slot];
         core::array::from_fn(|d| {
@@ -36,13 +43,12 @@ impl<T: Real, const D: usize> ParticleView<'_, T, D> {
     /// Velocity \[m/s\].
     #[must_use]
     pub fn velocity(&self) -> [f64; D] {
-        self.simulation.group.columns.vectors(Field::Velocity)[self.slot].map(Real::to_f64)
+        self.group.columns.vectors(Field::Velocity)[self.slot].map(Real::to_f64)
     }
     /// A scalar field, or `None` if the scene does not carry it.
     #[must_use]
     pub fn scalar(&self, field: Field) -> Option<f64> {
-        self.simulation
-            .group
+        self.group
             .columns
             .raw(field)
             .get(self.slot)
@@ -72,7 +78,7 @@ impl<T: Real, const D: usize> ParticleView<'_, T, D> {
     #[must_use]
     pub fn smoothing_length(&self) -> f64 {
         self.scalar(Field::SmoothingLength)
-            .unwrap_or(self.simulation.group.smoothing_length)
+            .unwrap_or(self.group.smoothing_length)
     }
 }
 
@@ -80,80 +86,96 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Number of particles.
     #[must_use]
     pub fn particles(&self) -> usize {
-        self.group.particles()
+        self.groups.iter().map(Group::particles).sum()
     }
 
-    /// Names of the bodies, in the order of the scene.
+    /// Every body with its group, in the order of the scene.
+    pub(super) fn all_bodies(&self) -> impl Iterator<Item = (&Group<T, D>, &BodyState<T>)> {
+        let groups = self.groups.iter();
+        groups.flat_map(|group| group.bodies.iter().map(move |body| (group, body)))
+    }
+
+    pub(super) fn body_count(&self) -> usize {
+        self.groups.iter().map(|group| group.bodies.len()).sum()
+    }
+
+    /// Names of the bodies, in the order of the scene: those of its own scheme, then those of other
+    /// [groups](crate::scene::Scene::group).
     pub fn bodies(&self) -> impl Iterator<Item = &str> {
-        self.group.bodies.iter().map(|body| body.name.as_str())
+        self.all_bodies().map(|(_, body)| body.name.as_str())
     }
 
     /// The particles of a body, by its index, in the order in which the scene placed them; those that
     /// have left through an outlet are missing.
     pub fn body(&self, body: usize) -> impl Iterator<Item = ParticleView<'_, T, D>> {
-        let ids = self
-            .group
-            .bodies
-            .get(body)
-            .map_or(0..0, |body| body.ids.clone());
-        let there = |&id: &usize| self.group.slot_of[id] != u32::MAX;
-        ids.filter(there).map(|id| self.particle(id))
+        self.all_bodies().nth(body).into_iter().flat_map(views)
     }
 
     /// Sets every velocity \[m/s\] as a function of position \[m\] and present velocity, between steps.
     pub fn set_velocities(&mut self, velocity: impl Fn([f64; D], [f64; D]) -> [f64; D]) {
-        for slot in 0..self.group.mobile {
-            let now = ParticleView {
-                simulation: self,
-                slot,
-                id: slot,
-            };
-            let next = velocity(now.position(), now.velocity());
-            self.group.columns.vectors_mut(Field::Velocity)[slot] = next.map(T::from_f64);
+        for group in &mut self.groups {
+            for slot in 0..group.mobile {
+                let now = ParticleView { group, slot };
+                let next = velocity(now.position(), now.velocity());
+                group.columns.vectors_mut(Field::Velocity)[slot] = next.map(T::from_f64);
+            }
+            group.renewed_until = f64::NEG_INFINITY;
         }
         self.rates_at_hand = false;
-        self.group.renewed_until = f64::NEG_INFINITY;
-    }
-
-    /// A particle by its number.
-    pub(crate) fn particle(&self, id: usize) -> ParticleView<'_, T, D> {
-        ParticleView {
-            simulation: self,
-            slot: self.group.slot_of[id] as usize,
-            id,
-        }
     }
 
     /// All particles, body after body.
     pub fn all(&self) -> impl Iterator<Item = ParticleView<'_, T, D>> {
-        (0..self.group.bodies.len()).flat_map(|body| self.body(body))
+        self.all_bodies().flat_map(views)
+    }
+
+    pub(super) fn wall_count(&self) -> usize {
+        let walls = self.groups.iter().flat_map(|group| &group.walls);
+        let indices = walls
+            .filter(|wall| wall.structure.is_none())
+            .map(|wall| wall.index + 1);
+        indices.max().unwrap_or(0)
+    }
+
+    /// A wall of the scene by its index, and the first group of liquids that meets it.
+    pub(super) fn find_wall(&self, index: usize) -> Option<(&Group<T, D>, &WallState<D>)> {
+        self.groups.iter().find_map(|group| {
+            let own = |wall: &&WallState<D>| wall.structure.is_none() && wall.index == index;
+            Some((group, group.walls.iter().find(own)?))
+        })
     }
 
     /// Names of the walls, in the order of the scene.
     pub fn walls(&self) -> impl Iterator<Item = &str> {
-        self.group.walls.iter().map(|wall| wall.name.as_str())
+        let walls = (0..self.wall_count()).filter_map(|index| self.find_wall(index));
+        walls.map(|(_, wall)| wall.name.as_str())
     }
 
-    /// The particles of a wall, by its index, in the order of memory.
+    /// The particles of a wall, by its index, in the order of memory; in a scene of several liquids as
+    /// the first of them meets it.
     pub fn wall(&self, wall: usize) -> impl Iterator<Item = ParticleView<'_, T, D>> {
-        let slots = self
-            .group
-            .walls
-            .get(wall)
-            .map_or(0..0, |wall| wall.slots.clone());
-        slots.map(|slot| ParticleView {
-            simulation: self,
-            slot,
-            id: self.group.ids[slot] as usize,
+        let found = self.find_wall(wall).into_iter();
+        found.flat_map(|(group, wall)| {
+            let slots = wall.slots.clone();
+            slots.map(move |slot| ParticleView { group, slot })
         })
     }
 
     /// Where a wall is now: the pose of its motion; at rest without one.
     #[must_use]
     pub fn wall_pose(&self, wall: Option<usize>) -> Pose<D> {
-        wall.and_then(|wall| self.group.walls.get(wall))
-            .and_then(|wall| wall.motion.as_ref())
+        wall.and_then(|wall| self.find_wall(wall))
+            .and_then(|(_, wall)| wall.motion.as_ref())
             .map_or_else(Pose::rest, |motion| motion.pose(self.time))
+    }
+
+    /// The groups that observers read: those of liquids, which meet all other bodies as walls, or all.
+    fn observed(&self) -> impl Iterator<Item = &Group<T, D>> {
+        let is_liquid = |group: &Group<T, D>| group.scheme.liquid.is_some();
+        let any = self.groups.iter().any(is_liquid);
+        self.groups
+            .iter()
+            .filter(move |group| !any || is_liquid(group))
     }
 
     /// Shows every particle, of bodies and walls, within `reach` \[m\] of a point.
@@ -163,110 +185,114 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         reach: f64,
         mut visit: impl FnMut(ParticleView<'_, T, D>),
     ) {
-        let walls = self.group.walls.iter().map(|wall| wall.slots.clone());
-        let bodies = self.group.bodies.iter().map(|body| body.slots.clone());
-        let positions = self.group.columns.vectors(Field::Position);
-        for slot in bodies.chain(walls).flatten() {
-            let r2: f64 = (0..D)
-                .map(|d| (positions[slot][d].to_f64() - point[d]).powi(2))
-                .sum();
-            if r2 < reach * reach {
-                visit(ParticleView {
-                    simulation: self,
-                    slot,
-                    id: self.group.ids[slot] as usize,
-                });
+        for group in self.observed() {
+            let walls = group.walls.iter().map(|wall| wall.slots.clone());
+            let bodies = group.bodies.iter().map(|body| body.slots.clone());
+            let positions = group.columns.vectors(Field::Position);
+            for slot in bodies.chain(walls).flatten() {
+                let r2: f64 = (0..D)
+                    .map(|d| (positions[slot][d].to_f64() - point[d]).powi(2))
+                    .sum();
+                if r2 < reach * reach {
+                    visit(ParticleView { group, slot });
+                }
             }
         }
     }
 
     /// The force \[N\] of the bodies on every wall particle at the last evaluation, with its position
     /// \[m\]: the forces on the bodies with the opposite sign. A sweep over the walls, when asked for.
+    /// Structures are walls to the liquids of a scene.
     #[must_use]
     pub fn wall_particle_forces(&self) -> Vec<([f64; D], [f64; D])> {
-        let group = &self.group;
         let mut rows = Rows::default();
-        let input = SweepInput {
-            targets: group.mobile..group.columns.slots(),
-            ..group.input()
-        };
-        let rates = group.scheme.rates.as_ref();
-        if group.records_of_rates {
-            rates.run(Pass::Rates, &input, &group.records, &mut rows);
-        } else {
-            // Another sweep has used the records since.
-            let mut records = Records::default();
-            rates.pack(Pass::Rates, &input, &mut records);
-            rates.run(Pass::Rates, &input, &records, &mut rows);
-        }
-        let walls = group.walls.iter().flat_map(|wall| wall.slots.clone());
-        walls
-            .map(|slot| {
+        let mut forces = Vec::new();
+        for group in &self.groups {
+            group.sum_on_walls(group.mobile..group.columns.slots(), &mut rows);
+            for slot in group.walls.iter().flat_map(|wall| wall.slots.clone()) {
                 let x = group.columns.vectors(Field::Position)[slot];
                 let force = rows.vector(Output::Force, slot);
-                (x.map(Real::to_f64), force.map(Real::to_f64))
-            })
-            .collect()
-    }
-
-    /// Whether a particle belongs to a body and not to a wall.
-    pub(crate) fn is_mobile(&self, particle: &ParticleView<'_, T, D>) -> bool {
-        particle.slot < self.group.mobile
+                forces.push((x.map(Real::to_f64), force.map(Real::to_f64)));
+            }
+        }
+        forces
     }
 
     /// What has left through outlets.
     #[must_use]
     pub fn removed(&self) -> Removed<D> {
-        self.group.removed
+        let removed = self.groups.iter().map(|group| &group.removed);
+        removed.fold(Removed::default(), |sum, other| sum.and(other))
     }
 
-    /// Smoothing length \[m\] of the bodies as built.
+    /// Smoothing length \[m\] as built, of the first group of liquids or, without one, of the first body.
     #[must_use]
     pub fn smoothing_length(&self) -> f64 {
-        self.group.smoothing_length
+        self.observed()
+            .next()
+            .map_or(0.0, |group| group.smoothing_length)
     }
 
-    /// Spacing \[m\] of the first body.
+    /// How far the kernel of that group reaches \[m\].
+    pub(crate) fn reach(&self) -> f64 {
+        let group = self.observed().next();
+        group.map_or(0.0, |group| {
+            group.scheme.kernel.support * group.smoothing_length
+        })
+    }
+
+    /// Spacing \[m\] of the first body, or of the first liquid body of a scene with liquids.
     #[must_use]
     pub fn spacing(&self) -> f64 {
-        self.group.bodies.first().map_or(0.0, |body| body.spacing)
+        let first = self.observed().find_map(|group| group.bodies.first());
+        first.map_or(0.0, |body| body.spacing)
     }
 
     /// Counts of what guards did, by kind, since the start.
     #[must_use]
-    pub fn guard_counts(&self) -> crate::material::eos::GuardCounts {
-        self.group.guards
+    pub fn guard_counts(&self) -> GuardCounts {
+        self.groups
+            .iter()
+            .fold(GuardCounts::default(), |mut sum, group| {
+                sum += group.guards;
+                sum
+            })
     }
 
     /// Smoothing lengths that were held at a limit, in particle evaluations since the start.
     #[must_use]
     pub fn limited_smoothing_lengths(&self) -> u64 {
-        self.group.limited_h
+        self.groups.iter().map(|group| group.limited_h).sum()
     }
 
     /// Densities of liquid torn at its cut-off that were held from thinning out further, in particle steps
     /// since the start.
     #[must_use]
     pub fn held_densities(&self) -> u64 {
-        self.group.held_densities
+        self.groups.iter().map(|group| group.held_densities).sum()
     }
 
     /// Builds of the neighbour lists since the start.
     #[must_use]
     pub fn list_builds(&self) -> u64 {
-        self.group.rebuilds
+        self.groups.iter().map(|group| group.rebuilds).sum()
     }
 
     /// Bytes held for particles, lists and records.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.group.bytes()
+        self.groups.iter().map(Group::bytes).sum()
     }
 
-    /// The scheme of the bodies.
+    /// The scheme of the bodies: that of the scene itself, whose first group they are.
     #[must_use]
-    pub fn scheme(&self) -> &crate::scheme::Scheme<T, D> {
-        &self.group.scheme
+    pub fn scheme(&self) -> &Scheme<T, D> {
+        &self.groups[0].scheme
+    }
+
+    /// The schemes of all groups, that of the scene first.
+    pub fn schemes(&self) -> impl Iterator<Item = &Scheme<T, D>> {
+        self.groups.iter().map(|group| &*group.scheme)
     }
 
     /// The integrator's name.
@@ -274,4 +300,16 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub fn integrator_name(&self) -> String {
         self.integrator.name()
     }
+}
+
+/// The particles of a body in the order of the scene.
+fn views<'a, T: Real, const D: usize>(
+    (group, body): (&'a Group<T, D>, &'a BodyState<T>),
+) -> impl Iterator<Item = ParticleView<'a, T, D>> {
+    let slots = body.ids.clone().map(|id| group.slot_of[id]);
+    let there = slots.filter(|&slot| slot != u32::MAX);
+    there.map(|slot| ParticleView {
+        group,
+        slot: slot as usize,
+    })
 }

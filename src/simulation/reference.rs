@@ -1,10 +1,21 @@
 //! The sums at rest from which density forms measure compression, taken when a scene is built.
 //! Lam, Shen & Gong 2002, section 4.1, for theirs.
 
+use super::Simulation;
 use super::group::Group;
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::scheme::DensityForm;
+
+impl<T: Real, const D: usize> Simulation<T, D> {
+    /// Takes the sums at rest of all groups, with structures in their places.
+    pub(crate) fn take_references(&mut self) {
+        self.place_structures();
+        for group in &mut self.groups {
+            group.take_reference();
+        }
+    }
+}
 
 impl<T: Real, const D: usize> Group<T, D> {
     /// Takes the sums at rest from which stress is measured. Called once, when the scene is built.

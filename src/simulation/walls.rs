@@ -3,6 +3,7 @@
 
 use super::evaluate::GRAIN;
 use super::group::Group;
+use super::structures::Structure;
 use crate::boundary::{Motion, Pose, Slip};
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
@@ -27,13 +28,17 @@ pub(crate) struct WallState<const D: usize> {
     pub carries: bool,
     /// Mass of a particle as built, in the liquid's density \[kg\].
     pub mass: f64,
+    /// Its number among the walls of the scene; of no meaning for a structure.
+    pub index: usize,
+    /// The body of another group that its particles are, if it is not a wall of the scene.
+    pub structure: Option<Structure<D>>,
 }
 
 impl<T: Real, const D: usize> Group<T, D> {
     /// Brings walls that move to their places, and gives all walls their own velocity.
     pub(super) fn place_walls(&mut self, time: f64) {
         self.body_force = self.gravity.map(T::from_f64);
-        for wall in &self.walls {
+        for wall in self.walls.iter().filter(|wall| wall.structure.is_none()) {
             let pose = wall.motion.as_ref().map(|motion| match self.chord {
                 Some(ends) => motion
                     .pose(time)
@@ -142,9 +147,11 @@ impl<T: Real, const D: usize> Group<T, D> {
                         return;
                     }
                     let at = (ids[slot] as usize - first).min(wall.rest.len() - 1);
-                    let own = pose
-                        .as_ref()
-                        .map_or([0.0; D], |pose| pose.of(2, &wall.rest[at]));
+                    let own = match (&wall.structure, &pose) {
+                        (Some(structure), _) => structure.accelerations[at],
+                        (None, Some(pose)) => pose.of(2, &wall.rest[at]),
+                        (None, None) => [0.0; D],
+                    };
                     let sum = (0..D).fold(rows.get(Output::LiquidPressure, 0, slot), |sum, d| {
                         let arm = rows.get(Output::LiquidMoment, d, slot);
                         sum + arm * T::from_f64(gravity[d] - own[d])

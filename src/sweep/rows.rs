@@ -85,6 +85,20 @@ impl<T: Real, const D: usize> Rows<T, D> {
         core::array::from_fn(|d| self.get(output, d, slot))
     }
 
+    /// Adds to a vector sum of the particle in `slot`, where it was asked for.
+    pub(crate) fn add(&mut self, output: Output, slot: usize, vector: [T; D]) {
+        let offset = self.offsets[output as usize];
+        if offset == ABSENT || slot < self.first {
+            return;
+        }
+        for (d, value) in vector.into_iter().enumerate() {
+            let at = self.at(slot - self.first, offset as usize + d);
+            if let Some(sum) = self.data.get_mut(at) {
+                *sum += value;
+            }
+        }
+    }
+
     /// Where component `offset` of the n-th particle stands.
     #[inline(always)]
     fn at(&self, n: usize, offset: usize) -> usize {

@@ -1,10 +1,11 @@
 //! What can be wrong with a scene: every check runs, and every problem is reported.
 //! A message names the field, the value, and what to do.
 
+mod groups;
 mod scheme;
 mod walls;
 
-use super::Scene;
+use super::{Body, Part, Plan, Scene};
 use crate::error::Problem;
 use crate::neighbors::Cells;
 use crate::scalar::Real;
@@ -30,86 +31,46 @@ impl<T: Real, const D: usize> Scene<T, D> {
     #[must_use]
     pub fn problems(&self) -> Vec<Problem> {
         let mut problems = Vec::new();
-        if self.bodies.is_empty() {
+        if self.bodies().next().is_none() {
             problems.push(Problem::EmptyScene);
         }
-        for body in &self.bodies {
-            self.check_body(body, &mut problems);
+        for body in self.bodies() {
+            check_body(body, &mut problems);
         }
-        self.check_scheme(&mut problems);
+        let plans: Vec<Plan<'_, T, D>> = self.plans().collect();
+        for plan in &plans {
+            plan.check_scheme(&mut problems);
+        }
+        self.check_steps(&mut problems);
         self.check_names(&mut problems);
+        self.check_groups(&mut problems);
         self.check_boundaries(&mut problems);
         self.check_openings(&mut problems);
-        self.check_walls(&mut problems);
+        for plan in &plans {
+            plan.check_walls(&mut problems);
+        }
         self.check_loads(&mut problems);
         if problems.is_empty() {
-            self.check_overlap(&mut problems);
-            self.check_wall_places(&mut problems);
+            for plan in &plans {
+                plan.check_overlap(&mut problems);
+                plan.check_wall_places(&mut problems);
+            }
         }
         problems
-    }
-
-    fn check_body(&self, body: &super::Body<T, D>, problems: &mut Vec<Problem>) {
-        let mut parameter = |what: &str, value: f64, must_be: &'static str| {
-            problems.push(Problem::Parameter {
-                what: format!("{what} of body `{}`", body.name),
-                value,
-                must_be,
-            });
-        };
-        if let Err((what, value, must_be)) = body.shape {
-            parameter(what, value, must_be);
-            return;
-        }
-        for (what, value, must_be) in body.material.problems() {
-            parameter(
-                &format!("{what} of material `{}`", body.material.name),
-                value,
-                must_be,
-            );
-        }
-        let first =
-            |bad: &dyn Fn(&super::Start<D>) -> Option<f64>| body.starts.iter().find_map(bad);
-        if let Some(value) = first(&|s| Some(s.density).filter(|d| !(d.is_finite() && *d > 0.0))) {
-            parameter("density", value, "it must be finite and positive, in kg/m³");
-        }
-        if let Some(value) = first(&|s| s.velocity.into_iter().find(|v| !v.is_finite())) {
-            parameter("velocity", value, "it must be finite, in m/s");
-        }
-        if let Some(value) = first(&|s| Some(s.energy).filter(|e| !e.is_finite())) {
-            parameter("energy", value, "it must be finite, in J/kg");
-        }
-        let position = body.points.iter().flatten().find(|x| !x.is_finite());
-        if let Some(&value) = position {
-            parameter("position", value, "it must be finite, in metres");
-        }
-        let spaced = body.spacing.is_finite() && body.spacing > 0.0;
-        if !(spaced || body.points.is_empty()) {
-            parameter(
-                "spacing",
-                body.spacing,
-                "it must be finite and positive, in metres",
-            );
-        }
-        if body.points.is_empty() {
-            problems.push(Problem::EmptyBody {
-                body: body.name.clone(),
-            });
-        }
     }
 
     fn check_names(&self, problems: &mut Vec<Problem>) {
         let known = || {
             let names: Vec<_> = self
-                .bodies
-                .iter()
+                .bodies()
                 .map(|body| format!("`{}`", body.name))
                 .collect();
             names.join(", ")
         };
-        for (k, body) in self.bodies.iter().enumerate() {
-            if self.bodies[..k]
-                .iter()
+        for (k, body) in self.bodies().enumerate() {
+            if self
+                .bodies()
+                .take(k)
                 .any(|earlier| earlier.name == body.name)
             {
                 problems.push(Problem::Incompatible {
@@ -123,7 +84,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             .iter()
             .flat_map(|(first, second, _)| [first, second])
         {
-            if !self.bodies.iter().any(|body| body.name == *name) {
+            if !self.bodies().any(|body| body.name == *name) {
                 problems.push(Problem::UnknownName {
                     kind: "body",
                     name: name.clone(),
@@ -134,12 +95,12 @@ impl<T: Real, const D: usize> Scene<T, D> {
     }
 
     fn check_boundaries(&self, problems: &mut Vec<Problem>) {
-        let spacing = self
-            .bodies
-            .iter()
-            .fold(0.0_f64, |most, body| most.max(body.spacing));
-        let reach =
-            self.scheme.kernel.support * self.scheme.h_over_dx * spacing * (1.0 + self.skin);
+        let reach = |part: &Part<T, D>| {
+            let spacings = part.bodies.iter().map(|body| body.spacing);
+            let spacing = spacings.fold(0.0, f64::max);
+            part.scheme.kernel.support * part.scheme.h_over_dx * spacing * (1.0 + self.skin)
+        };
+        let reach = self.parts.iter().map(reach).fold(0.0, f64::max);
         for boundary in &self.boundaries {
             for (what, value, must_be) in boundary.problems(reach) {
                 problems.push(Problem::Parameter {
@@ -161,7 +122,9 @@ impl<T: Real, const D: usize> Scene<T, D> {
             });
         }
     }
+}
 
+impl<T: Real, const D: usize> Plan<'_, T, D> {
     /// Finds the closest pair of particles that are too close to be neighbours.
     fn check_overlap(&self, problems: &mut Vec<Problem>) {
         let points: Vec<[f64; D]> = self
@@ -220,5 +183,53 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 position: x.to_vec(),
             });
         }
+    }
+}
+
+fn check_body<T: Real, const D: usize>(body: &Body<T, D>, problems: &mut Vec<Problem>) {
+    let mut parameter = |what: &str, value: f64, must_be: &'static str| {
+        problems.push(Problem::Parameter {
+            what: format!("{what} of body `{}`", body.name),
+            value,
+            must_be,
+        });
+    };
+    if let Err((what, value, must_be)) = body.shape {
+        parameter(what, value, must_be);
+        return;
+    }
+    for (what, value, must_be) in body.material.problems() {
+        parameter(
+            &format!("{what} of material `{}`", body.material.name),
+            value,
+            must_be,
+        );
+    }
+    let first = |bad: &dyn Fn(&super::Start<D>) -> Option<f64>| body.starts.iter().find_map(bad);
+    if let Some(value) = first(&|s| Some(s.density).filter(|d| !(d.is_finite() && *d > 0.0))) {
+        parameter("density", value, "it must be finite and positive, in kg/m³");
+    }
+    if let Some(value) = first(&|s| s.velocity.into_iter().find(|v| !v.is_finite())) {
+        parameter("velocity", value, "it must be finite, in m/s");
+    }
+    if let Some(value) = first(&|s| Some(s.energy).filter(|e| !e.is_finite())) {
+        parameter("energy", value, "it must be finite, in J/kg");
+    }
+    let position = body.points.iter().flatten().find(|x| !x.is_finite());
+    if let Some(&value) = position {
+        parameter("position", value, "it must be finite, in metres");
+    }
+    let spaced = body.spacing.is_finite() && body.spacing > 0.0;
+    if !(spaced || body.points.is_empty()) {
+        parameter(
+            "spacing",
+            body.spacing,
+            "it must be finite and positive, in metres",
+        );
+    }
+    if body.points.is_empty() {
+        problems.push(Problem::EmptyBody {
+            body: body.name.clone(),
+        });
     }
 }

@@ -5,9 +5,10 @@ use crate::error::Problem;
 use crate::particles::Field;
 use crate::scalar::Real;
 use crate::scene::Scene;
+use crate::scene::plan::Plan;
 use crate::scheme::EnergyForm;
 
-impl<T: Real, const D: usize> Scene<T, D> {
+impl<T: Real, const D: usize> Plan<'_, T, D> {
     pub(super) fn check_scheme(&self, problems: &mut Vec<Problem>) {
         let (scheme, kernel) = (&self.scheme, self.scheme.kernel);
         let (lowest, highest) = kernel.range;
@@ -62,71 +63,50 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 });
             }
         }
-        let mut positive = |what: &str, value: f64| {
-            if !(value.is_finite() && value > 0.0) {
-                problems.push(Problem::Parameter {
-                    what: what.into(),
-                    value,
-                    must_be: "it must be finite and positive",
-                });
-            }
-        };
-        positive("step factor (courant)", self.control.courant);
-        positive("force factor of the step", self.control.force);
-        positive("skin", self.skin);
-        if let Some(step) = self.control.fixed {
-            positive("fixed time step", step);
-        }
         let mut incompatible = |what: String, remedy| {
             problems.push(Problem::Incompatible { what, remedy });
         };
-        if scheme.energy == EnergyForm::Compatible && !self.integrator.kicks() {
+        if scheme.energy == EnergyForm::Compatible && !self.scene.integrator.kicks() {
             incompatible(
                 format!(
                     "the compatible energy form cannot follow the integrator {}",
-                    self.integrator.name()
+                    self.scene.integrator.name()
                 ),
                 "take EnergyForm::Symmetric, or an integrator that kicks (kick-drift-kick)",
             );
         }
-        if scheme.density.is_integrated() && !self.integrator.integrates_density() {
+        if scheme.density.is_integrated() && !self.scene.integrator.integrates_density() {
             incompatible(
                 format!(
                     "the integrator {} does not integrate density",
-                    self.integrator.name()
+                    self.scene.integrator.name()
                 ),
                 "take a density form that follows from positions, or another integrator",
             );
         }
-        if scheme.liquid.is_some() && !scheme.kicks_density() && !self.integrator.kicks() {
+        if scheme.liquid.is_some() && !scheme.kicks_density() && !self.scene.integrator.kicks() {
             incompatible(
                 format!(
                     "the scheme {} sums the rate of density in drifts, which the integrator {} does not take",
                     scheme.name,
-                    self.integrator.name()
+                    self.scene.integrator.name()
                 ),
                 "take LiquidBuilder::compose_with_one_evaluation, or an integrator that kicks (kick-drift-kick)",
             );
         }
         // Particles of inlets wait as walls do.
-        let prescribed = match (self.walls.first(), self.inlets.is_empty()) {
-            (Some(wall), _) => Some(format!("wall `{}`", wall.name)),
+        let prescribed = match (self.walls.first(), self.inlets().next().is_none()) {
+            (Some((wall, _)), _) => Some(format!("wall `{}`", wall.name)),
             (None, false) => Some("an inlet".into()),
             (None, true) => None,
         };
-        if let Some(prescribed) = prescribed.filter(|_| !self.integrator.kicks()) {
+        if let Some(prescribed) = prescribed.filter(|_| !self.scene.integrator.kicks()) {
             incompatible(
                 format!(
                     "the integrator {} combines states of all particles, and would move those of {prescribed}",
-                    self.integrator.name()
+                    self.scene.integrator.name()
                 ),
                 "take an integrator that kicks (kick-drift-kick), or boundaries of images (MirrorPlane)",
-            );
-        }
-        if !self.instructions.available() {
-            incompatible(
-                format!("this machine does not have {:?}", self.instructions),
-                "leave the choice to the scene, or take InstructionSet::Baseline",
             );
         }
         let hot = self.bodies.iter().find(|body| {
@@ -146,6 +126,33 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 "bodies have different spacings, and the scheme has one smoothing length".into(),
                 "give all bodies the same spacing, or allow it with SchemeBuilder::mixed_spacing",
             );
+        }
+    }
+}
+
+impl<T: Real, const D: usize> Scene<T, D> {
+    /// How steps are chosen, and what they run on.
+    pub(super) fn check_steps(&self, problems: &mut Vec<Problem>) {
+        let mut positive = |what: &str, value: f64| {
+            if !(value.is_finite() && value > 0.0) {
+                problems.push(Problem::Parameter {
+                    what: what.into(),
+                    value,
+                    must_be: "it must be finite and positive",
+                });
+            }
+        };
+        positive("step factor (courant)", self.control.courant);
+        positive("force factor of the step", self.control.force);
+        positive("skin", self.skin);
+        if let Some(step) = self.control.fixed {
+            positive("fixed time step", step);
+        }
+        if !self.instructions.available() {
+            problems.push(Problem::Incompatible {
+                what: format!("this machine does not have {:?}", self.instructions),
+                remedy: "leave the choice to the scene, or take InstructionSet::Baseline",
+            });
         }
     }
 }

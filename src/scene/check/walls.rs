@@ -8,6 +8,7 @@ use crate::neighbors::Cells;
 use crate::particles::Field;
 use crate::scalar::Real;
 use crate::scene::Scene;
+use crate::scene::plan::{Origin, Plan};
 
 /// Share by which the spacing of an inlet may differ from that of its body, as the density that enters.
 const SAME_SPACING: f64 = 1e-3;
@@ -23,17 +24,13 @@ impl<T: Real, const D: usize> Scene<T, D> {
                     must_be,
                 });
             }
-            if self.scheme.liquid.is_none() {
-                problems.push(Problem::Incompatible {
-                    what: format!(
-                        "the inlet of body `{}` has a buffer of wall particles, which the scheme {} does not see",
-                        inlet.body, self.scheme.name
-                    ),
-                    remedy: "take a scheme of liquids (schemes::weakly_compressible)",
-                });
-            }
-            let Some(body) = self.bodies.iter().find(|body| body.name == inlet.body) else {
-                let known: Vec<_> = self.bodies.iter().map(|body| body.name.as_str()).collect();
+            let fed = self.parts.iter().find_map(|part| {
+                let mut bodies = part.bodies.iter();
+                let body = bodies.find(|body| body.name == inlet.body)?;
+                Some((&part.scheme, body))
+            });
+            let Some((scheme, body)) = fed else {
+                let known: Vec<_> = self.bodies().map(|body| body.name.as_str()).collect();
                 problems.push(Problem::UnknownName {
                     kind: "body",
                     name: inlet.body.clone(),
@@ -41,6 +38,15 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 });
                 continue;
             };
+            if scheme.liquid.is_none() {
+                problems.push(Problem::Incompatible {
+                    what: format!(
+                        "the inlet of body `{}` has a buffer of wall particles, which the scheme {} does not see",
+                        inlet.body, scheme.name
+                    ),
+                    remedy: "take a scheme of liquids (schemes::weakly_compressible)",
+                });
+            }
             // What is no number has its own problem.
             let off = (inlet.spacing - body.spacing).abs();
             if inlet.spacing > 0.0 && off.is_finite() && off > SAME_SPACING * body.spacing {
@@ -61,10 +67,12 @@ impl<T: Real, const D: usize> Scene<T, D> {
             });
         }
     }
+}
 
+impl<T: Real, const D: usize> Plan<'_, T, D> {
     pub(super) fn check_walls(&self, problems: &mut Vec<Problem>) {
         let spacing = self.bodies.first().map_or(0.0, |body| body.spacing);
-        for (k, wall) in self.walls.iter().enumerate() {
+        for (k, (wall, origin)) in self.walls.iter().enumerate() {
             if self.scheme.liquid.is_none() {
                 problems.push(Problem::Incompatible {
                     what: format!(
@@ -88,7 +96,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 });
             }
             let names = self.bodies.iter().map(|body| &body.name);
-            let earlier = self.walls[..k].iter().map(|wall| &wall.name);
+            let earlier = self.walls[..k].iter().map(|(wall, _)| &wall.name);
             if names.chain(earlier).any(|name| *name == wall.name) {
                 problems.push(Problem::Incompatible {
                     what: format!("two bodies or walls are called `{}`", wall.name),
@@ -110,13 +118,14 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 parameter("position", bad, "it must be finite, in metres");
             }
             // A lattice that is fitted to a box is stretched by less than half a particle in a row.
-            let off = (wall.spacing - spacing).abs();
-            if off.is_nan() || off > 0.1 * spacing {
-                parameter(
-                    "spacing",
-                    wall.spacing,
-                    "it must be that of the liquid: fill both on one lattice",
-                );
+            let off = wall.spacing - spacing;
+            let fine = matches!(origin, Origin::Structure(..)) && off < 0.0;
+            if off.is_nan() || (off.abs() > 0.1 * spacing && !fine) {
+                let must_be = match origin {
+                    Origin::Wall(_) => "it must be that of the liquid: fill both on one lattice",
+                    Origin::Structure(..) => "it must be at most that of the liquid that meets it",
+                };
+                parameter("spacing", wall.spacing, must_be);
             }
             let pose = wall.motion.as_ref().map(|motion| motion.pose(0.0));
             let finite = |pose: &Pose<D>| {
@@ -170,11 +179,11 @@ impl<T: Real, const D: usize> Scene<T, D> {
         let solid: Vec<[f64; D]> = self
             .walls
             .iter()
-            .flat_map(|wall| wall.points.iter().copied())
+            .flat_map(|(wall, _)| wall.points.iter().copied())
             .collect();
         let every: Vec<u32> = (0..solid.len() as u32).collect();
         let solid_cells = Cells::build(&solid, &every, spacing);
-        for wall in &self.walls {
+        for (wall, _) in &self.walls {
             let (mut faces, mut thin) = (0_usize, 0_usize);
             for x in &wall.points {
                 let Some((j, r2)) = near(&liquid, &liquid_cells, x, 1.2 * spacing) else {

@@ -1,0 +1,406 @@
+//! The plan of a group: the bodies of a scene that share a scheme, with the walls that they meet.
+//! It is what the checks look at, and it lays out the columns from which a simulation starts.
+
+use super::{Body, Part, Scene};
+use crate::boundary::{Emitter, Inlet, Slip, Wall};
+use crate::particles::{Columns, Field, Fields};
+use crate::scalar::Real;
+use crate::scheme::{Scheme, Smoothing};
+use crate::simulation::{BodyState, Group, Structure, WallState, width};
+use crate::sweep::Interaction;
+use std::sync::Arc;
+
+/// Where a wall of a group comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Origin {
+    /// A wall of the scene, or the buffer of an inlet, by its number among them.
+    Wall(usize),
+    /// A body of another group, by the numbers of both.
+    Structure(usize, usize),
+}
+
+/// The plan of a group.
+pub(super) struct Plan<'a, T: Real, const D: usize> {
+    pub scene: &'a Scene<T, D>,
+    pub scheme: &'a Arc<Scheme<T, D>>,
+    pub bodies: &'a [Body<T, D>],
+    /// Its number among the groups.
+    number: usize,
+    /// Walls of the scene, then structures.
+    pub walls: Vec<(Wall<D>, Origin)>,
+}
+
+impl<T: Real, const D: usize> Scene<T, D> {
+    /// The plans of all groups.
+    pub(super) fn plans(&self) -> impl Iterator<Item = Plan<'_, T, D>> {
+        (0..self.parts.len()).map(|number| self.plan(number))
+    }
+
+    fn plan(&self, number: usize) -> Plan<'_, T, D> {
+        let part = &self.parts[number];
+        let is_liquid = |part: &Part<T, D>| part.scheme.liquid.is_some();
+        let mut walls = Vec::new();
+        // Walls without a liquid are the fault of the scene's own scheme.
+        if is_liquid(part) || (number == 0 && !self.parts.iter().any(is_liquid)) {
+            let own = self.walls.iter().enumerate();
+            walls.extend(own.map(|(k, wall)| (wall.clone(), Origin::Wall(k))));
+        }
+        if is_liquid(part) {
+            for (k, other) in self.parts.iter().enumerate() {
+                if !is_liquid(other) {
+                    let structures = other.bodies.iter().enumerate();
+                    let met = structures.filter(|(_, body)| meets(self, part, body));
+                    walls.extend(met.map(|(b, body)| (as_wall(body), Origin::Structure(k, b))));
+                }
+            }
+        }
+        Plan {
+            scene: self,
+            scheme: &part.scheme,
+            bodies: &part.bodies,
+            number,
+            walls,
+        }
+    }
+}
+
+/// Whether any body of a part acts on a body of another.
+fn meets<T: Real, const D: usize>(
+    scene: &Scene<T, D>,
+    part: &Part<T, D>,
+    body: &Body<T, D>,
+) -> bool {
+    let said = |own: &Body<T, D>| scene.said_between(&own.name, &body.name);
+    part.bodies
+        .iter()
+        .any(|own| said(own) != Some(Interaction::None))
+}
+
+/// A body as the wall that liquids of other groups meet.
+fn as_wall<T: Real, const D: usize>(body: &Body<T, D>) -> Wall<D> {
+    let wall = Wall::of(&body.name, body.points.clone(), body.spacing);
+    match body.slip {
+        Slip::None => wall.no_slip(),
+        Slip::Free => wall,
+    }
+}
+
+impl<T: Real, const D: usize> Plan<'_, T, D> {
+    /// Inlets of its bodies, with their numbers in the scene.
+    pub fn inlets(&self) -> impl Iterator<Item = (usize, &Inlet<D>)> {
+        let own = |inlet: &Inlet<D>| self.bodies.iter().any(|body| body.name == inlet.body);
+        let all = self.scene.inlets.iter().enumerate();
+        all.filter(move |(_, inlet)| own(inlet))
+    }
+
+    /// Lays the group out: a column for each field that the scheme or a contact names.
+    pub fn lay_out(mut self) -> Group<T, D> {
+        let emitters = self.place_inlets();
+        let interactions = self.interactions();
+        let unilateral = interactions.contains(&Interaction::Unilateral);
+        let mut fields = self.scheme.fields();
+        if unilateral {
+            fields = fields.union(Fields::of(&[Field::Touching, Field::TouchingSum]));
+        }
+        let width = width::<T>();
+        let counts = self.bodies.iter().map(|body| self.room(body));
+        let slots = counts
+            .chain(self.walls.iter().map(|(wall, _)| wall.points.len()))
+            .map(|count| count.next_multiple_of(width))
+            .sum();
+        let mut columns = Columns::<T, D>::new(fields, slots);
+        let mut bodies = Vec::new();
+        let mut start = 0;
+        for body in self.bodies {
+            let own = start..start + body.points.len();
+            let end = (start + self.room(body)).next_multiple_of(width);
+            for slot in start..end {
+                let k = (slot - start).min(body.points.len() - 1);
+                self.place(&mut columns, body, slot, k);
+            }
+            let ids = start..start + self.room(body);
+            start = end;
+            bodies.push(BodyState {
+                name: body.name.clone(),
+                material: body.material.clone(),
+                ids,
+                slots: own,
+                end: start,
+                spacing: body.spacing,
+            });
+        }
+        let mut walls = Vec::new();
+        for (wall, origin) in &self.walls {
+            let own = start..start + wall.points.len();
+            start = own.end.next_multiple_of(width);
+            for slot in own.start..start {
+                self.place_wall(&mut columns, wall, slot);
+            }
+            walls.push(self.wall_state(wall, *origin, own, start));
+        }
+        let widest = bodies
+            .iter()
+            .fold(0.0_f64, |most, body| most.max(body.spacing));
+        let h = self.scheme.h_over_dx * widest;
+        let skin = self.scene.skin * self.scheme.kernel.support * h;
+        let mut group = Group::new(
+            columns,
+            bodies,
+            walls,
+            self.scene.boundaries.clone(),
+            self.scheme.clone(),
+            interactions,
+            h,
+            skin,
+        );
+        group.seats = self.seats();
+        group.instructions = self.scene.instructions;
+        group.outlets.clone_from(&self.scene.outlets);
+        group.emitters = emitters;
+        for body in &group.bodies {
+            for id in body.slots.end..body.ids.end {
+                group.slot_of[id] = u32::MAX;
+            }
+        }
+        group
+    }
+
+    fn wall_state(
+        &self,
+        wall: &Wall<D>,
+        origin: Origin,
+        slots: std::ops::Range<usize>,
+        end: usize,
+    ) -> WallState<D> {
+        let (index, structure) = match origin {
+            Origin::Wall(index) => (index, None),
+            Origin::Structure(group, body) => {
+                let accelerations = vec![[0.0; D]; wall.points.len()];
+                (
+                    0,
+                    Some(Structure {
+                        group,
+                        body,
+                        accelerations,
+                    }),
+                )
+            }
+        };
+        WallState {
+            name: wall.name.clone(),
+            slots,
+            end,
+            rest: wall.points.clone(),
+            motion: wall.motion.clone(),
+            slip: wall.slip,
+            sliding: wall.sliding,
+            carries: wall.carries,
+            mass: self.wall_mass(wall),
+            index,
+            structure,
+        }
+    }
+
+    /// What its bodies, walls and boundaries are in the scene: bodies of all groups, then walls and the
+    /// buffers of inlets, then boundaries.
+    fn seats(&self) -> Vec<usize> {
+        let scene = self.scene;
+        let before = |number: usize| -> usize {
+            scene.parts[..number]
+                .iter()
+                .map(|part| part.bodies.len())
+                .sum()
+        };
+        let bodies = before(scene.parts.len());
+        let boundaries = bodies + scene.walls.len() + scene.inlets.len();
+        let first = before(self.number);
+        let own = first..first + self.bodies.len();
+        let walls = self.walls.iter().map(|(_, origin)| match *origin {
+            Origin::Wall(index) => bodies + index,
+            Origin::Structure(group, body) => before(group) + body,
+        });
+        own.chain(walls)
+            .chain(boundaries..boundaries + scene.boundaries.len())
+            .collect()
+    }
+
+    /// Writes particle `k` of a body into a slot.
+    fn place(&self, columns: &mut Columns<T, D>, body: &Body<T, D>, slot: usize, k: usize) {
+        let (x, start) = (body.points[k], body.starts[k]);
+        let rounded = x.map(T::from_f64);
+        columns.vectors_mut(Field::Position)[slot] = rounded;
+        if columns.fields().contains(Field::PositionResidual) {
+            columns.vectors_mut(Field::PositionResidual)[slot] =
+                core::array::from_fn(|d| T::from_f64(x[d] - rounded[d].to_f64()));
+        }
+        columns.vectors_mut(Field::Velocity)[slot] = start.velocity.map(T::from_f64);
+        let mut set = |field: Field, value: f64| {
+            if let Some(place) = columns.raw_mut(field).get_mut(slot) {
+                *place = T::from_f64(value);
+            }
+        };
+        set(Field::Density, start.density);
+        set(Field::ReferenceDensity, start.density);
+        set(Field::Mass, start.density * body.spacing.powi(D as i32));
+        set(Field::Energy, start.energy);
+        let viscosity = body
+            .material
+            .rheology()
+            .map_or(0.0, |law| law.viscosity(0.0));
+        set(Field::DynamicViscosity, viscosity);
+        set(Field::SmoothingLength, self.scheme.h_over_dx * body.spacing);
+        set(
+            Field::ViscosityCoefficient,
+            self.scheme.starting_coefficient(),
+        );
+    }
+
+    /// Particles that a body can have: those that it starts with, and what inlets may add.
+    fn room(&self, body: &Body<T, D>) -> usize {
+        let inlets = self
+            .scene
+            .inlets
+            .iter()
+            .filter(|inlet| inlet.body == body.name);
+        body.points.len() + inlets.map(|inlet| inlet.reserve).sum::<usize>()
+    }
+
+    /// Puts a buffer behind every inlet, before the structures, and returns what hands its layers over.
+    fn place_inlets(&mut self) -> Vec<(usize, Emitter<D>)> {
+        let reach = self.scheme.kernel.support * self.scheme.h_over_dx;
+        let (mut buffers, mut emitters) = (Vec::new(), Vec::new());
+        for (k, inlet) in self.inlets() {
+            let (wall, emitter) = inlet.buffer(reach.ceil() as usize + 1);
+            buffers.push((wall, Origin::Wall(self.scene.walls.len() + k)));
+            let fed = self.bodies.iter().position(|body| body.name == inlet.body);
+            emitters.extend(fed.map(|body| (body, emitter)));
+        }
+        let is_wall = |(_, origin): &(Wall<D>, Origin)| matches!(origin, Origin::Wall(_));
+        let structures = self.walls.partition_point(is_wall);
+        self.walls.splice(structures..structures, buffers);
+        emitters
+    }
+
+    /// Mass \[kg\] of a wall particle: its volume, filled with the first liquid at rest.
+    fn wall_mass(&self, wall: &Wall<D>) -> f64 {
+        let body = self.bodies.first();
+        let density = body.map_or(0.0, |body| body.material.reference_density());
+        density * wall.spacing.powi(D as i32)
+    }
+
+    /// Gives a wall particle what does not change. It has the density of the first liquid at rest: its
+    /// volume is what the liquid's pressure acts on.
+    fn place_wall(&self, columns: &mut Columns<T, D>, wall: &Wall<D>, slot: usize) {
+        let Some(body) = self.bodies.first() else {
+            return;
+        };
+        let density = body.material.reference_density();
+        let (_, sound_speed) = body.material.state(density, 0.0);
+        let mut set = |field: Field, value: f64| {
+            if let Some(place) = columns.raw_mut(field).get_mut(slot) {
+                *place = T::from_f64(value);
+            }
+        };
+        set(Field::Density, density);
+        set(Field::SoundSpeed, sound_speed);
+        set(Field::Mass, self.wall_mass(wall));
+        set(Field::SmoothingLength, self.scheme.h_over_dx * wall.spacing);
+        // The liquid corrects the gradients; a wall takes them as they are.
+        if let Some(rows) = columns
+            .raw_mut(Field::Correction)
+            .get_mut(slot * D * D..(slot + 1) * D * D)
+        {
+            for d in 0..D {
+                rows[d * (D + 1)] = T::one();
+            }
+        }
+    }
+
+    /// What every block does to every other: bodies, walls, images of bodies by boundary, and images of
+    /// each wall by boundary.
+    fn interactions(&self) -> Vec<Interaction> {
+        if self.scheme.liquid.is_some() {
+            return self.liquid_interactions();
+        }
+        let (bodies, boundaries) = (self.bodies.len(), self.scene.boundaries.len());
+        let blocks = bodies + boundaries;
+        // Boundaries feel nothing, so their rows name no contact that a scene would pay for.
+        let mut all = vec![Interaction::None; blocks * blocks];
+        for body in 0..bodies {
+            all[body * blocks..body * blocks + bodies].fill(Interaction::Unilateral);
+        }
+        let index = |name: &str| self.bodies.iter().position(|body| body.name == name);
+        for k in 0..blocks {
+            all[k * blocks + k] = Interaction::Bonded;
+        }
+        for (first, second, interaction) in &self.scene.contacts {
+            if let (Some(a), Some(b)) = (index(first), index(second)) {
+                all[a * blocks + b] = *interaction;
+                all[b * blocks + a] = *interaction;
+            }
+        }
+        for (k, boundary) in self.scene.boundaries.iter().enumerate() {
+            for body in 0..bodies {
+                all[body * blocks + bodies + k] = boundary.interaction();
+            }
+        }
+        all
+    }
+
+    /// Liquids act on liquids and walls, and walls ask only for liquids. Nothing opens as a contact
+    /// does: the floor of wall pressures and the cut-off of the material let liquids part.
+    fn liquid_interactions(&self) -> Vec<Interaction> {
+        let (bodies, walls) = (self.bodies.len(), self.walls.len());
+        let boundaries = self.scene.boundaries.len();
+        let blocks = bodies + walls + boundaries * (1 + walls);
+        let is_wall = |block: usize| {
+            (bodies..bodies + walls).contains(&block) || block >= bodies + walls + boundaries
+        };
+        let mut all = vec![Interaction::None; blocks * blocks];
+        for on in 0..bodies + walls {
+            for from in 0..blocks {
+                if !(is_wall(on) && is_wall(from)) {
+                    all[on * blocks + from] = Interaction::Bonded;
+                }
+            }
+        }
+        // Two bodies that do not meet, or a body and a structure, with the images of the structure.
+        let blocks_of = |name: &str| -> Vec<usize> {
+            let structure = |(wall, origin): &(Wall<D>, Origin)| {
+                wall.name == name && matches!(origin, Origin::Structure(..))
+            };
+            if let Some(body) = self.bodies.iter().position(|body| body.name == name) {
+                return vec![body];
+            }
+            let found = self.walls.iter().position(structure);
+            found.map_or(Vec::new(), |wall| {
+                let images = bodies + walls + boundaries * (1 + wall);
+                let images = images..images + boundaries;
+                images.chain([bodies + wall]).collect()
+            })
+        };
+        for (first, second, interaction) in &self.scene.contacts {
+            if *interaction == Interaction::None {
+                for a in blocks_of(first) {
+                    for b in blocks_of(second) {
+                        all[a * blocks + b] = Interaction::None;
+                        all[b * blocks + a] = Interaction::None;
+                    }
+                }
+            }
+        }
+        all
+    }
+
+    pub fn is_mixed(&self) -> bool {
+        let first = self.bodies.first().map_or(0.0, |body| body.spacing);
+        // A spacing that is no number has its own problem, and differs from nothing.
+        let differs = |spacing: f64| (spacing - first).abs() > 1e-9 * first.abs();
+        self.bodies.iter().any(|body| differs(body.spacing))
+    }
+
+    pub fn is_uniform(&self) -> bool {
+        self.scheme.smoothing == Smoothing::Fixed
+            && !self.scheme.fields().contains(Field::SmoothingLength)
+    }
+}

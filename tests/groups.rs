@@ -1,0 +1,316 @@
+//! Bodies of different schemes in one scene: what a liquid and a structure do to each other, against
+//! acoustics and statics, and what they do not.
+
+mod common;
+
+use common::Random;
+use meshfree::boundary::{MirrorPlane, Periodic};
+use meshfree::material::{Liquid, SoundSpeed};
+use meshfree::particles::Field;
+use meshfree::prelude::*;
+
+/// A soft solid without shear strength: 2000 kg/m³, 40 m/s.
+fn soft() -> Material<f64> {
+    Liquid::new(2000.0, 40.0, 0.0).material("soft", SoundSpeed::Physical)
+}
+
+fn on<R: Send>(threads: usize, work: impl FnOnce() -> R + Send) -> R {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .unwrap()
+        .install(work)
+}
+
+/// Copper at 1 m/s strikes water: until the plate's far side is felt, interface and pressure are those of
+/// two impedances, u = v Z_c/(Z_c + Z_w) and p = Z_w u (Kolsky 1963, section 2.4).
+#[test]
+fn a_plate_that_strikes_water_matches_impedances() {
+    let speed = 1.0;
+    let water = Liquid::new(1000.0, 1480.0, 0.0).material("water", SoundSpeed::Physical);
+    let plate = Body::block("plate", catalogue::copper(), [-4e-3], [0.0], 2e-5);
+    let mut simulation = Scene::<f64, 1>::new(schemes::weakly_compressible())
+        .body(Body::block("water", water, [0.0], [4e-3], 2e-5))
+        .group(schemes::impact(), [plate.velocity([speed])])
+        .build()
+        .unwrap();
+    simulation.run_until(1.2e-6).unwrap();
+    let [of_copper, of_water] = [8930.0 * 3940.0, 1000.0 * 1480.0];
+    let velocity = speed * of_copper / (of_copper + of_water);
+    let mean = |body: usize, low: f64, high: f64, of: fn(&[f64; 2]) -> f64| {
+        let near = simulation
+            .body(body)
+            .filter(|particle| (low..high).contains(&particle.position()[0]));
+        let values: Vec<f64> = near
+            .map(|particle| of(&[particle.velocity()[0], particle.pressure()]))
+            .collect();
+        values.iter().sum::<f64>() / values.len() as f64
+    };
+    for (body, low, high) in [(0, 0.1e-3, 1.0e-3), (1, -3e-3, -0.1e-3)] {
+        let u = mean(body, low, high, |of| of[0]);
+        let p = mean(body, low, high, |of| of[1]);
+        assert!(
+            (u / velocity - 1.0).abs() < 0.005,
+            "body {body}: {u} of {velocity} m/s"
+        );
+        let pressure = of_water * velocity;
+        assert!(
+            (p / pressure - 1.0).abs() < 0.01,
+            "body {body}: {p} of {pressure} Pa"
+        );
+    }
+}
+
+/// A column of water on a soft block on a floor: the block bears the water, the floor both.
+#[test]
+fn a_block_bears_the_water_that_stands_on_it() {
+    let (dx, g) = (0.01, 9.81);
+    let water = catalogue::weakly_compressible_water(2.0);
+    let block = Body::block("block", soft(), [0.0, 0.0], [0.1, 0.1], dx);
+    let weights = [1000.0 * 0.1 * 0.2 * g, 2000.0 * 0.1 * 0.1 * g];
+    let mut simulation = Scene::<f64, 2>::new(schemes::weakly_compressible())
+        .body(
+            Body::block("water", water, [0.0, 0.1], [0.1, 0.3], dx)
+                .hydrostatic([0.0, -g], [0.0, 0.3]),
+        )
+        .group(
+            schemes::impact(),
+            [block.hydrostatic([0.0, -g], [0.0, 0.1 + 0.1])],
+        )
+        .boundary(Periodic::along(0, 0.0, 0.1))
+        .boundary(MirrorPlane::wall([0.0, 0.0], [0.0, -1.0]))
+        .acceleration(move |_| [0.0, -g])
+        .build()
+        .unwrap();
+    let (mut samples, mut forces) = (0.0, [0.0; 2]);
+    simulation
+        .run_with(1.2, |now| {
+            if now.time() > 0.6 {
+                samples += 1.0;
+                forces[0] += now.force_between(0, 1)[1];
+                forces[1] += now.force_between(1, 3)[1];
+            }
+        })
+        .unwrap();
+    let of_water = forces[0] / samples / weights[0];
+    let of_both = forces[1] / samples / (weights[0] + weights[1]);
+    assert!(
+        (of_water - 1.0).abs() < 0.01,
+        "the block bears {of_water} of the water"
+    );
+    assert!(
+        (of_both - 1.0).abs() < 0.01,
+        "the floor bears {of_both} of both"
+    );
+    let top = simulation
+        .body(0)
+        .map(|p| p.position()[1])
+        .fold(0.0, f64::max);
+    assert!(
+        (top - (0.3 - 0.5 * dx)).abs() < 0.5 * dx,
+        "surface particles at {top} m"
+    );
+}
+
+/// A drop with random velocities against a block of another scheme, and the block's reaction.
+fn drop_on_block() -> Simulation<f64, 2> {
+    let mut random = Random(5);
+    let water = catalogue::weakly_compressible_water(2.0).with_dynamic_viscosity(0.5);
+    let drop = Body::block("drop", water, [0.0, 0.0], [0.1, 0.1], 0.01);
+    let velocities = std::cell::RefCell::new(&mut random);
+    let drop = drop.start(|_, start| {
+        let [u, v]: [f64; 2] = velocities.borrow_mut().vector(0.2);
+        meshfree::scene::Start {
+            velocity: [u, v - 1.0],
+            ..start
+        }
+    });
+    let liquid = schemes::weakly_compressible().laminar_viscosity(meshfree::term::LaminarViscosity);
+    Scene::new(liquid)
+        .body(drop)
+        .group(
+            schemes::impact(),
+            [Body::block("block", soft(), [-0.05, -0.105], [0.15, -0.005], 0.01).no_slip()],
+        )
+        .build()
+        .unwrap()
+}
+
+#[test]
+fn momentum_is_kept_to_rounding_and_forces_are_opposite() {
+    let mut simulation = drop_on_block();
+    let before = simulation.ledger().whole.momentum;
+    let scale = before[1].abs();
+    let mut opposite = 0.0_f64;
+    let mut largest = 0.0_f64;
+    simulation
+        .run_with(0.05, |now| {
+            let [on, from] = [now.force_between(0, 1), now.force_between(1, 0)];
+            for d in 0..2 {
+                opposite = opposite.max((on[d] + from[d]).abs());
+                largest = largest.max(on[d].abs());
+            }
+        })
+        .unwrap();
+    let ledger = simulation.ledger();
+    for d in 0..2 {
+        let change = (ledger.whole.momentum[d] - before[d]).abs() / scale;
+        assert!(change < 1e-12, "{change:e}");
+    }
+    assert!(opposite < 1e-11 * largest, "{opposite:e} of {largest:e}");
+    let block = &ledger.bodies[1].1.momentum;
+    assert!(
+        block[1] < -0.1 * scale,
+        "the block has taken {} of {scale}",
+        block[1]
+    );
+    assert!(
+        block[0].abs() > 1e-6 * scale,
+        "and the water has dragged on it"
+    );
+}
+
+#[test]
+fn threads_do_not_change_a_bit() {
+    let run = |threads| {
+        on(threads, || {
+            let mut simulation = drop_on_block();
+            simulation.run_until(0.01).unwrap();
+            simulation
+                .all()
+                .flat_map(|p| [p.position(), p.velocity()].concat())
+                .map(f64::to_bits)
+                .collect::<Vec<_>>()
+        })
+    };
+    let one = run(1);
+    assert_eq!(one, run(2));
+    assert_eq!(one, run(3));
+}
+
+/// In space, in single precision, on a block of half the spacing: nothing gets through, and momentum stays.
+#[test]
+fn a_finer_block_stops_a_drop() {
+    let water = catalogue::weakly_compressible_water(2.0);
+    let soft = Liquid::new(2000.0, 40.0, 0.0).material("soft", SoundSpeed::Physical);
+    let drop = Body::block("drop", water, [0.0; 3], [0.06; 3], 0.01).velocity([0.0, 0.0, -1.0]);
+    let block = Body::block(
+        "block",
+        soft,
+        [-0.02, -0.02, -0.0475],
+        [0.08, 0.08, -0.0075],
+        0.005,
+    );
+    let mut simulation = Scene::<f32, 3>::new(schemes::weakly_compressible())
+        .body(drop)
+        .group(schemes::impact(), [block])
+        .build()
+        .unwrap();
+    let before = simulation.ledger().whole.momentum[2];
+    simulation.run_until(0.03).unwrap();
+    let ledger = simulation.ledger();
+    assert!((ledger.whole.momentum[2] / before - 1.0).abs() < 1e-5);
+    assert!(ledger.bodies[1].1.momentum[2] < 0.2 * before);
+    let face = |body: usize, pick: fn(f64, f64) -> f64, start: f64| {
+        simulation
+            .body(body)
+            .map(|p| p.position()[2])
+            .fold(start, pick)
+    };
+    let above = face(1, f64::max, f64::NEG_INFINITY);
+    let lowest = face(0, f64::min, f64::INFINITY);
+    assert!(
+        lowest > above,
+        "water at {lowest} m in a block that reaches to {above} m"
+    );
+}
+
+/// Groups that do not meet are the simulations that they would be alone, and carry no column of each other.
+#[test]
+fn groups_that_do_not_meet_are_simulations_of_their_own() {
+    let water = || {
+        let water = catalogue::weakly_compressible_water(2.0);
+        Body::block("water", water, [0.0, 0.0], [0.1, 0.1], 0.01).velocity([0.3, 0.1])
+    };
+    let blocks = || {
+        let block = |name: &str, low: f64, speed: f64| {
+            Body::block(name, soft(), [low, 0.0], [low + 0.05, 0.05], 0.01).velocity([speed, 0.0])
+        };
+        [block("left", 0.0, 1.0), block("right", 0.05, -1.0)]
+    };
+    let fixed = |control: StepControl| StepControl {
+        fixed: Some(5e-5),
+        ..control
+    };
+    let [left, right] = blocks();
+    let scenes = [
+        Scene::<f64, 2>::new(schemes::weakly_compressible()).body(water()),
+        Scene::new(schemes::impact()).body(left).body(right),
+        Scene::new(schemes::weakly_compressible())
+            .body(water())
+            .group(schemes::impact(), blocks())
+            .between("water", "left", Interaction::None)
+            .between("right", "water", Interaction::None),
+    ];
+    let [liquid, solid, both] = scenes.map(|scene| {
+        let mut simulation = scene.steps(fixed).build().unwrap();
+        simulation.run_until(0.01).unwrap();
+        simulation
+    });
+    let alone = liquid.all().chain(solid.all());
+    for (apart, together) in alone.zip(both.all()) {
+        assert_eq!(apart.position(), together.position());
+        assert_eq!(apart.velocity(), together.velocity());
+    }
+    assert_eq!(both.particles(), 150);
+    assert_eq!(both.bytes(), liquid.bytes() + solid.bytes());
+    let energy = |body: usize| both.body(body).next().and_then(|p| p.scalar(Field::Energy));
+    assert_eq!(
+        energy(0),
+        None,
+        "water carries no energy because a block does"
+    );
+    assert!(energy(1).is_some());
+    assert_eq!(
+        both.bodies().collect::<Vec<_>>(),
+        ["water", "left", "right"]
+    );
+}
+
+#[test]
+fn groups_that_nothing_couples_are_refused() {
+    let body = |name: &str, low: f64| Body::<f64, 1>::block(name, soft(), [low], [low + 0.1], 0.01);
+    let liquid = schemes::weakly_compressible;
+    let reasons = |scene: Scene<f64, 1>| {
+        let all: Vec<String> = scene.problems().iter().map(ToString::to_string).collect();
+        all.join("; ")
+    };
+    let two_liquids = Scene::new(liquid())
+        .body(body("a", 0.0))
+        .group(liquid(), [body("b", 0.1)]);
+    assert!(reasons(two_liquids).contains("nothing couples them"));
+    let bonded = Scene::new(liquid())
+        .body(body("a", 0.0))
+        .group(schemes::impact(), [body("b", 0.1)])
+        .between("a", "b", Interaction::Bonded);
+    assert!(reasons(bonded).contains("parts from it"));
+    let coarse = Body::block("b", soft(), [0.1], [0.5], 0.02);
+    let coarse = Scene::new(liquid())
+        .body(body("a", 0.0))
+        .group(schemes::impact(), [coarse]);
+    assert!(reasons(coarse).contains("at most that of the liquid"));
+    let overlapping = Scene::new(liquid())
+        .body(body("a", 0.0))
+        .group(schemes::impact(), [body("b", 0.0)]);
+    assert!(reasons(overlapping).contains("overlap"));
+    let none: [Body<f64, 1>; 0] = [];
+    let empty = Scene::new(liquid())
+        .body(body("a", 0.0))
+        .group(schemes::impact(), none);
+    assert!(reasons(empty).contains("has no bodies"));
+    let thin = Body::block("b", soft(), [0.1], [0.11], 0.01);
+    let thin = Scene::new(liquid())
+        .body(body("a", 0.0))
+        .group(schemes::impact(), [thin]);
+    assert!(!reasons(thin).is_empty());
+}
