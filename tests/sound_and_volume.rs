@@ -1,5 +1,5 @@
-//! The two cures of liquids that act on density alone, against exact decay: bulk viscosity on a wave of
-//! sound, and volume consistency on densities that have drifted; each with its control.
+//! The cures of liquids that act on density alone: bulk viscosity and volume consistency against exact
+//! decay, reversible tearing against straight paths; each with its control.
 
 use meshfree::boundary::Periodic;
 use meshfree::kernel::WendlandC2;
@@ -172,4 +172,64 @@ fn volume_consistency_wants_one_smoothing_length() {
         let error = built.unwrap_err().to_string();
         assert!(error.contains("one smoothing length"), "{error}");
     }
+}
+
+/// How much wider than at first a square of liquid is that was torn to twice its width, and whose velocities
+/// were then turned round, at the time at which free particles are back where they were.
+fn width_after_tearing(scheme: impl Into<Scheme<f64, 2>>) -> f64 {
+    let (dx, rate, time) = (0.05, 2.0, 0.5);
+    let torn = Body::block(
+        "liquid",
+        liquid().with_pressure_cut_off(0.0),
+        [-0.5; 2],
+        [0.5; 2],
+        dx,
+    );
+    let torn = torn.start(|x, start| Start {
+        velocity: x.map(|x| rate * x),
+        ..start
+    });
+    let mut simulation = Scene::new(scheme)
+        .body(torn)
+        .build()
+        .expect("a sound scene");
+    let width = |now: &Simulation<f64, 2>| {
+        let r2: f64 = now
+            .all()
+            .map(|p| p.position().map(|x| x * x).iter().sum::<f64>())
+            .sum();
+        (r2 / now.particles() as f64).sqrt()
+    };
+    let first = width(&simulation);
+    simulation.run_until(time).expect("a run");
+    let stretched = width(&simulation) / first;
+    assert!(
+        (stretched - 2.0).abs() < 0.01,
+        "torn water flies freely: {stretched}"
+    );
+    simulation.set_velocities(|_, v| v.map(|v| -v));
+    simulation.run_until(2.0 * time).expect("a run");
+    width(&simulation) / first - 1.0
+}
+
+#[test]
+fn liquid_closes_where_it_tore() {
+    let wider = width_after_tearing(plain().reversible_tearing());
+    assert!(wider.abs() < 0.02, "{wider}");
+    // The control forgets how far it was torn, and has pressure long before it has closed.
+    let forgetful = width_after_tearing(plain());
+    assert!(forgetful > 0.1, "{forgetful}");
+}
+
+#[test]
+fn tearing_that_cannot_be_is_refused() {
+    let body = |material| Body::block("liquid", material, [0.0; 2], [1.0; 2], 0.1);
+    let scheme = || plain().reversible_tearing();
+    let solid = Scene::<f64, 2>::new(scheme()).body(body(liquid()));
+    assert!(solid.problems()[0].to_string().contains("can tear"));
+    let torn = body(liquid().with_pressure_cut_off(0.0));
+    let combined = Scene::<f64, 2>::new(scheme().compose_with_one_evaluation())
+        .body(torn)
+        .integrator(meshfree::integrator::RungeKutta4);
+    assert!(combined.problems()[0].to_string().contains("does not hold"));
 }

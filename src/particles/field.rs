@@ -154,6 +154,8 @@ quantities! {
     Density, Scalar, "density", "kg/m³";
     /// The rounding error of an integrated density, kept where the scalar is `f32`.
     DensityResidual, Scalar, "density_residual", "kg/m³";
+    /// Natural logarithm of the density that torn liquid would have over the density at which it is held.
+    Tear, Scalar, "tear", "1";
     /// Specific internal energy e.
     Energy, Scalar, "energy", "J/kg";
     /// Smoothing length h.

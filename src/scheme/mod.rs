@@ -218,10 +218,17 @@ impl<T: Real, const D: usize> Scheme<T, D> {
             equation: "kept until a particle has moved by half the skin, or for h²/(4 ν)",
             source: "after Zhang, Rezavand & Hu 2020",
         });
+        let tearing = liquid.filter(|own| own.reversible_tearing);
+        let tearing = tearing.map(|_| TermDoc {
+            name: "reversible tearing".into(),
+            equation: "ρ = max(ρ_t e^τ, ρ_t), dτ/dt = (1/ρ) dρ/dt while τ < 0, τ ≥ −1",
+            source: "continuity, carried on below the cut-off",
+        });
         self.sweeps()
             .flat_map(PairSweep::document)
             .chain(damping)
             .chain(consistency)
+            .chain(tearing)
             .chain(dual)
             .collect()
     }
@@ -271,6 +278,10 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         let damped = |liquid: &Liquid<T, D>| liquid.acoustic_damping.is_some();
         if self.liquid.as_ref().is_some_and(damped) {
             fields = fields.union(Fields::of(&[Field::Divergence]));
+        }
+        let tears = |liquid: &Liquid<T, D>| liquid.reversible_tearing;
+        if self.liquid.as_ref().is_some_and(tears) {
+            fields = fields.union(Fields::of(&[Field::Tear]));
         }
         match self.switch {
             Some(Switch::CullenDehnen { .. }) => {

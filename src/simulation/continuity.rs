@@ -65,14 +65,16 @@ impl<T: Real, const D: usize> Group<T, D> {
     }
 
     /// Keeps a liquid that has torn at its [cut-off](crate::material::Material::with_pressure_cut_off) from
-    /// thinning out: spray is still water, and volumes m/ρ weigh its forces.
+    /// thinning out: spray is still water, and volumes m/ρ weigh its forces. Where tearing is reversible, how
+    /// far it would have thinned is kept beside.
     pub(super) fn hold_densities(&mut self) {
-        if self.scheme.liquid.is_none() {
+        let Some(liquid) = &self.scheme.liquid else {
             return;
-        }
-        let [density, residual] = self
-            .columns
-            .many_mut([Field::Density, Field::DensityResidual]);
+        };
+        let share = if liquid.reversible_tearing { 1.0 } else { TORN };
+        let [density, residual, tear] =
+            self.columns
+                .many_mut([Field::Density, Field::DensityResidual, Field::Tear]);
         let mut held = 0;
         for body in &self.bodies {
             let eos = body.material.eos();
@@ -82,20 +84,27 @@ impl<T: Real, const D: usize> Group<T, D> {
             let Some(torn) = torn else {
                 continue;
             };
-            let least = T::from_f64(TORN * torn);
+            let least = T::from_f64(share * torn);
             let run = body.slots.clone();
-            held += density[run.clone()]
-                .par_iter_mut()
-                .with_min_len(GRAIN)
-                .map(|density| {
-                    // What is no number stays one, and ends the run.
-                    let low = *density < least;
-                    if low {
-                        *density = least;
-                    }
-                    usize::from(low)
-                })
-                .sum::<usize>();
+            let hold = |density: &mut T, tear: &mut T| {
+                if *tear < T::zero() {
+                    *density *= tear.exp();
+                }
+                // What is no number stays one, and ends the run.
+                let low = *density < least;
+                *tear = T::zero();
+                if low {
+                    let thinned = (*density / least).to_f64().ln();
+                    *tear = T::from_f64(thinned.max(FARTHEST));
+                    *density = least;
+                }
+                usize::from(low)
+            };
+            let own = density[run.clone()].par_iter_mut().with_min_len(GRAIN);
+            held += match tear.get_mut(run.clone()) {
+                Some(tear) => own.zip(tear).map(|(own, tear)| hold(own, tear)).sum(),
+                None => own.map(|own| hold(own, &mut T::zero())).sum::<usize>(),
+            };
             // What rounding has left belongs to the density that was.
             if let Some(residual) = residual.get_mut(run.clone()) {
                 residual
@@ -151,6 +160,10 @@ impl<T: Real, const D: usize> Group<T, D> {
 /// negative; at nine tenths volumes are at most a ninth too large, and what was drawn apart a little
 /// still closes without pressure.
 const TORN: f64 = 0.9;
+
+/// Farthest that torn liquid is torn, as the logarithm of what its density would be: that of a particle
+/// which has lost all of its neighbourhood, Σ V W = 1.
+const FARTHEST: f64 = -1.0;
 
 /// Where the compression is summed: with the rates in a step of one evaluation, or in a sweep of its own.
 pub(super) fn compression_sums<'a, T: Real, const D: usize>(

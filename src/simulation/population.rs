@@ -218,6 +218,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         for (field, value) in [
             (Field::Density, density),
             (Field::DensityResidual, 0.0),
+            (Field::Tear, 0.0),
             (Field::Divergence, 0.0),
             (Field::Mass, mass),
         ] {

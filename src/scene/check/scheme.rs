@@ -4,8 +4,8 @@
 use crate::error::Problem;
 use crate::particles::Field;
 use crate::scalar::Real;
-use crate::scene::Scene;
 use crate::scene::plan::Plan;
+use crate::scene::{Body, Scene};
 use crate::scheme::EnergyForm;
 
 impl<T: Real, const D: usize> Plan<'_, T, D> {
@@ -46,6 +46,27 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                     ),
                     remedy: "leave out dual_criteria, or take renormalised gradients without diffusion by gradients \
                              of density (Antuono), or generalised_newtonian",
+                });
+            }
+            let tears = |body: &Body<T, D>| body.material.eos().pressure_cut_off().is_some();
+            let bodies = self.bodies;
+            if liquid.reversible_tearing && !bodies.is_empty() && !bodies.iter().any(tears) {
+                problems.push(Problem::Incompatible {
+                    what: format!(
+                        "the scheme {} remembers how far liquid has torn, and none of its bodies can tear",
+                        scheme.name
+                    ),
+                    remedy: "give the material a cut-off (Material::with_pressure_cut_off), or leave out \
+                             reversible_tearing",
+                });
+            }
+            if liquid.reversible_tearing && !self.scene.integrator.kicks() {
+                problems.push(Problem::Incompatible {
+                    what: format!(
+                        "the integrator {} does not hold densities of torn liquid",
+                        self.scene.integrator.name()
+                    ),
+                    remedy: "take an integrator that kicks (kick-drift-kick), or leave out reversible_tearing",
                 });
             }
             let consistency = liquid.volume_consistency.map(|(strength, _)| strength);

@@ -126,6 +126,7 @@ impl<K, V, W, R, S, U, const MODES: u8, const RENORMALISED: bool>
                 volume_consistency: self
                     .volume_consistency
                     .map(|own| (own, lattice_unity(&kernel, h_over_dx))),
+                reversible_tearing: self.reversible_tearing,
                 dual_criteria: self.dual_criteria,
             }),
         }
