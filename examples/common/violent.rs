@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// Options that the examples of violent flow take beside those of all.
-pub const OWN: [Own; 11] = [
+pub const OWN: [Own; 12] = [
     own("--alpha", "A", "artificial viscosity (0.02; riemann: 1)"),
     own("--delta", "D", "density diffusion (0.1)"),
     own(
@@ -42,6 +42,11 @@ pub const OWN: [Own; 11] = [
         "--cut-off-pa",
         "P",
         "least pressure of the liquid (0: it tears)",
+    ),
+    own(
+        "--reversible-tearing",
+        "",
+        "lets torn liquid close where it tore (it forgets)",
     ),
     own(
         "--frames",
@@ -71,6 +76,7 @@ pub struct Choices {
     pub sound_speed: Option<f64>,
     pub gate: Option<f64>,
     pub cut_off: f64,
+    pub reversible_tearing: bool,
     pub frames: usize,
     pub reference: PathBuf,
     pub bars: bool,
@@ -101,6 +107,7 @@ impl Choices {
             sound_speed: not_negative("--sound-speed")?,
             gate: not_negative("--gate")?.filter(|speed| *speed > 0.0),
             cut_off: number("--cut-off-pa", f64::MIN, "a number")?.unwrap_or(0.0),
+            reversible_tearing: options.has("--reversible-tearing"),
             frames: frames as usize,
             reference: options.text("--reference").map_or(usual, PathBuf::from),
             bars: options.has("--bars"),
@@ -133,6 +140,9 @@ impl Choices {
             .h_over_dx(self.h_over_dx);
         if self.damping > 0.0 {
             base = base.acoustic_damping(self.damping);
+        }
+        if self.reversible_tearing {
+            base = base.reversible_tearing();
         }
         let alpha = |standard: f64| self.alpha.unwrap_or(standard);
         match self.scheme.as_str() {

@@ -3,8 +3,9 @@
 
 use crate::common::{Failure, Options};
 use crate::pulse::Pulse;
-use crate::report::{IMPULSIVE, acceleration, bracket};
+use crate::report::{IMPULSIVE, acceleration, bracket, shares};
 use crate::run::{Record, Sample, in_tank, run};
+use crate::surface::Space;
 use crate::tank::{Case, GRAVITY, H_OVER_DX, WATER};
 use meshfree::material::SoundSpeed;
 use meshfree::output::table::{Table, significant};
@@ -13,6 +14,9 @@ use std::time::Instant;
 
 /// When the sound of the start has gone to and fro often enough for a mean to be taken \[s\].
 const SETTLED: f64 = 0.002;
+
+/// When the water has calmed after the half sine \[s\].
+const CALM: f64 = 1.25;
 
 /// Measures all, at the spacing of the case and two coarser ones.
 pub fn measure<T: Real>(case: &Case, options: &Options) -> Result<(), Failure> {
@@ -45,6 +49,7 @@ pub fn measure<T: Real>(case: &Case, options: &Options) -> Result<(), Failure> {
     }
     show(balances(&runs).markdown());
     show(far_wall(&runs).markdown());
+    show(calmed::<T>(&artificial, spacings[1])?.markdown());
     show(frames::<T>(&artificial, spacings[2])?.markdown());
     show(format!("All in {:.0} s.", started.elapsed().as_secs_f64()));
     std::fs::create_dir_all(options.folder())?;
@@ -124,7 +129,7 @@ fn steady<T: Real>(artificial: &Case) -> Result<Table, Failure> {
     let slab = WATER * case.peak() * case.fill * case.size[0];
     let mut table = Table::new(["height [mm]", "rho a l [kPa]", "mean [kPa]", "difference"])
         .title("Constant acceleration: mean pressure over 150 to 200 ms; within 5 %");
-    let space = format!("space of the water {:+.1} %", 1e2 * record.volume[1]);
+    let space = in_words(record.space[1]);
     for (k, probe) in case.probes.iter().enumerate() {
         let mean = record.mean([0.15, 0.2], |s| s.pressures[k]);
         table.row([
@@ -135,6 +140,36 @@ fn steady<T: Real>(artificial: &Case) -> Result<Table, Failure> {
         ]);
     }
     table.row(["at 200 ms", &space]);
+    Ok(table)
+}
+
+fn in_words(space: Space) -> String {
+    format!(
+        "space half full {:+.1} %, with spray {:+.1} %",
+        1e2 * space.half_full,
+        1e2 * space.with_spray
+    )
+}
+
+/// What is left of the volume when the water has fallen back: at a cut-off of 0, under gravity after the
+/// half sine.
+fn calmed<T: Real>(artificial: &Case, spacing: f64) -> Result<Table, Failure> {
+    let case = Case {
+        spacing,
+        cut_off: 0.0,
+        until: CALM,
+        ..artificial.clone()
+    };
+    let record = run::<T>(&case, None, &[])?;
+    let mut table = Table::new(["spacing [mm]", "time [s]", "space", "leaked", "run [s]"])
+        .title("After the half sine, under gravity: volume within 2 %");
+    table.row([
+        significant(1e3 * spacing, 3),
+        significant(CALM, 3),
+        in_words(record.space[1]),
+        format!("{} of {}", record.leaked, record.particles),
+        significant(record.seconds, 3),
+    ]);
     Ok(table)
 }
 
@@ -152,7 +187,8 @@ fn balances(runs: &[(Case, Record)]) -> Table {
         "momentum",
         "pressure integral at 5, 60 ms",
         "leaked, deepest in wall [spacings]",
-        "space at 38 ms, end",
+        "space half full at 38 ms, end",
+        "space with spray",
         "impulse on tank [N s]",
         "time [s]",
     ])
@@ -176,11 +212,8 @@ fn balances(runs: &[(Case, Record)]) -> Table {
                 record.particles,
                 record.deepest / case.spacing
             ),
-            format!(
-                "{:+.1} %, {:+.1} %",
-                1e2 * record.volume[0],
-                1e2 * record.volume[1]
-            ),
+            shares(record.space.map(|space| space.half_full)),
+            shares(record.space.map(|space| space.with_spray)),
             significant(record.impulse[0], 4),
             significant(record.seconds, 3),
         ]);
@@ -196,7 +229,7 @@ fn far_wall(runs: &[(Case, Record)]) -> Table {
         "lowest pressure [kPa]",
         "wetted height [mm]",
         "film within 30 mm [kg]",
-        "evaluations cut",
+        "cut or held",
     ])
     .title(
         "Far wall at 38 ms: no pressure below the cut-off, a film that shrinks with the spacing",

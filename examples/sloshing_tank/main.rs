@@ -116,7 +116,7 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
         let far = record.far_wall;
         println!(
             "{name}: {} particles, leaked {}, momentum of the water against pair reactions {:.1e}, far wall at \
-             38 ms: lowest pressure {:.0} Pa, {} evaluations cut",
+             38 ms: lowest pressure {:.0} Pa, cut {} times",
             record.particles, record.leaked, record.imbalance, far.lowest, far.cuts
         );
     }

@@ -106,6 +106,11 @@ pub fn figure(case: &Case, runs: &[(String, &Record)]) -> Result<Figure, Error> 
     Ok(figure.panel(panel))
 }
 
+/// Two differences in per cent.
+pub fn shares(of: [f64; 2]) -> String {
+    of.map(|share| format!("{:+.1} %", 1e2 * share)).join(", ")
+}
+
 /// One row for each run.
 pub fn table(case: &Case, runs: &[(String, &Record)]) -> Table {
     let mut table = Table::new([
@@ -117,7 +122,8 @@ pub fn table(case: &Case, runs: &[(String, &Record)]) -> Table {
         "impulse on tank [N s]",
         "far wall wetted [mm]",
         "film [kg]",
-        "space at 38 ms, end",
+        "space half full at 38 ms, end",
+        "space with spray",
         "steps",
         "time [s]",
     ]);
@@ -139,11 +145,8 @@ pub fn table(case: &Case, runs: &[(String, &Record)]) -> Table {
             significant(record.impulse[0], 4),
             significant(1e3 * record.far_wall.wetted, 3),
             significant(record.far_wall.film, 2),
-            format!(
-                "{:+.1} %, {:+.1} %",
-                1e2 * record.volume[0],
-                1e2 * record.volume[1]
-            ),
+            shares(record.space.map(|space| space.half_full)),
+            shares(record.space.map(|space| space.with_spray)),
             record.steps.to_string(),
             significant(record.seconds, 3),
         ]);

@@ -2,7 +2,7 @@
 //! All coordinates are the tank's own: metres, origin at the inner corner, x towards the struck wall.
 
 use crate::common::Failure;
-use crate::surface::Occupancy;
+use crate::surface::{Occupancy, Space};
 use crate::tank::{Case, GRAVITY, WATER};
 use meshfree::observe::PressureProbe;
 use meshfree::output::csv::CsvWriter;
@@ -44,7 +44,7 @@ pub struct FarWall {
     pub film: f64,
     /// Lowest pressure of the wall and of the water within a smoothing length of it \[Pa\].
     pub lowest: f64,
-    /// Evaluations in which a particle's pressure was cut, since the start.
+    /// Times that a particle's pressure was cut, or the density of torn water held, since the start.
     pub cuts: u64,
 }
 
@@ -64,8 +64,8 @@ pub struct Record {
     /// Integral of the probes' pressure over the ends of the tank against the force along it, as a
     /// difference over the force, at the times asked for.
     pub integrals: Vec<(f64, f64)>,
-    /// Space that the water takes against its volume, as a difference over it, at 38 ms and at the end.
-    pub volume: [f64; 2],
+    /// Space that the water takes against its volume, at 38 ms and at the end.
+    pub space: [Space; 2],
     /// Particles more than a spacing behind the surface of the walls at the end.
     pub leaked: usize,
     /// Deepest that a particle was behind the surface of the walls \[m\]: drops that strike them alone
@@ -164,7 +164,7 @@ pub fn run<T: Real>(
         if stop == SNAPSHOT.min(case.until) {
             let occupied = Occupancy::of(case, &simulation);
             record.surface = occupied.mid_plane();
-            record.volume[0] = occupied.volume() / water - 1.0;
+            record.space[0] = occupied.space(water);
             record.far_wall = far_wall(case, &simulation);
             if let Some(folder) = folder {
                 snapshot(case, &simulation, &record.surface, folder)?;
@@ -172,7 +172,7 @@ pub fn run<T: Real>(
         }
     }
     progress.finish();
-    record.volume[1] = Occupancy::of(case, &simulation).volume() / water - 1.0;
+    record.space[1] = Occupancy::of(case, &simulation).space(water);
     record.seconds = started.elapsed().as_secs_f64();
     record.steps = simulation.steps();
     record.impulse = simulation.wall_impulse(0);
@@ -243,7 +243,7 @@ fn far_wall<T: Real>(case: &Case, now: &Simulation<T, 3>) -> FarWall {
     let h = now.smoothing_length();
     let mass = case.mass() / now.particles() as f64;
     let mut found = FarWall {
-        cuts: now.guard_counts().cut_off,
+        cuts: now.guard_counts().cut_off + now.held_densities(),
         lowest: f64::INFINITY,
         ..FarWall::default()
     };

@@ -16,9 +16,34 @@ pub struct Occupancy {
     share: Vec<f64>,
 }
 
+/// Space that water takes against its volume, as differences over it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Space {
+    /// Of the cells that are at least half full: drops and a frayed surface are missing.
+    pub half_full: f64,
+    /// Of the shares of all cells, each at most one: drops count, and water that overlaps is missing.
+    pub with_spray: f64,
+}
+
 impl Occupancy {
     pub fn of<T: Real>(case: &Case, now: &Simulation<T, 3>) -> Self {
-        let h = now.smoothing_length();
+        let shift = now.wall_pose(Some(0)).shift[0];
+        let water = now.all().map(|particle| (particle, false));
+        let walls = now.wall(0).map(|particle| (particle, true));
+        let particles = water.chain(walls).map(|(particle, wall)| {
+            let x = particle.position();
+            let place = core::array::from_fn(|d| x[d] - shift[d]);
+            (place, particle.mass() / particle.density(), wall)
+        });
+        Self::of_particles(case, now.smoothing_length(), particles)
+    }
+
+    /// Of particles with a place in the tank \[m\] and a volume \[m³\], and whether they are of a wall.
+    pub fn of_particles(
+        case: &Case,
+        h: f64,
+        particles: impl Iterator<Item = ([f64; 3], f64, bool)>,
+    ) -> Self {
         let reach = Kernel::<3>::support(&WendlandC2) * h;
         let counts = case
             .size
@@ -26,13 +51,7 @@ impl Occupancy {
         let cell: [f64; 3] = core::array::from_fn(|d| case.size[d] / counts[d] as f64);
         // Of water and of walls.
         let mut filled = vec![[0.0; 2]; counts.iter().product()];
-        let shift = now.wall_pose(Some(0)).shift[0];
-        let water = now.all().map(|particle| (particle, 0));
-        let walls = now.wall(0).map(|particle| (particle, 1));
-        for (particle, of) in water.chain(walls) {
-            let x = particle.position();
-            let x: [f64; 3] = core::array::from_fn(|d| x[d] - shift[d]);
-            let volume = particle.mass() / particle.density();
+        for (x, volume, wall) in particles {
             let scale = volume * Kernel::<3>::normalisation(&WendlandC2) / h.powi(3);
             let cells = |d: usize| {
                 let first = ((x[d] - reach) / cell[d]).floor().max(0.0) as usize;
@@ -48,7 +67,8 @@ impl Occupancy {
                             .sum();
                         if r2 < reach * reach {
                             let shape = Kernel::<3>::shape(&WendlandC2, r2.sqrt() / h);
-                            filled[(k * counts[1] + j) * counts[0] + i][of] += scale * shape;
+                            filled[(k * counts[1] + j) * counts[0] + i][usize::from(wall)] +=
+                                scale * shape;
                         }
                     }
                 }
@@ -62,10 +82,15 @@ impl Occupancy {
         }
     }
 
-    /// Volume \[m³\] in which water fills half of the kernel or more.
-    pub fn volume(&self) -> f64 {
-        let full = self.share.iter().filter(|share| **share >= 0.5).count();
-        full as f64 * self.cell.iter().product::<f64>()
+    /// The space that water of this volume \[m³\] takes.
+    pub fn space(&self, water: f64) -> Space {
+        let cell = self.cell.iter().product::<f64>() / water;
+        let half_full = self.share.iter().filter(|share| **share >= 0.5).count();
+        let filled: f64 = self.share.iter().map(|share| share.min(1.0)).sum();
+        Space {
+            half_full: cell * half_full as f64 - 1.0,
+            with_spray: cell * filled - 1.0,
+        }
     }
 
     /// Points (x, z) \[m\] of the surface at mid width, ordered by x and then z: where lines through

@@ -208,6 +208,7 @@ impl Case {
             .h_over_dx(H_OVER_DX)
             .with_viscosity(viscosity)
             .wall_pressure_floor(self.cut_off)
+            .reversible_tearing()
             .named(&self.scheme);
         Ok(match self.scheme.as_str() {
             "standard" => standard.compose(),

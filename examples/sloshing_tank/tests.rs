@@ -2,7 +2,8 @@
 //! What a right tank does is in `tests/sloshing.rs`.
 
 use crate::pulse::Pulse;
-use crate::tank::Case;
+use crate::surface::{Occupancy, Space};
+use crate::tank::{Case, H_OVER_DX, WATER};
 use meshfree::material::SoundSpeed;
 
 fn case() -> Case {
@@ -137,4 +138,52 @@ fn a_pulse_file_with_a_gap_is_refused_with_its_row() {
     let text = with("time_s,speed\n0,0\n0.01,1\n");
     assert!(text.contains("acceleration"), "{text}");
     std::fs::remove_file(&path).unwrap();
+}
+
+/// The space of particles on a lattice in the tank of [`case`], each moved by `place`.
+fn space_of(place: impl Fn([usize; 3], [f64; 3]) -> [f64; 3]) -> Space {
+    let (case, dx, layers) = (case(), 0.02, 3);
+    let counts = case.size.map(|size| (size / dx).round() as usize);
+    let surface = (case.depth() / dx).round() as usize;
+    let mut particles = Vec::new();
+    for k in 0..counts[2] + 2 * layers {
+        for j in 0..counts[1] + 2 * layers {
+            for i in 0..counts[0] + 2 * layers {
+                let at = [i, j, k].map(|n| n.wrapping_sub(layers));
+                let x = [i, j, k].map(|n| (n as f64 - layers as f64 + 0.5) * dx);
+                if (0..3).any(|d| at[d] >= counts[d]) {
+                    particles.push((x, dx.powi(3), true));
+                } else if at[2] < surface {
+                    particles.push((place(at, x), dx.powi(3), false));
+                }
+            }
+        }
+    }
+    let occupied = Occupancy::of_particles(&case, H_OVER_DX * dx, particles.into_iter());
+    occupied.space(case.mass() / WATER)
+}
+
+#[test]
+fn space_misses_what_overlaps_and_counts_spray() {
+    let dx = 0.02;
+    let resting = space_of(|_, x| x);
+    assert!(resting.half_full.abs() < 0.005, "{resting:?}");
+    assert!(resting.with_spray.abs() < 0.005, "{resting:?}");
+    // A twentieth of each particle lies in its neighbours.
+    let overlapping = space_of(|_, [x, y, z]| [x, y, 0.95 * z]);
+    assert!(
+        (overlapping.with_spray + 0.05).abs() < 0.01,
+        "{overlapping:?}"
+    );
+    // Two thirds of the uppermost of nine layers are in the air, a drop in each block of 2 x 2 x 2 places.
+    let splashing = space_of(|at, x| {
+        let (n, columns) = (at[1] * 25 + at[0], 12 * 7);
+        if at[2] < 8 || n >= 3 * columns {
+            return x;
+        }
+        let place = [n % 12, n / 12 % 7, n / columns].map(|n| 2.0 * dx * (n as f64 + 0.5));
+        [place[0], place[1], 8.0 * dx + place[2]]
+    });
+    assert!(splashing.half_full < -0.05, "{splashing:?}");
+    assert!(splashing.with_spray.abs() < 0.01, "{splashing:?}");
 }
