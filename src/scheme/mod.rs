@@ -221,8 +221,8 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         let tearing = liquid.filter(|own| own.reversible_tearing);
         let tearing = tearing.map(|_| TermDoc {
             name: "reversible tearing".into(),
-            equation: "ρ = max(ρ_t e^τ, ρ_t), dτ/dt = (1/ρ) dρ/dt while τ < 0, τ ≥ −1",
-            source: "continuity, carried on below the cut-off",
+            equation: "ρ = ρ_t while τ = ln(ρ/ρ_t) by continuity is below 0, τ ≥ −1",
+            source: "of this crate",
         });
         self.sweeps()
             .flat_map(PairSweep::document)

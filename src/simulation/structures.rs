@@ -89,12 +89,6 @@ impl<T: Real, const D: usize> Group<T, D> {
     /// Moves a wall to the particles of the body that it is.
     fn follow(&mut self, wall: usize, group: &Self, body: usize) {
         let run = self.walls[wall].slots.start..self.walls[wall].end;
-        // A wall particle has the density of the liquid at rest, and the volume of what it is made of.
-        let rest = self
-            .bodies
-            .first()
-            .map_or(0.0, |body| body.material.reference_density());
-        let rest = T::from_f64(rest);
         let mass = group.columns.raw(Field::Mass);
         let density = group.columns.raw(Field::Density);
         for slot in run {
@@ -103,6 +97,8 @@ impl<T: Real, const D: usize> Group<T, D> {
                 self.columns.raw_mut(Field::Mass)[slot] = T::zero();
                 continue;
             };
+            // It has the density of the liquid at rest, and the volume of what it is made of.
+            let rest = self.columns.raw(Field::Density)[slot];
             self.columns.raw_mut(Field::Mass)[slot] = rest * mass[own] / density[own];
             for field in [Field::Position, Field::PositionResidual, Field::Velocity] {
                 let from = group.columns.vectors(field).get(own);

@@ -292,7 +292,8 @@ impl<K, V, W, R, S, U, const MODES: u8, const RENORMALISED: bool>
     /// where it tore: below the density ρ_t at which it tears continuity goes on in
     /// τ = ln(ρ/ρ_t), dτ/dt = Σⱼ Vⱼ vᵢⱼ·∇W, while pairs see ρ_t; pressure comes back with τ = 0.
     ///
-    /// With volumes that no longer grow, dτ/dt is the rate of Σ V W, so a drop that has left a neighbourhood
+    /// ρ_t \[kg/m³\] is the density of the equation of state at the cut-off. With volumes that no longer grow,
+    /// dτ/dt is the rate of Σ V W, so a drop that has left a neighbourhood
     /// meets the next one with what it lacked: −1 at most, where τ ends. It adds a number a particle and
     /// no sum.
     ///
@@ -300,10 +301,10 @@ impl<K, V, W, R, S, U, const MODES: u8, const RENORMALISED: bool>
     /// again before it has closed, and spray bears itself like a gas. In `sloshing_tank` at a cut-off of 0 and
     /// constant 30 g the space that is at least half full is 7.1 % short after 200 ms at 10 mm without it, and
     /// 1.6 % wide with it; 1.25 s after a half sine it is 5.2 % short at 20 mm, and 2.2 % wide. Single drops
-    /// strike harder with it (peaks of Lobovský et al. and SPHERIC 10 at 3 to 6 mm scatter by a fifth to a half upwards), so it is a
-    /// choice.
+    /// strike harder with it (most first peaks of Lobovský et al. and SPHERIC 10, `docs/dam_breaks.md`), so it is
+    /// a choice.
     ///
-    /// It needs a material with a cut-off, and an integrator that kicks.
+    /// The law is this crate's own; `docs/sloshing.md` has what else was tried. It needs a material with a cut-off, and an integrator that kicks.
     #[must_use]
     pub fn reversible_tearing(mut self) -> Self {
         self.reversible_tearing = true;
