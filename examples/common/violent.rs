@@ -372,12 +372,10 @@ pub fn run<T: Real, const D: usize>(
             .probes
             .iter()
             .map(|probe| format!("{}_pa", probe.name()))
-            .chain(
-                watch
-                    .gauges
-                    .iter()
-                    .map(|gauge| format!("{}_m", gauge.name())),
-            )
+            .chain(watch.gauges.iter().flat_map(|gauge| {
+                let name = gauge.name();
+                [format!("{name}_m"), format!("{name}_wetted_m")]
+            }))
             .chain(["front_m".into()])
             .chain(
                 felt.iter()
@@ -393,17 +391,17 @@ pub fn run<T: Real, const D: usize>(
     let mut progress = Progress::new("flow");
     let (mut shown, mut failed) = (0, None);
     // Gauges and fronts move by less than a hundredth of the spacing in a step: every eighth will do.
-    let mut slow = vec![0.0; watch.gauges.len() + 1];
+    let mut slow = vec![0.0; 2 * watch.gauges.len() + 1];
     // A spike lasts for eight steps or so, and forces on walls cost a sweep.
     let mut contact = vec![0.0; felt.len()];
     simulation.run_with(until, |now| {
         history.time.push(now.time());
         if now.steps() % 8 == 1 {
-            for (value, gauge) in slow.iter_mut().zip(&watch.gauges) {
-                *value = gauge.height(now);
+            for (values, gauge) in slow.chunks_mut(2).zip(&watch.gauges) {
+                values.copy_from_slice(&[gauge.height(now), gauge.wetted_length(now)]);
             }
             let front = now.all().fold(0.0_f64, |most, p| most.max(p.position()[0]));
-            slow[watch.gauges.len()] = front + 0.5 * spacing;
+            slow[2 * watch.gauges.len()] = front + 0.5 * spacing;
         }
         let probes = watch.probes.iter().map(|probe| probe.pressure(now));
         if !felt.is_empty() && now.steps() % 4 == 1 {

@@ -54,54 +54,122 @@ impl<const D: usize> WaveGauge<D> {
     /// where there is none: drops thinner than a kernel are not seen.
     #[must_use]
     pub fn height<T: Real>(&self, simulation: &Simulation<T, D>) -> f64 {
+        self.column(simulation).surface().unwrap_or(0.0)
+    }
+
+    /// Length \[m\] of the line on which liquid fills half of the kernel: what a wire that measures by
+    /// resistance or capacitance reads. Below a crest that breaks, [`height`](Self::height) counts the air in
+    /// it, and this does not.
+    #[must_use]
+    pub fn wetted_length<T: Real>(&self, simulation: &Simulation<T, D>) -> f64 {
+        let column = self.column(simulation);
+        let (mut length, mut top) = (0.0, column.surface());
+        while let Some(surface) = top {
+            let bottom = column.next_below(surface, false).unwrap_or(0.0);
+            length += surface - bottom;
+            top = column.next_below(bottom, true);
+        }
+        length
+    }
+
+    /// The liquid around the line.
+    fn column<T: Real>(&self, simulation: &Simulation<T, D>) -> Column {
         let foot = self.foot.pose(simulation).of(0, &self.foot.point);
         let h = simulation.smoothing_length();
         let norm = normalisation(D) / h.powi(D as i32);
-        let mut column: Vec<(f64, f64, f64)> = Vec::new();
+        let mut particles = Vec::new();
         for particle in simulation.all() {
             let x = particle.position();
             let aside2: f64 = (0..D)
                 .filter(|&d| d != self.axis)
                 .map(|d| (x[d] - foot[d]).powi(2))
                 .sum();
-            if aside2 < 4.0 * h * h {
-                let volume = particle.mass() / particle.density();
-                column.push((x[self.axis] - foot[self.axis], aside2, volume));
+            let above = x[self.axis] - foot[self.axis];
+            if aside2 < 4.0 * h * h && above >= 0.0 {
+                let share = particle.mass() / particle.density() * norm;
+                particles.push((above, aside2, share));
+                // The floor below the foot is mirrored, or liquid next to it would seem half empty.
+                if above < 4.0 * h {
+                    particles.push((-above, aside2, share));
+                }
             }
         }
-        column.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let filled = |z: f64| {
-            let first = column.partition_point(|p| p.0 < z - 2.0 * h);
-            let near = column[first..].iter().take_while(|p| p.0 < z + 2.0 * h);
-            let sum: f64 = near
-                .map(|(zj, aside2, volume)| {
-                    let q = ((zj - z).powi(2) + aside2).sqrt() / h;
-                    volume * norm * weight(q)
-                })
-                .sum();
-            sum >= 0.5
-        };
-        let Some(&(top, ..)) = column.last() else {
-            return 0.0;
-        };
-        // Down from above all liquid in steps that no kernel fits between, then halve.
-        let step = 0.25 * h;
-        let mut z = top + h;
-        while z > 0.0 && !filled(z) {
+        particles.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Column { h, particles }
+    }
+}
+
+/// What lies around a gauge's line: heights above the foot, squared distances from the line, and volumes over
+/// the integral of the kernel.
+struct Column {
+    h: f64,
+    particles: Vec<(f64, f64, f64)>,
+}
+
+impl Column {
+    /// Whether liquid fills half of the kernel at a height.
+    fn filled(&self, z: f64) -> bool {
+        let reach = 2.0 * self.h;
+        let first = self.particles.partition_point(|p| p.0 < z - reach);
+        let near = self.particles[first..]
+            .iter()
+            .take_while(|p| p.0 < z + reach);
+        let sum: f64 = near
+            .map(|(zj, aside2, share)| share * weight(((zj - z).powi(2) + aside2).sqrt() / self.h))
+            .sum();
+        sum >= 0.5
+    }
+
+    /// The highest height at which it is filled.
+    fn surface(&self) -> Option<f64> {
+        self.next_below(self.particles.last()?.0 + self.h, true)
+    }
+
+    /// The next height below `z` at which it gets filled, or empty, looking down.
+    fn next_below(&self, mut z: f64, filled: bool) -> Option<f64> {
+        // In steps that no kernel fits between, then halve.
+        let step = 0.25 * self.h;
+        while z > 0.0 {
             z -= step;
-        }
-        if z <= 0.0 {
-            return 0.0;
-        }
-        let (mut low, mut high) = (z, z + step);
-        for _ in 0..20 {
-            let middle = 0.5 * (low + high);
-            if filled(middle) {
-                low = middle;
-            } else {
-                high = middle;
+            if self.filled(z.max(0.0)) == filled {
+                let (mut low, mut high) = (z.max(0.0), z + step);
+                for _ in 0..20 {
+                    let middle = 0.5 * (low + high);
+                    if self.filled(middle) == filled {
+                        low = middle;
+                    } else {
+                        high = middle;
+                    }
+                }
+                return Some(low);
             }
         }
-        low
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::prelude::*;
+
+    #[test]
+    fn a_wire_reads_liquid_without_the_air_between() {
+        let spacing = 0.01;
+        let water = catalogue::weakly_compressible_water(2.0);
+        let layer = |name: &str, from: f64, to: f64| {
+            Body::block(name, water.clone(), [0.0, from], [0.4, to], spacing)
+        };
+        let simulation = Scene::<f64, 2>::new(schemes::weakly_compressible())
+            .body(layer("pool", 0.0, 0.2))
+            .body(layer("crest", 0.3, 0.4))
+            .build()
+            .unwrap();
+        let gauge = WaveGauge::upwards(&simulation, "h", [0.2, 0.0], 1).unwrap();
+        assert!((gauge.height(&simulation) - 0.4).abs() < 0.1 * spacing);
+        assert!((gauge.wetted_length(&simulation) - 0.3).abs() < 0.2 * spacing);
+        // Nothing is above the crest, and half of it above its middle.
+        let gauge = WaveGauge::upwards(&simulation, "h", [0.2, 0.35], 1).unwrap();
+        assert!((gauge.wetted_length(&simulation) - 0.05).abs() < 0.1 * spacing);
     }
 }

@@ -4,7 +4,7 @@
 //! | observer | reads |
 //! |---|---|
 //! | [`PressureProbe`] | pressure averaged over a disc on a wall, moving with it, and the force on that disc |
-//! | [`WaveGauge`] | height of a free surface along a line |
+//! | [`WaveGauge`] | height of a free surface along a line, and the length of it that liquid wets |
 //! | [`FlowPlane`] | mass beyond a plane, and its rate |
 //!
 //! Forces and impulses on whole walls are [`Simulation::wall_force`](crate::simulation::Simulation::wall_force)
