@@ -89,7 +89,7 @@ impl<const D: usize> WaveGauge<D> {
                 let share = particle.mass() / particle.density() * norm;
                 particles.push((above, aside2, share));
                 // The floor below the foot is mirrored, or liquid next to it would seem half empty.
-                if above < 4.0 * h {
+                if above < 2.0 * h {
                     particles.push((-above, aside2, share));
                 }
             }
