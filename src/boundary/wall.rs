@@ -9,8 +9,8 @@ use std::sync::Arc;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Slip {
     /// The wall exerts no viscous friction: right where the boundary layer is thinner than the spacing.
-    /// Its particles still make it a little rough: in the impacts of a sloshing tank, with 1 to 16 kN on the ends,
-    /// bottom, lid and sides take 20 to 330 N along them.
+    /// Its particles still make it a little rough: in the impacts of the example `sloshing_tank`,
+    /// with 1 to 16 kN on the ends, bottom, lid and sides take up to 280 N along the tank.
     #[default]
     Free,
     /// The liquid sticks: wall particles mirror its velocity, v_w = 2 v_wall − v_liquid

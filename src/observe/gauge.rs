@@ -15,8 +15,9 @@ pub struct WaveGauge<const D: usize> {
 }
 
 impl<const D: usize> WaveGauge<D> {
-    /// From `foot` \[m\] along `axis` (2 is z), upwards. Keep it a support away from walls, which take
-    /// away part of the liquid's side.
+    /// From `foot` \[m\] along `axis` (2 is z), upwards. A foot on the floor reads thin layers
+    /// too, for the floor is mirrored; keep the line a support away from other walls, which take away part of
+    /// the liquid's side.
     ///
     /// # Errors
     /// If the foot is not finite, the axis not below the dimension, or the line
@@ -171,5 +172,21 @@ mod tests {
         // Nothing is above the crest, and half of it above its middle.
         let gauge = WaveGauge::upwards(&simulation, "h", [0.2, 0.35], 1).unwrap();
         assert!((gauge.wetted_length(&simulation) - 0.05).abs() < 0.1 * spacing);
+        assert!((gauge.height(&simulation) - 0.05).abs() < 0.1 * spacing);
+    }
+
+    #[test]
+    fn a_layer_thinner_than_the_kernel_is_as_high_as_it_is() {
+        // One particle: without the mirrored floor it is too thin to fill half of any kernel.
+        let (spacing, depth) = (0.01, 0.01);
+        let water = catalogue::weakly_compressible_water(2.0);
+        let simulation = Scene::<f64, 2>::new(schemes::weakly_compressible())
+            .body(Body::block("film", water, [0.0; 2], [0.4, depth], spacing))
+            .build()
+            .unwrap();
+        let gauge = WaveGauge::upwards(&simulation, "h", [0.2, 0.0], 1).unwrap();
+        for read in [gauge.height(&simulation), gauge.wetted_length(&simulation)] {
+            assert!((read - depth).abs() < 0.1 * spacing, "{read}");
+        }
     }
 }
