@@ -285,3 +285,43 @@ fn a_wall_that_comes_is_a_body_that_goes() {
     let apart = apart(&pressures(&goes), &pressures(&comes));
     assert!(apart < 1e-9, "{apart:.3e}");
 }
+
+/// List builds of 120 steps in which a rod flies off at `speed` \[m/s\] from one at rest, and of 300 more at a
+/// tenth of that.
+fn flight(skin: Option<f64>, speed: f64) -> [u64; 2] {
+    let rod =
+        |name, from: f64| Body::block(name, catalogue::copper(), [from], [from + 0.002], 1e-4);
+    let mut scene = Scene::<f64, 1>::new(schemes::impact())
+        .body(rod("at rest", 0.0))
+        .body(rod("drop", 0.01).velocity([speed]))
+        .steps(|control| StepControl {
+            fixed: Some(1e-9),
+            ..control
+        });
+    if let Some(skin) = skin {
+        scene = scene.skin(skin);
+    }
+    let mut simulation = scene.build().unwrap();
+    let builds = |simulation: &mut Simulation<f64, 1>, steps: usize| {
+        let before = simulation.list_builds();
+        for _ in 0..steps {
+            simulation.step().unwrap();
+        }
+        simulation.list_builds() - before
+    };
+    let fast = builds(&mut simulation, 120);
+    simulation.set_velocities(|_, v| v.map(|v| 0.1 * v));
+    [fast, builds(&mut simulation, 300)]
+}
+
+#[test]
+fn lists_that_do_not_last_get_a_thicker_skin_and_lose_it_again() {
+    let [thin, thick, own] = [Some(0.1), Some(0.2), None].map(|skin| flight(skin, 6000.0));
+    println!("builds at 0.1, 0.2 and as chosen: {thin:?}, {thick:?}, {own:?}");
+    assert!(thin[0] > 120 / 4 && thick[0] <= 120 / 4);
+    assert!(own[0] <= thick[0] + 1);
+    // Slow again, they are thin but for the first of them.
+    assert!(thick[1] + 3 < thin[1] && thin[1] <= own[1] + 1);
+    // Lists that last keep the thin skin.
+    assert_eq!(flight(None, 1000.0), flight(Some(0.1), 1000.0));
+}

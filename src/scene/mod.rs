@@ -85,7 +85,7 @@ pub struct Scene<T: Real, const D: usize> {
     contacts: Vec<(String, String, Interaction)>,
     loads: Vec<Load<D>>,
     control: StepControl,
-    skin: f64,
+    skin: Option<f64>,
     instructions: InstructionSet,
 }
 
@@ -117,7 +117,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             contacts: Vec::new(),
             loads: Vec::new(),
             control,
-            skin: DEFAULT_SKIN,
+            skin: None,
             instructions: InstructionSet::detect(),
         }
     }
@@ -238,12 +238,16 @@ impl<T: Real, const D: usize> Scene<T, D> {
         self
     }
 
-    /// The skin of the neighbour lists in units of the kernel's support; 0.1 if not given. A thicker
+    /// The skin of the neighbour lists in units of the kernel's support. A thicker
     /// skin makes lists longer and their builds rarer; results differ in rounding only, but for what a scheme of
     /// [two criteria](crate::scheme::LiquidBuilder::dual_criteria) renews with the lists.
+    ///
+    /// If not given it is 0.1; where lists last for less than four steps, as under drops that fly, it is 0.2 until
+    /// they last for more than twelve. It stays at 0.1 in scenes with boundaries that make images, and in schemes
+    /// of two criteria.
     #[must_use]
     pub fn skin(mut self, skin: f64) -> Self {
-        self.skin = skin;
+        self.skin = Some(skin);
         self
     }
 
@@ -313,5 +317,5 @@ impl<T: Real, const D: usize> Scene<T, D> {
     }
 }
 
-/// Default skin in units of the kernel's support.
-const DEFAULT_SKIN: f64 = 0.1;
+/// Skins in units of the kernel's support: of lists that last, and of lists that do not.
+const SKINS: [f64; 2] = [0.1, 0.2];

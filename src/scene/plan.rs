@@ -1,7 +1,7 @@
 //! The plan of a group: the bodies of a scene that share a scheme, with the walls that they meet.
 //! It is what the checks look at, and it lays out the columns from which a simulation starts.
 
-use super::{Body, Part, Scene};
+use super::{Body, Part, SKINS, Scene};
 use crate::boundary::{Emitter, Inlet, Slip, Wall};
 use crate::particles::{Columns, Field, Fields};
 use crate::scalar::Real;
@@ -142,7 +142,8 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             .iter()
             .fold(0.0_f64, |most, body| most.max(body.spacing));
         let h = self.scheme.h_over_dx * widest;
-        let skin = self.scene.skin * self.scheme.kernel.support * h;
+        let support = self.scheme.kernel.support * h;
+        let skins = self.skins().map(|skin| skin * support);
         let mut group = Group::new(
             columns,
             bodies,
@@ -151,7 +152,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             self.scheme.clone(),
             interactions,
             h,
-            skin,
+            skins,
         );
         group.seats = self.seats();
         group.instructions = self.scene.instructions;
@@ -163,6 +164,19 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             }
         }
         group
+    }
+
+    /// Skins of the lists over the support: of lists that last, and of lists that do not.
+    fn skins(&self) -> [f64; 2] {
+        let liquid = self.scheme.liquid.as_ref();
+        // Images reach through a period as far as the check of the boundaries found room for, and what two
+        // criteria renew with the lists must not wait for longer.
+        let one = !self.scene.boundaries.is_empty() || liquid.is_some_and(|own| own.dual_criteria);
+        match self.scene.skin {
+            Some(skin) => [skin; 2],
+            None if one => [SKINS[0]; 2],
+            None => SKINS,
+        }
     }
 
     fn wall_state(

@@ -91,7 +91,11 @@ pub(crate) struct Group<T: Real, const D: usize> {
     pub ids: Vec<u32>,
     pub slot_of: Vec<u32>,
     pub smoothing_length: f64,
-    pub skin: f64,
+    /// The skin of the lists as they are \[m\], and of lists that last, and of lists that do not.
+    skin: f64,
+    skins: [f64; 2],
+    /// Times that the lists have served since they were built.
+    served: u32,
     pub instructions: InstructionSet,
     pub guards: GuardCounts,
     pub limited_h: u64,
@@ -118,6 +122,10 @@ pub(crate) struct Group<T: Real, const D: usize> {
 /// Growth of the lists since the last sort at which particles are sorted again.
 const UNSORTED: f64 = 1.03;
 
+/// Lists that served less often get the thick skin, and those that served more often the thin one again: twice
+/// the skin lasts twice as long, so neither brings the other back.
+const LASTING: [u32; 2] = [4, 12];
+
 pub(crate) fn width<T: Real>() -> usize {
     <T::Wide<false> as Lane>::WIDTH
 }
@@ -132,7 +140,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         scheme: Arc<Scheme<T, D>>,
         interactions: Vec<Interaction>,
         smoothing_length: f64,
-        skin: f64,
+        skins: [f64; 2],
     ) -> Self {
         let slots = columns.slots();
         let unilateral = interactions.contains(&Interaction::Unilateral);
@@ -171,7 +179,9 @@ impl<T: Real, const D: usize> Group<T, D> {
             scratch_rows: Rows::default(),
             structure_rows: Rows::default(),
             smoothing_length,
-            skin,
+            skin: skins[0],
+            skins,
+            served: 0,
             instructions: InstructionSet::detect(),
             guards: GuardCounts::default(),
             limited_h: 0,
@@ -243,12 +253,34 @@ impl<T: Real, const D: usize> Group<T, D> {
     pub fn refresh(&mut self, time: f64) {
         let start = Instant::now();
         self.place_walls(time);
-        if self.lists.chunks().is_empty() || self.outdated(time) {
+        if self.lists.chunks().is_empty() {
+            self.rebuild(time);
+        } else if self.outdated(time) {
+            self.choose_skin();
             self.rebuild(time);
         } else if self.boundaries.iter().any(|b| b.moves()) {
             self.place_transforms(time);
         }
+        self.served += 1;
         self.phases.lists += start.elapsed();
+    }
+
+    /// A skin that suits how long the lists have lasted. It depends on the flow alone, and not on the time that
+    /// anything took, so that the next run makes the same lists.
+    fn choose_skin(&mut self) {
+        let [thin, thick] = self.skins;
+        let skin = if self.served < LASTING[0] {
+            thick
+        } else if self.served > LASTING[1] {
+            thin
+        } else {
+            self.skin
+        };
+        if skin != self.skin {
+            self.skin = skin;
+            // Lengths of lists with another skin do not compare: particles are sorted anew.
+            self.sorted_entries = 0;
+        }
     }
 
     /// Whether a particle has moved, or its support has grown, by more than the skin allows.
@@ -294,6 +326,7 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     pub(super) fn rebuild(&mut self, time: f64) {
         self.rebuilds += 1;
+        self.served = 0;
         self.listed_time = time;
         self.wrap();
         self.remove();

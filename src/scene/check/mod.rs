@@ -5,7 +5,7 @@ mod groups;
 mod scheme;
 mod walls;
 
-use super::{Body, Part, Plan, Scene};
+use super::{Body, Part, Plan, SKINS, Scene};
 use crate::error::Problem;
 use crate::neighbors::Cells;
 use crate::scalar::Real;
@@ -95,10 +95,11 @@ impl<T: Real, const D: usize> Scene<T, D> {
     }
 
     fn check_boundaries(&self, problems: &mut Vec<Problem>) {
+        let skin = self.skin.unwrap_or(SKINS[0]);
         let reach = |part: &Part<T, D>| {
             let spacings = part.bodies.iter().map(|body| body.spacing);
             let spacing = spacings.fold(0.0, f64::max);
-            part.scheme.kernel.support * part.scheme.h_over_dx * spacing * (1.0 + self.skin)
+            part.scheme.kernel.support * part.scheme.h_over_dx * spacing * (1.0 + skin)
         };
         let reach = self.parts.iter().map(reach).fold(0.0, f64::max);
         for boundary in &self.boundaries {
