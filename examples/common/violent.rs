@@ -403,12 +403,12 @@ pub fn run<T: Real, const D: usize>(
             let front = now.all().fold(0.0_f64, |most, p| most.max(p.position()[0]));
             slow[2 * watch.gauges.len()] = front + 0.5 * spacing;
         }
-        let probes = watch.probes.iter().map(|probe| probe.pressure(now));
+        let probes = PressureProbe::pressures(&watch.probes, now);
         if !felt.is_empty() && now.steps() % 4 == 1 {
             contact = PressureProbe::contact_pressures(felt, now);
         }
         let slow = slow.iter().chain(&contact).copied();
-        let values: Vec<f64> = probes.chain(slow).collect();
+        let values: Vec<f64> = probes.into_iter().chain(slow).collect();
         for (column, value) in history.columns.iter_mut().zip(values) {
             column.push(value);
         }

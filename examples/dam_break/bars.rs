@@ -115,22 +115,30 @@ fn lobovsky(
     println!("sensor 1 peak {:.2} (single record 2.84)", peak1 / unit);
     let until = history.time.last().map_or(0.0, |end| end / time);
     if until > 4.6 {
-        let level = history.mean("p2_pa", 3.6 * time, 4.6 * time) / unit;
-        bars.push(Bar::near(
-            "mean of sensor 2, T = 3.6 to 4.6",
-            level,
-            0.59,
-            0.05 * 0.59,
-        ));
-        if let Some(record) = choices.record("dambreak2d_pressure/decourcy_2024_P2.csv") {
-            let rows = record.column("T")?.into_iter().zip(record.column("P")?);
-            let late: Vec<f64> = rows
-                .filter(|(t, _)| (3.6..4.6).contains(t))
-                .map(|(_, p)| p)
-                .collect();
-            let other = late.iter().sum::<f64>() / late.len() as f64;
-            let what = "mean of sensor 2, T = 3.6 to 4.6, against De Courcy et al. 2024";
-            bars.push(Bar::near(what, level, other, 0.05 * other));
+        let level = |name: &str| history.mean(name, 3.6 * time, 4.6 * time) / unit;
+        let what = "mean of sensor 2, T = 3.6 to 4.6";
+        bars.push(Bar::near(what, level("p2_pa"), 0.59, 0.05 * 0.59));
+        for (name, what, file) in [
+            (
+                "p2_pa",
+                "the same, against De Courcy et al. 2024",
+                "decourcy_2024_P2.csv",
+            ),
+            (
+                "p5_pa",
+                "mean at 0.2 h, against Buchner 2002",
+                "buchner_2002.csv",
+            ),
+        ] {
+            if let Some(record) = choices.record(&format!("dambreak2d_pressure/{file}")) {
+                let rows = record.column("T")?.into_iter().zip(record.column("P")?);
+                let late: Vec<f64> = rows
+                    .filter(|(t, _)| (3.6..4.6).contains(t))
+                    .map(|(_, p)| p)
+                    .collect();
+                let other = late.iter().sum::<f64>() / late.len() as f64;
+                bars.push(Bar::near(what, level(name), other, 0.05 * other));
+            }
         }
         let level4 = history.mean("p4_pa", 3.4 * time, 4.4 * time) / unit;
         bars.push(Bar::near(

@@ -137,30 +137,28 @@ pub fn histories(
     }
     panels.push(panel);
     let smooth = history.smoothed(1e-3);
-    for (k, height) in case.sensors.iter().enumerate() {
+    for (k, sensor) in case.sensors.iter().enumerate() {
         let time = Axis::linear("t √(g/h)", "").from(2.0);
         let mut panel = Panel::new(time, Axis::linear("p/(ρgh)", "")).title(&format!(
             "{:.0} mm above the bottom, mean over 1 ms",
-            1e3 * height
+            1e3 * sensor.height
         ));
         let unit = units.pressure_unit(case.density);
         let points = smooth.points(&format!("p{}_pa", k + 1), units.pressure_time_unit(), unit);
         panel = panel.series(Series::line("computed", points));
-        let name = format!("dambreak2d_pressure/lobovsky_2014_H300_P{}.csv", k + 1);
+        let file = format!("dambreak2d_pressure/{}", sensor.record);
         if k == 1 {
-            let file = "dambreak2d_pressure/lobovsky_2014_H300_sensor2_percentiles.csv";
             for (column, label) in [
                 ("P_2.5pct", "Lobovský et al. 2014: 2.5, 50, 97.5 %"),
                 ("P_median", ""),
                 ("P_97.5pct", ""),
             ] {
-                if let Some(record) = choices.record(file) {
+                if let Some(record) = choices.record(&file) {
                     let points = record.column("T")?.into_iter().zip(record.column(column)?);
                     panel = panel.series(Series::line(label, points).reference());
                 }
             }
-        } else if let Some(series) = measured(choices, &name, "Lobovský et al. 2014", ["T", "P"])?
-        {
+        } else if let Some(series) = measured(choices, &file, sensor.by, ["T", "P"])? {
             panel = panel.series(series);
         }
         panels.push(panel);

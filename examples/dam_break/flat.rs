@@ -13,6 +13,40 @@ use meshfree::study::dam_break::Column;
 
 pub const GRAVITY: f64 = 9.81;
 
+/// A pressure sensor on the far wall.
+#[derive(Clone, Copy, Debug)]
+pub struct Sensor {
+    /// Height of its centre above the bottom, and its diameter \[m\].
+    pub height: f64,
+    pub diameter: f64,
+    /// Whose it is, and their record.
+    pub by: &'static str,
+    pub record: &'static str,
+}
+
+const fn lobovsky(height: f64, record: &'static str) -> Sensor {
+    Sensor {
+        height,
+        diameter: 0.0042,
+        by: "Lobovský et al. 2014",
+        record,
+    }
+}
+
+const SENSORS: [Sensor; 5] = [
+    lobovsky(0.003, "lobovsky_2014_H300_P1.csv"),
+    lobovsky(0.015, "lobovsky_2014_H300_sensor2_percentiles.csv"),
+    lobovsky(0.030, "lobovsky_2014_H300_P3.csv"),
+    lobovsky(0.080, "lobovsky_2014_H300_P4.csv"),
+    // A column of the same shape, twice as high; half of his 90 mm here, around 0.2 h.
+    Sensor {
+        height: 0.060,
+        diameter: 0.045,
+        by: "Buchner 2002",
+        record: "buchner_2002.csv",
+    },
+];
+
 /// A column in a tank.
 #[derive(Clone, Debug)]
 pub struct Flat {
@@ -25,9 +59,7 @@ pub struct Flat {
     pub density: f64,
     /// Speed \[m/s\] at which the gate is pulled up; it vanishes at once if there is none.
     pub gate: Option<f64>,
-    /// Heights \[m\] of the sensors on the far wall, and their diameter \[m\].
-    pub sensors: &'static [f64],
-    pub diameter: f64,
+    pub sensors: &'static [Sensor],
     pub spacing: f64,
     pub until: f64,
 }
@@ -44,7 +76,6 @@ impl Flat {
                 density: 1000.0,
                 gate: None,
                 sensors: &[],
-                diameter: 0.0,
                 spacing: 0.146 / 50.0,
                 until: 0.28,
             },
@@ -56,7 +87,6 @@ impl Flat {
                 density: 1000.0,
                 gate: None,
                 sensors: &[],
-                diameter: 0.0,
                 spacing: 0.05715 / 50.0,
                 until: 0.2,
             },
@@ -67,8 +97,7 @@ impl Flat {
                 tank: [1.61, 1.0],
                 density: 997.0,
                 gate: None,
-                sensors: &[0.003, 0.015, 0.030, 0.080],
-                diameter: 0.0042,
+                sensors: &SENSORS,
                 spacing: 0.003,
                 until: 1.25,
             },
@@ -123,9 +152,9 @@ impl Flat {
     }
 
     fn watch<T: Real>(&self, now: &Simulation<T, 2>) -> Result<Watch<2>, Error> {
-        let sensor = |(k, &z): (usize, &f64)| {
-            let (name, centre) = (format!("p{}", k + 1), [self.tank[0], z]);
-            PressureProbe::disc(now, &name, centre, [-1.0, 0.0], self.diameter)
+        let sensor = |(k, own): (usize, &Sensor)| {
+            let (name, centre) = (format!("p{}", k + 1), [self.tank[0], own.height]);
+            PressureProbe::disc(now, &name, centre, [-1.0, 0.0], own.diameter)
         };
         // A support of the kernel off the rear wall.
         let rear = [4.0 * self.spacing, 0.0];

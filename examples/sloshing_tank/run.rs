@@ -193,7 +193,7 @@ pub fn run<T: Real>(
 fn sample<T: Real>(now: &Simulation<T, 3>, sensors: &[PressureProbe<3>]) -> Sample {
     Sample {
         time: now.time(),
-        pressures: sensors.iter().map(|sensor| sensor.pressure(now)).collect(),
+        pressures: PressureProbe::pressures(sensors, now),
         contact: sensors
             .first()
             .map_or(0.0, |sensor| sensor.contact_pressure(now)),
@@ -225,17 +225,20 @@ fn wall_integral<T: Real>(case: &Case, now: &Simulation<T, 3>) -> Result<f64, Er
     let [length, width, height] = case.size;
     let counts = [width, height].map(|size| (size / case.spacing).round().max(1.0) as usize);
     let area = width * height / (counts[0] * counts[1]) as f64;
-    let mut sum = 0.0;
+    let (mut parts, mut outwards) = (Vec::new(), Vec::new());
     for k in 0..counts[0] * counts[1] {
         let place = [k % counts[0], k / counts[0]].map(|index| index as f64 + 0.5);
         let y = width * place[0] / counts[0] as f64;
         let z = height * place[1] / counts[1] as f64;
-        for (x, outwards) in [(0.0, -1.0), (length, 1.0)] {
-            let normal = [-outwards, 0.0, 0.0];
+        for (x, sign) in [(0.0, -1.0), (length, 1.0)] {
+            let normal = [-sign, 0.0, 0.0];
             let part = PressureProbe::disc(now, "part", [x, y, z], normal, case.spacing)?;
-            sum += outwards * area * part.on_wall(0)?.pressure(now);
+            parts.push(part.on_wall(0)?);
+            outwards.push(sign * area);
         }
     }
+    let pressures = PressureProbe::pressures(&parts, now);
+    let sum: f64 = pressures.iter().zip(&outwards).map(|(p, a)| p * a).sum();
     Ok(sum / now.wall_force(0)[0] - 1.0)
 }
 

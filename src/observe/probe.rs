@@ -122,18 +122,35 @@ impl<const D: usize> PressureProbe<D> {
     /// The pressure \[Pa\] averaged over the disc, at the last evaluation; zero where it is dry.
     #[must_use]
     pub fn pressure<T: Real>(&self, simulation: &Simulation<T, D>) -> f64 {
-        let pose = self.centre.pose(simulation);
-        let points: Vec<[f64; D]> = self.points().iter().map(|x| pose.of(0, x)).collect();
+        Self::pressures(core::slice::from_ref(self), simulation)[0]
+    }
+
+    /// [`pressure`](Self::pressure) \[Pa\] of each of many probes, in one search for the particles around them.
+    #[must_use]
+    pub fn pressures<T: Real>(probes: &[Self], simulation: &Simulation<T, D>) -> Vec<f64> {
         let h = simulation.smoothing_length();
-        let reach = 2.0 * h + 0.5 * self.diameter;
         let norm = normalisation(D) / h.powi(D as i32);
-        // Σ V W and Σ V p W, over liquid and over walls.
-        let mut sums = vec![[[0.0; 2]; 2]; points.len()];
-        simulation.near(&pose.of(0, &self.centre.point), reach, |particle| {
+        let poses = probes.iter().map(|probe| probe.centre.pose(simulation));
+        let (places, mut points): (Vec<_>, Vec<_>) = probes
+            .iter()
+            .zip(poses)
+            .map(|(probe, pose)| {
+                let place = (
+                    pose.of(0, &probe.centre.point),
+                    2.0 * h + 0.5 * probe.diameter,
+                );
+                // Σ V W and Σ V p W, over liquid and over walls.
+                let empty = [[0.0; 2]; 2];
+                let points = probe.points();
+                let points: Vec<_> = points.iter().map(|x| (pose.of(0, x), empty)).collect();
+                (place, points)
+            })
+            .unzip();
+        simulation.near(&places, |probe, particle| {
             let x = particle.position();
             let volume = particle.mass() / particle.density() * norm;
             let side = usize::from(!particle.is_mobile());
-            for (point, sum) in points.iter().zip(&mut sums) {
+            for (point, sum) in &mut points[probe] {
                 let r2: f64 = (0..D).map(|d| (x[d] - point[d]).powi(2)).sum();
                 let q = r2.sqrt() / h;
                 if q < 2.0 {
@@ -143,7 +160,7 @@ impl<const D: usize> PressureProbe<D> {
                 }
             }
         });
-        let mean = |[[liquid, pressed], [wall, pressing]]: &[[f64; 2]; 2]| {
+        let mean = |(_, [[liquid, pressed], [wall, pressing]]): &([f64; D], [[f64; 2]; 2])| {
             if *liquid <= 0.0 {
                 return 0.0;
             }
@@ -153,7 +170,8 @@ impl<const D: usize> PressureProbe<D> {
             let wet = (liquid / (FULL * (1.0 - wall)).max(*liquid)).min(1.0);
             wet * (pressed + share * pressing) / (liquid + share * wall)
         };
-        sums.iter().map(mean).sum::<f64>() / sums.len() as f64
+        let read = |points: &Vec<_>| points.iter().map(mean).sum::<f64>() / points.len() as f64;
+        points.iter().map(read).collect()
     }
 
     /// The force \[N\] of the liquid on the wall particles behind the disc, along the normal and into the

@@ -178,23 +178,35 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             .filter(move |group| !any || is_liquid(group))
     }
 
-    /// Shows every particle, of bodies and walls, within `reach` \[m\] of a point.
+    /// Shows every particle, of bodies and walls, that is within reach of a place, with the number of that
+    /// place; places and reaches \[m\] are pairs. Once over all particles, however many places there are.
     pub(crate) fn near(
         &self,
-        point: &[f64; D],
-        reach: f64,
-        mut visit: impl FnMut(ParticleView<'_, T, D>),
+        places: &[([f64; D], f64)],
+        mut visit: impl FnMut(usize, ParticleView<'_, T, D>),
     ) {
+        let edge = |of: fn(f64, f64) -> f64, sign: f64| -> [f64; D] {
+            core::array::from_fn(|d| {
+                let ends = places.iter().map(|(x, reach)| x[d] + sign * reach);
+                ends.fold(-sign * f64::INFINITY, of)
+            })
+        };
+        let (low, high) = (edge(f64::min, -1.0), edge(f64::max, 1.0));
         for group in self.observed() {
             let walls = group.walls.iter().map(|wall| wall.slots.clone());
             let bodies = group.bodies.iter().map(|body| body.slots.clone());
             let positions = group.columns.vectors(Field::Position);
-            for slot in bodies.chain(walls).flatten() {
-                let r2: f64 = (0..D)
-                    .map(|d| (positions[slot][d].to_f64() - point[d]).powi(2))
-                    .sum();
-                if r2 < reach * reach {
-                    visit(ParticleView { group, slot });
+            for slots in bodies.chain(walls) {
+                for (slot, x) in slots.clone().zip(&positions[slots]) {
+                    if (0..D).any(|d| !(low[d]..=high[d]).contains(&x[d].to_f64())) {
+                        continue;
+                    }
+                    for (k, (place, reach)) in places.iter().enumerate() {
+                        let r2: f64 = (0..D).map(|d| (x[d].to_f64() - place[d]).powi(2)).sum();
+                        if r2 < reach * reach {
+                            visit(k, ParticleView { group, slot });
+                        }
+                    }
                 }
             }
         }
