@@ -318,7 +318,7 @@ fn flight(skin: Option<f64>, speed: f64) -> [u64; 2] {
 fn lists_that_do_not_last_get_a_thicker_skin_and_lose_it_again() {
     let [thin, thick, own] = [Some(0.1), Some(0.2), None].map(|skin| flight(skin, 6000.0));
     println!("builds at 0.1, 0.2 and as chosen: {thin:?}, {thick:?}, {own:?}");
-    assert!(thin[0] > 120 / 4 && thick[0] <= 120 / 4);
+    assert!(thin[0] > 120 / 8 && thick[0] <= 120 / 4);
     assert!(own[0] <= thick[0] + 1);
     // Slow again, they are thin but for the first of them.
     assert!(thick[1] + 3 < thin[1] && thin[1] <= own[1] + 1);

@@ -115,11 +115,13 @@ fn history(
         .iter()
         .map(|place| sensor(simulation, *place))
         .collect();
+    // One search for all reads what each reads alone.
+    let alone: Vec<_> = sensors.iter().map(|own| own.pressure(simulation)).collect();
+    assert_eq!(PressureProbe::pressures(&sensors, simulation), alone);
     let mut samples = Vec::new();
     simulation
         .run_with(until, |now| {
-            let pressures = sensors.iter().map(|sensor| sensor.pressure(now)).collect();
-            samples.push((now.time(), pressures));
+            samples.push((now.time(), PressureProbe::pressures(&sensors, now)));
         })
         .unwrap();
     samples

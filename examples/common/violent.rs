@@ -197,6 +197,7 @@ pub struct History {
     pub names: Vec<String>,
     pub columns: Vec<Vec<f64>>,
     pub steps: u64,
+    pub builds: u64,
     pub wall_clock: f64,
     pub particles: usize,
     pub lost: usize,
@@ -322,7 +323,11 @@ impl History {
         );
         if self.steps > 0 {
             let each = 1e6 * self.wall_clock / self.steps as f64 / self.particles as f64;
-            let _ = write!(text, " ({each:.2} µs a particle and step)");
+            let served = self.steps as f64 / self.builds as f64;
+            let _ = write!(
+                text,
+                " ({each:.2} µs a particle and step, {served:.1} steps a list build)"
+            );
         }
         let _ = write!(text, "; {} in the walls, {} left", self.lost, self.left);
         let share = |of: Duration| 100.0 * of.as_secs_f64() / self.wall_clock;
@@ -424,6 +429,7 @@ pub fn run<T: Real, const D: usize>(
         return Err(failure);
     }
     history.steps = simulation.steps();
+    history.builds = simulation.list_builds();
     history.phases = simulation.phases();
     history.wall_clock = started.elapsed().as_secs_f64();
     history.left = simulation.removed().particles;

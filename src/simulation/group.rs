@@ -94,7 +94,7 @@ pub(crate) struct Group<T: Real, const D: usize> {
     /// The skin of the lists as they are \[m\], and of lists that last, and of lists that do not.
     skin: f64,
     skins: [f64; 2],
-    /// Times that the lists have served since they were built.
+    /// Evaluations that the lists have served since they were built.
     served: u32,
     pub instructions: InstructionSet,
     pub guards: GuardCounts,
@@ -122,9 +122,9 @@ pub(crate) struct Group<T: Real, const D: usize> {
 /// Growth of the lists since the last sort at which particles are sorted again.
 const UNSORTED: f64 = 1.03;
 
-/// Lists that served less often get the thick skin, and those that served more often the thin one again: twice
-/// the skin lasts twice as long, so neither brings the other back.
-const LASTING: [u32; 2] = [4, 12];
+/// Lists that served fewer evaluations get the thick skin, and those that served more the thin one again: twice the
+/// skin lasts twice as long, so neither brings the other back.
+const LASTING: [u32; 2] = [8, 24];
 
 pub(crate) fn width<T: Real>() -> usize {
     <T::Wide<false> as Lane>::WIDTH
