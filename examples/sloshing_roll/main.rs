@@ -312,7 +312,7 @@ fn bars(history: &History, spacing: f64, choices: &Choices) {
             bars.push(Bar::near(&(name("time") + " [s]"), when, time, 0.02));
             if let Some(measured) = measured.as_ref().filter(|_| time + 0.65 < until) {
                 let [own, theirs] = [history, measured].map(|of| whole(of, time));
-                let what = name("water leaves the sensor after") + " [s]";
+                let what = format!("water leaves the sensor after peak {} [s]", k + 1);
                 bars.push(Bar::near(&what, own[1], theirs[1], 0.02));
                 println!(
                     "impact {}: greatest mean over 20 ms {:.0} Pa, measured {:.0}",
