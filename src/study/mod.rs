@@ -17,6 +17,7 @@
 //! | [`taylor_green`], [`channel`] | viscous flows: decaying vortices; Couette, Poiseuille, power law |
 //! | [`standing_wave`] | period, velocities and decay of a wave in a tank |
 //! | [`impulsive_tank`] | pressure in a tank that is accelerated suddenly |
+//! | [`jet_on_step`] | pressures of a jet along a floor that strikes a step |
 //! | [`dam_break`] | units of dam-break experiments, Ritter's flow on a dry bed |
 //! | [`ghia`] | centre-line velocities of the lid-driven cavity |
 //! | [`records`] | files of measured and published curves |
@@ -39,6 +40,7 @@ pub mod ghia;
 pub mod godunov_rods;
 pub mod hugoniot;
 pub mod impulsive_tank;
+pub mod jet_on_step;
 pub mod noh;
 pub mod norms;
 pub mod records;
