@@ -72,6 +72,7 @@ fn pressures_on_the_step_converge_to_those_of_free_streamlines() {
     for k in 0..3 {
         assert!((fine[k] - exact[k]).abs() < 0.05, "sensor {}", k + 1);
     }
-    // One spacing from the edge kernels reach over it: two spacings see most of the pressure, one does not.
+    // Kernels reach over the edge: a sensor two spacings below it reads most of the pressure, one spacing below it
+    // a third is missing.
     assert!((fine[3] - exact[3]).abs() < 0.08 && exact[3] - coarse[3] > 0.12);
 }

@@ -18,8 +18,9 @@
 //! ```
 //!
 //! The skin is a trade: lists with a thicker skin are longer, and last longer. In a simulation it is
-//! 0.1 of the support, and 0.2 where lists would not last ([`Scene::skin`](crate::scene::Scene::skin)). Lists are made anew when the largest
-//! displacement since the last time has used up half of it, or a third where there are images.
+//! 0.1 of the support, and 0.2 where lists would not last ([`Scene::skin`](crate::scene::Scene::skin)).
+//! Lists are made anew when the largest displacement since the last time has used up half of it, or a
+//! third where there are images.
 
 mod cells;
 mod clusters;

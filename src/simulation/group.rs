@@ -91,8 +91,9 @@ pub(crate) struct Group<T: Real, const D: usize> {
     pub ids: Vec<u32>,
     pub slot_of: Vec<u32>,
     pub smoothing_length: f64,
-    /// The skin of the lists as they are \[m\], and of lists that last, and of lists that do not.
+    /// The skin of the lists as they are \[m\].
     skin: f64,
+    /// Skins of lists that last, and of lists that do not \[m\].
     skins: [f64; 2],
     /// Evaluations that the lists have served since they were built.
     served: u32,

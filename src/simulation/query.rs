@@ -185,13 +185,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         places: &[([f64; D], f64)],
         mut visit: impl FnMut(usize, ParticleView<'_, T, D>),
     ) {
-        let edge = |of: fn(f64, f64) -> f64, sign: f64| -> [f64; D] {
-            core::array::from_fn(|d| {
-                let ends = places.iter().map(|(x, reach)| x[d] + sign * reach);
-                ends.fold(-sign * f64::INFINITY, of)
-            })
-        };
-        let (low, high) = (edge(f64::min, -1.0), edge(f64::max, 1.0));
+        // Most particles are outside of the box around all places, and no more is looked at then.
+        let (mut low, mut high) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
+        for (x, reach) in places {
+            for d in 0..D {
+                low[d] = low[d].min(x[d] - reach);
+                high[d] = high[d].max(x[d] + reach);
+            }
+        }
         for group in self.observed() {
             let walls = group.walls.iter().map(|wall| wall.slots.clone());
             let bodies = group.bodies.iter().map(|body| body.slots.clone());

@@ -5,7 +5,7 @@ use crate::error::Problem;
 use crate::particles::Field;
 use crate::scalar::Real;
 use crate::scene::plan::Plan;
-use crate::scene::{Body, SKINS, Scene};
+use crate::scene::{Body, Scene};
 use crate::scheme::EnergyForm;
 
 impl<T: Real, const D: usize> Plan<'_, T, D> {
@@ -165,7 +165,9 @@ impl<T: Real, const D: usize> Scene<T, D> {
         };
         positive("step factor (courant)", self.control.courant);
         positive("force factor of the step", self.control.force);
-        positive("skin", self.skin.unwrap_or(SKINS[0]));
+        if let Some(skin) = self.skin {
+            positive("skin", skin);
+        }
         if let Some(step) = self.control.fixed {
             positive("fixed time step", step);
         }
