@@ -1,5 +1,5 @@
 //! Mirror planes: rigid walls and planes of symmetry, exact by construction.
-//! Every particle near the plane sees its reflection, so nothing crosses (Lam, Shen & Gong 2002, 4.1).
+//! Every particle near the plane sees its reflection, and what would cross becomes it (Lam, Shen & Gong 2002, 4.1).
 
 use super::Boundary;
 use crate::scalar::Real;
@@ -51,6 +51,10 @@ impl<const D: usize> MirrorPlane<D> {
         Self { velocity, ..self }
     }
 
+    fn height<T: Real>(&self, x: &[T; D]) -> f64 {
+        (0..D).map(|d| x[d].to_f64() * self.normal[d]).sum()
+    }
+
     fn offset(&self, time: f64) -> f64 {
         (0..D).map(|d| self.point[d] * self.normal[d]).sum::<f64>() + self.velocity * time
     }
@@ -77,11 +81,13 @@ impl<T: Real, const D: usize> Boundary<T, D> for MirrorPlane<D> {
         }
     }
     fn reaches(&self, _image: usize, x: &[T; D], reach: f64, time: f64) -> bool {
-        let height: f64 = (0..D).map(|d| x[d].to_f64() * self.normal[d]).sum();
-        self.offset(time) - height < reach
+        self.offset(time) - self.height(x) < reach
     }
     fn moves(&self) -> bool {
         self.velocity != 0.0
+    }
+    fn crossed(&self, x: &[T; D], time: f64) -> bool {
+        self.height(x) > self.offset(time)
     }
     fn interaction(&self) -> Interaction {
         self.interaction

@@ -17,7 +17,8 @@
 //! [ledger](crate::simulation::Ledger::boundary_impulse).
 //!
 //! A wall by reflection is exact in that nothing can cross it: a rod on a wall is half of two rods that
-//! meet. It slips along the plane. Walls of other shapes are [`Wall`]s of particles of their own: they
+//! meet. What has no pressure, as a torn drop, flies through a plane as its image does: the two change places, and
+//! the drop is on its side again. Such a wall slips along the plane. Walls of other shapes are [`Wall`]s of particles of their own: they
 //! hold liquids, move as [prescribed](Motion), and may deny slip.
 
 mod inlet;
@@ -85,6 +86,11 @@ pub trait Boundary<T: Real, const D: usize>: Debug + Send + Sync {
     fn reaches(&self, image: usize, x: &[T; D], reach: f64, time: f64) -> bool;
     /// Whether the boundary moves, so that transforms must be renewed in every step.
     fn moves(&self) -> bool {
+        false
+    }
+    /// Whether a particle at `x` \[m\] is behind the boundary at `time` \[s\]. When lists are made image 0 takes its
+    /// place, which is the particle that meets it there; what that changes of the momentum is in the ledger.
+    fn crossed(&self, _x: &[T; D], _time: f64) -> bool {
         false
     }
     /// Where a particle that has left re-enters; `None` if it has not left.

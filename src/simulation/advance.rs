@@ -18,14 +18,15 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
         self.place_structures();
         // Viscosity coefficients follow where the sums stand in the same order as the particles.
         let elapsed = core::mem::take(&mut self.switch_due);
-        for group in &mut self.groups {
+        for k in 0..self.groups.len() {
+            let group = &mut self.groups[k];
             group.evaluate(time);
             if group.scheme.kicks_density() {
                 group.keep_divergence();
             }
-            group.follow_moves();
+            self.follow_moves(k);
             if elapsed > 0.0 {
-                group.follow_switch(elapsed);
+                self.groups[k].follow_switch(elapsed);
             }
         }
         self.load_structures();
@@ -64,18 +65,21 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
         // a tank that moves is then a tank at rest in a frame that does.
         self.load_groups(begin + 0.5 * dt);
         self.place_structures();
-        for group in &mut self.groups {
+        for k in 0..self.groups.len() {
+            let group = &mut self.groups[k];
             if group.scheme.compression.is_some() {
                 group.chord = Some([begin, begin + dt]);
                 group.refresh(begin + 0.5 * dt);
                 group.chord = None;
-                group.follow_moves();
+                self.follow_moves(k);
+                let group = &mut self.groups[k];
                 group.sum_compression();
                 group.compress(dt);
                 group.keep_divergence();
                 group.hold_densities();
                 group.shift(dt);
             }
+            let group = &mut self.groups[k];
             if !group.drifts_at_once() {
                 group.move_particles(0.5 * dt);
             }
@@ -147,6 +151,19 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
+    /// Tells the kept states of a group what list builds did to its particles, and the ledger what boundaries gave.
+    fn follow_moves(&mut self, group: usize) {
+        for (kept, [on, from], impulse) in self.groups[group].follow_moves() {
+            for (d, value) in impulse.into_iter().enumerate() {
+                let index = self.impulse_index(on, from, d);
+                match kept {
+                    None => self.impulses.add(index, value),
+                    Some(slot) => self.kept_impulses[slot].add(index, value),
+                }
+            }
+        }
+    }
+
     /// Tells groups what the loads give at `time` \[s\].
     fn load_groups(&mut self, time: f64) {
         let gravity = self.body_acceleration(time);

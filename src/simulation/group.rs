@@ -329,7 +329,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.rebuilds += 1;
         self.served = 0;
         self.listed_time = time;
-        self.wrap();
+        self.wrap(time);
         self.remove();
         let reach = self.reach();
         // Particles need new places in memory only when their rows have lost their shape.

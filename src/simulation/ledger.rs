@@ -76,7 +76,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.body_count() + self.wall_count() + self.groups[0].boundaries.len()
     }
 
-    fn impulse_index(&self, on: usize, from: usize, d: usize) -> usize {
+    pub(super) fn impulse_index(&self, on: usize, from: usize, d: usize) -> usize {
         (on * self.blocks() + from) * D + d
     }
 

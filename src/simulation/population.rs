@@ -1,4 +1,4 @@
-//! Which particles there are, and in which order: what enters, leaves, re-enters a period, and is sorted.
+//! Which particles there are, and in which order: what enters, leaves, re-enters, and is sorted.
 //! States outside of a group are told of every change.
 
 use super::group::Group;
@@ -7,6 +7,7 @@ use crate::neighbors::Grid;
 use crate::particles::Field;
 use crate::scalar::Real;
 use crate::sweep::Transform;
+use crate::tensor::Vector;
 use rayon::prelude::*;
 
 /// What has left a simulation through its outlets.
@@ -45,12 +46,32 @@ impl<const D: usize> Removed<D> {
     }
 }
 
-/// How list builds moved particles: what re-entered a period, and the new order of the slots.
+/// A particle that re-entered through a boundary.
+#[derive(Clone, Debug)]
+pub(crate) struct ReEntry<T, const D: usize> {
+    /// Its slot in the order before sorting.
+    pub slot: usize,
+    pub through: Transform<T, D>,
+    /// What it is, and the boundary, in the scene; none for a repeat, and where nothing is given.
+    pub seats: Option<[usize; 2]>,
+    pub mass: T,
+    /// Its velocity before \[m/s\].
+    pub velocity: Vector<T, D>,
+}
+
+impl<T: Real, const D: usize> ReEntry<T, D> {
+    /// The momentum \[kg m/s\] that the boundary gave a state in which the particle had that velocity.
+    pub fn impulse(&self, velocity: &Vector<T, D>) -> [f64; D] {
+        let after = self.through.rotation * velocity + self.through.velocity;
+        core::array::from_fn(|d| self.mass.to_f64() * (after[d] - velocity[d]).to_f64())
+    }
+}
+
+/// How list builds moved particles: what re-entered, and the new order of the slots.
 /// States that an integrator keeps must follow.
 #[derive(Clone, Debug)]
 pub(crate) struct Moves<T, const D: usize> {
-    /// Slots, in the order before sorting, that re-entered through a transform.
-    pub wraps: Vec<(u32, Transform<T, D>)>,
+    pub wraps: Vec<ReEntry<T, D>>,
     /// Slot k is what slot `order[k]` was; empty if the order is the old one.
     pub order: Vec<u32>,
 }
@@ -65,27 +86,40 @@ impl<T, const D: usize> Default for Moves<T, D> {
 }
 
 impl<T: Real, const D: usize> Group<T, D> {
-    /// Lets particles that have left a periodic domain re-enter.
-    pub(super) fn wrap(&mut self) {
-        for boundary in &self.boundaries {
+    /// Lets particles that have left a period, or crossed a plane, re-enter.
+    pub(super) fn wrap(&mut self, time: f64) {
+        for (b, boundary) in self.boundaries.iter().enumerate() {
             for slot in 0..self.mobile {
                 let x = self.columns.vectors(Field::Position)[slot];
-                let Some(back) = boundary.wrap(&x) else {
+                let through = if boundary.crossed(&x, time) {
+                    boundary.transform(0, time)
+                } else if let Some(through) = boundary.wrap(&x) {
+                    through
+                } else {
                     continue;
                 };
+                let body = self.bodies.iter().position(|own| own.slots.contains(&slot));
+                let velocity = Vector::from(self.columns.vectors(Field::Velocity)[slot]);
                 let [x, residual, v] = self.columns.many_mut([
                     Field::Position,
                     Field::PositionResidual,
                     Field::Velocity,
                 ]);
-                back.re_enter(slot, x, residual, v);
-                // Wraps are told by the order that outside states have now.
-                let told = self.moved.order.get(slot).map_or(slot as u32, |&old| old);
+                through.re_enter(slot, x, residual, v);
                 // Repeats have lost their own places in a new order, and follow their original.
-                let repeat = self.bodies.iter().all(|body| !body.slots.contains(&slot));
-                if !repeat || self.moved.order.is_empty() {
-                    self.moved.wraps.push((told, back));
+                if body.is_none() && !self.moved.order.is_empty() {
+                    continue;
                 }
+                let boundary = self.seats[self.bodies.len() + self.walls.len() + b];
+                let given = body.filter(|_| through.turns());
+                self.moved.wraps.push(ReEntry {
+                    // Wraps are told by the order that outside states have now.
+                    slot: self.moved.order.get(slot).map_or(slot, |&old| old as usize),
+                    through,
+                    seats: given.map(|body| [self.seats[body], boundary]),
+                    mass: self.columns.raw(Field::Mass)[slot],
+                    velocity,
+                });
             }
         }
     }

@@ -8,6 +8,7 @@ use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::scheme::{EnergyForm, Scheme, Smoothing};
 use crate::sweep::two_sum;
+use crate::tensor::Vector;
 use rayon::prelude::*;
 
 /// Columns of a kept state.
@@ -243,26 +244,33 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.kept[slot] = kept;
     }
 
-    /// Brings kept states into the order of the particles after a list build, and through the
-    /// periods that particles have crossed.
-    pub(super) fn follow_moves(&mut self) {
+    /// Brings kept states into the order of the particles after a list build, and through the boundaries that
+    /// particles have crossed. Gives what these gave: the number of a kept state, or none for the present one,
+    /// which felt, which exerted, and the momentum \[kg m/s\].
+    pub(super) fn follow_moves(&mut self) -> Vec<(Option<usize>, [usize; 2], [f64; D])> {
         let moved = &mut self.moved;
-        if moved.wraps.is_empty() && moved.order.is_empty() {
-            return;
-        }
-        for kept in &mut self.kept {
+        let mut given = Vec::new();
+        let at = |v: &[T], slot: usize| Vector::from_row_slice(&v[slot * D..(slot + 1) * D]);
+        for (number, kept) in self.kept.iter_mut().enumerate() {
             let Ok([x, residual, v]) = kept.get_disjoint_mut([0, 1, 2]) else {
                 continue;
             };
             if !x.is_empty() {
-                for (slot, back) in &moved.wraps {
-                    back.re_enter(*slot as usize, x, residual, v);
+                for entry in &moved.wraps {
+                    let impulse = entry.impulse(&at(v, entry.slot));
+                    given.extend(entry.seats.map(|seats| (Some(number), seats, impulse)));
+                    entry.through.re_enter(entry.slot, x, residual, v);
                 }
             }
         }
-        if let Some(v) = self.predicted.first_mut().filter(|v| !v.is_empty()) {
-            for (slot, back) in &moved.wraps {
-                back.turn(*slot as usize, v);
+        // A prediction is taken back: what it started from is the present state.
+        let mut start = self.predicted.first_mut().filter(|v| !v.is_empty());
+        for entry in &moved.wraps {
+            let velocity = start.as_ref().map_or(entry.velocity, |v| at(v, entry.slot));
+            let impulse = entry.impulse(&velocity);
+            given.extend(entry.seats.map(|seats| (None, seats, impulse)));
+            if let Some(v) = &mut start {
+                entry.through.turn(entry.slot, v);
             }
         }
         if !moved.order.is_empty() {
@@ -278,6 +286,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
         moved.wraps.clear();
         moved.order.clear();
+        given
     }
 
     /// Rate of entry `k` of a column of the state, whose present value is `y`.

@@ -42,6 +42,13 @@ impl<T: Real, const D: usize> Transform<T, D> {
             velocity: other.rotation * self.velocity + other.velocity,
         }
     }
+    /// Whether it changes velocities.
+    pub(crate) fn turns(&self) -> bool {
+        let Self {
+            rotation, velocity, ..
+        } = Self::identity();
+        self.rotation != rotation || self.velocity != velocity
+    }
     /// The image of a point.
     #[must_use]
     pub fn point(&self, x: &[T; D]) -> [T; D] {

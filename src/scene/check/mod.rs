@@ -110,6 +110,19 @@ impl<T: Real, const D: usize> Scene<T, D> {
                     must_be,
                 });
             }
+            let crossed = |x: &&[f64; D]| boundary.crossed(&x.map(T::from_f64), 0.0);
+            for body in self.bodies() {
+                if let Some(x) = body.points.iter().find(crossed) {
+                    problems.push(Problem::Incompatible {
+                        what: format!(
+                            "body `{}` has a particle at {x:?} m, behind the {}",
+                            body.name,
+                            boundary.name()
+                        ),
+                        remedy: "move one of them, or turn the normal round: it points out of the material",
+                    });
+                }
+            }
         }
     }
 
