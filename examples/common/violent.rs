@@ -18,8 +18,13 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// Options that the examples of violent flow take beside those of all.
-pub const OWN: [Own; 12] = [
+/// Options that the examples of violent flow take beside those of all, and one of an example alone.
+pub const fn options_and(one: Own) -> [Own; 12] {
+    let [a, b, c, d, e, f, g, h, i, j, k] = SHARED;
+    [one, a, b, c, d, e, f, g, h, i, j, k]
+}
+
+const SHARED: [Own; 11] = [
     own("--alpha", "A", "artificial viscosity (0.02; riemann: 1)"),
     own("--delta", "D", "density diffusion (0.1)"),
     own(
@@ -32,11 +37,6 @@ pub const OWN: [Own; 12] = [
         "--sound-speed",
         "M/S",
         "20 √(gh), ten times the speed expected",
-    ),
-    own(
-        "--gate",
-        "M/S",
-        "pulls the gate up at this speed (it vanishes at once)",
     ),
     own(
         "--cut-off-pa",
@@ -58,7 +58,8 @@ pub const OWN: [Own; 12] = [
     own("--bars", "", "compares with the measured numbers"),
 ];
 
-const fn own(name: &'static str, value: &'static str, help: &'static str) -> Own {
+/// An option: its name, what it takes, and what it means.
+pub const fn own(name: &'static str, value: &'static str, help: &'static str) -> Own {
     Own { name, value, help }
 }
 

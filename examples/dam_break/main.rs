@@ -13,7 +13,7 @@ mod violent;
 use common::{Example, Failure, Options};
 use meshfree::scalar::Real;
 use std::process::ExitCode;
-use violent::Choices;
+use violent::{Choices, own};
 
 const EXAMPLE: Example = Example {
     name: "dam_break",
@@ -22,7 +22,11 @@ const EXAMPLE: Example = Example {
 --case NAME is lobovsky, koshizuka or martin-moyce, in a plane, or spheric2, in space.
 The scheme viscous has the water's own viscosity, and walls without slip.",
     schemes: &violent::SCHEMES,
-    own: &violent::OWN,
+    own: &violent::options_and(own(
+        "--gate",
+        "M/S",
+        "pulls the gate up at this speed, in a plane (it vanishes at once)",
+    )),
 };
 
 fn main() -> ExitCode {

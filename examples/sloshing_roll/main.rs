@@ -3,6 +3,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod roll;
 #[path = "../common/violent.rs"]
 mod violent;
 
@@ -14,9 +15,8 @@ use meshfree::output::picture::Picture;
 use meshfree::output::svg::{Axis, Color, Figure, Panel, Series};
 use meshfree::output::vtu::Pvd;
 use meshfree::prelude::*;
-use meshfree::study::records::Record;
 use std::process::ExitCode;
-use violent::{Bar, Choices, History, Watch};
+use violent::{Bar, Choices, History, Watch, own};
 
 const EXAMPLE: Example = Example {
     name: "sloshing_roll",
@@ -25,7 +25,11 @@ const EXAMPLE: Example = Example {
 --case NAME is record, the roll as measured, or sine, the fit of it (the default where the record is
 not there). The scheme viscous has the water's own viscosity, and walls without slip.",
     schemes: &violent::SCHEMES,
-    own: &violent::OWN,
+    own: &violent::options_and(own(
+        "--breadth",
+        "M",
+        "of the tank, between side walls with slip (in a plane)",
+    )),
 };
 
 const GRAVITY: f64 = 9.81;
@@ -35,116 +39,41 @@ const TANK: [f64; 2] = [0.9, 0.508];
 const DEPTH: f64 = 0.093;
 /// Density \[kg/m³\] and dynamic viscosity \[Pa s\] of the water.
 const WATER: [f64; 2] = [998.0, 8.94e-4];
-/// The record's files.
-const ROLL: &str = "spheric10_lateral_water/roll_angle.csv";
+/// The record's file.
 const PRESSURE: &str = "spheric10_lateral_water/pressure_sensor1.csv";
 
 fn main() -> ExitCode {
     common::main(&EXAMPLE, perform::<f32>, perform::<f64>)
 }
 
-/// A roll angle in time, with its first two derivatives \[rad, rad/s, rad/s²\].
-type Roll = Box<dyn Fn(f64) -> [f64; 3] + Send + Sync>;
-
-/// The fit of the record: 3.99° with a period of 1.637 s, begun within its first period as the machine
-/// does. What the first peak meets depends on the begin, so it is for a machine without the record.
-fn sine() -> Roll {
-    let (amplitude, omega) = (3.99_f64.to_radians(), core::f64::consts::TAU / 1.637);
-    let begin = 0.4;
-    Box::new(move |t| {
-        // 0 → 1 with two continuous derivatives: 10 s³ − 15 s⁴ + 6 s⁵.
-        let s = (t / begin).clamp(0.0, 1.0);
-        let envelope = [
-            s * s * s * (10.0 + s * (6.0 * s - 15.0)),
-            30.0 * s * s * (1.0 - s) * (1.0 - s) / begin,
-            60.0 * s * (1.0 - s) * (1.0 - 2.0 * s) / (begin * begin),
-        ];
-        let (sine, cosine) = (omega * t).sin_cos();
-        let wave = [sine, omega * cosine, -omega * omega * sine].map(|w| amplitude * w);
-        [
-            envelope[0] * wave[0],
-            envelope[1] * wave[0] + envelope[0] * wave[1],
-            envelope[2] * wave[0] + 2.0 * envelope[1] * wave[1] + envelope[0] * wave[2],
-        ]
-    })
-}
-
-/// The measured angle as a smooth function: cubic pieces through means over `window` \[s\], with the
-/// slopes of their neighbours, so that angle and rate are continuous.
-///
-/// The record keeps 0.0023°, of which a second difference over a sample would make 50 rad/s².
-fn smooth(record: &Record) -> Result<Roll, Failure> {
-    let window = 0.02;
-    let (time, angle) = (record.column("time_s")?, record.column("roll_deg")?);
-    let end = time.last().copied().unwrap_or(0.0);
-    // Rows stand where the angle changed: a straight line between them is the angle.
-    let at = |t: f64| {
-        let right = time
-            .partition_point(|own| *own < t)
-            .clamp(1, time.len() - 1);
-        let share = (t - time[right - 1]) / (time[right] - time[right - 1]);
-        angle[right - 1] + (angle[right] - angle[right - 1]) * share.clamp(0.0, 1.0)
-    };
-    let knots = (end / window).floor() as usize;
-    let samples = 40;
-    let mean = |k: usize| {
-        let sum: f64 = (0..samples)
-            .map(|n| ((f64::from(n) + 0.5) / f64::from(samples) - 0.5) * 2.0 * window)
-            // A triangle, twice the window wide, has no step in its slope.
-            .map(|s| (1.0 - (s / window).abs()) * at((k as f64 * window + s).clamp(0.0, end)))
-            .sum();
-        (2.0 * sum / f64::from(samples)).to_radians()
-    };
-    let values: Vec<f64> = (0..=knots).map(mean).collect();
-    Ok(Box::new(move |t| {
-        // A cubic B-spline over the means: three continuous orders.
-        let u = (t / window).clamp(0.0, (values.len() - 2) as f64);
-        let k = (u.floor() as usize).min(values.len() - 2);
-        let s = u - k as f64;
-        let v = |n: isize| {
-            let index = k.saturating_add_signed(n).min(values.len() - 1);
-            values[index]
-        };
-        let [a, b, c, d] = [v(-1), v(0), v(1), v(2)];
-        let (s2, s3) = (s * s, s * s * s);
-        let angle = ((1.0 - s).powi(3) * a
-            + (3.0 * s3 - 6.0 * s2 + 4.0) * b
-            + (-3.0 * s3 + 3.0 * s2 + 3.0 * s + 1.0) * c
-            + s3 * d)
-            / 6.0;
-        let rate = (-(1.0 - s).powi(2) * a
-            + (3.0 * s2 - 4.0 * s) * b
-            + (-3.0 * s2 + 2.0 * s + 1.0) * c
-            + s2 * d)
-            / (2.0 * window);
-        let growth = ((1.0 - s) * a + (3.0 * s - 2.0) * b + (-3.0 * s + 1.0) * c + s * d)
-            / (window * window);
-        [angle, rate, growth]
-    }))
-}
-
-/// The roll asked for, with a word on where it comes from.
-fn roll(options: &Options, choices: &Choices) -> Result<(Roll, &'static str), Failure> {
-    match options.text("--case") {
-        Some("sine") => Ok((sine(), "sine")),
-        None | Some("record") => Ok(match choices.record(ROLL) {
-            Some(record) => (smooth(&record)?, "record"),
-            None => (sine(), "sine"),
-        }),
-        Some(other) => {
-            Err(format!("--case: `{other}` is not accepted; it takes record or sine").into())
-        }
+fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
+    let choices = Choices::of(options)?;
+    match options.text("--breadth") {
+        None => tank::<T, 2>(options, &choices, 0.0),
+        Some(_) => tank::<T, 3>(options, &choices, options.number("--breadth", 0.0)?),
     }
 }
 
-fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
-    let choices = Choices::of(options)?;
+/// The point of a plane in D dimensions, or of space at a place across the tank.
+fn place<const D: usize>(x: f64, y: f64, across: f64) -> [f64; D] {
+    core::array::from_fn(|d| [x, y, across][d])
+}
+
+/// Runs the tank, in a plane or between two side walls with slip `breadth` \[m\] apart.
+fn tank<T: Real, const D: usize>(
+    options: &Options,
+    choices: &Choices,
+    breadth: f64,
+) -> Result<(), Failure>
+where
+    WendlandC2: Kernel<D>,
+{
     let spacing = options.spacing_or(DEPTH / 31.0, DEPTH / 12.0);
     let until = options.until_or(6.5, 2.6);
     // Ten times the speed of the water along the bottom, which is less than 2 √(gh).
     let usual = 20.0 * (GRAVITY * DEPTH).sqrt();
     let sound_speed = choices.sound_speed.unwrap_or(usual);
-    let (roll, source) = roll(options, &choices)?;
+    let (roll, source) = roll::asked_for(options, choices)?;
     println!(
         "SPHERIC 10, lateral, water: roll by {source}, spacing {spacing:.5} m, sound speed \
          {sound_speed:.1} m/s, until {until} s"
@@ -154,36 +83,59 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
         .material("water", SoundSpeed::Chosen(sound_speed))
         .with_pressure_cut_off(choices.cut_off);
     let half = 0.5 * TANK[0];
-    let (low, high) = ([-half, 0.0], [half, TANK[1]]);
-    let body = Body::block("water", water, low, [half, DEPTH], spacing)
-        .hydrostatic([0.0, -GRAVITY], [0.0, DEPTH]);
+    let (low, high) = (place(-half, 0.0, 0.0), place(half, TANK[1], breadth));
+    let down = place(0.0, -GRAVITY, 0.0);
+    let body = Body::block("water", water, low, place(half, DEPTH, breadth), spacing)
+        .hydrostatic(down, place(0.0, DEPTH, 0.0));
     // The record's angle is positive where the left wall goes down first; a rotation from the first axis
     // towards the second lifts the right wall, which is the same.
-    let tank = Wall::around("tank", low, high, spacing, choices.layers(), [[true; 2]; 2]);
+    let tank = Wall::around(
+        "tank",
+        low,
+        high,
+        spacing,
+        choices.layers(),
+        core::array::from_fn(|d| [d < 2; 2]),
+    );
     let tank = choices
         .slip(tank)
-        .motion(Rotation::about([0.0; 2], roll))
+        .motion(Rotation::about([0.0; D], roll))
         .carries_liquid();
-    let mut simulation = Scene::<T, 2>::new(choices.compose::<T, 2>())
+    let mut scene = Scene::<T, D>::new(choices.compose::<T, D>())
         .body(body)
         .wall(tank)
-        .acceleration(|_| [0.0, -GRAVITY])
-        .build()?;
+        .acceleration(move |_| down);
+    if D == 3 {
+        for (across, out) in [(0.0, -1.0), (breadth, 1.0)] {
+            scene = scene.boundary(MirrorPlane::symmetry(
+                place(0.0, 0.0, across),
+                place(0.0, 0.0, out),
+            ));
+        }
+    }
+    let mut simulation = scene.build()?;
     println!("{}", simulation.scheme());
     let sensor = |name: &str, x: f64, normal: f64| {
         // The sensors of the experiment have 9 mm.
-        PressureProbe::disc(&simulation, name, [x, DEPTH], [normal, 0.0], 0.009)?.on_wall(0)
+        PressureProbe::disc(
+            &simulation,
+            name,
+            place(x, DEPTH, 0.5 * breadth),
+            place(normal, 0.0, 0.0),
+            0.009,
+        )?
+        .on_wall(0)
     };
     let watch = Watch {
         probes: vec![sensor("left", -half, 1.0)?, sensor("right", half, -1.0)?],
         ..Watch::default()
     };
     let mut series = Pvd::create(options.file("particles.pvd"))?;
-    let frame = |now: &Simulation<T, 2>, k: usize| {
+    let frame = |now: &Simulation<T, D>, k: usize| {
         violent::paraview(&mut series, now)?;
         picture(now, &options.file(&format!("frame_{k:05}")))
     };
-    let inside = |now: &Simulation<T, 2>, x: [f64; 2]| {
+    let inside = |now: &Simulation<T, D>, x: [f64; D]| {
         // Back into the tank's own frame: its linear part is a rotation.
         let pose = now.wall_pose(Some(0));
         let own = pose.linear[0].transpose() * (meshfree::tensor::Vector::from(x) - pose.shift[0]);
@@ -205,20 +157,24 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
         "SPHERIC 10, lateral, water",
         5e-4,
     )?;
-    figure(&history, spacing, &choices, options)?;
+    figure(&history, spacing, choices, options)?;
     if choices.bars {
-        bars(&history, spacing, &choices);
+        bars(&history, spacing, choices);
     }
     println!("written to {}", options.folder().display());
     Ok(())
 }
 
 /// Particles coloured by pressure, in the frame of the laboratory.
-fn picture<T: Real>(now: &Simulation<T, 2>, path: &std::path::Path) -> Result<(), Failure> {
+fn picture<T: Real, const D: usize>(
+    now: &Simulation<T, D>,
+    path: &std::path::Path,
+) -> Result<(), Failure> {
     let (dx, half) = (now.spacing(), 0.5 * TANK[0]);
     let value = Axis::linear("pressure", "kPa").range(0.0, 2.0);
-    let water = now.all().map(|p| (p.position(), 1e-3 * p.pressure()));
-    let walls = now.wall(0).map(|p| p.position());
+    let side = |x: [f64; D]| [x[0], x[1]];
+    let water = now.all().map(|p| (side(p.position()), 1e-3 * p.pressure()));
+    let walls = now.wall(0).map(|p| side(p.position()));
     let picture = Picture::new(1200, 600)
         .title(&format!("t = {:.3} s", now.time()))
         .bounds([-half - 0.05, -0.06], [half + 0.05, 0.45])
