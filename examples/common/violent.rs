@@ -168,13 +168,14 @@ impl Choices {
         }
     }
 
+    /// Whether water sticks to walls.
+    pub fn sticks(&self) -> bool {
+        self.scheme == "viscous"
+    }
+
     /// A wall with the slip that the scheme has.
     pub fn slip<const D: usize>(&self, wall: Wall<D>) -> Wall<D> {
-        if self.scheme == "viscous" {
-            wall.no_slip()
-        } else {
-            wall
-        }
+        if self.sticks() { wall.no_slip() } else { wall }
     }
 }
 

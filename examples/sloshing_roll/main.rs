@@ -1,4 +1,4 @@
-//! Sloshing in a rolling tank: SPHERIC 10, lateral impact of water, in a plane.
+//! Sloshing in a rolling tank: SPHERIC 10, lateral impact of water, in a plane or in space.
 //! `cargo run --release --example sloshing_roll -- --help` lists the options.
 
 #[path = "../common/mod.rs"]
@@ -28,7 +28,7 @@ not there). The scheme viscous has the water's own viscosity, and walls without 
     own: &violent::options_and(own(
         "--breadth",
         "M",
-        "of the tank, between side walls with slip (in a plane)",
+        "of the tank, with two side walls (in a plane)",
     )),
 };
 
@@ -48,9 +48,11 @@ fn main() -> ExitCode {
 
 fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
     let choices = Choices::of(options)?;
-    match options.text("--breadth") {
-        None => tank::<T, 2>(options, &choices, 0.0),
-        Some(_) => tank::<T, 3>(options, &choices, options.number("--breadth", 0.0)?),
+    let breadth = options.number("--breadth", 0.0)?;
+    if breadth > 0.0 {
+        tank::<T, 3>(options, &choices, breadth)
+    } else {
+        tank::<T, 2>(options, &choices, breadth)
     }
 }
 
@@ -59,7 +61,7 @@ fn place<const D: usize>(x: f64, y: f64, across: f64) -> [f64; D] {
     core::array::from_fn(|d| [x, y, across][d])
 }
 
-/// Runs the tank, in a plane or between two side walls with slip `breadth` \[m\] apart.
+/// Runs the tank, in a plane, or in space between two side walls `breadth` \[m\] apart.
 fn tank<T: Real, const D: usize>(
     options: &Options,
     choices: &Choices,
@@ -76,7 +78,12 @@ where
     let (roll, source) = roll::asked_for(options, choices)?;
     println!(
         "SPHERIC 10, lateral, water: roll by {source}, spacing {spacing:.5} m, sound speed \
-         {sound_speed:.1} m/s, until {until} s"
+         {sound_speed:.1} m/s, {}, until {until} s",
+        if D == 3 {
+            format!("{breadth} m wide")
+        } else {
+            "in a plane".into()
+        }
     );
     let [density, viscosity] = WATER;
     let water = Liquid::new(density, 1480.0, viscosity)
@@ -95,7 +102,7 @@ where
         high,
         spacing,
         choices.layers(),
-        core::array::from_fn(|d| [d < 2; 2]),
+        core::array::from_fn(|d| [d < 2 || choices.sticks(); 2]),
     );
     let tank = choices
         .slip(tank)
@@ -105,7 +112,8 @@ where
         .body(body)
         .wall(tank)
         .acceleration(move |_| down);
-    if D == 3 {
+    // Side walls with slip need no particles.
+    if D == 3 && !choices.sticks() {
         for (across, out) in [(0.0, -1.0), (breadth, 1.0)] {
             scene = scene.boundary(MirrorPlane::symmetry(
                 place(0.0, 0.0, across),
@@ -141,7 +149,8 @@ where
         let own = pose.linear[0].transpose() * (meshfree::tensor::Vector::from(x) - pose.shift[0]);
         // A drop that strikes a wall alone dives a little before it bounces.
         let deep = 0.5 * now.spacing();
-        own[0].abs() <= half + deep && (-deep..=TANK[1] + deep).contains(&own[1])
+        let in_plane = own[0].abs() <= half + deep && (-deep..=TANK[1] + deep).contains(&own[1]);
+        in_plane && (2..D).all(|d| (-deep..=breadth + deep).contains(&own[d]))
     };
     let history = violent::run(
         choices.frames,
@@ -218,18 +227,17 @@ fn figure(
 }
 
 /// What does not hang on where single particles strike, which they do for some milliseconds: the greatest mean over
-/// 20 ms \[Pa\] around the time of a peak, and the time \[s\] at which the water leaves the sensor afterwards, where
-/// that mean falls below the middle between wet and dry. The sensor of the record drifts, so dry is not zero.
-fn whole(history: &History, time: f64) -> [f64; 2] {
+/// 20 ms around the time of a peak, its time \[s\] and height \[Pa\], and the time \[s\] at which the water leaves the
+/// sensor afterwards, where that mean falls below the middle between wet and dry. The sensor of the record drifts, so
+/// dry is not zero.
+fn whole(history: &History, time: f64) -> [f64; 3] {
     let smooth = history.smoothed(0.02);
     let level = |from: f64, to: f64| history.mean("left_pa", time + from, time + to);
     let middle = 0.5 * (level(0.25, 0.35) + level(0.6, 0.65));
     let mut samples = smooth.time.iter().zip(smooth.column("left_pa"));
     let left = samples.find(|(t, p)| **t > time + 0.35 && **p < middle);
-    [
-        smooth.peak("left_pa", time - 0.2, time + 0.2).1,
-        left.map_or(f64::NAN, |(t, _)| *t),
-    ]
+    let (when, greatest) = smooth.peak("left_pa", time - 0.2, time + 0.2);
+    [when, greatest, left.map_or(f64::NAN, |(t, _)| *t)]
 }
 
 /// The peaks: of the record at 2.375, 4.067 and 5.671 s; mean and deviation over 100 runs in pascals.
@@ -269,11 +277,13 @@ fn bars(history: &History, spacing: f64, choices: &Choices) {
             if let Some(measured) = measured.as_ref().filter(|_| time + 0.65 < until) {
                 let [own, theirs] = [history, measured].map(|of| whole(of, time));
                 let what = format!("water leaves the sensor after peak {} [s]", k + 1);
-                bars.push(Bar::near(&what, own[1], theirs[1], 0.02));
+                bars.push(Bar::near(&what, own[2], theirs[2], 0.02));
                 println!(
-                    "impact {}: greatest mean over 20 ms {:.0} Pa, measured {:.0}",
+                    "impact {}: greatest mean over 20 ms {:.0} Pa at {:.3} s, measured {:.0} Pa at {:.3} s",
                     k + 1,
+                    own[1],
                     own[0],
+                    theirs[1],
                     theirs[0]
                 );
             }
