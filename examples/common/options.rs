@@ -37,8 +37,7 @@ pub struct Options {
     own: BTreeMap<String, String>,
 }
 
-const COMMON: &str = "\
-  --spacing M             distance of particles
+const COMMON: &str = "  --spacing M             distance of particles
   --precision NAME        f64, f32
   --threads N             all cores
   --until S               end of the run
