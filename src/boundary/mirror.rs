@@ -51,10 +51,12 @@ impl<const D: usize> MirrorPlane<D> {
         Self { velocity, ..self }
     }
 
+    /// How far a point is along the normal \[m\].
     fn height<T: Real>(&self, x: &[T; D]) -> f64 {
         (0..D).map(|d| x[d].to_f64() * self.normal[d]).sum()
     }
 
+    /// How far the plane is along its normal \[m\].
     fn offset(&self, time: f64) -> f64 {
         (0..D).map(|d| self.point[d] * self.normal[d]).sum::<f64>() + self.velocity * time
     }

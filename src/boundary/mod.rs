@@ -88,8 +88,11 @@ pub trait Boundary<T: Real, const D: usize>: Debug + Send + Sync {
     fn moves(&self) -> bool {
         false
     }
-    /// Whether a particle at `x` \[m\] is behind the boundary at `time` \[s\]. When lists are made image 0 takes its
-    /// place, which is the particle that meets it there; what that changes of the momentum is in the ledger.
+    /// Whether a particle at `x` \[m\] is behind the boundary at `time` \[s\]; by default nothing can be.
+    ///
+    /// When lists are made such a particle becomes its own image 0, which has come out in front as it went in
+    /// behind. The momentum that this gives is in the [ledger](crate::simulation::Ledger::boundary_impulse). A body
+    /// that starts behind is refused.
     fn crossed(&self, _x: &[T; D], _time: f64) -> bool {
         false
     }
