@@ -13,6 +13,7 @@ pub struct Example {
 }
 
 /// An option that one example adds. Without a value it is a switch.
+#[derive(Clone, Copy)]
 pub struct Own {
     /// As it is typed, `--reynolds`.
     pub name: &'static str,

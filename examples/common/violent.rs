@@ -18,10 +18,15 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// Options that the examples of violent flow take beside those of all, and one of an example alone.
-pub const fn options_and(one: Own) -> [Own; 12] {
-    let [a, b, c, d, e, f, g, h, i, j, k] = SHARED;
-    [one, a, b, c, d, e, f, g, h, i, j, k]
+/// One option of an example alone, and what the examples of violent flow share beside what all take.
+pub const fn options_and(one: Own) -> [Own; SHARED.len() + 1] {
+    let mut all = [one; SHARED.len() + 1];
+    let mut k = 0;
+    while k < SHARED.len() {
+        all[k + 1] = SHARED[k];
+        k += 1;
+    }
+    all
 }
 
 const SHARED: [Own; 11] = [

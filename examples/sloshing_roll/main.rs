@@ -174,7 +174,7 @@ where
     Ok(())
 }
 
-/// Particles coloured by pressure, in the frame of the laboratory.
+/// Particles coloured by pressure, in the frame of the laboratory and from the side.
 fn picture<T: Real, const D: usize>(
     now: &Simulation<T, D>,
     path: &std::path::Path,
