@@ -141,7 +141,7 @@ where
     let mut series = Pvd::create(options.file("particles.pvd"))?;
     let frame = |now: &Simulation<T, D>, k: usize| {
         violent::paraview(&mut series, now)?;
-        picture(now, &options.file(&format!("frame_{k:05}")))
+        picture(now, breadth, &options.file(&format!("frame_{k:05}")))
     };
     let inside = |now: &Simulation<T, D>, x: [f64; D]| {
         // Back into the tank's own frame: its linear part is a rotation.
@@ -174,16 +174,19 @@ where
     Ok(())
 }
 
-/// Particles coloured by pressure, in the frame of the laboratory and from the side.
+/// Particles coloured by pressure, in the frame of the laboratory and from the side, without the side walls.
 fn picture<T: Real, const D: usize>(
     now: &Simulation<T, D>,
+    breadth: f64,
     path: &std::path::Path,
 ) -> Result<(), Failure> {
     let (dx, half) = (now.spacing(), 0.5 * TANK[0]);
     let value = Axis::linear("pressure", "kPa").range(0.0, 2.0);
     let side = |x: [f64; D]| [x[0], x[1]];
     let water = now.all().map(|p| (side(p.position()), 1e-3 * p.pressure()));
-    let walls = now.wall(0).map(|p| side(p.position()));
+    let walls = now.wall(0).map(|p| p.position());
+    let walls = walls.filter(|x| (2..D).all(|d| (0.0..=breadth).contains(&x[d])));
+    let walls = walls.map(side);
     let picture = Picture::new(1200, 600)
         .title(&format!("t = {:.3} s", now.time()))
         .bounds([-half - 0.05, -0.06], [half + 0.05, 0.45])
