@@ -99,7 +99,9 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
             scheme: scheme.into(),
             ..case.clone()
         };
-        runs.push((scheme.into(), run::run::<T>(&case, Some(&folder), &[])?));
+        // Sensors all over the ends take time, which schemes are compared by.
+        let ends = !options.has("--compare");
+        runs.push((scheme.into(), run::run::<T>(&case, Some(&folder), ends)?));
     }
     let runs: Vec<_> = runs
         .iter()
@@ -119,6 +121,14 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
              38 ms: lowest pressure {:.0} Pa, cut {} times",
             record.particles, record.leaked, record.imbalance, far.lowest, far.cuts
         );
+        if !record.ends.is_empty() {
+            println!(
+                "{name}: the impulse that sensors all over the ends read is {:+.2} % off that on the ends, \
+                 {:+.2} % off that on the tank",
+                1e2 * record.sensed_over(case.until, |ends| ends.felt),
+                1e2 * record.sensed_over(case.until, |ends| ends.tank),
+            );
+        }
     }
     println!("written to {}", options.folder().display());
     Ok(())

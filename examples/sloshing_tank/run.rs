@@ -18,6 +18,8 @@ use std::time::Instant;
 pub const SNAPSHOT: f64 = 0.038;
 /// Time between samples \[s\].
 const SAMPLING: f64 = 5e-5;
+/// Time between readings of the ends \[s\].
+const ENDS: f64 = 0.001;
 /// Time between frames for ParaView \[s\].
 const FRAMES: f64 = 0.002;
 /// Width of the band before the far wall whose water is its film \[m\], whatever the spacing.
@@ -48,6 +50,18 @@ pub struct FarWall {
     pub cuts: u64,
 }
 
+/// The water's push along the tank, in three measures.
+#[derive(Clone, Copy, Debug)]
+pub struct Ends {
+    pub time: f64,
+    /// Pressures of sensors all over both ends, summed with their areas \[N\].
+    pub sensed: f64,
+    /// Force on the particles of both ends \[N\].
+    pub felt: f64,
+    /// Force on the whole tank \[N\]: bottom, lid and sides are rough by their particles.
+    pub tank: f64,
+}
+
 /// A run.
 #[derive(Clone, Debug, Default)]
 pub struct Record {
@@ -61,9 +75,8 @@ pub struct Record {
     pub momentum: [f64; 3],
     /// Difference of the momentum of water and what walls and gravity gave, over the impulse on the tank.
     pub imbalance: f64,
-    /// Integral of the probes' pressure over the ends of the tank against the force along it, as a
-    /// difference over the force, at the times asked for.
-    pub integrals: Vec<(f64, f64)>,
+    /// What sensors all over the ends of the tank read, every millisecond, if that was asked for.
+    pub ends: Vec<Ends>,
     /// Space that the water takes against its volume, at 38 ms and at the end.
     pub space: [Space; 2],
     /// Particles more than a spacing behind the surface of the walls at the end.
@@ -87,6 +100,11 @@ impl Record {
             .map(|pair| 0.5 * (pair[1].time - pair[0].time) * (of(&pair[0]) + of(&pair[1])))
             .sum()
     }
+    /// Impulse that the ends' sensors read until `end` \[s\] over another measure of it, less one.
+    pub fn sensed_over(&self, end: f64, of: impl Fn(&Ends) -> f64) -> f64 {
+        let until = || self.ends.iter().filter(|ends| ends.time <= end);
+        until().map(|ends| ends.sensed).sum::<f64>() / until().map(of).sum::<f64>() - 1.0
+    }
     /// Mean of a quantity over a span of time.
     pub fn mean(&self, [from, to]: [f64; 2], of: impl Fn(&Sample) -> f64) -> f64 {
         let inside = self
@@ -103,15 +121,11 @@ impl Record {
     }
 }
 
-/// Runs a case; files are written if there is a folder, `integrals` are the times at which the
-/// probes are integrated over the ends of the tank.
-pub fn run<T: Real>(
-    case: &Case,
-    folder: Option<&Path>,
-    integrals: &[f64],
-) -> Result<Record, Failure> {
+/// Runs a case; files are written if there is a folder, and sensors cover the ends of the tank if asked for.
+pub fn run<T: Real>(case: &Case, folder: Option<&Path>, ends: bool) -> Result<Record, Failure> {
     let mut simulation = case.build::<T>()?;
     let sensors = case.sensors(&simulation)?;
+    let cover = ends.then(|| cover(case, &simulation)).transpose()?;
     let mut files = folder
         .map(|folder| Files::create(case, folder))
         .transpose()?;
@@ -122,19 +136,17 @@ pub fn run<T: Real>(
     };
     let water = case.mass() / WATER;
     let mut progress = Progress::new(case.scheme.as_str());
-    let mut stops: Vec<f64> = integrals
-        .iter()
-        .copied()
-        .filter(|&t| t < case.until)
-        .collect();
-    stops.extend([SNAPSHOT.min(case.until), case.until]);
-    stops.sort_by(f64::total_cmp);
+    let mut stops = vec![SNAPSHOT.min(case.until), case.until];
     stops.dedup();
-    let (mut next, mut next_frame) = (0.0, 0.0);
+    let (mut next, mut next_frame, mut next_ends) = (0.0, 0.0, ENDS);
     let mut failed: Result<(), Error> = Ok(());
     for stop in stops {
         simulation.run_with(stop, |now| {
             let time = now.time();
+            if let Some(cover) = cover.as_ref().filter(|_| time >= next_ends) {
+                next_ends += ENDS;
+                record.ends.push(ends_of(case, cover, now));
+            }
             if time >= next || time >= case.until {
                 next = time + SAMPLING;
                 let sample = sample(now, &sensors);
@@ -156,11 +168,6 @@ pub fn run<T: Real>(
         })?;
         failed?;
         failed = Ok(());
-        if integrals.contains(&stop) {
-            record
-                .integrals
-                .push((stop, wall_integral(case, &simulation)?));
-        }
         if stop == SNAPSHOT.min(case.until) {
             let occupied = Occupancy::of(case, &simulation);
             record.surface = occupied.mid_plane();
@@ -219,27 +226,46 @@ pub fn in_tank<T: Real>(now: &Simulation<T, 3>) -> impl Iterator<Item = ([f64; 3
     })
 }
 
-/// The pressures of sensors all over both ends of the tank, summed with their areas, against the force
-/// of the water along it.
-fn wall_integral<T: Real>(case: &Case, now: &Simulation<T, 3>) -> Result<f64, Error> {
+/// Sensors all over both ends of the tank, with their areas, those of the far end negative.
+fn cover<T: Real>(
+    case: &Case,
+    now: &Simulation<T, 3>,
+) -> Result<(Vec<PressureProbe<3>>, Vec<f64>), Error> {
     let [length, width, height] = case.size;
     let counts = [width, height].map(|size| (size / case.spacing).round().max(1.0) as usize);
     let area = width * height / (counts[0] * counts[1]) as f64;
-    let (mut parts, mut outwards) = (Vec::new(), Vec::new());
+    let (mut sensors, mut outwards) = (Vec::new(), Vec::new());
     for k in 0..counts[0] * counts[1] {
         let place = [k % counts[0], k / counts[0]].map(|index| index as f64 + 0.5);
         let y = width * place[0] / counts[0] as f64;
         let z = height * place[1] / counts[1] as f64;
         for (x, sign) in [(0.0, -1.0), (length, 1.0)] {
             let normal = [-sign, 0.0, 0.0];
-            let part = PressureProbe::disc(now, "part", [x, y, z], normal, case.spacing)?;
-            parts.push(part.on_wall(0)?);
+            let sensor = PressureProbe::disc(now, "end", [x, y, z], normal, case.spacing)?;
+            sensors.push(sensor.on_wall(0)?);
             outwards.push(sign * area);
         }
     }
-    let pressures = PressureProbe::pressures(&parts, now);
-    let sum: f64 = pressures.iter().zip(&outwards).map(|(p, a)| p * a).sum();
-    Ok(sum / now.wall_force(0)[0] - 1.0)
+    Ok((sensors, outwards))
+}
+
+fn ends_of<T: Real>(
+    case: &Case,
+    (sensors, outwards): &(Vec<PressureProbe<3>>, Vec<f64>),
+    now: &Simulation<T, 3>,
+) -> Ends {
+    let pressures = PressureProbe::pressures(sensors, now);
+    let shift = now.wall_pose(Some(0)).shift[0][0];
+    let forces = now.wall_particle_forces();
+    let at_ends = forces
+        .iter()
+        .filter(|(x, _)| !(0.0..=case.size[0]).contains(&(x[0] - shift)));
+    Ends {
+        time: now.time(),
+        sensed: pressures.iter().zip(outwards).map(|(p, a)| p * a).sum(),
+        felt: at_ends.map(|(_, force)| force[0]).sum(),
+        tank: now.wall_force(0)[0],
+    }
 }
 
 fn far_wall<T: Real>(case: &Case, now: &Simulation<T, 3>) -> FarWall {
