@@ -29,7 +29,7 @@ pub const fn options_and(one: Own) -> [Own; SHARED.len() + 1] {
     all
 }
 
-const SHARED: [Own; 11] = [
+const SHARED: [Own; 12] = [
     own("--alpha", "A", "artificial viscosity (0.02; riemann: 1)"),
     own("--delta", "D", "density diffusion (0.1)"),
     own(
@@ -52,6 +52,11 @@ const SHARED: [Own; 11] = [
         "--reversible-tearing",
         "",
         "lets torn liquid close where it tore (it forgets)",
+    ),
+    own(
+        "--riemann-walls",
+        "",
+        "lets walls meet liquid as in a Riemann problem",
     ),
     own(
         "--frames",
@@ -83,6 +88,7 @@ pub struct Choices {
     pub gate: Option<f64>,
     pub cut_off: f64,
     pub reversible_tearing: bool,
+    pub riemann_walls: bool,
     pub frames: usize,
     pub reference: PathBuf,
     pub bars: bool,
@@ -114,6 +120,7 @@ impl Choices {
             gate: not_negative("--gate")?.filter(|speed| *speed > 0.0),
             cut_off: number("--cut-off-pa", f64::MIN, "a number")?.unwrap_or(0.0),
             reversible_tearing: options.has("--reversible-tearing"),
+            riemann_walls: options.has("--riemann-walls"),
             frames: frames as usize,
             reference: options.text("--reference").map_or(usual, PathBuf::from),
             bars: options.has("--bars"),
@@ -149,6 +156,9 @@ impl Choices {
         }
         if self.reversible_tearing {
             base = base.reversible_tearing();
+        }
+        if self.riemann_walls {
+            base = base.riemann_walls();
         }
         let alpha = |standard: f64| self.alpha.unwrap_or(standard);
         match self.scheme.as_str() {

@@ -5,7 +5,7 @@ use crate::common::{Failure, Options};
 use crate::flat::GRAVITY;
 use crate::violent::{self, Choices, Watch};
 use crate::{bars, figures};
-use meshfree::geometry::{Cuboid, fill};
+use meshfree::geometry::{Cuboid, Shape, fill};
 use meshfree::material::{Liquid, SoundSpeed};
 use meshfree::observe::{PressureProbe, WaveGauge};
 use meshfree::output::vtu::Pvd;
@@ -47,7 +47,9 @@ fn obstacle(spacing: f64, layers: usize) -> Result<Wall<3>, Failure> {
         .map(|x| core::array::from_fn(|d| low[d] + size[d] * x[d] / counts[d]))
         .collect();
     let volume: f64 = (0..3).map(|d| size[d] / counts[d]).product();
-    Ok(Wall::of("box", points, volume.cbrt()))
+    // Its foot is not a surface.
+    let solid = Cuboid::new([low[0], low[1], -1.0], high);
+    Ok(Wall::of("box", points, volume.cbrt()).facing(&solid.complement()))
 }
 
 fn scene<T: Real>(spacing: f64, choices: &Choices) -> Result<Scene<T, 3>, Failure> {

@@ -2,7 +2,8 @@
 //! A wall particle takes its pressure from the liquid before it (Adami, Hu & Adams 2012).
 
 use super::Motion;
-use crate::geometry::{FEWER, Flaw, MOST_PARTICLES, POSITIVE};
+use crate::geometry::{Cuboid, FEWER, Flaw, MOST_PARTICLES, POSITIVE, Shape};
+use crate::tensor::{Vector, length};
 use std::sync::Arc;
 
 /// Whether liquid slides along a wall.
@@ -45,6 +46,8 @@ pub struct Wall<const D: usize> {
     pub(crate) sliding: [f64; D],
     pub(crate) carries: bool,
     pub(crate) shape: Result<(), Flaw>,
+    /// Unit vectors from the liquid into the wall at its particles; none if nobody gave them.
+    pub(crate) normals: Vec<[f64; D]>,
 }
 
 impl<const D: usize> Wall<D> {
@@ -60,6 +63,7 @@ impl<const D: usize> Wall<D> {
             sliding: [0.0; D],
             carries: false,
             shape: Ok(()),
+            normals: Vec::new(),
         }
     }
 
@@ -123,7 +127,38 @@ impl<const D: usize> Wall<D> {
         }
         // Of the volume of a cell as fitted, as the liquid's are: the force on the wall is in proportion.
         let volume: f64 = (0..D).map(|d| size[d] / counts[d] as f64).product();
-        Self::of(name, points, volume.powf(1.0 / D as f64))
+        let room = Cuboid::new(low, high);
+        Self::of(name, points, volume.powf(1.0 / D as f64)).facing(&room)
+    }
+
+    /// Gives it the normals of a surface, by the space that liquid may fill: what
+    /// [`riemann_walls`](crate::scheme::LiquidBuilder::riemann_walls) needs of a wall of one's own points. Those
+    /// [`around`](Self::around) a box have them.
+    ///
+    /// They are the slope of the room's distance at the particles, in the scene as built; where that has none, as in
+    /// the middle of a thin plate, a particle has no normal and does without.
+    #[must_use]
+    pub fn facing(mut self, room: &impl Shape<D>) -> Self {
+        let step = 1e-3 * self.spacing;
+        let normal = |x: &[f64; D]| {
+            let slope = Vector::<f64, D>::from_fn(|d, _| {
+                let beside = |side: f64| {
+                    let mut x = *x;
+                    x[d] += side * step;
+                    room.signed_distance(&x)
+                };
+                beside(1.0) - beside(-1.0)
+            });
+            let size = length(&slope);
+            // Half of the slope that a distance has.
+            if size > step {
+                (slope / size).into()
+            } else {
+                [0.0; D]
+            }
+        };
+        self.normals = self.points.iter().map(normal).collect();
+        self
     }
 
     /// Gives it a prescribed motion.

@@ -200,11 +200,18 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                 )
             }
         };
+        let riemann = self.scheme.liquid.as_ref();
+        let normals = if riemann.is_some_and(|own| own.riemann_walls) {
+            wall.normals.clone()
+        } else {
+            Vec::new()
+        };
         WallState {
             name: wall.name.clone(),
             slots,
             end,
             rest: wall.points.clone(),
+            normals,
             motion: wall.motion.clone(),
             slip: wall.slip,
             sliding: wall.sliding,

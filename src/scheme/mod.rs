@@ -218,6 +218,12 @@ impl<T: Real, const D: usize> Scheme<T, D> {
             equation: "kept until a particle has moved by half the skin, or for h²/(4 ν)",
             source: "after Zhang, Rezavand & Hu 2020",
         });
+        let walls = liquid.filter(|own| own.riemann_walls);
+        let walls = walls.map(|_| TermDoc {
+            name: "walls as one-sided Riemann problems".into(),
+            equation: "p_w ← p_w + 2 ρ β u, u = (Σ v_f W / Σ W − v_wall)·n, β = min(6 |u|, c)",
+            source: "after Zhang, Hu & Adams 2017, eqs. 13, 14",
+        });
         let tearing = liquid.filter(|own| own.reversible_tearing);
         let tearing = tearing.map(|_| TermDoc {
             name: "reversible tearing".into(),
@@ -228,6 +234,7 @@ impl<T: Real, const D: usize> Scheme<T, D> {
             .flat_map(PairSweep::document)
             .chain(damping)
             .chain(consistency)
+            .chain(walls)
             .chain(tearing)
             .chain(dual)
             .collect()

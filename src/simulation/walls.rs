@@ -7,7 +7,7 @@ use super::structures::Structure;
 use crate::boundary::{Motion, Pose, Slip};
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
-use crate::tensor::determinant;
+use crate::tensor::{Vector, determinant, inverse, length};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::Arc;
@@ -21,6 +21,8 @@ pub(crate) struct WallState<const D: usize> {
     pub end: usize,
     /// Where its particles were in the scene, by identity.
     pub rest: Vec<[f64; D]>,
+    /// Unit vectors from the liquid into it, by identity; none if the scheme does not ask for them.
+    pub normals: Vec<[f64; D]>,
     pub motion: Option<Arc<dyn Motion<D>>>,
     pub slip: Slip,
     /// Velocity of its surface beside its motion \[m/s\].
@@ -127,14 +129,26 @@ impl<T: Real, const D: usize> Group<T, D> {
             group.scheme.liquid.as_ref().map(|liquid| &*liquid.wall)
         });
         let rows = &self.scratch_rows;
-        let [pressure, velocity, viscosity] =
-            self.columns
-                .many_mut([Field::Pressure, Field::Velocity, Field::DynamicViscosity]);
+        let [pressure, velocity, viscosity, density, sound_speed] = self.columns.many_mut([
+            Field::Pressure,
+            Field::Velocity,
+            Field::DynamicViscosity,
+            Field::Density,
+            Field::SoundSpeed,
+        ]);
+        let (density, sound_speed) = (&*density, &*sound_speed);
         for wall in &self.walls {
             let run = wall.slots.start..wall.end;
             let pose = wall.motion.as_ref().map(|motion| motion.pose(time));
             let (ids, first) = (&self.ids, wall.slots.start);
             let gravity = self.gravity;
+            let normals = &wall.normals;
+            // Normals turn with the inverse transpose, which a crush has other than a rotation.
+            let turn = pose
+                .as_ref()
+                .and_then(|pose| inverse(&pose.linear[0], 0.0))
+                .map(|back| back.transpose());
+            let own_velocity = &*velocity;
             pressure[run.clone()]
                 .par_iter_mut()
                 .enumerate()
@@ -156,7 +170,20 @@ impl<T: Real, const D: usize> Group<T, D> {
                         let arm = rows.get(Output::LiquidMoment, d, slot);
                         sum + arm * T::from_f64(gravity[d] - own[d])
                     });
-                    *pressure = (sum / unity).max(floor);
+                    let mut push = T::zero();
+                    if let Some(normal) = normals.get(at) {
+                        let normal = Vector::from(*normal);
+                        let normal = turn.map_or(normal, |turn| {
+                            let turned = turn * normal;
+                            turned / length(&turned).max(f64::MIN_POSITIVE)
+                        });
+                        let inwards = (0..D).fold(T::zero(), |sum, d| {
+                            let liquid = rows.get(Output::LiquidVelocity, d, slot) / unity;
+                            sum + (liquid - own_velocity[slot * D + d]) * T::from_f64(normal[d])
+                        });
+                        push = riemann_push(inwards, density[slot], sound_speed[slot]);
+                    }
+                    *pressure = (sum / unity + push).max(floor);
                 });
             let sticks = wall.slip == Slip::None && !viscosity.is_empty();
             if sticks {
@@ -187,6 +214,16 @@ impl<T: Real, const D: usize> Group<T, D> {
             }
         }
     }
+}
+
+/// What liquid that moves into a wall adds to the pressure of its particles \[Pa\]: 2ρβu, β = min(6 |u|, c).
+///
+/// Pairs take the mean of both sides, so liquid feels p* = p + ρβu: the pressure between it and its mirror image
+/// of speed −u, p + ½ρβ(u − (−u)), with the limiter β = min(3 (u − (−u)), c) of Zhang, Hu & Adams 2017, eqs. 13, 14.
+/// It acts on liquid that leaves as well, down to the floor of walls: otherwise what has struck bounces.
+fn riemann_push<T: Real>(inwards: T, density: T, sound_speed: T) -> T {
+    let speed = (T::from_f64(6.0) * inwards.abs()).min(sound_speed);
+    T::from_f64(2.0) * density * speed * inwards
 }
 
 /// Share of a full neighbourhood below which a wall particle sees no liquid.

@@ -35,7 +35,7 @@ impl<const D: usize> Term<D> for LiquidNearWall {
     }
 }
 
-/// The sum from which a wall particle takes the velocity of the liquid along it, Σ V v W.
+/// The sum from which a wall particle takes the velocity of the liquid before it, Σ V v W.
 #[derive(Clone, Copy, Debug)]
 pub struct LiquidAlongWall;
 
@@ -52,8 +52,8 @@ impl<const D: usize> Term<D> for LiquidAlongWall {
     }
     fn document(&self) -> TermDoc {
         TermDoc {
-            name: "velocity of walls without slip".into(),
-            equation: "v_w = 2 v_wall − Σ v_f W / Σ W",
+            name: "velocity of the liquid at walls, mirrored where it sticks".into(),
+            equation: "Σ v_f W / Σ W, v_w = 2 v_wall − Σ v_f W / Σ W",
             source: "Adami, Hu & Adams 2012, eqs. 22, 23",
         }
     }

@@ -82,6 +82,23 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                     remedy: "take a scheme of liquids (schemes::weakly_compressible), or a MirrorPlane",
                 });
             }
+            let riemann = self
+                .scheme
+                .liquid
+                .as_ref()
+                .is_some_and(|own| own.riemann_walls);
+            if riemann
+                && matches!(origin, Origin::Wall(k) if *k < self.scene.walls.len())
+                && wall.normals.is_empty()
+            {
+                problems.push(Problem::Incompatible {
+                    what: format!(
+                        "the scheme {} takes walls as Riemann problems, and wall `{}` has no normals",
+                        self.scheme.name, wall.name
+                    ),
+                    remedy: "give it the room of the liquid, Wall::facing, or leave out riemann_walls",
+                });
+            }
             if self.scheme.kicks_density()
                 && wall.slip == Slip::None
                 && self.scheme.fields().contains(Field::DynamicViscosity)

@@ -91,6 +91,9 @@ impl<K, V, W, R, S, U, const MODES: u8, const RENORMALISED: bool>
         {
             let terms = (LiquidNearWall, LiquidAlongWall, ViscosityAtWall);
             Box::new(Program::<_, _, MODES>::new(kernel, terms, mode))
+        } else if self.riemann_walls {
+            let terms = (LiquidNearWall, LiquidAlongWall);
+            Box::new(Program::<_, _, MODES>::new(kernel, terms, mode))
         } else {
             Box::new(Program::<_, _, MODES>::new(kernel, (LiquidNearWall,), mode))
         };
@@ -126,6 +129,7 @@ impl<K, V, W, R, S, U, const MODES: u8, const RENORMALISED: bool>
                 volume_consistency: self
                     .volume_consistency
                     .map(|own| (own, lattice_unity(&kernel, h_over_dx))),
+                riemann_walls: self.riemann_walls,
                 reversible_tearing: self.reversible_tearing,
                 dual_criteria: self.dual_criteria,
             }),

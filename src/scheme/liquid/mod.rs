@@ -26,6 +26,8 @@ pub(crate) struct Liquid<T: Real, const D: usize> {
     pub acoustic_damping: Option<f64>,
     /// How strongly densities are held to the space of their particles, and Σ V W on the lattice.
     pub volume_consistency: Option<(f64, f64)>,
+    /// Whether walls meet liquid as in a Riemann problem.
+    pub riemann_walls: bool,
     /// Whether torn liquid remembers how far it is torn.
     pub reversible_tearing: bool,
     /// Whether corrections and viscosities are renewed with the neighbour lists, or after h²/(4 ν).
@@ -72,6 +74,7 @@ pub struct LiquidBuilder<
     shifting: Option<Shifting>,
     acoustic_damping: Option<f64>,
     volume_consistency: Option<f64>,
+    riemann_walls: bool,
     reversible_tearing: bool,
     smoothing: Smoothing,
     general_viscosity: bool,
@@ -98,6 +101,7 @@ impl<K, V> LiquidBuilder<K, V> {
             shifting: None,
             acoustic_damping: None,
             volume_consistency: None,
+            riemann_walls: false,
             reversible_tearing: false,
             smoothing: Smoothing::Fixed,
             general_viscosity: false,
@@ -149,6 +153,7 @@ impl<K, V, W, R, S, U, const MODES: u8, const RENORMALISED: bool>
             shifting: self.shifting,
             acoustic_damping: self.acoustic_damping,
             volume_consistency: self.volume_consistency,
+            riemann_walls: self.riemann_walls,
             reversible_tearing: self.reversible_tearing,
             smoothing: self.smoothing,
             general_viscosity: self.general_viscosity,
@@ -308,6 +313,19 @@ impl<K, V, W, R, S, U, const MODES: u8, const RENORMALISED: bool>
     #[must_use]
     pub fn reversible_tearing(mut self) -> Self {
         self.reversible_tearing = true;
+        self
+    }
+    /// Lets walls meet liquid as in a one-sided Riemann problem (Zhang, Hu & Adams 2017): liquid that moves into a
+    /// wall at the speed u feels ρβu more than [Adami's pressure](crate::term::LiquidNearWall), β = min(6 |u|, c), and as
+    /// much less when it leaves, down to the [floor](Self::wall_pressure_floor).
+    ///
+    /// A particle that strikes a wall alone bounces off a wall that is elastic, and hits it with up to twice its
+    /// momentum; water spreads. u is the mean over the kernel along the wall's normal, so walls must have normals:
+    /// those [around](crate::boundary::Wall::around) a box do, others take them of a
+    /// [shape](crate::boundary::Wall::facing). It costs D sums a wall particle.
+    #[must_use]
+    pub fn riemann_walls(mut self) -> Self {
+        self.riemann_walls = true;
         self
     }
     /// Damps sound by a bulk viscosity ζ = λ ρ c h: liquid shows its neighbours the pressure p − ζ ∇·v
