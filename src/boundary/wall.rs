@@ -137,6 +137,14 @@ impl<const D: usize> Wall<D> {
     ///
     /// They are the slope of the room's distance at the particles, in the scene as built; where that has none, as in
     /// the middle of a thin plate, a particle has no normal and does without.
+    ///
+    /// ```
+    /// use meshfree::boundary::Wall;
+    /// use meshfree::geometry::{Ball, Shape, fill};
+    /// let post = Ball::new([0.0; 2], 0.1);
+    /// let wall = Wall::of("post", fill(&post, 0.01, [0.0; 2])?, 0.01).facing(&post.complement());
+    /// # Ok::<(), meshfree::error::Error>(())
+    /// ```
     #[must_use]
     pub fn facing(mut self, room: &impl Shape<D>) -> Self {
         let step = 1e-3 * self.spacing;
@@ -158,6 +166,9 @@ impl<const D: usize> Wall<D> {
             }
         };
         self.normals = self.points.iter().map(normal).collect();
+        if let Some(flaw) = room.problems().first() {
+            self.shape = Err(*flaw);
+        }
         self
     }
 

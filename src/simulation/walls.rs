@@ -146,6 +146,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             // Normals turn with the inverse transpose, which a crush has other than a rotation.
             let turn = pose
                 .as_ref()
+                .filter(|_| !normals.is_empty())
                 .and_then(|pose| inverse(&pose.linear[0], 0.0))
                 .map(|back| back.transpose());
             let own_velocity = &*velocity;

@@ -323,6 +323,12 @@ impl<K, V, W, R, S, U, const MODES: u8, const RENORMALISED: bool>
     /// momentum; water spreads. u is the mean over the kernel along the wall's normal, so walls must have normals:
     /// those [around](crate::boundary::Wall::around) a box do, others take them of a
     /// [shape](crate::boundary::Wall::facing). It costs D sums a wall particle.
+    ///
+    /// ```
+    /// use meshfree::prelude::*;
+    /// let scheme: Scheme<f64, 2> = schemes::weakly_compressible().riemann_walls().compose();
+    /// assert!(scheme.to_string().contains("Riemann"));
+    /// ```
     #[must_use]
     pub fn riemann_walls(mut self) -> Self {
         self.riemann_walls = true;
