@@ -2,12 +2,12 @@
 
 mod common;
 
-use meshfree::boundary::{Inlet, MirrorPlane, Periodic, Wall};
+use meshfree::boundary::{Inlet, MirrorPlane, Periodic, Translation, Wall};
 use meshfree::error::{Error, Problem};
 use meshfree::integrator::{LamLeapfrog, RungeKutta4};
 use meshfree::material::catalogue;
 use meshfree::material::eos::IdealGas;
-use meshfree::material::{Material, eos::Linear};
+use meshfree::material::{Liquid, Material, SoundSpeed, eos::Linear};
 use meshfree::observe::{FlowPlane, PressureProbe, WaveGauge};
 use meshfree::scene::{Body, Scene, Start};
 use meshfree::scheme::EnergyForm;
@@ -178,6 +178,33 @@ fn bodies_that_overlap_in_any_dimension_however_their_lattices_lie() {
             scene.body(cube("rod", 0.0)).body(cube("other", low)),
         ));
     }
+}
+
+/// Where its motion has put it by the start, not where it was drawn.
+#[test]
+fn a_wall_that_liquid_overlaps_is_one_where_it_starts() {
+    let water = Liquid::new(1000.0, 1480.0, 1e-3).material("water", SoundSpeed::Physical);
+    let pool = Body::block("pool", water, [0.0; 2], [0.01; 2], DX);
+    let scene = |shift: f64| {
+        let floor = Wall::around(
+            "floor",
+            [0.0; 2],
+            [0.01; 2],
+            DX,
+            4,
+            [[false; 2], [true, false]],
+        );
+        let moved = Translation::new(move |_| [0.0, shift], |_| [0.0; 2], |_| [0.0; 2]);
+        let scene = Scene::<f64, 2>::new(schemes::weakly_compressible().compose());
+        scene.body(pool.clone()).wall(floor.motion(moved))
+    };
+    assert_eq!(scene(0.0).problems(), []);
+    assert_eq!(scene(-0.02).problems(), []);
+    let found = problem(scene(4.3 * DX));
+    assert!(
+        matches!(&found, Problem::Overlap { first, second, .. } if first == "floor" && second == "pool"),
+        "{found}"
+    );
 }
 
 #[test]

@@ -13,9 +13,9 @@ use meshfree::term::viscosity::{
 };
 use meshfree::term::{
     Antuono, CentralViscosity, Compression, Crowding, DensityGradient, Fourtakas, InternalEnergy,
-    KernelMoment, KernelSum, LaminarViscosity, LiquidAlongWall, LiquidNearWall, Molteni,
-    PressureCurvature, PressureForce, PressureGradient, Probe, RenormalisedCompression,
-    RiemannDiffusion, SlopeInH, Term, Unity, VelocityGradient, Viscosity, ViscosityAtWall, probe,
+    KernelMoment, KernelSum, LaminarViscosity, LiquidNearWall, Molteni, PressureCurvature,
+    PressureForce, PressureGradient, Probe, RenormalisedCompression, RiemannDiffusion, SlopeInH,
+    Term, Unity, VelocityAtWall, VelocityGradient, Viscosity, ViscosityAtWall, probe,
 };
 
 macro_rules! for_each_viscosity_of {
@@ -70,7 +70,7 @@ macro_rules! for_each_term {
             at_spacing: 1.0,
         });
         $check::<$D, _>(LiquidNearWall);
-        $check::<$D, _>(LiquidAlongWall);
+        $check::<$D, _>(VelocityAtWall);
         $check::<$D, _>(ViscosityAtWall);
         $check::<$D, _>(RenormalisedCompression);
         for_each_viscosity_of!(

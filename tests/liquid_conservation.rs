@@ -30,6 +30,10 @@ fn schemes_of_liquids() -> Vec<(Scheme<f64, 2>, bool)> {
         (base().acoustic_damping(0.3).compose(), true),
         (base().volume_consistency(0.02).compose(), true),
         (
+            base().named("Riemann walls").riemann_walls().compose(),
+            true,
+        ),
+        (
             base().named("one evaluation").compose_with_one_evaluation(),
             true,
         ),
@@ -178,7 +182,13 @@ fn what_walls_give_is_what_liquid_gains() {
             .compose()
     };
     let mut cases: Vec<(String, Scheme<f64, 2>, Vec<Wall<2>>)> = Vec::new();
+    let riemann = || schemes::weakly_compressible().riemann_walls().compose();
     for (kind, walls) in walls() {
+        cases.push((
+            format!("{kind}, by Riemann problems"),
+            riemann(),
+            walls.clone(),
+        ));
         cases.push((kind.into(), laminar(), walls));
     }
     for (scheme, _) in schemes_of_liquids() {

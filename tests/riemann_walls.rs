@@ -1,11 +1,12 @@
-//! Walls as one-sided Riemann problems: what strikes them alone does not bounce, and nothing else changes.
-//! The control is the same wall without, from which it does.
+//! Walls as one-sided Riemann problems: what strikes them alone does not bounce, what runs along them is left alone.
+//! The controls are the same walls without, from which it does, and with normals that lean.
 
-use meshfree::boundary::Translation;
-use meshfree::geometry::Cuboid;
+use meshfree::boundary::{Rotation, Translation};
+use meshfree::geometry::{HalfSpace, Shape};
 use meshfree::material::{Liquid, SoundSpeed};
 use meshfree::prelude::*;
 use meshfree::scalar::Real;
+use meshfree::scene::Start;
 
 const DX: f64 = 0.01;
 const SPEED: f64 = 2.0;
@@ -32,7 +33,7 @@ fn rebound<T: Real>(riemann: bool, rows: usize, lift: f64, floor: &Wall<2>) -> (
     let low = 8.0 * DX;
     let top = low + rows as f64 * DX;
     let rain = Body::block("rain", water::<T>(), [0.0, low], [10.0 * DX, top], DX);
-    let rain = rain.start(move |_, start| meshfree::scene::Start {
+    let rain = rain.start(move |_, start| Start {
         velocity: [0.0, lift - SPEED],
         ..start
     });
@@ -76,25 +77,69 @@ fn what_strikes_a_wall_alone_does_not_bounce() {
     );
 }
 
-/// A wall of points has the normals of the shape it is told of, and then does the same.
-#[test]
-fn points_that_face_a_shape_do_the_same() {
-    let room = Cuboid::new([-1.0, 0.0], [1.0, 1.0]);
-    let points = floor().points().to_vec();
-    let own = Wall::of("floor", points.clone(), DX).facing(&room);
-    let same = rebound::<f64>(true, 1, 0.0, &own).0 - rebound::<f64>(true, 1, 0.0, &floor()).0;
-    assert!(same.abs() < 1e-9, "{same}");
+/// The floor of points, which is told what it faces.
+fn told(room: impl Shape<2> + 'static) -> Wall<2> {
+    Wall::of("floor", floor().points().to_vec(), DX).facing(room)
 }
 
 #[test]
-fn walls_without_normals_are_refused_by_name() {
+fn points_that_are_told_their_room_do_the_same() {
+    let (around, _) = rebound::<f64>(true, 1, 0.0, &floor());
+    let above = HalfSpace::new([0.0; 2], [0.0, -1.0]);
+    let (told, _) = rebound::<f64>(true, 1, 0.0, &told(above));
+    assert!((told - around).abs() < 1e-9, "{told} {around}");
+}
+
+/// A floor that a motion has turned by a right angle into a wall: its normals turn with it.
+#[test]
+fn normals_turn_with_the_wall() {
+    let quarter = core::f64::consts::FRAC_PI_2;
+    let turned = floor().motion(Rotation::about([0.0; 2], move |_| [quarter, 0.0, 0.0]));
+    let [low, high] = [[-9.0 * DX, 0.0], [-8.0 * DX, 10.0 * DX]];
+    let rain = Body::block("rain", water(), low, high, DX);
+    let rain = rain.start(|_, start| Start {
+        velocity: [SPEED, 0.0],
+        ..start
+    });
+    let scene = Scene::new(scheme::<f64>(true)).body(rain).wall(turned);
+    let mut simulation = scene.build().unwrap();
+    simulation.run_until(0.08).unwrap();
+    let whole = simulation.ledger().whole;
+    let leaves = -whole.momentum[0] / whole.mass / SPEED;
+    let (level, _) = rebound::<f64>(true, 1, 0.0, &floor());
+    assert!((leaves - level).abs() < 1e-6, "{leaves} {level}");
+}
+
+/// A tongue that runs along a bed is not held back. With normals that lean forwards, the control, it is.
+#[test]
+fn what_runs_along_a_wall_keeps_its_speed() {
+    let kept = |bed: Wall<2>| {
+        let tongue = Body::block("tongue", water(), [0.0; 2], [0.05, 0.02], DX);
+        let tongue = tongue.start(|_, start| Start {
+            velocity: [SPEED, 0.0],
+            ..start
+        });
+        let scene = Scene::new(scheme::<f64>(true)).body(tongue).wall(bed);
+        let mut simulation = scene.build().unwrap();
+        simulation.run_until(0.02).unwrap();
+        let whole = simulation.ledger().whole;
+        whole.momentum[0] / whole.mass / SPEED
+    };
+    let level = kept(floor());
+    let leaning = kept(told(HalfSpace::new([0.0; 2], [0.6, -0.8])));
+    assert!((level - 1.0).abs() < 1e-12, "{level}");
+    assert!(leaning < 0.995, "{leaning}");
+}
+
+#[test]
+fn walls_that_know_no_room_are_refused_by_name() {
     let points = floor().points().to_vec();
     let rain = Body::block("rain", water::<f64>(), [0.0, DX], [0.1, 0.05], DX);
     let scene = Scene::new(scheme(true)).body(rain);
     let refused = scene.wall(Wall::of("floor", points, DX)).build();
     let text = refused.map(|_| ()).unwrap_err().to_string();
     assert!(
-        text.contains("wall `floor` has no normals") && text.contains("Wall::facing"),
+        text.contains("wall `floor` knows no room to face") && text.contains("Wall::facing"),
         "{text}"
     );
 }

@@ -5,6 +5,7 @@ use crate::common::{Failure, Options};
 use crate::violent::{self, Choices, History, Watch};
 use crate::{bars, figures};
 use meshfree::boundary::Translation;
+use meshfree::geometry::{Cuboid, Shape};
 use meshfree::material::{Liquid, SoundSpeed};
 use meshfree::observe::{PressureProbe, WaveGauge};
 use meshfree::output::vtu::Pvd;
@@ -144,9 +145,10 @@ impl Flat {
                 let [i, j] = [k % layers, k / layers].map(|n| n as f64 + 0.5);
                 [width + dx * i, dx * j]
             });
-            let gate =
-                Wall::of("gate", points.collect(), dx).motion(Translation::steady([0.0, speed]));
-            scene = scene.wall(gate);
+            let size = [dx * layers as f64, dx * rows as f64];
+            let plate = Cuboid::new([width, 0.0], [width + size[0], size[1]]);
+            let gate = Wall::of("gate", points.collect(), dx).facing(plate.complement());
+            scene = scene.wall(gate.motion(Translation::steady([0.0, speed])));
         }
         scene
     }

@@ -49,7 +49,7 @@ fn obstacle(spacing: f64, layers: usize) -> Result<Wall<3>, Failure> {
     let volume: f64 = (0..3).map(|d| size[d] / counts[d]).product();
     // Its foot is not a surface.
     let solid = Cuboid::new([low[0], low[1], -1.0], high);
-    Ok(Wall::of("box", points, volume.cbrt()).facing(&solid.complement()))
+    Ok(Wall::of("box", points, volume.cbrt()).facing(solid.complement()))
 }
 
 fn scene<T: Real>(spacing: f64, choices: &Choices) -> Result<Scene<T, 3>, Failure> {

@@ -27,7 +27,8 @@ pub enum Slip {
 ///
 /// p_w = [Σ p_f W + (g − a_w)·Σ ρ_f r_wf W] / Σ W   (Adami, Hu & Adams 2012, eq. 27),
 ///
-/// and is cut at the scheme's floor, so that a separating liquid is not held.
+/// and is cut at the scheme's floor, so that a separating liquid is not held. What strikes it bounces, unless the
+/// scheme takes walls as [Riemann problems](crate::scheme::LiquidBuilder::riemann_walls).
 ///
 /// ```
 /// use meshfree::boundary::{Translation, Wall};
@@ -46,8 +47,8 @@ pub struct Wall<const D: usize> {
     pub(crate) sliding: [f64; D],
     pub(crate) carries: bool,
     pub(crate) shape: Result<(), Flaw>,
-    /// Unit vectors from the liquid into the wall at its particles; none if nobody gave them.
-    pub(crate) normals: Vec<[f64; D]>,
+    /// What liquid may fill, if the wall was told.
+    pub(crate) room: Option<Arc<dyn Shape<D>>>,
 }
 
 impl<const D: usize> Wall<D> {
@@ -63,7 +64,7 @@ impl<const D: usize> Wall<D> {
             sliding: [0.0; D],
             carries: false,
             shape: Ok(()),
-            normals: Vec::new(),
+            room: None,
         }
     }
 
@@ -127,29 +128,40 @@ impl<const D: usize> Wall<D> {
         }
         // Of the volume of a cell as fitted, as the liquid's are: the force on the wall is in proportion.
         let volume: f64 = (0..D).map(|d| size[d] / counts[d] as f64).product();
-        let room = Cuboid::new(low, high);
-        Self::of(name, points, volume.powf(1.0 / D as f64)).facing(&room)
+        Self::of(name, points, volume.powf(1.0 / D as f64)).facing(Cuboid::new(low, high))
     }
 
-    /// Gives it the normals of a surface, by the space that liquid may fill: what
-    /// [`riemann_walls`](crate::scheme::LiquidBuilder::riemann_walls) needs of a wall of one's own points. Those
-    /// [`around`](Self::around) a box have them.
+    /// Tells it the room that liquid may fill, from whose distance it takes the normals that
+    /// [`riemann_walls`](crate::scheme::LiquidBuilder::riemann_walls) needs. A wall [around](Self::around) a box knows
+    /// its room.
     ///
-    /// They are the slope of the room's distance at the particles, in the scene as built; where that has none, as in
-    /// the middle of a thin plate, a particle has no normal and does without.
+    /// A normal is the slope of the room's distance at a particle, in the scene as built, and turns with the wall; where
+    /// there is no slope, as in the middle of a plate, a particle has none and does without.
     ///
     /// ```
     /// use meshfree::boundary::Wall;
     /// use meshfree::geometry::{Ball, Shape, fill};
     /// let post = Ball::new([0.0; 2], 0.1);
-    /// let wall = Wall::of("post", fill(&post, 0.01, [0.0; 2])?, 0.01).facing(&post.complement());
+    /// let wall = Wall::of("post", fill(&post, 0.01, [0.0; 2])?, 0.01).facing(post.complement());
     /// # Ok::<(), meshfree::error::Error>(())
     /// ```
     #[must_use]
-    pub fn facing(mut self, room: &impl Shape<D>) -> Self {
+    pub fn facing(mut self, room: impl Shape<D> + 'static) -> Self {
+        if let (Ok(()), Some(flaw)) = (self.shape, room.problems().first()) {
+            self.shape = Err(*flaw);
+        }
+        self.room = Some(Arc::new(room));
+        self
+    }
+
+    /// Unit vectors from the liquid into the wall at its particles, or zero; none if it knows no room.
+    pub(crate) fn normals(&self) -> Vec<[f64; D]> {
+        let Some(room) = &self.room else {
+            return Vec::new();
+        };
         let step = 1e-3 * self.spacing;
         let normal = |x: &[f64; D]| {
-            let slope = Vector::<f64, D>::from_fn(|d, _| {
+            let rise = Vector::<f64, D>::from_fn(|d, _| {
                 let beside = |side: f64| {
                     let mut x = *x;
                     x[d] += side * step;
@@ -157,19 +169,15 @@ impl<const D: usize> Wall<D> {
                 };
                 beside(1.0) - beside(-1.0)
             });
-            let size = length(&slope);
-            // Half of the slope that a distance has.
+            // A distance rises by twice the step; less than half of that is no direction.
+            let size = length(&rise);
             if size > step {
-                (slope / size).into()
+                (rise / size).into()
             } else {
                 [0.0; D]
             }
         };
-        self.normals = self.points.iter().map(normal).collect();
-        if let Some(flaw) = room.problems().first() {
-            self.shape = Err(*flaw);
-        }
-        self
+        self.points.iter().map(normal).collect()
     }
 
     /// Gives it a prescribed motion.

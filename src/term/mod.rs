@@ -17,7 +17,7 @@
 //! | [`LaminarViscosity`], [`CentralViscosity`] | momentum | force of a physical viscosity |
 //! | [`Molteni`], [`Fourtakas`], [`Antuono`], [`RiemannDiffusion`] | density | diffusion against noise |
 //! | [`Crowding`] | position | what shifting needs |
-//! | [`LiquidNearWall`], [`LiquidAlongWall`], [`ViscosityAtWall`] | walls | what wall particles take from the liquid |
+//! | [`LiquidNearWall`], [`VelocityAtWall`], [`ViscosityAtWall`] | walls | what wall particles take from the liquid |
 //!
 //! [`probe()`] evaluates a term for one pair, for tests of terms of your own.
 //!
@@ -113,7 +113,7 @@ pub use probe::{Probe, probe};
 pub use renormalised::{RenormalisedCompression, RenormalisedPressureForce};
 pub use sums::{Compression, KernelMoment, KernelSum, SlopeInH, Unity};
 pub use viscosity::{ArtificialViscosity, Viscosity, Viscous};
-pub use wall::{LiquidAlongWall, LiquidNearWall, ViscosityAtWall};
+pub use wall::{LiquidNearWall, VelocityAtWall, ViscosityAtWall};
 
 /// Most numbers that a packed record can hold.
 pub const MOST_READS: usize = 40;

@@ -37,9 +37,9 @@ impl<const D: usize> Term<D> for LiquidNearWall {
 
 /// The sum from which a wall particle takes the velocity of the liquid before it, Σ V v W.
 #[derive(Clone, Copy, Debug)]
-pub struct LiquidAlongWall;
+pub struct VelocityAtWall;
 
-impl<const D: usize> Term<D> for LiquidAlongWall {
+impl<const D: usize> Term<D> for VelocityAtWall {
     const READS: Fields = Fields::of(&[Field::Mass, Field::Density, Field::Velocity]);
     const WRITES: Outputs = Outputs::of(&[Output::LiquidVelocity]);
     #[inline(always)]

@@ -2,7 +2,7 @@
 //! whether scheme and liquid go with them, and where walls lie.
 
 use super::TOO_CLOSE;
-use crate::boundary::{Outlet, Pose, Slip};
+use crate::boundary::{Outlet, Pose, Slip, Wall};
 use crate::error::Problem;
 use crate::neighbors::Cells;
 use crate::particles::Field;
@@ -89,11 +89,11 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                 .is_some_and(|own| own.riemann_walls);
             if riemann
                 && matches!(origin, Origin::Wall(k) if *k < self.scene.walls.len())
-                && wall.normals.is_empty()
+                && wall.room.is_none()
             {
                 problems.push(Problem::Incompatible {
                     what: format!(
-                        "the scheme {} takes walls as Riemann problems, and wall `{}` has no normals",
+                        "the scheme {} takes walls as Riemann problems, and wall `{}` knows no room to face",
                         self.scheme.name, wall.name
                     ),
                     remedy: "give it the room of the liquid, Wall::facing, or leave out riemann_walls",
@@ -193,16 +193,24 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         };
         let every: Vec<u32> = (0..liquid.len() as u32).collect();
         let liquid_cells = Cells::build(&liquid, &every, spacing);
+        // A motion may have moved a wall by the start.
+        let placed = |wall: &Wall<D>| -> Vec<[f64; D]> {
+            let pose = wall
+                .motion
+                .as_ref()
+                .map_or(Pose::rest(), |motion| motion.pose(0.0));
+            wall.points.iter().map(|x| pose.of(0, x)).collect()
+        };
         let solid: Vec<[f64; D]> = self
             .walls
             .iter()
-            .flat_map(|(wall, _)| wall.points.iter().copied())
+            .flat_map(|(wall, _)| placed(wall))
             .collect();
         let every: Vec<u32> = (0..solid.len() as u32).collect();
         let solid_cells = Cells::build(&solid, &every, spacing);
         for (wall, _) in &self.walls {
             let (mut faces, mut thin) = (0_usize, 0_usize);
-            for x in &wall.points {
+            for x in &placed(wall) {
                 let Some((j, r2)) = near(&liquid, &liquid_cells, x, 1.2 * spacing) else {
                     continue;
                 };

@@ -9,8 +9,8 @@ use crate::particles::Field;
 use crate::scalar::Real;
 use crate::sweep::{PairSweep, Program, SmoothingMode};
 use crate::term::{
-    ArtificialViscosity, Compression, DensityGradient, LiquidAlongWall, LiquidNearWall,
-    PressureForce, RenormalisedCompression, RenormalisedPressureForce, Term, VelocityGradient,
+    ArtificialViscosity, Compression, DensityGradient, LiquidNearWall, PressureForce,
+    RenormalisedCompression, RenormalisedPressureForce, Term, VelocityAtWall, VelocityGradient,
     Viscosity, ViscosityAtWall,
 };
 
@@ -89,10 +89,10 @@ impl<K, V, W, R, S, U, const MODES: u8, const RENORMALISED: bool>
         let viscosity_problems = self.viscosity.problems();
         let wall: Box<dyn PairSweep<T, D>> = if const { R::READS.contains(Field::DynamicViscosity) }
         {
-            let terms = (LiquidNearWall, LiquidAlongWall, ViscosityAtWall);
+            let terms = (LiquidNearWall, VelocityAtWall, ViscosityAtWall);
             Box::new(Program::<_, _, MODES>::new(kernel, terms, mode))
         } else if self.riemann_walls {
-            let terms = (LiquidNearWall, LiquidAlongWall);
+            let terms = (LiquidNearWall, VelocityAtWall);
             Box::new(Program::<_, _, MODES>::new(kernel, terms, mode))
         } else {
             Box::new(Program::<_, _, MODES>::new(kernel, (LiquidNearWall,), mode))
