@@ -53,6 +53,7 @@ pub struct FarWall {
 /// The water's push along the tank, in three measures.
 #[derive(Clone, Copy, Debug)]
 pub struct Ends {
+    /// When \[s\].
     pub time: f64,
     /// Pressures of sensors all over both ends, summed with their areas \[N\].
     pub sensed: f64,
@@ -249,6 +250,7 @@ fn cover<T: Real>(
     Ok((sensors, outwards))
 }
 
+/// The water's push along the tank now, with what [`cover`] gave.
 fn ends_of<T: Real>(
     case: &Case,
     (sensors, outwards): &(Vec<PressureProbe<3>>, Vec<f64>),
