@@ -314,24 +314,6 @@ impl History {
         )
     }
 
-    /// Writes it, no row closer to the last than `apart` \[s\].
-    pub fn write(&self, path: &Path, comment: &str, apart: f64) -> Result<(), Failure> {
-        let mut names = vec!["time_s".to_string()];
-        names.extend(self.names.iter().cloned());
-        let mut file = CsvWriter::create_with_comment(path, comment, &names)?;
-        let mut next = f64::NEG_INFINITY;
-        for k in 0..self.time.len() {
-            if self.time[k] < next {
-                continue;
-            }
-            next = self.time[k] + apart;
-            let mut row = vec![self.time[k]];
-            row.extend(self.columns.iter().map(|column| column[k]));
-            file.row(&row)?;
-        }
-        Ok(())
-    }
-
     /// Three lines about the run itself.
     pub fn summary(&self) -> String {
         let mut text = format!(
@@ -372,12 +354,23 @@ impl History {
     }
 }
 
+/// What a run leaves while it goes.
+pub struct Keep<'a> {
+    /// Table of its history, and the comment above it.
+    pub table: PathBuf,
+    pub comment: &'a str,
+    /// No row of it is closer to the last than this \[s\].
+    pub apart: f64,
+    /// How many frames.
+    pub frames: usize,
+}
+
 /// Runs a simulation to `until` \[s\] and keeps what probes (`NAME_pa`, and where asked for `NAME_contact_pa`), gauges
 /// (`NAME_m`) and the front along the first axis (`front_m`) read in every step; `frame` sees frames.
 ///
 /// Particles outside of `inside` at the end count as lost.
 pub fn run<T: Real, const D: usize>(
-    frames: usize,
+    keep: &Keep<'_>,
     simulation: &mut Simulation<T, D>,
     until: f64,
     watch: &Watch<D>,
@@ -408,10 +401,16 @@ pub fn run<T: Real, const D: usize>(
         ..History::default()
     };
     history.columns = vec![Vec::new(); history.names.len()];
+    let columns: Vec<&str> = ["time_s"]
+        .into_iter()
+        .chain(history.names.iter().map(String::as_str))
+        .collect();
+    let mut table = CsvWriter::create_with_comment(&keep.table, keep.comment, &columns)?;
+    let (frames, mut next) = (keep.frames, f64::NEG_INFINITY);
     let spacing = simulation.spacing();
     let started = Instant::now();
     let mut progress = Progress::new("flow");
-    let (mut shown, mut failed) = (0, None);
+    let (mut shown, mut failed) = (0, None::<Failure>);
     // Gauges and fronts move by less than a hundredth of the spacing in a step: every eighth will do.
     let mut slow = vec![0.0; 2 * watch.gauges.len() + 1];
     // A spike lasts for eight steps or so, and forces on walls cost a sweep.
@@ -430,9 +429,13 @@ pub fn run<T: Real, const D: usize>(
             contact = PressureProbe::contact_pressures(felt, now);
         }
         let slow = slow.iter().chain(&contact).copied();
-        let values: Vec<f64> = probes.into_iter().chain(slow).collect();
-        for (column, value) in history.columns.iter_mut().zip(values) {
-            column.push(value);
+        let row: Vec<f64> = [now.time()].into_iter().chain(probes).chain(slow).collect();
+        for (column, value) in history.columns.iter_mut().zip(&row[1..]) {
+            column.push(*value);
+        }
+        if now.time() >= next && failed.is_none() {
+            failed = table.row(&row).err().map(Into::into);
+            next = now.time() + keep.apart;
         }
         let due = until * shown as f64 / frames.max(1) as f64 * (1.0 - 1e-9);
         if frames > 0 && now.time() >= due && failed.is_none() {

@@ -2,7 +2,7 @@
 //! The gate vanishes at once, or is a wall that is pulled up.
 
 use crate::common::{Failure, Options};
-use crate::violent::{self, Choices, History, Watch};
+use crate::violent::{self, Choices, History, Keep, Watch};
 use crate::{bars, figures};
 use meshfree::boundary::Translation;
 use meshfree::geometry::{Cuboid, Shape};
@@ -185,14 +185,13 @@ impl Flat {
             figures::plane(self, now, &options.file(&format!("frame_{k:05}")))
         };
         let watch = self.watch(&simulation)?;
-        violent::run(
-            choices.frames,
-            &mut simulation,
-            self.until,
-            &watch,
-            inside,
-            frame,
-        )
+        let keep = Keep {
+            table: options.file("history.csv"),
+            comment: self.name,
+            apart: 1e-4,
+            frames: choices.frames,
+        };
+        violent::run(&keep, &mut simulation, self.until, &watch, inside, frame)
     }
 }
 
@@ -209,7 +208,6 @@ pub fn perform<T: Real>(case: &Flat, options: &Options, choices: &Choices) -> Re
     );
     let history = case.run::<T>(options, choices)?;
     println!("{}", history.summary());
-    history.write(&options.file("history.csv"), case.name, 1e-4)?;
     figures::histories(case, &history, choices, options.folder())?;
     if choices.bars {
         bars::flat(case, &history, choices)?;

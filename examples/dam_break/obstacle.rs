@@ -3,7 +3,7 @@
 
 use crate::common::{Failure, Options};
 use crate::flat::GRAVITY;
-use crate::violent::{self, Choices, Watch};
+use crate::violent::{self, Choices, Keep, Watch};
 use crate::{bars, figures};
 use meshfree::geometry::{Cuboid, Shape, fill};
 use meshfree::material::{Liquid, SoundSpeed};
@@ -138,11 +138,15 @@ pub fn perform<T: Real>(options: &Options, choices: &Choices) -> Result<(), Fail
         violent::paraview(&mut series, now)?;
         figures::space(now, &options.file(&format!("frame_{k:05}")))
     };
-    let frames = choices.frames;
+    let keep = Keep {
+        table: options.file("history.csv"),
+        comment: "SPHERIC 2",
+        apart: 5e-4,
+        frames: choices.frames,
+    };
     let watch = watch(&simulation)?;
-    let history = violent::run(frames, &mut simulation, until, &watch, inside, frame)?;
+    let history = violent::run(&keep, &mut simulation, until, &watch, inside, frame)?;
     println!("{}", history.summary());
-    history.write(&options.file("history.csv"), "SPHERIC 2", 5e-4)?;
     figures::obstacle(&history, spacing, choices, options.folder())?;
     if choices.bars {
         bars::obstacle(&history, spacing, choices);

@@ -16,7 +16,7 @@ use meshfree::output::svg::{Axis, Color, Figure, Panel, Series};
 use meshfree::output::vtu::Pvd;
 use meshfree::prelude::*;
 use std::process::ExitCode;
-use violent::{Bar, Choices, History, Watch, own};
+use violent::{Bar, Choices, History, Keep, Watch, own};
 
 const EXAMPLE: Example = Example {
     name: "sloshing_roll",
@@ -152,20 +152,14 @@ where
         let in_plane = own[0].abs() <= half + deep && (-deep..=TANK[1] + deep).contains(&own[1]);
         in_plane && (2..D).all(|d| (-deep..=breadth + deep).contains(&own[d]))
     };
-    let history = violent::run(
-        choices.frames,
-        &mut simulation,
-        until,
-        &watch,
-        inside,
-        frame,
-    )?;
+    let keep = Keep {
+        table: options.file("history.csv"),
+        comment: "SPHERIC 10, lateral, water",
+        apart: 5e-4,
+        frames: choices.frames,
+    };
+    let history = violent::run(&keep, &mut simulation, until, &watch, inside, frame)?;
     println!("{}", history.summary());
-    history.write(
-        &options.file("history.csv"),
-        "SPHERIC 10, lateral, water",
-        5e-4,
-    )?;
     figure(&history, spacing, choices, options)?;
     if choices.bars {
         bars(&history, spacing, choices);
