@@ -32,10 +32,11 @@ fn a_column_at_rest_stays_so_unless_its_own_pressure_is_diffused() {
     let scheme = || schemes::weakly_compressible().h_over_dx(2.0);
     let fourtakas = after_rest(scheme());
     let antuono = after_rest(scheme().density_diffusion(Antuono::default()));
+    let riemann_walls = after_rest(scheme().riemann_walls());
     let molteni = after_rest(scheme().density_diffusion(Molteni::default()));
-    let text = format!("RMS, rise, v/c: {fourtakas:?} {antuono:?} {molteni:?}");
+    let text = format!("RMS, rise, v/c: {fourtakas:?} {antuono:?} {riemann_walls:?} {molteni:?}");
     println!("{text}");
-    for [rms, rise, speed] in [fourtakas, antuono] {
+    for [rms, rise, speed] in [fourtakas, antuono, riemann_walls] {
         assert!(rms < 0.01 && rise.abs() < 0.5 && speed < 1e-4, "{text}");
     }
     assert!(molteni[0] > 0.01 || molteni[1].abs() > 0.5, "{text}");
@@ -47,11 +48,14 @@ fn a_column_at_rest_stays_so_unless_its_own_pressure_is_diffused() {
 fn a_standing_wave_keeps_its_period() {
     let scheme = || schemes::weakly_compressible().renormalised();
     let plain = swings(schemes::weakly_compressible());
+    let riemann_walls = swings(schemes::weakly_compressible().riemann_walls());
     let (renewed, kept) = (swings(scheme()), swings(scheme().dual_criteria()));
-    let text =
-        format!("period over the exact one, crest over crest: {plain:?} {renewed:?} {kept:?}");
+    let text = format!(
+        "period over the exact one, crest over crest: {plain:?} {riemann_walls:?} {renewed:?} {kept:?}"
+    );
     println!("{text}");
     assert!((plain[0] - 1.0).abs() < 0.005, "{text}");
+    assert!((riemann_walls[0] - 1.0).abs() < 0.005, "{text}");
     assert!((kept[0] - 1.0).abs() < 0.01, "{text}");
     assert!(
         kept != renewed && (kept[0] - renewed[0]).abs() < 1e-3,
