@@ -180,6 +180,17 @@ fn bodies_that_overlap_in_any_dimension_however_their_lattices_lie() {
     }
 }
 
+#[test]
+fn a_jitter_that_lets_particles_change_places() {
+    for share in [-0.1, 0.5, f64::NAN, f64::INFINITY] {
+        let found = problem(Scene::new(schemes::impact()).body(rod().jitter(share, 1)));
+        is_parameter(&found, "jitter of body `rod`", "from 0 to 0.4");
+    }
+    let still = rod().jitter(0.0, 1);
+    assert_eq!(still.points(), rod().points());
+    assert_eq!(good().body(other(0.02).jitter(0.4, 1)).problems(), []);
+}
+
 /// Where its motion has put it by the start, not where it was drawn.
 #[test]
 fn a_wall_that_liquid_overlaps_is_one_where_it_starts() {

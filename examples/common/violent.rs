@@ -29,7 +29,7 @@ pub const fn options_and(one: Own) -> [Own; SHARED.len() + 1] {
     all
 }
 
-const SHARED: [Own; 12] = [
+const SHARED: [Own; 14] = [
     own("--alpha", "A", "artificial viscosity (0.02; riemann: 1)"),
     own("--delta", "D", "density diffusion (0.1)"),
     own(
@@ -58,6 +58,12 @@ const SHARED: [Own; 12] = [
         "",
         "lets walls meet liquid as in a Riemann problem",
     ),
+    own(
+        "--jitter",
+        "S",
+        "how far particles start off the lattice, over the spacing",
+    ),
+    own("--seed", "N", "another draw of the jitter (1)"),
     own(
         "--frames",
         "N",
@@ -89,6 +95,8 @@ pub struct Choices {
     pub cut_off: f64,
     pub reversible_tearing: bool,
     pub riemann_walls: bool,
+    pub jitter: Option<f64>,
+    pub seed: u64,
     pub frames: usize,
     pub reference: PathBuf,
     pub bars: bool,
@@ -108,8 +116,15 @@ impl Choices {
             })
         };
         let not_negative = |name: &str| number(name, 0.0, "a number, 0 or more");
+        let whole = |name: &str, usual: u32| {
+            let Some(text) = options.text(name) else {
+                return Ok(usual);
+            };
+            let refused =
+                |_| format!("{name}: `{text}` is not accepted; it takes a whole number, 0 or more");
+            text.trim().parse::<u32>().map_err(refused)
+        };
         let usual = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
-        let frames = not_negative("--frames")?.unwrap_or(if options.quick { 4.0 } else { 20.0 });
         Ok(Self {
             scheme: options.scheme.clone(),
             alpha: not_negative("--alpha")?,
@@ -121,7 +136,9 @@ impl Choices {
             cut_off: number("--cut-off-pa", f64::MIN, "a number")?.unwrap_or(0.0),
             reversible_tearing: options.has("--reversible-tearing"),
             riemann_walls: options.has("--riemann-walls"),
-            frames: frames as usize,
+            jitter: not_negative("--jitter")?,
+            seed: whole("--seed", 1)?.into(),
+            frames: whole("--frames", if options.quick { 4 } else { 20 })? as usize,
             reference: options.text("--reference").map_or(usual, PathBuf::from),
             bars: options.has("--bars"),
         })
@@ -181,6 +198,11 @@ impl Choices {
                 .compose(),
             _ => base.with_viscosity(plain(alpha(0.02))).compose(),
         }
+    }
+
+    /// A body off its lattice, as far as asked or as is usual.
+    pub fn jittered<T: Real, const D: usize>(&self, body: Body<T, D>, usual: f64) -> Body<T, D> {
+        body.jitter(self.jitter.unwrap_or(usual), self.seed)
     }
 
     /// Whether water sticks to walls.

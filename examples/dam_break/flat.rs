@@ -131,7 +131,9 @@ impl Flat {
             .with_pressure_cut_off(choices.cut_off);
         let layers = choices.layers();
         let closed = [[true, true], [true, false]];
-        let column = Body::block("water", water, [0.0; 2], self.column, dx)
+        let column = Body::block("water", water, [0.0; 2], self.column, dx);
+        let column = choices
+            .jittered(column, 0.0)
             .hydrostatic([0.0, -GRAVITY], [0.0, height]);
         let mut scene = Scene::new(choices.compose::<T, 2>())
             .body(column)

@@ -52,6 +52,9 @@ fn obstacle(spacing: f64, layers: usize) -> Result<Wall<3>, Failure> {
     Ok(Wall::of("box", points, volume.cbrt()).facing(solid.complement()))
 }
 
+/// Off the lattice, whose rows would strike the box all at once.
+const JITTER: f64 = 0.2;
+
 fn scene<T: Real>(spacing: f64, choices: &Choices) -> Result<Scene<T, 3>, Failure> {
     let water = Liquid::new(DENSITY, 1480.0, 1e-3)
         .material("water", SoundSpeed::Chosen(sound_speed(choices)))
@@ -63,8 +66,10 @@ fn scene<T: Real>(spacing: f64, choices: &Choices) -> Result<Scene<T, 3>, Failur
         [start, 0.0, 0.0],
         [TANK[0], TANK[1], height],
         spacing,
-    )
-    .hydrostatic([0.0, 0.0, -GRAVITY], [0.0, 0.0, height]);
+    );
+    let column = choices
+        .jittered(column, JITTER)
+        .hydrostatic([0.0, 0.0, -GRAVITY], [0.0, 0.0, height]);
     let layers = choices.layers();
     let closed = [[true, true], [true, true], [true, false]];
     Ok(Scene::new(choices.compose::<T, 3>())
@@ -121,8 +126,11 @@ pub fn perform<T: Real>(options: &Options, choices: &Choices) -> Result<(), Fail
     let spacing = options.spacing_or(0.55 / 30.0, 0.05);
     let until = options.until_or(6.0, 1.0);
     println!(
-        "SPHERIC 2: spacing {spacing} m, sound speed {:.1} m/s, until {until} s",
-        sound_speed(choices)
+        "SPHERIC 2: spacing {spacing} m, sound speed {:.1} m/s, off the lattice by up to {} of the spacing (draw {}), \
+         until {until} s",
+        sound_speed(choices),
+        choices.jitter.unwrap_or(JITTER),
+        choices.seed
     );
     let mut simulation = scene::<T>(spacing, choices)?.build()?;
     println!("{}", simulation.scheme());

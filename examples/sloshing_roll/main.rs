@@ -92,7 +92,9 @@ where
     let half = 0.5 * TANK[0];
     let (low, high) = (place(-half, 0.0, 0.0), place(half, TANK[1], breadth));
     let down = place(0.0, -GRAVITY, 0.0);
-    let body = Body::block("water", water, low, place(half, DEPTH, breadth), spacing)
+    let body = Body::block("water", water, low, place(half, DEPTH, breadth), spacing);
+    let body = choices
+        .jittered(body, 0.0)
         .hydrostatic(down, place(0.0, DEPTH, 0.0));
     // The record's angle is positive where the left wall goes down first; a rotation from the first axis
     // towards the second lifts the right wall, which is the same.
