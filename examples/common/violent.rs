@@ -61,7 +61,7 @@ const SHARED: [Own; 14] = [
     own(
         "--jitter",
         "S",
-        "how far particles start off the lattice, over the spacing",
+        "how far off the lattice particles start, over dx (0; spheric2: 0.2)",
     ),
     own("--seed", "N", "another draw of the jitter (1)"),
     own(
