@@ -31,7 +31,7 @@ fn strike(jitter: f64, seed: u64) -> [f64; 2] {
     simulation
         .run_with(0.6, |now| {
             let (time, sum) = impulse[impulse.len() - 1];
-            let pressure = PressureProbe::pressures(core::slice::from_ref(&sensor), now)[0];
+            let pressure = sensor.pressure(now);
             impulse.push((now.time(), sum + pressure * (now.time() - time)));
         })
         .unwrap();

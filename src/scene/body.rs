@@ -217,11 +217,8 @@ impl<T: Real, const D: usize> Body<T, D> {
     #[must_use]
     pub fn jitter(mut self, share: f64, seed: u64) -> Self {
         if !(0.0..=0.3).contains(&share) {
-            self.shape = Err((
-                "jitter",
-                share,
-                "it must be from 0 to 0.3, as a share of the spacing",
-            ));
+            let must_be = "it must be from 0 to 0.3, as a share of the spacing";
+            self.shape = self.shape.and(Err(("jitter", share, must_be)));
             return self;
         }
         let farthest = share * self.spacing;

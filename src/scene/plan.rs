@@ -200,8 +200,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                 )
             }
         };
-        let riemann = self.scheme.liquid.as_ref();
-        let normals = if riemann.is_some_and(|own| own.riemann_walls) {
+        let normals = if self.scheme.has_riemann_walls() {
             wall.normals()
         } else {
             Vec::new()

@@ -172,6 +172,11 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         self.liquid.is_some() && self.compression.is_none()
     }
 
+    /// Whether walls meet its liquid as in a Riemann problem.
+    pub(crate) fn has_riemann_walls(&self) -> bool {
+        self.liquid.as_ref().is_some_and(|own| own.riemann_walls)
+    }
+
     /// Whether it has what a second criterion can keep: corrections without gradients of density, which follow
     /// sound, or viscosities that follow the shear rate.
     pub(crate) fn has_slow_fields(&self) -> bool {

@@ -82,12 +82,8 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                     remedy: "take a scheme of liquids (schemes::weakly_compressible), or a MirrorPlane",
                 });
             }
-            let riemann = self
-                .scheme
-                .liquid
-                .as_ref()
-                .is_some_and(|own| own.riemann_walls);
-            if riemann
+            // The buffers of inlets, which are numbered after the walls, face nothing.
+            if self.scheme.has_riemann_walls()
                 && matches!(origin, Origin::Wall(k) if *k < self.scene.walls.len())
                 && wall.room.is_none()
             {
