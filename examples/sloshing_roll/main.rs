@@ -216,7 +216,7 @@ fn figure(
     }
     Figure::new()
         .title(&format!(
-            "SPHERIC 10, lateral impact, spacing {:.1} mm",
+            "SPHERIC 10, lateral impact, spacing {:.2} mm",
             1e3 * spacing
         ))
         .panel_size(900.0, 380.0)
