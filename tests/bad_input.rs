@@ -191,6 +191,14 @@ fn a_jitter_that_brings_particles_too_close() {
     assert_eq!(good().body(other(0.02).jitter(0.3, 1)).problems(), []);
 }
 
+#[test]
+fn a_stagger_along_an_axis_that_is_not_there() {
+    let rod = || rod().stagger(1, [true; 2], 1);
+    let found = problem(Scene::new(schemes::impact()).body(rod()));
+    is_parameter(&found, "stagger axis of body `rod`", "counted from 0");
+    assert_eq!(rod().points(), self::rod().points());
+}
+
 /// Where its motion has put it by the start, not where it was drawn.
 #[test]
 fn a_wall_that_liquid_overlaps_is_one_where_it_starts() {
