@@ -61,7 +61,7 @@ const SHARED: [Own; 14] = [
     own(
         "--jitter",
         "S",
-        "how far off the lattice particles start, over dx (0; spheric2: 0.2)",
+        "how far off the lattice particles start, over dx (0; spheric2: 0.2, rows out of step)",
     ),
     own("--seed", "N", "another draw of the jitter (1)"),
     own(

@@ -46,6 +46,59 @@ pub const MARTIN_MOYCE_REAR: [(f64, f64); 13] = [
     (3.06, 0.28),
 ];
 
+/// Kleefsman et al. 2005, figure of H2, computed by volume of fluid with 236 × 76 × 68 cells: time and height \[s, m\].
+///
+/// Read off the figure as the SPHERIC document of 2006 reprints it, whose pixels are 2.3 mm.
+pub const VOLUME_OF_FLUID_H2: [(f64, f64); 29] = [
+    (0.4, 0.052),
+    (0.5, 0.083),
+    (0.6, 0.098),
+    (0.8, 0.135),
+    (1.0, 0.168),
+    (1.2, 0.186),
+    (1.4, 0.198),
+    (1.5, 0.218),
+    (1.6, 0.282),
+    (1.7, 0.365),
+    (1.8, 0.363),
+    (1.9, 0.341),
+    (2.0, 0.328),
+    (2.1, 0.325),
+    (2.25, 0.339),
+    (2.4, 0.300),
+    (2.5, 0.272),
+    (2.6, 0.265),
+    (2.8, 0.256),
+    (3.0, 0.255),
+    (3.2, 0.231),
+    (3.4, 0.205),
+    (3.6, 0.198),
+    (3.8, 0.187),
+    (4.0, 0.178),
+    (4.2, 0.160),
+    (4.6, 0.129),
+    (4.8, 0.207),
+    (5.0, 0.228),
+];
+
+/// The same for P1 \[s, Pa\], without the 1000 Pa by which the figure is too high; a pixel is 82 Pa.
+pub const VOLUME_OF_FLUID_P1: [(f64, f64); 14] = [
+    (0.42, 12_000.0),
+    (0.55, 5450.0),
+    (0.6, 4950.0),
+    (0.7, 4570.0),
+    (0.8, 4240.0),
+    (0.9, 3960.0),
+    (1.0, 3730.0),
+    (1.1, 3480.0),
+    (2.0, 2820.0),
+    (2.5, 2490.0),
+    (3.0, 2060.0),
+    (3.5, 1580.0),
+    (4.0, 1300.0),
+    (4.5, 1020.0),
+];
+
 /// Points of a measured record as a series of markers, where the record is there.
 fn measured(
     choices: &Choices,
@@ -229,6 +282,15 @@ pub fn obstacle(
             let points = record.column("time_s")?.into_iter().zip(values);
             let series = Series::line("Kleefsman et al. 2005", points).reference();
             panel = panel.series(series);
+        }
+        let other = match name.as_str() {
+            "h2" => &VOLUME_OF_FLUID_H2[..],
+            "p1" => &VOLUME_OF_FLUID_P1[..],
+            _ => &[],
+        };
+        if !other.is_empty() {
+            let points = other.iter().map(|(t, v)| (*t, v / scale));
+            panel = panel.series(Series::markers("their computation", points));
         }
         figure = figure.panel(panel);
     }

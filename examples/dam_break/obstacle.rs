@@ -52,7 +52,7 @@ fn obstacle(spacing: f64, layers: usize) -> Result<Wall<3>, Failure> {
     Ok(Wall::of("box", points, volume.cbrt()).facing(solid.complement()))
 }
 
-/// Off the lattice, whose rows would strike the box all at once.
+/// Off the lattice, whose rows would strike the box all at once; rows are out of step as well.
 const JITTER: f64 = 0.2;
 
 fn scene<T: Real>(spacing: f64, choices: &Choices) -> Result<Scene<T, 3>, Failure> {
@@ -60,13 +60,16 @@ fn scene<T: Real>(spacing: f64, choices: &Choices) -> Result<Scene<T, 3>, Failur
         .material("water", SoundSpeed::Chosen(sound_speed(choices)))
         .with_pressure_cut_off(choices.cut_off);
     let [start, height] = COLUMN;
-    let column = Body::block(
+    let mut column = Body::block(
         "water",
         water,
         [start, 0.0, 0.0],
         [TANK[0], TANK[1], height],
         spacing,
     );
+    if choices.jitter != Some(0.0) {
+        column = column.stagger(0, [true, false], choices.seed);
+    }
     let column = choices
         .jittered(column, JITTER)
         .hydrostatic([0.0, 0.0, -GRAVITY], [0.0, 0.0, height]);
@@ -157,7 +160,7 @@ pub fn perform<T: Real>(options: &Options, choices: &Choices) -> Result<(), Fail
     println!("{}", history.summary());
     figures::obstacle(&history, spacing, choices, options.folder())?;
     if choices.bars {
-        bars::obstacle(&history, spacing, choices);
+        bars::obstacle(&history, spacing, choices)?;
     }
     println!("written to {}", options.folder().display());
     Ok(())
