@@ -239,8 +239,9 @@ impl<T: Real, const D: usize> Body<T, D> {
     ///
     /// The tip of a wave that comes from a column is the first particles of its rows. In step they strike a wall at
     /// once, and so do the next; out of step they strike one after the other. [`jitter`](Self::jitter) does that too,
-    /// by a fifth of a spacing; both together do it best (`docs/dam_breaks.md`). Give them before what starts particles
-    /// by their places, as [`hydrostatic`](Self::hydrostatic), and this one first: a jittered lattice has no rows.
+    /// by a fifth of a spacing and not by half; the example `dam_break` has both in space, and `docs/dam_breaks.md` what
+    /// each gains. Give them before what starts particles by their places, as [`hydrostatic`](Self::hydrostatic), and
+    /// this one first: a jittered lattice has no rows.
     ///
     /// ```
     /// use meshfree::material::catalogue;
@@ -275,7 +276,7 @@ impl<T: Real, const D: usize> Body<T, D> {
         }
         for x in &mut self.points {
             let (number, ends) = rows[&row(x)];
-            let nearing = |end: usize| {
+            let freedom = |end: usize| {
                 let particles = (x[axis] - ends[end]).abs() / self.spacing;
                 if free[end] {
                     1.0
@@ -283,7 +284,7 @@ impl<T: Real, const D: usize> Body<T, D> {
                     (particles / 4.0).min(1.0)
                 }
             };
-            x[axis] += nearing(0) * nearing(1) * 0.5 * self.spacing * random(seed, number);
+            x[axis] += freedom(0) * freedom(1) * 0.5 * self.spacing * random(seed, number);
         }
         self
     }
