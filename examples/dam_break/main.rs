@@ -20,7 +20,8 @@ const EXAMPLE: Example = Example {
     about: "Dam breaks against experiments.
 
 --case NAME is lobovsky, koshizuka or martin-moyce, in a plane, or spheric2, in space.
-The scheme viscous has the water's own viscosity, and walls without slip.",
+The scheme viscous has the water's own viscosity, and walls without slip; docs/dam_breaks.md says what
+each choice gains.",
     schemes: &violent::SCHEMES,
     own: &violent::options_and(own(
         "--gate",
