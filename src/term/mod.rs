@@ -292,6 +292,20 @@ impl<L: Lane, const D: usize, P: Layout> Sums<L, D, P> {
         let width = P::WRITES.width(D);
         self.kept[..width].copy_from_slice(&from.kept[..width]);
     }
+    /// Sets the sums that are kept to zero.
+    #[inline(always)]
+    pub(crate) fn clear(&mut self) {
+        self.kept[..P::WRITES.width(D)].fill(L::zero());
+    }
+    /// The kept force; zero where no term sets one.
+    #[inline(always)]
+    pub(crate) fn force(&self) -> [L; D] {
+        if !P::WRITES.contains(Output::Force) {
+            return [L::zero(); D];
+        }
+        let at = P::WRITES.offset(Output::Force, D);
+        core::array::from_fn(|d| self.kept[at + d])
+    }
     /// Adds to a scalar sum.
     #[inline(always)]
     pub fn add(&mut self, output: Output, value: L) {

@@ -7,10 +7,10 @@ use super::records::Image;
 use super::rows::Reaction;
 use super::{InstructionSet, Interaction};
 use crate::kernel::Kernel;
-use crate::neighbors::{Block, CHUNK, ChunkList, Segment};
+use crate::neighbors::{Block, CHUNK, ChunkList};
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Mask, Real};
-use crate::term::{Layout, MOST_READS, MOST_SUMS, Sums, Terms};
+use crate::term::{Layout, MOST_READS, Sums, Terms};
 use core::marker::PhantomData;
 use std::ops::Range;
 
@@ -67,6 +67,19 @@ pub(super) struct Task<'a, T, K, P, const D: usize> {
 /// What the square of the support is multiplied with before pairs are left out, so that rounding
 /// (of `f32` positions without their residuals, too) leaves out none that acts.
 pub(super) const BEYOND: f64 = 1.001;
+
+/// A row of particles, as it meets one segment of its neighbours.
+#[derive(Clone, Copy)]
+struct Row<'a, L> {
+    /// Its first slot.
+    first: usize,
+    /// What the terms read of it.
+    own: &'a [L; MOST_READS],
+    /// Whether the segment lies across a contact that may open.
+    contact: bool,
+    /// One where the row, and where the segment, moves by forces; zero where it belongs to a wall.
+    mobile: [L; 2],
+}
 
 /// Neighbours that are looked through at once.
 const BATCH: usize = 256;
@@ -149,6 +162,11 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         let stride = const { Composed::<T, P, D, HOW>::READS.width(D) };
         let width_out = const { Composed::<T, P, D, HOW>::WRITES.width(D) };
         let one_sided = const { P::WRITES.contains(Output::MomentMatrix) };
+        let forces = const { Composed::<T, P, D, HOW>::WRITES.contains(Output::Force) };
+        // Made once a chunk: they have room for any terms, and clearing it for each row costs a twelfth of the time.
+        let mut own = [L::zero(); MOST_READS];
+        let mut sums = Sums::<L, D, Composed<T, P, D, HOW>>::new();
+        let mut near = [0; BATCH];
         for (c, bounds) in list.starts.windows(2).enumerate() {
             let first = (chunk * CHUNK + c) * L::WIDTH;
             let block = self.blocks.partition_point(|b| b.slots.end <= first);
@@ -165,11 +183,8 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                 out[row].fill(T::zero());
                 continue;
             }
-            let mut own = [L::zero(); MOST_READS];
-            for (k, value) in own.iter_mut().enumerate().take(stride) {
-                *value = L::from_fn(|lane| self.records[(first + lane) * stride + k]);
-            }
-            let mut sums = Sums::<L, D, Composed<T, P, D, HOW>>::new();
+            self.read(first, stride, &mut own);
+            sums.clear();
             for segment in &list.segments[bounds[0] as usize..bounds[1] as usize] {
                 let other = segment.block as usize;
                 let interaction = self.interactions[block * self.blocks.len() + other];
@@ -178,13 +193,12 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                 if interaction == Interaction::None || (contact && one_sided) {
                     continue;
                 }
-                let foreign = other != block;
+                let foreign = forces && other != block;
                 let before = if foreign {
-                    sums.kept
+                    sums.force()
                 } else {
-                    [L::zero(); MOST_SUMS]
+                    [L::zero(); D]
                 };
-                let full = own;
                 let mut kept = L::zero();
                 if contact {
                     compressive(reads, &mut own, D);
@@ -196,15 +210,30 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                 );
                 let mobile = [block, other]
                     .map(|block| L::of(f64::from(u8::from(!self.blocks[block].wall))));
-                self.segment::<L, HOW>(contact, mobile, &own, first, listed, &mut sums);
+                let row = Row {
+                    first,
+                    own: &own,
+                    contact,
+                    mobile,
+                };
+                self.segment::<L, HOW>(row, listed, &mut near, &mut sums);
                 if contact {
-                    own = full;
+                    self.read::<L>(first, stride, &mut own);
                     sums.divert_kernel_sum(kept);
                 }
-                if foreign && const { Composed::<T, P, D, HOW>::WRITES.contains(Output::Force) } {
+                if foreign {
                     let end = self.blocks[block].slots.end;
                     let members = end.saturating_sub(first).min(L::WIDTH);
-                    reactions.push(reaction::<L, D, _>(block, segment, members, &before, &sums));
+                    let force = core::array::from_fn(|d| {
+                        (0..members)
+                            .map(|lane| (sums.force()[d] - before[d]).extract(lane).to_f64())
+                            .sum()
+                    });
+                    reactions.push(Reaction {
+                        on: block as u32,
+                        from: segment.block,
+                        force,
+                    });
                 }
             }
             let row = &mut out[c * width_out * L::WIDTH..(c + 1) * width_out * L::WIDTH];
@@ -213,6 +242,15 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                     *value = sums.kept[k].extract(lane);
                 }
             }
+        }
+    }
+
+    /// Reads the records of a row. A call: what it has written the compiler takes from memory a row at a time, where
+    /// values that it follows one by one it may also compute one by one.
+    #[inline(never)]
+    fn read<L: Lane<Scalar = T>>(&self, first: usize, stride: usize, own: &mut [L; MOST_READS]) {
+        for (k, value) in own.iter_mut().enumerate().take(stride) {
+            *value = L::from_fn(|lane| self.records[(first + lane) * stride + k]);
         }
     }
 
@@ -257,11 +295,9 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
     #[inline(always)]
     fn segment<L: Lane<Scalar = T>, const HOW: u8>(
         &self,
-        contact: bool,
-        mobile: [L; 2],
-        own: &[L; MOST_READS],
-        first: usize,
+        row: Row<'_, L>,
         (neighbors, staying): (&[u32], usize),
+        near: &mut [u32; BATCH],
         sums: &mut Sums<L, D, Composed<T, P, D, HOW>>,
     ) where
         K: Kernel<D>,
@@ -270,14 +306,13 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         // In one dimension a list has few entries too many, and with several smoothing lengths the
         // reach is not known before the pair is.
         if HOW & (MEAN | OWN) != 0 || D == 1 {
-            self.pairs::<L, HOW>(contact, mobile, own, first, neighbors, sums);
+            self.pairs::<L, HOW>(row, neighbors, sums);
             return;
         }
-        let mut near = [0; BATCH];
         for (k, batch) in neighbors.chunks(BATCH).enumerate() {
             let staying = staying.saturating_sub(k * BATCH).min(batch.len());
-            let count = self.within_reach::<L, HOW>(own, batch, staying, &mut near);
-            self.pairs::<L, HOW>(contact, mobile, own, first, &near[..count], sums);
+            let count = self.within_reach::<L, HOW>(row.own, batch, staying, near);
+            self.pairs::<L, HOW>(row, &near[..count], sums);
         }
     }
 }
@@ -293,27 +328,5 @@ fn compressive<L: Lane>(reads: Fields, shown: &mut [L; MOST_READS], d: usize) {
     if reads.contains(Field::PressureGradient) {
         let at = reads.offset(Field::PressureGradient, d);
         shown[at..at + d].fill(L::zero());
-    }
-}
-
-/// The force that the real particles of a row felt from one segment.
-#[inline(always)]
-fn reaction<L: Lane, const D: usize, C: Layout>(
-    block: usize,
-    segment: &Segment,
-    members: usize,
-    before: &[L; MOST_SUMS],
-    sums: &Sums<L, D, C>,
-) -> Reaction<D> {
-    let at = C::WRITES.offset(Output::Force, D);
-    let force = core::array::from_fn(|d| {
-        (0..members)
-            .map(|lane| (sums.kept[at + d] - before[at + d]).extract(lane).to_f64())
-            .sum()
-    });
-    Reaction {
-        on: block as u32,
-        from: segment.block,
-        force,
     }
 }

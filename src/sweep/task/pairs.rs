@@ -1,7 +1,7 @@
 //! The loop over pairs: one row of particles against one neighbour after the other.
 //! All terms share its distances and kernel values, and it turns their scalar forces into vectors.
 
-use super::{Composed, MEAN, OWN, Task, WORK, compressive};
+use super::{Composed, MEAN, OWN, Row, Task, WORK, compressive};
 use crate::kernel::Kernel;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
@@ -57,21 +57,24 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
 
     /// One cluster against some neighbours.
     ///
-    /// Across a contact that may open (`contact`) a pair acts only where one of the two touches, shows the
+    /// Across a contact that may open a pair acts only where one of the two touches, shows the
     /// other side only pressure that compresses, and its kernel sum is kept apart.
     #[inline(always)]
     pub(super) fn pairs<L: Lane<Scalar = T>, const HOW: u8>(
         &self,
-        contact: bool,
-        mobile: [L; 2],
-        own: &[L; MOST_READS],
-        first: usize,
+        row: Row<'_, L>,
         neighbors: &[u32],
         sums: &mut Sums<L, D, Composed<T, P, D, HOW>>,
     ) where
         K: Kernel<D>,
         P: Terms<D>,
     {
+        let Row {
+            first,
+            own,
+            contact,
+            mobile,
+        } = row;
         let reads = const { Composed::<T, P, D, HOW>::READS };
         let stride = const { Composed::<T, P, D, HOW>::READS.width(D) };
         let velocity = reads.offset(Field::Velocity, D);
