@@ -4,6 +4,7 @@
 mod bars;
 #[path = "../common/mod.rs"]
 mod common;
+mod consistency;
 mod figures;
 mod flat;
 mod obstacle;

@@ -18,9 +18,9 @@ pub const COLUMN: [f64; 2] = [1.992, 0.55];
 /// Corners of the box \[m\].
 pub const BOX: [[f64; 3]; 2] = [[0.6635, 0.2985, 0.0], [0.8245, 0.7015, 0.161]];
 /// Places of the gauges along the tank \[m\], H1 to H4 as the sketch numbers them.
-const GAUGES: [f64; 4] = [0.496, 0.992, 1.488, 2.638];
+pub const GAUGES: [f64; 4] = [0.496, 0.992, 1.488, 2.638];
 /// Heights on the front face of P1 to P4, and distances behind its edge of P5 to P8 \[m\].
-const SENSORS: [f64; 4] = [0.021, 0.061, 0.101, 0.141];
+pub const SENSORS: [f64; 4] = [0.021, 0.061, 0.101, 0.141];
 /// Across the tank: 0.176 m from one end of the box \[m\].
 const SENSOR_SIDE: f64 = 0.4745;
 /// Density \[kg/m³\].
@@ -128,12 +128,16 @@ fn watch<T: Real>(now: &Simulation<T, 3>) -> Result<Watch<3>, Error> {
 pub fn perform<T: Real>(options: &Options, choices: &Choices) -> Result<(), Failure> {
     let spacing = options.spacing_or(0.55 / 30.0, 0.05);
     let until = options.until_or(6.0, 1.0);
+    let start = match choices.jitter.unwrap_or(JITTER) {
+        0.0 => "on the lattice".into(),
+        share => format!(
+            "rows out of step, off the lattice by up to {share} of the spacing (draw {})",
+            choices.seed
+        ),
+    };
     println!(
-        "SPHERIC 2: spacing {spacing} m, sound speed {:.1} m/s, off the lattice by up to {} of the spacing (draw {}), \
-         until {until} s",
+        "SPHERIC 2: spacing {spacing} m, sound speed {:.1} m/s, {start}, until {until} s",
         sound_speed(choices),
-        choices.jitter.unwrap_or(JITTER),
-        choices.seed
     );
     let mut simulation = scene::<T>(spacing, choices)?.build()?;
     println!("{}", simulation.scheme());

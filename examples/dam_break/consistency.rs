@@ -1,0 +1,81 @@
+//! SPHERIC 2 over quarter seconds, beside its record: pressures on the face of the box, and the water that gauges see.
+//! The record is held against itself, too: what its gauges add up to, and what weighs between its sensors.
+
+use crate::common::Failure;
+use crate::flat::GRAVITY;
+use crate::obstacle::{BOX, COLUMN, DENSITY, GAUGES, SENSORS, TANK};
+use crate::violent::{Choices, History};
+use meshfree::output::table::{Table, significant};
+use meshfree::study::records::Record;
+
+/// The record's columns at the gauges along the tank: it has the first and the third exchanged.
+const MEASURED: [&str; 4] = ["H3", "H2", "H1", "H4"];
+
+/// A record as a history.
+fn history_of(record: &Record, columns: &[&str]) -> Result<History, Failure> {
+    let read = columns.iter().map(|name| record.column(name));
+    Ok(History {
+        time: record.column("time_s")?,
+        names: columns.iter().map(ToString::to_string).collect(),
+        columns: read.collect::<Result<_, _>>()?,
+        ..History::default()
+    })
+}
+
+/// The share of the water that levels at the gauges add up to, with straight lines between them, level to the ends
+/// of the tank, and the box under water.
+fn accounted_for(levels: [f64; 4]) -> f64 {
+    let [length, width, _] = TANK;
+    let mut area = levels[0] * GAUGES[0] + levels[3] * (length - GAUGES[3]);
+    for k in 1..4 {
+        area += 0.5 * (levels[k - 1] + levels[k]) * (GAUGES[k] - GAUGES[k - 1]);
+    }
+    let hidden: f64 = (0..3).map(|d| BOX[1][d] - BOX[0][d]).product();
+    let [start, height] = COLUMN;
+    (area * width - hidden) / ((length - start) * width * height)
+}
+
+/// Prints means over quarter seconds from 0.5 s on, computed and measured.
+pub fn print(history: &History, choices: &Choices) -> Result<(), Failure> {
+    let [Some(heights), Some(pressures)] = ["water_heights", "pressures"]
+        .map(|name| choices.record(&format!("spheric02_dambreak3d/{name}.csv")))
+    else {
+        return Ok(());
+    };
+    let heights = history_of(&heights, &MEASURED)?;
+    let pressures = history_of(&pressures, &["P1", "P2", "P3", "P4"])?;
+    let weight = DENSITY * GRAVITY * (SENSORS[3] - SENSORS[0]);
+    let head = [
+        "from [s]",
+        "P1 to P4, computed [Pa]",
+        "measured [Pa]",
+        "P1 - P4 over the weight between, computed",
+        "measured",
+        "water that the gauges account for, computed",
+        "measured",
+    ];
+    let mut table = Table::new(head).title("SPHERIC 2, means over quarter seconds");
+    let until = history.time.last().copied().unwrap_or(0.0);
+    for from in (2..24).map(|k| 0.25 * f64::from(k)) {
+        let to = from + 0.25;
+        if to > until + 0.01 {
+            break;
+        }
+        let computed = [1, 2, 3, 4].map(|k| history.mean(&format!("p{k}_pa"), from, to));
+        let measured = [1, 2, 3, 4].map(|k| pressures.mean(&format!("P{k}"), from, to));
+        let list = |p: [f64; 4]| p.map(|p| format!("{p:.0}")).join(", ");
+        let levels = [1, 2, 3, 4].map(|k| history.mean(&format!("h{k}_m"), from, to));
+        let seen = MEASURED.map(|name| heights.mean(name, from, to));
+        table.row([
+            significant(from, 3),
+            list(computed),
+            list(measured),
+            significant((computed[0] - computed[3]) / weight, 3),
+            significant((measured[0] - measured[3]) / weight, 3),
+            significant(accounted_for(levels), 3),
+            significant(accounted_for(seen), 3),
+        ]);
+    }
+    println!("{}", table.markdown());
+    Ok(())
+}
