@@ -79,3 +79,28 @@ pub fn print(history: &History, choices: &Choices) -> Result<(), Failure> {
     println!("{}", table.markdown());
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn gauges_account_for_all_water_of_a_level_tank() {
+        // 1.228 × 1 × 0.55 m³ of water, and 0.161 × 0.403 × 0.161 m³ of box, on 3.22 × 1 m² of bed.
+        let level = (0.6754 + 0.010_446) / 3.22;
+        assert!((accounted_for([level; 4]) - 1.0).abs() < 1e-4);
+        // A triangle of 0.1 m between the gauges at 0.496 and 1.488 m, a twentieth of a metre high in the mean.
+        let more = accounted_for([level, level + 0.1, level, level]) - accounted_for([level; 4]);
+        assert!((more - 0.05 * 0.992 / 0.6754).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_record_is_read_by_the_names_of_its_columns() {
+        let record = Record::parse("time_s,H1,H2,H3,H4\n0,1,2,3,4\n1,3,2,5,4\n").unwrap();
+        let history = history_of(&record, &MEASURED).unwrap();
+        // Along the tank: behind the box, before it, at the gate and in the column.
+        let means = MEASURED.map(|name| history.mean(name, 0.0, 1.0));
+        assert_eq!(means, [4.0, 2.0, 2.0, 4.0]);
+        assert!(history_of(&record, &["H5"]).is_err());
+    }
+}

@@ -4,7 +4,7 @@
 use crate::common::{Failure, Options};
 use crate::flat::GRAVITY;
 use crate::violent::{self, Choices, Keep, Watch};
-use crate::{bars, figures};
+use crate::{bars, consistency, figures};
 use meshfree::geometry::{Cuboid, Shape, fill};
 use meshfree::material::{Liquid, SoundSpeed};
 use meshfree::observe::{PressureProbe, WaveGauge};
@@ -165,6 +165,7 @@ pub fn perform<T: Real>(options: &Options, choices: &Choices) -> Result<(), Fail
     figures::obstacle(&history, spacing, choices, options.folder())?;
     if choices.bars {
         bars::obstacle(&history, spacing, choices)?;
+        consistency::print(&history, choices)?;
     }
     println!("written to {}", options.folder().display());
     Ok(())
