@@ -7,7 +7,7 @@ use super::records::Image;
 use super::rows::Reaction;
 use super::{InstructionSet, Interaction};
 use crate::kernel::Kernel;
-use crate::neighbors::{Block, CHUNK, ChunkList};
+use crate::neighbors::{Block, CHUNK, ChunkList, Segment};
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Mask, Real};
 use crate::term::{Layout, MOST_READS, Sums, Terms};
@@ -218,22 +218,13 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                 };
                 self.segment::<L, HOW>(row, listed, &mut near, &mut sums);
                 if contact {
-                    self.read::<L>(first, stride, &mut own);
+                    self.read(first, stride, &mut own);
                     sums.divert_kernel_sum(kept);
                 }
                 if foreign {
                     let end = self.blocks[block].slots.end;
                     let members = end.saturating_sub(first).min(L::WIDTH);
-                    let force = core::array::from_fn(|d| {
-                        (0..members)
-                            .map(|lane| (sums.force()[d] - before[d]).extract(lane).to_f64())
-                            .sum()
-                    });
-                    reactions.push(Reaction {
-                        on: block as u32,
-                        from: segment.block,
-                        force,
-                    });
+                    reactions.push(reaction(block, segment, members, &before, &sums));
                 }
             }
             let row = &mut out[c * width_out * L::WIDTH..(c + 1) * width_out * L::WIDTH];
@@ -245,8 +236,10 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         }
     }
 
-    /// Reads the records of a row. A call: what it has written the compiler takes from memory a row at a time, where
-    /// values that it follows one by one it may also compute one by one.
+    /// Reads the records of a row.
+    ///
+    /// Never inlined: what a call has written comes from memory a row at a time, while numbers that the compiler
+    /// follows one by one it may also compute one by one, without vector instructions.
     #[inline(never)]
     fn read<L: Lane<Scalar = T>>(&self, first: usize, stride: usize, own: &mut [L; MOST_READS]) {
         for (k, value) in own.iter_mut().enumerate().take(stride) {
@@ -328,5 +321,27 @@ fn compressive<L: Lane>(reads: Fields, shown: &mut [L; MOST_READS], d: usize) {
     if reads.contains(Field::PressureGradient) {
         let at = reads.offset(Field::PressureGradient, d);
         shown[at..at + d].fill(L::zero());
+    }
+}
+
+/// The force that the real particles of a row felt from one segment. Never inlined, as [`Task::read`].
+#[inline(never)]
+fn reaction<L: Lane, const D: usize, C: Layout>(
+    block: usize,
+    segment: &Segment,
+    members: usize,
+    before: &[L; D],
+    sums: &Sums<L, D, C>,
+) -> Reaction<D> {
+    let after = sums.force();
+    let force = core::array::from_fn(|d| {
+        (0..members)
+            .map(|lane| (after[d] - before[d]).extract(lane).to_f64())
+            .sum()
+    });
+    Reaction {
+        on: block as u32,
+        from: segment.block,
+        force,
     }
 }
