@@ -388,16 +388,16 @@ fn composed_against_fused(side: usize, turns: usize) {
     );
     let sweep: &dyn PairSweep<f64, 3> = &sweep;
     let mut columns =
-        Columns::<f64, 3>::new(sweep.fields().union(Fields::of(&[Field::Position])), slots);
+        Columns::<f64, 3>::new(sweep.fields().union(Fields::of(&[Field::POSITION])), slots);
     for (slot, x) in positions.iter().enumerate() {
-        columns.vectors_mut(Field::Position)[slot] = *x;
-        columns.vectors_mut(Field::Velocity)[slot] = x.map(|x| (0.3 * x).sin());
+        columns.vectors_mut(Field::POSITION)[slot] = *x;
+        columns.vectors_mut(Field::VELOCITY)[slot] = x.map(|x| (0.3 * x).sin());
         for (field, value) in [
-            (Field::Mass, 1000.0),
-            (Field::Density, 1000.0 + (0.2 * x[0]).sin()),
-            (Field::SoundSpeed, 30.0),
-            (Field::Weight, 1.0),
-            (Field::PressureCoefficient, 500.0 * (0.1 * x[2]).cos()),
+            (Field::MASS, 1000.0),
+            (Field::DENSITY, 1000.0 + (0.2 * x[0]).sin()),
+            (Field::SOUND_SPEED, 30.0),
+            (Field::WEIGHT, 1.0),
+            (Field::PRESSURE_COEFFICIENT, 500.0 * (0.1 * x[2]).cos()),
         ] {
             columns.raw_mut(field)[slot] = value;
         }
@@ -465,7 +465,7 @@ fn composed_against_fused(side: usize, turns: usize) {
     for slot in 0..slots {
         for d in 0..3 {
             let (a, b) = (
-                rows.get(Output::Force, d, slot),
+                rows.get(Output::FORCE, d, slot),
                 out[(slot / 8 * 4 + d) * 8 + slot % 8],
             );
             assert!((a - b).abs() < 1e-9 * largest, "slot {slot}: {a} and {b}");

@@ -9,6 +9,128 @@ pub type Vector<T, const D: usize> = nalgebra::SVector<T, D>;
 /// A square matrix in `D` dimensions.
 pub type Matrix<T, const D: usize> = nalgebra::SMatrix<T, D, D>;
 
+/// A symmetric tensor with all six components of space, xx, yy, zz, yz, xz, xy (Voigt's order), in
+/// whatever dimension: plane strain and uniaxial stress need those out of the plane.
+///
+/// ```
+/// use meshfree::tensor::{Matrix, Symmetric};
+/// // A tension along x, seen after a quarter turn, is one along y.
+/// let stress = Symmetric::diagonal([5.0, 0.0, 1.0]);
+/// let turned = stress.rotated(&Matrix::<f64, 2>::new(0.0, -1.0, 1.0, 0.0));
+/// assert_eq!(turned, Symmetric::diagonal([0.0, 5.0, 1.0]));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Symmetric<T>([T; 6]);
+
+/// Row and column of each component.
+const PLACES: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1)];
+
+impl<T: Real> Symmetric<T> {
+    /// The tensor that is zero.
+    #[must_use]
+    pub fn zero() -> Self {
+        Self([T::zero(); 6])
+    }
+    /// From its components xx, yy, zz, yz, xz, xy.
+    #[must_use]
+    pub fn new(components: [T; 6]) -> Self {
+        Self(components)
+    }
+    /// With these principal values along the axes.
+    #[must_use]
+    pub fn diagonal([xx, yy, zz]: [T; 3]) -> Self {
+        let zero = T::zero();
+        Self([xx, yy, zz, zero, zero, zero])
+    }
+    /// From the first six numbers of a slice; what is missing is zero.
+    #[must_use]
+    pub fn from_slice(values: &[T]) -> Self {
+        Self(core::array::from_fn(|k| {
+            values.get(k).copied().unwrap_or(T::zero())
+        }))
+    }
+    /// The symmetric part of a matrix, zero out of its plane.
+    #[must_use]
+    pub fn symmetric_part<const D: usize>(matrix: &Matrix<T, D>) -> Self {
+        let half = T::from_f64(0.5);
+        let at = |r: usize, c: usize| {
+            let inside = r < D && c < D;
+            if inside { matrix[(r, c)] } else { T::zero() }
+        };
+        Self(PLACES.map(|(r, c)| (at(r, c) + at(c, r)) * half))
+    }
+    /// Its components xx, yy, zz, yz, xz, xy.
+    #[must_use]
+    pub fn components(&self) -> &[T; 6] {
+        &self.0
+    }
+    /// The component in row `r` and column `c`, each below 3.
+    #[must_use]
+    pub fn at(&self, r: usize, c: usize) -> T {
+        self.0[if r == c { r } else { 6 - r - c }]
+    }
+    /// xx + yy + zz.
+    #[must_use]
+    pub fn trace(&self) -> T {
+        self.0[0] + self.0[1] + self.0[2]
+    }
+    /// Without a third of its trace on the diagonal.
+    #[must_use]
+    pub fn deviator(&self) -> Self {
+        let mean = self.trace() * T::from_f64(1.0 / 3.0);
+        let mut deviator = *self;
+        for value in &mut deviator.0[..3] {
+            *value -= mean;
+        }
+        deviator
+    }
+    /// The double contraction with another, Σ aᵣ꜀ bᵣ꜀.
+    #[must_use]
+    pub fn contract(&self, other: &Self) -> T {
+        let product = |k: usize| self.0[k] * other.0[k];
+        let normal = product(0) + product(1) + product(2);
+        let shear = product(3) + product(4) + product(5);
+        normal + shear + shear
+    }
+    /// R S Rᵀ with a rotation or reflection of the first `D` axes.
+    #[must_use]
+    pub fn rotated<const D: usize>(&self, rotation: &Matrix<T, D>) -> Self {
+        let turn = |r: usize, c: usize| {
+            if r < D && c < D {
+                rotation[(r, c)]
+            } else if r == c {
+                T::one()
+            } else {
+                T::zero()
+            }
+        };
+        Self(PLACES.map(|(r, c)| {
+            let mut sum = T::zero();
+            for a in 0..3 {
+                for b in 0..3 {
+                    sum += turn(r, a) * self.at(a, b) * turn(c, b);
+                }
+            }
+            sum
+        }))
+    }
+    /// The product with a vector of the first `D` axes.
+    #[must_use]
+    pub fn times<const D: usize>(&self, vector: &Vector<T, D>) -> Vector<T, D> {
+        Vector::from_fn(|r, _| (0..D).fold(T::zero(), |sum, c| sum + self.at(r, c) * vector[c]))
+    }
+    /// The sum with `factor` times another.
+    #[must_use]
+    pub fn plus(&self, factor: T, other: &Self) -> Self {
+        Self(core::array::from_fn(|k| self.0[k] + factor * other.0[k]))
+    }
+    /// `factor` times it.
+    #[must_use]
+    pub fn scaled(&self, factor: T) -> Self {
+        Self(self.0.map(|value| value * factor))
+    }
+}
+
 /// The Euclidean length of a vector.
 ///
 /// ```
@@ -99,6 +221,25 @@ pub fn determinant<T: Real, const D: usize>(matrix: &Matrix<T, D>) -> T {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_turned_tensor_keeps_its_invariants_and_turns_back() {
+        let tensor = Symmetric::<f64>::new([1.0, -2.0, 0.5, 3.0, -1.0, 0.25]);
+        let (s, c) = 0.7_f64.sin_cos();
+        let turn = Matrix::<f64, 3>::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0);
+        let turned = tensor.rotated(&turn);
+        assert!((turned.trace() - tensor.trace()).abs() < 1e-15);
+        assert!((turned.contract(&turned) - tensor.contract(&tensor)).abs() < 1e-14);
+        let back = turned.rotated(&turn.transpose());
+        for (a, b) in back.components().iter().zip(tensor.components()) {
+            assert!((a - b).abs() < 1e-15);
+        }
+        // R (S v) = (R S Rᵀ) (R v), against nalgebra's product.
+        let v = Vector::<f64, 3>::new(0.3, -1.0, 2.0);
+        let full = Matrix::<f64, 3>::from_fn(|r, c| tensor.at(r, c));
+        assert!((turned.times(&(turn * v)) - turn * (full * v)).norm() < 1e-14);
+        assert!(tensor.deviator().trace().abs() < 1e-15);
+    }
 
     #[test]
     fn determinants_of_products_multiply() {

@@ -99,16 +99,16 @@ impl Particle {
         let fields = Field::ALL.iter().map(|&field| {
             (0..field.components(3))
                 .map(|_| match field {
-                    Field::Position => apart * random.sign(),
-                    Field::PositionResidual => 0.0,
-                    Field::SmoothingLength => 1.0 + 0.1 * random.sign(),
-                    Field::Velocity
-                    | Field::MeanVelocity
-                    | Field::VelocityGradient
-                    | Field::PressureGradient
-                    | Field::Divergence
-                    | Field::Pressure
-                    | Field::PressureCoefficient => random.sign(),
+                    Field::POSITION => apart * random.sign(),
+                    Field::POSITION_RESIDUAL => 0.0,
+                    Field::SMOOTHING_LENGTH => 1.0 + 0.1 * random.sign(),
+                    Field::VELOCITY
+                    | Field::MEAN_VELOCITY
+                    | Field::VELOCITY_GRADIENT
+                    | Field::PRESSURE_GRADIENT
+                    | Field::DIVERGENCE
+                    | Field::PRESSURE
+                    | Field::PRESSURE_COEFFICIENT => random.sign(),
                     _ => 1.5 + random.sign(),
                 })
                 .collect()
@@ -116,10 +116,10 @@ impl Particle {
         Self(fields.collect())
     }
     fn get(&self, field: Field, k: usize) -> f64 {
-        self.0[field as usize][k]
+        self.0[field.place()][k]
     }
     fn set(&mut self, field: Field, k: usize, value: f64) {
-        self.0[field as usize][k] = value;
+        self.0[field.place()][k] = value;
     }
 }
 
@@ -171,7 +171,7 @@ where
             );
         }
     }
-    let force = A::WRITES.contains(Output::Force);
+    let force = A::WRITES.contains(Output::FORCE);
     let silent = term.document().name == "no artificial viscosity";
     assert_eq!(
         acted,
@@ -196,7 +196,7 @@ where
         // The particle itself, and another one in its place.
         let mut j = Particle::random(&mut random, 1.0);
         for k in 0..3 {
-            j.set(Field::Position, k, i.get(Field::Position, k));
+            j.set(Field::POSITION, k, i.get(Field::POSITION, k));
         }
         for j in [&i, &j] {
             let result = scalar(&term, common::kernel(round), &i, j);
@@ -220,13 +220,13 @@ where
         for stretch in [1.0 + 1e-12, 1.001, 2.0, 1e6, 1e100] {
             let mut i = Particle::random(&mut random, 1.0);
             let mut j = Particle::random(&mut random, 1.0);
-            let h = 0.5 * (i.get(Field::SmoothingLength, 0) + j.get(Field::SmoothingLength, 0));
+            let h = 0.5 * (i.get(Field::SMOOTHING_LENGTH, 0) + j.get(Field::SMOOTHING_LENGTH, 0));
             for k in 0..3 {
-                i.set(Field::Position, k, 0.0);
-                j.set(Field::Position, k, 0.0);
+                i.set(Field::POSITION, k, 0.0);
+                j.set(Field::POSITION, k, 0.0);
             }
             let away = Kernel::<D>::support(&kernel) * h * stretch;
-            j.set(Field::Position, D - 1, away);
+            j.set(Field::POSITION, D - 1, away);
             let result = scalar(&term, kernel, &i, &j);
             let silent = numbers(&result).iter().all(|&x| x == 0.0);
             assert!(
@@ -320,7 +320,7 @@ fn no_term_writes_a_sum_that_it_does_not_declare() {
 
 /// Fields that the sweep itself uses on behalf of the term: velocities in v and the power of
 /// forces, and what rounding has taken from positions.
-const USED_BY_THE_SWEEP: [Field; 2] = [Field::Velocity, Field::PositionResidual];
+const USED_BY_THE_SWEEP: [Field; 2] = [Field::VELOCITY, Field::POSITION_RESIDUAL];
 
 fn reads_matter<const D: usize, A: Term<D>>(term: A)
 where

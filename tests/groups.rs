@@ -266,7 +266,7 @@ fn groups_that_do_not_meet_are_simulations_of_their_own() {
     let numbers: std::collections::HashSet<usize> = both.all().map(|p| p.id()).collect();
     assert_eq!((both.particles(), numbers.len()), (150, 150));
     assert_eq!(both.bytes(), liquid.bytes() + solid.bytes());
-    let energy = |body: usize| both.body(body).next().and_then(|p| p.scalar(Field::Energy));
+    let energy = |body: usize| both.body(body).next().and_then(|p| p.scalar(Field::ENERGY));
     assert_eq!(
         energy(0),
         None,

@@ -177,7 +177,7 @@ fn a_liquid_that_thins_flows_as_its_law_says() {
         for _ in 0..100 {
             let viscosities = |flow: &Simulation<f64, 2>| -> Vec<_> {
                 let each = flow.all();
-                each.map(|particle| particle.scalar(Field::DynamicViscosity))
+                each.map(|particle| particle.scalar(Field::DYNAMIC_VISCOSITY))
                     .collect()
             };
             let (before, builds) = (viscosities(&flow), flow.list_builds());

@@ -1,7 +1,7 @@
 //! Columns of particle data: one growable row of numbers for each field that a scene names.
 //! A field that nobody names is an empty column.
 
-use super::field::{Field, Fields};
+use super::field::{Field, Fields, PLACES};
 use crate::scalar::Real;
 
 /// The particles of a group, one column a field.
@@ -20,17 +20,10 @@ impl<T: Real, const D: usize> Columns<T, D> {
     /// Columns for `fields`, all zero.
     #[must_use]
     pub fn new(fields: Fields, slots: usize) -> Self {
-        let data = Field::ALL
-            .iter()
-            .map(|&field| {
-                let width = if fields.contains(field) {
-                    field.components(D)
-                } else {
-                    0
-                };
-                vec![T::zero(); width * slots]
-            })
-            .collect();
+        let mut data = vec![Vec::new(); PLACES];
+        for field in fields.iter() {
+            data[field.place()] = vec![T::zero(); field.components(D) * slots];
+        }
         Self {
             data,
             fields,
@@ -60,19 +53,19 @@ impl<T: Real, const D: usize> Columns<T, D> {
     #[inline]
     #[must_use]
     pub fn raw(&self, field: Field) -> &[T] {
-        &self.data[field as usize]
+        &self.data[field.place()]
     }
 
     /// The column of a field, mutable.
     #[inline]
     #[must_use]
     pub fn raw_mut(&mut self, field: Field) -> &mut [T] {
-        &mut self.data[field as usize]
+        &mut self.data[field.place()]
     }
 
     /// The column of a field as it is stored, to be taken out for a while and put back.
     pub(crate) fn column_mut(&mut self, field: Field) -> &mut Vec<T> {
-        &mut self.data[field as usize]
+        &mut self.data[field.place()]
     }
 
     /// A vector field as one array a slot.
@@ -80,7 +73,7 @@ impl<T: Real, const D: usize> Columns<T, D> {
     #[must_use]
     pub fn vectors(&self, field: Field) -> &[[T; D]] {
         debug_assert_eq!(field.components(D), D);
-        self.data[field as usize].as_chunks::<D>().0
+        self.data[field.place()].as_chunks::<D>().0
     }
 
     /// A vector field as one array a slot, mutable.
@@ -88,7 +81,7 @@ impl<T: Real, const D: usize> Columns<T, D> {
     #[must_use]
     pub fn vectors_mut(&mut self, field: Field) -> &mut [[T; D]] {
         debug_assert_eq!(field.components(D), D);
-        self.data[field as usize].as_chunks_mut::<D>().0
+        self.data[field.place()].as_chunks_mut::<D>().0
     }
 
     /// Several different columns at once, mutable; all empty if a field is named twice.
@@ -96,7 +89,7 @@ impl<T: Real, const D: usize> Columns<T, D> {
     pub fn many_mut<const N: usize>(&mut self, fields: [Field; N]) -> [&mut [T]; N] {
         match self
             .data
-            .get_disjoint_mut(fields.map(|field| field as usize))
+            .get_disjoint_mut(fields.map(|field| field.place()))
         {
             Ok(columns) => columns.map(Vec::as_mut_slice),
             Err(_) => core::array::from_fn(|_| [].as_mut_slice()),
@@ -105,11 +98,9 @@ impl<T: Real, const D: usize> Columns<T, D> {
 
     /// Makes slot `to` what slot `from` is.
     pub(crate) fn copy_slot(&mut self, from: usize, to: usize) {
-        for (field, column) in Field::ALL.iter().zip(&mut self.data) {
-            if self.fields.contains(*field) {
-                let width = field.components(D);
-                column.copy_within(from * width..(from + 1) * width, to * width);
-            }
+        for field in self.fields.iter() {
+            let width = field.components(D);
+            self.data[field.place()].copy_within(from * width..(from + 1) * width, to * width);
         }
     }
 
@@ -117,10 +108,8 @@ impl<T: Real, const D: usize> Columns<T, D> {
     pub fn permute(&mut self, order: &[u32]) {
         self.slots = order.len();
         let mut sorted = Vec::new();
-        for (field, column) in Field::ALL.iter().zip(&mut self.data) {
-            if !self.fields.contains(*field) {
-                continue;
-            }
+        for field in self.fields.iter() {
+            let column = &mut self.data[field.place()];
             let width = field.components(D);
             sorted.clear();
             sorted.reserve(width * order.len());
@@ -139,16 +128,16 @@ mod tests {
 
     #[test]
     fn absent_fields_take_no_memory_and_permutation_moves_all() {
-        let fields = Fields::of(&[Field::Position, Field::Density]);
+        let fields = Fields::of(&[Field::POSITION, Field::DENSITY]);
         let mut columns = Columns::<f64, 2>::new(fields, 3);
-        assert!(columns.raw(Field::Energy).is_empty());
+        assert!(columns.raw(Field::ENERGY).is_empty());
         assert_eq!(columns.bytes_per_particle(), 24);
         for k in 0..3 {
-            columns.vectors_mut(Field::Position)[k] = [k as f64, -(k as f64)];
-            columns.raw_mut(Field::Density)[k] = 10.0 * k as f64;
+            columns.vectors_mut(Field::POSITION)[k] = [k as f64, -(k as f64)];
+            columns.raw_mut(Field::DENSITY)[k] = 10.0 * k as f64;
         }
         columns.permute(&[2, 0, 1]);
-        assert_eq!(columns.vectors(Field::Position)[0], [2.0, -2.0]);
-        assert_eq!(columns.raw(Field::Density), [20.0, 0.0, 10.0]);
+        assert_eq!(columns.vectors(Field::POSITION)[0], [2.0, -2.0]);
+        assert_eq!(columns.raw(Field::DENSITY), [20.0, 0.0, 10.0]);
     }
 }

@@ -3,50 +3,92 @@
 
 macro_rules! quantities {
     (
-        $(#[$doc:meta])* $Quantity:ident, $Set:ident, $set_doc:literal;
-        $( $(#[$vdoc:meta])* $variant:ident, $shape:ident, $name:literal, $unit:literal; )*
+        $(#[$doc:meta])* $Quantity:ident, $index:ident, $Set:ident, $set_doc:literal;
+        $( $(#[$vdoc:meta])* $NAME:ident, $shape:ident, $name:literal, $unit:literal; )*
     ) => {
+        #[allow(non_camel_case_types, clippy::upper_case_acronyms)]
+        mod $index {
+            #[repr(u8)]
+            pub(super) enum Index { $( $NAME, )* }
+        }
+
         $(#[$doc])*
-        #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
-        #[repr(u8)]
-        pub enum $Quantity { $( $(#[$vdoc])* $variant, )* }
+        ///
+        /// Those of the crate are constants here; an effect declares its own with
+        #[doc = concat!("[`", stringify!($Quantity), "::scalar`], [`", stringify!($Quantity), "::vector`], [`",
+            stringify!($Quantity), "::tensor`] or [`", stringify!($Quantity), "::matrix`].")]
+        #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        pub struct $Quantity {
+            index: u8,
+            shape: Shape,
+        }
+
+        impl core::fmt::Debug for $Quantity {
+            fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+                f.write_str(self.name())
+            }
+        }
 
         impl $Quantity {
-            /// Every one, in the order of storage.
-            pub const ALL: &'static [$Quantity] = &[$( $Quantity::$variant, )*];
-            /// How many there are.
-            pub const COUNT: usize = Self::ALL.len();
+            $( $(#[$vdoc])* pub const $NAME: Self = Self {
+                index: $index::Index::$NAME as u8,
+                shape: Shape::$shape,
+            }; )*
+            const NAMES: &'static [[&'static str; 2]] = &[$( [$name, $unit], )*];
 
+            /// Those of the crate that every scheme knows, in the order of storage.
+            pub const ALL: &'static [$Quantity] = &[$( $Quantity::$NAME, )*];
+
+            own_quantities! { $Quantity
+                /// One number that no rotation changes.
+                scalar: Scalar,
+                /// A vector that only rotates.
+                vector: Vector,
+                /// A symmetric tensor of six components, whatever the dimension.
+                tensor: Tensor,
+                /// A `D × D` matrix, row by row.
+                matrix: Matrix
+            }
+
+            /// Where it stands in tables of all quantities, below [`PLACES`](crate::particles::PLACES).
+            #[inline(always)]
+            #[must_use]
+            pub const fn place(self) -> usize {
+                self.index as usize
+            }
             /// Numbers per particle in `d` dimensions.
             #[must_use]
             pub const fn components(self, d: usize) -> usize {
-                match self { $( $Quantity::$variant => Shape::$shape.components(d), )* }
+                self.shape.components(d)
             }
             /// How it changes under rotation and reflection.
             #[must_use]
             pub const fn shape(self) -> Shape {
-                match self { $( $Quantity::$variant => Shape::$shape, )* }
+                self.shape
             }
-            /// Its name in files and messages.
+            /// Its name in files and messages; of one that an effect declares, its shape, for the effect names it.
             #[must_use]
-            pub const fn name(self) -> &'static str {
-                match self { $( $Quantity::$variant => $name, )* }
+            pub fn name(self) -> &'static str {
+                match Self::NAMES.get(self.place()) {
+                    Some([name, _]) => name,
+                    None => self.shape.own_name(),
+                }
             }
-            /// Its SI unit.
+            /// Its SI unit; empty for one that an effect declares.
             #[must_use]
-            pub const fn unit(self) -> &'static str {
-                match self { $( $Quantity::$variant => $unit, )* }
+            pub fn unit(self) -> &'static str {
+                Self::NAMES.get(self.place()).map_or("", |[_, unit]| unit)
             }
         }
 
         #[doc = $set_doc]
         #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-        pub struct $Set(u64);
+        pub struct $Set(u128);
 
         impl $Set {
             /// The empty set.
             pub const NONE: Self = Self(0);
-            /// The set of all.
+            /// The set of all that the crate names.
             pub const ALL: Self = Self::of($Quantity::ALL);
 
             /// The set of the listed members.
@@ -54,7 +96,7 @@ macro_rules! quantities {
             pub const fn of(members: &[$Quantity]) -> Self {
                 let (mut bits, mut k) = (0, 0);
                 while k < members.len() {
-                    bits |= 1 << members[k] as u64;
+                    bits |= 1 << members[k].index;
                     k += 1;
                 }
                 Self(bits)
@@ -64,39 +106,52 @@ macro_rules! quantities {
             pub const fn union(self, other: Self) -> Self {
                 Self(self.0 | other.0)
             }
+            /// Members of this set that are not in the other.
+            #[must_use]
+            pub const fn minus(self, other: Self) -> Self {
+                Self(self.0 & !other.0)
+            }
             /// The set without `member`.
             #[must_use]
             pub const fn without(self, member: $Quantity) -> Self {
-                Self(self.0 & !(1 << member as u64))
+                Self(self.0 & !(1 << member.index))
+            }
+            /// Whether it has no members.
+            #[must_use]
+            pub const fn is_empty(self) -> bool {
+                self.0 == 0
             }
             /// Whether `member` belongs to the set.
             #[must_use]
             #[inline(always)]
             pub const fn contains(self, member: $Quantity) -> bool {
-                self.0 >> member as u64 & 1 == 1
+                self.0 >> member.index & 1 == 1
             }
             /// Where `member` starts when the set is laid out in order, in `d` dimensions.
             #[must_use]
             #[inline(always)]
             pub const fn offset(self, member: $Quantity, d: usize) -> usize {
-                Self(self.0 & ((1 << member as u64) - 1)).width(d)
+                Self(self.0 & ((1 << member.index) - 1)).width(d)
             }
             /// Numbers per particle of the whole set in `d` dimensions.
             ///
-            /// Three population counts, so that the pair loop sees constants.
+            /// Population counts, so that the pair loop sees constants.
             #[must_use]
             #[inline(always)]
             pub const fn width(self, d: usize) -> usize {
-                const SCALARS: u64 = $Set::with_components(1);
-                const MATRICES: u64 = $Set::with_components(9);
+                const SCALARS: u128 = $Set::of_shape(1);
+                const TENSORS: u128 = $Set::of_shape(6);
+                const MATRICES: u128 = $Set::of_shape(9);
                 let scalars = (self.0 & SCALARS).count_ones() as usize;
+                let tensors = (self.0 & TENSORS).count_ones() as usize;
                 let matrices = (self.0 & MATRICES).count_ones() as usize;
-                let vectors = (self.0 & !(SCALARS | MATRICES)).count_ones() as usize;
-                scalars + vectors * d + matrices * d * d
+                let vectors = (self.0 & !(SCALARS | TENSORS | MATRICES)).count_ones() as usize;
+                scalars + vectors * d + tensors * 6 + matrices * d * d
             }
-            const fn with_components(components: usize) -> u64 {
-                let (mut bits, mut k) = (0, 0);
-                while k < $Quantity::COUNT {
+            /// The places of quantities with so many components in three dimensions.
+            const fn of_shape(components: usize) -> u128 {
+                let (mut bits, mut k) = (own_places(components), 0);
+                while k < $Quantity::ALL.len() {
                     if $Quantity::ALL[k].components(3) == components {
                         bits |= 1 << k;
                     }
@@ -106,14 +161,72 @@ macro_rules! quantities {
             }
             /// The members in the order of storage.
             pub fn iter(self) -> impl Iterator<Item = $Quantity> {
-                $Quantity::ALL.iter().copied().filter(move |&member| self.contains(member))
+                (0..PLACES as u8).filter(move |&k| self.0 >> k & 1 == 1).map(|k| {
+                    let known = $Quantity::ALL.get(k as usize);
+                    known.copied().unwrap_or($Quantity {
+                        index: k,
+                        shape: own_shape(k as usize),
+                    })
+                })
             }
         }
     };
 }
 
+/// The constructors of quantities that effects declare.
+macro_rules! own_quantities {
+    ($Quantity:ident $( $(#[$doc:meta])* $name:ident: $Shape:ident ),*) => {
+        $(
+            $(#[$doc])*
+            ///
+            /// `number` tells it from others of its shape that effects of the same scheme declare, and is below
+            /// [`OWN`](crate::particles::OWN); those of the crate take numbers from the end. Two effects that
+            /// claim one number for different names are refused when the scene is built.
+            ///
+            /// A number out of range does not compile where the quantity is a constant, as it should be.
+            #[must_use]
+            pub const fn $name(number: u8) -> Self {
+                assert!((number as usize) < OWN, "an own quantity has a number below particles::OWN");
+                Self {
+                    index: own_start(Shape::$Shape.components(3)) as u8 + number,
+                    shape: Shape::$Shape,
+                }
+            }
+        )*
+    };
+}
+
+/// Places in sets and tables: 64 for the quantities of the crate, then those that effects declare, by shape.
+pub const PLACES: usize = 128;
+/// How many quantities of one shape effects may declare.
+pub const OWN: usize = 16;
+
+/// The first place of own quantities with so many components in three dimensions.
+const fn own_start(components: usize) -> usize {
+    match components {
+        1 => 64,
+        3 => 64 + OWN,
+        6 => 64 + 2 * OWN,
+        _ => 64 + 3 * OWN,
+    }
+}
+
+/// The places of own quantities with so many components in three dimensions.
+const fn own_places(components: usize) -> u128 {
+    ((1 << OWN) - 1) << own_start(components)
+}
+
+const fn own_shape(place: usize) -> Shape {
+    match (place - 64) / OWN {
+        0 => Shape::Scalar,
+        1 => Shape::Vector,
+        2 => Shape::Tensor,
+        _ => Shape::Matrix,
+    }
+}
+
 /// How a quantity changes under rotation and reflection.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
 pub enum Shape {
     /// One number that no rotation changes.
     Scalar,
@@ -123,15 +236,27 @@ pub enum Shape {
     Velocity,
     /// A vector that only rotates.
     Vector,
+    /// A symmetric tensor of six components, xx, yy, zz, yz, xz, xy, whatever the dimension: plane and
+    /// uniaxial states need those out of the plane.
+    Tensor,
     /// A `D × D` matrix, row by row.
     Matrix,
 }
 
 impl Shape {
+    const fn own_name(self) -> &'static str {
+        match self {
+            Shape::Scalar => "own scalar",
+            Shape::Tensor => "own tensor",
+            Shape::Matrix => "own matrix",
+            _ => "own vector",
+        }
+    }
     const fn components(self, d: usize) -> usize {
         match self {
             Shape::Scalar => 1,
             Shape::Point | Shape::Velocity | Shape::Vector => d,
+            Shape::Tensor => 6,
             Shape::Matrix => d * d,
         }
     }
@@ -139,116 +264,108 @@ impl Shape {
 
 quantities! {
     /// A quantity that a particle carries.
-    Field, Fields, "A set of [`Field`]s, usable in constants.";
+    Field, field_index, Fields, "A set of [`Field`]s, usable in constants.";
     /// Position x.
-    Position, Point, "position", "m";
+    POSITION, Point, "position", "m";
     /// The rounding error of the position, kept where the scalar is `f32`.
-    PositionResidual, Vector, "position_residual", "m";
+    POSITION_RESIDUAL, Vector, "position_residual", "m";
     /// Velocity v.
-    Velocity, Velocity, "velocity", "m/s";
+    VELOCITY, Velocity, "velocity", "m/s";
     /// Velocity averaged over a kick, with which pair forces do their work.
-    MeanVelocity, Velocity, "mean_velocity", "m/s";
+    MEAN_VELOCITY, Velocity, "mean_velocity", "m/s";
     /// Mass m.
-    Mass, Scalar, "mass", "kg";
+    MASS, Scalar, "mass", "kg";
     /// Density ρ.
-    Density, Scalar, "density", "kg/m³";
+    DENSITY, Scalar, "density", "kg/m³";
     /// The rounding error of an integrated density, kept where the scalar is `f32`.
-    DensityResidual, Scalar, "density_residual", "kg/m³";
+    DENSITY_RESIDUAL, Scalar, "density_residual", "kg/m³";
     /// Natural logarithm of the density that torn liquid would have over the density at which it is held.
-    Tear, Scalar, "tear", "1";
+    TEAR, Scalar, "tear", "1";
     /// Specific internal energy e.
-    Energy, Scalar, "energy", "J/kg";
+    ENERGY, Scalar, "energy", "J/kg";
     /// Smoothing length h.
-    SmoothingLength, Scalar, "smoothing_length", "m";
+    SMOOTHING_LENGTH, Scalar, "smoothing_length", "m";
     /// Pressure p, positive in compression.
-    Pressure, Scalar, "pressure", "Pa";
+    PRESSURE, Scalar, "pressure", "Pa";
     /// Sound speed c.
-    SoundSpeed, Scalar, "sound_speed", "m/s";
+    SOUND_SPEED, Scalar, "sound_speed", "m/s";
     /// The weight B of a particle in pair sums: its mass or its volume, by the density form.
-    Weight, Scalar, "weight", "kg or m³";
+    WEIGHT, Scalar, "weight", "kg or m³";
     /// The pressure coefficient X of the density form; pair forces are −Bᵢ Bⱼ (Xᵢ + Xⱼ) ∇W.
-    PressureCoefficient, Scalar, "pressure_coefficient", "by the density form";
+    PRESSURE_COEFFICIENT, Scalar, "pressure_coefficient", "by the density form";
     /// First moment of the kernel gradient at rest, by which the pair is normalised.
-    Normalisation, Scalar, "normalisation", "1";
+    NORMALISATION, Scalar, "normalisation", "1";
     /// Sum of kernel weights at rest.
-    ReferenceSum, Scalar, "reference_sum", "by the density form";
+    REFERENCE_SUM, Scalar, "reference_sum", "by the density form";
     /// Density at rest, from which compression is measured.
-    ReferenceDensity, Scalar, "reference_density", "kg/m³";
+    REFERENCE_DENSITY, Scalar, "reference_density", "kg/m³";
     /// Velocity gradient ∂vₐ/∂x_b, row a.
-    VelocityGradient, Matrix, "velocity_gradient", "1/s";
+    VELOCITY_GRADIENT, Matrix, "velocity_gradient", "1/s";
     /// Pressure gradient ∇p.
-    PressureGradient, Vector, "pressure_gradient", "Pa/m";
+    PRESSURE_GRADIENT, Vector, "pressure_gradient", "Pa/m";
     /// Inverse of the kernel's first moment matrix, which makes gradients exact for linear fields.
-    Correction, Matrix, "correction", "1";
+    CORRECTION, Matrix, "correction", "1";
     /// The particle's own coefficient of artificial viscosity α.
-    ViscosityCoefficient, Scalar, "viscosity_coefficient", "1";
+    VISCOSITY_COEFFICIENT, Scalar, "viscosity_coefficient", "1";
     /// Velocity divergence of the step before, whose rate triggers a viscosity switch.
-    Divergence, Scalar, "divergence", "1/s";
+    DIVERGENCE, Scalar, "divergence", "1/s";
     /// Factor Ω of a smoothing length that follows the density.
-    GradH, Scalar, "grad_h", "1";
+    GRAD_H, Scalar, "grad_h", "1";
     /// Kernel sum over the other side of a contact at the moment of touching.
-    TouchingSum, Scalar, "touching_sum", "1";
+    TOUCHING_SUM, Scalar, "touching_sum", "1";
     /// One where the particle touches the other side of a contact, zero elsewhere.
-    Touching, Scalar, "touching", "1";
+    TOUCHING, Scalar, "touching", "1";
     /// Dynamic viscosity μ.
-    DynamicViscosity, Scalar, "dynamic_viscosity", "Pa s";
+    DYNAMIC_VISCOSITY, Scalar, "dynamic_viscosity", "Pa s";
     /// Density gradient ∇ρ.
-    DensityGradient, Vector, "density_gradient", "kg/m⁴";
-    /// Free for a user's own terms.
-    UserA, Scalar, "user_a", "";
-    /// Free for a user's own terms.
-    UserB, Scalar, "user_b", "";
+    DENSITY_GRADIENT, Vector, "density_gradient", "kg/m⁴";
 }
 
 quantities! {
     /// A sum over neighbours.
-    Output, Outputs, "A set of [`Output`]s, usable in constants.";
+    Output, output_index, Outputs, "A set of [`Output`]s, usable in constants.";
     /// Force Σⱼ Fᵢⱼ.
-    Force, Vector, "force", "N";
+    FORCE, Vector, "force", "N";
     /// Rate of internal energy times mass, Σⱼ −½ Fᵢⱼ·vᵢⱼ.
-    Power, Scalar, "power", "W";
+    POWER, Scalar, "power", "W";
     /// Σⱼ Bⱼ vᵢⱼ·∇W, the rate of compression.
-    Compression, Scalar, "compression", "by the density form";
+    COMPRESSION, Scalar, "compression", "by the density form";
     /// Rate of density by diffusion.
-    DensityDiffusion, Scalar, "density_diffusion", "kg/(m³ s)";
+    DENSITY_DIFFUSION, Scalar, "density_diffusion", "kg/(m³ s)";
     /// Σⱼ Bⱼ Wᵢⱼ over the particle's own body and those bonded to it, itself included.
-    KernelSum, Scalar, "kernel_sum", "by the density form";
+    KERNEL_SUM, Scalar, "kernel_sum", "by the density form";
     /// Σⱼ Bⱼ/ρⱼ Wᵢⱼ, the partition of unity.
-    Unity, Scalar, "unity", "1";
+    UNITY, Scalar, "unity", "1";
     /// Σⱼ Bⱼ Wᵢⱼ over the other sides of contacts.
-    ContactSum, Scalar, "contact_sum", "1";
+    CONTACT_SUM, Scalar, "contact_sum", "1";
     /// −Σⱼ Bⱼ rᵢⱼ·∇W / D, the first moment of the kernel gradient.
-    Moment, Scalar, "moment", "by the density form";
+    MOMENT, Scalar, "moment", "by the density form";
     /// Σⱼ Bⱼ ∂W/∂h at the particle's own smoothing length.
-    SlopeInH, Scalar, "slope_in_h", "by the density form";
+    SLOPE_IN_H, Scalar, "slope_in_h", "by the density form";
     /// Σⱼ Vⱼ (vⱼ − vᵢ) ⊗ ∇W.
-    VelocityGradient, Matrix, "velocity_gradient", "1/s";
+    VELOCITY_GRADIENT, Matrix, "velocity_gradient", "1/s";
     /// Σⱼ Vⱼ (pⱼ − pᵢ) ∇W.
-    PressureGradient, Vector, "pressure_gradient", "Pa/m";
+    PRESSURE_GRADIENT, Vector, "pressure_gradient", "Pa/m";
     /// Σⱼ Vⱼ (ρⱼ − ρᵢ) ∇W.
-    DensityGradient, Vector, "density_gradient", "kg/m⁴";
+    DENSITY_GRADIENT, Vector, "density_gradient", "kg/m⁴";
     /// Σⱼ Vⱼ pⱼ Wᵢⱼ over liquid, from which a wall takes its pressure.
-    LiquidPressure, Scalar, "liquid_pressure", "Pa";
+    LIQUID_PRESSURE, Scalar, "liquid_pressure", "Pa";
     /// Σⱼ Vⱼ ρⱼ rᵢⱼ Wᵢⱼ over liquid, the arm of a wall's hydrostatic pressure.
-    LiquidMoment, Vector, "liquid_moment", "kg/m²";
+    LIQUID_MOMENT, Vector, "liquid_moment", "kg/m²";
     /// Σⱼ Vⱼ vⱼ Wᵢⱼ over liquid, from which a wall takes the velocity that makes the liquid stick.
-    LiquidVelocity, Vector, "liquid_velocity", "m/s";
+    LIQUID_VELOCITY, Vector, "liquid_velocity", "m/s";
     /// Σⱼ Vⱼ μⱼ Wᵢⱼ over liquid, from which a wall takes its viscosity.
-    LiquidViscosity, Scalar, "liquid_viscosity", "Pa s";
+    LIQUID_VISCOSITY, Scalar, "liquid_viscosity", "Pa s";
     /// Σⱼ Vⱼ ∇W with a weight that grows as particles meet: where they crowd.
-    Crowding, Vector, "crowding", "1/m";
+    CROWDING, Vector, "crowding", "1/m";
     /// −Σⱼ Vⱼ rᵢⱼ ⊗ ∇W.
-    MomentMatrix, Matrix, "moment_matrix", "1";
+    MOMENT_MATRIX, Matrix, "moment_matrix", "1";
     /// The fastest signal that a viscosity saw, a maximum and not a sum.
-    Signal, Scalar, "signal", "m/s";
+    SIGNAL, Scalar, "signal", "m/s";
     /// The fastest that signals of a particle and a neighbour meet, a maximum and not a sum.
-    SignalSpeed, Scalar, "signal_speed", "m/s";
+    SIGNAL_SPEED, Scalar, "signal_speed", "m/s";
     /// Σⱼ Vⱼ sign(∇·vⱼ) Wᵢⱼ, whether the surroundings close in or open.
-    DivergenceSign, Scalar, "divergence_sign", "1";
-    /// Free for a user's own terms.
-    UserA, Scalar, "user_a", "";
-    /// Free for a user's own terms.
-    UserB, Scalar, "user_b", "";
+    DIVERGENCE_SIGN, Scalar, "divergence_sign", "1";
 }
 
 #[cfg(test)]
@@ -257,10 +374,10 @@ mod tests {
 
     #[test]
     fn layout_is_dense_and_ordered() {
-        const SET: Fields = Fields::of(&[Field::Velocity, Field::Position, Field::Density]);
-        assert_eq!(SET.offset(Field::Position, 3), 0);
-        assert_eq!(SET.offset(Field::Velocity, 3), 3);
-        assert_eq!(SET.offset(Field::Density, 3), 6);
+        const SET: Fields = Fields::of(&[Field::VELOCITY, Field::POSITION, Field::DENSITY]);
+        assert_eq!(SET.offset(Field::POSITION, 3), 0);
+        assert_eq!(SET.offset(Field::VELOCITY, 3), 3);
+        assert_eq!(SET.offset(Field::DENSITY, 3), 6);
         assert_eq!(SET.width(3), 7);
         assert_eq!(SET.iter().count(), 3);
     }

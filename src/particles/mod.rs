@@ -3,11 +3,11 @@
 //!
 //! [`Field`] and [`Output`] list everything with name, unit and shape. [`Fields`] and [`Outputs`] are
 //! sets of them that can be constants, so a [term](crate::term) declares what it touches and the
-//! compiler knows where each number of a record stands. Two fields and two sums are free for terms of
-//! a user's own.
+//! compiler knows where each number of a record stands. Effects declare fields and sums of
+//! their own with [`Field::scalar`] and its like.
 
 mod columns;
 mod field;
 
 pub use columns::Columns;
-pub use field::{Field, Fields, Output, Outputs, Shape};
+pub use field::{Field, Fields, OWN, Output, Outputs, PLACES, Shape};

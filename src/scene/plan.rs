@@ -100,7 +100,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         let unilateral = interactions.contains(&Interaction::Unilateral);
         let mut fields = self.scheme.fields();
         if unilateral {
-            fields = fields.union(Fields::of(&[Field::Touching, Field::TouchingSum]));
+            fields = fields.union(Fields::of(&[Field::TOUCHING, Field::TOUCHING_SUM]));
         }
         let width = width::<T>();
         let counts = self.bodies.iter().map(|body| self.room(body));
@@ -248,29 +248,32 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
     fn place(&self, columns: &mut Columns<T, D>, body: &Body<T, D>, slot: usize, k: usize) {
         let (x, start) = (body.points[k], body.starts[k]);
         let rounded = x.map(T::from_f64);
-        columns.vectors_mut(Field::Position)[slot] = rounded;
-        if columns.fields().contains(Field::PositionResidual) {
-            columns.vectors_mut(Field::PositionResidual)[slot] =
+        columns.vectors_mut(Field::POSITION)[slot] = rounded;
+        if columns.fields().contains(Field::POSITION_RESIDUAL) {
+            columns.vectors_mut(Field::POSITION_RESIDUAL)[slot] =
                 core::array::from_fn(|d| T::from_f64(x[d] - rounded[d].to_f64()));
         }
-        columns.vectors_mut(Field::Velocity)[slot] = start.velocity.map(T::from_f64);
+        columns.vectors_mut(Field::VELOCITY)[slot] = start.velocity.map(T::from_f64);
         let mut set = |field: Field, value: f64| {
             if let Some(place) = columns.raw_mut(field).get_mut(slot) {
                 *place = T::from_f64(value);
             }
         };
-        set(Field::Density, start.density);
-        set(Field::ReferenceDensity, start.density);
-        set(Field::Mass, start.density * body.spacing.powi(D as i32));
-        set(Field::Energy, start.energy);
+        set(Field::DENSITY, start.density);
+        set(Field::REFERENCE_DENSITY, start.density);
+        set(Field::MASS, start.density * body.spacing.powi(D as i32));
+        set(Field::ENERGY, start.energy);
         let viscosity = body
             .material
             .rheology()
             .map_or(0.0, |law| law.viscosity(0.0));
-        set(Field::DynamicViscosity, viscosity);
-        set(Field::SmoothingLength, self.scheme.h_over_dx * body.spacing);
+        set(Field::DYNAMIC_VISCOSITY, viscosity);
         set(
-            Field::ViscosityCoefficient,
+            Field::SMOOTHING_LENGTH,
+            self.scheme.h_over_dx * body.spacing,
+        );
+        set(
+            Field::VISCOSITY_COEFFICIENT,
             self.scheme.starting_coefficient(),
         );
     }
@@ -321,13 +324,16 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                 *place = T::from_f64(value);
             }
         };
-        set(Field::Density, density);
-        set(Field::SoundSpeed, sound_speed);
-        set(Field::Mass, self.wall_mass(wall));
-        set(Field::SmoothingLength, self.scheme.h_over_dx * wall.spacing);
+        set(Field::DENSITY, density);
+        set(Field::SOUND_SPEED, sound_speed);
+        set(Field::MASS, self.wall_mass(wall));
+        set(
+            Field::SMOOTHING_LENGTH,
+            self.scheme.h_over_dx * wall.spacing,
+        );
         // The liquid corrects the gradients; a wall takes them as they are.
         if let Some(rows) = columns
-            .raw_mut(Field::Correction)
+            .raw_mut(Field::CORRECTION)
             .get_mut(slot * D * D..(slot + 1) * D * D)
         {
             for d in 0..D {
@@ -421,6 +427,6 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
 
     pub fn is_uniform(&self) -> bool {
         self.scheme.smoothing == Smoothing::Fixed
-            && !self.scheme.fields().contains(Field::SmoothingLength)
+            && !self.scheme.fields().contains(Field::SMOOTHING_LENGTH)
     }
 }

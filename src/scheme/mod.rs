@@ -182,7 +182,7 @@ impl<T: Real, const D: usize> Scheme<T, D> {
     pub(crate) fn has_slow_fields(&self) -> bool {
         let fields = self.fields();
         let corrected =
-            fields.contains(Field::Correction) && !fields.contains(Field::DensityGradient);
+            fields.contains(Field::CORRECTION) && !fields.contains(Field::DENSITY_GRADIENT);
         corrected || (self.liquid.as_ref()).is_some_and(|liquid| liquid.shear.is_some())
     }
 
@@ -253,63 +253,63 @@ impl<T: Real, const D: usize> Scheme<T, D> {
             .chain(self.reference.as_deref())
             .fold(Fields::NONE, |all, sweep| all.union(sweep.fields()));
         fields = fields.union(Fields::of(&[
-            Field::Position,
-            Field::Velocity,
-            Field::Mass,
-            Field::Density,
-            Field::Pressure,
-            Field::SoundSpeed,
-            Field::Weight,
-            Field::PressureCoefficient,
+            Field::POSITION,
+            Field::VELOCITY,
+            Field::MASS,
+            Field::DENSITY,
+            Field::PRESSURE,
+            Field::SOUND_SPEED,
+            Field::WEIGHT,
+            Field::PRESSURE_COEFFICIENT,
         ]));
         if T::COMPENSATED {
-            fields = fields.union(Fields::of(&[Field::PositionResidual]));
+            fields = fields.union(Fields::of(&[Field::POSITION_RESIDUAL]));
             if self.density.is_integrated() {
-                fields = fields.union(Fields::of(&[Field::DensityResidual]));
+                fields = fields.union(Fields::of(&[Field::DENSITY_RESIDUAL]));
             }
         }
         if self.energy != EnergyForm::None {
-            fields = fields.union(Fields::of(&[Field::Energy]));
+            fields = fields.union(Fields::of(&[Field::ENERGY]));
         }
         if self.energy == EnergyForm::Compatible {
-            fields = fields.union(Fields::of(&[Field::MeanVelocity]));
+            fields = fields.union(Fields::of(&[Field::MEAN_VELOCITY]));
         }
         if self.density.has_reference() && self.reference.is_some() {
             fields = fields.union(Fields::of(&[
-                Field::Normalisation,
-                Field::ReferenceSum,
-                Field::ReferenceDensity,
+                Field::NORMALISATION,
+                Field::REFERENCE_SUM,
+                Field::REFERENCE_DENSITY,
             ]));
         }
         if self.smoothing != Smoothing::Fixed {
-            fields = fields.union(Fields::of(&[Field::SmoothingLength]));
+            fields = fields.union(Fields::of(&[Field::SMOOTHING_LENGTH]));
         }
         if matches!(self.smoothing, Smoothing::Consistent { .. }) {
-            fields = fields.union(Fields::of(&[Field::GradH]));
+            fields = fields.union(Fields::of(&[Field::GRAD_H]));
         }
         let damped = |liquid: &Liquid<T, D>| liquid.acoustic_damping.is_some();
         if self.liquid.as_ref().is_some_and(damped) {
-            fields = fields.union(Fields::of(&[Field::Divergence]));
+            fields = fields.union(Fields::of(&[Field::DIVERGENCE]));
         }
         let tears = |liquid: &Liquid<T, D>| liquid.reversible_tearing;
         if self.liquid.as_ref().is_some_and(tears) {
-            fields = fields.union(Fields::of(&[Field::Tear]));
+            fields = fields.union(Fields::of(&[Field::TEAR]));
         }
         match self.switch {
             Some(Switch::CullenDehnen { .. }) => {
                 // In one dimension there is no shear to tell from a shock.
                 let shear: &[Field] = if D > 1 {
-                    &[Field::VelocityGradient]
+                    &[Field::VELOCITY_GRADIENT]
                 } else {
                     &[]
                 };
                 fields.union(Fields::of(shear)).union(Fields::of(&[
-                    Field::ViscosityCoefficient,
-                    Field::Divergence,
+                    Field::VISCOSITY_COEFFICIENT,
+                    Field::DIVERGENCE,
                 ]))
             }
             Some(Switch::MorrisMonaghan { .. }) => {
-                fields.union(Fields::of(&[Field::ViscosityCoefficient]))
+                fields.union(Fields::of(&[Field::VISCOSITY_COEFFICIENT]))
             }
             None => fields,
         }

@@ -25,23 +25,23 @@ impl<T: Real, const D: usize> Group<T, D> {
             (self.scheme.liquid.as_ref()).and_then(|liquid| liquid.volume_consistency);
         let h = self.smoothing_length;
         let [density, residual, rest, moment, sound_speed] = self.columns.many_mut([
-            Field::Density,
-            Field::DensityResidual,
-            Field::ReferenceDensity,
-            Field::Normalisation,
-            Field::SoundSpeed,
+            Field::DENSITY,
+            Field::DENSITY_RESIDUAL,
+            Field::REFERENCE_DENSITY,
+            Field::NORMALISATION,
+            Field::SOUND_SPEED,
         ]);
         let rest: Reference<'_, T> = (rest, moment, lattice);
         let sound_speed = &*sound_speed;
         let overlap = |slot: usize| {
             consistency.map_or(T::zero(), |(strength, unity)| {
-                let excess = rows.get(Output::Unity, 0, slot) / T::from_f64(unity) - T::one();
+                let excess = rows.get(Output::UNITY, 0, slot) / T::from_f64(unity) - T::one();
                 T::from_f64(strength / h) * sound_speed[slot] * excess
             })
         };
         let change = |slot: usize, density: T| {
             let rate = rate(form, rows, rest, slot, density) + overlap(slot);
-            density * expm1(rate * dt) + dt * rows.get(Output::DensityDiffusion, 0, slot)
+            density * expm1(rate * dt) + dt * rows.get(Output::DENSITY_DIFFUSION, 0, slot)
         };
         let density = &mut density[..mobile];
         if residual.is_empty() {
@@ -74,7 +74,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         let share = if liquid.reversible_tearing { 1.0 } else { TORN };
         let [density, residual, tear] =
             self.columns
-                .many_mut([Field::Density, Field::DensityResidual, Field::Tear]);
+                .many_mut([Field::DENSITY, Field::DENSITY_RESIDUAL, Field::TEAR]);
         let mut held = 0;
         for body in &self.bodies {
             let eos = body.material.eos();
@@ -133,10 +133,10 @@ impl<T: Real, const D: usize> Group<T, D> {
         let lattice = T::from_f64(self.scheme.lattice_moment);
         let (rows, mobile) = (&self.scratch_rows, self.mobile);
         let [h, density, rest, moment] = self.columns.many_mut([
-            Field::SmoothingLength,
-            Field::Density,
-            Field::ReferenceDensity,
-            Field::Normalisation,
+            Field::SMOOTHING_LENGTH,
+            Field::DENSITY,
+            Field::REFERENCE_DENSITY,
+            Field::NORMALISATION,
         ]);
         let density = &*density;
         let rest: Reference<'_, T> = (rest, moment, lattice);
@@ -183,7 +183,7 @@ pub(super) fn rate<T: Real, const D: usize>(
     slot: usize,
     density: T,
 ) -> T {
-    let sum = rows.get(Output::Compression, 0, slot);
+    let sum = rows.get(Output::COMPRESSION, 0, slot);
     let rest = rest.get(slot).copied().unwrap_or(T::one());
     let moment = moment.get(slot).copied().unwrap_or(lattice);
     form.compression(sum, density, rest, moment)

@@ -120,14 +120,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     fn broken(&self, group: &Group<T, D>, slot: usize) -> Error {
         let columns = &group.columns;
         let number = |field: Field| columns.raw(field)[slot].to_f64();
-        let force = group.rows.get(Output::Force, 0, slot).to_f64();
+        let force = group.rows.get(Output::FORCE, 0, slot).to_f64();
         let candidates = [
-            ("density", number(Field::Density)),
-            ("pressure", number(Field::Pressure)),
-            ("sound speed", number(Field::SoundSpeed)),
+            ("density", number(Field::DENSITY)),
+            ("pressure", number(Field::PRESSURE)),
+            ("sound speed", number(Field::SOUND_SPEED)),
             (
                 "velocity",
-                columns.vectors(Field::Velocity)[slot][0].to_f64(),
+                columns.vectors(Field::VELOCITY)[slot][0].to_f64(),
             ),
             ("force", force),
         ];
@@ -141,7 +141,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             value,
             body: body.name.clone(),
             particle: group.ids[slot] as usize - body.slots.start,
-            position: columns.vectors(Field::Position)[slot]
+            position: columns.vectors(Field::POSITION)[slot]
                 .iter()
                 .map(|x| x.to_f64())
                 .collect(),
@@ -162,13 +162,13 @@ impl<T: Real, const D: usize> Group<T, D> {
     /// The largest stable step, and the slot that sets it; negative where a state is not finite.
     fn vote(&self, control: &StepControl) -> Vote {
         let columns = &self.columns;
-        let (c, rho) = (columns.raw(Field::SoundSpeed), columns.raw(Field::Density));
-        let viscosity = columns.raw(Field::DynamicViscosity);
+        let (c, rho) = (columns.raw(Field::SOUND_SPEED), columns.raw(Field::DENSITY));
+        let viscosity = columns.raw(Field::DYNAMIC_VISCOSITY);
         let (mass, h) = (
-            columns.raw(Field::Mass),
-            columns.raw(Field::SmoothingLength),
+            columns.raw(Field::MASS),
+            columns.raw(Field::SMOOTHING_LENGTH),
         );
-        let velocity = columns.vectors(Field::Velocity);
+        let velocity = columns.vectors(Field::VELOCITY);
         let uniform = self.smoothing_length;
         let bad = Vote {
             step: -1.0,
@@ -189,9 +189,9 @@ impl<T: Real, const D: usize> Group<T, D> {
             .with_min_len(4096)
             .map(|slot| {
                 let h = h.get(slot).map_or(uniform, |h| h.to_f64());
-                let signal = self.rows.get(Output::Signal, 0, slot).to_f64();
+                let signal = self.rows.get(Output::SIGNAL, 0, slot).to_f64();
                 let acoustic = control.courant * h / (c[slot].to_f64() + signal);
-                let force: Vector<T, D> = self.rows.vector(Output::Force, slot).into();
+                let force: Vector<T, D> = self.rows.vector(Output::FORCE, slot).into();
                 let a = length(&(force / mass[slot] + gravity)).to_f64();
                 let by_force = control.force * (h / a.max(f64::MIN_POSITIVE)).sqrt();
                 let speed = velocity[slot].iter().fold(0.0, |s, v| s + v.to_f64().abs());

@@ -22,7 +22,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         let lattice = T::from_f64(self.scheme.lattice_moment);
         let rows = compression_sums(&self.scheme, &self.rows, &self.scratch_rows);
         let mobile = self.mobile;
-        let [divergence, density] = self.columns.many_mut([Field::Divergence, Field::Density]);
+        let [divergence, density] = self.columns.many_mut([Field::DIVERGENCE, Field::DENSITY]);
         let rest: Reference<'_, T> = (&[], &[], lattice);
         divergence[..mobile]
             .par_iter_mut()
@@ -42,11 +42,11 @@ impl<T: Real, const D: usize> Group<T, D> {
         let uniform = T::from_f64(self.smoothing_length);
         let strength = T::from_f64(strength);
         let [pressure, divergence, density, sound_speed, h] = self.columns.many_mut([
-            Field::Pressure,
-            Field::Divergence,
-            Field::Density,
-            Field::SoundSpeed,
-            Field::SmoothingLength,
+            Field::PRESSURE,
+            Field::DIVERGENCE,
+            Field::DENSITY,
+            Field::SOUND_SPEED,
+            Field::SMOOTHING_LENGTH,
         ]);
         for body in &self.bodies {
             let least = body.material.eos().pressure_cut_off();

@@ -29,11 +29,11 @@ impl<T: Real, const D: usize> Group<T, D> {
         let rows = &self.scratch_rows;
         let unilateral = self.unilateral;
         let [density, rest, sum, moment, touching] = self.columns.many_mut([
-            Field::Density,
-            Field::ReferenceDensity,
-            Field::ReferenceSum,
-            Field::Normalisation,
-            Field::TouchingSum,
+            Field::DENSITY,
+            Field::REFERENCE_DENSITY,
+            Field::REFERENCE_SUM,
+            Field::NORMALISATION,
+            Field::TOUCHING_SUM,
         ]);
         let at = |column: &[T], slot: usize| column.get(slot).copied().unwrap_or(T::zero());
         let (rest, sum, moment, touching) = (&*rest, &*sum, &*moment, &*touching);
@@ -42,8 +42,8 @@ impl<T: Real, const D: usize> Group<T, D> {
             .enumerate()
             .with_min_len(GRAIN)
             .for_each(|(slot, density)| {
-                let own = rows.get(Output::KernelSum, 0, slot);
-                let across = rows.get(Output::ContactSum, 0, slot);
+                let own = rows.get(Output::KERNEL_SUM, 0, slot);
+                let across = rows.get(Output::CONTACT_SUM, 0, slot);
                 *density = match form {
                     DensityForm::NumberDensity => {
                         // The other side of a contact compresses; it never pulls apart.
@@ -52,9 +52,9 @@ impl<T: Real, const D: usize> Group<T, D> {
                         let compression = (own - at(sum, slot) + pressed) / at(moment, slot);
                         at(rest, slot) * (T::one() + compression)
                     }
-                    DensityForm::Normalised => (own + across) / rows.get(Output::Unity, 0, slot),
+                    DensityForm::Normalised => (own + across) / rows.get(Output::UNITY, 0, slot),
                     DensityForm::Lam if at(sum, slot) > T::zero() => {
-                        (own + across) / rows.get(Output::Unity, 0, slot)
+                        (own + across) / rows.get(Output::UNITY, 0, slot)
                     }
                     _ => own + across,
                 };
@@ -64,14 +64,16 @@ impl<T: Real, const D: usize> Group<T, D> {
     /// Marks particles that the other side of a contact presses against.
     fn find_touching(&mut self) {
         let rows = &self.scratch_rows;
-        let [touching, sum] = self.columns.many_mut([Field::Touching, Field::TouchingSum]);
+        let [touching, sum] = self
+            .columns
+            .many_mut([Field::TOUCHING, Field::TOUCHING_SUM]);
         let sum = &*sum;
         touching
             .par_iter_mut()
             .enumerate()
             .with_min_len(GRAIN)
             .for_each(|(slot, touching)| {
-                let pressed = rows.get(Output::ContactSum, 0, slot) > sum[slot];
+                let pressed = rows.get(Output::CONTACT_SUM, 0, slot) > sum[slot];
                 *touching = if pressed { T::one() } else { T::zero() };
             });
     }
@@ -87,10 +89,10 @@ impl<T: Real, const D: usize> Group<T, D> {
             self.scratch_sweep(|group| group.scheme.sums.as_deref());
             let rows = &self.scratch_rows;
             let [h, density, mass, omega] = self.columns.many_mut([
-                Field::SmoothingLength,
-                Field::Density,
-                Field::Mass,
-                Field::GradH,
+                Field::SMOOTHING_LENGTH,
+                Field::DENSITY,
+                Field::MASS,
+                Field::GRAD_H,
             ]);
             let mass = &*mass;
             let change = h
@@ -100,8 +102,8 @@ impl<T: Real, const D: usize> Group<T, D> {
                 .enumerate()
                 .with_min_len(GRAIN)
                 .map(|(slot, ((h, density), omega))| {
-                    let summed = rows.get(Output::KernelSum, 0, slot);
-                    let slope = rows.get(Output::SlopeInH, 0, slot);
+                    let summed = rows.get(Output::KERNEL_SUM, 0, slot);
+                    let slope = rows.get(Output::SLOPE_IN_H, 0, slot);
                     *density = summed;
                     let wanted = mass[slot] * (eta / *h).powi(D as u32);
                     // f = ρ(h) − m (η/h)^D and f′ = ∂ρ/∂h + D m η^D/h^(D+1).
@@ -123,7 +125,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                 break;
             }
         }
-        let h = self.columns.raw(Field::SmoothingLength);
+        let h = self.columns.raw(Field::SMOOTHING_LENGTH);
         let at_limit = h.iter().filter(|&&h| h <= low || h >= high).count();
         self.limited_h += at_limit as u64;
     }

@@ -66,10 +66,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let (mut kinetic, mut compression) = (0.0, 0.0);
         for (group, body) in self.all_bodies() {
             let columns = &group.columns;
-            let (mass, density) = (columns.raw(Field::Mass), columns.raw(Field::Density));
+            let (mass, density) = (columns.raw(Field::MASS), columns.raw(Field::DENSITY));
             for slot in body.slots.clone() {
                 let mass = mass[slot].to_f64();
-                let v = columns.vectors(Field::Velocity)[slot];
+                let v = columns.vectors(Field::VELOCITY)[slot];
                 let v2: f64 = v.iter().map(|v| v.to_f64().powi(2)).sum();
                 kinetic += 0.5 * mass * v2;
                 let eos = body.material.eos();
@@ -87,8 +87,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let (mut mass, mut momentum) = (0.0, [0.0; D]);
         for (group, body) in self.all_bodies() {
             for slot in body.slots.clone() {
-                let own = group.columns.raw(Field::Mass)[slot].to_f64();
-                let v = group.columns.vectors(Field::Velocity)[slot];
+                let own = group.columns.raw(Field::MASS)[slot].to_f64();
+                let v = group.columns.vectors(Field::VELOCITY)[slot];
                 mass += own;
                 for d in 0..D {
                     momentum[d] += own * v[d].to_f64();
@@ -150,7 +150,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                     continue;
                 };
                 for slot in wall.slots.clone() {
-                    let force = rows.vector(Output::Force, slot);
+                    let force = rows.vector(Output::FORCE, slot);
                     let v = pose.of(1, &wall.rest[group.rest_of(k, slot)]);
                     power -= (0..D).map(|d| force[d].to_f64() * v[d]).sum::<f64>();
                 }

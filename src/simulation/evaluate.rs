@@ -48,10 +48,10 @@ impl<T: Real, const D: usize> Group<T, D> {
     /// Weights of pair sums by a density form.
     pub(super) fn set_weights(&mut self, form: DensityForm) {
         let [weight, mass, density, rest] = self.columns.many_mut([
-            Field::Weight,
-            Field::Mass,
-            Field::Density,
-            Field::ReferenceDensity,
+            Field::WEIGHT,
+            Field::MASS,
+            Field::DENSITY,
+            Field::REFERENCE_DENSITY,
         ]);
         let (mass, density, rest) = (&*mass, &*density, &*rest);
         weight
@@ -73,7 +73,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             return;
         }
         if !self.scheme.density.is_integrated()
-            || !self.rows.outputs().contains(Output::Compression)
+            || !self.rows.outputs().contains(Output::COMPRESSION)
         {
             if self.scheme.pressure_form != self.scheme.density {
                 self.set_weights(self.scheme.density);
@@ -84,11 +84,11 @@ impl<T: Real, const D: usize> Group<T, D> {
         let form = self.scheme.pressure_form;
         let (rows, dt) = (&self.rows, T::from_f64(dt));
         let [weight, mass, density, rest, moment] = self.columns.many_mut([
-            Field::Weight,
-            Field::Mass,
-            Field::Density,
-            Field::ReferenceDensity,
-            Field::Normalisation,
+            Field::WEIGHT,
+            Field::MASS,
+            Field::DENSITY,
+            Field::REFERENCE_DENSITY,
+            Field::NORMALISATION,
         ]);
         let (mass, density) = (&*mass, &*density);
         let (rest, moment) = (&*rest, &*moment);
@@ -97,7 +97,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             .enumerate()
             .with_min_len(GRAIN)
             .for_each(|(slot, weight)| {
-                let sum = rows.get(Output::Compression, 0, slot);
+                let sum = rows.get(Output::COMPRESSION, 0, slot);
                 let rate = form.compression(sum, density[slot], rest[slot], moment[slot]);
                 *weight = mass[slot] / (density[slot] * (T::one() + dt * rate));
             });
@@ -133,11 +133,11 @@ impl<T: Real, const D: usize> Group<T, D> {
         let carries_energy = self.scheme.energy != EnergyForm::None;
         let scaled = self.scheme.density == DensityForm::Lam;
         let [density, energy, pressure, sound_speed, rest] = self.columns.many_mut([
-            Field::Density,
-            Field::Energy,
-            Field::Pressure,
-            Field::SoundSpeed,
-            Field::ReferenceDensity,
+            Field::DENSITY,
+            Field::ENERGY,
+            Field::PRESSURE,
+            Field::SOUND_SPEED,
+            Field::REFERENCE_DENSITY,
         ]);
         let mut guards = GuardCounts::default();
         for body in &self.bodies {
@@ -191,12 +191,12 @@ impl<T: Real, const D: usize> Group<T, D> {
             self.set_weights(form);
         }
         let [coefficient, pressure, density, rest, moment, omega] = self.columns.many_mut([
-            Field::PressureCoefficient,
-            Field::Pressure,
-            Field::Density,
-            Field::ReferenceDensity,
-            Field::Normalisation,
-            Field::GradH,
+            Field::PRESSURE_COEFFICIENT,
+            Field::PRESSURE,
+            Field::DENSITY,
+            Field::REFERENCE_DENSITY,
+            Field::NORMALISATION,
+            Field::GRAD_H,
         ]);
         let (pressure, density) = (&*pressure, &*density);
         let (rest, moment, omega) = (&*rest, &*moment, &*omega);

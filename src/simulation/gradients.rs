@@ -15,7 +15,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         let dual = (self.scheme.liquid.as_ref()).is_some_and(|liquid| liquid.dual_criteria);
         let kept = dual && self.renewed == self.rebuilds && time < self.renewed_until;
         // Gradients of density follow sound.
-        if !kept || self.columns.fields().contains(Field::DensityGradient) {
+        if !kept || self.columns.fields().contains(Field::DENSITY_GRADIENT) {
             self.find_gradients();
         }
         if kept {
@@ -31,8 +31,8 @@ impl<T: Real, const D: usize> Group<T, D> {
     /// A quarter of h²/ν \[s\] of the most viscous particle: the time in which a creeping flow changes that
     /// moves no particle far.
     fn diffusion_time(&self) -> f64 {
-        let viscosity = self.columns.raw(Field::DynamicViscosity);
-        let density = self.columns.raw(Field::Density);
+        let viscosity = self.columns.raw(Field::DYNAMIC_VISCOSITY);
+        let density = self.columns.raw(Field::DENSITY);
         let kinematic = viscosity.iter().zip(density).take(self.mobile);
         let most = kinematic.fold(0.0_f64, |most, (mu, rho)| most.max((*mu / *rho).to_f64()));
         0.25 * self.smoothing_length * self.smoothing_length / most
@@ -46,10 +46,10 @@ impl<T: Real, const D: usize> Group<T, D> {
         let rows = &self.scratch_rows;
         let mobile = self.mobile;
         let [velocity, pressure, density, corrections] = self.columns.many_mut([
-            Field::VelocityGradient,
-            Field::PressureGradient,
-            Field::DensityGradient,
-            Field::Correction,
+            Field::VELOCITY_GRADIENT,
+            Field::PRESSURE_GRADIENT,
+            Field::DENSITY_GRADIENT,
+            Field::CORRECTION,
         ]);
         let with_velocity = !velocity.is_empty();
         let correction = |slot: usize| correction(rows, slot);
@@ -78,8 +78,8 @@ impl<T: Real, const D: usize> Group<T, D> {
                 });
         }
         let vectors = [
-            (pressure, Output::PressureGradient),
-            (density, Output::DensityGradient),
+            (pressure, Output::PRESSURE_GRADIENT),
+            (density, Output::DENSITY_GRADIENT),
         ];
         for (column, sum) in vectors {
             if column.is_empty() {
@@ -115,7 +115,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
         self.scratch_sweep(|group| group.scheme.liquid.as_ref()?.shear.as_deref());
         let rows = &self.scratch_rows;
-        let viscosity = self.columns.raw_mut(Field::DynamicViscosity);
+        let viscosity = self.columns.raw_mut(Field::DYNAMIC_VISCOSITY);
         for body in &self.bodies {
             let Some(law) = body.material.rheology() else {
                 continue;
@@ -139,14 +139,14 @@ impl<T: Real, const D: usize> Group<T, D> {
 
 /// The inverse of a particle's moment matrix.
 fn correction<T: Real, const D: usize>(rows: &Rows<T, D>, slot: usize) -> Matrix<T, D> {
-    let moment = Matrix::<T, D>::from_fn(|a, b| rows.get(Output::MomentMatrix, a * D + b, slot));
+    let moment = Matrix::<T, D>::from_fn(|a, b| rows.get(Output::MOMENT_MATRIX, a * D + b, slot));
     // A thin jet has no gradient across itself: leave the sum uncorrected there.
     inverse(&moment, SINGULAR).unwrap_or_else(Matrix::identity)
 }
 
 /// ∇v of a particle from the sums of its sweep \[1/s\].
 fn velocity_gradient<T: Real, const D: usize>(rows: &Rows<T, D>, slot: usize) -> Matrix<T, D> {
-    let sum = Matrix::<T, D>::from_fn(|a, b| rows.get(Output::VelocityGradient, a * D + b, slot));
+    let sum = Matrix::<T, D>::from_fn(|a, b| rows.get(Output::VELOCITY_GRADIENT, a * D + b, slot));
     sum * correction(rows, slot)
 }
 

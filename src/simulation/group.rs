@@ -243,7 +243,7 @@ impl<T: Real, const D: usize> Group<T, D> {
     }
 
     fn reach(&self) -> f64 {
-        let h = self.columns.raw(Field::SmoothingLength);
+        let h = self.columns.raw(Field::SMOOTHING_LENGTH);
         let largest = h
             .iter()
             .fold(self.smoothing_length, |m, h| m.max(h.to_f64()));
@@ -286,7 +286,7 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// Whether a particle has moved, or its support has grown, by more than the skin allows.
     fn outdated(&self, time: f64) -> bool {
-        let positions = self.columns.vectors(Field::Position);
+        let positions = self.columns.vectors(Field::POSITION);
         // A tank takes its liquid with it; only what moves in the tank outdates lists.
         let shift = self.carried(time);
         let farthest = positions
@@ -300,7 +300,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             })
             .reduce(|| 0.0, f64::max)
             .sqrt();
-        let h = self.columns.raw(Field::SmoothingLength);
+        let h = self.columns.raw(Field::SMOOTHING_LENGTH);
         let grown = h
             .iter()
             .zip(&self.listed_h)
@@ -341,10 +341,10 @@ impl<T: Real, const D: usize> Group<T, D> {
         let width = width::<T>();
         self.listed.clear();
         self.listed
-            .extend_from_slice(self.columns.vectors(Field::Position));
+            .extend_from_slice(self.columns.vectors(Field::POSITION));
         self.listed_h.clear();
         self.listed_h
-            .extend_from_slice(self.columns.raw(Field::SmoothingLength));
+            .extend_from_slice(self.columns.raw(Field::SMOOTHING_LENGTH));
         self.blocks.clear();
         let bodies = self.bodies.iter().map(|body| (&body.slots, false));
         let walls = self.walls.iter().map(|wall| (&wall.slots, true));

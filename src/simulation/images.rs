@@ -44,7 +44,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                 let own = boundary.transform(k, time);
                 candidates.clear();
                 let near = |x: &[T; D]| boundary.reaches(k, x, reach, time);
-                let positions = self.columns.vectors(Field::Position);
+                let positions = self.columns.vectors(Field::POSITION);
                 for slot in sources.iter().flat_map(Clone::clone) {
                     if near(&positions[slot]) {
                         candidates.push((slot as u32, None, positions[slot]));

@@ -107,16 +107,16 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             ..Budget::default()
         };
         for slot in body.slots.clone() {
-            let mass = columns.raw(Field::Mass)[slot].to_f64();
+            let mass = columns.raw(Field::MASS)[slot].to_f64();
             budget.mass += mass;
             let mut speed2 = 0.0;
-            for (d, v) in columns.vectors(Field::Velocity)[slot].iter().enumerate() {
+            for (d, v) in columns.vectors(Field::VELOCITY)[slot].iter().enumerate() {
                 budget.momentum[d] += mass * v.to_f64();
                 speed2 += v.to_f64() * v.to_f64();
             }
             budget.kinetic += 0.5 * mass * speed2;
             let energy = columns
-                .raw(Field::Energy)
+                .raw(Field::ENERGY)
                 .get(slot)
                 .map_or(0.0, |e| e.to_f64());
             budget.internal += mass * energy;

@@ -90,7 +90,7 @@ impl<T: Real, const D: usize> Group<T, D> {
     pub(super) fn wrap(&mut self, time: f64) {
         for (b, boundary) in self.boundaries.iter().enumerate() {
             for slot in 0..self.mobile {
-                let x = self.columns.vectors(Field::Position)[slot];
+                let x = self.columns.vectors(Field::POSITION)[slot];
                 let through = if boundary.crossed(&x, time) {
                     boundary.transform(0, time)
                 } else if let Some(through) = boundary.wrap(&x) {
@@ -99,11 +99,11 @@ impl<T: Real, const D: usize> Group<T, D> {
                     continue;
                 };
                 let body = self.bodies.iter().position(|own| own.slots.contains(&slot));
-                let velocity = Vector::from(self.columns.vectors(Field::Velocity)[slot]);
+                let velocity = Vector::from(self.columns.vectors(Field::VELOCITY)[slot]);
                 let [x, residual, v] = self.columns.many_mut([
-                    Field::Position,
-                    Field::PositionResidual,
-                    Field::Velocity,
+                    Field::POSITION,
+                    Field::POSITION_RESIDUAL,
+                    Field::VELOCITY,
                 ]);
                 through.re_enter(slot, x, residual, v);
                 // Repeats have lost their own places in a new order, and follow their original.
@@ -117,7 +117,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                     slot: self.moved.order.get(slot).map_or(slot, |&old| old as usize),
                     through,
                     seats: given.map(|body| [self.seats[body], boundary]),
-                    mass: self.columns.raw(Field::Mass)[slot],
+                    mass: self.columns.raw(Field::MASS)[slot],
                     velocity,
                 });
             }
@@ -127,7 +127,7 @@ impl<T: Real, const D: usize> Group<T, D> {
     /// Sorts every body along the space-filling curve, in cells that hold a particle each, so that the
     /// members of a cluster are the corners of a cube as far as the flow allows.
     pub(super) fn sort(&mut self) {
-        let positions = self.columns.vectors(Field::Position);
+        let positions = self.columns.vectors(Field::POSITION);
         let spacing = self
             .bodies
             .iter()
@@ -166,8 +166,8 @@ impl<T: Real, const D: usize> Group<T, D> {
             let (slots, end) = (self.bodies[k].slots.clone(), self.bodies[k].end);
             let mut kept = slots.start;
             for slot in slots.clone() {
-                let x = self.columns.vectors(Field::Position)[slot].map(Real::to_f64);
-                let v = self.columns.vectors(Field::Velocity)[slot].map(Real::to_f64);
+                let x = self.columns.vectors(Field::POSITION)[slot].map(Real::to_f64);
+                let v = self.columns.vectors(Field::VELOCITY)[slot].map(Real::to_f64);
                 if !self.outlets.iter().any(|outlet| outlet.takes(&x, &v)) {
                     order[kept] = slot as u32;
                     kept += 1;
@@ -175,7 +175,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                 }
                 any = true;
                 self.slot_of[self.ids[slot] as usize] = u32::MAX;
-                let mass = self.columns.raw(Field::Mass)[slot].to_f64();
+                let mass = self.columns.raw(Field::MASS)[slot].to_f64();
                 self.removed.particles += 1;
                 self.removed.mass += mass;
                 for d in 0..D {
@@ -240,21 +240,21 @@ impl<T: Real, const D: usize> Group<T, D> {
         let density = self.bodies[body].material.reference_density();
         let mass = density * self.bodies[body].spacing.powi(D as i32);
         let rounded = x.map(T::from_f64);
-        self.columns.vectors_mut(Field::Position)[slot] = rounded;
-        self.columns.vectors_mut(Field::Velocity)[slot] = velocity.map(T::from_f64);
+        self.columns.vectors_mut(Field::POSITION)[slot] = rounded;
+        self.columns.vectors_mut(Field::VELOCITY)[slot] = velocity.map(T::from_f64);
         if let Some(residual) = self
             .columns
-            .vectors_mut(Field::PositionResidual)
+            .vectors_mut(Field::POSITION_RESIDUAL)
             .get_mut(slot)
         {
             *residual = core::array::from_fn(|d| T::from_f64(x[d] - rounded[d].to_f64()));
         }
         for (field, value) in [
-            (Field::Density, density),
-            (Field::DensityResidual, 0.0),
-            (Field::Tear, 0.0),
-            (Field::Divergence, 0.0),
-            (Field::Mass, mass),
+            (Field::DENSITY, density),
+            (Field::DENSITY_RESIDUAL, 0.0),
+            (Field::TEAR, 0.0),
+            (Field::DIVERGENCE, 0.0),
+            (Field::MASS, mass),
         ] {
             if let Some(place) = self.columns.raw_mut(field).get_mut(slot) {
                 *place = T::from_f64(value);

@@ -33,8 +33,8 @@ impl<T: Real, const D: usize> ParticleView<'_, T, D> {
     #[must_use]
     pub fn position(&self) -> [f64; D] {
         let columns = &self.group.columns;
-        let residual = columns.raw(Field::PositionResidual);
-        let x = columns.vectors(Field::Position)[self.slot];
+        let residual = columns.raw(Field::POSITION_RESIDUAL);
+        let x = columns.vectors(Field::POSITION)[self.slot];
         core::array::from_fn(|d| {
             let lost = residual.get(self.slot * D + d).map_or(0.0, |r| r.to_f64());
             x[d].to_f64() + lost
@@ -43,7 +43,7 @@ impl<T: Real, const D: usize> ParticleView<'_, T, D> {
     /// Velocity \[m/s\].
     #[must_use]
     pub fn velocity(&self) -> [f64; D] {
-        self.group.columns.vectors(Field::Velocity)[self.slot].map(Real::to_f64)
+        self.group.columns.vectors(Field::VELOCITY)[self.slot].map(Real::to_f64)
     }
     /// A scalar field, or `None` if the scene does not carry it.
     #[must_use]
@@ -57,27 +57,27 @@ impl<T: Real, const D: usize> ParticleView<'_, T, D> {
     /// Density \[kg/m³\].
     #[must_use]
     pub fn density(&self) -> f64 {
-        self.scalar(Field::Density).unwrap_or(0.0)
+        self.scalar(Field::DENSITY).unwrap_or(0.0)
     }
     /// Pressure \[Pa\], positive in compression.
     #[must_use]
     pub fn pressure(&self) -> f64 {
-        self.scalar(Field::Pressure).unwrap_or(0.0)
+        self.scalar(Field::PRESSURE).unwrap_or(0.0)
     }
     /// Specific internal energy \[J/kg\], zero if it is not carried.
     #[must_use]
     pub fn energy(&self) -> f64 {
-        self.scalar(Field::Energy).unwrap_or(0.0)
+        self.scalar(Field::ENERGY).unwrap_or(0.0)
     }
     /// Mass \[kg\] (kg/m² in 1D, kg/m in 2D).
     #[must_use]
     pub fn mass(&self) -> f64 {
-        self.scalar(Field::Mass).unwrap_or(0.0)
+        self.scalar(Field::MASS).unwrap_or(0.0)
     }
     /// Smoothing length \[m\].
     #[must_use]
     pub fn smoothing_length(&self) -> f64 {
-        self.scalar(Field::SmoothingLength)
+        self.scalar(Field::SMOOTHING_LENGTH)
             .unwrap_or(self.group.smoothing_length)
     }
 }
@@ -117,7 +117,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             for slot in 0..group.mobile {
                 let now = ParticleView { group, slot };
                 let next = velocity(now.position(), now.velocity());
-                group.columns.vectors_mut(Field::Velocity)[slot] = next.map(T::from_f64);
+                group.columns.vectors_mut(Field::VELOCITY)[slot] = next.map(T::from_f64);
             }
             group.renewed_until = f64::NEG_INFINITY;
         }
@@ -196,7 +196,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         for group in self.observed() {
             let walls = group.walls.iter().map(|wall| wall.slots.clone());
             let bodies = group.bodies.iter().map(|body| body.slots.clone());
-            let positions = group.columns.vectors(Field::Position);
+            let positions = group.columns.vectors(Field::POSITION);
             for slots in bodies.chain(walls) {
                 for (slot, x) in slots.clone().zip(&positions[slots]) {
                     if (0..D).any(|d| !(low[d]..=high[d]).contains(&x[d].to_f64())) {
@@ -223,8 +223,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         for group in &self.groups {
             group.sum_on_walls(group.mobile..group.columns.slots(), &mut rows);
             for slot in group.walls.iter().flat_map(|wall| wall.slots.clone()) {
-                let x = group.columns.vectors(Field::Position)[slot];
-                let force = rows.vector(Output::Force, slot);
+                let x = group.columns.vectors(Field::POSITION)[slot];
+                let force = rows.vector(Output::FORCE, slot);
                 forces.push((x.map(Real::to_f64), force.map(Real::to_f64)));
             }
         }

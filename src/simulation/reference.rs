@@ -21,7 +21,7 @@ impl<T: Real, const D: usize> Group<T, D> {
     /// Takes the sums at rest from which stress is measured. Called once, when the scene is built.
     pub fn take_reference(&mut self) {
         // At rest the two sides of a contact lie against each other, and count as one neighbourhood.
-        self.columns.raw_mut(Field::Touching).fill(T::one());
+        self.columns.raw_mut(Field::TOUCHING).fill(T::one());
         self.set_weights(self.scheme.density);
         self.refresh(0.0);
         self.scratch_sweep(|group| group.scheme.reference.as_deref());
@@ -32,17 +32,17 @@ impl<T: Real, const D: usize> Group<T, D> {
             let normalised = self.scheme.normalised;
             let rows = &self.scratch_rows;
             let [moment, sum, rest, density] = self.columns.many_mut([
-                Field::Normalisation,
-                Field::ReferenceSum,
-                Field::ReferenceDensity,
-                Field::Density,
+                Field::NORMALISATION,
+                Field::REFERENCE_SUM,
+                Field::REFERENCE_DENSITY,
+                Field::DENSITY,
             ]);
             for slot in 0..density.len() {
-                sum[slot] = rows.get(Output::KernelSum, 0, slot);
+                sum[slot] = rows.get(Output::KERNEL_SUM, 0, slot);
                 rest[slot] = density[slot];
-                let all = sum[slot] + rows.get(Output::ContactSum, 0, slot);
+                let all = sum[slot] + rows.get(Output::CONTACT_SUM, 0, slot);
                 moment[slot] = if normalised {
-                    rows.get(Output::Moment, 0, slot)
+                    rows.get(Output::MOMENT, 0, slot)
                 } else {
                     all
                 };
@@ -52,30 +52,30 @@ impl<T: Real, const D: usize> Group<T, D> {
             }
         }
         if !form.has_reference() {
-            self.columns.raw_mut(Field::Normalisation).fill(T::one());
+            self.columns.raw_mut(Field::NORMALISATION).fill(T::one());
         }
         self.take_touching();
-        if self.columns.fields().contains(Field::GradH) {
-            self.columns.raw_mut(Field::GradH).fill(T::one());
+        if self.columns.fields().contains(Field::GRAD_H) {
+            self.columns.raw_mut(Field::GRAD_H).fill(T::one());
         }
     }
 
     /// Kernel sum across each contact at which the two sides touch: what a particle lacks to a full
     /// neighbourhood, or, where the bodies lie against each other, exactly what is there.
     fn take_touching(&mut self) {
-        if !self.columns.fields().contains(Field::TouchingSum) {
+        if !self.columns.fields().contains(Field::TOUCHING_SUM) {
             return;
         }
         let rows = &self.scratch_rows;
-        let [touching] = self.columns.many_mut([Field::TouchingSum]);
+        let [touching] = self.columns.many_mut([Field::TOUCHING_SUM]);
         for body in &self.bodies {
-            let own = |slot: usize| rows.get(Output::KernelSum, 0, slot);
+            let own = |slot: usize| rows.get(Output::KERNEL_SUM, 0, slot);
             let full = body
                 .slots
                 .clone()
                 .fold(T::zero(), |most, slot| most.max(own(slot)));
             for slot in body.run() {
-                let across = rows.get(Output::ContactSum, 0, slot);
+                let across = rows.get(Output::CONTACT_SUM, 0, slot);
                 let lacking = (full - own(slot)).positive_part();
                 let lies_against = across >= lacking * T::from_f64(0.9);
                 touching[slot] = if lies_against { across } else { lacking };
@@ -88,15 +88,15 @@ impl<T: Real, const D: usize> Group<T, D> {
     fn smooth_reference(&mut self) {
         let rows = &self.scratch_rows;
         let [end, rest, density, moment] = self.columns.many_mut([
-            Field::ReferenceSum,
-            Field::ReferenceDensity,
-            Field::Density,
-            Field::Normalisation,
+            Field::REFERENCE_SUM,
+            Field::REFERENCE_DENSITY,
+            Field::DENSITY,
+            Field::NORMALISATION,
         ]);
         for slot in 0..density.len() {
-            let unity = rows.get(Output::Unity, 0, slot);
+            let unity = rows.get(Output::UNITY, 0, slot);
             let summed =
-                rows.get(Output::KernelSum, 0, slot) + rows.get(Output::ContactSum, 0, slot);
+                rows.get(Output::KERNEL_SUM, 0, slot) + rows.get(Output::CONTACT_SUM, 0, slot);
             // An end particle lacks a side of its neighbourhood; a joint does not lack volume.
             let is_end = unity < T::from_f64(END_UNITY);
             end[slot] = if is_end { T::one() } else { T::zero() };
@@ -114,15 +114,15 @@ impl<T: Real, const D: usize> Group<T, D> {
             self.scratch_sweep(|group| group.scheme.reference.as_deref());
             let rows = &self.scratch_rows;
             let [end, rest, density] = self.columns.many_mut([
-                Field::ReferenceSum,
-                Field::ReferenceDensity,
-                Field::Density,
+                Field::REFERENCE_SUM,
+                Field::REFERENCE_DENSITY,
+                Field::DENSITY,
             ]);
             let mut change = T::zero();
             for slot in (0..density.len()).filter(|&slot| end[slot] > T::zero()) {
                 let summed =
-                    rows.get(Output::KernelSum, 0, slot) + rows.get(Output::ContactSum, 0, slot);
-                let next = summed / rows.get(Output::Unity, 0, slot);
+                    rows.get(Output::KERNEL_SUM, 0, slot) + rows.get(Output::CONTACT_SUM, 0, slot);
+                let next = summed / rows.get(Output::UNITY, 0, slot);
                 change = change.max((next / rest[slot] - T::one()).abs());
                 rest[slot] = next;
                 density[slot] = next;

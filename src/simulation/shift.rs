@@ -31,10 +31,10 @@ impl<T: Real, const D: usize> Group<T, D> {
         };
         let (rows, h, mobile) = (&self.scratch_rows, self.smoothing_length, self.mobile);
         let [x, residual, v, c] = self.columns.many_mut([
-            Field::Position,
-            Field::PositionResidual,
-            Field::Velocity,
-            Field::SoundSpeed,
+            Field::POSITION,
+            Field::POSITION_RESIDUAL,
+            Field::VELOCITY,
+            Field::SOUND_SPEED,
         ]);
         let (v, c) = (&*v, &*c);
         let displacement = |slot: usize| -> [T; D] {
@@ -45,7 +45,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                 } => {
                     let v = &v[slot * D..(slot + 1) * D];
                     let speed = v.iter().fold(0.0, |s, v| s + v.to_f64().powi(2)).sqrt();
-                    let moment = rows.get(Output::Moment, 0, slot).to_f64();
+                    let moment = rows.get(Output::MOMENT, 0, slot).to_f64();
                     let inside = (moment - SURFACE[0]) / (SURFACE[1] - SURFACE[0]);
                     let share = if free_surface {
                         inside.clamp(0.0, 1.0)
@@ -62,7 +62,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             };
             let longest = LONGEST * h;
             let sum: [f64; D] =
-                core::array::from_fn(|d| rows.get(Output::Crowding, d, slot).to_f64());
+                core::array::from_fn(|d| rows.get(Output::CROWDING, d, slot).to_f64());
             let size = factor * sum.iter().fold(0.0, |s, g| s + g * g).sqrt();
             let factor = if size > longest {
                 factor * longest / size

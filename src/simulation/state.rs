@@ -17,16 +17,16 @@ pub(super) type Kept<T> = Vec<Vec<T>>;
 /// What a state consists of; the first two are positions.
 const POSITION_FIELDS: usize = 2;
 const STATE: [Field; 7] = [
-    Field::Position,
-    Field::PositionResidual,
-    Field::Velocity,
-    Field::Density,
-    Field::DensityResidual,
-    Field::Energy,
-    Field::SmoothingLength,
+    Field::POSITION,
+    Field::POSITION_RESIDUAL,
+    Field::VELOCITY,
+    Field::DENSITY,
+    Field::DENSITY_RESIDUAL,
+    Field::ENERGY,
+    Field::SMOOTHING_LENGTH,
 ];
 /// Densities, and what their rounding has lost.
-const DENSITIES: [Field; 2] = [Field::Density, Field::DensityResidual];
+const DENSITIES: [Field; 2] = [Field::DENSITY, Field::DENSITY_RESIDUAL];
 
 impl<T: Real, const D: usize> Group<T, D> {
     /// x ← x + dt v with v the present velocity.
@@ -34,7 +34,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         let dt = T::from_f64(dt);
         let [x, residual, v] =
             self.columns
-                .many_mut([Field::Position, Field::PositionResidual, Field::Velocity]);
+                .many_mut([Field::POSITION, Field::POSITION_RESIDUAL, Field::VELOCITY]);
         let mobile = self.mobile * D;
         let residual = residual.get_mut(..mobile).unwrap_or_default();
         add_scaled(&mut x[..mobile], residual, v, dt);
@@ -47,10 +47,10 @@ impl<T: Real, const D: usize> Group<T, D> {
         let rows = &self.rows;
         let [x, residual, mass] =
             self.columns
-                .many_mut([Field::Position, Field::PositionResidual, Field::Mass]);
+                .many_mut([Field::POSITION, Field::POSITION_RESIDUAL, Field::MASS]);
         for slot in 0..self.mobile {
             for d in 0..D {
-                let change = da * (rows.get(Output::Force, d, slot) / mass[slot] + gravity[d]);
+                let change = da * (rows.get(Output::FORCE, d, slot) / mass[slot] + gravity[d]);
                 let k = slot * D + d;
                 match residual.get_mut(k) {
                     Some(residual) => (x[k], *residual) = two_sum(x[k], *residual + change),
@@ -73,14 +73,14 @@ impl<T: Real, const D: usize> Group<T, D> {
         let rows = &self.rows;
         let [mean, v, mass] =
             self.columns
-                .many_mut([Field::MeanVelocity, Field::Velocity, Field::Mass]);
+                .many_mut([Field::MEAN_VELOCITY, Field::VELOCITY, Field::MASS]);
         let (v, mass) = (&*v, &*mass);
         mean.par_chunks_mut(D)
             .enumerate()
             .with_min_len(GRAIN)
             .for_each(|(slot, mean)| {
                 for d in 0..D {
-                    let a = rows.get(Output::Force, d, slot) / mass[slot] + gravity[d];
+                    let a = rows.get(Output::FORCE, d, slot) / mass[slot] + gravity[d];
                     mean[d] = v[slot * D + d] + half * a;
                 }
             });
@@ -93,7 +93,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         let gravity = self.evaluated_gravity;
         let step = T::from_f64(dt);
         let (rows, mobile) = (&self.rows, self.mobile);
-        let [v, mass] = self.columns.many_mut([Field::Velocity, Field::Mass]);
+        let [v, mass] = self.columns.many_mut([Field::VELOCITY, Field::MASS]);
         let mass = &*mass;
         v[..mobile * D]
             .par_chunks_mut(D)
@@ -101,7 +101,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             .with_min_len(GRAIN)
             .for_each(|(slot, v)| {
                 for (d, v) in v.iter_mut().enumerate() {
-                    *v += step * (rows.get(Output::Force, d, slot) / mass[slot] + gravity[d]);
+                    *v += step * (rows.get(Output::FORCE, d, slot) / mass[slot] + gravity[d]);
                 }
             });
         if self.scheme.kicks_density() {
@@ -113,14 +113,14 @@ impl<T: Real, const D: usize> Group<T, D> {
     fn heat(&mut self, dt: f64, work: bool) {
         let dt = T::from_f64(dt);
         let rows = if work { &self.scratch_rows } else { &self.rows };
-        let [energy, mass] = self.columns.many_mut([Field::Energy, Field::Mass]);
+        let [energy, mass] = self.columns.many_mut([Field::ENERGY, Field::MASS]);
         let mass = &*mass;
         energy
             .par_iter_mut()
             .enumerate()
             .with_min_len(GRAIN)
             .for_each(|(slot, energy)| {
-                *energy += dt * rows.get(Output::Power, 0, slot) / mass[slot];
+                *energy += dt * rows.get(Output::POWER, 0, slot) / mass[slot];
             });
     }
 
@@ -215,18 +215,18 @@ impl<T: Real, const D: usize> Group<T, D> {
         let [position, residual, others @ ..] = kept.as_mut_slice() else {
             return;
         };
-        add_scaled(position, residual, self.columns.raw(Field::Velocity), dt_t);
+        add_scaled(position, residual, self.columns.raw(Field::VELOCITY), dt_t);
         let mut compensated = false;
         if let [_, density, lost, ..] = &mut *others {
             compensated = !lost.is_empty();
-            let now = self.columns.raw(Field::Density);
+            let now = self.columns.raw(Field::DENSITY);
             density
                 .par_iter_mut()
                 .zip(lost.par_iter_mut())
                 .enumerate()
                 .with_min_len(GRAIN)
                 .for_each(|(k, (kept, lost))| {
-                    let change = dt_t * self.rate_of(Field::Density, k, now[k]);
+                    let change = dt_t * self.rate_of(Field::DENSITY, k, now[k]);
                     (*kept, *lost) = two_sum(*kept, *lost + change);
                 });
         }
@@ -295,24 +295,24 @@ impl<T: Real, const D: usize> Group<T, D> {
         // The rates were summed with the weights of the force.
         let form = self.scheme.pressure_form;
         let [rest, moment] =
-            [Field::ReferenceDensity, Field::Normalisation].map(|f| self.columns.raw(f));
+            [Field::REFERENCE_DENSITY, Field::NORMALISATION].map(|f| self.columns.raw(f));
         let lattice = T::from_f64(self.scheme.lattice_moment);
         let rest: Reference<'_, T> = (rest, moment, lattice);
         match field {
-            Field::Velocity => {
+            Field::VELOCITY => {
                 let (slot, d) = (k / D, k % D);
-                let mass = self.columns.raw(Field::Mass)[slot];
-                self.rows.get(Output::Force, d, slot) / mass + self.evaluated_gravity[d]
+                let mass = self.columns.raw(Field::MASS)[slot];
+                self.rows.get(Output::FORCE, d, slot) / mass + self.evaluated_gravity[d]
             }
-            Field::Density if self.scheme.density.is_integrated() => {
-                let diffusion = self.rows.get(Output::DensityDiffusion, 0, k);
+            Field::DENSITY if self.scheme.density.is_integrated() => {
+                let diffusion = self.rows.get(Output::DENSITY_DIFFUSION, 0, k);
                 y * rate(form, &self.rows, rest, k, y) + diffusion
             }
-            Field::Energy => self.rows.get(Output::Power, 0, k) / self.columns.raw(Field::Mass)[k],
-            Field::SmoothingLength
+            Field::ENERGY => self.rows.get(Output::POWER, 0, k) / self.columns.raw(Field::MASS)[k],
+            Field::SMOOTHING_LENGTH
                 if matches!(self.scheme.smoothing, Smoothing::Divergence { .. }) =>
             {
-                let density = self.columns.raw(Field::Density)[k];
+                let density = self.columns.raw(Field::DENSITY)[k];
                 -y * rate(form, &self.rows, rest, k, density) / T::from_f64(D as f64)
             }
             _ => T::zero(),
@@ -335,7 +335,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             .enumerate()
             .with_min_len(GRAIN)
             .for_each(|(k, (y, residual))| {
-                let rate = self.rate_of(Field::Density, k, *y).to_f64();
+                let rate = self.rate_of(Field::DENSITY, k, *y).to_f64();
                 let sum = a * (before[k].to_f64() + lost[k].to_f64())
                     + b * (y.to_f64() + residual.to_f64())
                     + dt * rate;
@@ -352,7 +352,7 @@ impl<T: Real, const D: usize> Group<T, D> {
     fn combine_positions(&mut self, kept: &[Vec<T>], a: f64, b: f64, dt: f64) {
         let [x, residual, v] =
             self.columns
-                .many_mut([Field::Position, Field::PositionResidual, Field::Velocity]);
+                .many_mut([Field::POSITION, Field::POSITION_RESIDUAL, Field::VELOCITY]);
         let (before, lost, v) = (&kept[0], &kept[1], &*v);
         if residual.is_empty() {
             let (a, b, dt) = (T::from_f64(a), T::from_f64(b), T::from_f64(dt));
@@ -381,8 +381,8 @@ impl<T: Real, const D: usize> Group<T, D> {
 /// Whether a column of [`STATE`] is advanced in time, and does not follow from positions.
 fn is_state<T: Real, const D: usize>(scheme: &Scheme<T, D>, field: Field) -> bool {
     match field {
-        Field::Density | Field::DensityResidual => scheme.density.is_integrated(),
-        Field::SmoothingLength => matches!(scheme.smoothing, Smoothing::Divergence { .. }),
+        Field::DENSITY | Field::DENSITY_RESIDUAL => scheme.density.is_integrated(),
+        Field::SMOOTHING_LENGTH => matches!(scheme.smoothing, Smoothing::Divergence { .. }),
         _ => true,
     }
 }
@@ -390,10 +390,10 @@ fn is_state<T: Real, const D: usize>(scheme: &Scheme<T, D>, field: Field) -> boo
 /// What a kick changes, and a prediction takes back.
 fn kicked<T: Real, const D: usize>(scheme: &Scheme<T, D>) -> &'static [Field] {
     const KICKED: [Field; 4] = [
-        Field::Velocity,
-        Field::Energy,
-        Field::Density,
-        Field::DensityResidual,
+        Field::VELOCITY,
+        Field::ENERGY,
+        Field::DENSITY,
+        Field::DENSITY_RESIDUAL,
     ];
     &KICKED[..if scheme.kicks_density() { 4 } else { 2 }]
 }

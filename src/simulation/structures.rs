@@ -34,8 +34,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.for_each_structure(|liquid, wall, group, body| {
             for slot in liquid.walls[wall].slots.clone() {
                 if let Some(own) = liquid.slot_of_structure(wall, slot, group, body) {
-                    let force = liquid.structure_rows.vector(Output::Force, slot);
-                    group.rows.add(Output::Force, own, force);
+                    let force = liquid.structure_rows.vector(Output::FORCE, slot);
+                    group.rows.add(Output::FORCE, own, force);
                 }
             }
         });
@@ -89,18 +89,18 @@ impl<T: Real, const D: usize> Group<T, D> {
     /// Moves a wall to the particles of the body that it is.
     fn follow(&mut self, wall: usize, group: &Self, body: usize) {
         let run = self.walls[wall].slots.start..self.walls[wall].end;
-        let mass = group.columns.raw(Field::Mass);
-        let density = group.columns.raw(Field::Density);
+        let mass = group.columns.raw(Field::MASS);
+        let density = group.columns.raw(Field::DENSITY);
         for slot in run {
             let at = self.rest_of(wall, slot);
             let Some(own) = self.slot_of_structure(wall, slot, group, body) else {
-                self.columns.raw_mut(Field::Mass)[slot] = T::zero();
+                self.columns.raw_mut(Field::MASS)[slot] = T::zero();
                 continue;
             };
             // It has the density of the liquid at rest, and the volume of what it is made of.
-            let rest = self.columns.raw(Field::Density)[slot];
-            self.columns.raw_mut(Field::Mass)[slot] = rest * mass[own] / density[own];
-            for field in [Field::Position, Field::PositionResidual, Field::Velocity] {
+            let rest = self.columns.raw(Field::DENSITY)[slot];
+            self.columns.raw_mut(Field::MASS)[slot] = rest * mass[own] / density[own];
+            for field in [Field::POSITION, Field::POSITION_RESIDUAL, Field::VELOCITY] {
                 let from = group.columns.vectors(field).get(own);
                 let to = self.columns.vectors_mut(field).get_mut(slot);
                 if let (Some(from), Some(to)) = (from, to) {
@@ -109,7 +109,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             }
             let [x, residual, v] =
                 self.columns
-                    .many_mut([Field::Position, Field::PositionResidual, Field::Velocity]);
+                    .many_mut([Field::POSITION, Field::POSITION_RESIDUAL, Field::VELOCITY]);
             // The group of the structure lets particles re-enter a period when its lists are built.
             for boundary in &self.boundaries {
                 let now = core::array::from_fn(|d| x[slot * D + d]);
@@ -117,7 +117,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                     back.re_enter(slot, x, residual, v);
                 }
             }
-            let force = group.rows.vector(Output::Force, own);
+            let force = group.rows.vector(Output::FORCE, own);
             if let Some(structure) = &mut self.walls[wall].structure {
                 structure.accelerations[at] = core::array::from_fn(|d| {
                     (force[d] / mass[own] + group.evaluated_gravity[d]).to_f64()

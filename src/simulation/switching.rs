@@ -29,35 +29,35 @@ impl<T: Real, const D: usize> Group<T, D> {
             sound_speed,
             gradient,
         ] = self.columns.many_mut([
-            Field::ViscosityCoefficient,
-            Field::Divergence,
-            Field::Density,
-            Field::ReferenceDensity,
-            Field::Normalisation,
-            Field::SmoothingLength,
-            Field::SoundSpeed,
-            Field::VelocityGradient,
+            Field::VISCOSITY_COEFFICIENT,
+            Field::DIVERGENCE,
+            Field::DENSITY,
+            Field::REFERENCE_DENSITY,
+            Field::NORMALISATION,
+            Field::SMOOTHING_LENGTH,
+            Field::SOUND_SPEED,
+            Field::VELOCITY_GRADIENT,
         ]);
         let (density, rest, moment, h) = (&*density, &*rest, &*moment, &*h);
         let (sound_speed, gradient) = (&*sound_speed, &*gradient);
         let at = |column: &[T], slot: usize, absent: T| column.get(slot).copied().unwrap_or(absent);
         let around = |slot: usize, before: T| {
-            let sum = rows.get(Output::Compression, 0, slot);
+            let sum = rows.get(Output::COMPRESSION, 0, slot);
             let (rest, moment) = (at(rest, slot, T::one()), at(moment, slot, T::one()));
             let h = at(h, slot, uniform);
-            let unity = rows.get(Output::Unity, 0, slot);
+            let unity = rows.get(Output::UNITY, 0, slot);
             Surroundings {
                 divergence: -form.compression(sum, density[slot], rest, moment),
                 divergence_before: before,
                 divergence_sign: if unity > T::zero() {
-                    rows.get(Output::DivergenceSign, 0, slot) / unity
+                    rows.get(Output::DIVERGENCE_SIGN, 0, slot) / unity
                 } else {
                     T::zero()
                 },
                 shear2: shear2::<T, D>(gradient.get(slot * D * D..(slot + 1) * D * D)),
                 sound_speed: sound_speed[slot],
                 signal_speed: rows
-                    .get(Output::SignalSpeed, 0, slot)
+                    .get(Output::SIGNAL_SPEED, 0, slot)
                     .max(sound_speed[slot]),
                 h,
                 support: reach * h,

@@ -61,7 +61,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                 if wall.slip == Slip::None {
                     let own = wall.slots.start..wall.end;
                     let v = wall.sliding.map(T::from_f64);
-                    self.columns.vectors_mut(Field::Velocity)[own].fill(v);
+                    self.columns.vectors_mut(Field::VELOCITY)[own].fill(v);
                 }
                 continue;
             }
@@ -70,7 +70,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             let mass = T::from_f64(wall.mass * determinant(&pose.linear[0]).abs());
             if let Some(masses) = self
                 .columns
-                .raw_mut(Field::Mass)
+                .raw_mut(Field::MASS)
                 .get_mut(wall.slots.start..wall.end)
             {
                 masses.fill(mass);
@@ -80,11 +80,11 @@ impl<T: Real, const D: usize> Group<T, D> {
                 let (x, own) = (pose.of(0, &wall.rest[at]), pose.of(1, &wall.rest[at]));
                 let v: [f64; D] = core::array::from_fn(|d| own[d] + wall.sliding[d]);
                 let rounded = x.map(T::from_f64);
-                self.columns.vectors_mut(Field::Position)[slot] = rounded;
-                self.columns.vectors_mut(Field::Velocity)[slot] = v.map(T::from_f64);
+                self.columns.vectors_mut(Field::POSITION)[slot] = rounded;
+                self.columns.vectors_mut(Field::VELOCITY)[slot] = v.map(T::from_f64);
                 if let Some(residual) = self
                     .columns
-                    .vectors_mut(Field::PositionResidual)
+                    .vectors_mut(Field::POSITION_RESIDUAL)
                     .get_mut(slot)
                 {
                     *residual = core::array::from_fn(|d| T::from_f64(x[d] - rounded[d].to_f64()));
@@ -92,9 +92,9 @@ impl<T: Real, const D: usize> Group<T, D> {
                 for boundary in &self.boundaries {
                     if let Some(back) = boundary.wrap(&rounded) {
                         let [x, residual, v] = self.columns.many_mut([
-                            Field::Position,
-                            Field::PositionResidual,
-                            Field::Velocity,
+                            Field::POSITION,
+                            Field::POSITION_RESIDUAL,
+                            Field::VELOCITY,
                         ]);
                         back.re_enter(slot, x, residual, v);
                     }
@@ -131,11 +131,11 @@ impl<T: Real, const D: usize> Group<T, D> {
         });
         let rows = &self.scratch_rows;
         let [pressure, velocity, viscosity, density, sound_speed] = self.columns.many_mut([
-            Field::Pressure,
-            Field::Velocity,
-            Field::DynamicViscosity,
-            Field::Density,
-            Field::SoundSpeed,
+            Field::PRESSURE,
+            Field::VELOCITY,
+            Field::DYNAMIC_VISCOSITY,
+            Field::DENSITY,
+            Field::SOUND_SPEED,
         ]);
         let (density, sound_speed) = (&*density, &*sound_speed);
         for wall in &self.walls {
@@ -157,7 +157,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                 .with_min_len(GRAIN)
                 .for_each(|(k, pressure)| {
                     let slot = first + k;
-                    let unity = rows.get(Output::Unity, 0, slot);
+                    let unity = rows.get(Output::UNITY, 0, slot);
                     if unity <= T::from_f64(DRY) {
                         *pressure = T::zero();
                         return;
@@ -168,8 +168,8 @@ impl<T: Real, const D: usize> Group<T, D> {
                         (None, Some(pose)) => pose.of(2, &wall.rest[at]),
                         (None, None) => [0.0; D],
                     };
-                    let sum = (0..D).fold(rows.get(Output::LiquidPressure, 0, slot), |sum, d| {
-                        let arm = rows.get(Output::LiquidMoment, d, slot);
+                    let sum = (0..D).fold(rows.get(Output::LIQUID_PRESSURE, 0, slot), |sum, d| {
+                        let arm = rows.get(Output::LIQUID_MOMENT, d, slot);
                         sum + arm * T::from_f64(gravity[d] - own[d])
                     });
                     let push = normals.get(at).map_or(T::zero(), |normal| {
@@ -179,7 +179,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                             turned / length(&turned).max(f64::MIN_POSITIVE)
                         });
                         let inwards = (0..D).fold(T::zero(), |sum, d| {
-                            let liquid = rows.get(Output::LiquidVelocity, d, slot) / unity;
+                            let liquid = rows.get(Output::LIQUID_VELOCITY, d, slot) / unity;
                             sum + (liquid - own_velocity[slot * D + d]) * T::from_f64(normal[d])
                         });
                         riemann_push(inwards, density[slot], sound_speed[slot])
@@ -193,10 +193,10 @@ impl<T: Real, const D: usize> Group<T, D> {
                     .enumerate()
                     .with_min_len(GRAIN)
                     .for_each(|(k, v)| {
-                        let unity = rows.get(Output::Unity, 0, first + k);
+                        let unity = rows.get(Output::UNITY, 0, first + k);
                         if unity > T::from_f64(DRY) {
                             for (d, v) in v.iter_mut().enumerate() {
-                                let liquid = rows.get(Output::LiquidVelocity, d, first + k);
+                                let liquid = rows.get(Output::LIQUID_VELOCITY, d, first + k);
                                 *v = *v + *v - liquid / unity;
                             }
                         }
@@ -206,9 +206,9 @@ impl<T: Real, const D: usize> Group<T, D> {
                 continue;
             }
             for slot in run {
-                let unity = rows.get(Output::Unity, 0, slot);
+                let unity = rows.get(Output::UNITY, 0, slot);
                 viscosity[slot] = if sticks && unity > T::from_f64(DRY) {
-                    rows.get(Output::LiquidViscosity, 0, slot) / unity
+                    rows.get(Output::LIQUID_VISCOSITY, 0, slot) / unity
                 } else {
                     T::zero()
                 };

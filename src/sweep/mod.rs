@@ -39,12 +39,12 @@
 //!
 //! A strain of 0.25 % at a spacing of 0.05 mm in 50 mm is 125 nm, and the last bit of 50 mm in `f32` is
 //! 3.7 nm: a plain coordinate loses some per cent of the stress. Positions in `f32` therefore carry the
-//! rounding error of their updates as a second number ([`Field::PositionResidual`]), and the loop adds
+//! rounding error of their updates as a second number ([`Field::POSITION_RESIDUAL`]), and the loop adds
 //! the difference of the residuals to the difference of the positions. The price is D numbers a record
 //! and 2D additions a pair. `f64` has neither.
 //!
 //! [`Lane::root`]: crate::scalar::Lane::root
-//! [`Field::PositionResidual`]: crate::particles::Field::PositionResidual
+//! [`Field::POSITION_RESIDUAL`]: crate::particles::Field::POSITION_RESIDUAL
 
 mod program;
 mod records;

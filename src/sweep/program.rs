@@ -122,7 +122,7 @@ impl<T: Real, const D: usize, K: Kernel<D>, P: Terms<D>, const MODES: u8> PairSw
 
     fn renew_mean_velocity(&self, input: &SweepInput<'_, T, D>, records: &mut Records<T>) {
         records.renew_velocity(
-            Field::MeanVelocity,
+            Field::MEAN_VELOCITY,
             self.layout::<T, D>(Pass::Work),
             input.columns,
             input.images,
@@ -186,7 +186,7 @@ impl<K, P, const MODES: u8> Program<K, P, MODES> {
             Pass::Rates => self.go::<T, D, RATES>(input, records, rows),
             // Work is only ever asked of sweeps that carry energy.
             Pass::Work => {
-                if const { P::WRITES.contains(Output::Power) } {
+                if const { P::WRITES.contains(Output::POWER) } {
                     self.go::<T, D, WORKS>(input, records, rows);
                 }
             }
@@ -225,7 +225,7 @@ impl<K, P, const MODES: u8> Program<K, P, MODES> {
             records: records.data(),
             blocks: input.blocks,
             interactions: input.interactions,
-            touching: input.columns.raw(Field::Touching),
+            touching: input.columns.raw(Field::TOUCHING),
             images: input.images,
             targets: &input.targets,
             body_force: input.body_force,

@@ -3,7 +3,7 @@
 
 use crate::particles::{Columns, Field, Fields, Shape};
 use crate::scalar::Real;
-use crate::tensor::{Matrix, Vector};
+use crate::tensor::{Matrix, Symmetric, Vector};
 use rayon::prelude::*;
 
 /// How an image follows from its source.
@@ -137,7 +137,7 @@ impl<T: Real> Records<T> {
                                 record[offset] = value;
                             }
                         }
-                        Shape::Matrix => {
+                        Shape::Matrix | Shape::Tensor => {
                             for (record, values) in records.zip(column.chunks_exact(width)) {
                                 record[offset..offset + width].copy_from_slice(values);
                             }
@@ -204,6 +204,10 @@ fn reflect<T: Real, const D: usize>(record: &mut [T], reads: Fields, by: &Transf
                     *value = turned[(k / D, k % D)];
                 }
             }
+            Shape::Tensor => {
+                let turned = Symmetric::from_slice(values).rotated(&by.rotation);
+                values.copy_from_slice(turned.components());
+            }
             shape => {
                 let turned = by.rotation * Vector::<T, D>::from_row_slice(values);
                 for d in 0..D {
@@ -214,7 +218,7 @@ fn reflect<T: Real, const D: usize>(record: &mut [T], reads: Fields, by: &Transf
                             sum
                         }
                         Shape::Velocity => turned[d] + by.velocity[d],
-                        _ if field == Field::PositionResidual => turned[d] + lost[d],
+                        _ if field == Field::POSITION_RESIDUAL => turned[d] + lost[d],
                         _ => turned[d],
                     };
                 }
@@ -253,7 +257,7 @@ mod tests {
 
     #[test]
     fn rounding_of_an_image_goes_into_the_residual() {
-        let reads = Fields::of(&[Field::Position, Field::PositionResidual]);
+        let reads = Fields::of(&[Field::POSITION, Field::POSITION_RESIDUAL]);
         let mirror = Transform::<f32, 1> {
             rotation: Matrix::<f32, 1>::new(-1.0),
             shift: Vector::<f32, 1>::new(0.02),

@@ -1,7 +1,7 @@
 //! What a sweep leaves behind: the sums of every row, and the forces between blocks.
 //! Sums are stored row by row (component, then lane), so each store is a full vector.
 
-use crate::particles::{Output, Outputs};
+use crate::particles::{Output, Outputs, PLACES};
 use crate::scalar::{Lane, Real};
 
 /// The force that the particles of one cluster felt from another block.
@@ -27,7 +27,7 @@ pub struct Rows<T, const D: usize> {
     pub(super) outputs: Outputs,
     /// Where each sum starts among the numbers of a particle, [`ABSENT`] if it is not here. To count the
     /// bits of `outputs` for every number that is read costs more than to read it.
-    offsets: [u32; Output::COUNT],
+    offsets: [u32; PLACES],
     /// Numbers a particle.
     stride: usize,
     pub(super) reactions: Vec<Vec<Reaction<D>>>,
@@ -39,7 +39,7 @@ impl<T: Real, const D: usize> Default for Rows<T, D> {
             data: Vec::new(),
             first: 0,
             outputs: Outputs::NONE,
-            offsets: [ABSENT; Output::COUNT],
+            offsets: [ABSENT; PLACES],
             stride: 0,
             reactions: Vec::new(),
         }
@@ -53,9 +53,9 @@ impl<T: Real, const D: usize> Rows<T, D> {
     pub(super) fn lay_out(&mut self, outputs: Outputs) {
         self.outputs = outputs;
         self.stride = outputs.width(D);
-        self.offsets = [ABSENT; Output::COUNT];
+        self.offsets = [ABSENT; PLACES];
         for output in outputs.iter() {
-            self.offsets[output as usize] = outputs.offset(output, D) as u32;
+            self.offsets[output.place()] = outputs.offset(output, D) as u32;
         }
     }
 
@@ -70,7 +70,7 @@ impl<T: Real, const D: usize> Rows<T, D> {
     #[inline(always)]
     #[must_use]
     pub fn get(&self, output: Output, k: usize, slot: usize) -> T {
-        let offset = self.offsets[output as usize];
+        let offset = self.offsets[output.place()];
         if offset == ABSENT || slot < self.first {
             return T::zero();
         }
@@ -87,7 +87,7 @@ impl<T: Real, const D: usize> Rows<T, D> {
 
     /// Adds to a vector sum of the particle in `slot`, where it was asked for.
     pub(crate) fn add(&mut self, output: Output, slot: usize, vector: [T; D]) {
-        let offset = self.offsets[output as usize];
+        let offset = self.offsets[output.place()];
         if offset == ABSENT || slot < self.first {
             return;
         }

@@ -19,18 +19,18 @@ pub struct Crowding<const D: usize> {
 }
 
 impl<const D: usize> Term<D> for Crowding<D> {
-    const READS: Fields = Fields::of(&[Field::Weight]);
-    const WRITES: Outputs = Outputs::of(&[Output::Crowding, Output::Moment]);
+    const READS: Fields = Fields::of(&[Field::WEIGHT]);
+    const WRITES: Outputs = Outputs::of(&[Output::CROWDING, Output::MOMENT]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
         let ratio = pair.w * pair.h.powi(D as u32) * L::of(1.0 / self.at_spacing);
         let square = ratio * ratio;
-        let gradient = pair.j(Field::Weight) * pair.f;
+        let gradient = pair.j(Field::WEIGHT) * pair.f;
         let weighted = gradient * (square * square).mul_add(L::of(self.repulsion), L::one());
         for d in 0..D {
-            sums.add_at(Output::Crowding, d, weighted * pair.r[d]);
+            sums.add_at(Output::CROWDING, d, weighted * pair.r[d]);
         }
-        sums.add(Output::Moment, gradient * pair.r2 * L::of(-1.0 / D as f64));
+        sums.add(Output::MOMENT, gradient * pair.r2 * L::of(-1.0 / D as f64));
     }
     fn document(&self) -> TermDoc {
         TermDoc {

@@ -8,16 +8,16 @@ use crate::scalar::Lane;
 /// The δ that all forms take by default (Antuono et al. 2010; Fourtakas et al. 2019).
 pub const STANDARD_DELTA: f64 = 0.1;
 
-const READS: Fields = Fields::of(&[Field::Weight, Field::Density, Field::SoundSpeed]);
-const WRITES: Outputs = Outputs::of(&[Output::DensityDiffusion]);
+const READS: Fields = Fields::of(&[Field::WEIGHT, Field::DENSITY, Field::SOUND_SPEED]);
+const WRITES: Outputs = Outputs::of(&[Output::DENSITY_DIFFUSION]);
 
 /// δ h c̄ Vⱼ times −2 F: what all forms multiply a density difference with.
 ///
 /// Walls do not diffuse: their density does not follow from the flow.
 #[inline(always)]
 fn factor<L: Lane, const D: usize, P: Layout>(pair: &Pair<'_, L, D, P>, delta: f64) -> L {
-    let sound_speed = pair.i(Field::SoundSpeed) + pair.j(Field::SoundSpeed);
-    pair.h * sound_speed * pair.j(Field::Weight) * pair.f * pair.mobile * L::of(-delta)
+    let sound_speed = pair.i(Field::SOUND_SPEED) + pair.j(Field::SOUND_SPEED);
+    pair.h * sound_speed * pair.j(Field::WEIGHT) * pair.f * pair.mobile * L::of(-delta)
 }
 
 /// Diffusion of the whole density difference.
@@ -45,8 +45,8 @@ impl<const D: usize> Term<D> for Molteni {
     const WRITES: Outputs = WRITES;
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let jump = pair.j(Field::Density) - pair.i(Field::Density);
-        sums.add(Output::DensityDiffusion, factor(pair, self.delta) * jump);
+        let jump = pair.j(Field::DENSITY) - pair.i(Field::DENSITY);
+        sums.add(Output::DENSITY_DIFFUSION, factor(pair, self.delta) * jump);
     }
     fn document(&self) -> TermDoc {
         TermDoc {
@@ -86,8 +86,8 @@ impl Default for Fourtakas {
 /// is torn there is nothing to leave out.
 #[inline(always)]
 fn dynamic_jump<L: Lane, const D: usize, P: Layout>(pair: &Pair<'_, L, D, P>) -> L {
-    let (p_i, p_j) = (pair.i(Field::Pressure), pair.j(Field::Pressure));
-    let densities = pair.i(Field::Density) + pair.j(Field::Density);
+    let (p_i, p_j) = (pair.i(Field::PRESSURE), pair.j(Field::PRESSURE));
+    let densities = pair.i(Field::DENSITY) + pair.j(Field::DENSITY);
     let weight = (0..D).fold(L::zero(), |sum, d| {
         (pair.body_force[d] * L::of(-0.5)).mul_add(pair.r[d], sum)
     });
@@ -97,14 +97,14 @@ fn dynamic_jump<L: Lane, const D: usize, P: Layout>(pair: &Pair<'_, L, D, P>) ->
 }
 
 impl<const D: usize> Term<D> for Fourtakas {
-    const READS: Fields = READS.union(Fields::of(&[Field::Pressure]));
+    const READS: Fields = READS.union(Fields::of(&[Field::PRESSURE]));
     const WRITES: Outputs = WRITES;
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
         // What depends on i alone is the compiler's to lift out of the loop.
-        let own = pair.h * L::of(2.0 * self.delta) * pair.mobile / pair.i(Field::SoundSpeed);
-        let rate = pair.j(Field::Weight) * pair.f * own;
-        sums.add_product(Output::DensityDiffusion, rate, dynamic_jump(pair));
+        let own = pair.h * L::of(2.0 * self.delta) * pair.mobile / pair.i(Field::SOUND_SPEED);
+        let rate = pair.j(Field::WEIGHT) * pair.f * own;
+        sums.add_product(Output::DENSITY_DIFFUSION, rate, dynamic_jump(pair));
     }
     fn document(&self) -> TermDoc {
         TermDoc {
@@ -139,17 +139,17 @@ impl Default for Antuono {
 }
 
 impl<const D: usize> Term<D> for Antuono {
-    const READS: Fields = READS.union(Fields::of(&[Field::DensityGradient]));
+    const READS: Fields = READS.union(Fields::of(&[Field::DENSITY_GRADIENT]));
     const WRITES: Outputs = WRITES;
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let jump = pair.j(Field::Density) - pair.i(Field::Density);
-        let field = Field::DensityGradient;
+        let jump = pair.j(Field::DENSITY) - pair.i(Field::DENSITY);
+        let field = Field::DENSITY_GRADIENT;
         let bent = (0..D).fold(jump, |jump, d| {
             let mean = (pair.i_at(field, d) + pair.j_at(field, d)) * L::of(0.5);
             mean.mul_add(pair.r[d], jump)
         });
-        sums.add(Output::DensityDiffusion, factor(pair, self.delta) * bent);
+        sums.add(Output::DENSITY_DIFFUSION, factor(pair, self.delta) * bent);
     }
     fn document(&self) -> TermDoc {
         TermDoc {
@@ -169,14 +169,14 @@ impl<const D: usize> Term<D> for Antuono {
 pub struct RiemannDiffusion;
 
 impl<const D: usize> Term<D> for RiemannDiffusion {
-    const READS: Fields = READS.union(Fields::of(&[Field::Pressure]));
+    const READS: Fields = READS.union(Fields::of(&[Field::PRESSURE]));
     const WRITES: Outputs = WRITES;
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
         let dynamic = dynamic_jump(pair);
-        let c = (pair.i(Field::SoundSpeed) + pair.j(Field::SoundSpeed)) * L::of(0.5);
-        let rate = pair.j(Field::Weight) * dynamic * pair.r2.sqrt() * pair.f / c;
-        sums.add(Output::DensityDiffusion, rate * pair.mobile);
+        let c = (pair.i(Field::SOUND_SPEED) + pair.j(Field::SOUND_SPEED)) * L::of(0.5);
+        let rate = pair.j(Field::WEIGHT) * dynamic * pair.r2.sqrt() * pair.f / c;
+        sums.add(Output::DENSITY_DIFFUSION, rate * pair.mobile);
     }
     fn document(&self) -> TermDoc {
         TermDoc {
@@ -197,17 +197,17 @@ mod tests {
     fn rate(p_i: f64, p_j: f64) -> f64 {
         let particle = |x: f64, density: f64, pressure: f64| {
             move |field: Field, _: usize| match field {
-                Field::Position => x,
-                Field::Density => density,
-                Field::Pressure => pressure,
-                Field::SoundSpeed => 10.0,
-                Field::Weight => 0.1,
+                Field::POSITION => x,
+                Field::DENSITY => density,
+                Field::PRESSURE => pressure,
+                Field::SOUND_SPEED => 10.0,
+                Field::WEIGHT => 0.1,
                 _ => 1.0,
             }
         };
         let (i, j) = (particle(0.0, 1000.0, p_i), particle(0.5, 1002.0, p_j));
         let found = probe::<f64, 1, _, _>(&Fourtakas::default(), &CubicSpline, i, j);
-        found.sum(Output::DensityDiffusion, 0)
+        found.sum(Output::DENSITY_DIFFUSION, 0)
     }
 
     #[test]

@@ -13,16 +13,16 @@ use crate::scalar::Lane;
 pub struct VelocityGradient;
 
 impl<const D: usize> Term<D> for VelocityGradient {
-    const READS: Fields = Fields::of(&[Field::Velocity, Field::Mass, Field::Density]);
-    const WRITES: Outputs = Outputs::of(&[Output::VelocityGradient, Output::MomentMatrix]);
+    const READS: Fields = Fields::of(&[Field::VELOCITY, Field::MASS, Field::DENSITY]);
+    const WRITES: Outputs = Outputs::of(&[Output::VELOCITY_GRADIENT, Output::MOMENT_MATRIX]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let factor = -pair.j(Field::Mass) / pair.j(Field::Density) * pair.f;
+        let factor = -pair.j(Field::MASS) / pair.j(Field::DENSITY) * pair.f;
         for a in 0..D {
             for b in 0..D {
                 let gradient = factor * pair.r[b];
-                sums.add_at(Output::VelocityGradient, a * D + b, pair.v[a] * gradient);
-                sums.add_at(Output::MomentMatrix, a * D + b, pair.r[a] * gradient);
+                sums.add_at(Output::VELOCITY_GRADIENT, a * D + b, pair.v[a] * gradient);
+                sums.add_at(Output::MOMENT_MATRIX, a * D + b, pair.r[a] * gradient);
             }
         }
     }
@@ -40,15 +40,15 @@ impl<const D: usize> Term<D> for VelocityGradient {
 pub struct PressureGradient;
 
 impl<const D: usize> Term<D> for PressureGradient {
-    const READS: Fields = Fields::of(&[Field::Pressure, Field::Mass, Field::Density]);
-    const WRITES: Outputs = Outputs::of(&[Output::PressureGradient, Output::MomentMatrix]);
+    const READS: Fields = Fields::of(&[Field::PRESSURE, Field::MASS, Field::DENSITY]);
+    const WRITES: Outputs = Outputs::of(&[Output::PRESSURE_GRADIENT, Output::MOMENT_MATRIX]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let volume = pair.j(Field::Mass) / pair.j(Field::Density);
-        let difference = pair.j(Field::Pressure) - pair.i(Field::Pressure);
+        let volume = pair.j(Field::MASS) / pair.j(Field::DENSITY);
+        let difference = pair.j(Field::PRESSURE) - pair.i(Field::PRESSURE);
         for a in 0..D {
             sums.add_at(
-                Output::PressureGradient,
+                Output::PRESSURE_GRADIENT,
                 a,
                 volume * difference * pair.f * pair.r[a],
             );
@@ -68,19 +68,19 @@ impl<const D: usize> Term<D> for PressureGradient {
 pub struct DensityGradient;
 
 impl<const D: usize> Term<D> for DensityGradient {
-    const READS: Fields = Fields::of(&[Field::Mass, Field::Density]);
-    const WRITES: Outputs = Outputs::of(&[Output::DensityGradient, Output::MomentMatrix]);
+    const READS: Fields = Fields::of(&[Field::MASS, Field::DENSITY]);
+    const WRITES: Outputs = Outputs::of(&[Output::DENSITY_GRADIENT, Output::MOMENT_MATRIX]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let density = pair.j(Field::Density);
+        let density = pair.j(Field::DENSITY);
         // The density of a wall does not follow from the flow.
-        let factor = pair.j(Field::Mass) / density * pair.f * pair.mobile;
-        let difference = factor * (density - pair.i(Field::Density));
+        let factor = pair.j(Field::MASS) / density * pair.f * pair.mobile;
+        let difference = factor * (density - pair.i(Field::DENSITY));
         for a in 0..D {
-            sums.add_at(Output::DensityGradient, a, difference * pair.r[a]);
+            sums.add_at(Output::DENSITY_GRADIENT, a, difference * pair.r[a]);
             for b in 0..D {
                 sums.add_at(
-                    Output::MomentMatrix,
+                    Output::MOMENT_MATRIX,
                     a * D + b,
                     -factor * pair.r[a] * pair.r[b],
                 );

@@ -31,27 +31,27 @@ pub struct CentralViscosity;
 #[inline(always)]
 fn factor<L: Lane, const D: usize, P: Layout>(pair: &Pair<'_, L, D, P>) -> L {
     let (mu_i, mu_j) = (
-        pair.i(Field::DynamicViscosity),
-        pair.j(Field::DynamicViscosity),
+        pair.i(Field::DYNAMIC_VISCOSITY),
+        pair.j(Field::DYNAMIC_VISCOSITY),
     );
     // Two inviscid sides have no mean, and no viscosity; the smallest number keeps it finite.
     let sum = mu_i + mu_j + L::of(f64::from(f32::MIN_POSITIVE));
     let mu = (mu_i + mu_i) * mu_j / sum;
-    let volumes = pair.i(Field::Mass) * pair.j(Field::Mass)
-        / (pair.i(Field::Density) * pair.j(Field::Density));
+    let volumes = pair.i(Field::MASS) * pair.j(Field::MASS)
+        / (pair.i(Field::DENSITY) * pair.j(Field::DENSITY));
     (volumes + volumes) * mu * pair.f / pair.lattice_moment
 }
 
 const READS: Fields = Fields::of(&[
-    Field::Velocity,
-    Field::Mass,
-    Field::Density,
-    Field::DynamicViscosity,
+    Field::VELOCITY,
+    Field::MASS,
+    Field::DENSITY,
+    Field::DYNAMIC_VISCOSITY,
 ]);
 
 impl<const D: usize> Term<D> for LaminarViscosity {
     const READS: Fields = READS;
-    const WRITES: Outputs = Outputs::of(&[Output::Force]);
+    const WRITES: Outputs = Outputs::of(&[Output::FORCE]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
         sums.shear += factor(pair);
@@ -67,7 +67,7 @@ impl<const D: usize> Term<D> for LaminarViscosity {
 
 impl<const D: usize> Term<D> for CentralViscosity {
     const READS: Fields = READS;
-    const WRITES: Outputs = Outputs::of(&[Output::Force]);
+    const WRITES: Outputs = Outputs::of(&[Output::FORCE]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
         let r2 = pair.h.mul_add(pair.h * L::of(1e-6), pair.r2);

@@ -61,7 +61,7 @@
 //!     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>) -> Viscous<L> {
 //!         let approach = (-pair.v_dot_r).positive_part();
 //!         let mu = pair.h * approach / pair.h.mul_add(pair.h * L::of(0.01), pair.r2);
-//!         let density = (pair.i(Field::Density) + pair.j(Field::Density)) * L::of(0.5);
+//!         let density = (pair.i(Field::DENSITY) + pair.j(Field::DENSITY)) * L::of(0.5);
 //!         Viscous {
 //!             pi: mu * mu * L::of(self.beta) / density,
 //!             signal: mu * L::of(0.6 * self.beta),
@@ -300,10 +300,10 @@ impl<L: Lane, const D: usize, P: Layout> Sums<L, D, P> {
     /// The kept force; zero where no term sets one.
     #[inline(always)]
     pub(crate) fn force(&self) -> [L; D] {
-        if !P::WRITES.contains(Output::Force) {
+        if !P::WRITES.contains(Output::FORCE) {
             return [L::zero(); D];
         }
-        let at = P::WRITES.offset(Output::Force, D);
+        let at = P::WRITES.offset(Output::FORCE, D);
         core::array::from_fn(|d| self.kept[at + d])
     }
     /// Adds to a scalar sum.
@@ -329,8 +329,8 @@ impl<L: Lane, const D: usize, P: Layout> Sums<L, D, P> {
     /// Sets the kernel sum to zero and returns what it was.
     #[inline(always)]
     pub(crate) fn take_kernel_sum(&mut self) -> L {
-        if P::WRITES.contains(Output::KernelSum) {
-            let at = P::WRITES.offset(Output::KernelSum, D);
+        if P::WRITES.contains(Output::KERNEL_SUM) {
+            let at = P::WRITES.offset(Output::KERNEL_SUM, D);
             core::mem::replace(&mut self.kept[at], L::zero())
         } else {
             L::zero()
@@ -340,8 +340,8 @@ impl<L: Lane, const D: usize, P: Layout> Sums<L, D, P> {
     #[inline(always)]
     pub(crate) fn divert_kernel_sum(&mut self, taken: L) {
         let across = self.take_kernel_sum();
-        self.add(Output::KernelSum, taken);
-        self.add(Output::ContactSum, across);
+        self.add(Output::KERNEL_SUM, taken);
+        self.add(Output::CONTACT_SUM, across);
     }
     /// Raises a maximum.
     #[inline(always)]
@@ -371,15 +371,17 @@ pub struct TermDoc {
 /// use meshfree::scalar::Lane;
 /// use meshfree::term::{Layout, Pair, Sums, Term, TermDoc};
 ///
+/// const SUMMED: Output = Output::scalar(0);
+///
 /// /// Counts mass within the support, weighted with the kernel: the summed density.
 /// #[derive(Clone, Debug)]
 /// struct SummedDensity;
 ///
 /// impl<const D: usize> Term<D> for SummedDensity {
-///     const READS: Fields = Fields::of(&[Field::Mass]);
-///     const WRITES: Outputs = Outputs::of(&[Output::UserA]);
+///     const READS: Fields = Fields::of(&[Field::MASS]);
+///     const WRITES: Outputs = Outputs::of(&[SUMMED]);
 ///     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-///         sums.add(Output::UserA, pair.j(Field::Mass) * pair.w);
+///         sums.add(SUMMED, pair.j(Field::MASS) * pair.w);
 ///     }
 ///     fn document(&self) -> TermDoc {
 ///         TermDoc { name: "summed density".into(), equation: "ρᵢ = Σⱼ mⱼ Wᵢⱼ", source: "Gingold & Monaghan 1977" }
@@ -393,7 +395,7 @@ pub struct TermDoc {
 pub trait Term<const D: usize>: Clone + Debug + Send + Sync + 'static {
     /// Fields of i and j that the term reads, beside the position.
     const READS: Fields;
-    /// Sums that the term adds to. A term that sets `radial` or `shear` names [`Output::Force`].
+    /// Sums that the term adds to. A term that sets `radial` or `shear` names [`Output::FORCE`].
     const WRITES: Outputs;
     /// Adds what this pair contributes. A force must be symmetric in i and j.
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>);

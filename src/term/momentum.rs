@@ -21,14 +21,14 @@ use crate::scalar::Lane;
 pub struct PressureForce;
 
 impl<const D: usize> Term<D> for PressureForce {
-    const READS: Fields = Fields::of(&[Field::Weight, Field::PressureCoefficient]);
-    const WRITES: Outputs = Outputs::of(&[Output::Force]);
+    const READS: Fields = Fields::of(&[Field::WEIGHT, Field::PRESSURE_COEFFICIENT]);
+    const WRITES: Outputs = Outputs::of(&[Output::FORCE]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
         let stress = pair
-            .i(Field::PressureCoefficient)
-            .mul_add(pair.f_i, pair.j(Field::PressureCoefficient) * pair.f_j);
-        sums.radial -= pair.i(Field::Weight) * pair.j(Field::Weight) * stress;
+            .i(Field::PRESSURE_COEFFICIENT)
+            .mul_add(pair.f_i, pair.j(Field::PRESSURE_COEFFICIENT) * pair.f_j);
+        sums.radial -= pair.i(Field::WEIGHT) * pair.j(Field::WEIGHT) * stress;
     }
     fn document(&self) -> TermDoc {
         TermDoc {
@@ -61,22 +61,22 @@ pub struct PressureCurvature {
 
 impl<const D: usize> Term<D> for PressureCurvature {
     const READS: Fields = Fields::of(&[
-        Field::Mass,
-        Field::Density,
-        Field::PressureGradient,
-        Field::Normalisation,
+        Field::MASS,
+        Field::DENSITY,
+        Field::PRESSURE_GRADIENT,
+        Field::NORMALISATION,
     ]);
-    const WRITES: Outputs = Outputs::of(&[Output::Force]);
+    const WRITES: Outputs = Outputs::of(&[Output::FORCE]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
         let mut bend = L::zero();
         for d in 0..D {
-            let gradient = Field::PressureGradient;
+            let gradient = Field::PRESSURE_GRADIENT;
             bend += (pair.i_at(gradient, d) - pair.j_at(gradient, d)) * pair.r[d];
         }
-        let volumes = pair.i(Field::Mass) * pair.j(Field::Mass)
-            / (pair.i(Field::Density) * pair.j(Field::Density));
-        let normalisation = pair.i(Field::Normalisation) + pair.j(Field::Normalisation);
+        let volumes = pair.i(Field::MASS) * pair.j(Field::MASS)
+            / (pair.i(Field::DENSITY) * pair.j(Field::DENSITY));
+        let normalisation = pair.i(Field::NORMALISATION) + pair.j(Field::NORMALISATION);
         sums.radial += L::of(4.0 * self.strength) * volumes * bend * pair.f / normalisation;
     }
     fn document(&self) -> TermDoc {
@@ -98,8 +98,8 @@ impl<const D: usize> Term<D> for PressureCurvature {
 pub struct InternalEnergy;
 
 impl<const D: usize> Term<D> for InternalEnergy {
-    const READS: Fields = Fields::of(&[Field::Velocity]);
-    const WRITES: Outputs = Outputs::of(&[Output::Power]);
+    const READS: Fields = Fields::of(&[Field::VELOCITY]);
+    const WRITES: Outputs = Outputs::of(&[Output::POWER]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, _pair: &Pair<'_, L, D, P>, _sums: &mut Sums<L, D, P>) {}
     fn document(&self) -> TermDoc {

@@ -30,9 +30,9 @@ struct Alone<A, const D: usize>(PhantomData<A>);
 
 impl<const D: usize, A: Term<D>> Layout for Alone<A, D> {
     const READS: Fields = A::READS.union(Fields::of(&[
-        Field::Position,
-        Field::Velocity,
-        Field::SmoothingLength,
+        Field::POSITION,
+        Field::VELOCITY,
+        Field::SMOOTHING_LENGTH,
     ]));
     const WRITES: Outputs = Outputs::ALL;
 }
@@ -50,7 +50,7 @@ impl<const D: usize, A: Term<D>> Layout for Alone<A, D> {
 ///     _ => 1.0,
 /// };
 /// let near = probe::<f64, 1, _, _>(&KernelSum, &CubicSpline, at(0.0), at(0.5));
-/// assert_eq!(near.sum(Output::KernelSum, 0), 2.0 / 3.0 * (1.0 - 1.5 * 0.25 + 0.75 * 0.125));
+/// assert_eq!(near.sum(Output::KERNEL_SUM, 0), 2.0 / 3.0 * (1.0 - 1.5 * 0.25 + 0.75 * 0.125));
 /// ```
 #[must_use]
 pub fn probe<L: Lane, const D: usize, K: Kernel<D>, A: Term<D>>(
@@ -68,12 +68,12 @@ pub fn probe<L: Lane, const D: usize, K: Kernel<D>, A: Term<D>>(
         }
     }
     let between = |field, k| i(field, k) - L::splat(j(field, k));
-    let r: [L; D] = core::array::from_fn(|d| between(Field::Position, d));
-    let v: [L; D] = core::array::from_fn(|d| between(Field::Velocity, d));
+    let r: [L; D] = core::array::from_fn(|d| between(Field::POSITION, d));
+    let v: [L; D] = core::array::from_fn(|d| between(Field::VELOCITY, d));
     let r2 = (1..D).fold(r[0] * r[0], |sum, d| r[d].mul_add(r[d], sum));
     let v_dot_r = (1..D).fold(v[0] * r[0], |sum, d| v[d].mul_add(r[d], sum));
-    let h_i = i(Field::SmoothingLength, 0);
-    let h = (h_i + L::splat(j(Field::SmoothingLength, 0))) * L::of(0.5);
+    let h_i = i(Field::SMOOTHING_LENGTH, 0);
+    let h = (h_i + L::splat(j(Field::SMOOTHING_LENGTH, 0))) * L::of(0.5);
     let inverse = h.recip();
     let q = r2.sqrt() * inverse;
     let norm = L::of(kernel.normalisation()) * inverse.powi(D as u32);

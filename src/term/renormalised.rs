@@ -32,21 +32,24 @@ fn corrected<L: Lane, const D: usize>(r: &[L; D], f: L, value: impl Fn(usize) ->
 pub struct RenormalisedPressureForce;
 
 impl<const D: usize> Term<D> for RenormalisedPressureForce {
-    const READS: Fields =
-        Fields::of(&[Field::Weight, Field::PressureCoefficient, Field::Correction]);
-    const WRITES: Outputs = Outputs::of(&[Output::Force]);
+    const READS: Fields = Fields::of(&[
+        Field::WEIGHT,
+        Field::PRESSURE_COEFFICIENT,
+        Field::CORRECTION,
+    ]);
+    const WRITES: Outputs = Outputs::of(&[Output::FORCE]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let weights = pair.i(Field::Weight) * pair.j(Field::Weight);
-        let own = corrected(&pair.r, pair.f_i, |k| pair.i_at(Field::Correction, k));
-        let other = corrected(&pair.r, pair.f_j, |k| pair.j_at(Field::Correction, k));
+        let weights = pair.i(Field::WEIGHT) * pair.j(Field::WEIGHT);
+        let own = corrected(&pair.r, pair.f_i, |k| pair.i_at(Field::CORRECTION, k));
+        let other = corrected(&pair.r, pair.f_j, |k| pair.j_at(Field::CORRECTION, k));
         let (x_i, x_j) = (
-            weights * pair.i(Field::PressureCoefficient),
-            weights * pair.j(Field::PressureCoefficient),
+            weights * pair.i(Field::PRESSURE_COEFFICIENT),
+            weights * pair.j(Field::PRESSURE_COEFFICIENT),
         );
         for d in 0..D {
             let force = x_i.mul_add(own[d], x_j * other[d]);
-            sums.add_at(Output::Force, d, -force);
+            sums.add_at(Output::FORCE, d, -force);
         }
     }
     fn document(&self) -> TermDoc {
@@ -63,16 +66,16 @@ impl<const D: usize> Term<D> for RenormalisedPressureForce {
 pub struct RenormalisedCompression;
 
 impl<const D: usize> Term<D> for RenormalisedCompression {
-    const READS: Fields = Fields::of(&[Field::Velocity, Field::Weight, Field::Correction]);
-    const WRITES: Outputs = Outputs::of(&[Output::Compression]);
+    const READS: Fields = Fields::of(&[Field::VELOCITY, Field::WEIGHT, Field::CORRECTION]);
+    const WRITES: Outputs = Outputs::of(&[Output::COMPRESSION]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let gradient = corrected(&pair.r, pair.f, |k| pair.i_at(Field::Correction, k));
+        let gradient = corrected(&pair.r, pair.f, |k| pair.i_at(Field::CORRECTION, k));
         let mut along = L::zero();
         for d in 0..D {
             along = pair.v[d].mul_add(gradient[d], along);
         }
-        sums.add(Output::Compression, pair.j(Field::Weight) * along);
+        sums.add(Output::COMPRESSION, pair.j(Field::WEIGHT) * along);
     }
     fn document(&self) -> TermDoc {
         TermDoc {

@@ -10,11 +10,11 @@ use crate::scalar::Lane;
 pub struct KernelSum;
 
 impl<const D: usize> Term<D> for KernelSum {
-    const READS: Fields = Fields::of(&[Field::PositionResidual, Field::Weight]);
-    const WRITES: Outputs = Outputs::of(&[Output::KernelSum, Output::ContactSum]);
+    const READS: Fields = Fields::of(&[Field::POSITION_RESIDUAL, Field::WEIGHT]);
+    const WRITES: Outputs = Outputs::of(&[Output::KERNEL_SUM, Output::CONTACT_SUM]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        sums.add(Output::KernelSum, pair.j(Field::Weight) * pair.w);
+        sums.add(Output::KERNEL_SUM, pair.j(Field::WEIGHT) * pair.w);
     }
     fn document(&self) -> TermDoc {
         TermDoc {
@@ -30,12 +30,12 @@ impl<const D: usize> Term<D> for KernelSum {
 pub struct Unity;
 
 impl<const D: usize> Term<D> for Unity {
-    const READS: Fields = Fields::of(&[Field::PositionResidual, Field::Mass, Field::Density]);
-    const WRITES: Outputs = Outputs::of(&[Output::Unity]);
+    const READS: Fields = Fields::of(&[Field::POSITION_RESIDUAL, Field::MASS, Field::DENSITY]);
+    const WRITES: Outputs = Outputs::of(&[Output::UNITY]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let volume = pair.j(Field::Mass) / pair.j(Field::Density);
-        sums.add(Output::Unity, volume * pair.w);
+        let volume = pair.j(Field::MASS) / pair.j(Field::DENSITY);
+        sums.add(Output::UNITY, volume * pair.w);
     }
     fn document(&self) -> TermDoc {
         TermDoc {
@@ -52,12 +52,12 @@ impl<const D: usize> Term<D> for Unity {
 pub struct KernelMoment;
 
 impl<const D: usize> Term<D> for KernelMoment {
-    const READS: Fields = Fields::of(&[Field::PositionResidual, Field::Weight]);
-    const WRITES: Outputs = Outputs::of(&[Output::Moment]);
+    const READS: Fields = Fields::of(&[Field::POSITION_RESIDUAL, Field::WEIGHT]);
+    const WRITES: Outputs = Outputs::of(&[Output::MOMENT]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let moment = pair.j(Field::Weight) * pair.r2 * pair.f;
-        sums.add(Output::Moment, -moment * L::of(1.0 / D as f64));
+        let moment = pair.j(Field::WEIGHT) * pair.r2 * pair.f;
+        sums.add(Output::MOMENT, -moment * L::of(1.0 / D as f64));
     }
     fn document(&self) -> TermDoc {
         TermDoc {
@@ -73,12 +73,15 @@ impl<const D: usize> Term<D> for KernelMoment {
 pub struct SlopeInH;
 
 impl<const D: usize> Term<D> for SlopeInH {
-    const READS: Fields = Fields::of(&[Field::Weight]);
-    const WRITES: Outputs = Outputs::of(&[Output::SlopeInH]);
+    const READS: Fields = Fields::of(&[Field::WEIGHT]);
+    const WRITES: Outputs = Outputs::of(&[Output::SLOPE_IN_H]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
         let slope = pair.w.mul_add(L::of(D as f64), pair.r2 * pair.f_i);
-        sums.add(Output::SlopeInH, -pair.j(Field::Weight) * slope / pair.h_i);
+        sums.add(
+            Output::SLOPE_IN_H,
+            -pair.j(Field::WEIGHT) * slope / pair.h_i,
+        );
     }
     fn document(&self) -> TermDoc {
         TermDoc {
@@ -94,13 +97,13 @@ impl<const D: usize> Term<D> for SlopeInH {
 pub struct Compression;
 
 impl<const D: usize> Term<D> for Compression {
-    const READS: Fields = Fields::of(&[Field::Velocity, Field::Weight]);
-    const WRITES: Outputs = Outputs::of(&[Output::Compression]);
+    const READS: Fields = Fields::of(&[Field::VELOCITY, Field::WEIGHT]);
+    const WRITES: Outputs = Outputs::of(&[Output::COMPRESSION]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
         sums.add_product(
-            Output::Compression,
-            pair.j(Field::Weight) * pair.f,
+            Output::COMPRESSION,
+            pair.j(Field::WEIGHT) * pair.f,
             pair.v_dot_r,
         );
     }

@@ -13,17 +13,20 @@ use crate::scalar::Lane;
 pub struct LiquidNearWall;
 
 impl<const D: usize> Term<D> for LiquidNearWall {
-    const READS: Fields = Fields::of(&[Field::Mass, Field::Density, Field::Pressure]);
-    const WRITES: Outputs =
-        Outputs::of(&[Output::Unity, Output::LiquidPressure, Output::LiquidMoment]);
+    const READS: Fields = Fields::of(&[Field::MASS, Field::DENSITY, Field::PRESSURE]);
+    const WRITES: Outputs = Outputs::of(&[
+        Output::UNITY,
+        Output::LIQUID_PRESSURE,
+        Output::LIQUID_MOMENT,
+    ]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let mass = pair.j(Field::Mass) * pair.w * pair.mobile;
-        let volume = mass / pair.j(Field::Density);
-        sums.add(Output::Unity, volume);
-        sums.add(Output::LiquidPressure, volume * pair.j(Field::Pressure));
+        let mass = pair.j(Field::MASS) * pair.w * pair.mobile;
+        let volume = mass / pair.j(Field::DENSITY);
+        sums.add(Output::UNITY, volume);
+        sums.add(Output::LIQUID_PRESSURE, volume * pair.j(Field::PRESSURE));
         for d in 0..D {
-            sums.add_at(Output::LiquidMoment, d, mass * pair.r[d]);
+            sums.add_at(Output::LIQUID_MOMENT, d, mass * pair.r[d]);
         }
     }
     fn document(&self) -> TermDoc {
@@ -40,14 +43,14 @@ impl<const D: usize> Term<D> for LiquidNearWall {
 pub struct VelocityAtWall;
 
 impl<const D: usize> Term<D> for VelocityAtWall {
-    const READS: Fields = Fields::of(&[Field::Mass, Field::Density, Field::Velocity]);
-    const WRITES: Outputs = Outputs::of(&[Output::LiquidVelocity]);
+    const READS: Fields = Fields::of(&[Field::MASS, Field::DENSITY, Field::VELOCITY]);
+    const WRITES: Outputs = Outputs::of(&[Output::LIQUID_VELOCITY]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let volume = pair.j(Field::Mass) / pair.j(Field::Density) * pair.w * pair.mobile;
+        let volume = pair.j(Field::MASS) / pair.j(Field::DENSITY) * pair.w * pair.mobile;
         for d in 0..D {
-            let v = pair.j_at(Field::Velocity, d);
-            sums.add_at(Output::LiquidVelocity, d, volume * v);
+            let v = pair.j_at(Field::VELOCITY, d);
+            sums.add_at(Output::LIQUID_VELOCITY, d, volume * v);
         }
     }
     fn document(&self) -> TermDoc {
@@ -64,13 +67,13 @@ impl<const D: usize> Term<D> for VelocityAtWall {
 pub struct ViscosityAtWall;
 
 impl<const D: usize> Term<D> for ViscosityAtWall {
-    const READS: Fields = Fields::of(&[Field::Mass, Field::Density, Field::DynamicViscosity]);
-    const WRITES: Outputs = Outputs::of(&[Output::LiquidViscosity]);
+    const READS: Fields = Fields::of(&[Field::MASS, Field::DENSITY, Field::DYNAMIC_VISCOSITY]);
+    const WRITES: Outputs = Outputs::of(&[Output::LIQUID_VISCOSITY]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let volume = pair.j(Field::Mass) / pair.j(Field::Density) * pair.w * pair.mobile;
-        let viscosity = pair.j(Field::DynamicViscosity);
-        sums.add(Output::LiquidViscosity, volume * viscosity);
+        let volume = pair.j(Field::MASS) / pair.j(Field::DENSITY) * pair.w * pair.mobile;
+        let viscosity = pair.j(Field::DYNAMIC_VISCOSITY);
+        sums.add(Output::LIQUID_VISCOSITY, volume * viscosity);
     }
     fn document(&self) -> TermDoc {
         TermDoc {

@@ -29,7 +29,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             });
         }
         if let Some(liquid) = &scheme.liquid {
-            let lengths_vary = scheme.fields().contains(Field::SmoothingLength);
+            let lengths_vary = scheme.fields().contains(Field::SMOOTHING_LENGTH);
             if liquid.volume_consistency.is_some() && lengths_vary {
                 problems.push(Problem::Incompatible {
                     what: "volume consistency holds kernel sums to those of a lattice at one smoothing length, \

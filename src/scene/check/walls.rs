@@ -97,7 +97,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             }
             if self.scheme.kicks_density()
                 && wall.slip == Slip::None
-                && self.scheme.fields().contains(Field::DynamicViscosity)
+                && self.scheme.fields().contains(Field::DYNAMIC_VISCOSITY)
             {
                 problems.push(Problem::Incompatible {
                     what: format!(

@@ -71,7 +71,7 @@ impl<K, V, W, R, S, U, const MODES: u8, const RENORMALISED: bool>
         let (kernel, mode) = (self.kernel, Self::MODE);
         let h_over_dx = self.h_over_dx.unwrap_or(kernel.h_over_dx());
         let gradient: Option<Box<dyn PairSweep<T, D>>> =
-            if const { W::READS.contains(Field::DensityGradient) } {
+            if const { W::READS.contains(Field::DENSITY_GRADIENT) } {
                 let terms = (DensityGradient,);
                 Some(Box::new(Program::<_, _, MODES>::new(kernel, terms, mode)))
             } else if const { RENORMALISED } {
@@ -87,7 +87,7 @@ impl<K, V, W, R, S, U, const MODES: u8, const RENORMALISED: bool>
             None
         };
         let viscosity_problems = self.viscosity.problems();
-        let wall: Box<dyn PairSweep<T, D>> = if const { R::READS.contains(Field::DynamicViscosity) }
+        let wall: Box<dyn PairSweep<T, D>> = if const { R::READS.contains(Field::DYNAMIC_VISCOSITY) }
         {
             let terms = (LiquidNearWall, VelocityAtWall, ViscosityAtWall);
             Box::new(Program::<_, _, MODES>::new(kernel, terms, mode))
@@ -249,24 +249,24 @@ mod tests {
         let sticky = weakly_compressible()
             .laminar_viscosity(LaminarViscosity)
             .compose();
-        assert_eq!(added(&sticky), [Field::DynamicViscosity]);
+        assert_eq!(added(&sticky), [Field::DYNAMIC_VISCOSITY]);
         let curved = weakly_compressible()
             .density_diffusion(Antuono::default())
             .compose();
-        assert_eq!(added(&curved), [Field::DensityGradient]);
+        assert_eq!(added(&curved), [Field::DENSITY_GRADIENT]);
         assert_eq!(
             added(&weakly_compressible().renormalised().compose()),
-            [Field::Correction]
+            [Field::CORRECTION]
         );
         assert_eq!(
             added(&weakly_compressible().smoothing(0.5, 2.0).compose()),
-            [Field::SmoothingLength]
+            [Field::SMOOTHING_LENGTH]
         );
-        assert_eq!(added(&damped), [Field::Divergence]);
+        assert_eq!(added(&damped), [Field::DIVERGENCE]);
         assert!(damped.to_string().contains("against sound, λ = 0.3"));
         // 3 + 3 + 6 numbers: places, velocities, and what pressure and continuity need.
         assert_eq!(plain.fields().width(3), 12);
-        assert!(!plain.fields().contains(Field::Energy));
+        assert!(!plain.fields().contains(Field::ENERGY));
 
         let sums = |scheme: &Scheme<f64, 3>| -> Vec<Output> {
             scheme
@@ -276,10 +276,10 @@ mod tests {
                 .collect()
         };
         let bare = weakly_compressible().density_diffusion(Nothing).compose();
-        assert_eq!(sums(&bare), [Output::Compression]);
+        assert_eq!(sums(&bare), [Output::COMPRESSION]);
         assert_eq!(
             sums(&plain),
-            [Output::Compression, Output::DensityDiffusion]
+            [Output::COMPRESSION, Output::DENSITY_DIFFUSION]
         );
         // What a row stores a particle: a term that is left out stores nothing.
         let stored = |scheme: &Scheme<f64, 3>| -> Option<usize> {
@@ -290,7 +290,7 @@ mod tests {
         };
         assert_eq!((stored(&bare), stored(&plain)), (Some(1), Some(2)));
         let shifted = weakly_compressible().shifting(Shifting::STANDARD).compose();
-        assert_eq!(sums(&shifted)[2..], [Output::Moment, Output::Crowding]);
+        assert_eq!(sums(&shifted)[2..], [Output::MOMENT, Output::CROWDING]);
         assert_eq!(shifted.fields(), plain.fields());
     }
 }

@@ -27,20 +27,20 @@ impl<T: Real, P: Terms<D>, const D: usize, const HOW: u8> Layout for Composed<T,
     const WRITES: Outputs = if HOW & WORK == 0 {
         P::WRITES
     } else {
-        Outputs::of(&[Output::Power])
+        Outputs::of(&[Output::POWER])
     };
 }
 
 pub(super) const fn reads<T: Real, P: Terms<D>, const D: usize>(how: u8) -> Fields {
-    let mut fields = P::READS.union(Fields::of(&[Field::Position]));
+    let mut fields = P::READS.union(Fields::of(&[Field::POSITION]));
     if !T::COMPENSATED {
-        fields = fields.without(Field::PositionResidual);
+        fields = fields.without(Field::POSITION_RESIDUAL);
     }
     if how & (MEAN | OWN) != 0 {
-        fields = fields.union(Fields::of(&[Field::SmoothingLength]));
+        fields = fields.union(Fields::of(&[Field::SMOOTHING_LENGTH]));
     }
     if how & WORK != 0 {
-        fields = fields.union(Fields::of(&[Field::MeanVelocity]));
+        fields = fields.union(Fields::of(&[Field::MEAN_VELOCITY]));
     }
     fields
 }
@@ -161,8 +161,8 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         let reads = const { Composed::<T, P, D, HOW>::READS };
         let stride = const { Composed::<T, P, D, HOW>::READS.width(D) };
         let width_out = const { Composed::<T, P, D, HOW>::WRITES.width(D) };
-        let one_sided = const { P::WRITES.contains(Output::MomentMatrix) };
-        let forces = const { Composed::<T, P, D, HOW>::WRITES.contains(Output::Force) };
+        let one_sided = const { P::WRITES.contains(Output::MOMENT_MATRIX) };
+        let forces = const { Composed::<T, P, D, HOW>::WRITES.contains(Output::FORCE) };
         // Made once a chunk: they have room for any terms, and clearing it for each row costs a twelfth of the time.
         let mut own = [L::zero(); MOST_READS];
         let mut sums = Sums::<L, D, Composed<T, P, D, HOW>>::new();
@@ -265,7 +265,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
     {
         let reads = const { Composed::<T, P, D, HOW>::READS };
         let stride = const { Composed::<T, P, D, HOW>::READS.width(D) };
-        let position = reads.offset(Field::Position, D);
+        let position = reads.offset(Field::POSITION, D);
         let reach2 = L::splat(self.reach2);
         let (staying, leaving) = neighbors.split_at(staying);
         let mut count = staying.len();
@@ -314,12 +314,12 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
 /// curvature of it.
 #[inline(always)]
 fn compressive<L: Lane>(reads: Fields, shown: &mut [L; MOST_READS], d: usize) {
-    if reads.contains(Field::PressureCoefficient) {
-        let x = &mut shown[reads.offset(Field::PressureCoefficient, d)];
+    if reads.contains(Field::PRESSURE_COEFFICIENT) {
+        let x = &mut shown[reads.offset(Field::PRESSURE_COEFFICIENT, d)];
         *x = x.positive_part();
     }
-    if reads.contains(Field::PressureGradient) {
-        let at = reads.offset(Field::PressureGradient, d);
+    if reads.contains(Field::PRESSURE_GRADIENT) {
+        let at = reads.offset(Field::PRESSURE_GRADIENT, d);
         shown[at..at + d].fill(L::zero());
     }
 }

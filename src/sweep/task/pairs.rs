@@ -38,13 +38,13 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
     {
         let reads = const { Composed::<T, P, D, HOW>::READS };
         let stride = const { Composed::<T, P, D, HOW>::READS.width(D) };
-        let position = reads.offset(Field::Position, D);
-        let residual = reads.offset(Field::PositionResidual, D);
+        let position = reads.offset(Field::POSITION, D);
+        let residual = reads.offset(Field::POSITION_RESIDUAL, D);
         let record = &self.records[j as usize * stride..j as usize * stride + stride];
         let mut r = [L::zero(); D];
         for d in 0..D {
             r[d] = own[position + d] - L::splat(record[position + d]);
-            if reads.contains(Field::PositionResidual) {
+            if reads.contains(Field::POSITION_RESIDUAL) {
                 r[d] += own[residual + d] - L::splat(record[residual + d]);
             }
         }
@@ -77,8 +77,8 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         } = row;
         let reads = const { Composed::<T, P, D, HOW>::READS };
         let stride = const { Composed::<T, P, D, HOW>::READS.width(D) };
-        let velocity = reads.offset(Field::Velocity, D);
-        let h_at = reads.offset(Field::SmoothingLength, D);
+        let velocity = reads.offset(Field::VELOCITY, D);
+        let h_at = reads.offset(Field::SMOOTHING_LENGTH, D);
         let norm = L::splat(self.kernel_norm);
         let uniform = Scale::new(L::splat(self.h), norm, D);
         let own_scale = if HOW & (MEAN | OWN) == 0 {
@@ -103,7 +103,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
             next = self.separation::<L, HOW>(own, *neighbors.get(k + 1).unwrap_or(&j));
             let record = &self.records[j as usize * stride..j as usize * stride + stride];
             let mut v = [L::zero(); D];
-            if reads.contains(Field::Velocity) {
+            if reads.contains(Field::VELOCITY) {
                 for d in 0..D {
                     v[d] = own[velocity + d] - L::splat(record[velocity + d]);
                 }
@@ -180,11 +180,11 @@ fn apply<L: Lane, const D: usize, const HOW: u8, C: Layout>(
     record: &[L::Scalar],
     reads: Fields,
 ) {
-    if !writes.contains(Output::Force) {
+    if !writes.contains(Output::FORCE) {
         return;
     }
     if HOW & WORK != 0 {
-        let mean = reads.offset(Field::MeanVelocity, D);
+        let mean = reads.offset(Field::MEAN_VELOCITY, D);
         let mut work = L::zero();
         for d in 0..D {
             let force = sums
@@ -192,19 +192,19 @@ fn apply<L: Lane, const D: usize, const HOW: u8, C: Layout>(
                 .mul_add(pair.r[d], sums.shear.mul_add(pair.v[d], L::zero()));
             work = force.mul_add(L::splat(record[mean + d]) - own[mean + d], work);
         }
-        sums.add(Output::Power, work * L::of(0.5));
+        sums.add(Output::POWER, work * L::of(0.5));
         return;
     }
     for d in 0..D {
-        let kept = &mut sums.kept[C::WRITES.offset(Output::Force, D) + d];
+        let kept = &mut sums.kept[C::WRITES.offset(Output::FORCE, D) + d];
         *kept = sums.radial.mul_add(pair.r[d], *kept);
         *kept = sums.shear.mul_add(pair.v[d], *kept);
     }
-    if writes.contains(Output::Power) {
+    if writes.contains(Output::POWER) {
         let power = sums
             .radial
             .mul_add(pair.v_dot_r, sums.shear.mul_add(pair.v2(), L::zero()));
-        sums.add(Output::Power, power * L::of(-0.5));
+        sums.add(Output::POWER, power * L::of(-0.5));
     }
 }
 

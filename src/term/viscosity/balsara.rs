@@ -40,7 +40,7 @@ impl<const D: usize> ArtificialViscosity<D> for Balsara {
     const READS: Fields = if D == 1 {
         Fields::NONE
     } else {
-        Fields::of(&[Field::VelocityGradient])
+        Fields::of(&[Field::VELOCITY_GRADIENT])
     };
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>) -> Viscous<L> {
@@ -48,12 +48,12 @@ impl<const D: usize> ArtificialViscosity<D> for Balsara {
         if const { D > 1 } {
             let noise = L::of(NOISE) / pair.h;
             let at_i = factor::<L, D>(
-                |k| pair.i_at(Field::VelocityGradient, k),
-                pair.i(Field::SoundSpeed) * noise,
+                |k| pair.i_at(Field::VELOCITY_GRADIENT, k),
+                pair.i(Field::SOUND_SPEED) * noise,
             );
             let at_j = factor::<L, D>(
-                |k| pair.j_at(Field::VelocityGradient, k),
-                pair.j(Field::SoundSpeed) * noise,
+                |k| pair.j_at(Field::VELOCITY_GRADIENT, k),
+                pair.j(Field::SOUND_SPEED) * noise,
             );
             let mean = (at_i + at_j) * L::of(0.5);
             viscous.pi *= mean;

@@ -46,14 +46,14 @@ impl Default for CullenDehnen {
 
 impl<const D: usize> ArtificialViscosity<D> for CullenDehnen {
     const READS: Fields = if D == 1 {
-        Fields::of(&[Field::ViscosityCoefficient])
+        Fields::of(&[Field::VISCOSITY_COEFFICIENT])
     } else {
-        Fields::of(&[Field::ViscosityCoefficient, Field::Divergence])
+        Fields::of(&[Field::VISCOSITY_COEFFICIENT, Field::DIVERGENCE])
     };
     const WRITES: Outputs = if D == 1 {
-        Outputs::of(&[Output::SignalSpeed])
+        Outputs::of(&[Output::SIGNAL_SPEED])
     } else {
-        Outputs::of(&[Output::SignalSpeed, Output::DivergenceSign, Output::Unity])
+        Outputs::of(&[Output::SIGNAL_SPEED, Output::DIVERGENCE_SIGN, Output::UNITY])
     };
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>) -> Viscous<L> {
@@ -61,17 +61,17 @@ impl<const D: usize> ArtificialViscosity<D> for CullenDehnen {
     }
     #[inline(always)]
     fn sums<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let sound_speeds = pair.i(Field::SoundSpeed) + pair.j(Field::SoundSpeed);
+        let sound_speeds = pair.i(Field::SOUND_SPEED) + pair.j(Field::SOUND_SPEED);
         let speed = sound_speeds.mul_add(L::of(0.5), closing_speed(pair));
         let inside = pair.f.lt(L::zero());
-        sums.raise(Output::SignalSpeed, L::select(inside, speed, L::zero()));
+        sums.raise(Output::SIGNAL_SPEED, L::select(inside, speed, L::zero()));
         if const { D > 1 } {
-            let weight = pair.j(Field::Mass) / pair.j(Field::Density) * pair.w;
-            let divergence = pair.j(Field::Divergence);
+            let weight = pair.j(Field::MASS) / pair.j(Field::DENSITY) * pair.w;
+            let divergence = pair.j(Field::DIVERGENCE);
             let positive = L::select(divergence.gt(L::zero()), weight, L::zero());
             let negative = L::select(divergence.lt(L::zero()), weight, L::zero());
-            sums.add(Output::DivergenceSign, positive - negative);
-            sums.add(Output::Unity, weight);
+            sums.add(Output::DIVERGENCE_SIGN, positive - negative);
+            sums.add(Output::UNITY, weight);
         }
     }
     fn document(&self) -> TermDoc {

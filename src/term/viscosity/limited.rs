@@ -37,7 +37,7 @@ impl Default for LimitedMonaghanGingold {
 }
 
 impl<const D: usize> ArtificialViscosity<D> for LimitedMonaghanGingold {
-    const READS: Fields = Fields::of(&[Field::VelocityGradient]);
+    const READS: Fields = Fields::of(&[Field::VELOCITY_GRADIENT]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>) -> Viscous<L> {
         between(
@@ -70,10 +70,10 @@ fn limited_jump<L: Lane, const D: usize, P: Layout>(pair: &Pair<'_, L, D, P>) ->
         for b in 0..D {
             let rr = pair.r[a] * pair.r[b];
             at_i = pair
-                .i_at(Field::VelocityGradient, a * D + b)
+                .i_at(Field::VELOCITY_GRADIENT, a * D + b)
                 .mul_add(rr, at_i);
             at_j = pair
-                .j_at(Field::VelocityGradient, a * D + b)
+                .j_at(Field::VELOCITY_GRADIENT, a * D + b)
                 .mul_add(rr, at_j);
         }
     }

@@ -82,7 +82,7 @@ pub trait ArtificialViscosity<const D: usize>: Clone + Debug + Send + Sync + 'st
     fn document(&self) -> TermDoc;
     /// Whether the law needs the velocity gradient, and so the prepass that makes it.
     fn needs_velocity_gradient(&self) -> bool {
-        Self::READS.contains(Field::VelocityGradient)
+        Self::READS.contains(Field::VELOCITY_GRADIENT)
     }
     /// How the particle's own coefficient α changes, if the law has one.
     fn switch(&self) -> Option<Switch> {
@@ -104,20 +104,20 @@ pub struct Viscosity<V>(pub V);
 
 impl<const D: usize, V: ArtificialViscosity<D>> Term<D> for Viscosity<V> {
     const READS: Fields = Fields::of(&[
-        Field::Velocity,
-        Field::Mass,
-        Field::Density,
-        Field::SoundSpeed,
+        Field::VELOCITY,
+        Field::MASS,
+        Field::DENSITY,
+        Field::SOUND_SPEED,
     ])
     .union(V::READS);
-    const WRITES: Outputs = Outputs::of(&[Output::Force, Output::Signal]).union(V::WRITES);
+    const WRITES: Outputs = Outputs::of(&[Output::FORCE, Output::SIGNAL]).union(V::WRITES);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
         let viscous = self.0.pair(pair);
-        let masses = pair.i(Field::Mass) * (pair.mobile * pair.mobile_i) * pair.j(Field::Mass);
+        let masses = pair.i(Field::MASS) * (pair.mobile * pair.mobile_i) * pair.j(Field::MASS);
         sums.radial.add_product(-(masses * viscous.pi), pair.f);
         let inside = pair.f.lt(L::zero());
-        sums.raise(Output::Signal, L::select(inside, viscous.signal, L::zero()));
+        sums.raise(Output::SIGNAL, L::select(inside, viscous.signal, L::zero()));
         self.0.sums(pair, sums);
     }
     fn document(&self) -> TermDoc {
@@ -137,8 +137,8 @@ fn between<L: Lane, const D: usize, P: Layout>(
     beta: L,
 ) -> Viscous<L> {
     // Twice the means: their halves cancel in Π.
-    let sound_speeds = pair.i(Field::SoundSpeed) + pair.j(Field::SoundSpeed);
-    let densities = pair.i(Field::Density) + pair.j(Field::Density);
+    let sound_speeds = pair.i(Field::SOUND_SPEED) + pair.j(Field::SOUND_SPEED);
+    let densities = pair.i(Field::DENSITY) + pair.j(Field::DENSITY);
     let approaching = pair.v_dot_r.lt(L::zero()) & jump.lt(L::zero());
     let r2_over_h = pair.r2.mul_add(pair.h.recip(), pair.h * L::of(0.01));
     // One division serves μ and Π: it takes longer than all else here.
@@ -168,7 +168,7 @@ fn between_own<L: Lane, const D: usize, P: Layout>(
     pair: &Pair<'_, L, D, P>,
     beta_over_alpha: f64,
 ) -> Viscous<L> {
-    let field = Field::ViscosityCoefficient;
+    let field = Field::VISCOSITY_COEFFICIENT;
     let alpha = (pair.i(field) + pair.j(field)) * L::of(0.5);
     between(pair, pair.v_dot_r, alpha, alpha * L::of(beta_over_alpha))
 }

@@ -42,7 +42,7 @@ impl Default for MorrisMonaghan {
 }
 
 impl<const D: usize> ArtificialViscosity<D> for MorrisMonaghan {
-    const READS: Fields = Fields::of(&[Field::ViscosityCoefficient]);
+    const READS: Fields = Fields::of(&[Field::VISCOSITY_COEFFICIENT]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>) -> Viscous<L> {
         between_own(pair, self.beta_over_alpha)

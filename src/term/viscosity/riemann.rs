@@ -41,7 +41,7 @@ impl<const D: usize> ArtificialViscosity<D> for Riemann {
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>) -> Viscous<L> {
         let closing = closing_speed(pair);
-        let (c_i, c_j) = (pair.i(Field::SoundSpeed), pair.j(Field::SoundSpeed));
+        let (c_i, c_j) = (pair.i(Field::SOUND_SPEED), pair.j(Field::SOUND_SPEED));
         let sound_speed = (c_i + c_j) * L::of(0.5);
         let share = closing * L::of(self.limiter) / sound_speed;
         // In a vacuum there is neither sound nor impedance.
@@ -49,8 +49,8 @@ impl<const D: usize> ArtificialViscosity<D> for Riemann {
         let share = L::select(sounding, share.min(L::one()), L::zero()) * L::of(self.alpha);
         // Z/(ρᵢ ρⱼ) = cᵢ cⱼ/(ρᵢcᵢ + ρⱼcⱼ).
         let impedances = pair
-            .i(Field::Density)
-            .mul_add(c_i, pair.j(Field::Density) * c_j);
+            .i(Field::DENSITY)
+            .mul_add(c_i, pair.j(Field::DENSITY) * c_j);
         let impedances = L::select(sounding, impedances, L::one());
         let dissipated = share * closing * c_i * c_j / impedances;
         Viscous {

@@ -40,8 +40,8 @@ impl<const D: usize> ArtificialViscosity<D> for SignalVelocity {
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>) -> Viscous<L> {
         let closing = closing_speed(pair);
-        let sound_speeds = pair.i(Field::SoundSpeed) + pair.j(Field::SoundSpeed);
-        let densities = pair.i(Field::Density) + pair.j(Field::Density);
+        let sound_speeds = pair.i(Field::SOUND_SPEED) + pair.j(Field::SOUND_SPEED);
+        let densities = pair.i(Field::DENSITY) + pair.j(Field::DENSITY);
         let half_signal = closing.mul_add(L::of(self.beta), sound_speeds) * L::of(0.5 * self.alpha);
         Viscous {
             pi: (half_signal + half_signal) * closing / densities,

@@ -61,13 +61,13 @@ impl<const D: usize> Particle<D> {
         let mut record = Vec::new();
         for field in reads.iter() {
             match field {
-                Field::Velocity => record.extend(self.v),
-                Field::Mass => record.push(0.7),
-                Field::Density => record.push(self.density),
-                Field::SoundSpeed => record.push(self.sound_speed),
-                Field::ViscosityCoefficient => record.push(self.coefficient),
-                Field::Divergence => record.push(self.divergence),
-                Field::VelocityGradient => record.extend(&self.gradient),
+                Field::VELOCITY => record.extend(self.v),
+                Field::MASS => record.push(0.7),
+                Field::DENSITY => record.push(self.density),
+                Field::SOUND_SPEED => record.push(self.sound_speed),
+                Field::VISCOSITY_COEFFICIENT => record.push(self.coefficient),
+                Field::DIVERGENCE => record.push(self.divergence),
+                Field::VELOCITY_GRADIENT => record.extend(&self.gradient),
                 other => unreachable!("a viscosity reads {other:?}"),
             }
         }
@@ -239,13 +239,13 @@ fn laws_read_no_field_that_they_do_not_use() {
     assert_eq!(none, reads::<_, 2>(SignalVelocity::STANDARD));
     assert_eq!(none, reads::<_, 2>(Riemann::STANDARD));
     assert_eq!(none, reads::<_, 1>(Balsara::STANDARD));
-    let gradient = none.union(Fields::of(&[Field::VelocityGradient]));
+    let gradient = none.union(Fields::of(&[Field::VELOCITY_GRADIENT]));
     assert_eq!(gradient, reads::<_, 2>(Balsara::STANDARD));
     assert_eq!(gradient, reads::<_, 1>(LimitedMonaghanGingold::STANDARD));
-    let own = none.union(Fields::of(&[Field::ViscosityCoefficient]));
+    let own = none.union(Fields::of(&[Field::VISCOSITY_COEFFICIENT]));
     assert_eq!(own, reads::<_, 2>(MorrisMonaghan::STANDARD));
     assert_eq!(own, reads::<_, 1>(CullenDehnen::STANDARD));
-    let both = own.union(Fields::of(&[Field::Divergence]));
+    let both = own.union(Fields::of(&[Field::DIVERGENCE]));
     assert_eq!(both, reads::<_, 3>(CullenDehnen::STANDARD));
 }
 
@@ -257,7 +257,7 @@ fn medium() -> Material<f64> {
 fn coefficient<const D: usize>(simulation: &Simulation<f64, D>, k: usize) -> f64 {
     let particle = simulation.body(0).nth(k);
     particle
-        .and_then(|p| p.scalar(Field::ViscosityCoefficient))
+        .and_then(|p| p.scalar(Field::VISCOSITY_COEFFICIENT))
         .unwrap_or(f64::NAN)
 }
 
