@@ -113,11 +113,13 @@ fn scene<T: Real>(options: &Options, flow: Flow, spacing: f64) -> Scene<T, 2> {
     };
     let scheme = schemes::weakly_compressible()
         .with_viscosity(Inviscid)
-        .generalised_newtonian()
-        .wall_pressure_floor(f64::NEG_INFINITY);
+        .with(GeneralisedNewtonian)
+        .walls(ExtrapolatedPressure {
+            floor: f64::NEG_INFINITY,
+        });
     let scheme: Scheme<T, 2> = match options.scheme.as_str() {
-        "central" => scheme.laminar_viscosity(CentralViscosity).compose(),
-        _ => scheme.laminar_viscosity(LaminarViscosity).compose(),
+        "central" => scheme.with(Laminar(CentralViscosity)).compose(),
+        _ => scheme.with(Laminar(LaminarViscosity)).compose(),
     };
     Scene::new(scheme)
         .body(body)

@@ -56,12 +56,14 @@ fn scene<T: Real>(options: &Options, reynolds: f64, spacing: f64) -> Scene<T, 2>
     );
     let scheme = schemes::weakly_compressible()
         .with_viscosity(Inviscid)
-        .laminar_viscosity(LaminarViscosity)
-        .wall_pressure_floor(f64::NEG_INFINITY)
-        .volume_consistency(0.05);
+        .with(Laminar(LaminarViscosity))
+        .walls(ExtrapolatedPressure {
+            floor: f64::NEG_INFINITY,
+        })
+        .with(VolumeConsistency { strength: 0.05 });
     let scheme: Scheme<T, 2> = match options.scheme.as_str() {
-        "transport" => scheme.shifting(Shifting::TRANSPORT).compose(),
-        _ => scheme.shifting(Shifting::CLOSED).compose(),
+        "transport" => scheme.with(Shifting::TRANSPORT).compose(),
+        _ => scheme.with(Shifting::CLOSED).compose(),
     };
     Scene::new(scheme)
         .body(body)

@@ -54,7 +54,7 @@ fn scene<T: Real>(options: &Options, wave: StandingWave, spacing: f64) -> Scene<
     // cent too short.
     let scheme = schemes::weakly_compressible().h_over_dx(2.0);
     let scheme: Scheme<T, 2> = match options.scheme.as_str() {
-        "shifting" => scheme.shifting(Shifting::STANDARD).compose(),
+        "shifting" => scheme.with(Shifting::STANDARD).compose(),
         "renormalised" => scheme.renormalised().compose(),
         _ => scheme.compose(),
     };

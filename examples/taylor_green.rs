@@ -46,10 +46,10 @@ fn scene<T: Real>(options: &Options, flow: TaylorGreen, spacing: f64) -> Scene<T
     });
     let scheme = schemes::weakly_compressible()
         .with_viscosity(Inviscid)
-        .laminar_viscosity(LaminarViscosity);
+        .with(Laminar(LaminarViscosity));
     let scheme: Scheme<T, 2> = match options.scheme.as_str() {
-        "shifting" => scheme.shifting(Shifting::CLOSED).compose(),
-        "transport" => scheme.shifting(Shifting::TRANSPORT).compose(),
+        "shifting" => scheme.with(Shifting::CLOSED).compose(),
+        "transport" => scheme.with(Shifting::TRANSPORT).compose(),
         _ => scheme.compose(),
     };
     Scene::new(scheme)

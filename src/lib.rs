@@ -161,6 +161,7 @@
 #![warn(missing_docs)]
 
 pub mod boundary;
+pub mod effect;
 pub mod error;
 pub mod geometry;
 pub mod integrator;

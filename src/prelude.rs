@@ -8,6 +8,11 @@ pub use crate::boundary::{
     Boundary, Crush, MirrorPlane, Motion, Outlet, Periodic, Rotation, Translation, Wall,
 };
 #[doc(no_inline)]
+pub use crate::effect::{
+    AcousticDamping, Cavitation, DensityDiffusion, Effect, ExpansionMemory, ExtrapolatedPressure,
+    GeneralisedNewtonian, Laminar, RiemannWalls, VolumeConsistency,
+};
+#[doc(no_inline)]
 pub use crate::error::{BuildError, Error};
 #[doc(no_inline)]
 pub use crate::geometry::{Ball, Cuboid, Cylinder, HalfSpace, OpenCell, Shape};
@@ -31,9 +36,7 @@ pub use crate::scalar::{Lane, Real};
 #[doc(no_inline)]
 pub use crate::scene::{Body, Scene};
 #[doc(no_inline)]
-pub use crate::scheme::{
-    DensityForm, EnergyForm, LiquidBuilder, Scheme, SchemeBuilder, Shifting, Smoothing,
-};
+pub use crate::scheme::{DensityForm, EnergyForm, Scheme, SchemeBuilder, Shifting, Smoothing};
 #[doc(no_inline)]
 pub use crate::schemes;
 #[doc(no_inline)]

@@ -1,7 +1,7 @@
 //! Ready schemes: the lists of terms that a user would write, with defaults that are measured.
 //! Each prints itself with equations, fields and sources.
 //!
-//! Each returns a [`SchemeBuilder`], for liquids a [`LiquidBuilder`], so a single choice can be changed and
+//! Each returns a [`SchemeBuilder`], so a single choice can be changed and
 //! the rest kept:
 //!
 //! ```
@@ -30,15 +30,32 @@
 //!
 //! [`ls_dyna_renormalised`] and [`ls_dyna_fluid_renormalised`] correct the gradients of the last two.
 
+use crate::effect::{Cavitation, DensityDiffusion, ExtrapolatedPressure, NoWalls};
 use crate::kernel::{CubicSpline, WendlandC2};
-use crate::scheme::{DensityForm, EnergyForm, LiquidBuilder, SchemeBuilder};
+use crate::scheme::{DensityForm, EnergyForm, SchemeBuilder};
 use crate::sweep::SmoothingMode;
 use crate::term::viscosity::{LimitedMonaghanGingold, MonaghanGingold, Riemann};
-use crate::term::{Fourtakas, Nothing, RiemannDiffusion};
+use crate::term::{Fourtakas, RiemannDiffusion};
 
-/// What [`impact`] returns: a scheme with curvature of the pressure, to be changed further.
-pub type ImpactBuilder =
-    SchemeBuilder<CubicSpline, LimitedMonaghanGingold, { SmoothingMode::Uniform.bit() }, true>;
+/// What [`impact`] returns: a scheme with midpoint reconstruction of the pressure, to be changed further.
+pub type ImpactBuilder = SchemeBuilder<
+    CubicSpline,
+    LimitedMonaghanGingold,
+    NoWalls,
+    (),
+    { SmoothingMode::Uniform.bit() },
+    5,
+>;
+
+/// What [`weakly_compressible`] and [`riemann_liquid`] return, with an artificial viscosity and a density diffusion.
+pub type LiquidBuilder<V, X> = SchemeBuilder<
+    WendlandC2,
+    V,
+    ExtrapolatedPressure,
+    (((), Cavitation), DensityDiffusion<X>),
+    { SmoothingMode::Uniform.bit() },
+    0,
+>;
 
 /// Impact of solids with weak to moderate shocks: number density relative to the shape at rest,
 /// pressure curvature χ = 1/3, limited viscosity α = 2, β = 2, compatible energy, cubic spline at
@@ -87,8 +104,8 @@ pub fn lam2002() -> SchemeBuilder<CubicSpline, MonaghanGingold> {
 /// A column of 50 particles at rest for 20 √(H/g) keeps its pressure within 0.55 % of ρgH at h/dx 1.5 and
 /// 2, and within 1.2 % at 1.3 (root mean square).
 #[must_use]
-pub fn weakly_compressible() -> LiquidBuilder<WendlandC2, MonaghanGingold, Fourtakas> {
-    LiquidBuilder::new(
+pub fn weakly_compressible() -> LiquidBuilder<MonaghanGingold, Fourtakas> {
+    SchemeBuilder::liquid(
         WendlandC2,
         MonaghanGingold {
             alpha: 0.02,
@@ -96,7 +113,8 @@ pub fn weakly_compressible() -> LiquidBuilder<WendlandC2, MonaghanGingold, Fourt
         },
     )
     .named("weakly compressible")
-    .density_diffusion(Fourtakas::default())
+    .with(Cavitation)
+    .with(DensityDiffusion(Fourtakas::default()))
 }
 
 /// The artificial viscosity of the LS-DYNA schemes: the linear and quadratic coefficients of its bulk
@@ -108,16 +126,14 @@ const BULK: MonaghanGingold = MonaghanGingold {
 /// Limits of the smoothing length in units of the first (HMIN and HMAX of its section card).
 const LIMITS: [f64; 2] = [0.2, 2.0];
 
-/// Builder of [`ls_dyna_default`] and [`ls_dyna_fluid`], and with `true` of their renormalised forms.
-pub type LsDynaBuilder<const RENORMALISED: bool> = LiquidBuilder<
+/// Builder of [`ls_dyna_default`] and [`ls_dyna_fluid`] with 0, and with 2 of their renormalised forms.
+pub type LsDynaBuilder<const FORCE: u8> = SchemeBuilder<
     CubicSpline,
     MonaghanGingold,
-    Nothing,
-    Nothing,
-    Nothing,
-    Nothing,
+    ExtrapolatedPressure,
+    ((), Cavitation),
     { SmoothingMode::Mean.bit() },
-    RENORMALISED,
+    FORCE,
 >;
 
 /// FORM 5 of LS-DYNA, "fluid particle approximation": continuity and pressure by volume, cubic spline at
@@ -127,24 +143,27 @@ pub type LsDynaBuilder<const RENORMALISED: bool> = LiquidBuilder<
 /// The equations behind the forms are as generally understood; its theory manual was not at hand. Its
 /// renormalised sibling FORM 6 is [`ls_dyna_fluid_renormalised`].
 #[must_use]
-pub fn ls_dyna_fluid() -> LsDynaBuilder<false> {
-    LiquidBuilder::new(CubicSpline, BULK)
+pub fn ls_dyna_fluid() -> LsDynaBuilder<0> {
+    SchemeBuilder::liquid(CubicSpline, BULK)
         .named("LS-DYNA FORM 5, fluid")
         .h_over_dx(1.2)
         .without_normalisation()
-        .smoothing(LIMITS[0], LIMITS[1])
+        .with(Cavitation)
+        .smoothing_by_divergence(LIMITS[0], LIMITS[1])
 }
 
 /// FORM 0 of LS-DYNA, the default: continuity by mass with the σ/ρ² force; the rest as
 /// [`ls_dyna_fluid`].
 #[must_use]
-pub fn ls_dyna_default() -> LsDynaBuilder<false> {
-    ls_dyna_fluid().by_mass().named("LS-DYNA FORM 0, default")
+pub fn ls_dyna_default() -> LsDynaBuilder<0> {
+    ls_dyna_fluid()
+        .density(DensityForm::ContinuityByMass)
+        .named("LS-DYNA FORM 0, default")
 }
 
 /// FORM 1 of LS-DYNA: [`ls_dyna_default`] with renormalised gradients.
 #[must_use]
-pub fn ls_dyna_renormalised() -> LsDynaBuilder<true> {
+pub fn ls_dyna_renormalised() -> LsDynaBuilder<2> {
     ls_dyna_default()
         .renormalised()
         .named("LS-DYNA FORM 1, renormalised")
@@ -152,7 +171,7 @@ pub fn ls_dyna_renormalised() -> LsDynaBuilder<true> {
 
 /// FORM 6 of LS-DYNA: [`ls_dyna_fluid`] with renormalised gradients.
 #[must_use]
-pub fn ls_dyna_fluid_renormalised() -> LsDynaBuilder<true> {
+pub fn ls_dyna_fluid_renormalised() -> LsDynaBuilder<2> {
     ls_dyna_fluid()
         .renormalised()
         .named("LS-DYNA FORM 6, fluid renormalised")
@@ -162,7 +181,7 @@ pub fn ls_dyna_fluid_renormalised() -> LsDynaBuilder<true> {
 /// particles in momentum and continuity (Zhang, Hu & Adams 2017), the rest as
 /// [`weakly_compressible`].
 #[must_use]
-pub fn riemann_liquid() -> LiquidBuilder<WendlandC2, Riemann, RiemannDiffusion> {
+pub fn riemann_liquid() -> LiquidBuilder<Riemann, RiemannDiffusion> {
     weakly_compressible()
         .named("Riemann liquid")
         .with_viscosity(Riemann::STANDARD)

@@ -114,6 +114,19 @@ impl<T: Real> Symmetric<T> {
             sum
         }))
     }
+    /// W S − S W with a spin W of the first `D` axes: the rate at which a rotation turns it.
+    #[must_use]
+    pub fn spun<const D: usize>(&self, spin: &Matrix<T, D>) -> Self {
+        let at = |r: usize, c: usize| {
+            let inside = r < D && c < D;
+            if inside { spin[(r, c)] } else { T::zero() }
+        };
+        Self(PLACES.map(|(r, c)| {
+            (0..3).fold(T::zero(), |sum, k| {
+                sum + at(r, k) * self.at(k, c) - self.at(r, k) * at(k, c)
+            })
+        }))
+    }
     /// The product with a vector of the first `D` axes.
     #[must_use]
     pub fn times<const D: usize>(&self, vector: &Vector<T, D>) -> Vector<T, D> {
@@ -129,6 +142,33 @@ impl<T: Real> Symmetric<T> {
     pub fn scaled(&self, factor: T) -> Self {
         Self(self.0.map(|value| value * factor))
     }
+}
+
+/// The rotation by a spin times a time step, e^W with W antisymmetric, by Rodrigues' formula; the identity in one
+/// dimension.
+///
+/// ```
+/// use meshfree::tensor::{Matrix, rotation};
+/// let quarter = std::f64::consts::FRAC_PI_2;
+/// let turn = rotation(&Matrix::<f64, 2>::new(0.0, -quarter, quarter, 0.0));
+/// assert!((turn - Matrix::<f64, 2>::new(0.0, -1.0, 1.0, 0.0)).norm() < 1e-15);
+/// ```
+#[must_use]
+pub fn rotation<T: Real, const D: usize>(spin: &Matrix<T, D>) -> Matrix<T, D> {
+    // Half of the sum of squares is the squared angle.
+    let angle2 = spin.iter().fold(T::zero(), |sum, w| sum + *w * *w) * T::from_f64(0.5);
+    let angle = angle2.sqrt().to_f64();
+    // sin(a)/a and (1 − cos(a))/a², by their series where those would cancel.
+    let (first, second) = if angle < 1e-3 {
+        (1.0 - angle * angle / 6.0, 0.5 - angle * angle / 24.0)
+    } else {
+        (angle.sin() / angle, (1.0 - angle.cos()) / (angle * angle))
+    };
+    let square = *spin * *spin;
+    Matrix::from_fn(|r, c| {
+        let one = if r == c { T::one() } else { T::zero() };
+        one + T::from_f64(first) * spin[(r, c)] + T::from_f64(second) * square[(r, c)]
+    })
 }
 
 /// The Euclidean length of a vector.

@@ -127,11 +127,12 @@ impl Case {
         let crush = Crush::along(2, 0.0, move |t| strain(ramp, t));
         let scheme = schemes::weakly_compressible()
             .h_over_dx(H_OVER_DX)
-            .laminar_viscosity(LaminarViscosity);
+            .with(Laminar(LaminarViscosity));
         // Continuity alone loses the space of the particles: 13 to 16 % too much water is driven out.
         let scheme: Scheme<T, 3> = if self.consistent {
-            let shifted = scheme.shifting::<3>(Shifting::STANDARD);
-            shifted.volume_consistency(CONSISTENCY).compose()
+            let shifted = scheme.with(Shifting::STANDARD);
+            let strength = CONSISTENCY;
+            shifted.with(VolumeConsistency { strength }).compose()
         } else {
             scheme.compose()
         };

@@ -49,7 +49,7 @@ const SHARED: [Own; 14] = [
         "least pressure of the liquid (0: it tears)",
     ),
     own(
-        "--reversible-tearing",
+        "--expansion-memory",
         "",
         "lets torn liquid close where it tore (it forgets)",
     ),
@@ -93,7 +93,7 @@ pub struct Choices {
     pub sound_speed: Option<f64>,
     pub gate: Option<f64>,
     pub cut_off: f64,
-    pub reversible_tearing: bool,
+    pub expansion_memory: bool,
     pub riemann_walls: bool,
     pub jitter: Option<f64>,
     pub seed: u64,
@@ -134,7 +134,7 @@ impl Choices {
             sound_speed: not_negative("--sound-speed")?,
             gate: not_negative("--gate")?.filter(|speed| *speed > 0.0),
             cut_off: number("--cut-off-pa", f64::MIN, "a number")?.unwrap_or(0.0),
-            reversible_tearing: options.has("--reversible-tearing"),
+            expansion_memory: options.has("--expansion-memory"),
             riemann_walls: options.has("--riemann-walls"),
             jitter: not_negative("--jitter")?,
             seed: whole("--seed", 1)?.into(),
@@ -165,18 +165,26 @@ impl Choices {
     where
         WendlandC2: Kernel<D>,
     {
-        let mut base = schemes::weakly_compressible()
-            .density_diffusion(Fourtakas { delta: self.delta })
-            .h_over_dx(self.h_over_dx);
-        if self.damping > 0.0 {
-            base = base.acoustic_damping(self.damping);
-        }
-        if self.reversible_tearing {
-            base = base.reversible_tearing();
-        }
         if self.riemann_walls {
-            base = base.riemann_walls();
+            self.compose_with(RiemannWalls::default())
+        } else {
+            self.compose_with(ExtrapolatedPressure::default())
         }
+    }
+
+    fn compose_with<T: Real, const D: usize>(&self, walls: impl Effect<D>) -> Scheme<T, D>
+    where
+        WendlandC2: Kernel<D>,
+    {
+        let damping = AcousticDamping {
+            strength: self.damping,
+        };
+        let base = schemes::weakly_compressible()
+            .density_diffusion(Fourtakas { delta: self.delta })
+            .h_over_dx(self.h_over_dx)
+            .walls(walls)
+            .with((self.damping > 0.0).then_some(damping))
+            .with(self.expansion_memory.then_some(ExpansionMemory));
         let alpha = |standard: f64| self.alpha.unwrap_or(standard);
         match self.scheme.as_str() {
             "riemann" => base
@@ -188,12 +196,12 @@ impl Choices {
                 .compose(),
             "shifting" => base
                 .with_viscosity(plain(alpha(0.02)))
-                .shifting::<D>(Shifting::STANDARD)
+                .with(Shifting::STANDARD)
                 .named("weakly compressible, shifting")
                 .compose(),
             "viscous" => base
                 .with_viscosity(plain(alpha(0.02)))
-                .laminar_viscosity(LaminarViscosity)
+                .with(Laminar(LaminarViscosity))
                 .named("weakly compressible, viscous")
                 .compose(),
             _ => base.with_viscosity(plain(alpha(0.02))).compose(),

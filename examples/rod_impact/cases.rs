@@ -3,6 +3,7 @@
 
 use crate::choices::{ContactChoice, IntegratorChoice, Precision, SchemeChoice};
 use meshfree::boundary::MirrorPlane;
+use meshfree::effect::NoWalls;
 use meshfree::error::{Error, Result};
 use meshfree::kernel::{CubicSpline, KernelKind};
 use meshfree::material::{Material, catalogue};
@@ -11,7 +12,7 @@ use meshfree::scene::{Body, Scene};
 use meshfree::scheme::{EnergyForm, Scheme, SchemeBuilder};
 use meshfree::schemes;
 use meshfree::simulation::Simulation;
-use meshfree::sweep::Interaction;
+use meshfree::sweep::{Interaction, SmoothingMode};
 use meshfree::term::ArtificialViscosity;
 use meshfree::term::viscosity::ViscosityKind;
 
@@ -206,9 +207,9 @@ impl Case {
         }
     }
 
-    fn with_choices<T, V, const MODES: u8, const CURVED: bool>(
+    fn with_choices<T, V, const FORCE: u8>(
         &self,
-        mut builder: SchemeBuilder<CubicSpline, V, MODES, CURVED>,
+        mut builder: SolidBuilder<V, FORCE>,
     ) -> Scheme<T, 1>
     where
         T: Real,
@@ -246,6 +247,10 @@ impl Case {
             .all(|rod| (actual(rod) - first).abs() <= 1e-9 * first)
     }
 }
+
+/// A scheme of solids with the cubic spline.
+type SolidBuilder<V, const FORCE: u8> =
+    SchemeBuilder<CubicSpline, V, NoWalls, (), { SmoothingMode::Uniform.bit() }, FORCE>;
 
 /// A number without needless digits: 5, 7.5, 0.025.
 pub fn short(value: f64) -> String {

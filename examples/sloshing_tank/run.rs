@@ -274,7 +274,7 @@ fn far_wall<T: Real>(case: &Case, now: &Simulation<T, 3>) -> FarWall {
     let h = now.smoothing_length();
     let mass = case.mass() / now.particles() as f64;
     let mut found = FarWall {
-        cuts: now.guard_counts().cut_off + now.held_densities(),
+        cuts: now.guard_counts().cut_off + now.limited("cavitation"),
         lowest: f64::INFINITY,
         ..FarWall::default()
     };

@@ -204,38 +204,42 @@ impl Case {
             alpha: ALPHA,
             beta: 0.0,
         };
+        let floor = ExtrapolatedPressure {
+            floor: self.cut_off,
+        };
         let standard = schemes::weakly_compressible()
             .h_over_dx(H_OVER_DX)
             .with_viscosity(viscosity)
-            .wall_pressure_floor(self.cut_off)
-            .reversible_tearing()
+            .walls(floor)
             .named(&self.scheme);
         Ok(match self.scheme.as_str() {
-            "standard" => standard.compose(),
+            "standard" => standard.with(ExpansionMemory).compose(),
             "riemann" => standard
                 .with_viscosity(Riemann::STANDARD)
                 .density_diffusion(RiemannDiffusion)
+                .with(ExpansionMemory)
                 .compose(),
-            "shifting" => standard.shifting::<3>(Shifting::STANDARD).compose(),
-            "molteni" => standard.density_diffusion(Molteni::default()).compose(),
-            "by-mass" => LiquidBuilder::new(WendlandC2, viscosity)
+            "shifting" => standard
+                .with(ExpansionMemory)
+                .with(Shifting::STANDARD)
+                .compose(),
+            "molteni" => standard
+                .density_diffusion(Molteni::default())
+                .with(ExpansionMemory)
+                .compose(),
+            "by-mass" => SchemeBuilder::liquid(WendlandC2, viscosity)
+                .with(Cavitation)
                 .h_over_dx(H_OVER_DX)
-                .wall_pressure_floor(self.cut_off)
+                .walls(floor)
                 .named("by mass, without diffusion")
-                .by_mass()
+                .density(DensityForm::ContinuityByMass)
                 .compose(),
-            "ls-dyna-default" => schemes::ls_dyna_default()
-                .wall_pressure_floor(self.cut_off)
-                .compose(),
-            "ls-dyna-renormalised" => schemes::ls_dyna_renormalised()
-                .wall_pressure_floor(self.cut_off)
-                .compose(),
-            "ls-dyna-fluid" => schemes::ls_dyna_fluid()
-                .wall_pressure_floor(self.cut_off)
-                .compose(),
-            "ls-dyna-fluid-renormalised" => schemes::ls_dyna_fluid_renormalised()
-                .wall_pressure_floor(self.cut_off)
-                .compose(),
+            "ls-dyna-default" => schemes::ls_dyna_default().walls(floor).compose(),
+            "ls-dyna-renormalised" => schemes::ls_dyna_renormalised().walls(floor).compose(),
+            "ls-dyna-fluid" => schemes::ls_dyna_fluid().walls(floor).compose(),
+            "ls-dyna-fluid-renormalised" => {
+                schemes::ls_dyna_fluid_renormalised().walls(floor).compose()
+            }
             other => {
                 return Err(Error::Argument(Problem::UnknownName {
                     kind: "scheme",

@@ -26,6 +26,7 @@ mod mirror;
 mod motion;
 mod outlet;
 mod periodic;
+mod surface;
 mod wall;
 
 use crate::sweep::{Interaction, Transform};
@@ -37,6 +38,7 @@ pub use mirror::MirrorPlane;
 pub use motion::{Crush, Motion, Pose, Rotation, Translation};
 pub use outlet::Outlet;
 pub use periodic::Periodic;
+pub use surface::WallSurface;
 pub use wall::{Slip, Wall};
 
 use crate::scalar::Real;

@@ -33,7 +33,7 @@ impl Integrator for LamLeapfrog {
             Predictor::Lagged => "lam-lagged".into(),
         }
     }
-    fn step(&mut self, system: &mut dyn System, dt: f64) -> Result<()> {
+    fn step(&self, system: &mut dyn System, dt: f64) -> Result<()> {
         if self.predictor == Predictor::Fresh || !system.has_rates() {
             system.evaluate(0.0)?;
         }
@@ -41,7 +41,7 @@ impl Integrator for LamLeapfrog {
         system.predict(0.5 * dt);
         system.shift(0.5 * dt, 0.25 * dt * dt);
         system.evaluate(0.5 * dt)?;
-        system.retract();
+        system.restore();
         system.load(0);
         system.shift(dt, 0.5 * dt * dt);
         system.kick(dt);

@@ -18,7 +18,7 @@ impl Integrator for KickDriftKick {
     fn name(&self) -> String {
         "kick-drift-kick".into()
     }
-    fn step(&mut self, system: &mut dyn System, dt: f64) -> Result<()> {
+    fn step(&self, system: &mut dyn System, dt: f64) -> Result<()> {
         if !system.has_rates() {
             system.evaluate(0.0)?;
         }
@@ -26,7 +26,7 @@ impl Integrator for KickDriftKick {
         system.drift(dt, 0.0)?;
         system.predict(0.5 * dt);
         system.evaluate(dt)?;
-        system.retract();
+        system.restore();
         system.kick(0.5 * dt);
         Ok(())
     }
@@ -42,14 +42,14 @@ impl Integrator for DriftKickDrift {
     fn name(&self) -> String {
         "drift-kick-drift".into()
     }
-    fn step(&mut self, system: &mut dyn System, dt: f64) -> Result<()> {
+    fn step(&self, system: &mut dyn System, dt: f64) -> Result<()> {
         if !system.has_rates() {
             system.evaluate(0.0)?;
         }
         system.drift(0.5 * dt, 0.0)?;
         system.predict(0.5 * dt);
         system.evaluate(0.5 * dt)?;
-        system.retract();
+        system.restore();
         system.kick(dt);
         system.drift(0.5 * dt, 0.5 * dt)
     }
@@ -66,12 +66,12 @@ impl Integrator for PositionVerlet {
     fn name(&self) -> String {
         "position-verlet".into()
     }
-    fn step(&mut self, system: &mut dyn System, dt: f64) -> Result<()> {
+    fn step(&self, system: &mut dyn System, dt: f64) -> Result<()> {
         system.evaluate(0.0)?;
         system.drift(0.5 * dt, 0.0)?;
         system.predict(0.5 * dt);
         system.evaluate(0.5 * dt)?;
-        system.retract();
+        system.restore();
         system.kick(dt);
         system.drift(0.5 * dt, 0.5 * dt)
     }

@@ -52,10 +52,10 @@ pub trait System {
     /// x ← x + `dv` v + `da` a, and nothing else.
     fn shift(&mut self, dv: f64, da: f64);
     /// Sets what a kick changes `dt` \[s\] ahead with the last rates, for the forces that need them;
-    /// [`retract`](System::retract) takes it back.
+    /// [`restore`](System::restore) takes it back.
     fn predict(&mut self, dt: f64);
     /// Takes the last prediction back.
-    fn retract(&mut self);
+    fn restore(&mut self);
     /// Keeps the present state in a slot.
     fn save(&mut self, slot: usize);
     /// Brings a kept state back; the last rates stay.
@@ -80,7 +80,7 @@ pub trait System {
 ///
 /// impl Integrator for SymplecticEuler {
 ///     fn name(&self) -> String { "symplectic Euler".into() }
-///     fn step(&mut self, system: &mut dyn System, dt: f64) -> Result<()> {
+///     fn step(&self, system: &mut dyn System, dt: f64) -> Result<()> {
 ///         system.evaluate(0.0)?;
 ///         system.kick(dt);
 ///         system.drift(dt, 0.0)
@@ -98,7 +98,7 @@ pub trait Integrator: Debug + Send + Sync {
     ///
     /// # Errors
     /// Passes on what an evaluation reports.
-    fn step(&mut self, system: &mut dyn System, dt: f64) -> Result<()>;
+    fn step(&self, system: &mut dyn System, dt: f64) -> Result<()>;
     /// Largest stable ω dt on an undamped oscillator, relative to the leapfrog's 2.
     fn stability(&self) -> f64 {
         1.0

@@ -14,7 +14,7 @@ impl Integrator for Midpoint {
     fn name(&self) -> String {
         "midpoint".into()
     }
-    fn step(&mut self, system: &mut dyn System, dt: f64) -> Result<()> {
+    fn step(&self, system: &mut dyn System, dt: f64) -> Result<()> {
         system.save(0);
         system.evaluate(0.0)?;
         system.combine(0, 0.0, 1.0, 0.5 * dt);
@@ -43,7 +43,7 @@ impl Integrator for StrongStabilityPreserving3 {
     fn name(&self) -> String {
         "ssp-rk3".into()
     }
-    fn step(&mut self, system: &mut dyn System, dt: f64) -> Result<()> {
+    fn step(&self, system: &mut dyn System, dt: f64) -> Result<()> {
         system.save(0);
         system.evaluate(0.0)?;
         system.combine(0, 0.0, 1.0, dt);
@@ -74,7 +74,7 @@ impl Integrator for RungeKutta4 {
     fn name(&self) -> String {
         "rk4".into()
     }
-    fn step(&mut self, system: &mut dyn System, dt: f64) -> Result<()> {
+    fn step(&self, system: &mut dyn System, dt: f64) -> Result<()> {
         system.save(0);
         system.save(1);
         system.evaluate(0.0)?;

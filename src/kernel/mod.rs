@@ -62,6 +62,7 @@
 
 mod cubic;
 mod gaussian;
+pub(crate) mod lattice;
 mod quartic;
 mod quintic;
 #[cfg(test)]
@@ -316,4 +317,31 @@ use {family, first_function};
 fn inside<L: Lane>(q: L) -> (L, L) {
     let q = q.min(L::of(2.0));
     (q, q.mul_add(L::of(-0.5), L::one()))
+}
+
+/// What a kernel says about itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KernelFacts {
+    /// Its name.
+    pub name: &'static str,
+    /// Support in units of h.
+    pub support: f64,
+    /// Recommended h/dx.
+    pub h_over_dx: f64,
+    /// Accepted h/dx.
+    pub range: (f64, f64),
+    /// Stable step of an undamped leapfrog in h/c.
+    pub stable_step: f64,
+}
+
+impl KernelFacts {
+    pub(crate) fn of<const D: usize>(kernel: &impl Kernel<D>) -> Self {
+        Self {
+            name: kernel.name(),
+            support: kernel.support(),
+            h_over_dx: kernel.h_over_dx(),
+            range: kernel.h_over_dx_range(),
+            stable_step: kernel.stable_step(),
+        }
+    }
 }

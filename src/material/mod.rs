@@ -83,7 +83,7 @@ pub trait EosObject<T: Real>: sealed::Sealed + Debug + Send + Sync + 'static {
     /// Pressures \[Pa\] and sound speeds \[m/s\] of a row of particles from densities \[kg/m³\] and
     /// specific internal energies \[J/kg\] (zero where absent), and how often guards acted. As many
     /// particles as the shortest slice has; nothing is allocated.
-    fn close(
+    fn evaluate(
         &self,
         density: &[T],
         energy: Option<&[T]>,
@@ -162,7 +162,7 @@ impl<T: Real, E: EquationOfState> EosObject<T> for Erased<E> {
             .then(|| cold::density_at(law, self.law.reference_density(), pressure))
             .flatten()
     }
-    fn close(
+    fn evaluate(
         &self,
         density: &[T],
         energy: Option<&[T]>,
@@ -384,7 +384,7 @@ mod tests {
         let (mut p, mut c) = (vec![T::default(); count], vec![T::default(); count]);
         let counts = material
             .eos()
-            .close(&density, Some(&energy), &mut p, &mut c);
+            .evaluate(&density, Some(&energy), &mut p, &mut c);
         let mut cuts = 0;
         for k in 0..count {
             let state = law.state(density[k], energy[k]);
@@ -393,7 +393,7 @@ mod tests {
         }
         assert!(cuts > 0 && counts.cut_off == cuts && counts.total() == cuts);
 
-        let without = material.eos().close(&density, None, &mut p, &mut c);
+        let without = material.eos().evaluate(&density, None, &mut p, &mut c);
         assert_eq!(without.cut_off, cuts);
         assert_eq!(
             p[count - 1],
@@ -418,7 +418,7 @@ mod tests {
             .collect();
         let close = |material: &Material<T>| {
             let (mut p, mut c) = (vec![T::default(); count], vec![T::default(); count]);
-            let counts = material.eos().close(&density, None, &mut p, &mut c);
+            let counts = material.eos().evaluate(&density, None, &mut p, &mut c);
             (p, c, counts)
         };
         let (p, c, counts) = close(&set);

@@ -68,6 +68,16 @@ impl<T: Real, const D: usize> Columns<T, D> {
         &mut self.data[field.place()]
     }
 
+    /// Every column that is there, with its field, in the order of storage.
+    pub(crate) fn iter_mut(&mut self) -> impl Iterator<Item = (Field, &mut [T])> {
+        let fields = self.fields;
+        let columns = self.data.iter_mut().enumerate();
+        let present = columns.filter(move |(place, _)| fields.has_place(*place));
+        fields
+            .iter()
+            .zip(present.map(|(_, column)| column.as_mut_slice()))
+    }
+
     /// A vector field as one array a slot.
     #[inline]
     #[must_use]
@@ -96,11 +106,11 @@ impl<T: Real, const D: usize> Columns<T, D> {
         }
     }
 
-    /// Makes slot `to` what slot `from` is.
-    pub(crate) fn copy_slot(&mut self, from: usize, to: usize) {
+    /// Sets all fields of a slot to zero.
+    pub(crate) fn clear_slot(&mut self, slot: usize) {
         for field in self.fields.iter() {
             let width = field.components(D);
-            self.data[field.place()].copy_within(from * width..(from + 1) * width, to * width);
+            self.data[field.place()][slot * width..(slot + 1) * width].fill(T::zero());
         }
     }
 

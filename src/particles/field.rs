@@ -127,6 +127,10 @@ macro_rules! quantities {
             pub const fn contains(self, member: $Quantity) -> bool {
                 self.0 >> member.index & 1 == 1
             }
+            /// Whether the member with this place belongs to the set.
+            pub(crate) const fn has_place(self, place: usize) -> bool {
+                self.0 >> place & 1 == 1
+            }
             /// Where `member` starts when the set is laid out in order, in `d` dimensions.
             #[must_use]
             #[inline(always)]
@@ -279,8 +283,8 @@ quantities! {
     DENSITY, Scalar, "density", "kg/m³";
     /// The rounding error of an integrated density, kept where the scalar is `f32`.
     DENSITY_RESIDUAL, Scalar, "density_residual", "kg/m³";
-    /// Natural logarithm of the density that torn liquid would have over the density at which it is held.
-    TEAR, Scalar, "tear", "1";
+    /// Natural logarithm of the density that cavitated liquid would have over the density at which it is held.
+    EXPANSION, Scalar, "expansion", "1";
     /// Specific internal energy e.
     ENERGY, Scalar, "energy", "J/kg";
     /// Smoothing length h.
@@ -356,8 +360,8 @@ quantities! {
     LIQUID_VELOCITY, Vector, "liquid_velocity", "m/s";
     /// Σⱼ Vⱼ μⱼ Wᵢⱼ over liquid, from which a wall takes its viscosity.
     LIQUID_VISCOSITY, Scalar, "liquid_viscosity", "Pa s";
-    /// Σⱼ Vⱼ ∇W with a weight that grows as particles meet: where they crowd.
-    CROWDING, Vector, "crowding", "1/m";
+    /// The gradient of the concentration, Σⱼ Vⱼ ∇W with a weight that grows as particles meet.
+    CONCENTRATION_GRADIENT, Vector, "concentration_gradient", "1/m";
     /// −Σⱼ Vⱼ rᵢⱼ ⊗ ∇W.
     MOMENT_MATRIX, Matrix, "moment_matrix", "1";
     /// The fastest signal that a viscosity saw, a maximum and not a sum.

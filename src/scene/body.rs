@@ -5,18 +5,8 @@ use crate::boundary::Slip;
 use crate::geometry::{FEWER, Flaw, MOST_PARTICLES, POSITIVE, Shape, filled};
 use crate::material::Material;
 use crate::scalar::Real;
+pub use crate::scheme::Start;
 use std::collections::HashMap;
-
-/// The state in which a particle starts.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Start<const D: usize> {
-    /// Velocity \[m/s\].
-    pub velocity: [f64; D],
-    /// Density \[kg/m³\].
-    pub density: f64,
-    /// Specific internal energy \[J/kg\].
-    pub energy: f64,
-}
 
 /// A body: particles of one material.
 ///

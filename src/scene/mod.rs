@@ -81,7 +81,7 @@ pub struct Scene<T: Real, const D: usize> {
     outlets: Vec<Outlet<D>>,
     inlets: Vec<Inlet<D>>,
     boundaries: Vec<Arc<dyn Boundary<T, D>>>,
-    integrator: Box<dyn Integrator>,
+    integrator: Arc<dyn Integrator>,
     contacts: Vec<(String, String, Interaction)>,
     loads: Vec<Load<D>>,
     control: StepControl,
@@ -113,7 +113,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             outlets: Vec::new(),
             inlets: Vec::new(),
             boundaries: Vec::new(),
-            integrator: Box::new(KickDriftKick),
+            integrator: Arc::new(KickDriftKick),
             contacts: Vec::new(),
             loads: Vec::new(),
             control,
@@ -213,14 +213,14 @@ impl<T: Real, const D: usize> Scene<T, D> {
     /// Chooses the integrator; [`KickDriftKick`] if not given.
     #[must_use]
     pub fn integrator(mut self, integrator: impl Integrator + 'static) -> Self {
-        self.integrator = Box::new(integrator);
+        self.integrator = Arc::new(integrator);
         self
     }
 
     /// Chooses an integrator that is already boxed.
     #[must_use]
     pub fn boxed_integrator(mut self, integrator: Box<dyn Integrator>) -> Self {
-        self.integrator = integrator;
+        self.integrator = integrator.into();
         self
     }
 

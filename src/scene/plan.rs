@@ -6,7 +6,7 @@ use crate::boundary::{Emitter, Inlet, Slip, Wall};
 use crate::particles::{Columns, Field, Fields};
 use crate::scalar::Real;
 use crate::scheme::{Scheme, Smoothing};
-use crate::simulation::{BodyState, Group, Structure, WallState, width};
+use crate::simulation::{BodyState, Group, Particles, Structure, WallState, width};
 use crate::sweep::Interaction;
 use std::sync::Arc;
 
@@ -38,7 +38,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
 
     fn plan(&self, number: usize) -> Plan<'_, T, D> {
         let part = &self.parts[number];
-        let is_liquid = |part: &Part<T, D>| part.scheme.liquid.is_some();
+        let is_liquid = |part: &Part<T, D>| part.scheme.meets_walls();
         let mut walls = Vec::new();
         // Walls without a liquid are the fault of the scene's own scheme.
         if is_liquid(part) || (number == 0 && !self.parts.iter().any(is_liquid)) {
@@ -116,7 +116,9 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             let end = (start + self.room(body)).next_multiple_of(width);
             for slot in start..end {
                 let k = (slot - start).min(body.points.len() - 1);
-                self.place(&mut columns, body, slot, k);
+                let own = (&body.material, body.spacing);
+                self.scheme
+                    .place(&mut columns, slot, own, body.points[k], &body.starts[k]);
             }
             let ids = start..start + self.room(body);
             start = end;
@@ -144,9 +146,9 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         let h = self.scheme.h_over_dx * widest;
         let support = self.scheme.kernel.support * h;
         let skins = self.skins().map(|skin| skin * support);
+        let mobile = walls.first().map_or(slots, |wall| wall.slots.start);
         let mut group = Group::new(
-            columns,
-            bodies,
+            Particles::new(columns, bodies, mobile),
             walls,
             self.scene.boundaries.clone(),
             self.scheme.clone(),
@@ -154,27 +156,19 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             h,
             skins,
         );
-        group.seats = self.seats();
+        group.indices = self.indices();
         group.instructions = self.scene.instructions;
         group.outlets.clone_from(&self.scene.outlets);
         group.emitters = emitters;
-        for body in &group.bodies {
-            for id in body.slots.end..body.ids.end {
-                group.slot_of[id] = u32::MAX;
-            }
-        }
         group
     }
 
     /// Skins of the lists over the support: of lists that last, and of lists that do not.
     fn skins(&self) -> [f64; 2] {
-        let liquid = self.scheme.liquid.as_ref();
-        // Images reach through a period as far as the check of the boundaries found room for, and what two
-        // criteria renew with the lists must not wait for longer.
-        let one = !self.scene.boundaries.is_empty() || liquid.is_some_and(|own| own.dual_criteria);
         match self.scene.skin {
             Some(skin) => [skin; 2],
-            None if one => [SKINS[0]; 2],
+            // Images reach through a period as far as the check of the boundaries found room for.
+            None if !self.scene.boundaries.is_empty() => [SKINS[0]; 2],
             None => SKINS,
         }
     }
@@ -200,7 +194,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                 )
             }
         };
-        let normals = if self.scheme.has_riemann_walls() {
+        let normals = if self.scheme.program.wall_normals {
             wall.normals()
         } else {
             Vec::new()
@@ -221,9 +215,9 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         }
     }
 
-    /// What its bodies, walls and boundaries are in the scene: bodies of all groups, then walls and the
+    /// The scene indices of its bodies, walls and boundaries: bodies of all groups, then walls and the
     /// buffers of inlets, then boundaries.
-    fn seats(&self) -> Vec<usize> {
+    fn indices(&self) -> Vec<usize> {
         let scene = self.scene;
         let before = |number: usize| -> usize {
             scene.parts[..number]
@@ -242,40 +236,6 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         own.chain(walls)
             .chain(boundaries..boundaries + scene.boundaries.len())
             .collect()
-    }
-
-    /// Writes particle `k` of a body into a slot.
-    fn place(&self, columns: &mut Columns<T, D>, body: &Body<T, D>, slot: usize, k: usize) {
-        let (x, start) = (body.points[k], body.starts[k]);
-        let rounded = x.map(T::from_f64);
-        columns.vectors_mut(Field::POSITION)[slot] = rounded;
-        if columns.fields().contains(Field::POSITION_RESIDUAL) {
-            columns.vectors_mut(Field::POSITION_RESIDUAL)[slot] =
-                core::array::from_fn(|d| T::from_f64(x[d] - rounded[d].to_f64()));
-        }
-        columns.vectors_mut(Field::VELOCITY)[slot] = start.velocity.map(T::from_f64);
-        let mut set = |field: Field, value: f64| {
-            if let Some(place) = columns.raw_mut(field).get_mut(slot) {
-                *place = T::from_f64(value);
-            }
-        };
-        set(Field::DENSITY, start.density);
-        set(Field::REFERENCE_DENSITY, start.density);
-        set(Field::MASS, start.density * body.spacing.powi(D as i32));
-        set(Field::ENERGY, start.energy);
-        let viscosity = body
-            .material
-            .rheology()
-            .map_or(0.0, |law| law.viscosity(0.0));
-        set(Field::DYNAMIC_VISCOSITY, viscosity);
-        set(
-            Field::SMOOTHING_LENGTH,
-            self.scheme.h_over_dx * body.spacing,
-        );
-        set(
-            Field::VISCOSITY_COEFFICIENT,
-            self.scheme.starting_coefficient(),
-        );
     }
 
     /// Particles that a body can have: those that it starts with, and what inlets may add.
@@ -345,7 +305,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
     /// What every block does to every other: bodies, walls, images of bodies by boundary, and images of
     /// each wall by boundary.
     fn interactions(&self) -> Vec<Interaction> {
-        if self.scheme.liquid.is_some() {
+        if self.scheme.meets_walls() {
             return self.liquid_interactions();
         }
         let (bodies, boundaries) = (self.bodies.len(), self.scene.boundaries.len());

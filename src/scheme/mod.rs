@@ -1,17 +1,19 @@
-//! Schemes: named lists of terms that can be printed.
-//! A scheme joins a kernel, a density form with its pressure form, a viscosity, and an energy form.
+//! Schemes: kernels with lists of effects, as step programs that can be printed.
+//! A scheme joins a kernel, a density form with its pressure form, a viscosity, an energy form, and effects.
 //!
 //! [`SchemeBuilder`] takes the choices, and [`SchemeBuilder::compose`] compiles them into sweeps over
-//! pairs. At most four run in an evaluation, each one loop for all its terms:
+//! pairs, one a [stage](crate::term::Stage) at most, each one loop for all its terms:
 //!
 //! | sweep | runs | makes |
 //! |---|---|---|
-//! | sums | unless density is integrated | kernel sums, and with them density |
-//! | gradient | if the viscosity or the curvature asks | ∇v and ∇p, exact for linear fields |
+//! | density | unless density is integrated | kernel sums, and with them density |
+//! | walls | in liquids with walls | what walls take from the liquid |
+//! | gradients | if a term asks | ∇v and ∇p, exact for linear fields |
+//! | flow | if an effect asks | what follows from gradients |
 //! | rates | always | force, power, signal; rate of compression where density is integrated |
-//! | compression | in a drift, where density is integrated | rate of compression at the middle of the drift |
+//! | continuity | in a drift, where density is integrated | rate of compression at the middle of the drift |
 //!
-//! A fifth sweep runs once, when the scene is built: it takes the sums at rest from which
+//! One more sweep runs once, when the scene is built: it takes the sums at rest from which
 //! [`DensityForm::NumberDensity`] and [`DensityForm::Continuity`] measure.
 //!
 //! # Density and pressure are one choice
@@ -32,23 +34,20 @@
 //! long the step. [`EnergyForm::Symmetric`] saves that pass, and drifts with the order of the step.
 
 mod builder;
-mod density;
-mod lattice;
-mod liquid;
-mod shifting;
+mod force;
+mod print;
+mod start;
 
-pub use builder::{DEFAULT_STEP_FACTOR, SchemeBuilder};
-pub use density::DensityForm;
-pub(crate) use liquid::Liquid;
-pub use liquid::{LiquidBuilder, ONE_EVALUATION_STEP};
-pub use shifting::Shifting;
+pub use crate::effect::{DensityForm, Shifting};
+pub use crate::kernel::KernelFacts;
+pub use builder::{DEFAULT_STEP_FACTOR, DENSITY_WITH_RATES_STEP, SchemeBuilder};
+pub use start::Start;
 
-use crate::kernel::Kernel;
+use crate::effect::{StepProgram, When};
 use crate::particles::{Field, Fields};
 use crate::scalar::Real;
 use crate::sweep::PairSweep;
-use crate::term::{TermDoc, viscosity::Switch};
-use core::fmt;
+use crate::term::{Stage, TermDoc};
 
 /// How internal energy follows from the work of pair forces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -96,33 +95,6 @@ pub enum Smoothing {
     },
 }
 
-/// What the scheme's kernel says about itself.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct KernelFacts {
-    /// Its name.
-    pub name: &'static str,
-    /// Support in units of h.
-    pub support: f64,
-    /// Recommended h/dx.
-    pub h_over_dx: f64,
-    /// Accepted h/dx.
-    pub range: (f64, f64),
-    /// Stable step of an undamped leapfrog in h/c.
-    pub stable_step: f64,
-}
-
-impl KernelFacts {
-    fn of<const D: usize>(kernel: &impl Kernel<D>) -> Self {
-        Self {
-            name: kernel.name(),
-            support: kernel.support(),
-            h_over_dx: kernel.h_over_dx(),
-            range: kernel.h_over_dx_range(),
-            stable_step: kernel.stable_step(),
-        }
-    }
-}
-
 /// A composed scheme: what a group of bodies obeys. Built by [`SchemeBuilder`], or ready in
 /// [`schemes`](crate::schemes).
 #[derive(Debug)]
@@ -135,17 +107,17 @@ pub struct Scheme<T: Real, const D: usize> {
     pub(crate) smoothing: Smoothing,
     pub(crate) h_over_dx: f64,
     pub(crate) step_factor: f64,
+    /// Whether sums are divided by the first moment of each particle at rest.
     pub(crate) normalised: bool,
-    pub(crate) viscosity_problems: Vec<(&'static str, f64, &'static str)>,
-    pub(crate) switch: Option<Switch>,
+    /// What is wrong with the parameters of its parts.
+    pub(crate) problems: Vec<(String, f64, &'static str)>,
+    /// The sums at rest from which density forms measure.
     pub(crate) reference: Option<Box<dyn PairSweep<T, D>>>,
-    pub(crate) sums: Option<Box<dyn PairSweep<T, D>>>,
-    pub(crate) compression: Option<Box<dyn PairSweep<T, D>>>,
-    pub(crate) gradient: Option<Box<dyn PairSweep<T, D>>>,
-    pub(crate) rates: Box<dyn PairSweep<T, D>>,
-    pub(crate) liquid: Option<Liquid<T, D>>,
+    pub(crate) sweeps: [Option<Box<dyn PairSweep<T, D>>>; Stage::COUNT],
     /// First moment of the kernel gradient on the lattice, where particles do not carry their own.
     pub(crate) lattice_moment: f64,
+    /// What its effects do beside their pair terms.
+    pub(crate) program: StepProgram<T, D>,
 }
 
 impl<T: Real, const D: usize> Scheme<T, D> {
@@ -167,92 +139,42 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         self.kernel
     }
 
-    /// Whether the forces' sweep sums compression too, so that density is kicked with velocity.
+    /// The sweep of a stage, if any term names the stage.
+    pub(crate) fn sweep(&self, stage: Stage) -> Option<&dyn PairSweep<T, D>> {
+        self.sweeps[stage.number()].as_deref()
+    }
+
+    /// Whether it has a wall law, and so meets walls of particles and the bodies of schemes that have none.
+    pub(crate) fn meets_walls(&self) -> bool {
+        self.sweep(Stage::Walls).is_some()
+    }
+
+    /// Whether the forces' sweep sums the rate of density too, so that density is kicked with velocity.
     pub(crate) fn kicks_density(&self) -> bool {
-        self.liquid.is_some() && self.compression.is_none()
+        self.density.is_integrated() && self.program.setting().density_changes == When::Kick
     }
 
-    /// Whether walls meet its liquid as in a Riemann problem.
-    pub(crate) fn has_riemann_walls(&self) -> bool {
-        self.liquid.as_ref().is_some_and(|own| own.riemann_walls)
+    /// Whether something is summed in the middle of a drift.
+    pub(crate) fn sums_in_drift(&self) -> bool {
+        self.sweep(Stage::Continuity).is_some()
     }
 
-    /// Whether it has what a second criterion can keep: corrections without gradients of density, which follow
-    /// sound, or viscosities that follow the shear rate.
-    pub(crate) fn has_slow_fields(&self) -> bool {
-        let fields = self.fields();
-        let corrected =
-            fields.contains(Field::CORRECTION) && !fields.contains(Field::DENSITY_GRADIENT);
-        corrected || (self.liquid.as_ref()).is_some_and(|liquid| liquid.shear.is_some())
-    }
-
-    /// All sweeps, in the order in which a step runs them.
-    fn sweeps(&self) -> impl Iterator<Item = &dyn PairSweep<T, D>> {
-        let optional = [&self.sums, &self.compression, &self.gradient];
-        optional
-            .into_iter()
-            .filter_map(|sweep| sweep.as_deref())
-            .chain(self.liquid.iter().map(|liquid| liquid.wall.as_ref()))
-            .chain(
-                self.liquid
-                    .iter()
-                    .filter_map(|liquid| liquid.shear.as_deref()),
-            )
-            .chain(core::iter::once(self.rates.as_ref()))
-    }
-
-    /// The terms, in the order in which a step meets them.
+    /// The terms, in the order in which a step meets them, and what else effects do.
     #[must_use]
     pub fn terms(&self) -> Vec<TermDoc> {
-        let liquid = self.liquid.as_ref();
-        let damping = liquid.and_then(|own| own.acoustic_damping);
-        let damping = damping.map(|strength| TermDoc {
-            name: format!("bulk viscosity against sound, λ = {strength}"),
-            equation: "p ← p − λ ρ c h ∇·v",
-            source: "after Sun, Pilloton, Antuono & Colagrossi 2023",
-        });
-        let consistency = liquid.and_then(|own| own.volume_consistency);
-        let consistency = consistency.map(|(strength, _)| TermDoc {
-            name: format!("volume consistency, κ = {strength}"),
-            equation: "dρᵢ/dt += κ (c/h) ρᵢ (uᵢ/u₀ − 1)",
-            source: "after Colagrossi & Landrini 2003",
-        });
-        let dual = liquid.filter(|own| own.dual_criteria);
-        let dual = dual.map(|_| TermDoc {
-            name: "corrections and viscosities once an advection step".into(),
-            equation: "kept until a particle has moved by half the skin, or for h²/(4 ν)",
-            source: "after Zhang, Rezavand & Hu 2020",
-        });
-        let walls = liquid.filter(|own| own.riemann_walls);
-        let walls = walls.map(|_| TermDoc {
-            name: "walls as one-sided Riemann problems".into(),
-            equation: "p_w ← p_w + 2 ρ β u, u = (Σ v_f W / Σ W − v_wall)·n, β = min(6 |u|, c)",
-            source: "after Zhang, Hu & Adams 2017, eqs. 13, 14",
-        });
-        let tearing = liquid.filter(|own| own.reversible_tearing);
-        let tearing = tearing.map(|_| TermDoc {
-            name: "reversible tearing".into(),
-            equation: "ρ = ρ_t while τ = ln(ρ/ρ_t) by continuity is below 0, τ ≥ −1",
-            source: "of this crate",
-        });
-        self.sweeps()
-            .flat_map(PairSweep::document)
-            .chain(damping)
-            .chain(consistency)
-            .chain(walls)
-            .chain(tearing)
-            .chain(dual)
+        let sweeps = self.sweeps.iter().flatten();
+        sweeps
+            .flat_map(|sweep| sweep.document())
+            .chain(self.program.documents.iter().cloned())
             .collect()
     }
 
     /// The fields that a particle carries under this scheme.
     #[must_use]
     pub fn fields(&self) -> Fields {
-        let mut fields = self
-            .sweeps()
-            .chain(self.reference.as_deref())
-            .fold(Fields::NONE, |all, sweep| all.union(sweep.fields()));
-        fields = fields.union(Fields::of(&[
+        let sweeps = self.sweeps.iter().flatten().chain(&self.reference);
+        let mut fields = sweeps.fold(Fields::NONE, |all, sweep| all.union(sweep.fields()));
+        fields = fields.union(self.program.fields()).union(Fields::of(&[
             Field::POSITION,
             Field::VELOCITY,
             Field::MASS,
@@ -264,12 +186,6 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         ]));
         if T::COMPENSATED {
             fields = fields.union(Fields::of(&[Field::POSITION_RESIDUAL]));
-            if self.density.is_integrated() {
-                fields = fields.union(Fields::of(&[Field::DENSITY_RESIDUAL]));
-            }
-        }
-        if self.energy != EnergyForm::None {
-            fields = fields.union(Fields::of(&[Field::ENERGY]));
         }
         if self.energy == EnergyForm::Compatible {
             fields = fields.union(Fields::of(&[Field::MEAN_VELOCITY]));
@@ -284,54 +200,6 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         if self.smoothing != Smoothing::Fixed {
             fields = fields.union(Fields::of(&[Field::SMOOTHING_LENGTH]));
         }
-        if matches!(self.smoothing, Smoothing::Consistent { .. }) {
-            fields = fields.union(Fields::of(&[Field::GRAD_H]));
-        }
-        let damped = |liquid: &Liquid<T, D>| liquid.acoustic_damping.is_some();
-        if self.liquid.as_ref().is_some_and(damped) {
-            fields = fields.union(Fields::of(&[Field::DIVERGENCE]));
-        }
-        let tears = |liquid: &Liquid<T, D>| liquid.reversible_tearing;
-        if self.liquid.as_ref().is_some_and(tears) {
-            fields = fields.union(Fields::of(&[Field::TEAR]));
-        }
-        match self.switch {
-            Some(Switch::CullenDehnen { .. }) => {
-                // In one dimension there is no shear to tell from a shock.
-                let shear: &[Field] = if D > 1 {
-                    &[Field::VELOCITY_GRADIENT]
-                } else {
-                    &[]
-                };
-                fields.union(Fields::of(shear)).union(Fields::of(&[
-                    Field::VISCOSITY_COEFFICIENT,
-                    Field::DIVERGENCE,
-                ]))
-            }
-            Some(Switch::MorrisMonaghan { .. }) => {
-                fields.union(Fields::of(&[Field::VISCOSITY_COEFFICIENT]))
-            }
-            None => fields,
-        }
-    }
-
-    /// The coefficient of artificial viscosity that a particle starts with, where it has its own.
-    pub(crate) fn starting_coefficient(&self) -> f64 {
-        self.switch.map_or(0.0, |switch| switch.start())
-    }
-}
-
-impl<T: Real, const D: usize> fmt::Display for Scheme<T, D> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(
-            f,
-            "{}: {} kernel, h/dx {}, density by {}, energy {:?}, smoothing {:?}",
-            self.name, self.kernel.name, self.h_over_dx, self.density, self.energy, self.smoothing
-        )?;
-        for term in self.terms() {
-            writeln!(f, "  {}: {}  [{}]", term.name, term.equation, term.source)?;
-        }
-        let fields: Vec<_> = self.fields().iter().map(Field::name).collect();
-        write!(f, "  carries {}", fields.join(", "))
+        fields
     }
 }

@@ -3,9 +3,12 @@
 
 use super::Simulation;
 use super::group::Group;
+use super::stages::Moment;
+use crate::effect::When;
 use crate::error::Result;
 use crate::integrator::System;
 use crate::scalar::Real;
+use crate::term::Stage;
 
 impl<T: Real, const D: usize> System for Simulation<T, D> {
     fn evaluate(&mut self, offset: f64) -> Result<()> {
@@ -16,18 +19,11 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
             group.evaluated_gravity = group.gravity.map(T::from_f64);
         }
         self.place_structures();
-        // Viscosity coefficients follow where the sums stand in the same order as the particles.
-        let elapsed = core::mem::take(&mut self.switch_due);
+        // What follows the flow once a step does so at the first evaluation.
+        let elapsed = core::mem::take(&mut self.due);
         for k in 0..self.groups.len() {
-            let group = &mut self.groups[k];
-            group.evaluate(time);
-            if group.scheme.kicks_density() {
-                group.keep_divergence();
-            }
+            self.groups[k].evaluate(time, elapsed);
             self.follow_moves(k);
-            if elapsed > 0.0 {
-                self.groups[k].follow_switch(elapsed);
-            }
         }
         self.load_structures();
         self.evaluations += 1;
@@ -41,10 +37,11 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
         }
         self.record_impulses(dt);
         self.record_work(dt);
+        let time = self.time;
         for group in &mut self.groups {
             group.kick(dt);
-            if group.scheme.kicks_density() {
-                group.hold_densities();
+            if group.evolves_at(When::Kick) {
+                group.apply_laws(Stage::Bounds, Moment::at(time));
             }
         }
     }
@@ -52,7 +49,7 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
     fn drift(&mut self, dt: f64, offset: f64) -> Result<()> {
         let begin = self.time + offset;
         for group in &mut self.groups {
-            if group.scheme.compression.is_some() {
+            if group.scheme.sums_in_drift() {
                 group.predict_weights(0.5 * dt);
             }
             let whole = group.drifts_at_once();
@@ -66,18 +63,19 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
         self.load_groups(begin + 0.5 * dt);
         self.place_structures();
         for k in 0..self.groups.len() {
-            let group = &mut self.groups[k];
-            if group.scheme.compression.is_some() {
-                group.chord = Some([begin, begin + dt]);
-                group.refresh(begin + 0.5 * dt);
-                group.chord = None;
+            if self.groups[k].scheme.sums_in_drift() {
+                self.groups[k].refresh(begin + 0.5 * dt, Some([begin, begin + dt]));
                 self.follow_moves(k);
                 let group = &mut self.groups[k];
-                group.sum_compression();
-                group.compress(dt);
-                group.keep_divergence();
-                group.hold_densities();
-                group.shift(dt);
+                group.sum(|scheme| scheme.sweep(Stage::Continuity));
+                group.advance(When::Drift, dt);
+                let moment = Moment {
+                    dt,
+                    in_drift: true,
+                    ..Moment::at(begin + 0.5 * dt)
+                };
+                group.apply_laws(Stage::Continuity, moment);
+                group.apply_laws(Stage::Bounds, moment);
             }
             let group = &mut self.groups[k];
             if !group.drifts_at_once() {
@@ -100,9 +98,9 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
         }
     }
 
-    fn retract(&mut self) {
+    fn restore(&mut self) {
         for group in &mut self.groups {
-            group.retract();
+            group.restore();
         }
     }
 

@@ -108,8 +108,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 return Err(self.broken(group, vote.particle));
             }
             if all.is_none_or(|all| vote.step < all.step) {
-                let id = group.ids.get(vote.particle);
-                let particle = id.map_or(usize::MAX, |&id| group.first_id + id as usize);
+                let id = group.particles.ids.get(vote.particle);
+                let particle = id.map_or(usize::MAX, |&id| group.particles.first_id + id as usize);
                 all = Some(Vote { particle, ..vote });
             }
         }
@@ -118,9 +118,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// The error that describes a particle whose state is no longer finite.
     fn broken(&self, group: &Group<T, D>, slot: usize) -> Error {
-        let columns = &group.columns;
+        let columns = &group.particles.columns;
         let number = |field: Field| columns.raw(field)[slot].to_f64();
-        let force = group.rows.get(Output::FORCE, 0, slot).to_f64();
+        let force = group.work.rates.get(Output::FORCE, 0, slot).to_f64();
         let candidates = [
             ("density", number(Field::DENSITY)),
             ("pressure", number(Field::PRESSURE)),
@@ -135,12 +135,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             !value.is_finite() || (name == "density" && value <= 0.0)
         };
         let (quantity, value) = candidates.into_iter().find(wrong).unwrap_or(candidates[0]);
-        let body = &group.bodies[group.body_of(slot)];
+        let body = &group.particles.bodies[group.particles.body_of(slot)];
         Error::NotFinite {
             quantity,
             value,
             body: body.name.clone(),
-            particle: group.ids[slot] as usize - body.slots.start,
+            particle: group.particles.ids[slot] as usize - body.slots.start,
             position: columns.vectors(Field::POSITION)[slot]
                 .iter()
                 .map(|x| x.to_f64())
@@ -161,7 +161,7 @@ const NO_VOTE: Vote = Vote {
 impl<T: Real, const D: usize> Group<T, D> {
     /// The largest stable step, and the slot that sets it; negative where a state is not finite.
     fn vote(&self, control: &StepControl) -> Vote {
-        let columns = &self.columns;
+        let columns = &self.particles.columns;
         let (c, rho) = (columns.raw(Field::SOUND_SPEED), columns.raw(Field::DENSITY));
         let viscosity = columns.raw(Field::DYNAMIC_VISCOSITY);
         let (mass, h) = (
@@ -184,14 +184,14 @@ impl<T: Real, const D: usize> Group<T, D> {
             }
         };
         let gravity = Vector::<T, D>::from(self.evaluated_gravity);
-        (0..self.mobile)
+        (0..self.particles.mobile)
             .into_par_iter()
             .with_min_len(4096)
             .map(|slot| {
                 let h = h.get(slot).map_or(uniform, |h| h.to_f64());
-                let signal = self.rows.get(Output::SIGNAL, 0, slot).to_f64();
+                let signal = self.work.rates.get(Output::SIGNAL, 0, slot).to_f64();
                 let acoustic = control.courant * h / (c[slot].to_f64() + signal);
-                let force: Vector<T, D> = self.rows.vector(Output::FORCE, slot).into();
+                let force: Vector<T, D> = self.work.rates.vector(Output::FORCE, slot).into();
                 let a = length(&(force / mass[slot] + gravity)).to_f64();
                 let by_force = control.force * (h / a.max(f64::MIN_POSITIVE)).sqrt();
                 let speed = velocity[slot].iter().fold(0.0, |s, v| s + v.to_f64().abs());

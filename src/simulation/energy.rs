@@ -65,7 +65,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     fn stored(&self) -> (f64, f64) {
         let (mut kinetic, mut compression) = (0.0, 0.0);
         for (group, body) in self.all_bodies() {
-            let columns = &group.columns;
+            let columns = &group.particles.columns;
             let (mass, density) = (columns.raw(Field::MASS), columns.raw(Field::DENSITY));
             for slot in body.slots.clone() {
                 let mass = mass[slot].to_f64();
@@ -87,8 +87,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let (mut mass, mut momentum) = (0.0, [0.0; D]);
         for (group, body) in self.all_bodies() {
             for slot in body.slots.clone() {
-                let own = group.columns.raw(Field::MASS)[slot].to_f64();
-                let v = group.columns.vectors(Field::VELOCITY)[slot];
+                let own = group.particles.columns.raw(Field::MASS)[slot].to_f64();
+                let v = group.particles.columns.vectors(Field::VELOCITY)[slot];
                 mass += own;
                 for d in 0..D {
                     momentum[d] += own * v[d].to_f64();
@@ -144,7 +144,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let mut power = 0.0;
         for group in &self.groups {
             let mut rows = Rows::default();
-            group.sum_on_walls(group.mobile..group.columns.slots(), &mut rows);
+            group.sum_on_walls(
+                group.particles.mobile..group.particles.columns.slots(),
+                &mut rows,
+            );
             for (k, wall) in group.walls.iter().enumerate() {
                 let Some(pose) = wall.motion.as_ref().map(|motion| motion.pose(time)) else {
                     continue;

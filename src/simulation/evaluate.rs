@@ -2,52 +2,21 @@
 //! Everything is done in place; nothing is allocated between two builds of the neighbour lists.
 
 use super::group::Group;
+use super::stages::{GRAIN, Moment};
+use crate::effect::DensityForm;
 use crate::material::eos::GuardCounts;
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
-use crate::scheme::{DensityForm, EnergyForm};
-use crate::sweep::{PairSweep, Pass, SweepInput};
+use crate::scheme::EnergyForm;
+use crate::sweep::Pass;
+use crate::term::Stage;
 use rayon::prelude::*;
-use std::ops::Range;
 use std::time::Instant;
 
-/// Particles that a thread takes at a time in loops over particles.
-pub(crate) const GRAIN: usize = 4096;
-
 impl<T: Real, const D: usize> Group<T, D> {
-    /// Runs a sweep into the scratch rows.
-    pub(super) fn scratch_sweep(&mut self, choose: impl Fn(&Self) -> Option<&dyn PairSweep<T, D>>) {
-        self.scratch_sweep_over(0..self.mobile, choose);
-    }
-
-    /// Runs a sweep over some slots into the scratch rows.
-    pub fn scratch_sweep_over(
-        &mut self,
-        targets: Range<usize>,
-        choose: impl Fn(&Self) -> Option<&dyn PairSweep<T, D>>,
-    ) {
-        let mut records = core::mem::take(&mut self.records);
-        self.records_of_rates = false;
-        let mut rows = core::mem::take(&mut self.scratch_rows);
-        if let Some(sweep) = choose(self) {
-            let input = SweepInput {
-                targets,
-                ..self.input()
-            };
-            let start = Instant::now();
-            sweep.pack(Pass::Rates, &input, &mut records);
-            let packed = Instant::now();
-            sweep.run(Pass::Rates, &input, &records, &mut rows);
-            self.phases.packing += packed - start;
-            self.phases.pairs += packed.elapsed();
-        }
-        self.records = records;
-        self.scratch_rows = rows;
-    }
-
     /// Weights of pair sums by a density form.
     pub(super) fn set_weights(&mut self, form: DensityForm) {
-        let [weight, mass, density, rest] = self.columns.many_mut([
+        let [weight, mass, density, rest] = self.particles.columns.many_mut([
             Field::WEIGHT,
             Field::MASS,
             Field::DENSITY,
@@ -66,14 +35,13 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// Volumes `dt` \[s\] ahead with the last rates of compression, for sums at the middle of a drift.
     pub fn predict_weights(&mut self, dt: f64) {
-        // The rates of a liquid do not sum compression, and its volumes change by little in a step;
-        // masses do not change at all.
-        let by_mass = self.scheme.density == DensityForm::ContinuityByMass;
-        if self.scheme.liquid.is_some() || by_mass {
+        // Masses do not change.
+        if self.scheme.density == DensityForm::ContinuityByMass {
             return;
         }
+        // The rates of a liquid do not sum compression, and its volumes change by little in a step.
         if !self.scheme.density.is_integrated()
-            || !self.rows.outputs().contains(Output::COMPRESSION)
+            || !self.work.rates.outputs().contains(Output::COMPRESSION)
         {
             if self.scheme.pressure_form != self.scheme.density {
                 self.set_weights(self.scheme.density);
@@ -82,8 +50,8 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
         // The last rates were summed with the weights of the force.
         let form = self.scheme.pressure_form;
-        let (rows, dt) = (&self.rows, T::from_f64(dt));
-        let [weight, mass, density, rest, moment] = self.columns.many_mut([
+        let (rates, dt) = (&self.work.rates, T::from_f64(dt));
+        let [weight, mass, density, rest, moment] = self.particles.columns.many_mut([
             Field::WEIGHT,
             Field::MASS,
             Field::DENSITY,
@@ -97,42 +65,66 @@ impl<T: Real, const D: usize> Group<T, D> {
             .enumerate()
             .with_min_len(GRAIN)
             .for_each(|(slot, weight)| {
-                let sum = rows.get(Output::COMPRESSION, 0, slot);
+                let sum = rates.get(Output::COMPRESSION, 0, slot);
                 let rate = form.compression(sum, density[slot], rest[slot], moment[slot]);
                 *weight = mass[slot] / (density[slot] * (T::one() + dt * rate));
             });
     }
 
-    /// Evaluates all rates at the present positions, velocities, densities and energies.
-    pub fn evaluate(&mut self, time: f64) {
-        self.refresh(time);
+    /// Evaluates all rates at the present positions, velocities, densities and energies. `elapsed` \[s\] is the
+    /// time over which laws that run once a step have yet to act.
+    pub fn evaluate(&mut self, time: f64, elapsed: f64) {
+        self.refresh(time, None);
         if self.scheme.pressure_form != self.scheme.density {
             self.set_weights(self.scheme.density);
         }
-        self.find_density(time);
+        let moment = Moment::at(time);
+        self.find_density(moment);
         let start = Instant::now();
-        self.close_materials();
-        self.damp_sound();
-        self.phases.materials += start.elapsed();
+        self.evaluate_materials();
+        self.apply_laws(Stage::State, moment);
+        self.work.phases.materials += start.elapsed();
         // The sweep over walls is booked with them.
-        let (start, before) = (Instant::now(), self.phases);
-        self.fill_walls(time);
-        self.phases = super::Phases {
+        let (start, before) = (Instant::now(), self.work.phases);
+        self.run_walls(time);
+        self.work.phases = super::Phases {
             walls: before.walls + start.elapsed(),
             ..before
         };
         let start = Instant::now();
         self.set_coefficients();
-        self.phases.materials += start.elapsed();
-        self.follow_flow(time);
+        self.work.phases.materials += start.elapsed();
+        self.run_stage(Stage::Gradients, moment);
+        self.run_stage(Stage::Flow, moment);
         self.sum_rates();
+        let moment = Moment {
+            dt: elapsed,
+            of_rates: true,
+            ..moment
+        };
+        if self.scheme.kicks_density() {
+            self.apply_laws(Stage::Continuity, moment);
+        }
+        self.apply_laws(Stage::Rates, moment);
+    }
+
+    fn find_density(&mut self, moment: Moment) {
+        // Contacts are asked for even where density does not follow from sums.
+        let with_contacts = self.scheme.density.is_integrated() && self.has_contacts();
+        if with_contacts {
+            self.sum(|scheme| scheme.reference.as_deref());
+            self.apply_laws(Stage::Density, moment);
+        }
+        if !self.scheme.density.is_integrated() || self.scheme.sweep(Stage::Density).is_some() {
+            self.run_stage(Stage::Density, moment);
+        }
     }
 
     /// Pressure and sound speed from the materials, body by body.
-    pub fn close_materials(&mut self) {
+    pub fn evaluate_materials(&mut self) {
         let carries_energy = self.scheme.energy != EnergyForm::None;
         let scaled = self.scheme.density == DensityForm::Lam;
-        let [density, energy, pressure, sound_speed, rest] = self.columns.many_mut([
+        let [density, energy, pressure, sound_speed, rest] = self.particles.columns.many_mut([
             Field::DENSITY,
             Field::ENERGY,
             Field::PRESSURE,
@@ -140,7 +132,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             Field::REFERENCE_DENSITY,
         ]);
         let mut guards = GuardCounts::default();
-        for body in &self.bodies {
+        for body in &self.particles.bodies {
             let own = body.run();
             let material = body.material.eos();
             let reference = T::from_f64(material.reference_density());
@@ -158,7 +150,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                     let first = chunk * GRAIN;
                     let energy = carries_energy.then(|| &energy[first..first + density.len()]);
                     if !scaled {
-                        return material.close(density, energy, pressure, sound_speed);
+                        return material.evaluate(density, energy, pressure, sound_speed);
                     }
                     // Compression is measured from the smoothed density at rest.
                     let mut counts = GuardCounts::default();
@@ -166,7 +158,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                         let rest = rest[own.start + first + k];
                         let compressed = [reference * (density[k] / rest)];
                         let energy = energy.map(|energy| &energy[k..=k]);
-                        counts += material.close(
+                        counts += material.evaluate(
                             &compressed,
                             energy,
                             &mut pressure[k..=k],
@@ -190,14 +182,15 @@ impl<T: Real, const D: usize> Group<T, D> {
         if form.is_integrated() || form != self.scheme.density {
             self.set_weights(form);
         }
-        let [coefficient, pressure, density, rest, moment, omega] = self.columns.many_mut([
-            Field::PRESSURE_COEFFICIENT,
-            Field::PRESSURE,
-            Field::DENSITY,
-            Field::REFERENCE_DENSITY,
-            Field::NORMALISATION,
-            Field::GRAD_H,
-        ]);
+        let [coefficient, pressure, density, rest, moment, omega] =
+            self.particles.columns.many_mut([
+                Field::PRESSURE_COEFFICIENT,
+                Field::PRESSURE,
+                Field::DENSITY,
+                Field::REFERENCE_DENSITY,
+                Field::NORMALISATION,
+                Field::GRAD_H,
+            ]);
         let (pressure, density) = (&*pressure, &*density);
         let (rest, moment, omega) = (&*rest, &*moment, &*omega);
         let one = |column: &[T], slot: usize| column.get(slot).copied().unwrap_or(T::one());
@@ -214,42 +207,40 @@ impl<T: Real, const D: usize> Group<T, D> {
     }
 
     fn sum_rates(&mut self) {
-        let mut records = core::mem::take(&mut self.records);
-        let mut rows = core::mem::take(&mut self.rows);
-        self.records_of_rates = true;
+        let scheme = self.scheme.clone();
+        let Some(sweep) = scheme.sweep(Stage::Rates) else {
+            return;
+        };
+        let mut records = core::mem::take(&mut self.work.records);
+        let mut rates = core::mem::take(&mut self.work.rates);
+        self.work.records_of_rates = true;
         let input = self.input();
-        let sweep = self.scheme.rates.as_ref();
         let start = Instant::now();
         sweep.pack(Pass::Rates, &input, &mut records);
         let packed = Instant::now();
-        sweep.run(Pass::Rates, &input, &records, &mut rows);
-        self.phases.packing += packed - start;
-        self.phases.pairs += packed.elapsed();
-        self.records = records;
-        self.rows = rows;
+        sweep.run(Pass::Rates, &input, &records, &mut rates);
+        self.work.phases.packing += packed - start;
+        self.work.phases.pairs += packed.elapsed();
+        self.work.records = records;
+        self.work.rates = rates;
         if self.scheme.energy == EnergyForm::Compatible {
-            let mut records = core::mem::take(&mut self.work_records);
-            self.scheme
-                .rates
-                .pack(Pass::Work, &self.input(), &mut records);
-            self.work_records = records;
+            let mut records = core::mem::take(&mut self.work.work_records);
+            sweep.pack(Pass::Work, &self.input(), &mut records);
+            self.work.work_records = records;
         }
     }
 
-    /// The work of all pair forces of the last evaluation with the present mean velocities, into the
-    /// scratch rows.
+    /// The work of all pair forces of the last evaluation with the present mean velocities, into the sums.
     pub fn sum_work(&mut self) {
-        let mut records = core::mem::take(&mut self.work_records);
-        let mut rows = core::mem::take(&mut self.scratch_rows);
-        let sweep = self.scheme.rates.as_ref();
+        let scheme = self.scheme.clone();
+        let Some(sweep) = scheme.sweep(Stage::Rates) else {
+            return;
+        };
+        let mut records = core::mem::take(&mut self.work.work_records);
+        let mut sums = core::mem::take(&mut self.work.sums);
         sweep.renew_mean_velocity(&self.input(), &mut records);
-        sweep.run(Pass::Work, &self.input(), &records, &mut rows);
-        self.work_records = records;
-        self.scratch_rows = rows;
-    }
-
-    /// The rate of compression (1/ρ) dρ/dt \[1/s\] of every particle, into the scratch rows.
-    pub fn sum_compression(&mut self) {
-        self.scratch_sweep(|group| group.scheme.compression.as_deref());
+        sweep.run(Pass::Work, &self.input(), &records, &mut sums);
+        self.work.work_records = records;
+        self.work.sums = sums;
     }
 }

@@ -2,15 +2,18 @@
 //! Later boundaries also mirror the images of earlier ones.
 
 use super::group::Group;
+use super::neighborhood::Neighborhood;
+use crate::boundary::Boundary;
 use crate::neighbors::Block;
 use crate::particles::Field;
 use crate::scalar::Real;
 use crate::sweep::Image;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// How an image's transform comes about: the boundary's own, after that of the image it mirrors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Chain {
+pub(crate) struct Chain {
     parent: Option<u32>,
     boundary: u32,
     image: u32,
@@ -20,39 +23,44 @@ impl<T: Real, const D: usize> Group<T, D> {
     /// Finds which images are needed. Later boundaries also mirror the images of earlier ones, which
     /// fills edges and corners. The images of bodies and of each wall are blocks of their own.
     pub(super) fn place_images(&mut self, time: f64, reach: f64) {
-        self.images.clear();
-        self.chains.clear();
+        self.neighborhood.images.clear();
+        self.neighborhood.chains.clear();
         if self.boundaries.is_empty() {
             return;
         }
-        let bodies: Vec<Range<usize>> = self.bodies.iter().map(|body| body.slots.clone()).collect();
+        let bodies: Vec<Range<usize>> = self
+            .particles
+            .bodies
+            .iter()
+            .map(|body| body.slots.clone())
+            .collect();
         self.place_images_of(&bodies, false, time, reach);
         for wall in 0..self.walls.len() {
             self.place_images_of(&[self.walls[wall].slots.clone()], true, time, reach);
         }
-        self.place_transforms(time);
+        self.neighborhood.place_transforms(&self.boundaries, time);
     }
 
     /// One block of images a boundary, of the particles in `sources`.
     fn place_images_of(&mut self, sources: &[Range<usize>], wall: bool, time: f64, reach: f64) {
-        let slots = self.columns.slots();
-        let before = self.images.len();
+        let slots = self.particles.columns.slots();
+        let before = self.neighborhood.images.len();
         let mut candidates: Vec<(u32, Option<u32>, [T; D])> = Vec::new();
         for (b, boundary) in self.boundaries.iter().enumerate() {
-            let start = self.images.len();
+            let start = self.neighborhood.images.len();
             for k in 0..boundary.images() {
                 let own = boundary.transform(k, time);
                 candidates.clear();
                 let near = |x: &[T; D]| boundary.reaches(k, x, reach, time);
-                let positions = self.columns.vectors(Field::POSITION);
+                let positions = self.particles.columns.vectors(Field::POSITION);
                 for slot in sources.iter().flat_map(Clone::clone) {
                     if near(&positions[slot]) {
                         candidates.push((slot as u32, None, positions[slot]));
                     }
                 }
-                for (image, x) in self.images[before..start]
+                for (image, x) in self.neighborhood.images[before..start]
                     .iter()
-                    .zip(&self.listed[slots + before..])
+                    .zip(&self.neighborhood.listed[slots + before..])
                 {
                     if near(x) {
                         candidates.push((image.source, Some(image.transform), *x));
@@ -64,27 +72,29 @@ impl<T: Real, const D: usize> Group<T, D> {
                         boundary: b as u32,
                         image: k as u32,
                     };
-                    let known = self.chains.iter().position(|c| *c == chain);
-                    let transform = known.unwrap_or(self.chains.len()) as u32;
+                    let known = self.neighborhood.chains.iter().position(|c| *c == chain);
+                    let transform = known.unwrap_or(self.neighborhood.chains.len()) as u32;
                     if known.is_none() {
-                        self.chains.push(chain);
+                        self.neighborhood.chains.push(chain);
                     }
-                    self.images.push(Image { source, transform });
-                    self.listed.push(own.point(&x));
+                    self.neighborhood.images.push(Image { source, transform });
+                    self.neighborhood.listed.push(own.point(&x));
                 }
             }
-            self.blocks.push(Block {
-                slots: slots + start..slots + self.images.len(),
+            self.neighborhood.blocks.push(Block {
+                slots: slots + start..slots + self.neighborhood.images.len(),
                 wall,
             });
         }
     }
+}
 
-    pub(super) fn place_transforms(&mut self, time: f64) {
+impl<T: Real, const D: usize> Neighborhood<T, D> {
+    /// Brings the transforms of images up to date.
+    pub(super) fn place_transforms(&mut self, boundaries: &[Arc<dyn Boundary<T, D>>], time: f64) {
         self.transforms.clear();
         for chain in &self.chains {
-            let own =
-                self.boundaries[chain.boundary as usize].transform(chain.image as usize, time);
+            let own = boundaries[chain.boundary as usize].transform(chain.image as usize, time);
             let whole = match chain.parent {
                 Some(parent) => self.transforms[parent as usize].then(&own),
                 None => own,

@@ -2,7 +2,8 @@
 //! Sums run in the order of the particles, in `f64` whatever the scalar.
 
 use super::Simulation;
-use super::group::{BodyState, Group};
+use super::group::Group;
+use super::population::BodyState;
 use crate::particles::Field;
 use crate::scalar::Real;
 
@@ -101,7 +102,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// The present budget of a body.
     fn budget(group: &Group<T, D>, body: &BodyState<T>) -> Budget {
-        let columns = &group.columns;
+        let columns = &group.particles.columns;
         let mut budget = Budget {
             momentum: vec![0.0; D],
             ..Budget::default()

@@ -53,25 +53,22 @@
 //! ```
 
 mod advance;
-mod continuity;
 mod control;
-mod damping;
-mod density;
 mod energy;
 mod evaluate;
-mod gradients;
 mod group;
 mod images;
 mod ledger;
+mod neighborhood;
 mod phases;
 mod population;
 mod query;
 mod reference;
-mod shift;
+mod stages;
 mod state;
 mod structures;
-mod switching;
 mod walls;
+mod workspace;
 
 pub use control::{Criterion, StepControl, Vote};
 pub use energy::EnergyLedger;
@@ -79,8 +76,9 @@ pub use ledger::{Budget, Ledger};
 pub use phases::Phases;
 pub use query::ParticleView;
 
-pub(crate) use group::{BodyState, Group, width};
+pub(crate) use group::{Group, width};
 pub use population::Removed;
+pub(crate) use population::{BodyState, Particles};
 pub(crate) use structures::Structure;
 pub(crate) use walls::WallState;
 
@@ -88,6 +86,7 @@ use crate::error::{Error, Problem, Result};
 use crate::integrator::Integrator;
 use crate::scalar::Real;
 use ledger::Impulses;
+use std::sync::Arc;
 
 /// A load: an acceleration that acts on all particles as a function of time.
 pub type Load<const D: usize> = Box<dyn Fn(f64) -> [f64; D] + Send + Sync>;
@@ -100,7 +99,7 @@ pub struct Simulation<T: Real, const D: usize> {
     pub(crate) groups: Vec<Group<T, D>>,
     /// The box around bodies and walls as built \[m\], where walls alone bound the scene.
     pub(crate) domain: Option<[[f64; D]; 2]>,
-    pub(crate) integrator: Box<dyn Integrator>,
+    pub(crate) integrator: Arc<dyn Integrator>,
     pub(crate) control: StepControl,
     pub(crate) loads: Vec<Load<D>>,
     time: f64,
@@ -115,8 +114,8 @@ pub struct Simulation<T: Real, const D: usize> {
     /// The time \[s\] of the last evaluation.
     evaluated: f64,
     kept_impulses: Vec<Impulses>,
-    /// Time \[s\] over which viscosity coefficients have yet to follow the flow.
-    switch_due: f64,
+    /// Time \[s\] over which what follows the flow once a step has yet to do so.
+    due: f64,
 }
 
 impl<T: Real, const D: usize> core::fmt::Debug for Simulation<T, D> {
@@ -133,14 +132,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub(crate) fn new(
         mut groups: Vec<Group<T, D>>,
         domain: Option<[[f64; D]; 2]>,
-        integrator: Box<dyn Integrator>,
+        integrator: Arc<dyn Integrator>,
         control: StepControl,
         loads: Vec<Load<D>>,
     ) -> Self {
         let mut slots = 0;
         for group in &mut groups {
-            group.first_id = slots;
-            slots += group.columns.slots();
+            group.particles.first_id = slots;
+            slots += group.particles.columns.slots();
         }
         let walls = groups.iter().flat_map(|group| &group.walls);
         let met: Vec<usize> = walls
@@ -165,7 +164,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             work: None,
             evaluated: 0.0,
             kept_impulses: Vec::new(),
-            switch_due: 0.0,
+            due: 0.0,
         }
     }
 
@@ -196,7 +195,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// The body that a particle belongs to, and its number there.
     fn locate(&self, id: usize) -> (String, usize) {
         let of = |(group, body): (&Group<T, D>, &BodyState<T>)| {
-            let own = id.checked_sub(group.first_id)?;
+            let own = id.checked_sub(group.particles.first_id)?;
             let inside = body.ids.contains(&own);
             inside.then(|| (body.name.clone(), own - body.ids.start))
         };
@@ -280,14 +279,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             };
         }
         self.last_vote = Some(vote);
-        self.switch_due += vote.step;
-        // The integrator borrows the simulation as a system, so it steps outside of it.
-        let mut integrator =
-            core::mem::replace(&mut self.integrator, Box::new(crate::integrator::Midpoint));
+        self.due += vote.step;
+        // The integrator sees the simulation as a system, and is shared with it while it steps.
+        let integrator = self.integrator.clone();
         // Inside the pool the many short loops of a step start without waking a thread for each.
-        let stepped = rayon::scope(|_| integrator.step(self, vote.step));
-        self.integrator = integrator;
-        stepped?;
+        rayon::scope(|_| integrator.step(self, vote.step))?;
         self.time += vote.step;
         self.steps += 1;
         self.book_step(start, before);

@@ -78,12 +78,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub fn phases(&self) -> Phases {
         self.groups
             .iter()
-            .fold(Phases::default(), |sum, group| sum.and(&group.phases))
+            .fold(Phases::default(), |sum, group| sum.and(&group.work.phases))
     }
 
     /// Books what a step took that no other phase has counted.
     pub(super) fn book_step(&mut self, start: Instant, before: Phases) {
         let counted = self.phases().since(&before).total();
-        self.groups[0].phases.integration += start.elapsed().saturating_sub(counted);
+        self.groups[0].work.phases.integration += start.elapsed().saturating_sub(counted);
     }
 }

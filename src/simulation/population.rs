@@ -1,14 +1,88 @@
-//! Which particles there are, and in which order: what enters, leaves, re-enters, and is sorted.
-//! States outside of a group are told of every change.
+//! The particles of a group, and their order: what enters, leaves, re-enters, and is sorted.
+//! States outside are told of every change.
 
 use super::group::Group;
 use crate::error::{Error, Problem, Result};
+use crate::material::Material;
 use crate::neighbors::Grid;
-use crate::particles::Field;
+use crate::particles::{Columns, Field};
 use crate::scalar::Real;
+use crate::scheme::Start;
 use crate::sweep::Transform;
 use crate::tensor::Vector;
 use rayon::prelude::*;
+use std::ops::Range;
+
+/// A body in a simulation.
+#[derive(Clone, Debug)]
+pub struct BodyState<T: Real> {
+    pub(crate) name: String,
+    pub(crate) material: Material<T>,
+    /// Slots of its particles; the rest of its run repeats the last of them.
+    pub(crate) slots: Range<usize>,
+    /// One past the last slot of its run, a whole number of clusters.
+    pub(crate) end: usize,
+    /// Identities that its particles have had.
+    pub(crate) ids: Range<usize>,
+    pub(crate) spacing: f64,
+}
+
+impl<T: Real> BodyState<T> {
+    /// Its slots with the repeats.
+    pub(crate) fn run(&self) -> Range<usize> {
+        self.slots.start..self.end
+    }
+}
+
+/// The particles of a group: of what a checkpoint holds all.
+#[derive(Debug)]
+pub(crate) struct Particles<T: Real, const D: usize> {
+    pub columns: Columns<T, D>,
+    pub bodies: Vec<BodyState<T>>,
+    /// Slots below this move by forces; walls come behind.
+    pub mobile: usize,
+    /// Identity of the particle in each slot, and the slot of each particle.
+    pub ids: Vec<u32>,
+    pub slot_of: Vec<u32>,
+    /// What has left through outlets.
+    pub removed: Removed<D>,
+    /// How many particles' numbers the groups before it have.
+    pub first_id: usize,
+}
+
+impl<T: Real, const D: usize> Particles<T, D> {
+    /// Columns with bodies, of which the slots below `mobile` are.
+    pub fn new(columns: Columns<T, D>, bodies: Vec<BodyState<T>>, mobile: usize) -> Self {
+        let ids = (0..columns.slots() as u32).collect::<Vec<_>>();
+        let mut slot_of = ids.clone();
+        for body in &bodies {
+            for id in body.slots.end..body.ids.end {
+                slot_of[id] = u32::MAX;
+            }
+        }
+        Self {
+            columns,
+            bodies,
+            mobile,
+            ids,
+            slot_of,
+            removed: Removed::default(),
+            first_id: 0,
+        }
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.bodies.iter().map(|body| body.slots.len()).sum()
+    }
+
+    /// The body of a slot.
+    pub fn body_of(&self, slot: usize) -> usize {
+        self.bodies
+            .partition_point(|body| body.end <= slot)
+            .min(self.bodies.len() - 1)
+    }
+}
 
 /// What has left a simulation through its outlets.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,7 +127,7 @@ pub(crate) struct ReEntry<T, const D: usize> {
     pub slot: usize,
     pub through: Transform<T, D>,
     /// What it is, and the boundary, in the scene; none for a repeat, and where nothing is given.
-    pub seats: Option<[usize; 2]>,
+    pub indices: Option<[usize; 2]>,
     pub mass: T,
     /// Its velocity before \[m/s\].
     pub velocity: Vector<T, D>,
@@ -89,8 +163,8 @@ impl<T: Real, const D: usize> Group<T, D> {
     /// Lets particles that have left a period, or crossed a plane, re-enter.
     pub(super) fn wrap(&mut self, time: f64) {
         for (b, boundary) in self.boundaries.iter().enumerate() {
-            for slot in 0..self.mobile {
-                let x = self.columns.vectors(Field::POSITION)[slot];
+            for slot in 0..self.particles.mobile {
+                let x = self.particles.columns.vectors(Field::POSITION)[slot];
                 let through = if boundary.crossed(&x, time) {
                     boundary.transform(0, time)
                 } else if let Some(through) = boundary.wrap(&x) {
@@ -98,26 +172,35 @@ impl<T: Real, const D: usize> Group<T, D> {
                 } else {
                     continue;
                 };
-                let body = self.bodies.iter().position(|own| own.slots.contains(&slot));
-                let velocity = Vector::from(self.columns.vectors(Field::VELOCITY)[slot]);
-                let [x, residual, v] = self.columns.many_mut([
+                let body = self
+                    .particles
+                    .bodies
+                    .iter()
+                    .position(|own| own.slots.contains(&slot));
+                let velocity = Vector::from(self.particles.columns.vectors(Field::VELOCITY)[slot]);
+                let [x, residual, v] = self.particles.columns.many_mut([
                     Field::POSITION,
                     Field::POSITION_RESIDUAL,
                     Field::VELOCITY,
                 ]);
                 through.re_enter(slot, x, residual, v);
                 // Repeats have lost their own places in a new order, and follow their original.
-                if body.is_none() && !self.moved.order.is_empty() {
+                if body.is_none() && !self.work.moved.order.is_empty() {
                     continue;
                 }
-                let boundary = self.seats[self.bodies.len() + self.walls.len() + b];
+                let boundary = self.indices[self.particles.bodies.len() + self.walls.len() + b];
                 let given = body.filter(|_| through.turns());
-                self.moved.wraps.push(ReEntry {
+                self.work.moved.wraps.push(ReEntry {
                     // Wraps are told by the order that outside states have now.
-                    slot: self.moved.order.get(slot).map_or(slot, |&old| old as usize),
+                    slot: self
+                        .work
+                        .moved
+                        .order
+                        .get(slot)
+                        .map_or(slot, |&old| old as usize),
                     through,
-                    seats: given.map(|body| [self.seats[body], boundary]),
-                    mass: self.columns.raw(Field::MASS)[slot],
+                    indices: given.map(|body| [self.indices[body], boundary]),
+                    mass: self.particles.columns.raw(Field::MASS)[slot],
                     velocity,
                 });
             }
@@ -127,20 +210,25 @@ impl<T: Real, const D: usize> Group<T, D> {
     /// Sorts every body along the space-filling curve, in cells that hold a particle each, so that the
     /// members of a cluster are the corners of a cube as far as the flow allows.
     pub(super) fn sort(&mut self) {
-        let positions = self.columns.vectors(Field::POSITION);
+        let positions = self.particles.columns.vectors(Field::POSITION);
         let spacing = self
+            .particles
             .bodies
             .iter()
             .fold(f64::INFINITY, |least, body| least.min(body.spacing));
         let grid = Grid::centred(positions, spacing);
-        let mut order: Vec<u32> = (0..self.columns.slots() as u32).collect();
+        let mut order: Vec<u32> = (0..self.particles.columns.slots() as u32).collect();
         // Walls keep their shape, so sorting them once serves; structures may not.
-        let first = self.rebuilds <= 1;
+        let first = self.neighborhood.rebuilds <= 1;
         let walls = self.walls.iter();
         let walls = walls
             .filter(|wall| first || wall.structure.is_some())
             .map(|wall| (&wall.slots, wall.end));
-        let bodies = self.bodies.iter().map(|body| (&body.slots, body.end));
+        let bodies = self
+            .particles
+            .bodies
+            .iter()
+            .map(|body| (&body.slots, body.end));
         for (slots, end) in bodies.chain(walls) {
             let keys: Vec<u64> = positions[slots.clone()]
                 .par_iter()
@@ -160,34 +248,37 @@ impl<T: Real, const D: usize> Group<T, D> {
         if self.outlets.is_empty() {
             return;
         }
-        let mut order: Vec<u32> = (0..self.columns.slots() as u32).collect();
+        let mut order: Vec<u32> = (0..self.particles.columns.slots() as u32).collect();
         let mut any = false;
-        for k in 0..self.bodies.len() {
-            let (slots, end) = (self.bodies[k].slots.clone(), self.bodies[k].end);
+        for k in 0..self.particles.bodies.len() {
+            let (slots, end) = (
+                self.particles.bodies[k].slots.clone(),
+                self.particles.bodies[k].end,
+            );
             let mut kept = slots.start;
             for slot in slots.clone() {
-                let x = self.columns.vectors(Field::POSITION)[slot].map(Real::to_f64);
-                let v = self.columns.vectors(Field::VELOCITY)[slot].map(Real::to_f64);
+                let x = self.particles.columns.vectors(Field::POSITION)[slot].map(Real::to_f64);
+                let v = self.particles.columns.vectors(Field::VELOCITY)[slot].map(Real::to_f64);
                 if !self.outlets.iter().any(|outlet| outlet.takes(&x, &v)) {
                     order[kept] = slot as u32;
                     kept += 1;
                     continue;
                 }
                 any = true;
-                self.slot_of[self.ids[slot] as usize] = u32::MAX;
-                let mass = self.columns.raw(Field::MASS)[slot].to_f64();
-                self.removed.particles += 1;
-                self.removed.mass += mass;
+                self.particles.slot_of[self.particles.ids[slot] as usize] = u32::MAX;
+                let mass = self.particles.columns.raw(Field::MASS)[slot].to_f64();
+                self.particles.removed.particles += 1;
+                self.particles.removed.mass += mass;
                 for d in 0..D {
-                    self.removed.momentum[d] += mass * v[d];
-                    self.removed.kinetic += 0.5 * mass * v[d] * v[d];
+                    self.particles.removed.momentum[d] += mass * v[d];
+                    self.particles.removed.kinetic += 0.5 * mass * v[d] * v[d];
                 }
             }
             if kept > slots.start {
                 let last = order[kept - 1];
                 order[kept..end].fill(last);
             }
-            self.bodies[k].slots.end = kept;
+            self.particles.bodies[k].slots.end = kept;
         }
         if any {
             self.reorder(&order);
@@ -217,52 +308,43 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// Appends one particle to a body, like its material at rest.
     fn insert(&mut self, body: usize, x: [f64; D], velocity: [f64; D]) -> Result<()> {
-        let (slots, end) = (self.bodies[body].slots.clone(), self.bodies[body].end);
-        let free = self.bodies[body]
+        let (slots, end) = (
+            self.particles.bodies[body].slots.clone(),
+            self.particles.bodies[body].end,
+        );
+        let free = self.particles.bodies[body]
             .ids
             .clone()
-            .find(|&id| self.slot_of[id] == u32::MAX);
+            .find(|&id| self.particles.slot_of[id] == u32::MAX);
         let (Some(id), true) = (free, slots.end < end) else {
             return Err(Error::Argument(Problem::Parameter {
-                what: format!("reserve of the inlet of body `{}`", self.bodies[body].name),
+                what: format!(
+                    "reserve of the inlet of body `{}`",
+                    self.particles.bodies[body].name
+                ),
                 value: slots.len() as f64,
                 must_be: "all of it has entered and none has left: give the inlet a larger reserve, \
                           or put an outlet where the flow ends",
             }));
         };
         let slot = slots.end;
-        let source = if slots.is_empty() {
-            slot
-        } else {
-            slots.end - 1
+        let start = Start {
+            velocity,
+            density: self.particles.bodies[body].material.reference_density(),
+            energy: 0.0,
         };
-        self.columns.copy_slot(source, slot);
-        let density = self.bodies[body].material.reference_density();
-        let mass = density * self.bodies[body].spacing.powi(D as i32);
-        let rounded = x.map(T::from_f64);
-        self.columns.vectors_mut(Field::POSITION)[slot] = rounded;
-        self.columns.vectors_mut(Field::VELOCITY)[slot] = velocity.map(T::from_f64);
-        if let Some(residual) = self
-            .columns
-            .vectors_mut(Field::POSITION_RESIDUAL)
-            .get_mut(slot)
-        {
-            *residual = core::array::from_fn(|d| T::from_f64(x[d] - rounded[d].to_f64()));
-        }
-        for (field, value) in [
-            (Field::DENSITY, density),
-            (Field::DENSITY_RESIDUAL, 0.0),
-            (Field::TEAR, 0.0),
-            (Field::DIVERGENCE, 0.0),
-            (Field::MASS, mass),
-        ] {
-            if let Some(place) = self.columns.raw_mut(field).get_mut(slot) {
-                *place = T::from_f64(value);
-            }
-        }
-        self.bodies[body].slots.end = slot + 1;
-        self.ids[slot] = id as u32;
-        self.slot_of[id] = slot as u32;
+        let own = &self.particles.bodies[body];
+        let (material, spacing) = (own.material.clone(), own.spacing);
+        self.scheme.place(
+            &mut self.particles.columns,
+            slot,
+            (&material, spacing),
+            x,
+            &start,
+        );
+        self.particles.bodies[body].slots.end = slot + 1;
+        self.particles.ids[slot] = id as u32;
+        self.particles.slot_of[id] = slot as u32;
         Ok(())
     }
 
@@ -271,19 +353,28 @@ impl<T: Real, const D: usize> Group<T, D> {
         if order.iter().enumerate().all(|(k, &from)| k as u32 == from) {
             return;
         }
-        self.columns.permute(order);
-        self.rows.permute(order);
-        if self.moved.order.is_empty() {
-            self.moved.order.extend_from_slice(order);
+        self.particles.columns.permute(order);
+        self.work.rates.permute(order);
+        if self.work.moved.order.is_empty() {
+            self.work.moved.order.extend_from_slice(order);
         } else {
-            let before = core::mem::take(&mut self.moved.order);
-            self.moved.order = order.iter().map(|&k| before[k as usize]).collect();
+            let before = core::mem::take(&mut self.work.moved.order);
+            self.work.moved.order = order.iter().map(|&k| before[k as usize]).collect();
         }
-        self.ids = order.iter().map(|&from| self.ids[from as usize]).collect();
+        self.particles.ids = order
+            .iter()
+            .map(|&from| self.particles.ids[from as usize])
+            .collect();
         let walls = self.walls.iter().map(|wall| &wall.slots);
-        for slots in self.bodies.iter().map(|body| &body.slots).chain(walls) {
+        for slots in self
+            .particles
+            .bodies
+            .iter()
+            .map(|body| &body.slots)
+            .chain(walls)
+        {
             for slot in slots.clone() {
-                self.slot_of[self.ids[slot] as usize] = slot as u32;
+                self.particles.slot_of[self.particles.ids[slot] as usize] = slot as u32;
             }
         }
     }

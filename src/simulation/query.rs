@@ -2,8 +2,8 @@
 //! Values come out as `f64`, whatever the scalar of the simulation.
 
 use super::Simulation;
-use super::group::{BodyState, Group};
-use super::population::Removed;
+use super::group::Group;
+use super::population::{BodyState, Removed};
 use super::walls::WallState;
 use crate::boundary::Pose;
 use crate::material::eos::GuardCounts;
@@ -23,16 +23,16 @@ impl<T: Real, const D: usize> ParticleView<'_, T, D> {
     /// Its number in the whole simulation, which never changes.
     #[must_use]
     pub fn id(&self) -> usize {
-        self.group.first_id + self.group.ids[self.slot] as usize
+        self.group.particles.first_id + self.group.particles.ids[self.slot] as usize
     }
     /// Whether it belongs to a body and not to a wall.
     pub(crate) fn is_mobile(&self) -> bool {
-        self.slot < self.group.mobile
+        self.slot < self.group.particles.mobile
     }
     /// Position \[m\].
     #[must_use]
     pub fn position(&self) -> [f64; D] {
-        let columns = &self.group.columns;
+        let columns = &self.group.particles.columns;
         let residual = columns.raw(Field::POSITION_RESIDUAL);
         let x = columns.vectors(Field::POSITION)[self.slot];
         core::array::from_fn(|d| {
@@ -43,12 +43,13 @@ impl<T: Real, const D: usize> ParticleView<'_, T, D> {
     /// Velocity \[m/s\].
     #[must_use]
     pub fn velocity(&self) -> [f64; D] {
-        self.group.columns.vectors(Field::VELOCITY)[self.slot].map(Real::to_f64)
+        self.group.particles.columns.vectors(Field::VELOCITY)[self.slot].map(Real::to_f64)
     }
     /// A scalar field, or `None` if the scene does not carry it.
     #[must_use]
     pub fn scalar(&self, field: Field) -> Option<f64> {
         self.group
+            .particles
             .columns
             .raw(field)
             .get(self.slot)
@@ -86,17 +87,23 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Number of particles.
     #[must_use]
     pub fn particles(&self) -> usize {
-        self.groups.iter().map(Group::particles).sum()
+        self.groups
+            .iter()
+            .map(|group| group.particles.count())
+            .sum()
     }
 
     /// Every body with its group, in the order of the scene.
     pub(super) fn all_bodies(&self) -> impl Iterator<Item = (&Group<T, D>, &BodyState<T>)> {
         let groups = self.groups.iter();
-        groups.flat_map(|group| group.bodies.iter().map(move |body| (group, body)))
+        groups.flat_map(|group| group.particles.bodies.iter().map(move |body| (group, body)))
     }
 
     pub(super) fn body_count(&self) -> usize {
-        self.groups.iter().map(|group| group.bodies.len()).sum()
+        self.groups
+            .iter()
+            .map(|group| group.particles.bodies.len())
+            .sum()
     }
 
     /// Names of the bodies, in the order of the scene: those of its own scheme, then those of other
@@ -114,12 +121,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Sets every velocity \[m/s\] as a function of position \[m\] and present velocity, between steps.
     pub fn set_velocities(&mut self, velocity: impl Fn([f64; D], [f64; D]) -> [f64; D]) {
         for group in &mut self.groups {
-            for slot in 0..group.mobile {
+            for slot in 0..group.particles.mobile {
                 let now = ParticleView { group, slot };
                 let next = velocity(now.position(), now.velocity());
-                group.columns.vectors_mut(Field::VELOCITY)[slot] = next.map(T::from_f64);
+                group.particles.columns.vectors_mut(Field::VELOCITY)[slot] = next.map(T::from_f64);
             }
-            group.renewed_until = f64::NEG_INFINITY;
         }
         self.rates_at_hand = false;
     }
@@ -171,7 +177,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// The groups that observers read: those of liquids, which meet all other bodies as walls, or all.
     fn observed(&self) -> impl Iterator<Item = &Group<T, D>> {
-        let is_liquid = |group: &Group<T, D>| group.scheme.liquid.is_some();
+        let is_liquid = |group: &Group<T, D>| group.scheme.meets_walls();
         let any = self.groups.iter().any(is_liquid);
         self.groups
             .iter()
@@ -195,8 +201,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
         for group in self.observed() {
             let walls = group.walls.iter().map(|wall| wall.slots.clone());
-            let bodies = group.bodies.iter().map(|body| body.slots.clone());
-            let positions = group.columns.vectors(Field::POSITION);
+            let bodies = group.particles.bodies.iter().map(|body| body.slots.clone());
+            let positions = group.particles.columns.vectors(Field::POSITION);
             for slots in bodies.chain(walls) {
                 for (slot, x) in slots.clone().zip(&positions[slots]) {
                     if (0..D).any(|d| !(low[d]..=high[d]).contains(&x[d].to_f64())) {
@@ -221,9 +227,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let mut rows = Rows::default();
         let mut forces = Vec::new();
         for group in &self.groups {
-            group.sum_on_walls(group.mobile..group.columns.slots(), &mut rows);
+            group.sum_on_walls(
+                group.particles.mobile..group.particles.columns.slots(),
+                &mut rows,
+            );
             for slot in group.walls.iter().flat_map(|wall| wall.slots.clone()) {
-                let x = group.columns.vectors(Field::POSITION)[slot];
+                let x = group.particles.columns.vectors(Field::POSITION)[slot];
                 let force = rows.vector(Output::FORCE, slot);
                 forces.push((x.map(Real::to_f64), force.map(Real::to_f64)));
             }
@@ -234,7 +243,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// What has left through outlets.
     #[must_use]
     pub fn removed(&self) -> Removed<D> {
-        let removed = self.groups.iter().map(|group| &group.removed);
+        let removed = self.groups.iter().map(|group| &group.particles.removed);
         removed.fold(Removed::default(), |sum, other| sum.and(other))
     }
 
@@ -257,7 +266,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Spacing \[m\] of the first body, or of the first liquid body of a scene with liquids.
     #[must_use]
     pub fn spacing(&self) -> f64 {
-        let first = self.observed().find_map(|group| group.bodies.first());
+        let first = self
+            .observed()
+            .find_map(|group| group.particles.bodies.first());
         first.map_or(0.0, |body| body.spacing)
     }
 
@@ -272,23 +283,45 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             })
     }
 
+    /// Limits that laws and updates have applied since the start, by name, in particle steps or evaluations: smoothing
+    /// lengths held at a limit, densities of cavitated liquid held from thinning out further.
+    #[must_use]
+    pub fn limits(&self) -> Vec<(&'static str, u64)> {
+        let mut all: Vec<(&'static str, u64)> = Vec::new();
+        for (name, count) in self.groups.iter().flat_map(|group| &group.limited) {
+            match all.iter_mut().find(|own| own.0 == *name) {
+                Some(own) => own.1 += count,
+                None => all.push((name, *count)),
+            }
+        }
+        all
+    }
+
+    /// How often the limit with a name was applied; zero if it never was.
+    #[must_use]
+    pub fn limited(&self, name: &str) -> u64 {
+        let limits = self.limits();
+        limits
+            .iter()
+            .find(|own| own.0 == name)
+            .map_or(0, |own| own.1)
+    }
+
     /// Smoothing lengths that were held at a limit, in particle evaluations since the start.
     #[must_use]
     pub fn limited_smoothing_lengths(&self) -> u64 {
-        self.groups.iter().map(|group| group.limited_h).sum()
-    }
-
-    /// Densities of liquid torn at its cut-off that were held from thinning out further, in particle steps
-    /// since the start.
-    #[must_use]
-    pub fn held_densities(&self) -> u64 {
-        self.groups.iter().map(|group| group.held_densities).sum()
+        let limits = self.limits().into_iter();
+        let own = limits.filter(|(name, _)| name.starts_with("smoothing"));
+        own.map(|(_, count)| count).sum()
     }
 
     /// Builds of the neighbour lists since the start.
     #[must_use]
     pub fn list_builds(&self) -> u64 {
-        self.groups.iter().map(|group| group.rebuilds).sum()
+        self.groups
+            .iter()
+            .map(|group| group.neighborhood.rebuilds)
+            .sum()
     }
 
     /// Bytes held for particles, lists and records.
@@ -319,7 +352,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 fn views<'a, T: Real, const D: usize>(
     (group, body): (&'a Group<T, D>, &'a BodyState<T>),
 ) -> impl Iterator<Item = ParticleView<'a, T, D>> {
-    let slots = body.ids.clone().map(|id| group.slot_of[id]);
+    let slots = body.ids.clone().map(|id| group.particles.slot_of[id]);
     let there = slots.filter(|&slot| slot != u32::MAX);
     there.map(|slot| ParticleView {
         group,

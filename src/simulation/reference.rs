@@ -21,17 +21,20 @@ impl<T: Real, const D: usize> Group<T, D> {
     /// Takes the sums at rest from which stress is measured. Called once, when the scene is built.
     pub fn take_reference(&mut self) {
         // At rest the two sides of a contact lie against each other, and count as one neighbourhood.
-        self.columns.raw_mut(Field::TOUCHING).fill(T::one());
+        self.particles
+            .columns
+            .raw_mut(Field::TOUCHING)
+            .fill(T::one());
         self.set_weights(self.scheme.density);
-        self.refresh(0.0);
-        self.scratch_sweep(|group| group.scheme.reference.as_deref());
+        self.refresh(0.0, None);
+        self.sum(|scheme| scheme.reference.as_deref());
         let form = self.scheme.density;
         if form == DensityForm::Lam {
             self.smooth_reference();
         } else if form.has_reference() && self.scheme.reference.is_some() {
             let normalised = self.scheme.normalised;
-            let rows = &self.scratch_rows;
-            let [moment, sum, rest, density] = self.columns.many_mut([
+            let rows = &self.work.sums;
+            let [moment, sum, rest, density] = self.particles.columns.many_mut([
                 Field::NORMALISATION,
                 Field::REFERENCE_SUM,
                 Field::REFERENCE_DENSITY,
@@ -52,23 +55,31 @@ impl<T: Real, const D: usize> Group<T, D> {
             }
         }
         if !form.has_reference() {
-            self.columns.raw_mut(Field::NORMALISATION).fill(T::one());
+            self.particles
+                .columns
+                .raw_mut(Field::NORMALISATION)
+                .fill(T::one());
         }
         self.take_touching();
-        if self.columns.fields().contains(Field::GRAD_H) {
-            self.columns.raw_mut(Field::GRAD_H).fill(T::one());
+        if self.particles.columns.fields().contains(Field::GRAD_H) {
+            self.particles.columns.raw_mut(Field::GRAD_H).fill(T::one());
         }
     }
 
     /// Kernel sum across each contact at which the two sides touch: what a particle lacks to a full
     /// neighbourhood, or, where the bodies lie against each other, exactly what is there.
     fn take_touching(&mut self) {
-        if !self.columns.fields().contains(Field::TOUCHING_SUM) {
+        if !self
+            .particles
+            .columns
+            .fields()
+            .contains(Field::TOUCHING_SUM)
+        {
             return;
         }
-        let rows = &self.scratch_rows;
-        let [touching] = self.columns.many_mut([Field::TOUCHING_SUM]);
-        for body in &self.bodies {
+        let rows = &self.work.sums;
+        let [touching] = self.particles.columns.many_mut([Field::TOUCHING_SUM]);
+        for body in &self.particles.bodies {
             let own = |slot: usize| rows.get(Output::KERNEL_SUM, 0, slot);
             let full = body
                 .slots
@@ -86,8 +97,8 @@ impl<T: Real, const D: usize> Group<T, D> {
     /// Lam, Shen & Gong 2002, section 4.1: the first summed density, with equation 25 at end
     /// particles, is kept as the density at rest.
     fn smooth_reference(&mut self) {
-        let rows = &self.scratch_rows;
-        let [end, rest, density, moment] = self.columns.many_mut([
+        let rows = &self.work.sums;
+        let [end, rest, density, moment] = self.particles.columns.many_mut([
             Field::REFERENCE_SUM,
             Field::REFERENCE_DENSITY,
             Field::DENSITY,
@@ -111,9 +122,9 @@ impl<T: Real, const D: usize> Group<T, D> {
     /// repeated at rest until it returns what it was given, or the ends would start under stress.
     fn settle_ends(&mut self) {
         for _ in 0..SETTLING_STEPS {
-            self.scratch_sweep(|group| group.scheme.reference.as_deref());
-            let rows = &self.scratch_rows;
-            let [end, rest, density] = self.columns.many_mut([
+            self.sum(|scheme| scheme.reference.as_deref());
+            let rows = &self.work.sums;
+            let [end, rest, density] = self.particles.columns.many_mut([
                 Field::REFERENCE_SUM,
                 Field::REFERENCE_DENSITY,
                 Field::DENSITY,

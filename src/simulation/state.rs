@@ -1,41 +1,37 @@
-//! What integrators do to the state of a group: move, kick, predict, keep and combine it.
-//! Each is a loop over particles; `f32` positions and densities keep their rounding error.
+//! What integrators do to the state of a group: move, kick, predict, save and combine it.
+//! Position, velocity and energy are the driver's own; other evolved fields say how they change.
 
-use super::continuity::{Reference, rate};
-use super::evaluate::GRAIN;
 use super::group::Group;
+use super::stages::{GRAIN, Moment};
+use super::workspace::Saved;
+use crate::effect::{Around, Evolved, Update, View, When};
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
-use crate::scheme::{EnergyForm, Scheme, Smoothing};
+use crate::scheme::EnergyForm;
 use crate::sweep::two_sum;
-use crate::tensor::Vector;
+use crate::tensor::{Matrix, Symmetric, Vector, rotation};
 use rayon::prelude::*;
 
-/// Columns of a kept state.
-pub(super) type Kept<T> = Vec<Vec<T>>;
+/// Positions, and what their rounding has lost.
+const POSITIONS: [Field; 2] = [Field::POSITION, Field::POSITION_RESIDUAL];
 
-/// What a state consists of; the first two are positions.
-const POSITION_FIELDS: usize = 2;
-const STATE: [Field; 7] = [
-    Field::POSITION,
-    Field::POSITION_RESIDUAL,
-    Field::VELOCITY,
-    Field::DENSITY,
-    Field::DENSITY_RESIDUAL,
-    Field::ENERGY,
-    Field::SMOOTHING_LENGTH,
-];
-/// Densities, and what their rounding has lost.
-const DENSITIES: [Field; 2] = [Field::DENSITY, Field::DENSITY_RESIDUAL];
+/// Numbers whose rates are on the stack at a time; a whole number of particles of any shape.
+const RATES: usize = 360;
+
+/// What came through a boundary while lists were built: the number of a saved state, or none for the present one,
+/// the indices of what felt and what exerted, and the momentum \[kg m/s\].
+pub(super) type Given<const D: usize> = (Option<usize>, [usize; 2], [f64; D]);
 
 impl<T: Real, const D: usize> Group<T, D> {
     /// x ← x + dt v with v the present velocity.
     pub(super) fn move_particles(&mut self, dt: f64) {
         let dt = T::from_f64(dt);
-        let [x, residual, v] =
-            self.columns
-                .many_mut([Field::POSITION, Field::POSITION_RESIDUAL, Field::VELOCITY]);
-        let mobile = self.mobile * D;
+        let mobile = self.particles.mobile * D;
+        let [x, residual, v] = self.particles.columns.many_mut([
+            Field::POSITION,
+            Field::POSITION_RESIDUAL,
+            Field::VELOCITY,
+        ]);
         let residual = residual.get_mut(..mobile).unwrap_or_default();
         add_scaled(&mut x[..mobile], residual, v, dt);
     }
@@ -44,13 +40,15 @@ impl<T: Real, const D: usize> Group<T, D> {
     pub(super) fn move_by_rates(&mut self, da: f64) {
         let gravity = self.evaluated_gravity;
         let da = T::from_f64(da);
-        let rows = &self.rows;
-        let [x, residual, mass] =
-            self.columns
-                .many_mut([Field::POSITION, Field::POSITION_RESIDUAL, Field::MASS]);
-        for slot in 0..self.mobile {
+        let rates = &self.work.rates;
+        let [x, residual, mass] = self.particles.columns.many_mut([
+            Field::POSITION,
+            Field::POSITION_RESIDUAL,
+            Field::MASS,
+        ]);
+        for slot in 0..self.particles.mobile {
             for d in 0..D {
-                let change = da * (rows.get(Output::FORCE, d, slot) / mass[slot] + gravity[d]);
+                let change = da * (rates.get(Output::FORCE, d, slot) / mass[slot] + gravity[d]);
                 let k = slot * D + d;
                 match residual.get_mut(k) {
                     Some(residual) => (x[k], *residual) = two_sum(x[k], *residual + change),
@@ -70,9 +68,10 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
         let half = T::from_f64(0.5 * dt);
         let gravity = self.evaluated_gravity;
-        let rows = &self.rows;
+        let rates = &self.work.rates;
         let [mean, v, mass] =
-            self.columns
+            self.particles
+                .columns
                 .many_mut([Field::MEAN_VELOCITY, Field::VELOCITY, Field::MASS]);
         let (v, mass) = (&*v, &*mass);
         mean.par_chunks_mut(D)
@@ -80,7 +79,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             .with_min_len(GRAIN)
             .for_each(|(slot, mean)| {
                 for d in 0..D {
-                    let a = rows.get(Output::FORCE, d, slot) / mass[slot] + gravity[d];
+                    let a = rates.get(Output::FORCE, d, slot) / mass[slot] + gravity[d];
                     mean[d] = v[slot * D + d] + half * a;
                 }
             });
@@ -88,12 +87,15 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.heat(dt, true);
     }
 
-    /// v ← v + dt a, and the density where it is kicked, but no energy.
+    /// v ← v + dt a, and what else is kicked, but no energy.
     pub(super) fn kick(&mut self, dt: f64) {
         let gravity = self.evaluated_gravity;
         let step = T::from_f64(dt);
-        let (rows, mobile) = (&self.rows, self.mobile);
-        let [v, mass] = self.columns.many_mut([Field::VELOCITY, Field::MASS]);
+        let (rates, mobile) = (&self.work.rates, self.particles.mobile);
+        let [v, mass] = self
+            .particles
+            .columns
+            .many_mut([Field::VELOCITY, Field::MASS]);
         let mass = &*mass;
         v[..mobile * D]
             .par_chunks_mut(D)
@@ -101,26 +103,92 @@ impl<T: Real, const D: usize> Group<T, D> {
             .with_min_len(GRAIN)
             .for_each(|(slot, v)| {
                 for (d, v) in v.iter_mut().enumerate() {
-                    *v += step * (rows.get(Output::FORCE, d, slot) / mass[slot] + gravity[d]);
+                    *v += step * (rates.get(Output::FORCE, d, slot) / mass[slot] + gravity[d]);
                 }
             });
-        if self.scheme.kicks_density() {
-            self.compress(dt);
+        self.advance(When::Kick, dt);
+    }
+
+    /// Whether a field other than velocity and energy changes at a time.
+    pub(super) fn evolves_at(&self, when: When) -> bool {
+        let own = |evolved: &Evolved<T, D>| evolved.when == when && evolved.field != Field::ENERGY;
+        self.scheme.program.evolved.iter().any(own)
+    }
+
+    /// Evolved fields other than energy over `dt` \[s\].
+    pub(super) fn advance(&mut self, when: When, dt: f64) {
+        let scheme = self.scheme.clone();
+        for own in &scheme.program.evolved {
+            if own.when != when || own.field == Field::ENERGY {
+                continue;
+            }
+            let mut column = self.take(own.field);
+            let mut residual = own
+                .residual
+                .map_or(Vec::new(), |residual| self.take(residual));
+            let moment = Moment {
+                dt,
+                in_drift: when == When::Drift,
+                of_rates: when == When::Kick,
+                ..Moment::at(0.0)
+            };
+            let mobile = self.particles.mobile * own.field.components(D);
+            let limited = {
+                let view = self.view(moment);
+                let own_values = (&mut column[..mobile], &mut residual[..]);
+                update(own, &view, 0, own_values, T::from_f64(dt))
+            };
+            *self.particles.columns.column_mut(own.field) = column;
+            if let Some(kept) = own.residual {
+                *self.particles.columns.column_mut(kept) = residual;
+            }
+            let (name, _) = scheme.program.name_of(own.field);
+            self.count(name, limited);
         }
     }
 
-    /// e ← e + dt P/m with P from `work` rows or from the rates.
+    /// The columns and what is around them.
+    pub(super) fn view(&self, moment: Moment) -> View<'_, T, D> {
+        View {
+            columns: &self.particles.columns,
+            around: Around {
+                sums: if moment.of_rates {
+                    &self.work.rates
+                } else {
+                    &self.work.sums
+                },
+                rates: &self.work.rates,
+                material: &self.particles.bodies[0].material,
+                wall: None,
+                smoothing_length: self.smoothing_length,
+                lattice_moment: self.scheme.lattice_moment,
+                dt: moment.dt,
+                time: moment.time,
+                gravity: self.gravity,
+                in_drift: moment.in_drift,
+            },
+        }
+    }
+
+    /// e ← e + dt P/m with P from the work of a kick or from the rates.
     fn heat(&mut self, dt: f64, work: bool) {
         let dt = T::from_f64(dt);
-        let rows = if work { &self.scratch_rows } else { &self.rows };
-        let [energy, mass] = self.columns.many_mut([Field::ENERGY, Field::MASS]);
+        let sums = if work {
+            &self.work.sums
+        } else {
+            &self.work.rates
+        };
+        let [energy, mass] = self
+            .particles
+            .columns
+            .many_mut([Field::ENERGY, Field::MASS]);
         let mass = &*mass;
         energy
             .par_iter_mut()
             .enumerate()
             .with_min_len(GRAIN)
             .for_each(|(slot, energy)| {
-                *energy += dt * rows.get(Output::POWER, 0, slot) / mass[slot];
+                *energy += dt * sums.get(Output::POWER, 0, slot) / mass[slot];
             });
     }
 
@@ -128,17 +196,39 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.scheme.energy != EnergyForm::None
     }
 
+    /// What a kick changes, and a prediction takes back.
+    fn kicked(&self) -> impl Iterator<Item = Field> {
+        let evolved = self.scheme.program.evolved.iter();
+        let kicked = evolved.filter(|own| own.when == When::Kick);
+        core::iter::once(Field::VELOCITY)
+            .chain(kicked.flat_map(|own| core::iter::once(own.field).chain(own.residual)))
+    }
+
+    /// What a state consists of.
+    fn state(&self) -> impl Iterator<Item = Field> {
+        let evolved = self.scheme.program.evolved.iter();
+        let evolved = evolved.flat_map(|own| core::iter::once(own.field).chain(own.residual));
+        POSITIONS
+            .into_iter()
+            .chain([Field::VELOCITY])
+            .chain(evolved)
+    }
+
     /// Sets what a kick changes `dt` \[s\] ahead with the last rates.
     pub(super) fn predict(&mut self, dt: f64) {
-        let kicked = kicked(&self.scheme);
-        self.predicted.resize_with(kicked.len(), Vec::new);
-        for (kept, &field) in self.predicted.iter_mut().zip(kicked) {
-            let column = self.columns.raw(field);
-            kept.resize(column.len(), T::zero());
-            kept.par_chunks_mut(GRAIN)
-                .zip(column.par_chunks(GRAIN))
-                .for_each(|(kept, now)| kept.copy_from_slice(now));
+        let mut predicted = core::mem::take(&mut self.work.predicted);
+        if predicted.is_empty() {
+            predicted.extend(self.kicked().map(|field| (field, Vec::new())));
         }
+        for (field, saved) in &mut predicted {
+            let column = self.particles.columns.raw(*field);
+            saved.resize(column.len(), T::zero());
+            saved
+                .par_chunks_mut(GRAIN)
+                .zip(column.par_chunks(GRAIN))
+                .for_each(|(saved, now)| saved.copy_from_slice(now));
+        }
+        self.work.predicted = predicted;
         self.kick(dt);
         if self.carries_energy() {
             self.heat(dt, false);
@@ -146,136 +236,182 @@ impl<T: Real, const D: usize> Group<T, D> {
     }
 
     /// Takes the last prediction back.
-    pub(super) fn retract(&mut self) {
-        let kicked = kicked(&self.scheme);
-        for (kept, &field) in self.predicted.iter_mut().zip(kicked) {
-            core::mem::swap(self.columns.column_mut(field), kept);
+    pub(super) fn restore(&mut self) {
+        for (field, saved) in &mut self.work.predicted {
+            core::mem::swap(self.particles.columns.column_mut(*field), saved);
         }
     }
 
     /// Keeps the present state in a slot.
     pub(super) fn save(&mut self, slot: usize) {
-        if self.kept.len() <= slot {
-            self.kept.resize_with(slot + 1, Kept::default);
+        if self.work.kept.len() <= slot {
+            self.work.kept.resize_with(slot + 1, Saved::default);
         }
-        let kept = &mut self.kept[slot];
-        kept.resize_with(STATE.len(), Vec::new);
-        for (kept, field) in kept.iter_mut().zip(STATE) {
+        let mut kept = core::mem::take(&mut self.work.kept[slot]);
+        if kept.is_empty() {
+            kept.extend(self.state().map(|field| (field, Vec::new())));
+        }
+        for (field, kept) in &mut kept {
             kept.clear();
-            if is_state(&self.scheme, field) {
-                kept.extend_from_slice(self.columns.raw(field));
-            }
+            kept.extend_from_slice(self.particles.columns.raw(*field));
         }
+        self.work.kept[slot] = kept;
     }
 
-    /// Brings a kept state back.
+    /// Brings a saved state back.
     pub(super) fn load(&mut self, slot: usize) {
-        let Some(kept) = self.kept.get(slot) else {
+        let Some(kept) = self.work.kept.get(slot) else {
             return;
         };
-        for (kept, field) in kept.iter().zip(STATE) {
-            if is_state(&self.scheme, field) {
-                self.columns.raw_mut(field).copy_from_slice(kept);
-            }
+        for (field, kept) in kept {
+            self.particles.columns.raw_mut(*field).copy_from_slice(kept);
         }
     }
 
-    /// Y ← a · kept + b · Y + dt · dY/dt.
+    /// Y ← a · saved + b · Y + dt · dY/dt.
     pub(super) fn combine(&mut self, slot: usize, a: f64, b: f64, dt: f64) {
-        let Some(kept) = self.kept.get_mut(slot).map(core::mem::take) else {
+        let Some(kept) = self.work.kept.get_mut(slot).map(core::mem::take) else {
             return;
         };
+        let of = |field: Field| kept.iter().find(|own| own.0 == field).map(|own| &own.1[..]);
+        let [x, lost] = POSITIONS.map(|field| of(field).unwrap_or_default());
+        self.combine_positions(x, lost, a, b, dt);
         let (a_t, b_t, dt_t) = (T::from_f64(a), T::from_f64(b), T::from_f64(dt));
-        self.combine_positions(&kept, a, b, dt);
-        let compensated = self.combine_densities(&kept, a, b, dt);
-        for (field, kept) in STATE.into_iter().zip(&kept).skip(POSITION_FIELDS) {
-            if compensated && DENSITIES.contains(&field) {
-                continue;
+        let before = of(Field::VELOCITY).unwrap_or_default();
+        let mut v = self.take(Field::VELOCITY);
+        v.par_iter_mut()
+            .zip(before)
+            .enumerate()
+            .with_min_len(GRAIN)
+            .for_each(|(k, (v, before))| {
+                *v = a_t * *before + b_t * *v + dt_t * self.acceleration(k);
+            });
+        *self.particles.columns.column_mut(Field::VELOCITY) = v;
+        let scheme = self.scheme.clone();
+        for own in &scheme.program.evolved {
+            let before = of(own.field).unwrap_or_default();
+            let mut column = self.take(own.field);
+            match own.residual {
+                None => {
+                    self.for_each_rate(own, &mut column, |at, y, rate| {
+                        *y = a_t * before[at] + b_t * *y + dt_t * rate;
+                    });
+                }
+                // The sum is made in `f64`, and what does not fit the scalar is kept.
+                Some(field) => {
+                    let lost = of(field).unwrap_or_default();
+                    let mut residual = self.take(field);
+                    self.for_each_rate(own, &mut column, |at, y, rate| {
+                        let sum = a * (before[at].to_f64() + lost[at].to_f64())
+                            + b * (y.to_f64() + residual[at].to_f64())
+                            + dt * rate.to_f64();
+                        *y = T::from_f64(sum);
+                        residual[at] = T::from_f64(sum - y.to_f64());
+                    });
+                    *self.particles.columns.column_mut(field) = residual;
+                }
             }
-            let mut column = core::mem::take(self.columns.column_mut(field));
-            column
-                .par_iter_mut()
-                .zip(kept)
-                .enumerate()
-                .with_min_len(GRAIN)
-                .for_each(|(k, (y, kept))| {
-                    *y = a_t * *kept + b_t * *y + dt_t * self.rate_of(field, k, *y);
-                });
-            *self.columns.column_mut(field) = column;
+            *self.particles.columns.column_mut(own.field) = column;
         }
-        self.kept[slot] = kept;
+        self.work.kept[slot] = kept;
     }
 
-    /// kept ← kept + dt · dY/dt.
+    /// saved ← saved + dt · dY/dt.
     pub(super) fn accumulate(&mut self, slot: usize, dt: f64) {
-        let Some(mut kept) = self.kept.get_mut(slot).map(core::mem::take) else {
+        let Some(mut kept) = self.work.kept.get_mut(slot).map(core::mem::take) else {
             return;
         };
         let dt_t = T::from_f64(dt);
-        let [position, residual, others @ ..] = kept.as_mut_slice() else {
+        let [(_, position), (_, residual), (_, velocity), others @ ..] = kept.as_mut_slice() else {
             return;
         };
-        add_scaled(position, residual, self.columns.raw(Field::VELOCITY), dt_t);
-        let mut compensated = false;
-        if let [_, density, lost, ..] = &mut *others {
-            compensated = !lost.is_empty();
-            let now = self.columns.raw(Field::DENSITY);
-            density
-                .par_iter_mut()
-                .zip(lost.par_iter_mut())
-                .enumerate()
-                .with_min_len(GRAIN)
-                .for_each(|(k, (kept, lost))| {
-                    let change = dt_t * self.rate_of(Field::DENSITY, k, now[k]);
-                    (*kept, *lost) = two_sum(*kept, *lost + change);
-                });
+        let v = self.particles.columns.raw(Field::VELOCITY);
+        add_scaled(position, residual, v, dt_t);
+        velocity
+            .par_iter_mut()
+            .enumerate()
+            .with_min_len(GRAIN)
+            .for_each(|(k, saved)| *saved += dt_t * self.acceleration(k));
+        let scheme = self.scheme.clone();
+        let mut others = others.iter_mut();
+        for own in &scheme.program.evolved {
+            let Some((_, saved)) = others.next() else {
+                break;
+            };
+            let lost = own.residual.and_then(|_| others.next());
+            let mut now = self.take(own.field);
+            let lost = lost.map(|own| &mut own.1[..]).unwrap_or_default();
+            self.for_each_rate(own, &mut now, |at, _, rate| {
+                add(&mut saved[at], lost.get_mut(at), dt_t * rate);
+            });
+            *self.particles.columns.column_mut(own.field) = now;
         }
-        for (field, kept) in STATE.into_iter().skip(POSITION_FIELDS).zip(others) {
-            if compensated && DENSITIES.contains(&field) {
-                continue;
-            }
-            let now = self.columns.raw(field);
-            kept.par_iter_mut()
-                .zip(now)
-                .enumerate()
-                .with_min_len(GRAIN)
-                .for_each(|(k, (kept, now))| *kept += dt_t * self.rate_of(field, k, *now));
-        }
-        self.kept[slot] = kept;
+        self.work.kept[slot] = kept;
     }
 
-    /// Brings kept states into the order of the particles after a list build, and through the boundaries that
-    /// particles have crossed. Gives what these gave: the number of a kept state, or none for the present one,
-    /// which felt, which exerted, and the momentum \[kg m/s\].
-    pub(super) fn follow_moves(&mut self) -> Vec<(Option<usize>, [usize; 2], [f64; D])> {
-        let moved = &mut self.moved;
+    /// Shows every number of a column with its place and its rate dY/dt.
+    fn for_each_rate(
+        &self,
+        own: &Evolved<T, D>,
+        column: &mut [T],
+        mut act: impl FnMut(usize, &mut T, T),
+    ) {
+        let view = self.view(of_rates());
+        let width = own.field.components(D);
+        let piece = RATES / width * width;
+        let mut buffer = [T::zero(); RATES];
+        for (k, values) in column.chunks_mut(piece).enumerate() {
+            rates(own, &view, k * piece / width, values, &mut buffer);
+            for (n, y) in values.iter_mut().enumerate() {
+                act(k * piece + n, y, buffer[n]);
+            }
+        }
+    }
+
+    /// Component `k` of the column of accelerations.
+    #[inline(always)]
+    fn acceleration(&self, k: usize) -> T {
+        let (slot, d) = (k / D, k % D);
+        let mass = self.particles.columns.raw(Field::MASS)[slot];
+        self.work.rates.get(Output::FORCE, d, slot) / mass + self.evaluated_gravity[d]
+    }
+
+    /// Brings saved states into the order of the particles after a list build, and through the boundaries that
+    /// particles have crossed. Gives what these gave.
+    pub(super) fn follow_moves(&mut self) -> Vec<Given<D>> {
+        let moved = &mut self.work.moved;
         let mut given = Vec::new();
         let at = |v: &[T], slot: usize| Vector::from_row_slice(&v[slot * D..(slot + 1) * D]);
-        for (number, kept) in self.kept.iter_mut().enumerate() {
-            let Ok([x, residual, v]) = kept.get_disjoint_mut([0, 1, 2]) else {
+        for (number, kept) in self.work.kept.iter_mut().enumerate() {
+            let Ok([(_, x), (_, residual), (_, v)]) = kept.get_disjoint_mut([0, 1, 2]) else {
                 continue;
             };
             if !x.is_empty() {
                 for entry in &moved.wraps {
                     let impulse = entry.impulse(&at(v, entry.slot));
-                    given.extend(entry.seats.map(|seats| (Some(number), seats, impulse)));
+                    given.extend(
+                        entry
+                            .indices
+                            .map(|indices| (Some(number), indices, impulse)),
+                    );
                     entry.through.re_enter(entry.slot, x, residual, v);
                 }
             }
         }
         // A prediction is taken back: what it started from is the present state.
-        let mut start = self.predicted.first_mut().filter(|v| !v.is_empty());
+        let predicted = self.work.predicted.first_mut();
+        let mut start = predicted.map(|own| &mut own.1).filter(|v| !v.is_empty());
         for entry in &moved.wraps {
             let velocity = start.as_ref().map_or(entry.velocity, |v| at(v, entry.slot));
             let impulse = entry.impulse(&velocity);
-            given.extend(entry.seats.map(|seats| (None, seats, impulse)));
+            given.extend(entry.indices.map(|indices| (None, indices, impulse)));
             if let Some(v) = &mut start {
                 entry.through.turn(entry.slot, v);
             }
         }
         if !moved.order.is_empty() {
-            let columns = self.kept.iter_mut().flatten();
-            for column in columns.chain(&mut self.predicted) {
+            let columns = self.work.kept.iter_mut().flatten();
+            for (_, column) in columns.chain(&mut self.work.predicted) {
                 let width = column.len() / moved.order.len();
                 let before = column.clone();
                 for (k, &from) in moved.order.iter().enumerate() {
@@ -289,71 +425,14 @@ impl<T: Real, const D: usize> Group<T, D> {
         given
     }
 
-    /// Rate of entry `k` of a column of the state, whose present value is `y`.
-    #[inline(always)]
-    fn rate_of(&self, field: Field, k: usize, y: T) -> T {
-        // The rates were summed with the weights of the force.
-        let form = self.scheme.pressure_form;
-        let [rest, moment] =
-            [Field::REFERENCE_DENSITY, Field::NORMALISATION].map(|f| self.columns.raw(f));
-        let lattice = T::from_f64(self.scheme.lattice_moment);
-        let rest: Reference<'_, T> = (rest, moment, lattice);
-        match field {
-            Field::VELOCITY => {
-                let (slot, d) = (k / D, k % D);
-                let mass = self.columns.raw(Field::MASS)[slot];
-                self.rows.get(Output::FORCE, d, slot) / mass + self.evaluated_gravity[d]
-            }
-            Field::DENSITY if self.scheme.density.is_integrated() => {
-                let diffusion = self.rows.get(Output::DENSITY_DIFFUSION, 0, k);
-                y * rate(form, &self.rows, rest, k, y) + diffusion
-            }
-            Field::ENERGY => self.rows.get(Output::POWER, 0, k) / self.columns.raw(Field::MASS)[k],
-            Field::SMOOTHING_LENGTH
-                if matches!(self.scheme.smoothing, Smoothing::Divergence { .. }) =>
-            {
-                let density = self.columns.raw(Field::DENSITY)[k];
-                -y * rate(form, &self.rows, rest, k, density) / T::from_f64(D as f64)
-            }
-            _ => T::zero(),
-        }
-    }
-
-    /// Densities and what their rounding has lost, in `f64`; whether they are integrated and keep it.
-    fn combine_densities(&mut self, kept: &[Vec<T>], a: f64, b: f64, dt: f64) -> bool {
-        let [_, _, _, before, lost, ..] = kept else {
-            return false;
-        };
-        if lost.is_empty() {
-            return false;
-        }
-        let [mut density, mut residual] =
-            DENSITIES.map(|field| core::mem::take(self.columns.column_mut(field)));
-        density
-            .par_iter_mut()
-            .zip(residual.par_iter_mut())
-            .enumerate()
-            .with_min_len(GRAIN)
-            .for_each(|(k, (y, residual))| {
-                let rate = self.rate_of(Field::DENSITY, k, *y).to_f64();
-                let sum = a * (before[k].to_f64() + lost[k].to_f64())
-                    + b * (y.to_f64() + residual.to_f64())
-                    + dt * rate;
-                *y = T::from_f64(sum);
-                *residual = T::from_f64(sum - y.to_f64());
-            });
-        for (field, column) in DENSITIES.into_iter().zip([density, residual]) {
-            *self.columns.column_mut(field) = column;
-        }
-        true
-    }
-
     /// Positions and what their rounding has lost, in `f64` where the scalar keeps the loss.
-    fn combine_positions(&mut self, kept: &[Vec<T>], a: f64, b: f64, dt: f64) {
-        let [x, residual, v] =
-            self.columns
-                .many_mut([Field::POSITION, Field::POSITION_RESIDUAL, Field::VELOCITY]);
-        let (before, lost, v) = (&kept[0], &kept[1], &*v);
+    fn combine_positions(&mut self, before: &[T], lost: &[T], a: f64, b: f64, dt: f64) {
+        let [x, residual, v] = self.particles.columns.many_mut([
+            Field::POSITION,
+            Field::POSITION_RESIDUAL,
+            Field::VELOCITY,
+        ]);
+        let v = &*v;
         if residual.is_empty() {
             let (a, b, dt) = (T::from_f64(a), T::from_f64(b), T::from_f64(dt));
             x.par_iter_mut()
@@ -378,24 +457,143 @@ impl<T: Real, const D: usize> Group<T, D> {
     }
 }
 
-/// Whether a column of [`STATE`] is advanced in time, and does not follow from positions.
-fn is_state<T: Real, const D: usize>(scheme: &Scheme<T, D>, field: Field) -> bool {
-    match field {
-        Field::DENSITY | Field::DENSITY_RESIDUAL => scheme.density.is_integrated(),
-        Field::SMOOTHING_LENGTH => matches!(scheme.smoothing, Smoothing::Divergence { .. }),
-        _ => true,
+fn of_rates() -> Moment {
+    Moment {
+        of_rates: true,
+        ..Moment::at(0.0)
     }
 }
 
-/// What a kick changes, and a prediction takes back.
-fn kicked<T: Real, const D: usize>(scheme: &Scheme<T, D>) -> &'static [Field] {
-    const KICKED: [Field; 4] = [
-        Field::VELOCITY,
-        Field::ENERGY,
-        Field::DENSITY,
-        Field::DENSITY_RESIDUAL,
-    ];
-    &KICKED[..if scheme.kicks_density() { 4 } else { 2 }]
+/// dY/dt = g Y + s of some particles from slot `first` on, whose present values are `values`.
+fn rates<T: Real, const D: usize>(
+    own: &Evolved<T, D>,
+    view: &View<'_, T, D>,
+    first: usize,
+    values: &[T],
+    rates: &mut [T; RATES],
+) {
+    let width = own.field.components(D);
+    let mut growths = [T::zero(); RATES];
+    let growths = &mut growths[..values.len() / width];
+    let rates = &mut rates[..values.len()];
+    parts(own, view, first, values, growths, rates);
+    if own.update == Update::Rotated {
+        for (n, rates) in rates.chunks_exact_mut(width).enumerate() {
+            let tensor = Symmetric::from_slice(&values[n * width..]);
+            let turn = tensor.spun(&spin(view, first + n));
+            for (rate, turn) in rates.iter_mut().zip(turn.components()) {
+                *rate += *turn;
+            }
+        }
+        return;
+    }
+    // A length spans a volume.
+    let share = match own.update {
+        Update::Within { .. } => T::from_f64(D as f64),
+        _ => T::one(),
+    };
+    for (k, rate) in rates.iter_mut().enumerate() {
+        *rate = values[k] * growths[k / width] / share + *rate;
+    }
+}
+
+/// The parts g and s of the rates of some particles.
+fn parts<T: Real, const D: usize>(
+    own: &Evolved<T, D>,
+    view: &View<'_, T, D>,
+    first: usize,
+    values: &[T],
+    growths: &mut [T],
+    sources: &mut [T],
+) {
+    growths.fill(T::zero());
+    sources.fill(T::zero());
+    for rate in &own.rates {
+        rate.growth(view, first, values, growths);
+        rate.source(view, first, sources);
+    }
+}
+
+/// ½ (∇v − ∇vᵀ) of the particle in a slot \[1/s\].
+fn spin<T: Real, const D: usize>(view: &View<'_, T, D>, slot: usize) -> Matrix<T, D> {
+    let gradient = view.columns.raw(Field::VELOCITY_GRADIENT);
+    let at = |a: usize, b: usize| gradient[slot * D * D + a * D + b];
+    Matrix::from_fn(|a, b| (at(a, b) - at(b, a)) * T::from_f64(0.5))
+}
+
+/// Values of the particles from slot `first` on over `dt` \[s\] as their declaration says; how many were held at a
+/// limit.
+fn update<T: Real, const D: usize>(
+    own: &Evolved<T, D>,
+    view: &View<'_, T, D>,
+    first: usize,
+    (column, residual): (&mut [T], &mut [T]),
+    dt: T,
+) -> u64 {
+    let width = own.field.components(D);
+    let slots = column.len() / width;
+    if slots > GRAIN {
+        let half = (slots / GRAIN).div_ceil(2) * GRAIN;
+        let kept = residual.len().min(half * width);
+        let (low, high) = column.split_at_mut(half * width);
+        let (low_residual, high_residual) = residual.split_at_mut(kept);
+        let (a, b) = rayon::join(
+            || update(own, view, first, (low, low_residual), dt),
+            || update(own, view, first + half, (high, high_residual), dt),
+        );
+        return a + b;
+    }
+    let (mut growths, mut sources) = ([T::zero(); RATES], [T::zero(); RATES]);
+    let mut limited = 0;
+    let piece = RATES / width * width;
+    for (k, values) in column.chunks_mut(piece).enumerate() {
+        let (start, slot) = (k * piece, first + k * piece / width);
+        let growths = &mut growths[..values.len() / width];
+        let sources = &mut sources[..values.len()];
+        parts(own, view, slot, values, growths, sources);
+        match own.update {
+            Update::Increment => {
+                for (k, y) in values.iter_mut().enumerate() {
+                    let change = dt * (*y * growths[k / width] + sources[k]);
+                    add(y, residual.get_mut(start + k), change);
+                }
+            }
+            Update::Exponential => {
+                for (k, y) in values.iter_mut().enumerate() {
+                    let change = *y * expm1(growths[k / width] * dt) + dt * sources[k];
+                    add(y, residual.get_mut(start + k), change);
+                }
+            }
+            Update::Within { smallest, largest } => {
+                let [low, high] = [smallest, largest]
+                    .map(|limit| T::from_f64(limit * view.around.smoothing_length));
+                let dimension = T::from_f64(D as f64);
+                for (k, y) in values.iter_mut().enumerate() {
+                    let next = *y * (growths[k / width] * dt / dimension).exp();
+                    *y = next.max(low).min(high);
+                    limited += u64::from(*y != next);
+                }
+            }
+            Update::Rotated => {
+                for (n, values) in values.chunks_exact_mut(width).enumerate() {
+                    let source = Symmetric::from_slice(&sources[n * width..]);
+                    let moved = Symmetric::from_slice(values).plus(dt, &source);
+                    let turn = rotation(&(spin(view, slot + n) * dt));
+                    values.copy_from_slice(moved.rotated(&turn).components());
+                }
+            }
+        }
+    }
+    limited
+}
+
+/// y ← y + change, with the rounding error kept where there is a place for it.
+#[inline(always)]
+fn add<T: Real>(y: &mut T, residual: Option<&mut T>, change: T) {
+    match residual {
+        Some(residual) => (*y, *residual) = two_sum(*y, *residual + change),
+        None => *y += change,
+    }
 }
 
 /// x ← x + dt v, with the rounding error kept where there is a column for it.
@@ -414,4 +612,14 @@ fn add_scaled<T: Real>(x: &mut [T], residual: &mut [T], v: &[T], dt: T) {
         .for_each(|((x, residual), v)| {
             (*x, *residual) = two_sum(*x, *residual + dt * *v);
         });
+}
+
+/// eˣ − 1 for the small x of a time step, without cancellation.
+#[inline(always)]
+fn expm1<T: Real>(x: T) -> T {
+    if x.abs() > T::from_f64(0.01) {
+        return x.exp() - T::one();
+    }
+    let term = |n: f64| T::from_f64(1.0 / n);
+    x * (T::one() + x * (term(2.0) + x * (term(6.0) + x * (term(24.0) + x * term(120.0)))))
 }

@@ -6,6 +6,7 @@ use super::group::Group;
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::sweep::{Pass, Records, Rows, SweepInput};
+use crate::term::Stage;
 use std::ops::Range;
 
 /// The body of another group whose particles a wall is made of.
@@ -34,8 +35,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.for_each_structure(|liquid, wall, group, body| {
             for slot in liquid.walls[wall].slots.clone() {
                 if let Some(own) = liquid.slot_of_structure(wall, slot, group, body) {
-                    let force = liquid.structure_rows.vector(Output::FORCE, slot);
-                    group.rows.add(Output::FORCE, own, force);
+                    let force = liquid.work.coupling.vector(Output::FORCE, slot);
+                    group.work.rates.add(Output::FORCE, own, force);
                 }
             }
         });
@@ -63,14 +64,14 @@ impl<T: Real, const D: usize> Group<T, D> {
     /// Slots of walls, from the first that is a structure; these stand behind the walls of the scene.
     fn structure_slots(&self) -> Range<usize> {
         let first = self.walls.iter().find(|wall| wall.structure.is_some());
-        let slots = self.columns.slots();
+        let slots = self.particles.columns.slots();
         first.map_or(slots, |wall| wall.slots.start)..slots
     }
 
     /// The number of a wall particle among those of its wall as built.
     pub(super) fn rest_of(&self, wall: usize, slot: usize) -> usize {
         let wall = &self.walls[wall];
-        (self.ids[slot] as usize - wall.slots.start).min(wall.rest.len() - 1)
+        (self.particles.ids[slot] as usize - wall.slots.start).min(wall.rest.len() - 1)
     }
 
     /// The slot, in the group of a structure, of the particle that a wall particle is; none if it has left.
@@ -81,35 +82,37 @@ impl<T: Real, const D: usize> Group<T, D> {
         group: &Self,
         body: usize,
     ) -> Option<usize> {
-        let id = group.bodies[body].ids.start + self.rest_of(wall, slot);
-        let own = group.slot_of[id];
+        let id = group.particles.bodies[body].ids.start + self.rest_of(wall, slot);
+        let own = group.particles.slot_of[id];
         (own != u32::MAX).then_some(own as usize)
     }
 
     /// Moves a wall to the particles of the body that it is.
     fn follow(&mut self, wall: usize, group: &Self, body: usize) {
         let run = self.walls[wall].slots.start..self.walls[wall].end;
-        let mass = group.columns.raw(Field::MASS);
-        let density = group.columns.raw(Field::DENSITY);
+        let mass = group.particles.columns.raw(Field::MASS);
+        let density = group.particles.columns.raw(Field::DENSITY);
         for slot in run {
             let at = self.rest_of(wall, slot);
             let Some(own) = self.slot_of_structure(wall, slot, group, body) else {
-                self.columns.raw_mut(Field::MASS)[slot] = T::zero();
+                self.particles.columns.raw_mut(Field::MASS)[slot] = T::zero();
                 continue;
             };
             // It has the density of the liquid at rest, and the volume of what it is made of.
-            let rest = self.columns.raw(Field::DENSITY)[slot];
-            self.columns.raw_mut(Field::MASS)[slot] = rest * mass[own] / density[own];
+            let rest = self.particles.columns.raw(Field::DENSITY)[slot];
+            self.particles.columns.raw_mut(Field::MASS)[slot] = rest * mass[own] / density[own];
             for field in [Field::POSITION, Field::POSITION_RESIDUAL, Field::VELOCITY] {
-                let from = group.columns.vectors(field).get(own);
-                let to = self.columns.vectors_mut(field).get_mut(slot);
+                let from = group.particles.columns.vectors(field).get(own);
+                let to = self.particles.columns.vectors_mut(field).get_mut(slot);
                 if let (Some(from), Some(to)) = (from, to) {
                     *to = *from;
                 }
             }
-            let [x, residual, v] =
-                self.columns
-                    .many_mut([Field::POSITION, Field::POSITION_RESIDUAL, Field::VELOCITY]);
+            let [x, residual, v] = self.particles.columns.many_mut([
+                Field::POSITION,
+                Field::POSITION_RESIDUAL,
+                Field::VELOCITY,
+            ]);
             // The group of the structure lets particles re-enter a period when its lists are built.
             for boundary in &self.boundaries {
                 let now = core::array::from_fn(|d| x[slot * D + d]);
@@ -117,7 +120,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                     back.re_enter(slot, x, residual, v);
                 }
             }
-            let force = group.rows.vector(Output::FORCE, own);
+            let force = group.work.rates.vector(Output::FORCE, own);
             if let Some(structure) = &mut self.walls[wall].structure {
                 structure.accelerations[at] = core::array::from_fn(|d| {
                     (force[d] / mass[own] + group.evaluated_gravity[d]).to_f64()
@@ -132,9 +135,9 @@ impl<T: Real, const D: usize> Group<T, D> {
         if targets.is_empty() {
             return;
         }
-        let mut rows = core::mem::take(&mut self.structure_rows);
+        let mut rows = core::mem::take(&mut self.work.coupling);
         self.sum_on_walls(targets, &mut rows);
-        self.structure_rows = rows;
+        self.work.coupling = rows;
     }
 
     /// The force of the liquid on wall particles with the rates at hand: the forces on the liquid with
@@ -144,9 +147,11 @@ impl<T: Real, const D: usize> Group<T, D> {
             targets,
             ..self.input()
         };
-        let rates = self.scheme.rates.as_ref();
-        if self.records_of_rates {
-            rates.run(Pass::Rates, &input, &self.records, rows);
+        let Some(rates) = self.scheme.sweep(Stage::Rates) else {
+            return;
+        };
+        if self.work.records_of_rates {
+            rates.run(Pass::Rates, &input, &self.work.records, rows);
         } else {
             // Another sweep has used the records since.
             let mut records = Records::default();

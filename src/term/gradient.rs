@@ -35,6 +35,32 @@ impl<const D: usize> Term<D> for VelocityGradient {
     }
 }
 
+/// −Σⱼ Vⱼ rᵢⱼ ⊗ ∇W, whose inverse makes sums of gradients exact for linear fields.
+#[derive(Clone, Copy, Debug)]
+pub struct MomentMatrix;
+
+impl<const D: usize> Term<D> for MomentMatrix {
+    const READS: Fields = Fields::of(&[Field::MASS, Field::DENSITY]);
+    const WRITES: Outputs = Outputs::of(&[Output::MOMENT_MATRIX]);
+    #[inline(always)]
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+        let factor = -pair.j(Field::MASS) / pair.j(Field::DENSITY) * pair.f;
+        for a in 0..D {
+            for b in 0..D {
+                let gradient = factor * pair.r[b];
+                sums.add_at(Output::MOMENT_MATRIX, a * D + b, pair.r[a] * gradient);
+            }
+        }
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: "correction of gradients".into(),
+            equation: "L = [−Σⱼ Vⱼ rᵢⱼ ⊗ ∇W]⁻¹",
+            source: "Randles & Libersky 1996; Bonet & Lok 1999",
+        }
+    }
+}
+
 /// Σⱼ Vⱼ (pⱼ − pᵢ) ∇W; times the inverse of the moment matrix it is the gradient of the pressure.
 #[derive(Clone, Copy, Debug)]
 pub struct PressureGradient;

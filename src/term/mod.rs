@@ -16,7 +16,7 @@
 //! | [`RenormalisedPressureForce`], [`RenormalisedCompression`] | momentum, density | the same with corrected gradients |
 //! | [`LaminarViscosity`], [`CentralViscosity`] | momentum | force of a physical viscosity |
 //! | [`Molteni`], [`Fourtakas`], [`Antuono`], [`RiemannDiffusion`] | density | diffusion against noise |
-//! | [`Crowding`] | position | what shifting needs |
+//! | [`ConcentrationGradient`] | position | what shifting needs |
 //! | [`LiquidNearWall`], [`VelocityAtWall`], [`ViscosityAtWall`] | walls | what wall particles take from the liquid |
 //!
 //! [`probe()`] evaluates a term for one pair, for tests of terms of your own.
@@ -93,24 +93,28 @@ use core::fmt::Debug;
 use core::marker::PhantomData;
 use core::ops::{AddAssign, SubAssign};
 
-mod crowding;
+mod concentration;
 mod density_diffusion;
 mod gradient;
 mod laminar_viscosity;
 mod momentum;
 mod probe;
 mod renormalised;
+mod staged;
+mod stages;
 mod sums;
 pub mod viscosity;
 mod wall;
 
-pub use crowding::{Crowding, Nothing};
+pub use concentration::{ConcentrationGradient, Nothing};
 pub use density_diffusion::{Antuono, Fourtakas, Molteni, RiemannDiffusion, STANDARD_DELTA};
-pub use gradient::{DensityGradient, PressureGradient, VelocityGradient};
+pub use gradient::{DensityGradient, MomentMatrix, PressureGradient, VelocityGradient};
 pub use laminar_viscosity::{CentralViscosity, LaminarViscosity};
 pub use momentum::{InternalEnergy, PressureCurvature, PressureForce};
 pub use probe::{Probe, probe};
 pub use renormalised::{RenormalisedCompression, RenormalisedPressureForce};
+pub use staged::{In, Join, StageMarker, StagedTerms, stage};
+pub use stages::Stage;
 pub use sums::{Compression, KernelMoment, KernelSum, SlopeInH, Unity};
 pub use viscosity::{ArtificialViscosity, Viscosity, Viscous};
 pub use wall::{LiquidNearWall, VelocityAtWall, ViscosityAtWall};
@@ -409,10 +413,36 @@ pub trait Terms<const D: usize>: Clone + Debug + Send + Sync + 'static {
     const READS: Fields;
     /// Union of what the terms write.
     const WRITES: Outputs;
+    /// These terms and then others, as one list without empty parts.
+    type Then<B: Terms<D>>: Terms<D>;
+    /// These terms and then others.
+    fn then<B: Terms<D>>(self, next: B) -> Self::Then<B>;
+    /// Others and then these terms, where the others are not empty.
+    type After<A: Terms<D>>: Terms<D>;
+    /// Others and then these terms.
+    fn after<A: Terms<D>>(self, first: A) -> Self::After<A>;
     /// Adds what this pair contributes to every term.
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>);
     /// The terms, for people.
     fn document(&self) -> Vec<TermDoc>;
+}
+
+impl<const D: usize> Terms<D> for () {
+    const READS: Fields = Fields::NONE;
+    const WRITES: Outputs = Outputs::NONE;
+    type Then<B: Terms<D>> = B;
+    fn then<B: Terms<D>>(self, next: B) -> B {
+        next
+    }
+    type After<A: Terms<D>> = A;
+    fn after<A: Terms<D>>(self, first: A) -> A {
+        first
+    }
+    #[inline(always)]
+    fn pair<L: Lane, P: Layout>(&self, _pair: &Pair<'_, L, D, P>, _sums: &mut Sums<L, D, P>) {}
+    fn document(&self) -> Vec<TermDoc> {
+        Vec::new()
+    }
 }
 
 macro_rules! tuple {
@@ -421,6 +451,14 @@ macro_rules! tuple {
         impl<const D: usize, $($name: Term<D>),*> Terms<D> for ($($name,)*) {
             const READS: Fields = Fields::NONE$(.union($name::READS))*;
             const WRITES: Outputs = Outputs::NONE$(.union($name::WRITES))*;
+            type Then<Next: Terms<D>> = Next::After<Self>;
+            fn then<Next: Terms<D>>(self, next: Next) -> Self::Then<Next> {
+                next.after(self)
+            }
+            type After<First: Terms<D>> = Join<First, Self>;
+            fn after<First: Terms<D>>(self, first: First) -> Self::After<First> {
+                Join(first, self)
+            }
             #[inline(always)]
             fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
                 let ($($name,)*) = self;

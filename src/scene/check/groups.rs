@@ -32,7 +32,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         problems: &mut Vec<Problem>,
     ) {
         let said = self.said_between(&first.name, &second.name);
-        let liquids = [own, other].map(|part| part.scheme.liquid.is_some());
+        let liquids = [own, other].map(|part| part.scheme.meets_walls());
         let coupled = liquids[0] != liquids[1];
         let remedy = match said {
             Some(Interaction::None) => return,

@@ -1,12 +1,15 @@
 //! What can be wrong with a scheme and with how it is stepped: what lies outside its range,
 //! and what does not go with the integrator, the bodies or the machine.
 
+use crate::effect::SceneFacts;
 use crate::error::Problem;
-use crate::particles::Field;
+use crate::particles::{Field, Output};
 use crate::scalar::Real;
+use crate::scene::Scene;
 use crate::scene::plan::Plan;
-use crate::scene::{Body, Scene};
 use crate::scheme::EnergyForm;
+use crate::sweep::PairSweep;
+use crate::term::Stage;
 
 impl<T: Real, const D: usize> Plan<'_, T, D> {
     pub(super) fn check_scheme(&self, problems: &mut Vec<Problem>) {
@@ -21,69 +24,25 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                 recommended: kernel.h_over_dx,
             });
         }
-        for (what, value, must_be) in &scheme.viscosity_problems {
+        for (what, value, must_be) in &scheme.problems {
             problems.push(Problem::Parameter {
-                what: format!("{what} of the artificial viscosity"),
+                what: what.clone(),
                 value: *value,
                 must_be,
             });
         }
-        if let Some(liquid) = &scheme.liquid {
-            let lengths_vary = scheme.fields().contains(Field::SMOOTHING_LENGTH);
-            if liquid.volume_consistency.is_some() && lengths_vary {
-                problems.push(Problem::Incompatible {
-                    what: "volume consistency holds kernel sums to those of a lattice at one smoothing length, \
-                           and the smoothing lengths of this scheme vary or differ"
-                        .into(),
-                    remedy: "leave out either volume_consistency or smoothing and mixed_spacing",
-                });
-            }
-            if liquid.dual_criteria && !scheme.has_slow_fields() {
-                problems.push(Problem::Incompatible {
-                    what: format!(
-                        "the scheme {} steps by two criteria, and has nothing to keep for an advection step",
-                        scheme.name
-                    ),
-                    remedy: "leave out dual_criteria, or take renormalised gradients without diffusion by gradients \
-                             of density (Antuono), or generalised_newtonian",
-                });
-            }
-            let tears = |body: &Body<T, D>| body.material.eos().pressure_cut_off().is_some();
-            let bodies = self.bodies;
-            if liquid.reversible_tearing && !bodies.is_empty() && !bodies.iter().any(tears) {
-                problems.push(Problem::Incompatible {
-                    what: format!(
-                        "the scheme {} remembers how far liquid has torn, and none of its bodies can tear",
-                        scheme.name
-                    ),
-                    remedy: "give the material a cut-off (Material::with_pressure_cut_off), or leave out \
-                             reversible_tearing",
-                });
-            }
-            if liquid.reversible_tearing && !self.scene.integrator.kicks() {
-                problems.push(Problem::Incompatible {
-                    what: format!(
-                        "the integrator {} does not hold densities of torn liquid",
-                        self.scene.integrator.name()
-                    ),
-                    remedy: "take an integrator that kicks (kick-drift-kick), or leave out reversible_tearing",
-                });
-            }
-            let consistency = liquid.volume_consistency.map(|(strength, _)| strength);
-            for (what, strength) in [
-                ("acoustic damping", liquid.acoustic_damping),
-                ("volume consistency", consistency),
-            ] {
-                let Some(value) = strength.filter(|s| !(s.is_finite() && *s >= 0.0)) else {
-                    continue;
-                };
-                problems.push(Problem::Parameter {
-                    what: format!("strength of the {what}"),
-                    value,
-                    must_be: "it must be finite and not negative",
-                });
-            }
-        }
+        let facts = SceneFacts {
+            bodies: self
+                .bodies
+                .iter()
+                .map(|body| (body.name.as_str(), &body.material))
+                .collect(),
+            integrator: self.scene.integrator.name(),
+            kicks: self.scene.integrator.kicks(),
+            lengths_vary: scheme.fields().contains(Field::SMOOTHING_LENGTH),
+        };
+        let asked = scheme.program.requirements.iter();
+        problems.extend(asked.filter_map(|requirement| requirement(&facts)));
         let mut incompatible = |what: String, remedy| {
             problems.push(Problem::Incompatible { what, remedy });
         };
@@ -105,14 +64,16 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                 "take a density form that follows from positions, or another integrator",
             );
         }
-        if scheme.liquid.is_some() && !scheme.kicks_density() && !self.scene.integrator.kicks() {
+        let rates = scheme.sweep(Stage::Rates).map(PairSweep::outputs);
+        let with_rates = rates.is_some_and(|sums| sums.contains(Output::COMPRESSION));
+        if scheme.density.is_integrated() && !with_rates && !self.scene.integrator.kicks() {
             incompatible(
                 format!(
                     "the scheme {} sums the rate of density in drifts, which the integrator {} does not take",
                     scheme.name,
                     self.scene.integrator.name()
                 ),
-                "take LiquidBuilder::compose_with_one_evaluation, or an integrator that kicks (kick-drift-kick)",
+                "take SchemeBuilder::density_with_rates, or an integrator that kicks (kick-drift-kick)",
             );
         }
         // Particles of inlets wait as walls do.

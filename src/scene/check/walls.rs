@@ -38,7 +38,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 });
                 continue;
             };
-            if scheme.liquid.is_none() {
+            if !scheme.meets_walls() {
                 problems.push(Problem::Incompatible {
                     what: format!(
                         "the inlet of body `{}` has a buffer of wall particles, which the scheme {} does not see",
@@ -73,7 +73,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
     pub(super) fn check_walls(&self, problems: &mut Vec<Problem>) {
         let spacing = self.bodies.first().map_or(0.0, |body| body.spacing);
         for (k, (wall, origin)) in self.walls.iter().enumerate() {
-            if self.scheme.liquid.is_none() {
+            if !self.scheme.meets_walls() {
                 problems.push(Problem::Incompatible {
                     what: format!(
                         "wall `{}` is made of particles, which the scheme {} does not see",
@@ -83,16 +83,16 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                 });
             }
             // The buffers of inlets, which are numbered after the walls, face nothing.
-            if self.scheme.has_riemann_walls()
+            if self.scheme.program.wall_normals
                 && matches!(origin, Origin::Wall(k) if *k < self.scene.walls.len())
                 && wall.room.is_none()
             {
                 problems.push(Problem::Incompatible {
                     what: format!(
-                        "the scheme {} takes walls as Riemann problems, and wall `{}` knows no room to face",
+                        "the wall law of the scheme {} needs normals, and wall `{}` does not know the container that it faces",
                         self.scheme.name, wall.name
                     ),
-                    remedy: "give it the room of the liquid, Wall::facing, or leave out riemann_walls",
+                    remedy: "give it the container of the liquid, Wall::facing, or take ExtrapolatedPressure",
                 });
             }
             if self.scheme.kicks_density()
@@ -105,7 +105,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                          liquid stick to wall `{}` belongs to the forces alone",
                         self.scheme.name, wall.name
                     ),
-                    remedy: "take LiquidBuilder::compose, or leave out Wall::no_slip",
+                    remedy: "leave out density_with_rates, or Wall::no_slip",
                 });
             }
             let names = self.bodies.iter().map(|body| &body.name);

@@ -1,10 +1,10 @@
 //! Kernel sums over a cubic lattice: what a neighbourhood at rest adds up to.
 //! Schemes divide by them, so that liquid at rest has the weight and the space that it should.
 
-use crate::kernel::Kernel;
+use super::Kernel;
 
 /// −Σ V r·∇W/D over a cubic lattice, by which sums of gradients fall short or exceed.
-pub(super) fn lattice_moment<K: Kernel<D>, const D: usize>(kernel: &K, h_over_dx: f64) -> f64 {
+pub(crate) fn lattice_moment<K: Kernel<D>, const D: usize>(kernel: &K, h_over_dx: f64) -> f64 {
     let sum = lattice_sum(kernel, h_over_dx, |r| {
         -r * r * Kernel::<D>::slope_over_q(kernel, r / h_over_dx)
     });
@@ -12,7 +12,7 @@ pub(super) fn lattice_moment<K: Kernel<D>, const D: usize>(kernel: &K, h_over_dx
 }
 
 /// Σ V W over a cubic lattice.
-pub(super) fn lattice_unity<K: Kernel<D>, const D: usize>(kernel: &K, h_over_dx: f64) -> f64 {
+pub(crate) fn lattice_unity<K: Kernel<D>, const D: usize>(kernel: &K, h_over_dx: f64) -> f64 {
     lattice_sum(kernel, h_over_dx, |r| {
         Kernel::<D>::shape(kernel, r / h_over_dx)
     })

@@ -1,4 +1,4 @@
-//! Where particles crowd: the sums that shifting moves them by.
+//! The gradient of the concentration of particles, by which shifting moves them.
 //! Lind, Xu, Stansby & Rogers 2012; Sun et al. 2017.
 
 use super::{Layout, Pair, Sums, Term, TermDoc};
@@ -11,16 +11,16 @@ use crate::scalar::Lane;
 /// W₀ is the kernel at the spacing: the second summand keeps particles from pairing (Monaghan 2000;
 /// Lind et al. 2012, eq. 24).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Crowding<const D: usize> {
+pub struct ConcentrationGradient<const D: usize> {
     /// Strength R of the repulsion; 0.2.
     pub repulsion: f64,
     /// hᴰ W₀, the kernel in D dimensions at the spacing for h = 1.
     pub at_spacing: f64,
 }
 
-impl<const D: usize> Term<D> for Crowding<D> {
+impl<const D: usize> Term<D> for ConcentrationGradient<D> {
     const READS: Fields = Fields::of(&[Field::WEIGHT]);
-    const WRITES: Outputs = Outputs::of(&[Output::CROWDING, Output::MOMENT]);
+    const WRITES: Outputs = Outputs::of(&[Output::CONCENTRATION_GRADIENT, Output::MOMENT]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
         let ratio = pair.w * pair.h.powi(D as u32) * L::of(1.0 / self.at_spacing);
@@ -28,13 +28,13 @@ impl<const D: usize> Term<D> for Crowding<D> {
         let gradient = pair.j(Field::WEIGHT) * pair.f;
         let weighted = gradient * (square * square).mul_add(L::of(self.repulsion), L::one());
         for d in 0..D {
-            sums.add_at(Output::CROWDING, d, weighted * pair.r[d]);
+            sums.add_at(Output::CONCENTRATION_GRADIENT, d, weighted * pair.r[d]);
         }
         sums.add(Output::MOMENT, gradient * pair.r2 * L::of(-1.0 / D as f64));
     }
     fn document(&self) -> TermDoc {
         TermDoc {
-            name: format!("crowding of particles, R = {}", self.repulsion),
+            name: format!("concentration gradient, R = {}", self.repulsion),
             equation: "∇Cᵢ = Σⱼ Vⱼ (1 + R (W/W₀)⁴) ∇W",
             source: "Lind et al. 2012, eq. 24; Sun et al. 2017",
         }

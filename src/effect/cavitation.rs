@@ -1,0 +1,136 @@
+//! Liquid at its tension cut-off: densities that are held, with or without memory of the expansion.
+//! Both are of this crate; what else was tried stands in `docs/sloshing.md`.
+
+use super::{Chunk, Effect, Law, Setting, StepProgram, Tally};
+use crate::error::Problem;
+use crate::particles::{Field, Fields};
+use crate::scalar::Real;
+use crate::term::{Stage, TermDoc};
+
+/// Keeps a liquid that has cavitated at its [cut-off](crate::material::Material::with_pressure_cut_off) from
+/// thinning out: spray is still water, and volumes m/ρ weigh its forces.
+///
+/// It is held at nine tenths of the density ρ_t of the cut-off; with [`ExpansionMemory`] at ρ_t.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Cavitation;
+
+impl<const D: usize> Effect<D> for Cavitation {
+    type Terms = ();
+    fn terms(&self, _setting: &Setting) {}
+    fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
+        program.law(Stage::Bounds, *self);
+    }
+}
+
+/// Lets liquid that has cavitated at its [cut-off](crate::material::Material::with_pressure_cut_off) close
+/// where it opened: below the density ρ_t of the cut-off continuity goes on in
+/// τ = ln(ρ/ρ_t), dτ/dt = Σⱼ Vⱼ vᵢⱼ·∇W, while pairs see ρ_t; pressure comes back with τ = 0.
+///
+/// ρ_t \[kg/m³\] is the density of the equation of state at the cut-off. With volumes that no longer grow,
+/// dτ/dt is the rate of Σ V W, so a drop that has left a neighbourhood
+/// meets the next one with what it lacked: −1 at most, where τ ends. It adds a number a particle and
+/// no sum.
+///
+/// Without it cavitated liquid is held at nine tenths of ρ_t and forgets how far it had expanded: it has pressure
+/// again before it has closed, and spray behaves like a gas. Single drops strike harder with it, so it is a
+/// choice. It needs a material with a cut-off, and an integrator that kicks.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ExpansionMemory;
+
+impl<const D: usize> Effect<D> for ExpansionMemory {
+    type Terms = ();
+    fn terms(&self, _setting: &Setting) {}
+    fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
+        program.carry(Field::EXPANSION);
+        program.require(|scene| {
+            let cuts_off = |(_, material): &(&str, &crate::material::Material<T>)| {
+                material.eos().pressure_cut_off().is_some()
+            };
+            let bodies = &scene.bodies;
+            (!bodies.is_empty() && !bodies.iter().any(cuts_off)).then(|| Problem::Incompatible {
+                what: "the scheme remembers how far cavitated liquid has expanded, and none of its bodies can \
+                       cavitate"
+                    .into(),
+                remedy: "give the material a cut-off (Material::with_pressure_cut_off), or leave out \
+                         ExpansionMemory",
+            })
+        });
+        program.require(|scene| {
+            (!scene.kicks).then(|| Problem::Incompatible {
+                what: format!(
+                    "the integrator {} does not hold densities of cavitated liquid",
+                    scene.integrator
+                ),
+                remedy: "take an integrator that kicks (kick-drift-kick), or leave out ExpansionMemory",
+            })
+        });
+        program.document(TermDoc {
+            name: "memory of expansion".into(),
+            equation: "ρ = ρ_t while τ = ln(ρ/ρ_t) by continuity is below 0, τ ≥ −1",
+            source: "of this crate",
+        });
+    }
+}
+
+impl<T: Real, const D: usize> Law<T, D> for Cavitation {
+    fn name(&self) -> &'static str {
+        "cavitation"
+    }
+    fn reads(&self) -> Fields {
+        Fields::of(&[Field::DENSITY])
+    }
+    fn writes(&self) -> Fields {
+        Fields::of(&[Field::DENSITY])
+    }
+    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
+        let eos = chunk.around.material.eos();
+        let at_cut_off = eos
+            .pressure_cut_off()
+            .and_then(|pressure| eos.density_at(pressure, 0.0));
+        let Some(at_cut_off) = at_cut_off else {
+            return Tally::default();
+        };
+        let live = chunk.live;
+        let [density, residual, expansion] =
+            chunk.columns([Field::DENSITY, Field::DENSITY_RESIDUAL, Field::EXPANSION]);
+        let share = if expansion.is_empty() { HELD } else { 1.0 };
+        let least = T::from_f64(share * at_cut_off);
+        let mut tally = Tally::default();
+        for (n, density) in density.iter_mut().enumerate() {
+            let memory = expansion.get_mut(n);
+            if let Some(tau) = memory.as_ref().filter(|tau| ***tau < T::zero()) {
+                *density *= tau.exp();
+            }
+            // What is no number stays one, and ends the run.
+            let low = *density < least;
+            if let Some(tau) = memory {
+                *tau = T::zero();
+                if low {
+                    let thinned = (*density / least).to_f64().ln();
+                    *tau = T::from_f64(thinned.max(FARTHEST));
+                }
+            }
+            if low {
+                *density = least;
+                tally.limited += u64::from(n < live);
+            }
+            // What rounding has left belongs to the density that was.
+            if *density == least
+                && let Some(residual) = residual.get_mut(n)
+            {
+                *residual = T::zero();
+            }
+        }
+        tally
+    }
+}
+
+/// Share of the density at the cut-off that a liquid keeps however far it expands. Spray otherwise
+/// fell to a fifth of it, struck walls with five times its volume, and its diffusion made densities
+/// negative; at nine tenths volumes are at most a ninth too large, and what was drawn apart a little
+/// still closes without pressure.
+const HELD: f64 = 0.9;
+
+/// Farthest that cavitated liquid expands, as the logarithm of what its density would be: that of a particle
+/// which has lost all of its neighbourhood, Σ V W = 1.
+const FARTHEST: f64 = -1.0;

@@ -1,0 +1,36 @@
+//! Density diffusion of weakly compressible liquids, summed with the rate of density.
+//! The forms are terms: Molteni & Colagrossi 2009, Fourtakas et al. 2019, Antuono et al. 2010, Riemann.
+
+use super::{BySum, Effect, Setting, StepProgram};
+use crate::particles::{Field, Output};
+use crate::scalar::Real;
+use crate::term::{In, Term, stage};
+
+/// Diffusion of density by one of the terms [`Fourtakas`](crate::term::Fourtakas),
+/// [`Molteni`](crate::term::Molteni), [`Antuono`](crate::term::Antuono),
+/// [`RiemannDiffusion`](crate::term::RiemannDiffusion), or one of your own that adds to
+/// [`Output::DENSITY_DIFFUSION`].
+///
+/// ```
+/// use meshfree::prelude::*;
+/// use meshfree::term::Antuono;
+/// let scheme: Scheme<f64, 2> = schemes::weakly_compressible()
+///     .density_diffusion(Antuono::default())
+///     .compose();
+/// ```
+#[derive(Clone, Copy, Debug, Default)]
+pub struct DensityDiffusion<W>(pub W);
+
+impl<const D: usize, W: Term<D>> Effect<D> for DensityDiffusion<W> {
+    type Terms = (In<stage::Continuity, W>,);
+    fn terms(&self, _setting: &Setting) -> Self::Terms {
+        (In::new(self.0.clone()),)
+    }
+    fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
+        let rate = BySum {
+            sum: Output::DENSITY_DIFFUSION,
+            over: None,
+        };
+        program.contribute(Field::DENSITY, rate);
+    }
+}

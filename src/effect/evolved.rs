@@ -1,0 +1,169 @@
+//! Fields that are integrated in time: by which rate, how, when, and whether their rounding is kept.
+//! Integrators, prediction, save and combine, insertion, checkpoint and output take it from here.
+
+use super::Around;
+use crate::particles::{Columns, Field, Fields, Output, Outputs};
+use crate::scalar::Real;
+use core::fmt::Debug;
+
+/// When an evolved field changes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum When {
+    /// With velocity, by the rates of an evaluation; predicted with it.
+    Kick,
+    /// In the middle of a drift, by sums that are taken there.
+    Drift,
+}
+
+/// How an evolved field changes over dt by dY/dt = g Y + s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Update {
+    /// Y ← Y + dt (g Y + s).
+    Increment,
+    /// Y ← Y + (e^(g dt) − 1) Y + dt s, for what must stay positive.
+    Exponential,
+    /// Y ← Y e^(g dt/D) for a length that spans a volume which grows by g, held between two limits; what is held
+    /// is counted.
+    Within {
+        /// Smallest length in units of the smoothing length as built.
+        smallest: f64,
+        /// Largest length in the same units.
+        largest: f64,
+    },
+    /// Y ← R (Y + dt s) Rᵀ for a symmetric tensor, with R the rotation by the spin ½ (∇v − ∇vᵀ) over dt: the
+    /// Jaumann rate, integrated so that a rigid rotation is exact (Hughes & Winget 1980). Needs
+    /// [`Field::VELOCITY_GRADIENT`].
+    Rotated,
+}
+
+/// What a rate sees: the columns as they are, and what is around.
+#[derive(Clone, Copy, Debug)]
+pub struct View<'a, T: Real, const D: usize> {
+    /// All columns; that of the field under way is empty.
+    pub columns: &'a Columns<T, D>,
+    /// What is around; its material is that of the first body.
+    pub around: Around<'a, T, D>,
+}
+
+impl<T: Real, const D: usize> View<'_, T, D> {
+    /// Component `k` of a sum of the particle in `slot`.
+    #[inline(always)]
+    #[must_use]
+    pub fn sum(&self, output: Output, k: usize, slot: usize) -> T {
+        self.around.sums.get(output, k, slot)
+    }
+}
+
+/// A part of dY/dt = g Y + s of an evolved field.
+///
+/// Several effects may contribute to one field; the parts add.
+pub trait Rate<T: Real, const D: usize>: Debug + Send + Sync {
+    /// Fields that it reads.
+    fn reads(&self) -> Fields;
+    /// Sums that it reads.
+    fn sums(&self) -> Outputs;
+    /// Adds g \[1/s\] of the particles from slot `first` on, one number a particle. `present` are their values.
+    fn growth(&self, _at: &View<'_, T, D>, _first: usize, _present: &[T], _growth: &mut [T]) {}
+    /// Adds s, `components` numbers a particle from slot `first` on.
+    fn source(&self, at: &View<'_, T, D>, first: usize, source: &mut [T]);
+}
+
+/// The rate that is a sum over neighbours, over another field of the particle if one is named.
+#[derive(Clone, Copy, Debug)]
+pub struct BySum {
+    /// The sum Σⱼ.
+    pub sum: Output,
+    /// What it is divided by, as [`Field::MASS`].
+    pub over: Option<Field>,
+}
+
+impl<T: Real, const D: usize> Rate<T, D> for BySum {
+    fn reads(&self) -> Fields {
+        self.over.map_or(Fields::NONE, |field| Fields::of(&[field]))
+    }
+    fn sums(&self) -> Outputs {
+        Outputs::of(&[self.sum])
+    }
+    fn source(&self, at: &View<'_, T, D>, first: usize, source: &mut [T]) {
+        let width = self.sum.components(D);
+        let over = self.over.map(|field| at.columns.raw(field));
+        for (n, values) in source.chunks_exact_mut(width).enumerate() {
+            for (k, value) in values.iter_mut().enumerate() {
+                let sum = at.sum(self.sum, k, first + n);
+                *value += over.map_or(sum, |over| sum / over[first + n]);
+            }
+        }
+    }
+}
+
+/// The rate that a law has written into another field.
+#[derive(Clone, Copy, Debug)]
+pub struct ByField(pub Field);
+
+impl<T: Real, const D: usize> Rate<T, D> for ByField {
+    fn reads(&self) -> Fields {
+        Fields::of(&[self.0])
+    }
+    fn sums(&self) -> Outputs {
+        Outputs::NONE
+    }
+    fn source(&self, at: &View<'_, T, D>, first: usize, source: &mut [T]) {
+        let own = &at.columns.raw(self.0)[first * self.0.components(D)..];
+        for (value, own) in source.iter_mut().zip(own) {
+            *value += *own;
+        }
+    }
+}
+
+/// A field that is integrated in time.
+#[derive(Debug)]
+pub struct Evolved<T: Real, const D: usize> {
+    /// The field.
+    pub field: Field,
+    /// Where the rounding error of its updates is kept, if it is.
+    pub residual: Option<Field>,
+    /// When it changes.
+    pub when: When,
+    /// How it changes.
+    pub update: Update,
+    /// The parts of its rate.
+    pub rates: Vec<Box<dyn Rate<T, D>>>,
+}
+
+impl<T: Real, const D: usize> Evolved<T, D> {
+    /// A field that is kicked by increments; its rates are added with [`by`](Self::by).
+    #[must_use]
+    pub fn kicked(field: Field) -> Self {
+        Self {
+            field,
+            residual: None,
+            when: When::Kick,
+            update: Update::Increment,
+            rates: Vec::new(),
+        }
+    }
+    /// With another update.
+    #[must_use]
+    pub fn updated(self, update: Update) -> Self {
+        Self { update, ..self }
+    }
+    /// That changes at another time.
+    #[must_use]
+    pub fn at(self, when: When) -> Self {
+        Self { when, ..self }
+    }
+    /// Whose rounding is kept in a field of its own where the scalar is `f32`.
+    #[must_use]
+    pub fn keeping(self, residual: Field) -> Self {
+        Self {
+            residual: T::COMPENSATED.then_some(residual),
+            ..self
+        }
+    }
+    /// With a part of its rate.
+    #[must_use]
+    pub fn by(mut self, rate: impl Rate<T, D> + 'static) -> Self {
+        self.rates.push(Box::new(rate));
+        self
+    }
+}

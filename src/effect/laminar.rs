@@ -1,0 +1,165 @@
+//! Physical viscosity: a pair form of the Laplacian, what walls without slip show, and laws that follow the shear.
+//! Morris, Fox & Zhu 1997; Adami, Hu & Adams 2012, eqs. 22, 23.
+
+use super::gradients::velocity_gradient;
+use super::{Chunk, Effect, Law, Setting, StepProgram, Tally};
+use crate::particles::{Field, Fields, Output, Outputs};
+use crate::scalar::Real;
+use crate::sweep::Rows;
+use crate::term::{In, Stage, Term, VelocityAtWall, VelocityGradient, ViscosityAtWall, stage};
+
+/// A physical viscosity, of the liquids' own dynamic viscosity:
+/// [`LaminarViscosity`](crate::term::LaminarViscosity) or [`CentralViscosity`](crate::term::CentralViscosity).
+///
+/// Walls [without slip](crate::boundary::Wall::no_slip) show the liquid its mirrored velocity and its viscosity.
+///
+/// ```
+/// use meshfree::effect::Laminar;
+/// use meshfree::prelude::*;
+/// use meshfree::term::LaminarViscosity;
+/// let scheme: Scheme<f64, 2> = schemes::weakly_compressible()
+///     .with(Laminar(LaminarViscosity))
+///     .compose();
+/// ```
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Laminar<X>(pub X);
+
+impl<const D: usize, X: Term<D>> Effect<D> for Laminar<X> {
+    type Terms = (
+        In<stage::Rates, X>,
+        In<stage::Walls, VelocityAtWall>,
+        In<stage::Walls, ViscosityAtWall>,
+    );
+    fn terms(&self, _setting: &Setting) -> Self::Terms {
+        (
+            In::new(self.0.clone()),
+            In::new(VelocityAtWall),
+            In::new(ViscosityAtWall),
+        )
+    }
+    fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
+        program.law(Stage::Walls, NoSlip);
+    }
+}
+
+/// What a wall without slip shows: v_w = 2 v_wall − Σ v_f W/Σ W (Adami, Hu & Adams 2012, eq. 23) and the mean
+/// viscosity; one with slip has none.
+#[derive(Clone, Copy, Debug)]
+struct NoSlip;
+
+impl<T: Real, const D: usize> Law<T, D> for NoSlip {
+    fn name(&self) -> &'static str {
+        "walls without slip"
+    }
+    fn reads(&self) -> Fields {
+        Fields::of(&[Field::VELOCITY])
+    }
+    fn sums(&self) -> Outputs {
+        Outputs::of(&[
+            Output::UNITY,
+            Output::LIQUID_VELOCITY,
+            Output::LIQUID_VISCOSITY,
+        ])
+    }
+    fn writes(&self) -> Fields {
+        Fields::of(&[Field::VELOCITY, Field::DYNAMIC_VISCOSITY])
+    }
+    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
+        let (sums, first) = (chunk.around.sums, chunk.first);
+        let sticks = chunk.around.wall.is_some_and(|wall| wall.sticks());
+        let dry = T::from_f64(super::walls::DRY);
+        let [velocity, viscosity] = chunk.columns([Field::VELOCITY, Field::DYNAMIC_VISCOSITY]);
+        for (n, (v, viscosity)) in velocity.chunks_exact_mut(D).zip(viscosity).enumerate() {
+            let unity = sums.get(Output::UNITY, 0, first + n);
+            if !sticks || unity <= dry {
+                *viscosity = T::zero();
+                continue;
+            }
+            for (d, v) in v.iter_mut().enumerate() {
+                let liquid = sums.get(Output::LIQUID_VELOCITY, d, first + n);
+                *v = *v + *v - liquid / unity;
+            }
+            *viscosity = sums.get(Output::LIQUID_VISCOSITY, 0, first + n) / unity;
+        }
+        Tally::default()
+    }
+}
+
+/// Lets the viscosity follow the shear rate γ̇ = √(2 D:D) by the
+/// [law of each material](crate::material::Material::with_rheology), for liquids that are not
+/// Newtonian. D is the symmetric part of the velocity gradient without its trace, to which a wall
+/// without slip shows the velocity that makes the liquid stick.
+///
+/// It costs a sweep for the velocity gradient, and goes with [`Laminar`]. Without it such a material keeps the
+/// viscosity it has at rest.
+///
+/// ```
+/// use meshfree::effect::{GeneralisedNewtonian, Laminar};
+/// use meshfree::prelude::*;
+/// use meshfree::term::LaminarViscosity;
+/// let scheme: Scheme<f64, 2> = schemes::weakly_compressible()
+///     .with(Laminar(LaminarViscosity))
+///     .with(GeneralisedNewtonian)
+///     .compose();
+/// ```
+#[derive(Clone, Copy, Debug, Default)]
+pub struct GeneralisedNewtonian;
+
+impl<const D: usize> Effect<D> for GeneralisedNewtonian {
+    type Terms = (In<stage::Flow, VelocityGradient>,);
+    fn terms(&self, _setting: &Setting) -> Self::Terms {
+        (In::new(VelocityGradient),)
+    }
+    fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
+        program.law(Stage::Flow, *self);
+    }
+}
+
+impl<T: Real, const D: usize> Law<T, D> for GeneralisedNewtonian {
+    fn name(&self) -> &'static str {
+        "viscosity from shear"
+    }
+    fn reads(&self) -> Fields {
+        Fields::NONE
+    }
+    fn sums(&self) -> Outputs {
+        Outputs::of(&[Output::VELOCITY_GRADIENT, Output::MOMENT_MATRIX])
+    }
+    fn writes(&self) -> Fields {
+        Fields::of(&[Field::DYNAMIC_VISCOSITY])
+    }
+    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
+        let (around, first) = (chunk.around, chunk.first);
+        let [viscosity] = chunk.columns([Field::DYNAMIC_VISCOSITY]);
+        if let Some(law) = around.material.rheology() {
+            let mut rates = [T::zero(); SHEARED];
+            for (part, viscosity) in viscosity.chunks_mut(SHEARED).enumerate() {
+                let rates = &mut rates[..viscosity.len()];
+                for (n, rate) in rates.iter_mut().enumerate() {
+                    *rate = shear_rate(around.sums, first + part * SHEARED + n);
+                }
+                law.viscosities(rates, viscosity);
+            }
+        }
+        Tally::default()
+    }
+}
+
+/// √(2 D:D) \[1/s\] with D the symmetric part of ∇v without its trace.
+fn shear_rate<T: Real, const D: usize>(sums: &Rows<T, D>, slot: usize) -> T {
+    let gradient = velocity_gradient(sums, slot);
+    let half = T::from_f64(0.5);
+    let mean = gradient.trace() / T::from_f64(D as f64);
+    let mut square = T::zero();
+    for a in 0..D {
+        for b in 0..D {
+            let own = (gradient[(a, b)] + gradient[(b, a)]) * half;
+            let own = if a == b { own - mean } else { own };
+            square += own * own;
+        }
+    }
+    (square + square).sqrt()
+}
+
+/// Particles whose shear rates are on the stack at a time.
+const SHEARED: usize = 64;

@@ -1,0 +1,94 @@
+//! Lists of effects: what a scheme is made of, as a type.
+//! `((), A)` is a list of one; each call of `with` adds one at the end.
+
+use super::{Setting, StepProgram};
+use crate::particles::Fields;
+use crate::scalar::Real;
+use crate::term::{StageMarker, StagedTerms, Terms};
+use core::fmt::Debug;
+
+/// A physical or numerical effect: its pair terms, and what it does to single particles.
+///
+/// Everything of an effect stands in one file: pair terms, each with the stage of the sweep that it shares; the
+/// fields that it evolves, its laws, its limit of the step, its column in the ledger, in
+/// [`register`](Self::register).
+/// A scheme that does not name the effect contains nothing of it.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not an effect in {D} dimensions",
+    note = "implement `Effect<{D}>`: its pair terms, and what it does to single particles"
+)]
+pub trait Effect<const D: usize>: Clone + Debug + Send + Sync + 'static {
+    /// Its pair terms: a tuple of up to four [`In`](crate::term::In), `()` for none.
+    type Terms: StagedTerms<D>;
+    /// Gradients that its laws read, beside what its terms read: [`Field::VELOCITY_GRADIENT`] and its like.
+    ///
+    /// [`Field::VELOCITY_GRADIENT`]: crate::particles::Field::VELOCITY_GRADIENT
+    const NEEDS: Fields = Fields::NONE;
+    /// The terms, for a scheme with this kernel and spacing.
+    fn terms(&self, setting: &Setting) -> Self::Terms;
+    /// Says what it does beside its terms.
+    fn register<T: Real>(&self, _program: &mut StepProgram<T, D>) {}
+    /// What is wrong with its parameters, as `(field, value, what it must be)`.
+    fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
+        Vec::new()
+    }
+}
+
+/// A list of effects.
+pub trait Effects<const D: usize>: Clone + Debug + Send + Sync + 'static {
+    /// The pair terms of a stage.
+    type At<S: StageMarker<D>>: Terms<D>;
+    /// What terms and laws read.
+    const READS: Fields;
+    /// The terms of a stage.
+    fn at<S: StageMarker<D>>(&self, setting: &Setting) -> Self::At<S>;
+    /// Registers all, in order.
+    fn register<T: Real>(&self, program: &mut StepProgram<T, D>);
+    /// What is wrong with their parameters.
+    fn problems(&self) -> Vec<(&'static str, f64, &'static str)>;
+}
+
+impl<const D: usize> Effects<D> for () {
+    type At<S: StageMarker<D>> = ();
+    const READS: Fields = Fields::NONE;
+    fn at<S: StageMarker<D>>(&self, _setting: &Setting) {}
+    fn register<T: Real>(&self, _program: &mut StepProgram<T, D>) {}
+    fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
+        Vec::new()
+    }
+}
+
+impl<const D: usize, A: Effects<D>, B: Effect<D>> Effects<D> for (A, B) {
+    type At<S: StageMarker<D>> = <A::At<S> as Terms<D>>::Then<<B::Terms as StagedTerms<D>>::At<S>>;
+    const READS: Fields = A::READS
+        .union(B::NEEDS)
+        .union(<B::Terms as StagedTerms<D>>::READS);
+    fn at<S: StageMarker<D>>(&self, setting: &Setting) -> Self::At<S> {
+        let next = self.1.terms(setting).at::<S>();
+        self.0.at::<S>(setting).then(next)
+    }
+    fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
+        self.0.register(program);
+        self.1.register(program);
+    }
+    fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
+        let mut problems = self.0.problems();
+        problems.extend(self.1.problems());
+        problems
+    }
+}
+
+/// An effect without pair terms may be chosen at run time.
+impl<const D: usize, A: Effect<D, Terms = ()>> Effect<D> for Option<A> {
+    type Terms = ();
+    const NEEDS: Fields = A::NEEDS;
+    fn terms(&self, _setting: &Setting) {}
+    fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
+        if let Some(effect) = self {
+            effect.register(program);
+        }
+    }
+    fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
+        self.as_ref().map_or_else(Vec::new, Effect::problems)
+    }
+}

@@ -1,0 +1,71 @@
+//! Effects: what a scheme is made of, each one file, one value and one equation with its source.
+//! A scheme that does not name an effect contains nothing of it: no loop, no column, no law.
+//!
+//! A scheme is a list of effects on a kernel. What an effect may consist of:
+//!
+//! | part | what it is | where it stands |
+//! |---|---|---|
+//! | pair terms | sums over neighbours, each in the sweep of a [`Stage`] | [`Effect::terms`] |
+//! | fields of its own | named, with unit: scalar, vector, symmetric tensor or matrix | [`StepProgram::declare`] |
+//! | [evolved](Evolved) fields | integrated in time, by a rate, in an update, at a kick or drift | [`StepProgram::evolve`] |
+//! | [laws](Law) | what happens to single particles after the sweep of a stage | [`StepProgram::law`] |
+//! | [limits](Limit) of the step | the largest that a particle bears | [`StepProgram::limit`] |
+//! | a column of the ledger | the sum of a field over every body | [`StepProgram::ledger`] |
+//! | requirements | what it asks of materials and integrator | [`StepProgram::require`] |
+//!
+//! The pair terms of a list fuse into one loop a stage; the rest is objects that a step calls a handful of times.
+//! Wall laws ([`ExtrapolatedPressure`], [`RiemannWalls`]) are effects whose sums and laws belong to the particles of
+//! walls, [`Stage::Walls`].
+//!
+//! [`Stage`]: crate::term::Stage
+//! [`Stage::Walls`]: crate::term::Stage::Walls
+
+mod acoustic_damping;
+mod cavitation;
+mod chunk;
+mod continuity;
+mod density;
+mod density_diffusion;
+mod density_form;
+mod evolved;
+mod gradients;
+mod laminar;
+mod law;
+mod limit;
+mod list;
+mod program;
+mod setting;
+mod shifting;
+mod viscosity_switch;
+mod volume_consistency;
+mod walls;
+
+pub use acoustic_damping::AcousticDamping;
+pub use cavitation::{Cavitation, ExpansionMemory};
+pub(crate) use chunk::Slices;
+pub use chunk::{Around, Chunk, MOST_COLUMNS};
+pub(crate) use continuity::{Compression, Divergence};
+pub(crate) use density::{ConsistentSmoothing, ContactActivity, SummedDensity};
+pub use density_diffusion::DensityDiffusion;
+pub use density_form::DensityForm;
+pub use evolved::{ByField, BySum, Evolved, Rate, Update, View, When};
+pub(crate) use gradients::CorrectedGradients;
+pub use laminar::{GeneralisedNewtonian, Laminar};
+pub use law::{Law, Tally};
+pub use limit::Limit;
+pub use list::{Effect, Effects};
+pub use program::{Declared, LedgerColumn, Requirement, SceneFacts, StepProgram};
+pub use setting::Setting;
+pub use shifting::Shifting;
+pub(crate) use viscosity_switch::ViscositySwitch;
+pub use volume_consistency::VolumeConsistency;
+pub use walls::{ExtrapolatedPressure, NoWalls, RiemannWalls, VelocityBeforeWall};
+
+/// The parameters that are negative or not finite.
+fn not_negative(parameters: &[(&'static str, f64)]) -> Vec<(&'static str, f64, &'static str)> {
+    parameters
+        .iter()
+        .filter(|(_, value)| !(value.is_finite() && *value >= 0.0))
+        .map(|&(name, value)| (name, value, "it must be finite and not negative"))
+        .collect()
+}

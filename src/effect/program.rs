@@ -1,0 +1,200 @@
+//! The step program: what effects do in a step, stage by stage, beside their pair terms.
+//! A scheme holds it, a group runs it, and it can be printed.
+
+use super::{Evolved, Law, Limit, Rate, Setting};
+use crate::error::Problem;
+use crate::material::Material;
+use crate::particles::{Field, Fields};
+use crate::scalar::Real;
+use crate::term::{Stage, TermDoc};
+
+/// A field that an effect declares, for people and files.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Declared {
+    /// The field.
+    pub field: Field,
+    /// Its name in files and messages.
+    pub name: &'static str,
+    /// Its SI unit.
+    pub unit: &'static str,
+    /// The value that every component starts with.
+    pub start: f64,
+}
+
+/// A number of each particle whose sum over a body the ledger keeps.
+#[derive(Clone, Copy, Debug)]
+pub struct LedgerColumn {
+    /// Its name, as `heat`.
+    pub name: &'static str,
+    /// Its SI unit.
+    pub unit: &'static str,
+    /// The field.
+    pub field: Field,
+    /// Whether it is taken times the mass.
+    pub times_mass: bool,
+}
+
+/// What a scene is made of, as far as an effect may ask.
+#[derive(Debug)]
+pub struct SceneFacts<'a, T: Real> {
+    /// Names and materials of the bodies that share the scheme.
+    pub bodies: Vec<(&'a str, &'a Material<T>)>,
+    /// The integrator's name.
+    pub integrator: String,
+    /// Whether it changes velocity by kicks alone.
+    pub kicks: bool,
+    /// Whether smoothing lengths vary or differ.
+    pub lengths_vary: bool,
+}
+
+/// What an effect asks of the scene that it is used in.
+pub type Requirement<T> = Box<dyn Fn(&SceneFacts<'_, T>) -> Option<Problem> + Send + Sync>;
+
+/// What effects do in a step beside their pair terms.
+pub struct StepProgram<T: Real, const D: usize> {
+    pub(crate) setting: Setting,
+    pub(crate) declared: Vec<Declared>,
+    pub(crate) evolved: Vec<Evolved<T, D>>,
+    pub(crate) laws: [Vec<Box<dyn Law<T, D>>>; Stage::COUNT],
+    pub(crate) limits: Vec<Box<dyn Limit<T, D>>>,
+    pub(crate) ledger: Vec<LedgerColumn>,
+    pub(crate) documents: Vec<TermDoc>,
+    pub(crate) requirements: Vec<Requirement<T>>,
+    pub(crate) step_factor: f64,
+    pub(crate) wall_normals: bool,
+    needed: Fields,
+}
+
+impl<T: Real, const D: usize> core::fmt::Debug for StepProgram<T, D> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("StepProgram")
+            .field("evolved", &self.evolved)
+            .field("laws", &self.laws)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<T: Real, const D: usize> StepProgram<T, D> {
+    pub(crate) fn new(setting: Setting) -> Self {
+        Self {
+            setting,
+            declared: Vec::new(),
+            evolved: Vec::new(),
+            laws: core::array::from_fn(|_| Vec::new()),
+            limits: Vec::new(),
+            ledger: Vec::new(),
+            documents: Vec::new(),
+            requirements: Vec::new(),
+            step_factor: 1.0,
+            wall_normals: false,
+            needed: Fields::NONE,
+        }
+    }
+
+    /// What the scheme is, as far as its effects may ask.
+    #[must_use]
+    pub fn setting(&self) -> &Setting {
+        &self.setting
+    }
+
+    /// Declares a field, with its name and unit in files, and what it starts with.
+    pub fn declare(&mut self, field: Field, name: &'static str, unit: &'static str, start: f64) {
+        self.declared.push(Declared {
+            field,
+            name,
+            unit,
+            start,
+        });
+    }
+
+    /// Lets a field of the crate start with a value.
+    pub fn start(&mut self, field: Field, value: f64) {
+        self.declare(field, field.name(), field.unit(), value);
+    }
+
+    /// Integrates a field in time.
+    pub fn evolve(&mut self, evolved: Evolved<T, D>) {
+        self.evolved.push(evolved);
+    }
+
+    /// Adds a part to the rate of a field that another effect, or the scheme, integrates.
+    pub fn contribute(&mut self, field: Field, rate: impl Rate<T, D> + 'static) {
+        if let Some(evolved) = self.evolved.iter_mut().find(|own| own.field == field) {
+            evolved.rates.push(Box::new(rate));
+        }
+    }
+
+    /// Runs a law at a stage.
+    pub fn law(&mut self, stage: Stage, law: impl Law<T, D> + 'static) {
+        self.laws[stage.number()].push(Box::new(law));
+    }
+
+    /// Limits the time step.
+    pub fn limit(&mut self, limit: impl Limit<T, D> + 'static) {
+        self.limits.push(Box::new(limit));
+    }
+
+    /// Multiplies the step factor, for what lowers the stable step by a known share.
+    pub fn shorten_step(&mut self, factor: f64) {
+        self.step_factor *= factor;
+    }
+
+    /// Keeps the sum of a field over every body in the ledger.
+    pub fn ledger(&mut self, column: LedgerColumn) {
+        self.ledger.push(column);
+    }
+
+    /// Says what the effect is beside its terms, for people.
+    pub fn document(&mut self, document: TermDoc) {
+        self.documents.push(document);
+    }
+
+    /// Asks something of the scene.
+    pub fn require(
+        &mut self,
+        requirement: impl Fn(&SceneFacts<'_, T>) -> Option<Problem> + Send + Sync + 'static,
+    ) {
+        self.requirements.push(Box::new(requirement));
+    }
+
+    /// Asks for the normals of walls in [`WallSurface`](crate::boundary::WallSurface).
+    pub fn ask_for_wall_normals(&mut self) {
+        self.wall_normals = true;
+    }
+
+    /// Asks for a column that nothing here writes or evolves.
+    pub fn carry(&mut self, field: Field) {
+        self.needed = self.needed.union(Fields::of(&[field]));
+    }
+
+    /// The fields that the program names.
+    pub(crate) fn fields(&self) -> Fields {
+        let laws = self.laws.iter().flatten();
+        let laws = laws.fold(self.needed, |all, law| {
+            all.union(law.reads()).union(law.writes())
+        });
+        let evolved = self.evolved.iter().fold(laws, |all, own| {
+            let residual = own.residual.map_or(Fields::NONE, |r| Fields::of(&[r]));
+            let read = own
+                .rates
+                .iter()
+                .fold(Fields::NONE, |all, rate| all.union(rate.reads()));
+            all.union(Fields::of(&[own.field]))
+                .union(residual)
+                .union(read)
+        });
+        self.declared
+            .iter()
+            .fold(evolved, |all, own| all.union(Fields::of(&[own.field])))
+    }
+
+    pub(crate) fn evolves(&self, field: Field) -> bool {
+        self.evolved.iter().any(|own| own.field == field)
+    }
+
+    /// The name and unit of a field.
+    pub(crate) fn name_of(&self, field: Field) -> (&'static str, &'static str) {
+        let declared = self.declared.iter().find(|own| own.field == field);
+        declared.map_or((field.name(), field.unit()), |own| (own.name, own.unit))
+    }
+}

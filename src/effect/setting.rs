@@ -1,0 +1,47 @@
+//! What a scheme is, as far as its effects may ask: kernel, spacing, density form.
+//! Evaluated when the scene is built, so the order in which a builder was told does not matter.
+
+use super::{DensityForm, When};
+use crate::kernel::lattice::{lattice_moment, lattice_unity};
+use crate::kernel::{Kernel, KernelFacts};
+
+/// What a scheme is, as far as its effects may ask.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Setting {
+    /// What the kernel says about itself.
+    pub kernel: KernelFacts,
+    /// Ratio of smoothing length to spacing.
+    pub h_over_dx: f64,
+    /// How density follows from the particles.
+    pub density: DensityForm,
+    /// Whose pressure force acts.
+    pub pressure_form: DensityForm,
+    /// When an integrated density changes.
+    pub density_changes: When,
+    /// First moment −Σ V r·∇W/D of the lattice.
+    pub lattice_moment: f64,
+    /// Σ V W over the lattice.
+    pub lattice_unity: f64,
+    /// hᴰ W at the spacing.
+    pub kernel_at_spacing: f64,
+}
+
+impl Setting {
+    pub(crate) fn of<const D: usize>(
+        kernel: &impl Kernel<D>,
+        h_over_dx: f64,
+        (density, pressure_form): (DensityForm, DensityForm),
+        density_changes: When,
+    ) -> Self {
+        Self {
+            kernel: KernelFacts::of(kernel),
+            h_over_dx,
+            density,
+            pressure_form,
+            density_changes,
+            lattice_moment: lattice_moment(kernel, h_over_dx),
+            lattice_unity: lattice_unity(kernel, h_over_dx),
+            kernel_at_spacing: kernel.normalisation() * Kernel::<D>::shape(kernel, 1.0 / h_over_dx),
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! Coefficients of artificial viscosity that follow the flow, once a step.
+//! The law is the viscosity's own (Morris & Monaghan 1997, Cullen & Dehnen 2010); here are the sums that it sees.
+
+use super::{Chunk, DensityForm, Law, Tally};
+use crate::particles::{Field, Fields, Output, Outputs};
+use crate::scalar::Real;
+use crate::term::viscosity::{Surroundings, Switch};
+
+/// The switch of a viscosity.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ViscositySwitch {
+    pub switch: Switch,
+    /// The form whose weights the rates have.
+    pub form: DensityForm,
+    /// Support of the kernel in units of h.
+    pub support: f64,
+}
+
+impl<T: Real, const D: usize> Law<T, D> for ViscositySwitch {
+    fn name(&self) -> &'static str {
+        "coefficients of viscosity"
+    }
+    fn reads(&self) -> Fields {
+        Fields::of(&[Field::DENSITY, Field::SOUND_SPEED])
+    }
+    fn sums(&self) -> Outputs {
+        Outputs::of(&[Output::COMPRESSION])
+    }
+    fn writes(&self) -> Fields {
+        // In one dimension there is no shear to tell from a shock.
+        match self.switch {
+            Switch::CullenDehnen { .. } if D > 1 => Fields::of(&[
+                Field::VISCOSITY_COEFFICIENT,
+                Field::DIVERGENCE,
+                Field::VELOCITY_GRADIENT,
+            ]),
+            Switch::CullenDehnen { .. } => {
+                Fields::of(&[Field::VISCOSITY_COEFFICIENT, Field::DIVERGENCE])
+            }
+            Switch::MorrisMonaghan { .. } => Fields::of(&[Field::VISCOSITY_COEFFICIENT]),
+        }
+    }
+    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
+        // Coefficients follow the flow once a step, however many evaluations it takes.
+        if chunk.around.dt <= 0.0 {
+            return Tally::default();
+        }
+        let (sums, first) = (chunk.around.sums, chunk.first);
+        let reach = T::from_f64(self.support);
+        let uniform = T::from_f64(chunk.around.smoothing_length);
+        let dt = T::from_f64(chunk.around.dt);
+        let [
+            alpha,
+            divergence,
+            density,
+            rest,
+            moment,
+            h,
+            sound_speed,
+            gradient,
+        ] = chunk.columns([
+            Field::VISCOSITY_COEFFICIENT,
+            Field::DIVERGENCE,
+            Field::DENSITY,
+            Field::REFERENCE_DENSITY,
+            Field::NORMALISATION,
+            Field::SMOOTHING_LENGTH,
+            Field::SOUND_SPEED,
+            Field::VELOCITY_GRADIENT,
+        ]);
+        let at = |column: &[T], n: usize, absent: T| column.get(n).copied().unwrap_or(absent);
+        for (n, alpha) in alpha.iter_mut().enumerate() {
+            let slot = first + n;
+            let sum = sums.get(Output::COMPRESSION, 0, slot);
+            let (rest, moment) = (at(rest, n, T::one()), at(moment, n, T::one()));
+            let h = at(h, n, uniform);
+            let unity = sums.get(Output::UNITY, 0, slot);
+            let around = Surroundings {
+                divergence: -self.form.compression(sum, density[n], rest, moment),
+                divergence_before: at(divergence, n, T::zero()),
+                divergence_sign: if unity > T::zero() {
+                    sums.get(Output::DIVERGENCE_SIGN, 0, slot) / unity
+                } else {
+                    T::zero()
+                },
+                shear2: shear2::<T, D>(gradient.get(n * D * D..(n + 1) * D * D)),
+                sound_speed: sound_speed[n],
+                signal_speed: sums.get(Output::SIGNAL_SPEED, 0, slot).max(sound_speed[n]),
+                h,
+                support: reach * h,
+            };
+            *alpha = self.switch.next(*alpha, &around, dt);
+            if let Some(divergence) = divergence.get_mut(n) {
+                *divergence = around.divergence;
+            }
+        }
+        Tally::default()
+    }
+}
+
+/// tr S Sᵀ of the traceless symmetric part of a velocity gradient; zero in one dimension.
+fn shear2<T: Real, const D: usize>(gradient: Option<&[T]>) -> T {
+    let Some(gradient) = gradient.filter(|_| D > 1) else {
+        return T::zero();
+    };
+    let half = T::from_f64(0.5);
+    let mean = (0..D).fold(T::zero(), |sum, a| sum + gradient[a * D + a]) / T::from_f64(D as f64);
+    let mut sum = T::zero();
+    for a in 0..D {
+        for b in 0..D {
+            let mut s = (gradient[a * D + b] + gradient[b * D + a]) * half;
+            if a == b {
+                s -= mean;
+            }
+            sum += s * s;
+        }
+    }
+    sum
+}

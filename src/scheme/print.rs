@@ -1,0 +1,82 @@
+//! How a scheme prints itself: its terms with equations and sources, its step, and the fields of a particle.
+//! What is not printed here is not in the program that runs.
+
+use super::Scheme;
+use crate::particles::{Field, Fields};
+use crate::scalar::Real;
+use crate::term::Stage;
+use core::fmt;
+
+impl<T: Real, const D: usize> fmt::Display for Scheme<T, D> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(
+            f,
+            "{}: {} kernel, h/dx {}, density by {}, energy {:?}, smoothing {:?}",
+            self.name, self.kernel.name, self.h_over_dx, self.density, self.energy, self.smoothing
+        )?;
+        for term in self.terms().iter().filter(|term| !term.name.is_empty()) {
+            writeln!(f, "  {}: {}  [{}]", term.name, term.equation, term.source)?;
+        }
+        write!(f, "  carries {}", self.names(self.fields()))
+    }
+}
+
+impl<T: Real, const D: usize> Scheme<T, D> {
+    fn names(&self, fields: Fields) -> String {
+        let names: Vec<_> = fields
+            .iter()
+            .map(|field| self.program.name_of(field).0)
+            .collect();
+        names.join(", ")
+    }
+
+    /// The step program: what happens at every stage of a step, with the fields read and written.
+    ///
+    /// ```
+    /// use meshfree::prelude::*;
+    /// let scheme: Scheme<f64, 2> = schemes::weakly_compressible().compose();
+    /// let program = scheme.step_program();
+    /// assert!(program.contains("rates"));
+    /// ```
+    #[must_use]
+    pub fn step_program(&self) -> String {
+        let mut lines = vec![format!("{}, step by step", self.name)];
+        for stage in Stage::ALL {
+            if let Some(sweep) = self.sweep(stage) {
+                let sums: Vec<_> = sweep.outputs().iter().map(|sum| sum.name()).collect();
+                lines.push(format!("  {}: pairs", stage.name()));
+                lines.push(format!("      reads  {}", self.names(sweep.fields())));
+                lines.push(format!("      sums   {}", sums.join(", ")));
+            }
+            for law in &self.program.laws[stage.number()] {
+                lines.push(format!("  {}: {}", stage.name(), law.name()));
+                lines.push(format!("      reads  {}", self.names(law.reads())));
+                lines.push(format!("      writes {}", self.names(law.writes())));
+            }
+            if stage == Stage::Density {
+                lines.push("  state: equations of state".into());
+                lines.push(format!(
+                    "      writes {}",
+                    self.names(Fields::of(&[Field::PRESSURE, Field::SOUND_SPEED]))
+                ));
+            }
+        }
+        for own in &self.program.evolved {
+            let (name, unit) = self.program.name_of(own.field);
+            lines.push(format!(
+                "  evolves {name} [{unit}]: {:?}, {:?}{}",
+                own.when,
+                own.update,
+                if own.residual.is_some() {
+                    ", rounding kept"
+                } else {
+                    ""
+                }
+            ));
+        }
+        for limit in &self.program.limits {
+            lines.push(format!("  limits the step: {}", limit.name()));
+        }
+        lines.join("\n")
+    }
+}

@@ -1,0 +1,205 @@
+//! The neighbourhood of a group: lists of who is near, images behind boundaries, and how long both last.
+//! It is rebuilt from the positions that it remembers, so a checkpoint needs no lists.
+
+use super::group::width;
+use super::images::Chain;
+use super::population::Particles;
+use crate::boundary::Boundary;
+use crate::neighbors::{Block, ClusterLists, Radii, SearchInput};
+use crate::particles::Field;
+use crate::scalar::Real;
+use crate::sweep::{Image, Interaction, Transform};
+use crate::tensor::{Vector, length};
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// Neighbour lists of a group and the images in them.
+#[derive(Debug)]
+pub(crate) struct Neighborhood<T: Real, const D: usize> {
+    pub blocks: Vec<Block>,
+    pub interactions: Vec<Interaction>,
+    pub images: Vec<Image>,
+    pub transforms: Vec<Transform<T, D>>,
+    pub chains: Vec<Chain>,
+    pub lists: ClusterLists,
+    /// Positions of slots at the last list build, then of images.
+    pub listed: Vec<[T; D]>,
+    pub listed_h: Vec<T>,
+    pub listed_time: f64,
+    /// The skin of the lists as they are \[m\].
+    pub skin: f64,
+    /// Skins of lists that last, and of lists that do not \[m\].
+    pub skins: [f64; 2],
+    /// Evaluations that the lists have served since they were built.
+    pub served: u32,
+    pub rebuilds: u64,
+    /// Entries of the lists after the last sort.
+    pub sorted_entries: usize,
+    /// Support of the kernel in units of h.
+    pub support: f64,
+    /// The smoothing length where it is the same for all, and the largest as built \[m\].
+    pub smoothing_length: f64,
+}
+
+/// Growth of the lists since the last sort at which particles are sorted again.
+const UNSORTED: f64 = 1.03;
+
+/// Lists that served fewer evaluations get the thick skin, and those that served more the thin one again: twice the
+/// skin lasts twice as long, so neither brings the other back.
+const LASTING: [u32; 2] = [8, 24];
+
+impl<T: Real, const D: usize> Neighborhood<T, D> {
+    pub fn new(
+        interactions: Vec<Interaction>,
+        (support, smoothing_length): (f64, f64),
+        skins: [f64; 2],
+    ) -> Self {
+        Self {
+            blocks: Vec::new(),
+            interactions,
+            images: Vec::new(),
+            transforms: Vec::new(),
+            chains: Vec::new(),
+            lists: ClusterLists::default(),
+            listed: Vec::new(),
+            listed_h: Vec::new(),
+            listed_time: 0.0,
+            skin: skins[0],
+            skins,
+            served: 0,
+            rebuilds: 0,
+            sorted_entries: 0,
+            support,
+            smoothing_length,
+        }
+    }
+
+    /// How far a pair reaches, with the skin \[m\].
+    pub fn reach(&self, particles: &Particles<T, D>) -> f64 {
+        let h = particles.columns.raw(Field::SMOOTHING_LENGTH);
+        let largest = h
+            .iter()
+            .fold(self.smoothing_length, |m, h| m.max(h.to_f64()));
+        self.support * largest + self.skin
+    }
+
+    /// A skin that suits how long the lists have lasted. It depends on the flow alone, and not on the time that
+    /// anything took, so that the next run makes the same lists.
+    pub fn choose_skin(&mut self) {
+        let [thin, thick] = self.skins;
+        let skin = if self.served < LASTING[0] {
+            thick
+        } else if self.served > LASTING[1] {
+            thin
+        } else {
+            self.skin
+        };
+        if skin != self.skin {
+            self.skin = skin;
+            // Lengths of lists with another skin do not compare: particles are sorted anew.
+            self.sorted_entries = 0;
+        }
+    }
+
+    /// Whether particles need new places in memory: only when their rows have lost their shape.
+    pub fn wants_sort(&self) -> bool {
+        D > 1 && self.lists.entries() as f64 >= UNSORTED * self.sorted_entries as f64
+    }
+
+    /// Whether a particle has moved, or its support has grown, by more than the skin allows. `shift` \[m\] is how far
+    /// a container that takes its liquid with it has gone: only what moves in it outdates lists.
+    pub fn outdated(
+        &self,
+        particles: &Particles<T, D>,
+        boundaries: &[Arc<dyn Boundary<T, D>>],
+        shift: [f64; D],
+        time: f64,
+    ) -> bool {
+        let positions = particles.columns.vectors(Field::POSITION);
+        let farthest = positions
+            .par_iter()
+            .zip(&self.listed)
+            .with_min_len(4096)
+            .map(|(now, then)| {
+                (0..D)
+                    .map(|d| ((now[d] - then[d]).to_f64() - shift[d]).powi(2))
+                    .sum::<f64>()
+            })
+            .reduce(|| 0.0, f64::max)
+            .sqrt();
+        let h = particles.columns.raw(Field::SMOOTHING_LENGTH);
+        let grown = h
+            .iter()
+            .zip(&self.listed_h)
+            .fold(0.0_f64, |m, (now, then)| m.max((*now - *then).to_f64()));
+        // A moving boundary carries images towards particles that rest, and a boundary at rest reflects
+        // what a container does.
+        let moved = shift.iter().any(|&s| s != 0.0);
+        let shift = Vector::from(shift.map(T::from_f64));
+        let carried: f64 = boundaries
+            .iter()
+            .filter(|boundary| moved || boundary.moves())
+            .map(|boundary| {
+                (0..boundary.images()).fold(0.0_f64, |most, k| {
+                    let now = boundary.transform(k, time);
+                    let then = boundary.transform(k, self.listed_time);
+                    let by = now.rotation * shift - shift;
+                    most.max(length(&(now.shift - then.shift + by)).to_f64())
+                })
+            })
+            .sum();
+        2.0 * farthest + carried + self.support * grown > self.skin
+    }
+
+    /// Remembers where particles are, as blocks of bodies and walls.
+    pub fn remember(
+        &mut self,
+        particles: &Particles<T, D>,
+        walls: impl Iterator<Item = std::ops::Range<usize>>,
+    ) {
+        self.listed.clear();
+        self.listed
+            .extend_from_slice(particles.columns.vectors(Field::POSITION));
+        self.listed_h.clear();
+        self.listed_h
+            .extend_from_slice(particles.columns.raw(Field::SMOOTHING_LENGTH));
+        self.blocks.clear();
+        let bodies = particles.bodies.iter().map(|body| body.slots.clone());
+        let block = |wall| move |slots| Block { slots, wall };
+        self.blocks.extend(bodies.map(block(false)));
+        self.blocks.extend(walls.map(block(true)));
+    }
+
+    /// Builds the lists from what it remembers, with the images in place.
+    pub fn list(&mut self) {
+        let slots = self.listed.len() - self.images.len();
+        let h = &mut self.listed_h;
+        let radii = if h.is_empty() {
+            Radii::Uniform(self.support * self.smoothing_length)
+        } else {
+            for image in &self.images {
+                h.push(h[image.source as usize]);
+            }
+            Radii::Varying(h.as_slice(), self.support)
+        };
+        let listed: Vec<bool> = self
+            .interactions
+            .iter()
+            .map(|&interaction| interaction != Interaction::None)
+            .collect();
+        self.lists.rebuild(&SearchInput {
+            positions: &self.listed,
+            listed: &listed,
+            radii,
+            blocks: &self.blocks,
+            width: width::<T>(),
+            slots,
+            skin: self.skin,
+        });
+    }
+
+    /// Bytes held.
+    pub fn bytes(&self) -> usize {
+        self.lists.bytes() + self.listed.capacity() * size_of::<[T; D]>()
+    }
+}

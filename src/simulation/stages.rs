@@ -1,0 +1,231 @@
+//! Stages: a sweep over pairs, and then the laws of the scheme, chunk by chunk in one pass over particles.
+//! The driver of everything that effects do; it knows none of them.
+
+use super::group::Group;
+use crate::boundary::WallSurface;
+use crate::effect::{Around, Chunk, Law, Slices, Tally};
+use crate::particles::Field;
+use crate::scalar::Real;
+use crate::scheme::Scheme;
+use crate::sweep::{PairSweep, Pass, SweepInput};
+use crate::term::Stage;
+use std::ops::Range;
+use std::time::Instant;
+
+/// Particles that a thread takes at a time in loops over particles.
+pub(crate) const GRAIN: usize = 4096;
+
+/// Most laws of a stage whose limits are counted apart.
+pub(crate) const MOST_LAWS: usize = 16;
+
+/// Where and when a stage runs.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Moment {
+    /// The time \[s\].
+    pub time: f64,
+    /// The step \[s\] over which it acts.
+    pub dt: f64,
+    /// Whether the sums are those of a sweep in the middle of a drift.
+    pub in_drift: bool,
+    /// Whether the sums are those of the rates.
+    pub of_rates: bool,
+}
+
+impl Moment {
+    /// In an evaluation at `time` \[s\].
+    pub fn at(time: f64) -> Self {
+        Self {
+            time,
+            dt: 0.0,
+            in_drift: false,
+            of_rates: false,
+        }
+    }
+}
+
+impl<T: Real, const D: usize> Group<T, D> {
+    /// Runs a sweep over particles of bodies into the sums.
+    pub(super) fn sum(&mut self, choose: impl Fn(&Scheme<T, D>) -> Option<&dyn PairSweep<T, D>>) {
+        self.sum_over(0..self.particles.mobile, choose);
+    }
+
+    /// Runs a sweep over some slots into the sums.
+    fn sum_over(
+        &mut self,
+        targets: Range<usize>,
+        choose: impl Fn(&Scheme<T, D>) -> Option<&dyn PairSweep<T, D>>,
+    ) {
+        let mut records = core::mem::take(&mut self.work.records);
+        self.work.records_of_rates = false;
+        let mut sums = core::mem::take(&mut self.work.sums);
+        if let Some(sweep) = choose(&self.scheme) {
+            let input = SweepInput {
+                targets,
+                ..self.input()
+            };
+            let start = Instant::now();
+            sweep.pack(Pass::Rates, &input, &mut records);
+            let packed = Instant::now();
+            sweep.run(Pass::Rates, &input, &records, &mut sums);
+            self.work.phases.packing += packed - start;
+            self.work.phases.pairs += packed.elapsed();
+        }
+        self.work.records = records;
+        self.work.sums = sums;
+    }
+
+    /// Runs the sweep of a stage, if there is one, and its laws; again, with new lists, as long as a law says that
+    /// it changes much.
+    pub(super) fn run_stage(&mut self, stage: Stage, moment: Moment) {
+        let scheme = self.scheme.clone();
+        let laws = &scheme.program.laws[stage.number()];
+        let repeats = laws.iter().find_map(|law| law.repeats());
+        let (times, tolerance) = repeats.unwrap_or((1, 0.0));
+        let mut tallies = [Tally::default(); MOST_LAWS];
+        for _ in 0..times {
+            if repeats.is_some() {
+                self.refresh(moment.time, None);
+            }
+            if scheme.sweep(stage).is_some() {
+                self.sum(|scheme| scheme.sweep(stage));
+            }
+            tallies = self.run_laws(laws, moment);
+            if tallies.iter().all(|tally| tally.change < tolerance) {
+                break;
+            }
+        }
+        for (law, tally) in laws.iter().zip(tallies) {
+            self.count(law.name(), tally.limited);
+        }
+    }
+
+    /// Runs the laws of a stage without its sweep.
+    pub(super) fn apply_laws(&mut self, stage: Stage, moment: Moment) {
+        let scheme = self.scheme.clone();
+        let laws = &scheme.program.laws[stage.number()];
+        let tallies = self.run_laws(laws, moment);
+        for (law, tally) in laws.iter().zip(tallies) {
+            self.count(law.name(), tally.limited);
+        }
+    }
+
+    /// Laws on all particles of bodies, body by body.
+    fn run_laws(&mut self, laws: &[Box<dyn Law<T, D>>], moment: Moment) -> [Tally; MOST_LAWS] {
+        let mut tallies = [Tally::default(); MOST_LAWS];
+        if laws.is_empty() {
+            return tallies;
+        }
+        let mut rest = Slices::of(&mut self.particles.columns);
+        for body in &self.particles.bodies {
+            let run = body.run();
+            let (own, behind) = rest.split(run.len());
+            rest = behind;
+            let around = Around {
+                sums: if moment.of_rates {
+                    &self.work.rates
+                } else {
+                    &self.work.sums
+                },
+                rates: &self.work.rates,
+                material: &body.material,
+                wall: None,
+                smoothing_length: self.smoothing_length,
+                lattice_moment: self.scheme.lattice_moment,
+                dt: moment.dt,
+                time: moment.time,
+                gravity: self.gravity,
+                in_drift: moment.in_drift,
+            };
+            join(
+                &mut tallies,
+                &run_chunks(laws, own, run, body.slots.end, around),
+            );
+        }
+        tallies
+    }
+
+    /// The stage of walls: what they take from the liquid, and the laws that answer it.
+    pub(super) fn run_walls(&mut self, time: f64) {
+        if self.walls.is_empty() || !self.scheme.meets_walls() {
+            return;
+        }
+        let slots = self.particles.mobile..self.particles.columns.slots();
+        self.sum_over(slots, |scheme| scheme.sweep(Stage::Walls));
+        let scheme = self.scheme.clone();
+        let laws = &scheme.program.laws[Stage::Walls.number()];
+        let rest = Slices::of(&mut self.particles.columns);
+        let (_, mut rest) = rest.split(self.particles.mobile);
+        let Some(body) = self.particles.bodies.first() else {
+            return;
+        };
+        for wall in &self.walls {
+            let run = wall.slots.start..wall.end;
+            let (own, behind) = rest.split(run.len());
+            rest = behind;
+            let surface = WallSurface::new(
+                (&self.particles.ids, wall.slots.start),
+                (&wall.rest, &wall.normals),
+                (
+                    wall.motion.as_ref().map(|motion| motion.pose(time)),
+                    wall.slip,
+                ),
+                wall.structure
+                    .as_ref()
+                    .map(|structure| structure.accelerations.as_slice()),
+            );
+            let around = Around {
+                sums: &self.work.sums,
+                rates: &self.work.rates,
+                material: &body.material,
+                wall: Some(&surface),
+                smoothing_length: self.smoothing_length,
+                lattice_moment: self.scheme.lattice_moment,
+                dt: 0.0,
+                time,
+                gravity: self.gravity,
+                in_drift: false,
+            };
+            run_chunks(laws, own, run, wall.slots.end, around);
+        }
+    }
+
+    /// A column of this group taken out for a while, to be changed with all others in sight.
+    pub(super) fn take(&mut self, field: Field) -> Vec<T> {
+        core::mem::take(self.particles.columns.column_mut(field))
+    }
+}
+
+/// Adds the tallies of other chunks.
+fn join(tallies: &mut [Tally; MOST_LAWS], others: &[Tally; MOST_LAWS]) {
+    for (own, other) in tallies.iter_mut().zip(others) {
+        own.limited += other.limited;
+        own.change = own.change.max(other.change);
+    }
+}
+
+/// Laws over a run of slots, of which those before `live` are particles and the others repeat the last.
+fn run_chunks<T: Real, const D: usize>(
+    laws: &[Box<dyn Law<T, D>>],
+    columns: Slices<'_, T>,
+    slots: Range<usize>,
+    live: usize,
+    around: Around<'_, T, D>,
+) -> [Tally; MOST_LAWS] {
+    if slots.len() > GRAIN {
+        let half = (slots.len() / GRAIN).div_ceil(2) * GRAIN;
+        let (low, high) = columns.split(half);
+        let middle = slots.start + half;
+        let (mut tallies, others) = rayon::join(
+            || run_chunks(laws, low, slots.start..middle, live, around),
+            || run_chunks(laws, high, middle..slots.end, live, around),
+        );
+        join(&mut tallies, &others);
+        return tallies;
+    }
+    let mut tallies = [Tally::default(); MOST_LAWS];
+    let mut chunk = Chunk::new(columns, slots.clone(), live, around);
+    for (law, tally) in laws.iter().zip(&mut tallies) {
+        *tally = law.apply(&mut chunk);
+    }
+    tallies
+}

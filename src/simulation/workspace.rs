@@ -1,0 +1,63 @@
+//! The workspace of a group: packed records, sums of sweeps, states that integrators keep, times.
+//! Of it a checkpoint holds what the next step reads before it evaluates.
+
+use super::Phases;
+use super::population::Moves;
+use crate::particles::Field;
+use crate::scalar::Real;
+use crate::sweep::{Records, Rows};
+
+/// Columns of a saved state.
+pub(super) type Saved<T> = Vec<(Field, Vec<T>)>;
+
+/// Scratch of a group, and the rates at hand.
+#[derive(Debug)]
+pub(crate) struct Workspace<T: Real, const D: usize> {
+    pub records: Records<T>,
+    /// Records of the rates with the mean velocities of a kick.
+    pub work_records: Records<T>,
+    /// Whether the records are those of the rates; all sweeps share them.
+    pub records_of_rates: bool,
+    /// The rates of the last evaluation.
+    pub rates: Rows<T, D>,
+    /// The sums of the last other sweep.
+    pub sums: Rows<T, D>,
+    /// What its liquid does to the particles of structures, which are walls here.
+    pub coupling: Rows<T, D>,
+    /// What list builds have done to particles since saved states were last told.
+    pub moved: Moves<T, D>,
+    /// What a prediction has changed, and takes back.
+    pub predicted: Saved<T>,
+    /// States that an integrator keeps.
+    pub kept: Vec<Saved<T>>,
+    /// Where the time went.
+    pub phases: Phases,
+}
+
+impl<T: Real, const D: usize> Default for Workspace<T, D> {
+    fn default() -> Self {
+        Self {
+            records: Records::default(),
+            work_records: Records::default(),
+            records_of_rates: false,
+            rates: Rows::default(),
+            sums: Rows::default(),
+            coupling: Rows::default(),
+            moved: Moves::default(),
+            predicted: Vec::new(),
+            kept: Vec::new(),
+            phases: Phases::default(),
+        }
+    }
+}
+
+impl<T: Real, const D: usize> Workspace<T, D> {
+    /// Bytes held for records and sums.
+    pub fn bytes(&self) -> usize {
+        self.records.bytes()
+            + self.work_records.bytes()
+            + self.rates.bytes()
+            + self.sums.bytes()
+            + self.coupling.bytes()
+    }
+}

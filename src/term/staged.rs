@@ -1,0 +1,204 @@
+//! Terms by stage: of the terms of an effect, those that share the sweep of one stage, as a type.
+//! A sweep is compiled once for the terms that it has, whatever else the schemes that use it name.
+
+use super::{Layout, Pair, Stage, Sums, Term, TermDoc, Terms};
+use crate::particles::{Fields, Outputs};
+use crate::scalar::Lane;
+use core::fmt::Debug;
+use core::marker::PhantomData;
+
+macro_rules! markers {
+    ($( $(#[$doc:meta])* $Marker:ident $If:ident $put:ident [$($Other:ident $other:ident),*] ),*) => {
+        /// A [`Stage`] as a type.
+        pub trait StageMarker<const D: usize>: Clone + Debug + Send + Sync + 'static {
+            /// The stage.
+            const STAGE: Stage;
+            /// The terms `A` of this stage in the sweep of stage `S`: all of them if it is the same, none if not.
+            type Of<S: StageMarker<D>, A: Terms<D>>: Terms<D>;
+            /// The terms of this stage in the sweep of stage `S`.
+            fn put<S: StageMarker<D>, A: Terms<D>>(terms: A) -> Self::Of<S, A>;
+            $(
+                #[doc(hidden)]
+                type $If<A: Terms<D>>: Terms<D>;
+                #[doc(hidden)]
+                fn $put<A: Terms<D>>(terms: A) -> Self::$If<A>;
+            )*
+        }
+        $(
+            $(#[$doc])*
+            #[derive(Clone, Copy, Debug)]
+            pub struct $Marker;
+
+            impl<const D: usize> StageMarker<D> for $Marker {
+                const STAGE: Stage = Stage::$Marker;
+                type Of<S: StageMarker<D>, A: Terms<D>> = S::$If<A>;
+                fn put<S: StageMarker<D>, A: Terms<D>>(terms: A) -> Self::Of<S, A> {
+                    S::$put(terms)
+                }
+                type $If<A: Terms<D>> = A;
+                fn $put<A: Terms<D>>(terms: A) -> A {
+                    terms
+                }
+                $(
+                    type $Other<A: Terms<D>> = ();
+                    fn $other<A: Terms<D>>(_terms: A) {}
+                )*
+            }
+        )*
+    };
+}
+
+/// The stages that have sweeps, as types, for the terms of effects: `In<stage::Rates, A>`.
+pub mod stage {
+    use super::{Debug, Stage, Terms};
+
+    markers! {
+        /// [`Stage::Density`].
+        Density IfDensity if_density [IfWalls if_walls, IfGradients if_gradients, IfFlow if_flow, IfRates if_rates, IfContinuity if_continuity],
+        /// [`Stage::Walls`].
+        Walls IfWalls if_walls [IfDensity if_density, IfGradients if_gradients, IfFlow if_flow, IfRates if_rates, IfContinuity if_continuity],
+        /// [`Stage::Gradients`].
+        Gradients IfGradients if_gradients [IfDensity if_density, IfWalls if_walls, IfFlow if_flow, IfRates if_rates, IfContinuity if_continuity],
+        /// [`Stage::Flow`].
+        Flow IfFlow if_flow [IfDensity if_density, IfWalls if_walls, IfGradients if_gradients, IfRates if_rates, IfContinuity if_continuity],
+        /// [`Stage::Rates`].
+        Rates IfRates if_rates [IfDensity if_density, IfWalls if_walls, IfGradients if_gradients, IfFlow if_flow, IfContinuity if_continuity],
+        /// [`Stage::Continuity`].
+        Continuity IfContinuity if_continuity [IfDensity if_density, IfWalls if_walls, IfGradients if_gradients, IfFlow if_flow, IfRates if_rates]
+    }
+}
+pub use stage::StageMarker;
+
+/// A term with the stage in whose sweep it takes part: `In<stage::Rates, A>`.
+#[derive(Clone, Debug)]
+pub struct In<S, A> {
+    term: A,
+    stage: PhantomData<S>,
+}
+
+impl<S, A> In<S, A> {
+    /// The term in the sweep of the stage `S`.
+    #[must_use]
+    pub fn new(term: A) -> Self {
+        Self {
+            term,
+            stage: PhantomData,
+        }
+    }
+}
+
+/// Terms of an effect, each with its stage: a tuple of up to four `In<Stage, Term>`, `()` for none.
+pub trait StagedTerms<const D: usize>: Clone + Debug + Send + Sync + 'static {
+    /// The terms of one stage.
+    type At<S: StageMarker<D>>: Terms<D>;
+    /// What all terms read.
+    const READS: Fields;
+    /// The terms of one stage.
+    fn at<S: StageMarker<D>>(&self) -> Self::At<S>;
+}
+
+impl<const D: usize> StagedTerms<D> for () {
+    type At<S: StageMarker<D>> = ();
+    const READS: Fields = Fields::NONE;
+    fn at<S: StageMarker<D>>(&self) {}
+}
+
+/// The terms `A` of stage `M` in the sweep of stage `S`.
+type Own<S, M, A, const D: usize> = <M as StageMarker<D>>::Of<S, (A,)>;
+/// `A` and then `B`.
+type Then<A, B, const D: usize> = <A as Terms<D>>::Then<B>;
+
+impl<const D: usize, M: StageMarker<D>, A: Term<D>> StagedTerms<D> for (In<M, A>,) {
+    type At<S: StageMarker<D>> = Own<S, M, A, D>;
+    const READS: Fields = A::READS;
+    fn at<S: StageMarker<D>>(&self) -> Self::At<S> {
+        M::put::<S, _>((self.0.term.clone(),))
+    }
+}
+
+impl<const D: usize, M, A, N, B> StagedTerms<D> for (In<M, A>, In<N, B>)
+where
+    M: StageMarker<D>,
+    A: Term<D>,
+    N: StageMarker<D>,
+    B: Term<D>,
+{
+    type At<S: StageMarker<D>> = Then<Own<S, M, A, D>, Own<S, N, B, D>, D>;
+    const READS: Fields = A::READS.union(B::READS);
+    fn at<S: StageMarker<D>>(&self) -> Self::At<S> {
+        let first = M::put::<S, _>((self.0.term.clone(),));
+        first.then(N::put::<S, _>((self.1.term.clone(),)))
+    }
+}
+
+impl<const D: usize, M, A, N, B, O, C> StagedTerms<D> for (In<M, A>, In<N, B>, In<O, C>)
+where
+    M: StageMarker<D>,
+    A: Term<D>,
+    N: StageMarker<D>,
+    B: Term<D>,
+    O: StageMarker<D>,
+    C: Term<D>,
+{
+    type At<S: StageMarker<D>> =
+        Then<Then<Own<S, M, A, D>, Own<S, N, B, D>, D>, Own<S, O, C, D>, D>;
+    const READS: Fields = A::READS.union(B::READS).union(C::READS);
+    fn at<S: StageMarker<D>>(&self) -> Self::At<S> {
+        let first = M::put::<S, _>((self.0.term.clone(),));
+        let two = first.then(N::put::<S, _>((self.1.term.clone(),)));
+        two.then(O::put::<S, _>((self.2.term.clone(),)))
+    }
+}
+
+impl<const D: usize, M, A, N, B, O, C, Q, E> StagedTerms<D>
+    for (In<M, A>, In<N, B>, In<O, C>, In<Q, E>)
+where
+    M: StageMarker<D>,
+    A: Term<D>,
+    N: StageMarker<D>,
+    B: Term<D>,
+    O: StageMarker<D>,
+    C: Term<D>,
+    Q: StageMarker<D>,
+    E: Term<D>,
+{
+    type At<S: StageMarker<D>> = Then<
+        Then<Then<Own<S, M, A, D>, Own<S, N, B, D>, D>, Own<S, O, C, D>, D>,
+        Own<S, Q, E, D>,
+        D,
+    >;
+    const READS: Fields = A::READS.union(B::READS).union(C::READS).union(E::READS);
+    fn at<S: StageMarker<D>>(&self) -> Self::At<S> {
+        let first = M::put::<S, _>((self.0.term.clone(),));
+        let two = first.then(N::put::<S, _>((self.1.term.clone(),)));
+        let three = two.then(O::put::<S, _>((self.2.term.clone(),)));
+        three.then(Q::put::<S, _>((self.3.term.clone(),)))
+    }
+}
+
+/// Two lists of terms of one sweep, the first first.
+#[derive(Clone, Debug)]
+pub struct Join<A, B>(pub A, pub B);
+
+impl<const D: usize, A: Terms<D>, B: Terms<D>> Terms<D> for Join<A, B> {
+    const READS: Fields = A::READS.union(B::READS);
+    const WRITES: Outputs = A::WRITES.union(B::WRITES);
+    type Then<C: Terms<D>> = C::After<Self>;
+    fn then<C: Terms<D>>(self, next: C) -> Self::Then<C> {
+        next.after(self)
+    }
+    type After<C: Terms<D>> = Join<C, Self>;
+    fn after<C: Terms<D>>(self, first: C) -> Self::After<C> {
+        Join(first, self)
+    }
+    #[inline(always)]
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+        self.0.pair(pair, sums);
+        self.1.pair(pair, sums);
+    }
+    fn document(&self) -> Vec<TermDoc> {
+        let mut documents = self.0.document();
+        documents.extend(self.1.document());
+        documents
+    }
+}
