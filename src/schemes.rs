@@ -32,7 +32,7 @@
 
 use crate::effect::{Cavitation, DensityDiffusion, ExtrapolatedPressure, NoWalls};
 use crate::kernel::{CubicSpline, WendlandC2};
-use crate::scheme::{DensityForm, EnergyForm, SchemeBuilder};
+use crate::scheme::{DensityForm, EnergyForm, LiquidBuilder, SchemeBuilder};
 use crate::sweep::SmoothingMode;
 use crate::term::viscosity::{LimitedMonaghanGingold, MonaghanGingold, Riemann};
 use crate::term::{Fourtakas, RiemannDiffusion};
@@ -48,14 +48,8 @@ pub type ImpactBuilder = SchemeBuilder<
 >;
 
 /// What [`weakly_compressible`] and [`riemann_liquid`] return, with an artificial viscosity and a density diffusion.
-pub type LiquidBuilder<V, X> = SchemeBuilder<
-    WendlandC2,
-    V,
-    ExtrapolatedPressure,
-    (((), Cavitation), DensityDiffusion<X>),
-    { SmoothingMode::Uniform.bit() },
-    0,
->;
+pub type DiffusiveLiquid<V, X> =
+    LiquidBuilder<WendlandC2, V, (((), Cavitation), DensityDiffusion<X>)>;
 
 /// Impact of solids with weak to moderate shocks: number density relative to the shape at rest,
 /// pressure curvature χ = 1/3, limited viscosity α = 2, β = 2, compatible energy, cubic spline at
@@ -104,7 +98,7 @@ pub fn lam2002() -> SchemeBuilder<CubicSpline, MonaghanGingold> {
 /// A column of 50 particles at rest for 20 √(H/g) keeps its pressure within 0.55 % of ρgH at h/dx 1.5 and
 /// 2, and within 1.2 % at 1.3 (root mean square).
 #[must_use]
-pub fn weakly_compressible() -> LiquidBuilder<MonaghanGingold, Fourtakas> {
+pub fn weakly_compressible() -> DiffusiveLiquid<MonaghanGingold, Fourtakas> {
     SchemeBuilder::liquid(
         WendlandC2,
         MonaghanGingold {
@@ -113,7 +107,6 @@ pub fn weakly_compressible() -> LiquidBuilder<MonaghanGingold, Fourtakas> {
         },
     )
     .named("weakly compressible")
-    .with(Cavitation)
     .with(DensityDiffusion(Fourtakas::default()))
 }
 
@@ -148,7 +141,6 @@ pub fn ls_dyna_fluid() -> LsDynaBuilder<0> {
         .named("LS-DYNA FORM 5, fluid")
         .h_over_dx(1.2)
         .without_normalisation()
-        .with(Cavitation)
         .smoothing_by_divergence(LIMITS[0], LIMITS[1])
 }
 
@@ -181,7 +173,7 @@ pub fn ls_dyna_fluid_renormalised() -> LsDynaBuilder<2> {
 /// particles in momentum and continuity (Zhang, Hu & Adams 2017), the rest as
 /// [`weakly_compressible`].
 #[must_use]
-pub fn riemann_liquid() -> LiquidBuilder<Riemann, RiemannDiffusion> {
+pub fn riemann_liquid() -> DiffusiveLiquid<Riemann, RiemannDiffusion> {
     weakly_compressible()
         .named("Riemann liquid")
         .with_viscosity(Riemann::STANDARD)

@@ -100,25 +100,28 @@ fn a_step_between_list_builds_allocates_nothing() {
         println!("sheet: {allocations} allocations in {steps} steps");
         assert!(steps > 40);
         assert_eq!(allocations, 0);
-        let mut pool =
-            Scene::<f64, 2>::new(schemes::weakly_compressible().compose_with_one_evaluation())
-                .body(Body::block(
-                    "pool",
-                    catalogue::weakly_compressible_water(1.0),
-                    [0.0; 2],
-                    [1.0; 2],
-                    0.02,
-                ))
-                .wall(Wall::around(
-                    "tank",
-                    [0.0; 2],
-                    [1.0; 2],
-                    0.02,
-                    4,
-                    [[true; 2]; 2],
-                ))
-                .build()
-                .unwrap();
+        let mut pool = Scene::<f64, 2>::new(
+            schemes::weakly_compressible()
+                .density_with_rates()
+                .compose(),
+        )
+        .body(Body::block(
+            "pool",
+            catalogue::weakly_compressible_water(1.0),
+            [0.0; 2],
+            [1.0; 2],
+            0.02,
+        ))
+        .wall(Wall::around(
+            "tank",
+            [0.0; 2],
+            [1.0; 2],
+            0.02,
+            4,
+            [[true; 2]; 2],
+        ))
+        .build()
+        .unwrap();
         let (allocations, steps) = counted(&mut pool);
         println!("pool of one evaluation: {allocations} allocations in {steps} steps");
         assert!(steps > 40);

@@ -12,10 +12,11 @@ use meshfree::term::viscosity::{
     Riemann, SignalVelocity,
 };
 use meshfree::term::{
-    Antuono, CentralViscosity, Compression, Crowding, DensityGradient, Fourtakas, InternalEnergy,
-    KernelMoment, KernelSum, LaminarViscosity, LiquidNearWall, Molteni, PressureCurvature,
-    PressureForce, PressureGradient, Probe, RenormalisedCompression, RiemannDiffusion, SlopeInH,
-    Term, Unity, VelocityAtWall, VelocityGradient, Viscosity, ViscosityAtWall, probe,
+    Antuono, CentralViscosity, Compression, ConcentrationGradient, DensityGradient, Fourtakas,
+    InternalEnergy, KernelMoment, KernelSum, LaminarViscosity, LiquidNearWall, Molteni,
+    PressureCurvature, PressureForce, PressureGradient, Probe, RenormalisedCompression,
+    RiemannDiffusion, SlopeInH, Term, Unity, VelocityAtWall, VelocityGradient, Viscosity,
+    ViscosityAtWall, probe,
 };
 
 macro_rules! for_each_viscosity_of {
@@ -65,7 +66,7 @@ macro_rules! for_each_term {
         $check::<$D, _>(Fourtakas::default());
         $check::<$D, _>(Antuono::default());
         $check::<$D, _>(RiemannDiffusion);
-        $check::<$D, _>(Crowding::<$D> {
+        $check::<$D, _>(ConcentrationGradient::<$D> {
             repulsion: 0.2,
             at_spacing: 1.0,
         });

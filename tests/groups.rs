@@ -125,7 +125,7 @@ fn drop_on_block() -> Simulation<f64, 2> {
             ..start
         }
     });
-    let liquid = schemes::weakly_compressible().laminar_viscosity(meshfree::term::LaminarViscosity);
+    let liquid = schemes::weakly_compressible().with(Laminar(meshfree::term::LaminarViscosity));
     Scene::new(liquid)
         .body(drop)
         .group(

@@ -62,7 +62,7 @@ impl System for Oscillator {
         self.predicted = self.v;
         self.v += dt * self.a;
     }
-    fn retract(&mut self) {
+    fn restore(&mut self) {
         self.v = self.predicted;
     }
     fn save(&mut self, slot: usize) {
@@ -267,7 +267,7 @@ fn each_is_stable_up_to_its_limit_and_not_beyond() {
 
 #[test]
 fn each_has_its_order_on_an_oscillator() {
-    for (mut integrator, expected) in all() {
+    for (integrator, expected) in all() {
         let steps = [40, 80, 160];
         let errors = steps.map(|n| {
             let mut system = Oscillator::at(1.0, 0.0);

@@ -37,7 +37,7 @@ fn coefficients(rows: usize) -> [f64; 4] {
     });
     let mut simulation = Scene::<f64, 2>::new(
         schemes::weakly_compressible()
-            .acoustic_damping(0.3)
+            .with(AcousticDamping { strength: 0.3 })
             .compose(),
     )
     .body(jet)

@@ -27,25 +27,37 @@ fn schemes_of_liquids() -> Vec<(Scheme<f64, 2>, bool)> {
         (base().density_diffusion(Antuono::default()).compose(), true),
         (base().density_diffusion(Nothing).compose(), true),
         (schemes::riemann_liquid().compose(), true),
-        (base().acoustic_damping(0.3).compose(), true),
-        (base().volume_consistency(0.02).compose(), true),
         (
-            base().named("Riemann walls").riemann_walls().compose(),
+            base().with(AcousticDamping { strength: 0.3 }).compose(),
             true,
         ),
         (
-            base().named("one evaluation").compose_with_one_evaluation(),
+            base().with(VolumeConsistency { strength: 0.02 }).compose(),
+            true,
+        ),
+        (
+            base()
+                .named("Riemann walls")
+                .walls(RiemannWalls::default())
+                .compose(),
+            true,
+        ),
+        (
+            base()
+                .named("one evaluation")
+                .density_with_rates()
+                .compose(),
             true,
         ),
         (
             base()
                 .with_viscosity(Riemann::STANDARD)
                 .density_diffusion(RiemannDiffusion)
-                .laminar_viscosity(CentralViscosity)
+                .with(Laminar(CentralViscosity))
                 .compose(),
             true,
         ),
-        (base().laminar_viscosity(LaminarViscosity).compose(), false),
+        (base().with(Laminar(LaminarViscosity)).compose(), false),
         (schemes::ls_dyna_default().compose(), true),
         (schemes::ls_dyna_fluid().compose(), true),
         (schemes::ls_dyna_renormalised().compose(), false),
@@ -178,11 +190,15 @@ fn walls() -> Vec<(&'static str, Vec<Wall<2>>)> {
 fn what_walls_give_is_what_liquid_gains() {
     let laminar = || {
         schemes::weakly_compressible()
-            .laminar_viscosity(CentralViscosity)
+            .with(Laminar(CentralViscosity))
             .compose()
     };
     let mut cases: Vec<(String, Scheme<f64, 2>, Vec<Wall<2>>)> = Vec::new();
-    let riemann = || schemes::weakly_compressible().riemann_walls().compose();
+    let riemann = || {
+        schemes::weakly_compressible()
+            .walls(RiemannWalls::default())
+            .compose()
+    };
     for (kind, walls) in walls() {
         cases.push((
             format!("{kind}, by Riemann problems"),
@@ -243,7 +259,7 @@ fn slip_is_what_separates_a_sliding_liquid_from_a_dragged_one() {
     assert_eq!(Slip::default(), Slip::Free);
     let drag = |wall: Wall<2>| {
         let scheme = schemes::weakly_compressible()
-            .laminar_viscosity(LaminarViscosity)
+            .with(Laminar(LaminarViscosity))
             .compose::<f64, 2>();
         let water = catalogue::weakly_compressible_water(2.0).with_dynamic_viscosity(5.0);
         let mut simulation = Scene::new(scheme)
@@ -318,7 +334,7 @@ fn threads_do_not_change_a_bit() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         pool.build().unwrap().install(|| {
             let scheme: Scheme<f64, 2> = if one_evaluation {
-                base().compose_with_one_evaluation()
+                base().density_with_rates().compose()
             } else {
                 base().compose()
             };

@@ -128,7 +128,7 @@ fn what_a_plane_gives_a_drop_is_in_the_ledger() {
     let scheme = schemes::weakly_compressible;
     balance::<f64>(Scene::new(scheme().compose()), 1e-14);
     balance::<f32>(Scene::new(scheme().compose()), 1e-9);
-    let once = || scheme().compose_with_one_evaluation();
+    let once = || scheme().density_with_rates().compose();
     balance::<f64>(Scene::new(once()), 1e-14);
     balance::<f64>(Scene::new(once()).integrator(RungeKutta4), 1e-14);
 }

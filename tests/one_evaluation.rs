@@ -10,7 +10,7 @@ use meshfree::kernel::{Kernel, WendlandC2};
 use meshfree::material::{Liquid, SoundSpeed};
 use meshfree::prelude::*;
 use meshfree::scene::Start;
-use meshfree::scheme::{LiquidBuilder, ONE_EVALUATION_STEP};
+use meshfree::scheme::{DENSITY_WITH_RATES_STEP, LiquidBuilder};
 use meshfree::term::LaminarViscosity;
 use meshfree::term::viscosity::Inviscid;
 use nalgebra::Complex;
@@ -24,13 +24,13 @@ const RATIO: f64 = 1.5;
 
 /// A scheme that dissipates nothing by itself.
 fn plain() -> LiquidBuilder<WendlandC2, Inviscid> {
-    LiquidBuilder::new(WendlandC2, Inviscid).h_over_dx(RATIO)
+    SchemeBuilder::liquid(WendlandC2, Inviscid).h_over_dx(RATIO)
 }
 
 /// [`plain`] with one evaluation and the step factor given.
 fn plain_at<T: Real>(factor: f64) -> Scheme<T, 1> {
-    let builder = plain().step_factor(factor / ONE_EVALUATION_STEP);
-    builder.compose_with_one_evaluation()
+    let builder = plain().step_factor(factor / DENSITY_WITH_RATES_STEP);
+    builder.density_with_rates().compose()
 }
 
 /// A standing wave of sound in a periodic box of 1 m.
@@ -140,7 +140,9 @@ fn runge_kutta_integrates_a_liquid_of_one_evaluation() {
         .build();
     let error = refused.unwrap_err().to_string();
     assert!(error.contains("the integrator rk4 does not"), "{error}");
-    let scheme = schemes::weakly_compressible().compose_with_one_evaluation();
+    let scheme = schemes::weakly_compressible()
+        .density_with_rates()
+        .compose();
     let walled = tank(scheme, 0.5, |_| [0.0; 2]).integrator(RungeKutta4);
     let error = walled.build().unwrap_err().to_string();
     assert!(error.contains("move those of wall `tank`"), "{error}");
@@ -148,7 +150,9 @@ fn runge_kutta_integrates_a_liquid_of_one_evaluation() {
 
 #[test]
 fn a_column_at_rest_stays_so() {
-    let scheme = schemes::weakly_compressible().compose_with_one_evaluation();
+    let scheme = schemes::weakly_compressible()
+        .density_with_rates()
+        .compose();
     let [rms, rise, speed] = after_rest(scheme);
     let text = format!("RMS {rms:.2e} of ρgH, rise {rise:.2e} spacings, fastest {speed:.2e} c");
     println!("{text}");
@@ -157,7 +161,11 @@ fn a_column_at_rest_stays_so() {
 
 #[test]
 fn a_standing_wave_swings_as_with_two_sweeps() {
-    let one = swings(schemes::weakly_compressible().compose_with_one_evaluation());
+    let one = swings(
+        schemes::weakly_compressible()
+            .density_with_rates()
+            .compose(),
+    );
     let two = swings(schemes::weakly_compressible());
     let text = format!("period over the exact one, crest over crest: {one:?}, two sweeps {two:?}");
     println!("{text}");
@@ -193,9 +201,13 @@ fn unrest(scheme: Scheme<f64, 2>) -> f64 {
 #[test]
 fn a_violent_flow_needs_the_shorter_step() {
     let two = unrest(schemes::weakly_compressible().compose());
-    let one = unrest(schemes::weakly_compressible().compose_with_one_evaluation());
-    let longer = schemes::weakly_compressible().step_factor(0.55 / ONE_EVALUATION_STEP);
-    let control = unrest(longer.compose_with_one_evaluation());
+    let one = unrest(
+        schemes::weakly_compressible()
+            .density_with_rates()
+            .compose(),
+    );
+    let longer = schemes::weakly_compressible().step_factor(0.55 / DENSITY_WITH_RATES_STEP);
+    let control = unrest(longer.density_with_rates().compose());
     let text = format!(
         "{one:.2e} with one evaluation, {two:.2e} with two sweeps, {control:.2e} at the longer step"
     );
@@ -208,8 +220,8 @@ fn a_violent_flow_needs_the_shorter_step() {
 fn a_bulk_viscosity_damps_sound_in_one_evaluation_too() {
     // An amplitude decays by exp(−λ c h k² t/2), with the k that a lattice sees.
     let strength = 0.3;
-    let scheme = plain().acoustic_damping(strength);
-    let mut wave = sound::<f64>(scheme.compose_with_one_evaluation())
+    let scheme = plain().with(AcousticDamping { strength: strength });
+    let mut wave = sound::<f64>(scheme.density_with_rates().compose())
         .build()
         .expect("a sound scene");
     let (first, time) = (amplitude(&wave).norm(), 2.0 / SOUND);
@@ -232,8 +244,8 @@ fn walls_without_slip_want_two_sweeps() {
             .wall(tank.no_slip())
             .build()
     };
-    let sticky = || schemes::weakly_compressible().laminar_viscosity(LaminarViscosity);
-    let error = build(sticky().compose_with_one_evaluation()).unwrap_err();
+    let sticky = || schemes::weakly_compressible().with(Laminar(LaminarViscosity));
+    let error = build(sticky().density_with_rates().compose()).unwrap_err();
     assert!(error.to_string().contains("in one sweep"), "{error}");
     assert!(build(sticky().compose()).is_ok());
 }

@@ -13,7 +13,7 @@ const SPEED: f64 = 2.0;
 fn scheme<T: Real>(riemann: bool) -> Scheme<T, 2> {
     let base = schemes::weakly_compressible();
     if riemann {
-        base.riemann_walls().compose()
+        base.walls(RiemannWalls::default()).compose()
     } else {
         base.compose()
     }

@@ -81,7 +81,9 @@ impl Case {
                 alpha: 0.002,
                 beta: 0.0,
             })
-            .wall_pressure_floor(self.cut_off);
+            .walls(ExtrapolatedPressure {
+                floor: self.cut_off,
+            });
         let (step, motion) = (self.step, self.motion());
         let scene = Scene::new(scheme).body(body).steps(|steps| StepControl {
             fixed: step,

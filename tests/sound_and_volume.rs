@@ -8,7 +8,7 @@ use meshfree::prelude::*;
 use meshfree::scene::Start;
 use meshfree::scheme::LiquidBuilder;
 use meshfree::simulation::ParticleView;
-use meshfree::term::Nothing;
+
 use meshfree::term::viscosity::Inviscid;
 
 const SOUND: f64 = 10.0;
@@ -21,7 +21,7 @@ fn liquid() -> Material<f64> {
 
 /// A scheme that dissipates nothing by itself.
 fn plain() -> LiquidBuilder<WendlandC2, Inviscid> {
-    LiquidBuilder::new(WendlandC2, Inviscid).h_over_dx(1.5)
+    SchemeBuilder::liquid(WendlandC2, Inviscid).h_over_dx(1.5)
 }
 
 /// The share of a standing wave's energy that is left after `periods`; a wave is 48 particles long.
@@ -55,7 +55,7 @@ fn a_bulk_viscosity_damps_sound_as_it_says() {
     let strength = 0.3;
     let (h, wavenumber) = (1.5 / 48.0, core::f64::consts::TAU);
     let exact = (-strength * SOUND * h * wavenumber.powi(2) * 2.0 / SOUND).exp();
-    let damped = energy_left(plain().acoustic_damping(strength), 2.0);
+    let damped = energy_left(plain().with(AcousticDamping { strength: strength }), 2.0);
     let free = energy_left(plain(), 2.0);
     assert!(
         (damped.ln() / exact.ln() - 1.0).abs() < 0.03,
@@ -92,7 +92,7 @@ fn growth(scheme: impl Into<Scheme<f64, 2>>) -> f64 {
 
 #[test]
 fn a_strong_bulk_viscosity_is_stable_because_it_shortens_the_step() {
-    let strong = || plain().acoustic_damping(4.0);
+    let strong = || plain().with(AcousticDamping { strength: 4.0 });
     let stable = growth(strong());
     assert!(stable < 1.0, "grown {stable} times");
     // The step without the share that the bulk viscosity leaves of it, 0.14 for this kernel.
@@ -126,12 +126,12 @@ fn volume_consistency_brings_densities_back_to_the_space_of_particles() {
     // dρ/dt = κ (c/h) (ρ_true − ρ) while particles stay on their lattice.
     let (strength, time) = (0.05, 0.15);
     let exact = (-strength * SOUND / (1.5 * 0.05) * time).exp();
-    let held = drift_left(plain().volume_consistency(strength), time);
+    let held = drift_left(plain().with(VolumeConsistency { strength: strength }), time);
     let free = drift_left(plain(), time);
     // The lattice sum at this h over the narrow spacing is 2 % of the departure below the one at rest.
     assert!((held - exact).abs() < 0.02, "{held}, exactly {exact}");
     assert!((free - 1.0).abs() < 1e-9, "{free} without");
-    let both = plain().density_diffusion(Nothing).volume_consistency(0.0);
+    let both = plain().with(VolumeConsistency { strength: 0.0 });
     assert!((drift_left(both, time) - 1.0).abs() < 1e-9);
 }
 
@@ -139,12 +139,21 @@ fn volume_consistency_brings_densities_back_to_the_space_of_particles() {
 fn strengths_that_are_no_numbers_are_refused() {
     for (scheme, name) in [
         (
-            plain().acoustic_damping(f64::NAN).compose::<f64, 2>(),
+            plain()
+                .with(AcousticDamping { strength: f64::NAN })
+                .compose::<f64, 2>(),
             "acoustic damping",
         ),
-        (plain().acoustic_damping(-0.1).compose(), "acoustic damping"),
         (
-            plain().volume_consistency(f64::INFINITY).compose(),
+            plain().with(AcousticDamping { strength: -0.1 }).compose(),
+            "acoustic damping",
+        ),
+        (
+            plain()
+                .with(VolumeConsistency {
+                    strength: f64::INFINITY,
+                })
+                .compose(),
             "volume consistency",
         ),
     ] {
@@ -161,10 +170,13 @@ fn strengths_that_are_no_numbers_are_refused() {
 #[test]
 fn volume_consistency_wants_one_smoothing_length() {
     for scheme in [
-        plain().volume_consistency(0.05).mixed_spacing().compose(),
         plain()
-            .volume_consistency(0.05)
-            .smoothing(0.5, 2.0)
+            .with(VolumeConsistency { strength: 0.05 })
+            .mixed_spacing()
+            .compose(),
+        plain()
+            .with(VolumeConsistency { strength: 0.05 })
+            .smoothing_by_divergence(0.5, 2.0)
             .compose(),
     ] {
         let body = Body::block("liquid", liquid(), [0.0; 2], [0.5, 0.5], 0.05);
@@ -214,7 +226,7 @@ fn width_after_tearing(scheme: impl Into<Scheme<f64, 2>>) -> f64 {
 
 #[test]
 fn liquid_closes_where_it_tore() {
-    let wider = width_after_tearing(plain().reversible_tearing());
+    let wider = width_after_tearing(plain().with(ExpansionMemory));
     assert!(wider.abs() < 0.02, "{wider}");
     // The control forgets how far it was torn, and has pressure long before it has closed.
     let forgetful = width_after_tearing(plain());
@@ -224,11 +236,11 @@ fn liquid_closes_where_it_tore() {
 #[test]
 fn tearing_that_cannot_be_is_refused() {
     let body = |material| Body::block("liquid", material, [0.0; 2], [1.0; 2], 0.1);
-    let scheme = || plain().reversible_tearing();
+    let scheme = || plain().with(ExpansionMemory);
     let solid = Scene::<f64, 2>::new(scheme()).body(body(liquid()));
     assert!(solid.problems()[0].to_string().contains("can tear"));
     let torn = body(liquid().with_pressure_cut_off(0.0));
-    let combined = Scene::<f64, 2>::new(scheme().compose_with_one_evaluation())
+    let combined = Scene::<f64, 2>::new(scheme().density_with_rates().compose())
         .body(torn)
         .integrator(meshfree::integrator::RungeKutta4);
     assert!(combined.problems()[0].to_string().contains("does not hold"));

@@ -228,7 +228,6 @@ impl Case {
                 .with(ExpansionMemory)
                 .compose(),
             "by-mass" => SchemeBuilder::liquid(WendlandC2, viscosity)
-                .with(Cavitation)
                 .h_over_dx(H_OVER_DX)
                 .walls(floor)
                 .named("by mass, without diffusion")

@@ -4,9 +4,9 @@
 use super::force::{CURVED, ENERGY, Gradients, KICKED, Needs, Pressure, RENORMALISED, Rate};
 use super::{EnergyForm, Scheme, Smoothing};
 use crate::effect::{
-    BySum, Compression, ConsistentSmoothing, ContactActivity, CorrectedGradients, DensityDiffusion,
-    DensityForm, Divergence, Effect, Effects, Evolved, ExtrapolatedPressure, NoWalls, Setting,
-    StepProgram, SummedDensity, Update, ViscositySwitch, When,
+    BySum, Cavitation, Compression, ConsistentSmoothing, ContactActivity, CorrectedGradients,
+    DensityDiffusion, DensityForm, Divergence, Effect, Effects, Evolved, ExtrapolatedPressure,
+    NoWalls, Setting, StepProgram, SummedDensity, Update, ViscositySwitch, When,
 };
 use crate::error::Problem;
 use crate::kernel::{Kernel, KernelFacts};
@@ -101,7 +101,11 @@ impl<K, V> SchemeBuilder<K, V> {
     }
 }
 
-impl<K, V> SchemeBuilder<K, V, ExtrapolatedPressure, (), { SmoothingMode::Uniform.bit() }, 0> {
+/// What [`SchemeBuilder::liquid`] returns, with more effects `E`.
+pub type LiquidBuilder<K, V, E = ((), Cavitation)> =
+    SchemeBuilder<K, V, ExtrapolatedPressure, E, { SmoothingMode::Uniform.bit() }, 0>;
+
+impl<K, V> LiquidBuilder<K, V> {
     /// A scheme of weakly compressible liquids with a kernel and an artificial viscosity: continuity, walls that
     /// extrapolate the pressure, no internal energy, no density diffusion.
     ///
@@ -114,7 +118,7 @@ impl<K, V> SchemeBuilder<K, V, ExtrapolatedPressure, (), { SmoothingMode::Unifor
             kernel: solid.kernel,
             viscosity: solid.viscosity,
             walls: ExtrapolatedPressure::default(),
-            effects: (),
+            effects: ((), Cavitation),
             settings: Settings {
                 name: "liquid".into(),
                 density: DensityForm::Continuity,

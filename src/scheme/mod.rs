@@ -40,7 +40,7 @@ mod start;
 
 pub use crate::effect::{DensityForm, Shifting};
 pub use crate::kernel::KernelFacts;
-pub use builder::{DEFAULT_STEP_FACTOR, DENSITY_WITH_RATES_STEP, SchemeBuilder};
+pub use builder::{DEFAULT_STEP_FACTOR, DENSITY_WITH_RATES_STEP, LiquidBuilder, SchemeBuilder};
 pub use start::Start;
 
 use crate::effect::{StepProgram, When};
