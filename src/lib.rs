@@ -65,7 +65,8 @@
 //! | [`error`] | what went wrong, where, and what to try |
 //! | [`boundary`] | mirror planes and periodic directions, a trait for others; walls, inlets and outlets of liquids |
 //! | [`integrator`] | leapfrogs, Runge–Kutta methods, the printed method of Lam, Shen & Gong |
-//! | [`scheme`] | how a scheme is composed: density form, energy form, smoothing |
+//! | [`scheme`] | how a scheme is composed: density form, energy form, smoothing, effects |
+//! | [`effect`] | effects: diffusion, shifting, damping, viscosities, walls, each in one file, and your own |
 //! | [`kernel`] | seven smoothing kernels |
 //! | [`term`] | pair terms, one effect each, and artificial [viscosities](term::viscosity) |
 //! | [`sweep`] | the loop over pairs |
@@ -99,9 +100,9 @@
 //! | a result of Lam, Shen & Gong (2002) to repeat | [`schemes::lam2002`] with [`LamLeapfrog`](integrator::LamLeapfrog), bodies bonded |
 //! | a liquid with a free surface, still or violent | [`schemes::weakly_compressible`] |
 //! | the same, without a coefficient to choose | [`schemes::riemann_liquid`] |
-//! | a liquid that fills what encloses it | [`schemes::weakly_compressible`] with [`Shifting::CLOSED`](scheme::Shifting::CLOSED) and a [wall pressure floor](scheme::LiquidBuilder::wall_pressure_floor) of −∞ |
+//! | a liquid that fills what encloses it | [`schemes::weakly_compressible`] with [`Shifting::CLOSED`](scheme::Shifting::CLOSED) and [walls](effect::ExtrapolatedPressure) with a floor of −∞ |
 //! | a result of LS-DYNA to repeat | [`schemes::ls_dyna_default`], [`schemes::ls_dyna_fluid`] and their renormalised forms |
-//! | a gas | [`SchemeBuilder`](scheme::SchemeBuilder) with [`DensityForm::Summation`](scheme::DensityForm), smoothing [consistent](scheme::Smoothing) with the density, [`WendlandC4`](kernel::WendlandC4) |
+//! | a gas | [`schemes::gas`] |
 //!
 //! A scheme prints itself, with its equations, their sources and the fields that a particle carries.
 //! [`KickDriftKick`](integrator::KickDriftKick) is the integrator unless another is named. It takes one
@@ -142,7 +143,7 @@
 //!
 //! # Extending
 //!
-//! Six traits are meant to be implemented in a crate of your own. Each has an example that compiles:
+//! Seven traits are meant to be implemented in a crate of your own. Each has an example that compiles:
 //!
 //! | trait | example | what it asks for |
 //! |---|---|---|
@@ -153,6 +154,7 @@
 //! | [`Boundary`](boundary::Boundary) | [at the trait](boundary::Boundary) | images and their transforms |
 //! | [`Shape`](geometry::Shape) | [at the trait](geometry::Shape) | signed distance and a box around it |
 //! | [`Integrator`](integrator::Integrator) | [at the trait](integrator::Integrator) | one step, from a handful of operations |
+//! | [`Effect`](effect::Effect) | [in `effect`](effect) | pair terms by stage, fields of its own, laws, limits, ledger |
 //!
 //! The first four run inside the loop over pairs or over particles. Their methods are generic over a
 //! [`Lane`](scalar::Lane), so one text serves a single number and a row of them, and what you write is

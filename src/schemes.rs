@@ -31,10 +31,10 @@
 //! [`ls_dyna_renormalised`] and [`ls_dyna_fluid_renormalised`] correct the gradients of the last two.
 
 use crate::effect::{Cavitation, DensityDiffusion, ExtrapolatedPressure, NoWalls};
-use crate::kernel::{CubicSpline, WendlandC2};
-use crate::scheme::{DensityForm, EnergyForm, LiquidBuilder, SchemeBuilder};
-use crate::sweep::SmoothingMode;
-use crate::term::viscosity::{LimitedMonaghanGingold, MonaghanGingold, Riemann};
+use crate::kernel::{CubicSpline, WendlandC2, WendlandC4};
+use crate::scheme::{DensityForm, EnergyForm, LiquidBuilder, SchemeBuilder, Smoothing};
+use crate::sweep::{Interaction, SmoothingMode};
+use crate::term::viscosity::{LimitedMonaghanGingold, MonaghanGingold, Riemann, SignalVelocity};
 use crate::term::{Fourtakas, RiemannDiffusion};
 
 /// What [`impact`] returns: a scheme with midpoint reconstruction of the pressure, to be changed further.
@@ -108,6 +108,40 @@ pub fn weakly_compressible() -> DiffusiveLiquid<MonaghanGingold, Fourtakas> {
     )
     .named("weakly compressible")
     .with(DensityDiffusion(Fourtakas::default()))
+}
+
+/// What [`gas`] returns.
+pub type GasBuilder =
+    SchemeBuilder<WendlandC4, SignalVelocity, NoWalls, (), { SmoothingMode::ALL }, 4>;
+
+/// Gases: summed density with a smoothing length that is consistent with it between a fifth and five times the first
+/// (grad-h terms), signal-velocity viscosity, compatible energy, Wendland C4; bodies are one gas where they meet.
+///
+/// ```
+/// use meshfree::prelude::*;
+/// // Two halves of a uniform gas stay uniform where they meet.
+/// let air = || Material::new("gas", meshfree::material::eos::IdealGas::new(1.4, 1.0));
+/// let half = |name, low: f64| {
+///     Body::block(name, air(), [low], [low + 0.5], 0.01).energy(2.5)
+/// };
+/// let simulation = Scene::<f64, 1>::new(schemes::gas())
+///     .body(half("left", 0.0))
+///     .body(half("right", 0.5))
+///     .boundary(meshfree::boundary::Periodic::along(0, 0.0, 1.0))
+///     .build()?;
+/// assert!(simulation.all().all(|particle| (particle.density() - 1.0).abs() < 1e-3));
+/// # Ok::<(), Error>(())
+/// ```
+#[must_use]
+pub fn gas() -> GasBuilder {
+    SchemeBuilder::new(WendlandC4, SignalVelocity::STANDARD)
+        .named("gas")
+        .density(DensityForm::Summation)
+        .between_bodies(Interaction::Bonded)
+        .smoothing(Smoothing::Consistent {
+            smallest: 0.2,
+            largest: 5.0,
+        })
 }
 
 /// The artificial viscosity of the LS-DYNA schemes: the linear and quadratic coefficients of its bulk

@@ -196,3 +196,19 @@ fn kernels_on_a_lattice_are_a_partition_of_unity() {
         check::<3>(kernel, Kernel::<3>::h_over_dx(&kernel), 0.02);
     }
 }
+
+/// Rods with compatible energy and limited viscosity, whose rates belong to predicted velocities.
+#[test]
+fn an_evaluation_between_steps_changes_nothing_of_what_comes() {
+    let after = |asks: bool| {
+        let mut rods = rods::<f64>(2e-4, 2e-7);
+        for _ in 0..20 {
+            if asks {
+                rods.evaluate().unwrap();
+            }
+            rods.step().unwrap();
+        }
+        bits(&rods)
+    };
+    assert_eq!(after(true), after(false));
+}

@@ -28,7 +28,7 @@ pub enum Slip {
 /// p_w = [Σ p_f W + (g − a_w)·Σ ρ_f r_wf W] / Σ W   (Adami, Hu & Adams 2012, eq. 27),
 ///
 /// and is cut at the scheme's floor, so that a separating liquid is not held. What strikes it bounces, unless the
-/// scheme takes walls as [Riemann problems](crate::scheme::LiquidBuilder::riemann_walls).
+/// scheme takes walls as [Riemann problems](crate::effect::RiemannWalls).
 ///
 /// ```
 /// use meshfree::boundary::{Translation, Wall};
@@ -132,7 +132,7 @@ impl<const D: usize> Wall<D> {
     }
 
     /// Tells it the room that liquid may fill, from whose distance it takes the normals that
-    /// [`riemann_walls`](crate::scheme::LiquidBuilder::riemann_walls) needs. A wall [around](Self::around) a box knows
+    /// [`RiemannWalls`](crate::effect::RiemannWalls) needs. A wall [around](Self::around) a box knows
     /// its room.
     ///
     /// A normal is the slope of the room's distance at a particle, in the scene as built, and turns with the wall; where

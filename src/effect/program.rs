@@ -188,10 +188,6 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
             .fold(evolved, |all, own| all.union(Fields::of(&[own.field])))
     }
 
-    pub(crate) fn evolves(&self, field: Field) -> bool {
-        self.evolved.iter().any(|own| own.field == field)
-    }
-
     /// The name and unit of a field.
     pub(crate) fn name_of(&self, field: Field) -> (&'static str, &'static str) {
         let declared = self.declared.iter().find(|own| own.field == field);

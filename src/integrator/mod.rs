@@ -40,8 +40,8 @@ pub trait System {
     /// # Errors
     /// If a number is no longer finite.
     fn evaluate(&mut self, offset: f64) -> Result<()>;
-    /// v ← v + `dt` a, and what pair forces work during it into internal energy; the density too, in a
-    /// scheme of [one evaluation](crate::scheme::LiquidBuilder::compose_with_one_evaluation).
+    /// v ← v + `dt` a, and what pair forces work during it into internal energy; the density too, where its rate
+    /// is [summed with the forces](crate::scheme::SchemeBuilder::density_with_rates).
     fn kick(&mut self, dt: f64);
     /// x ← x + `dt` v, and with it the density where it is integrated, at the midpoint of the drift.
     /// `offset` \[s\] is the time of the start of the drift after the start of the step.

@@ -128,6 +128,7 @@ macro_rules! quantities {
                 self.0 >> member.index & 1 == 1
             }
             /// Whether the member with this place belongs to the set.
+            #[allow(dead_code)]
             pub(crate) const fn has_place(self, place: usize) -> bool {
                 self.0 >> place & 1 == 1
             }

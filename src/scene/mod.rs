@@ -239,12 +239,11 @@ impl<T: Real, const D: usize> Scene<T, D> {
     }
 
     /// The skin of the neighbour lists in units of the kernel's support. A thicker
-    /// skin makes lists longer and their builds rarer; results differ in rounding only, but for what a scheme of
-    /// [two criteria](crate::scheme::LiquidBuilder::dual_criteria) renews with the lists.
+    /// skin makes lists longer and their builds rarer; results differ in rounding only.
     ///
     /// If not given it is 0.1; where lists serve for fewer than eight evaluations, four steps of a liquid, as
     /// under drops that fly, it is 0.2 until they serve for more than 24. It stays at 0.1 in scenes with
-    /// boundaries that make images, and in schemes of two criteria.
+    /// boundaries that make images.
     #[must_use]
     pub fn skin(mut self, skin: f64) -> Self {
         self.skin = Some(skin);

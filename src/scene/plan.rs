@@ -313,7 +313,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         // Boundaries feel nothing, so their rows name no contact that a scene would pay for.
         let mut all = vec![Interaction::None; blocks * blocks];
         for body in 0..bodies {
-            all[body * blocks..body * blocks + bodies].fill(Interaction::Unilateral);
+            all[body * blocks..body * blocks + bodies].fill(self.scheme.between);
         }
         let index = |name: &str| self.bodies.iter().position(|body| body.name == name);
         for k in 0..blocks {

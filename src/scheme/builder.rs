@@ -12,7 +12,7 @@ use crate::error::Problem;
 use crate::kernel::{Kernel, KernelFacts};
 use crate::particles::{Field, Fields, Output};
 use crate::scalar::Real;
-use crate::sweep::{PairSweep, Program, SmoothingMode};
+use crate::sweep::{Interaction, PairSweep, Program, SmoothingMode};
 use crate::term::{
     ArtificialViscosity, InternalEnergy, KernelMoment, KernelSum, PressureCurvature, SlopeInH,
     Stage, StageMarker, StagedTerms, Terms, Unity, Viscosity, stage,
@@ -64,6 +64,7 @@ struct Settings {
     h_over_dx: Option<f64>,
     curvature: f64,
     step_factor: f64,
+    between: Interaction,
 }
 
 /// By which first moment sums of gradients are divided.
@@ -96,6 +97,7 @@ impl<K, V> SchemeBuilder<K, V> {
                 h_over_dx: None,
                 curvature: 0.0,
                 step_factor: DEFAULT_STEP_FACTOR,
+                between: Interaction::Unilateral,
             },
         }
     }
@@ -192,6 +194,12 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
     #[must_use]
     pub fn mismatched_pressure_form(self, form: DensityForm) -> Self {
         self.set(|own| own.pressure_form = Some(form))
+    }
+    /// What its bodies do to each other where a scene says nothing else: they carry compression and open
+    /// ([`Interaction::Unilateral`]) if not given, and are one material with [`Interaction::Bonded`], as gases are.
+    #[must_use]
+    pub fn between_bodies(self, interaction: Interaction) -> Self {
+        self.set(|own| own.between = interaction)
     }
     /// The energy form. A scheme of [liquids](SchemeBuilder::liquid) carries no internal energy, and is refused with one.
     #[must_use]
@@ -434,6 +442,7 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
             h_over_dx: setting.h_over_dx,
             step_factor: own.step_factor * program.step_factor,
             normalised: own.normalisation == Normalisation::AtRest,
+            between: own.between,
             problems: viscous
                 .map(|one| of(" of the artificial viscosity", one))
                 .chain(effects.map(|one| of("", one)))

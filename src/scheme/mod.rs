@@ -46,7 +46,7 @@ pub use start::Start;
 use crate::effect::{StepProgram, When};
 use crate::particles::{Field, Fields};
 use crate::scalar::Real;
-use crate::sweep::PairSweep;
+use crate::sweep::{Interaction, PairSweep};
 use crate::term::{Stage, TermDoc};
 
 /// How internal energy follows from the work of pair forces.
@@ -109,6 +109,8 @@ pub struct Scheme<T: Real, const D: usize> {
     pub(crate) step_factor: f64,
     /// Whether sums are divided by the first moment of each particle at rest.
     pub(crate) normalised: bool,
+    /// What its bodies do to each other where a scene says nothing else.
+    pub(crate) between: Interaction,
     /// What is wrong with the parameters of its parts.
     pub(crate) problems: Vec<(String, f64, &'static str)>,
     /// The sums at rest from which density forms measure.

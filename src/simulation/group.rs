@@ -7,9 +7,10 @@ use super::walls::WallState;
 use super::workspace::Workspace;
 use crate::boundary::{Boundary, Emitter, Outlet};
 use crate::material::eos::GuardCounts;
+use crate::particles::Columns;
 use crate::scalar::{Lane, Real};
 use crate::scheme::Scheme;
-use crate::sweep::{InstructionSet, Interaction, SweepInput};
+use crate::sweep::{InstructionSet, Interaction, Records, Rows, SweepInput};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -40,6 +41,23 @@ pub(crate) struct Group<T: Real, const D: usize> {
     pub guards: GuardCounts,
     /// Limits that laws and updates have applied, in particle steps, by name.
     pub limited: Vec<(&'static str, u64)>,
+}
+
+/// What an evaluation changes, and the next step needs as the last step has left it.
+#[derive(Debug)]
+pub(super) struct Aside<T: Real, const D: usize> {
+    columns: Columns<T, D>,
+    rates: Rows<T, D>,
+    coupling: Rows<T, D>,
+    records: Records<T>,
+    work_records: Records<T>,
+    records_of_rates: bool,
+    gravity: [[f64; D]; 2],
+    body_force: [T; D],
+    guards: GuardCounts,
+    limited: Vec<(&'static str, u64)>,
+    served: u32,
+    rebuilds: u64,
 }
 
 pub(crate) fn width<T: Real>() -> usize {
@@ -76,6 +94,44 @@ impl<T: Real, const D: usize> Group<T, D> {
             guards: GuardCounts::default(),
             limited: Vec::new(),
         }
+    }
+
+    /// A copy of what an evaluation changes.
+    pub(super) fn set_aside(&self) -> Aside<T, D> {
+        Aside {
+            columns: self.particles.columns.clone(),
+            rates: self.work.rates.clone(),
+            coupling: self.work.coupling.clone(),
+            records: self.work.records.clone(),
+            work_records: self.work.work_records.clone(),
+            records_of_rates: self.work.records_of_rates,
+            gravity: [self.gravity, self.evaluated_gravity.map(Real::to_f64)],
+            body_force: self.body_force,
+            guards: self.guards,
+            limited: self.limited.clone(),
+            served: self.neighborhood.served,
+            rebuilds: self.neighborhood.rebuilds,
+        }
+    }
+
+    /// Puts back what was set aside.
+    pub(super) fn take_up(&mut self, aside: Aside<T, D>) {
+        // Lists that were built meanwhile may have sorted the particles: what is there now serves as well.
+        if aside.rebuilds != self.neighborhood.rebuilds {
+            return;
+        }
+        self.particles.columns = aside.columns;
+        self.work.rates = aside.rates;
+        self.work.coupling = aside.coupling;
+        self.work.records = aside.records;
+        self.work.work_records = aside.work_records;
+        self.work.records_of_rates = aside.records_of_rates;
+        self.gravity = aside.gravity[0];
+        self.evaluated_gravity = aside.gravity[1].map(T::from_f64);
+        self.body_force = aside.body_force;
+        self.guards = aside.guards;
+        self.limited = aside.limited;
+        self.neighborhood.served = aside.served;
     }
 
     /// Whether nobody looks at it on its way through a drift.

@@ -85,6 +85,7 @@ pub(crate) use walls::WallState;
 use crate::error::{Error, Problem, Result};
 use crate::integrator::Integrator;
 use crate::scalar::Real;
+use group::Aside;
 use ledger::Impulses;
 use std::sync::Arc;
 
@@ -114,6 +115,8 @@ pub struct Simulation<T: Real, const D: usize> {
     /// The time \[s\] of the last evaluation.
     evaluated: f64,
     kept_impulses: Vec<Impulses>,
+    /// What an evaluation between steps has set aside: groups, and the time and number of the last evaluation.
+    aside: Option<(Vec<Aside<T, D>>, f64, u64)>,
     /// Time \[s\] over which what follows the flow once a step has yet to do so.
     due: f64,
 }
@@ -164,6 +167,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             work: None,
             evaluated: 0.0,
             kept_impulses: Vec::new(),
+            aside: None,
             due: 0.0,
         }
     }
@@ -217,9 +221,32 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     ///
     /// # Errors
     /// [`Error::NotFinite`] if a number is no longer finite.
+    ///
+    /// Between steps it changes nothing of what comes: the next step starts from the rates that the step before has
+    /// left, which belong to predicted velocities (where the evaluation had to build neighbour lists, from its own).
     pub fn evaluate(&mut self) -> Result<()> {
+        if self.rates_at_hand && self.aside.is_none() {
+            let groups = self.groups.iter().map(Group::set_aside).collect();
+            self.aside = Some((groups, self.evaluated, self.evaluations));
+        }
         crate::integrator::System::evaluate(self, 0.0)?;
         self.vote().map(|_| ())
+    }
+
+    /// Takes up again what an evaluation between steps has set aside.
+    fn take_up(&mut self) {
+        if let Some((groups, evaluated, evaluations)) = self.aside.take() {
+            for (group, aside) in self.groups.iter_mut().zip(groups) {
+                group.take_up(aside);
+            }
+            (self.evaluated, self.evaluations) = (evaluated, evaluations);
+        }
+    }
+
+    /// Forgets rates, after the state was changed from outside.
+    fn forget_rates(&mut self) {
+        self.aside = None;
+        self.rates_at_hand = false;
     }
 
     /// Takes one step, and returns its size \[s\].
@@ -235,6 +262,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// # Errors
     /// As [`run_until`](Simulation::run_until).
     pub fn step_at_most(&mut self, limit: f64) -> Result<f64> {
+        self.take_up();
         for group in &mut self.groups {
             if group.emit(self.time)? {
                 self.rates_at_hand = false;

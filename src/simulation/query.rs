@@ -127,7 +127,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 group.particles.columns.vectors_mut(Field::VELOCITY)[slot] = next.map(T::from_f64);
             }
         }
-        self.rates_at_hand = false;
+        self.forget_rates();
     }
 
     /// All particles, body after body.

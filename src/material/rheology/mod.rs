@@ -15,7 +15,7 @@
 //!
 //! Every law is bounded: its [greatest viscosity](ViscosityLaw::greatest_viscosity) sets the viscous
 //! time step, about h² ρ/(8 μ). Liquids follow their laws under a scheme with
-//! [`generalised_newtonian`](crate::scheme::LiquidBuilder::generalised_newtonian).
+//! [`GeneralisedNewtonian`](crate::effect::GeneralisedNewtonian).
 //!
 //! ```
 //! use meshfree::material::{Material, catalogue, rheology::CarreauYasuda};
