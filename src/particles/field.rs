@@ -163,7 +163,7 @@ macro_rules! quantities {
             pub fn iter(self) -> impl Iterator<Item = $Quantity> {
                 (0..PLACES as u8).filter(move |&k| self.0 >> k & 1 == 1).map(|k| {
                     let known = $Quantity::ALL.get(k as usize);
-                    known.copied().unwrap_or($Quantity {
+                    known.copied().unwrap_or_else(|| $Quantity {
                         index: k,
                         shape: own_shape(k as usize),
                     })
