@@ -14,8 +14,9 @@ use meshfree::term::viscosity::{
 use meshfree::term::{
     Antuono, CentralViscosity, Compression, Crowding, DensityGradient, Fourtakas, InternalEnergy,
     KernelMoment, KernelSum, LaminarViscosity, LiquidNearWall, Molteni, PressureCurvature,
-    PressureForce, PressureGradient, Probe, RenormalisedCompression, RiemannDiffusion, SlopeInH,
-    Term, Unity, VelocityAtWall, VelocityGradient, Viscosity, ViscosityAtWall, probe,
+    PressureForce, PressureGradient, Probe, RenormalisedCompression, RenormalisedPressureForce,
+    RiemannDiffusion, SlopeInH, Term, Unity, VelocityAtWall, VelocityGradient, Viscosity,
+    ViscosityAtWall, probe,
 };
 
 macro_rules! for_each_viscosity_of {
@@ -37,8 +38,7 @@ fn the_list_has_every_viscosity() {
     );
 }
 
-/// Every term of the crate that acts along rᵢⱼ or vᵢⱼ; each test below runs over this list in all
-/// dimensions. Forces in other directions are held to what they conserve (`liquid_conservation`).
+/// Every term of the crate; each test below runs over this list in all dimensions.
 macro_rules! for_each_term {
     ($check:ident) => {{
         for_each_term!($check, 1);
@@ -72,6 +72,7 @@ macro_rules! for_each_term {
         $check::<$D, _>(LiquidNearWall);
         $check::<$D, _>(VelocityAtWall);
         $check::<$D, _>(ViscosityAtWall);
+        $check::<$D, _>(RenormalisedPressureForce);
         $check::<$D, _>(RenormalisedCompression);
         for_each_viscosity_of!(
             $check,
@@ -141,6 +142,7 @@ fn numbers<L: Lane, const D: usize>(probe: &Probe<L, D>) -> Vec<L> {
         .flat_map(|&output| (0..output.components(D)).map(move |k| probe.sum(output, k)));
     [probe.radial, probe.shear]
         .into_iter()
+        .chain(probe.force)
         .chain(sums)
         .collect()
 }
@@ -162,7 +164,10 @@ where
             Particle::random(&mut random, 0.8),
         );
         let (there, back) = (scalar(&term, kernel, &i, &j), scalar(&term, kernel, &j, &i));
-        for (a, b) in [(there.radial, back.radial), (there.shear, back.shear)] {
+        let mut pairs = vec![(there.radial, back.radial), (there.shear, back.shear)];
+        // A vector changes its sign where what multiplies r and v does not.
+        pairs.extend((0..D).map(|d| (there.force[d], -back.force[d])));
+        for (a, b) in pairs {
             acted |= a != 0.0;
             assert!(
                 (a - b).abs() <= 1e-14 * (1.0 + a.abs()),
@@ -299,6 +304,13 @@ where
             Particle::random(&mut random, 0.5),
         );
         let result = scalar(&term, common::kernel(round), &i, &j);
+        let along = [result.radial, result.shear];
+        let pushed = along.iter().chain(&result.force).any(|&force| force != 0.0);
+        assert!(
+            A::WRITES.contains(Output::FORCE) || !pushed,
+            "{} sets a force",
+            name(&term)
+        );
         for &output in Output::ALL {
             let written = (0..output.components(D)).any(|k| result.sum(output, k) != 0.0);
             let declared = A::WRITES.contains(output);

@@ -21,8 +21,9 @@
 //!
 //! [`probe()`] evaluates a term for one pair, for tests of terms of your own.
 //!
-//! A force is set as its component along rᵢⱼ or along vᵢⱼ, and must be symmetric in i and j. Then it is
-//! opposite for the two, and the scheme conserves momentum.
+//! A force is set as its component along rᵢⱼ or along vᵢⱼ, which must be symmetric in i and j, or as a vector
+//! ([`FreeForce`]), which must change its sign with them. Then it is opposite for the two, and the scheme
+//! conserves momentum; angular momentum too where it lies along rᵢⱼ.
 //!
 //! # Artificial viscosity
 //!
@@ -91,10 +92,10 @@ use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Lane;
 use core::fmt::Debug;
 use core::marker::PhantomData;
-use core::ops::{AddAssign, SubAssign};
 
 mod crowding;
 mod density_diffusion;
+mod force;
 mod gradient;
 mod laminar_viscosity;
 mod momentum;
@@ -106,6 +107,7 @@ mod wall;
 
 pub use crowding::{Crowding, Nothing};
 pub use density_diffusion::{Antuono, Fourtakas, Molteni, RiemannDiffusion, STANDARD_DELTA};
+pub use force::{Along, FreeForce};
 pub use gradient::{DensityGradient, PressureGradient, VelocityGradient};
 pub use laminar_viscosity::{CentralViscosity, LaminarViscosity};
 pub use momentum::{InternalEnergy, PressureCurvature, PressureForce};
@@ -209,54 +211,6 @@ impl<L: Lane, const D: usize, P: Layout> Pair<'_, L, D, P> {
     }
 }
 
-/// A force of a pair along one direction, which costs nothing where no term sets it.
-#[derive(Clone, Copy, Debug)]
-pub struct Along<L>(Option<L>);
-
-impl<L: Lane> Along<L> {
-    pub(crate) const NOTHING: Self = Self(None);
-
-    /// The sum of what terms have set; zero where none has.
-    #[inline(always)]
-    #[must_use]
-    pub fn value(self) -> L {
-        self.0.unwrap_or_else(L::zero)
-    }
-    /// Adds a product, with one rounding where lanes are fused.
-    #[inline(always)]
-    pub fn add_product(&mut self, a: L, b: L) {
-        self.0 = Some(match self.0 {
-            Some(sum) => a.mul_add(b, sum),
-            None => a * b,
-        });
-    }
-    /// The force times the component `along` of its direction, and `sum`.
-    #[inline(always)]
-    pub(crate) fn mul_add(self, along: L, sum: L) -> L {
-        match self.0 {
-            Some(force) => force.mul_add(along, sum),
-            None => sum,
-        }
-    }
-}
-
-impl<L: Lane> AddAssign<L> for Along<L> {
-    #[inline(always)]
-    fn add_assign(&mut self, force: L) {
-        self.0 = Some(match self.0 {
-            Some(sum) => sum + force,
-            None => force,
-        });
-    }
-}
-
-impl<L: Lane> SubAssign<L> for Along<L> {
-    #[inline(always)]
-    fn sub_assign(&mut self, force: L) {
-        *self += -force;
-    }
-}
-
 /// The sums of a row of particles over their neighbours.
 #[derive(Debug)]
 pub struct Sums<L: Lane, const D: usize, P: Layout> {
@@ -264,6 +218,8 @@ pub struct Sums<L: Lane, const D: usize, P: Layout> {
     pub radial: Along<L>,
     /// This pair's force on i along vᵢⱼ, divided by vᵢⱼ \[N s/m\]: symmetric in i and j.
     pub shear: Along<L>,
+    /// This pair's force on i in any other direction \[N\]: antisymmetric in i and j.
+    pub force: FreeForce<L, D>,
     pub(crate) kept: [L; MOST_SUMS],
     layout: PhantomData<P>,
 }
@@ -275,6 +231,7 @@ impl<L: Lane, const D: usize, P: Layout> Sums<L, D, P> {
         Self {
             radial: Along::NOTHING,
             shear: Along::NOTHING,
+            force: FreeForce::NOTHING,
             kept: [zero; MOST_SUMS],
             layout: PhantomData,
         }
@@ -297,9 +254,16 @@ impl<L: Lane, const D: usize, P: Layout> Sums<L, D, P> {
     pub(crate) fn clear(&mut self) {
         self.kept[..P::WRITES.width(D)].fill(L::zero());
     }
+    /// Forgets the forces of the pair before.
+    #[inline(always)]
+    pub(crate) fn next_pair(&mut self) {
+        self.radial = Along::NOTHING;
+        self.shear = Along::NOTHING;
+        self.force = FreeForce::NOTHING;
+    }
     /// The kept force; zero where no term sets one.
     #[inline(always)]
-    pub(crate) fn force(&self) -> [L; D] {
+    pub(crate) fn kept_force(&self) -> [L; D] {
         if !P::WRITES.contains(Output::FORCE) {
             return [L::zero(); D];
         }
@@ -307,6 +271,9 @@ impl<L: Lane, const D: usize, P: Layout> Sums<L, D, P> {
         core::array::from_fn(|d| self.kept[at + d])
     }
     /// Adds to a scalar sum.
+    ///
+    /// Power that is added here ([`Output::POWER`]) is energy that no force has done, such as heat that is
+    /// conducted; the power of forces the sweep adds by itself.
     #[inline(always)]
     pub fn add(&mut self, output: Output, value: L) {
         self.add_at(output, 0, value);
@@ -314,15 +281,22 @@ impl<L: Lane, const D: usize, P: Layout> Sums<L, D, P> {
     /// Adds a product to a scalar sum, with one rounding where lanes are fused.
     #[inline(always)]
     pub fn add_product(&mut self, output: Output, a: L, b: L) {
-        if P::WRITES.contains(output) {
+        if output == Output::FORCE {
+            self.force.add(0, a * b);
+        } else if P::WRITES.contains(output) {
             let kept = &mut self.kept[P::WRITES.offset(output, D)];
             *kept = a.mul_add(b, *kept);
         }
     }
     /// Adds to component `k` of a sum.
+    ///
+    /// What is added to [`Output::FORCE`] is a [free force](Self::force) of the pair: its power and its work
+    /// count as those of any other.
     #[inline(always)]
     pub fn add_at(&mut self, output: Output, k: usize, value: L) {
-        if P::WRITES.contains(output) {
+        if output == Output::FORCE {
+            self.force.add(k, value);
+        } else if P::WRITES.contains(output) {
             self.kept[P::WRITES.offset(output, D) + k] += value;
         }
     }
@@ -395,9 +369,9 @@ pub struct TermDoc {
 pub trait Term<const D: usize>: Clone + Debug + Send + Sync + 'static {
     /// Fields of i and j that the term reads, beside the position.
     const READS: Fields;
-    /// Sums that the term adds to. A term that sets `radial` or `shear` names [`Output::FORCE`].
+    /// Sums that the term adds to. A term that sets `radial`, `shear` or `force` names [`Output::FORCE`].
     const WRITES: Outputs;
-    /// Adds what this pair contributes. A force must be symmetric in i and j.
+    /// Adds what this pair contributes. A force on i must be the opposite of that on j.
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>);
     /// What the term is, for people.
     fn document(&self) -> TermDoc;
@@ -443,21 +417,3 @@ tuple!(A, B, C, E, F);
 tuple!(A, B, C, E, F, G);
 tuple!(A, B, C, E, F, G, H);
 tuple!(A, B, C, E, F, G, H, I);
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_force_that_no_term_sets_is_not_even_multiplied() {
-        let mut force = Along::<f64>::NOTHING;
-        assert_eq!(force.value(), 0.0);
-        // Zero times this would be no number.
-        assert_eq!(force.mul_add(f64::INFINITY, 2.0), 2.0);
-        force -= 3.0;
-        force.add_product(2.0, 4.0);
-        force += 1.0;
-        assert_eq!(force.value(), 6.0);
-        assert_eq!(force.mul_add(0.5, 2.0), 5.0);
-    }
-}

@@ -14,11 +14,14 @@ pub struct Probe<L, const D: usize> {
     pub radial: L,
     /// Force on i along vᵢⱼ, divided by vᵢⱼ \[N s/m\].
     pub shear: L,
+    /// Force on i in any other direction \[N\].
+    pub force: [L; D],
     sums: [L; MOST_SUMS],
 }
 
 impl<L: Lane, const D: usize> Probe<L, D> {
-    /// Component `k` of what was added to a sum, declared by the term or not.
+    /// Component `k` of what was added to a sum, declared by the term or not. Forces are not among the sums:
+    /// see `radial`, `shear` and `force`.
     #[must_use]
     pub fn sum(&self, output: Output, k: usize) -> L {
         self.sums[Outputs::ALL.offset(output, D) + k]
@@ -102,6 +105,7 @@ pub fn probe<L: Lane, const D: usize, K: Kernel<D>, A: Term<D>>(
     Probe {
         radial: sums.radial.value(),
         shear: sums.shear.value(),
+        force: sums.force.value(),
         sums: sums.kept,
     }
 }

@@ -195,7 +195,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                 }
                 let foreign = forces && other != block;
                 let before = if foreign {
-                    sums.force()
+                    sums.kept_force()
                 } else {
                     [L::zero(); D]
                 };
@@ -333,7 +333,7 @@ fn reaction<L: Lane, const D: usize, C: Layout>(
     before: &[L; D],
     sums: &Sums<L, D, C>,
 ) -> Reaction<D> {
-    let after = sums.force();
+    let after = sums.kept_force();
     let force = core::array::from_fn(|d| {
         (0..members)
             .map(|lane| (after[d] - before[d]).extract(lane).to_f64())

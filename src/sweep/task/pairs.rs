@@ -5,7 +5,7 @@ use super::{Composed, MEAN, OWN, Row, Task, WORK, compressive};
 use crate::kernel::Kernel;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
-use crate::term::{Along, Layout, MOST_READS, Pair, Sums, Terms};
+use crate::term::{Layout, MOST_READS, Pair, Sums, Terms};
 use core::marker::PhantomData;
 
 impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
@@ -161,8 +161,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                 compressive(reads, &mut shown, D);
                 pair.j = &shown[..stride];
             }
-            sums.radial = Along::NOTHING;
-            sums.shear = Along::NOTHING;
+            sums.next_pair();
             terms.pair(&pair, sums);
             apply::<L, D, HOW, _>(&pair, sums, &P::WRITES, own, record, reads);
         }
@@ -170,7 +169,8 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
     }
 }
 
-/// Turns the pair's scalar forces into the kept force, or into work.
+/// Turns the pair's forces along directions into vectors, and adds them with the free one to the kept force,
+/// or all to power and work.
 #[inline(always)]
 fn apply<L: Lane, const D: usize, const HOW: u8, C: Layout>(
     pair: &Pair<'_, L, D, C>,
@@ -187,9 +187,10 @@ fn apply<L: Lane, const D: usize, const HOW: u8, C: Layout>(
         let mean = reads.offset(Field::MEAN_VELOCITY, D);
         let mut work = L::zero();
         for d in 0..D {
+            let free = sums.force.plus(d, L::zero());
             let force = sums
                 .radial
-                .mul_add(pair.r[d], sums.shear.mul_add(pair.v[d], L::zero()));
+                .mul_add(pair.r[d], sums.shear.mul_add(pair.v[d], free));
             work = force.mul_add(L::splat(record[mean + d]) - own[mean + d], work);
         }
         sums.add(Output::POWER, work * L::of(0.5));
@@ -197,13 +198,15 @@ fn apply<L: Lane, const D: usize, const HOW: u8, C: Layout>(
     }
     for d in 0..D {
         let kept = &mut sums.kept[C::WRITES.offset(Output::FORCE, D) + d];
+        *kept = sums.force.plus(d, *kept);
         *kept = sums.radial.mul_add(pair.r[d], *kept);
         *kept = sums.shear.mul_add(pair.v[d], *kept);
     }
     if writes.contains(Output::POWER) {
-        let power = sums
-            .radial
-            .mul_add(pair.v_dot_r, sums.shear.mul_add(pair.v2(), L::zero()));
+        let power = sums.radial.mul_add(
+            pair.v_dot_r,
+            sums.shear.mul_add(pair.v2(), sums.force.dot(&pair.v)),
+        );
         sums.add(Output::POWER, power * L::of(-0.5));
     }
 }
