@@ -1,5 +1,5 @@
 //! The contract that every pair term keeps: symmetric forces, finite at distance zero, nothing beyond
-//! the support, the same in lanes as in scalars, and no field or sum that is not declared.
+//! the support, the same in lanes as in scalars and as recorded, and no field or sum that is not declared.
 
 mod common;
 
@@ -7,86 +7,64 @@ use common::Random;
 use meshfree::kernel::{Kernel, KernelKind};
 use meshfree::particles::{Field, Output};
 use meshfree::scalar::{Lane, Lanes};
-use meshfree::term::viscosity::{
-    Balsara, CullenDehnen, Inviscid, LimitedMonaghanGingold, MonaghanGingold, MorrisMonaghan,
-    Riemann, SignalVelocity,
-};
-use meshfree::term::{
-    Antuono, CentralViscosity, Compression, Crowding, DensityGradient, Fourtakas, InternalEnergy,
-    KernelMoment, KernelSum, LaminarViscosity, LiquidNearWall, Molteni, PressureCurvature,
-    PressureForce, PressureGradient, Probe, RenormalisedCompression, RenormalisedPressureForce,
-    RiemannDiffusion, SlopeInH, Term, Unity, VelocityAtWall, VelocityGradient, Viscosity,
-    ViscosityAtWall, probe,
-};
+use meshfree::term::{Probe, Term, probe};
 
-macro_rules! for_each_viscosity_of {
-    ($check:ident, $D:literal, $($Law:ident),*) => {
-        $($check::<$D, _>(Viscosity($Law::default()));)*
+macro_rules! in_all_dimensions {
+    ($check:ident: $($term:expr),*) => {
+        $(
+            $check::<1, _>($term);
+            $check::<2, _>($term);
+            $check::<3, _>($term);
+        )*
     };
 }
 
-macro_rules! count {
-    ($($Law:ident $name:literal),*) => { [$($name),*].len() };
+/// Holds every term of the crate to a check, in all dimensions.
+macro_rules! for_each_term {
+    ($check:ident) => {
+        meshfree::for_each_term!(in_all_dimensions $check:)
+    };
+}
+
+macro_rules! written {
+    ($($term:expr),*) => { [$(stringify!($term)),*] };
+}
+
+/// The types in the sources that implement a trait in D dimensions.
+fn implementors(of: &str, folder: &std::path::Path, found: &mut Vec<String>) {
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            implementors(of, &path, found);
+            continue;
+        }
+        let text = std::fs::read_to_string(&path).unwrap();
+        for line in text.lines().filter(|line| line.starts_with("impl<")) {
+            if let Some((_, name)) = line.split_once(&format!("{of}<D> for ")) {
+                let end = name.find(|c: char| !c.is_alphanumeric()).unwrap();
+                found.push(name[..end].to_owned());
+            }
+        }
+    }
 }
 
 #[test]
-fn the_list_has_every_viscosity() {
-    assert_eq!(
-        meshfree::for_each_viscosity!(count),
-        8,
-        "add it to the list below"
-    );
-}
-
-/// Every term of the crate; each test below runs over this list in all dimensions.
-macro_rules! for_each_term {
-    ($check:ident) => {{
-        for_each_term!($check, 1);
-        for_each_term!($check, 2);
-        for_each_term!($check, 3);
-    }};
-    ($check:ident, $D:literal) => {{
-        $check::<$D, _>(PressureForce);
-        $check::<$D, _>(PressureCurvature {
-            strength: 1.0 / 3.0,
-        });
-        $check::<$D, _>(InternalEnergy);
-        $check::<$D, _>(KernelSum);
-        $check::<$D, _>(Unity);
-        $check::<$D, _>(KernelMoment);
-        $check::<$D, _>(SlopeInH);
-        $check::<$D, _>(Compression);
-        $check::<$D, _>(VelocityGradient);
-        $check::<$D, _>(PressureGradient);
-        $check::<$D, _>(DensityGradient);
-        $check::<$D, _>(LaminarViscosity);
-        $check::<$D, _>(CentralViscosity);
-        $check::<$D, _>(Molteni::default());
-        $check::<$D, _>(Fourtakas::default());
-        $check::<$D, _>(Antuono::default());
-        $check::<$D, _>(RiemannDiffusion);
-        $check::<$D, _>(Crowding::<$D> {
-            repulsion: 0.2,
-            at_spacing: 1.0,
-        });
-        $check::<$D, _>(LiquidNearWall);
-        $check::<$D, _>(VelocityAtWall);
-        $check::<$D, _>(ViscosityAtWall);
-        $check::<$D, _>(RenormalisedPressureForce);
-        $check::<$D, _>(RenormalisedCompression);
-        for_each_viscosity_of!(
-            $check,
-            $D,
-            Inviscid,
-            MonaghanGingold,
-            LimitedMonaghanGingold,
-            SignalVelocity,
-            Balsara,
-            MorrisMonaghan,
-            CullenDehnen,
-            Riemann
-        );
-    }};
+fn the_list_has_every_term_and_every_viscosity() {
+    let sources = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/term");
+    let mut all = Vec::new();
+    implementors(" Term", &sources, &mut all);
+    implementors(" ArtificialViscosity", &sources, &mut all);
+    let listed = meshfree::for_each_term!(written);
+    // A list of all names, and more than a few: the sources were read.
+    assert!(all.len() > 30, "{all:?}");
+    // What does nothing has nothing to keep.
+    for name in all.iter().filter(|name| *name != "Nothing") {
+        let named = |term: &&str| {
+            let words = term.split(|c: char| !c.is_alphanumeric());
+            words.into_iter().any(|word| word == name)
+        };
+        assert!(listed.iter().any(named), "`for_each_term` lacks {name}");
+    }
 }
 
 const WIDTH: usize = 8;

@@ -389,6 +389,60 @@ pub trait Terms<const D: usize>: Clone + Debug + Send + Sync + 'static {
     fn document(&self) -> Vec<TermDoc>;
 }
 
+/// Calls a macro with one term of each kind, as expressions separated by commas, after whatever else it is
+/// given. Every test and benchmark that runs over all terms takes them from here.
+///
+/// ```
+/// use meshfree::term::Term;
+/// fn writes<T: Term<2>>(_term: &T) -> usize {
+///     T::WRITES.iter().count()
+/// }
+/// macro_rules! most {
+///     ($least:literal: $($term:expr),*) => { [$least, $(writes(&$term)),*].into_iter().max() };
+/// }
+/// assert_eq!(meshfree::for_each_term!(most 1:), Some(5));
+/// ```
+#[macro_export]
+macro_rules! for_each_term {
+    ($callback:ident $($given:tt)*) => {
+        $callback! {
+            $($given)*
+            $crate::term::PressureForce,
+            $crate::term::PressureCurvature { strength: 1.0 / 3.0 },
+            $crate::term::InternalEnergy,
+            $crate::term::KernelSum,
+            $crate::term::Unity,
+            $crate::term::KernelMoment,
+            $crate::term::SlopeInH,
+            $crate::term::Compression,
+            $crate::term::VelocityGradient,
+            $crate::term::PressureGradient,
+            $crate::term::DensityGradient,
+            $crate::term::LaminarViscosity,
+            $crate::term::CentralViscosity,
+            $crate::term::Molteni::default(),
+            $crate::term::Fourtakas::default(),
+            $crate::term::Antuono::default(),
+            $crate::term::RiemannDiffusion,
+            $crate::term::Crowding { repulsion: 0.2, at_spacing: 1.0 },
+            $crate::term::LiquidNearWall,
+            $crate::term::VelocityAtWall,
+            $crate::term::ViscosityAtWall,
+            $crate::term::RenormalisedPressureForce,
+            $crate::term::RenormalisedCompression,
+            $crate::term::Viscosity($crate::term::viscosity::Inviscid),
+            $crate::term::Viscosity($crate::term::viscosity::MonaghanGingold::STANDARD),
+            $crate::term::Viscosity($crate::term::viscosity::LimitedMonaghanGingold::STANDARD),
+            $crate::term::Viscosity($crate::term::viscosity::SignalVelocity::STANDARD),
+            $crate::term::Viscosity($crate::term::viscosity::Balsara::STANDARD),
+            $crate::term::Viscosity($crate::term::viscosity::MorrisMonaghan::STANDARD),
+            $crate::term::Viscosity($crate::term::viscosity::CullenDehnen::STANDARD),
+            $crate::term::Viscosity($crate::term::viscosity::Riemann::STANDARD),
+            $crate::term::Viscosity($crate::term::viscosity::LamPrinted { alpha: 1.0, beta: 2.0 })
+        }
+    };
+}
+
 macro_rules! tuple {
     ($($name:ident),*) => {
         #[allow(non_snake_case)]
