@@ -6,7 +6,7 @@ mod common;
 use common::Random;
 use meshfree::kernel::{Kernel, KernelKind};
 use meshfree::particles::{Field, Output};
-use meshfree::scalar::{Lane, Lanes};
+use meshfree::scalar::{Lane, Lanes, Real, Record, Traced};
 use meshfree::term::{Probe, Term, probe};
 
 macro_rules! in_all_dimensions {
@@ -350,4 +350,121 @@ where
 #[test]
 fn every_declared_field_changes_something() {
     for_each_term!(reads_matter);
+}
+
+/// Where component `k` of a field of i stands among the inputs of a record; those of j follow on all of i.
+fn input(field: Field, k: usize) -> usize {
+    9 * field.place() + k
+}
+
+/// The numbers of a term for a row of particles, and what its record makes of them.
+fn follows<T: Real, L: Lane<Scalar = T, Broadcast = T>, const D: usize, A: Term<D>>(
+    (term, kernel, record): (&A, KernelKind, &Record),
+    random: &mut Random,
+) where
+    KernelKind: Kernel<D>,
+{
+    let row: Vec<_> = (0..L::WIDTH)
+        .map(|_| Particle::random(random, 1.2))
+        .collect();
+    let j = Particle::random(random, 1.2);
+    let i = |f: Field, k: usize| L::from_fn(|lane| T::from_f64(row[lane].get(f, k)));
+    let j = |f: Field, k: usize| T::from_f64(j.get(f, k));
+    let half = input(Field::ALL[Field::ALL.len() - 1], 9);
+    let mut inputs = vec![L::zero(); 2 * half];
+    for &field in Field::ALL {
+        for k in 0..field.components(D) {
+            inputs[input(field, k)] = i(field, k);
+            inputs[half + input(field, k)] = L::splat(j(field, k));
+        }
+    }
+    let expected = numbers(&probe::<L, D, _, _>(term, &kernel, i, j));
+    let found = record.follow(&inputs);
+    assert_eq!(found.len(), expected.len());
+    for (number, (found, expected)) in found.iter().zip(expected).enumerate() {
+        for lane in 0..L::WIDTH {
+            let (found, expected) = (
+                found.extract(lane).to_f64(),
+                expected.extract(lane).to_f64(),
+            );
+            assert_eq!(
+                found.to_bits(),
+                expected.to_bits(),
+                "{}, number {number}: {found} for {expected}",
+                name(term)
+            );
+        }
+    }
+}
+
+fn can_be_recorded<const D: usize, A: Term<D>>(term: A)
+where
+    KernelKind: Kernel<D>,
+{
+    let mut random = Random(7);
+    for &kernel in KernelKind::ALL {
+        let half = input(Field::ALL[Field::ALL.len() - 1], 9);
+        let record = Record::of(2 * half, |inputs| {
+            let i = |f: Field, k: usize| inputs[input(f, k)];
+            let j = |f: Field, k: usize| inputs[half + input(f, k)];
+            numbers(&probe::<Traced, D, _, _>(&term, &kernel, i, j))
+        });
+        let record = record.unwrap_or_else(|error| panic!("{}: {error}", name(&term)));
+        for _ in 0..3 {
+            let recorded = (&term, kernel, &record);
+            follows::<f64, f64, D, A>(recorded, &mut random);
+            follows::<f64, Lanes<f64, 8, false>, D, A>(recorded, &mut random);
+            follows::<f64, Lanes<f64, 8, true>, D, A>(recorded, &mut random);
+            follows::<f32, Lanes<f32, 16, true>, D, A>(recorded, &mut random);
+        }
+    }
+}
+
+#[test]
+fn the_record_of_a_term_has_its_bits_on_every_lane() {
+    for_each_term!(can_be_recorded);
+}
+
+fn kernels_follow<T: Real, L: Lane<Scalar = T>, K: Kernel<D>, const D: usize>(kernel: &K) {
+    fn text<L: Lane, K: Kernel<D>, const D: usize>(kernel: &K, given: &[L]) -> Vec<L> {
+        let gradient = kernel.gradient(given[0], given[1], given[2]);
+        vec![
+            kernel.shape(given[0]),
+            kernel.slope_over_q(given[0]),
+            gradient,
+        ]
+    }
+    let record = Record::of(3, |given| text(kernel, given)).unwrap();
+    let mut random = Random(8);
+    for _ in 0..50 {
+        let given: [L; 3] =
+            core::array::from_fn(|_| L::from_fn(|_| T::from_f64(3.5 * random.unit())));
+        let expected = text(kernel, &given);
+        for (found, expected) in record.follow(&given).iter().zip(expected) {
+            for lane in 0..L::WIDTH {
+                let (found, expected) = (found.extract(lane), expected.extract(lane));
+                let bits = (found.to_f64().to_bits(), expected.to_f64().to_bits());
+                assert_eq!(bits.0, bits.1, "{} in {D}D", kernel.name());
+            }
+        }
+    }
+}
+
+macro_rules! kernels {
+    ($($Kernel:ident $name:literal),*) => {$(
+        kernels_on_lanes::<_, 1>(&meshfree::kernel::$Kernel);
+        kernels_on_lanes::<_, 2>(&meshfree::kernel::$Kernel);
+        kernels_on_lanes::<_, 3>(&meshfree::kernel::$Kernel);
+    )*};
+}
+
+fn kernels_on_lanes<K: Kernel<D>, const D: usize>(kernel: &K) {
+    kernels_follow::<f64, f64, K, D>(kernel);
+    kernels_follow::<f64, Lanes<f64, 8, true>, K, D>(kernel);
+    kernels_follow::<f32, Lanes<f32, 16, true>, K, D>(kernel);
+}
+
+#[test]
+fn the_record_of_a_kernel_has_its_bits_on_every_lane() {
+    meshfree::for_each_kernel!(kernels);
 }

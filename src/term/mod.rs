@@ -168,7 +168,7 @@ pub struct Pair<'a, L: Lane, const D: usize, P: Layout> {
     /// particles carry their own.
     pub lattice_moment: L,
     pub(crate) i: &'a [L; MOST_READS],
-    pub(crate) j: &'a [L::Scalar],
+    pub(crate) j: &'a [L::Broadcast],
     pub(crate) layout: PhantomData<P>,
 }
 
@@ -185,7 +185,7 @@ impl<L: Lane, const D: usize, P: Layout> Pair<'_, L, D, P> {
     #[must_use]
     pub fn j(&self, field: Field) -> L {
         debug_assert!(P::READS.contains(field));
-        L::splat(self.j[P::READS.offset(field, D)])
+        L::broadcast(self.j[P::READS.offset(field, D)])
     }
     /// Component `k` of a vector or matrix field of i.
     #[inline(always)]
@@ -199,7 +199,7 @@ impl<L: Lane, const D: usize, P: Layout> Pair<'_, L, D, P> {
     #[must_use]
     pub fn j_at(&self, field: Field, k: usize) -> L {
         debug_assert!(P::READS.contains(field));
-        L::splat(self.j[P::READS.offset(field, D) + k])
+        L::broadcast(self.j[P::READS.offset(field, D) + k])
     }
     /// vᵢⱼ·vᵢⱼ \[m²/s²\].
     #[inline(always)]

@@ -42,7 +42,8 @@ impl<const D: usize, A: Term<D>> Layout for Alone<A, D> {
 
 /// Evaluates one term for one pair under `kernel` with the mean of the two smoothing lengths, and a body
 /// force of 1 m/s² along the first axis.
-/// `i` and `j` give component k of a field.
+/// `i` and `j` give component k of a field. With [`Traced`](crate::scalar::Traced) numbers it records the term
+/// ([`Record`](crate::scalar::Record)).
 ///
 /// ```
 /// use meshfree::kernel::CubicSpline;
@@ -60,23 +61,23 @@ pub fn probe<L: Lane, const D: usize, K: Kernel<D>, A: Term<D>>(
     term: &A,
     kernel: &K,
     i: impl Fn(Field, usize) -> L,
-    j: impl Fn(Field, usize) -> L::Scalar,
+    j: impl Fn(Field, usize) -> L::Broadcast,
 ) -> Probe<L, D> {
     let reads = <Alone<A, D> as Layout>::READS;
-    let (mut own, mut other) = ([L::zero(); MOST_READS], [L::Scalar::default(); MOST_READS]);
+    let (mut own, mut other) = ([L::zero(); MOST_READS], [j(Field::POSITION, 0); MOST_READS]);
     for field in reads.iter() {
         for k in 0..field.components(D) {
             own[reads.offset(field, D) + k] = i(field, k);
             other[reads.offset(field, D) + k] = j(field, k);
         }
     }
-    let between = |field, k| i(field, k) - L::splat(j(field, k));
+    let between = |field, k| i(field, k) - L::broadcast(j(field, k));
     let r: [L; D] = core::array::from_fn(|d| between(Field::POSITION, d));
     let v: [L; D] = core::array::from_fn(|d| between(Field::VELOCITY, d));
     let r2 = (1..D).fold(r[0] * r[0], |sum, d| r[d].mul_add(r[d], sum));
     let v_dot_r = (1..D).fold(v[0] * r[0], |sum, d| v[d].mul_add(r[d], sum));
     let h_i = i(Field::SMOOTHING_LENGTH, 0);
-    let h = (h_i + L::splat(j(Field::SMOOTHING_LENGTH, 0))) * L::of(0.5);
+    let h = (h_i + L::broadcast(j(Field::SMOOTHING_LENGTH, 0))) * L::of(0.5);
     let inverse = h.recip();
     let q = r2.sqrt() * inverse;
     let norm = L::of(kernel.normalisation()) * inverse.powi(D as u32);

@@ -148,7 +148,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
 
     /// All clusters of one chunk.
     #[inline(always)]
-    fn chunk<L: Lane<Scalar = T>, const HOW: u8>(
+    fn chunk<L: Lane<Scalar = T, Broadcast = T>, const HOW: u8>(
         &self,
         chunk: usize,
         list: &ChunkList,
@@ -241,7 +241,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
     /// Never inlined: what a call has written comes from memory a row at a time, while numbers that the compiler
     /// follows one by one it may also compute one by one, without vector instructions.
     #[inline(never)]
-    fn read<L: Lane<Scalar = T>>(&self, first: usize, stride: usize, own: &mut [L; MOST_READS]) {
+    fn read<L: Lane<Scalar = T, Broadcast = T>>(&self, first: usize, stride: usize, own: &mut [L; MOST_READS]) {
         for (k, value) in own.iter_mut().enumerate().take(stride) {
             *value = L::from_fn(|lane| self.records[(first + lane) * stride + k]);
         }
@@ -253,7 +253,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
     /// What a skin lists and what a row of several particles lists for only one of them is mostly too
     /// far away, and finding that out costs less than the terms would.
     #[inline(always)]
-    fn within_reach<L: Lane<Scalar = T>, const HOW: u8>(
+    fn within_reach<L: Lane<Scalar = T, Broadcast = T>, const HOW: u8>(
         &self,
         own: &[L; MOST_READS],
         neighbors: &[u32],
@@ -286,7 +286,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
     /// One cluster against the neighbours of one segment, as far as they are within reach, which the number
     /// of them that comes with the list need not be asked.
     #[inline(always)]
-    fn segment<L: Lane<Scalar = T>, const HOW: u8>(
+    fn segment<L: Lane<Scalar = T, Broadcast = T>, const HOW: u8>(
         &self,
         row: Row<'_, L>,
         (neighbors, staying): (&[u32], usize),

@@ -11,7 +11,7 @@ use core::marker::PhantomData;
 impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
     /// Which members of a row touch the other side of a contact; `None` before contacts are known.
     #[inline(always)]
-    fn touches<L: Lane<Scalar = T>>(&self, first: usize) -> Option<L> {
+    fn touches<L: Lane<Scalar = T, Broadcast = T>>(&self, first: usize) -> Option<L> {
         let row = self.touching.get(first..first + L::WIDTH)?;
         Some(L::from_fn(|lane| row[lane]))
     }
@@ -28,7 +28,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
 
     /// Where the row stands from a neighbour: rᵢⱼ, its square and its length.
     #[inline(always)]
-    fn separation<L: Lane<Scalar = T>, const HOW: u8>(
+    fn separation<L: Lane<Scalar = T, Broadcast = T>, const HOW: u8>(
         &self,
         own: &[L; MOST_READS],
         j: u32,
@@ -60,7 +60,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
     /// Across a contact that may open a pair acts only where one of the two touches, shows the
     /// other side only pressure that compresses, and its kernel sum is kept apart.
     #[inline(always)]
-    pub(super) fn pairs<L: Lane<Scalar = T>, const HOW: u8>(
+    pub(super) fn pairs<L: Lane<Scalar = T, Broadcast = T>, const HOW: u8>(
         &self,
         row: Row<'_, L>,
         neighbors: &[u32],
