@@ -117,10 +117,79 @@ pub use sums::{Compression, KernelMoment, KernelSum, SlopeInH, Unity};
 pub use viscosity::{ArtificialViscosity, Viscosity, Viscous};
 pub use wall::{LiquidNearWall, VelocityAtWall, ViscosityAtWall};
 
-/// Most numbers that a packed record can hold.
-pub const MOST_READS: usize = 40;
-/// Most numbers that the sums of a sweep can hold.
-pub const MOST_SUMS: usize = 56;
+/// Most numbers that the terms of a sweep can read of a particle.
+///
+/// A sweep that reads more does not compile. Here x takes three and each symmetric tensor six:
+///
+/// ```
+/// # use meshfree::kernel::CubicSpline;
+/// # use meshfree::particles::{Field, Fields, Outputs};
+/// # use meshfree::scalar::Lane;
+/// # use meshfree::sweep::{PairSweep, Program, SmoothingMode};
+/// # use meshfree::term::{Layout, Pair, Sums, Term, TermDoc};
+/// # #[derive(Clone, Debug)]
+/// # struct Reads<const TENSORS: usize>;
+/// # impl<const TENSORS: usize> Term<3> for Reads<TENSORS> {
+/// #     const READS: Fields = {
+/// #         let (mut fields, mut k) = (Fields::NONE, 0);
+/// #         while k < TENSORS {
+/// #             fields = fields.union(Fields::of(&[Field::tensor(k as u8)]));
+/// #             k += 1;
+/// #         }
+/// #         fields
+/// #     };
+/// #     const WRITES: Outputs = Outputs::NONE;
+/// #     fn pair<L: Lane, P: Layout>(&self, _: &Pair<'_, L, 3, P>, _: &mut Sums<L, 3, P>) {}
+/// #     fn document(&self) -> TermDoc {
+/// #         TermDoc { name: "tensors".into(), equation: "", source: "" }
+/// #     }
+/// # }
+/// let sweep: &dyn PairSweep<f64, 3> =
+///     &Program::<_, _>::new(CubicSpline, (Reads::<10>,), SmoothingMode::Uniform);
+/// assert_eq!(sweep.fields().width(3), 3 + 10 * 6);
+/// ```
+/// ```compile_fail
+/// # use meshfree::kernel::CubicSpline;
+/// # use meshfree::particles::{Field, Fields, Outputs};
+/// # use meshfree::scalar::Lane;
+/// # use meshfree::sweep::{PairSweep, Program, SmoothingMode};
+/// # use meshfree::term::{Layout, Pair, Sums, Term, TermDoc};
+/// # #[derive(Clone, Debug)]
+/// # struct Reads<const TENSORS: usize>;
+/// # impl<const TENSORS: usize> Term<3> for Reads<TENSORS> {
+/// #     const READS: Fields = {
+/// #         let (mut fields, mut k) = (Fields::NONE, 0);
+/// #         while k < TENSORS {
+/// #             fields = fields.union(Fields::of(&[Field::tensor(k as u8)]));
+/// #             k += 1;
+/// #         }
+/// #         fields
+/// #     };
+/// #     const WRITES: Outputs = Outputs::NONE;
+/// #     fn pair<L: Lane, P: Layout>(&self, _: &Pair<'_, L, 3, P>, _: &mut Sums<L, 3, P>) {}
+/// #     fn document(&self) -> TermDoc {
+/// #         TermDoc { name: "tensors".into(), equation: "", source: "" }
+/// #     }
+/// # }
+/// let sweep: &dyn PairSweep<f64, 3> =
+///     &Program::<_, _>::new(CubicSpline, (Reads::<11>,), SmoothingMode::Uniform);
+/// assert_eq!(sweep.fields().width(3), 3 + 11 * 6);
+/// ```
+pub const MOST_READS: usize = 64;
+/// Most numbers that the sums of a sweep can hold; one that holds more does not compile.
+pub const MOST_SUMS: usize = 72;
+
+/// Fails to compile where the numbers of a sweep have no room.
+pub(crate) const fn assert_room<P: Layout, const D: usize>() {
+    assert!(
+        P::READS.width(D) <= MOST_READS,
+        "the terms of this sweep read more numbers of a particle than `meshfree::term::MOST_READS`"
+    );
+    assert!(
+        P::WRITES.width(D) <= MOST_SUMS,
+        "the terms of this sweep make more sums than `meshfree::term::MOST_SUMS` numbers"
+    );
+}
 
 /// What the terms of one sweep read and write together; known at compile time.
 pub trait Layout: 'static {

@@ -1,7 +1,7 @@
 //! One pair on its own: what a test of a term looks at.
 //! The crate holds all its terms to one contract with it; a user's own terms can be held to the same.
 
-use super::{Layout, MOST_READS, MOST_SUMS, Pair, Sums, Term};
+use super::{Layout, MOST_READS, MOST_SUMS, Pair, Sums, Term, assert_room};
 use crate::kernel::Kernel;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Lane;
@@ -17,14 +17,19 @@ pub struct Probe<L, const D: usize> {
     /// Force on i in any other direction \[N\].
     pub force: [L; D],
     sums: [L; MOST_SUMS],
+    kept: Outputs,
 }
 
 impl<L: Lane, const D: usize> Probe<L, D> {
-    /// Component `k` of what was added to a sum, declared by the term or not. Forces are not among the sums:
-    /// see `radial`, `shear` and `force`.
+    /// Component `k` of what was added to a sum: one of the crate, declared by the term or not, or one of its
+    /// own that it declares. Forces are not among the sums: see `radial`, `shear` and `force`.
     #[must_use]
     pub fn sum(&self, output: Output, k: usize) -> L {
-        self.sums[Outputs::ALL.offset(output, D) + k]
+        if self.kept.contains(output) {
+            self.sums[self.kept.offset(output, D) + k]
+        } else {
+            L::zero()
+        }
     }
 }
 
@@ -37,7 +42,7 @@ impl<const D: usize, A: Term<D>> Layout for Alone<A, D> {
         Field::VELOCITY,
         Field::SMOOTHING_LENGTH,
     ]));
-    const WRITES: Outputs = Outputs::ALL;
+    const WRITES: Outputs = Outputs::ALL.union(A::WRITES);
 }
 
 /// Evaluates one term for one pair under `kernel` with the mean of the two smoothing lengths, and a body
@@ -63,6 +68,7 @@ pub fn probe<L: Lane, const D: usize, K: Kernel<D>, A: Term<D>>(
     i: impl Fn(Field, usize) -> L,
     j: impl Fn(Field, usize) -> L::Broadcast,
 ) -> Probe<L, D> {
+    const { assert_room::<Alone<A, D>, D>() }
     let reads = <Alone<A, D> as Layout>::READS;
     let (mut own, mut other) = ([L::zero(); MOST_READS], [j(Field::POSITION, 0); MOST_READS]);
     for field in reads.iter() {
@@ -108,5 +114,6 @@ pub fn probe<L: Lane, const D: usize, K: Kernel<D>, A: Term<D>>(
         shear: sums.shear.value(),
         force: sums.force.value(),
         sums: sums.kept,
+        kept: <Alone<A, D> as Layout>::WRITES,
     }
 }
