@@ -5,9 +5,9 @@ mod common;
 
 use common::Random;
 use meshfree::kernel::{Kernel, KernelKind};
-use meshfree::particles::{Field, Output};
+use meshfree::particles::{Field, Fields, Output, Outputs};
 use meshfree::scalar::{Lane, Lanes, Real, Record, Traced};
-use meshfree::term::{Probe, Term, probe};
+use meshfree::term::{Layout, Pair, Probe, Sums, Term, TermDoc, probe};
 
 macro_rules! in_all_dimensions {
     ($check:ident: $($term:expr),*) => {
@@ -467,4 +467,69 @@ fn kernels_on_lanes<K: Kernel<D>, const D: usize>(kernel: &K) {
 #[test]
 fn the_record_of_a_kernel_has_its_bits_on_every_lane() {
     meshfree::for_each_kernel!(kernels);
+}
+
+/// Reads an own stress on both sides: f (σᵢ + σⱼ)·r.
+#[derive(Clone, Debug)]
+struct Stress;
+
+const STRESS: Field = Field::tensor(2);
+const TRACTION: Output = Output::vector(1);
+
+impl<const D: usize> Term<D> for Stress {
+    const READS: Fields = Fields::of(&[STRESS]);
+    const WRITES: Outputs = Outputs::of(&[TRACTION]);
+    #[inline(always)]
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+        let stress = pair.i_tensor(STRESS).plus(L::one(), &pair.j_tensor(STRESS));
+        let traction = stress.dot(&pair.r);
+        for d in 0..D {
+            sums.add_at(TRACTION, d, pair.f * traction[d]);
+        }
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: "stress".into(),
+            equation: "F (σᵢ + σⱼ)·r",
+            source: "",
+        }
+    }
+}
+
+fn tensors_on_both_sides<const D: usize>()
+where
+    KernelKind: Kernel<D>,
+{
+    let r = [0.3, -0.4, 0.2];
+    let sides = [
+        [1.0, 2.0, 3.0, 0.4, 0.5, 0.6],
+        [-2.0, 0.5, 1.5, -0.1, 0.3, 0.2],
+    ];
+    let field = |side: usize| {
+        move |field: Field, k: usize| match field {
+            Field::POSITION if side == 0 => r[k],
+            STRESS => sides[side][k],
+            Field::SMOOTHING_LENGTH => 1.0,
+            _ => 0.0,
+        }
+    };
+    let kernel = KernelKind::CubicSpline;
+    let found = probe::<f64, D, _, _>(&Stress, &kernel, field(0), field(1));
+    // The rows of xx, yy, zz, yz, xz, xy.
+    let places = [[0, 5, 4], [5, 1, 3], [4, 3, 2]];
+    let distance = (0..D).map(|d| r[d] * r[d]).sum::<f64>().sqrt();
+    let f = Kernel::<D>::normalisation(&kernel) * Kernel::<D>::slope_over_q(&kernel, distance);
+    for d in 0..D {
+        let traction: f64 = (0..D)
+            .map(|c| (sides[0][places[d][c]] + sides[1][places[d][c]]) * r[c])
+            .sum();
+        common::assert_close(found.sum(TRACTION, d), f * traction, 1e-15, "traction");
+    }
+}
+
+#[test]
+fn an_own_tensor_is_read_on_both_sides_of_a_pair() {
+    tensors_on_both_sides::<1>();
+    tensors_on_both_sides::<2>();
+    tensors_on_both_sides::<3>();
 }

@@ -225,3 +225,105 @@ fn a_free_force_conserves_total_energy_to_rounding_in_the_compatible_form() {
     // Its work is what would be missing.
     assert!((with / without - 1.0).abs() > 1e-3, "{with} {without}");
 }
+
+/// What carries a stress: the force Vᵢ Vⱼ (σᵢ + σⱼ)·∇W.
+#[derive(Clone, Copy, Debug)]
+struct StressForce;
+
+const STRESS: Field = Field::tensor(0);
+
+impl Term<2> for StressForce {
+    const READS: Fields = Fields::of(&[Field::WEIGHT, STRESS]);
+    const WRITES: Outputs = Outputs::of(&[Output::FORCE]);
+    #[inline(always)]
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, 2, P>, sums: &mut Sums<L, 2, P>) {
+        let volumes = pair.i(Field::WEIGHT) * pair.j(Field::WEIGHT);
+        let stress = pair.i_tensor(STRESS).plus(L::one(), &pair.j_tensor(STRESS));
+        let traction = stress.dot(&pair.r);
+        sums.force += traction.map(|t| volumes * pair.f * t);
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: "force of a stress".into(),
+            equation: "Vᵢ Vⱼ (σᵢ + σⱼ)·∇W",
+            source: "",
+        }
+    }
+}
+
+/// The force between two blocks side by side along x, of eight particles each, that both carry `stress`.
+fn across(stress: [f64; 6], interaction: Interaction) -> [f64; 2] {
+    let mut columns =
+        Columns::<f64, 2>::new(Fields::of(&[Field::POSITION, Field::WEIGHT, STRESS]), 16);
+    for slot in 0..16 {
+        // Two columns of four on either side of x = 2.
+        let (side, k) = (slot / 8, slot % 8);
+        columns.vectors_mut(Field::POSITION)[slot] =
+            [(2 * side + k / 4) as f64 + 0.5, (k % 4) as f64];
+        columns.raw_mut(Field::WEIGHT)[slot] = 1.0;
+        columns.raw_mut(STRESS)[6 * slot..6 * slot + 6].copy_from_slice(&stress);
+    }
+    let sweep = Program::<_, _, { SmoothingMode::Uniform.bit() }>::new(
+        WendlandC2,
+        (StressForce,),
+        SmoothingMode::Uniform,
+    );
+    let sweep: &dyn PairSweep<f64, 2> = &sweep;
+    let block = |slots| Block { slots, wall: false };
+    let blocks = [block(0..8), block(8..16)];
+    let mut lists = ClusterLists::default();
+    lists.rebuild(&SearchInput {
+        positions: columns.vectors(Field::POSITION),
+        radii: Radii::Uniform(2.0 * H),
+        blocks: &blocks,
+        listed: &[],
+        width: 8,
+        slots: 16,
+        skin: 0.1,
+    });
+    let input = SweepInput {
+        columns: &columns,
+        images: &[],
+        transforms: &[],
+        lists: &lists,
+        blocks: &blocks,
+        interactions: &[
+            Interaction::Bonded,
+            interaction,
+            interaction,
+            Interaction::Bonded,
+        ],
+        smoothing_length: H,
+        targets: 0..16,
+        body_force: [0.0; 2],
+        lattice_moment: 1.0,
+        instructions: InstructionSet::detect(),
+    };
+    let (mut records, mut rows) = (Records::default(), Rows::default());
+    sweep.pack(Pass::Rates, &input, &mut records);
+    sweep.run(Pass::Rates, &input, &records, &mut rows);
+    let forces: Vec<_> = rows.reactions().collect();
+    assert_eq!(forces.len(), 2);
+    for d in 0..2 {
+        let sum = forces[0].force[d] + forces[1].force[d];
+        assert!(sum.abs() < 1e-14, "not opposite: {forces:?}");
+    }
+    forces[0].force
+}
+
+#[test]
+fn a_stress_presses_across_a_contact_that_opens_and_does_not_pull() {
+    let along = |xx: f64| [xx, 0.0, 0.0, 0.0, 0.0, 0.0];
+    let (bonded, open) = (Interaction::Bonded, Interaction::Unilateral);
+    let pulled = across(along(2.0), bonded);
+    assert!(pulled[0] > 1.0, "{pulled:?}");
+    assert_eq!(across(along(2.0), open), [0.0; 2]);
+    assert_eq!(across(along(-2.0), open), across(along(-2.0), bonded));
+    // A shear is a pull and a push, crosswise: only the push is left, and half of it is normal.
+    let shear = [0.0, 0.0, 0.0, 0.0, 0.0, 1.0];
+    let push = [-0.5, -0.5, 0.0, 0.0, 0.0, 0.5];
+    let (found, expected) = (across(shear, open), across(push, bonded));
+    for d in 0..2 {
+        assert!((found[d] - expected[d]).abs() < 1e-13, "{found:?}");
+    }
+}

@@ -88,8 +88,9 @@
 //! # Ok::<(), Error>(())
 //! ```
 
-use crate::particles::{Field, Fields, Output, Outputs};
+use crate::particles::{Field, Fields, Output, Outputs, Shape};
 use crate::scalar::Lane;
+use crate::tensor::Symmetric;
 use core::fmt::Debug;
 use core::marker::PhantomData;
 
@@ -270,6 +271,28 @@ impl<L: Lane, const D: usize, P: Layout> Pair<'_, L, D, P> {
         debug_assert!(P::READS.contains(field));
         L::broadcast(self.j[P::READS.offset(field, D) + k])
     }
+    /// A symmetric tensor of i.
+    #[inline(always)]
+    #[must_use]
+    pub fn i_tensor(&self, field: Field) -> Symmetric<L> {
+        debug_assert!(P::READS.contains(field) && field.shape() == Shape::Tensor);
+        let at = P::READS.offset(field, D);
+        let mut tensor = [L::zero(); 6];
+        tensor.copy_from_slice(&self.i[at..at + 6]);
+        Symmetric::new(tensor)
+    }
+    /// A symmetric tensor of j.
+    #[inline(always)]
+    #[must_use]
+    pub fn j_tensor(&self, field: Field) -> Symmetric<L> {
+        debug_assert!(P::READS.contains(field) && field.shape() == Shape::Tensor);
+        let at = P::READS.offset(field, D);
+        let mut tensor = [L::zero(); 6];
+        for k in 0..6 {
+            tensor[k] = L::broadcast(self.j[at + k]);
+        }
+        Symmetric::new(tensor)
+    }
     /// vᵢⱼ·vᵢⱼ \[m²/s²\].
     #[inline(always)]
     #[must_use]
@@ -440,6 +463,13 @@ pub trait Term<const D: usize>: Clone + Debug + Send + Sync + 'static {
     const READS: Fields;
     /// Sums that the term adds to. A term that sets `radial`, `shear` or `force` names [`Output::FORCE`].
     const WRITES: Outputs;
+    /// Those of `READS` that carry tension, of which two sides of a contact that may open see only the
+    /// compression: of a scalar (positive in compression) its positive part, of a symmetric tensor (positive
+    /// in tension) its [compressive part](Symmetric::compressive_part), of a vector or matrix nothing.
+    ///
+    /// Unless a term says otherwise, [what counts as a stress](Fields::stresses). Name here a pressure of your
+    /// own; leave out a tensor that is no stress. What one term of a sweep names counts for all of them.
+    const TENSILE: Fields = Self::READS.stresses();
     /// Adds what this pair contributes. A force on i must be the opposite of that on j.
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>);
     /// What the term is, for people.
@@ -452,6 +482,8 @@ pub trait Terms<const D: usize>: Clone + Debug + Send + Sync + 'static {
     const READS: Fields;
     /// Union of what the terms write.
     const WRITES: Outputs;
+    /// Union of what the terms read and carries tension.
+    const TENSILE: Fields;
     /// Adds what this pair contributes to every term.
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>);
     /// The terms, for people.
@@ -518,6 +550,7 @@ macro_rules! tuple {
         impl<const D: usize, $($name: Term<D>),*> Terms<D> for ($($name,)*) {
             const READS: Fields = Fields::NONE$(.union($name::READS))*;
             const WRITES: Outputs = Outputs::NONE$(.union($name::WRITES))*;
+            const TENSILE: Fields = Fields::NONE$(.union($name::TENSILE))*;
             #[inline(always)]
             fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
                 let ($($name,)*) = self;

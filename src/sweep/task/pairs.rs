@@ -1,7 +1,7 @@
 //! The loop over pairs: one row of particles against one neighbour after the other.
 //! All terms share its distances and kernel values, and it turns their scalar forces into vectors.
 
-use super::{Composed, MEAN, OWN, Row, Task, WORK, compressive};
+use super::{Composed, MEAN, OWN, Row, Shown, Task, WORK};
 use crate::kernel::Kernel;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
@@ -158,7 +158,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                     pair.f = (pair.f_i + pair.f_j) * L::of(0.5);
                 }
                 shown[..stride].copy_from_slice(record);
-                compressive(reads, &mut shown, D);
+                Shown::across::<T, P, D, HOW, T>(&mut shown);
                 pair.j = &shown[..stride];
             }
             sums.next_pair();
