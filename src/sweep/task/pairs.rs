@@ -89,8 +89,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         let body_force = self.body_force.map(L::splat);
         let lattice_moment = L::splat(self.lattice_moment);
         let mut shown = [T::zero(); MOST_READS];
-        // Copies that nothing else points to stay in registers.
-        let terms = self.terms.clone();
+        // A copy that nothing else points to stays in registers.
         let mut kept = sums.copied();
         let (total, sums) = (sums, &mut kept);
         let Some(&first_j) = neighbors.first() else {
@@ -162,7 +161,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                 pair.j = &shown[..stride];
             }
             sums.next_pair();
-            terms.pair(&pair, sums);
+            self.terms.pair(&pair, sums);
             apply::<L, D, HOW, _>(&pair, sums, &P::WRITES, own, record, reads);
         }
         total.take(&kept);
