@@ -1,7 +1,7 @@
 //! Small vectors and symmetric tensors.
 //! Vectors are nalgebra's; symmetric tensors keep all six components whatever the dimension.
 
-use crate::scalar::Real;
+use crate::scalar::{Lane, Real};
 
 /// A vector in `D` dimensions.
 pub type Vector<T, const D: usize> = nalgebra::SVector<T, D>;
@@ -25,23 +25,166 @@ pub struct Symmetric<T>([T; 6]);
 /// Row and column of each component.
 const PLACES: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1)];
 
-impl<T: Real> Symmetric<T> {
+impl<L: Lane> Symmetric<L> {
     /// The tensor that is zero.
     #[must_use]
+    #[inline(always)]
     pub fn zero() -> Self {
-        Self([T::zero(); 6])
+        Self([L::zero(); 6])
     }
     /// From its components xx, yy, zz, yz, xz, xy.
     #[must_use]
-    pub fn new(components: [T; 6]) -> Self {
+    #[inline(always)]
+    pub fn new(components: [L; 6]) -> Self {
         Self(components)
     }
     /// With these principal values along the axes.
     #[must_use]
-    pub fn diagonal([xx, yy, zz]: [T; 3]) -> Self {
-        let zero = T::zero();
+    #[inline(always)]
+    pub fn diagonal([xx, yy, zz]: [L; 3]) -> Self {
+        let zero = L::zero();
         Self([xx, yy, zz, zero, zero, zero])
     }
+    /// Its components xx, yy, zz, yz, xz, xy.
+    #[must_use]
+    #[inline(always)]
+    pub fn components(&self) -> &[L; 6] {
+        &self.0
+    }
+    /// The component in row `r` and column `c`, each below 3.
+    #[must_use]
+    #[inline(always)]
+    pub fn at(&self, r: usize, c: usize) -> L {
+        self.0[place(r, c)]
+    }
+    /// xx + yy + zz.
+    #[must_use]
+    #[inline(always)]
+    pub fn trace(&self) -> L {
+        self.0[0] + self.0[1] + self.0[2]
+    }
+    /// Without a third of its trace on the diagonal.
+    #[must_use]
+    #[inline(always)]
+    pub fn deviator(&self) -> Self {
+        let mean = self.trace() * L::of(1.0 / 3.0);
+        let mut deviator = *self;
+        for value in &mut deviator.0[..3] {
+            *value -= mean;
+        }
+        deviator
+    }
+    /// The double contraction with another, Σ aᵣ꜀ bᵣ꜀.
+    #[must_use]
+    #[inline(always)]
+    pub fn contract(&self, other: &Self) -> L {
+        let product = |k: usize| self.0[k] * other.0[k];
+        let normal = product(0) + product(1) + product(2);
+        let shear = product(3) + product(4) + product(5);
+        normal + shear + shear
+    }
+    /// The product with a vector of the first `D` axes, as pair terms have it: σ·n is the traction of a
+    /// stress on a face.
+    ///
+    /// ```
+    /// use meshfree::tensor::Symmetric;
+    /// let stress = Symmetric::new([1.0, 2.0, 3.0, 0.0, 0.0, 0.5]);
+    /// assert_eq!(stress.dot(&[2.0, 4.0]), [4.0, 9.0]);
+    /// ```
+    #[must_use]
+    #[inline(always)]
+    pub fn dot<const D: usize>(&self, vector: &[L; D]) -> [L; D] {
+        // A loop, because a closure may be compiled without the instructions of the pair loop.
+        let mut product = [L::zero(); D];
+        for r in 0..D {
+            product[r] = self.at(r, 0) * vector[0];
+            for c in 1..D {
+                product[r] = self.at(r, c).mul_add(vector[c], product[r]);
+            }
+        }
+        product
+    }
+    /// The sum with `factor` times another.
+    #[must_use]
+    #[inline(always)]
+    pub fn plus(&self, factor: L, other: &Self) -> Self {
+        let mut sum = *self;
+        for k in 0..6 {
+            sum.0[k] += factor * other.0[k];
+        }
+        sum
+    }
+    /// `factor` times it.
+    #[must_use]
+    #[inline(always)]
+    pub fn scaled(&self, factor: L) -> Self {
+        let mut scaled = *self;
+        for value in &mut scaled.0 {
+            *value *= factor;
+        }
+        scaled
+    }
+    /// Of a stress, positive in tension, what presses: Σ min(λ, 0) e ⊗ e over principal values λ and
+    /// directions e (the split of Miehe, Hofacker & Welschinger 2010, eq. 15). On no face does it pull.
+    ///
+    /// By Jacobi's rotations.
+    ///
+    /// ```
+    /// use meshfree::tensor::Symmetric;
+    /// let stress = Symmetric::<f64>::diagonal([5.0, -2.0, 0.0]);
+    /// assert_eq!(stress.compressive_part(), Symmetric::diagonal([0.0, -2.0, 0.0]));
+    /// ```
+    #[must_use]
+    pub fn compressive_part(&self) -> Self {
+        let (zero, one) = (L::zero(), L::one());
+        let mut turned = *self;
+        let mut axes = [[zero; 3]; 3];
+        for (k, axis) in axes.iter_mut().enumerate() {
+            axis[k] = one;
+        }
+        for _ in 0..JACOBI_SWEEPS {
+            for (p, q) in [(0, 1), (0, 2), (1, 2)] {
+                let third = 3 - p - q;
+                let off = turned.at(p, q);
+                let (gap, twice) = (turned.at(q, q) - turned.at(p, p), off + off);
+                let reach = gap.abs() + (gap * gap + twice * twice).sqrt();
+                let tangent = twice / L::select(reach.gt(zero), reach, one);
+                let tangent = L::select(gap.lt(zero), -tangent, tangent);
+                let cosine = (tangent * tangent + one).sqrt().recip();
+                let sine = tangent * cosine;
+                turned.0[p] -= tangent * off;
+                turned.0[q] += tangent * off;
+                turned.0[place(p, q)] = zero;
+                let (a, b) = (turned.at(third, p), turned.at(third, q));
+                turned.0[place(third, p)] = cosine * a - sine * b;
+                turned.0[place(third, q)] = cosine * b + sine * a;
+                for axis in &mut axes {
+                    let (a, b) = (axis[p], axis[q]);
+                    axis[p] = cosine * a - sine * b;
+                    axis[q] = cosine * b + sine * a;
+                }
+            }
+        }
+        let mut part = [zero; 6];
+        for k in 0..3 {
+            let value = turned.0[k].min(zero);
+            for (component, (r, c)) in part.iter_mut().zip(PLACES) {
+                *component += value * axes[r][k] * axes[c][k];
+            }
+        }
+        Self(part)
+    }
+}
+
+/// Each squares what is left off the diagonal: after the fourth it is below rounding.
+const JACOBI_SWEEPS: usize = 5;
+
+/// Where row `r` and column `c` stand, each below 3.
+const fn place(r: usize, c: usize) -> usize {
+    if r == c { r } else { 6 - r - c }
+}
+
+impl<T: Real> Symmetric<T> {
     /// From the first six numbers of a slice; what is missing is zero.
     #[must_use]
     pub fn from_slice(values: &[T]) -> Self {
@@ -58,39 +201,6 @@ impl<T: Real> Symmetric<T> {
             if inside { matrix[(r, c)] } else { T::zero() }
         };
         Self(PLACES.map(|(r, c)| (at(r, c) + at(c, r)) * half))
-    }
-    /// Its components xx, yy, zz, yz, xz, xy.
-    #[must_use]
-    pub fn components(&self) -> &[T; 6] {
-        &self.0
-    }
-    /// The component in row `r` and column `c`, each below 3.
-    #[must_use]
-    pub fn at(&self, r: usize, c: usize) -> T {
-        self.0[if r == c { r } else { 6 - r - c }]
-    }
-    /// xx + yy + zz.
-    #[must_use]
-    pub fn trace(&self) -> T {
-        self.0[0] + self.0[1] + self.0[2]
-    }
-    /// Without a third of its trace on the diagonal.
-    #[must_use]
-    pub fn deviator(&self) -> Self {
-        let mean = self.trace() * T::from_f64(1.0 / 3.0);
-        let mut deviator = *self;
-        for value in &mut deviator.0[..3] {
-            *value -= mean;
-        }
-        deviator
-    }
-    /// The double contraction with another, Σ aᵣ꜀ bᵣ꜀.
-    #[must_use]
-    pub fn contract(&self, other: &Self) -> T {
-        let product = |k: usize| self.0[k] * other.0[k];
-        let normal = product(0) + product(1) + product(2);
-        let shear = product(3) + product(4) + product(5);
-        normal + shear + shear
     }
     /// R S Rᵀ with a rotation or reflection of the first `D` axes.
     #[must_use]
@@ -131,16 +241,6 @@ impl<T: Real> Symmetric<T> {
     #[must_use]
     pub fn times<const D: usize>(&self, vector: &Vector<T, D>) -> Vector<T, D> {
         Vector::from_fn(|r, _| (0..D).fold(T::zero(), |sum, c| sum + self.at(r, c) * vector[c]))
-    }
-    /// The sum with `factor` times another.
-    #[must_use]
-    pub fn plus(&self, factor: T, other: &Self) -> Self {
-        Self(core::array::from_fn(|k| self.0[k] + factor * other.0[k]))
-    }
-    /// `factor` times it.
-    #[must_use]
-    pub fn scaled(&self, factor: T) -> Self {
-        Self(self.0.map(|value| value * factor))
     }
 }
 
@@ -279,6 +379,56 @@ mod tests {
         let full = Matrix::<f64, 3>::from_fn(|r, c| tensor.at(r, c));
         assert!((turned.times(&(turn * v)) - turn * (full * v)).norm() < 1e-14);
         assert!(tensor.deviator().trace().abs() < 1e-15);
+    }
+
+    #[test]
+    fn lanes_take_the_product_with_a_vector_of_their_axes() {
+        use crate::scalar::Lanes;
+        type Row = Lanes<f64, 8, true>;
+        let tensor = Symmetric::<f64>::new([1.0, -2.0, 0.5, 3.0, -1.0, 0.25]);
+        let row = Symmetric::new(tensor.components().map(Row::splat));
+        let v = [0.3, -1.0, 2.0];
+        for d in 0..3 {
+            let expected = (0..3).map(|c| tensor.at(d, c) * v[c]).sum::<f64>();
+            assert!((tensor.dot(&v)[d] - expected).abs() < 1e-15);
+            let lane = row.dot(&v.map(Row::splat))[d].extract(5);
+            assert!((lane - expected).abs() < 1e-15);
+        }
+        // In one and two dimensions only what acts in them.
+        assert_eq!(tensor.dot(&[2.0]), [2.0]);
+        assert_eq!(tensor.dot(&[2.0, 4.0]), [3.0, -7.5]);
+    }
+
+    #[test]
+    fn a_stress_parts_into_what_presses_and_what_pulls() {
+        let (mut pressing, mut pulling) = (0, 0);
+        for k in 0..200 {
+            let noise = |n: usize| (1e4 * ((7 * k + n) as f64).sin()).fract();
+            let stress = Symmetric::<f64>::new(core::array::from_fn(noise));
+            let presses = stress.compressive_part();
+            let pulls = stress.scaled(-1.0).compressive_part().scaled(-1.0);
+            for (k, whole) in stress.components().iter().enumerate() {
+                let sum = presses.components()[k] + pulls.components()[k];
+                assert!((whole - sum).abs() < 1e-14, "{stress:?}");
+            }
+            assert!(presses.contract(&pulls).abs() < 1e-14);
+            for n in 0..20 {
+                let normal = [noise(n), noise(n + 1), noise(n + 2)];
+                let traction = presses.dot(&normal);
+                let along: f64 = (0..3).map(|d| traction[d] * normal[d]).sum();
+                assert!(along < 1e-15, "{stress:?} pulls on {normal:?}");
+            }
+            pressing += usize::from(presses.trace() < -0.1);
+            pulling += usize::from(pulls.trace() > 0.1);
+        }
+        assert!(pressing > 100 && pulling > 100);
+        // Equal principal values have no directions of their own, and none are needed.
+        let even = Symmetric::<f64>::diagonal([-3.0; 3]);
+        assert_eq!(even.compressive_part(), even);
+        assert_eq!(
+            Symmetric::<f32>::zero().compressive_part(),
+            Symmetric::zero()
+        );
     }
 
     #[test]

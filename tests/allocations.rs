@@ -1,10 +1,16 @@
 //! Steps allocate nothing: counted by an allocator of the test's own.
 
 use meshfree::boundary::{MirrorPlane, Periodic, Wall};
+use meshfree::kernel::CubicSpline;
 use meshfree::material::catalogue;
+use meshfree::particles::{Field, Fields};
+use meshfree::scalar::Lane;
 use meshfree::scene::{Body, Scene, Start};
+use meshfree::scheme::SchemeBuilder;
 use meshfree::schemes;
 use meshfree::simulation::Simulation;
+use meshfree::term::viscosity::{ArtificialViscosity, Viscous};
+use meshfree::term::{Layout as TermLayout, Pair, TermDoc};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -50,6 +56,37 @@ fn counted<const D: usize>(simulation: &mut Simulation<f64, D>) -> (u64, u64) {
     (counted, steps)
 }
 
+/// A viscosity with a table on the heap: Π = Σₖ aₖ μᵏ/ρ̄ for approaching pairs, μ = h |v·r|/(r² + 0.01 h²).
+#[derive(Clone, Debug)]
+struct Polynomial {
+    coefficients: Vec<f64>,
+}
+
+impl<const D: usize> ArtificialViscosity<D> for Polynomial {
+    const READS: Fields = Fields::NONE;
+    #[inline(always)]
+    fn pair<L: Lane, P: TermLayout>(&self, pair: &Pair<'_, L, D, P>) -> Viscous<L> {
+        let approach = (-pair.v_dot_r).positive_part();
+        let mu = pair.h * approach / pair.h.mul_add(pair.h * L::of(0.01), pair.r2);
+        let mut sum = L::zero();
+        for &coefficient in self.coefficients.iter().rev() {
+            sum = sum.mul_add(mu, L::of(coefficient));
+        }
+        let density = (pair.i(Field::DENSITY) + pair.j(Field::DENSITY)) * L::of(0.5);
+        Viscous {
+            pi: sum / density,
+            signal: mu,
+        }
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: format!("polynomial viscosity {:?}", self.coefficients),
+            equation: "Π = Σₖ aₖ μᵏ/ρ̄",
+            source: "",
+        }
+    }
+}
+
 /// One test, so that nothing else allocates meanwhile.
 #[test]
 fn a_step_between_list_builds_allocates_nothing() {
@@ -83,45 +120,52 @@ fn a_step_between_list_builds_allocates_nothing() {
             assert!(steps > 40, "lists are built too often to tell: {steps}");
             assert_eq!(allocations, 0, "{}", rods.scheme().name());
         }
-        let mut sheet = Scene::<f64, 2>::new(schemes::impact())
-            .body(
-                Body::block("sheet", catalogue::copper(), [0.0; 2], [1.0; 2], 0.02).start(
-                    |x, start| Start {
-                        velocity: [(core::f64::consts::TAU * x[1]).sin(), 0.0],
-                        ..start
-                    },
-                ),
-            )
-            .boundary(Periodic::along(0, 0.0, 1.0))
-            .boundary(Periodic::along(1, 0.0, 1.0))
+        let polynomial = Polynomial {
+            coefficients: vec![0.0, 4e3, 2.0],
+        };
+        for (name, scheme) in [
+            ("sheet", schemes::impact().compose()),
+            (
+                "sheet with a table in its viscosity",
+                SchemeBuilder::new(CubicSpline, polynomial).compose(),
+            ),
+        ] {
+            let mut sheet = Scene::<f64, 2>::new(scheme)
+                .body(
+                    Body::block("sheet", catalogue::copper(), [0.0; 2], [1.0; 2], 0.02).start(
+                        |x, start| Start {
+                            velocity: [(core::f64::consts::TAU * x[1]).sin(), 0.0],
+                            ..start
+                        },
+                    ),
+                )
+                .boundary(Periodic::along(0, 0.0, 1.0))
+                .boundary(Periodic::along(1, 0.0, 1.0))
+                .build()
+                .unwrap();
+            let (allocations, steps) = counted(&mut sheet);
+            println!("{name}: {allocations} allocations in {steps} steps");
+            assert!(steps > 40);
+            assert_eq!(allocations, 0, "{name}");
+        }
+        let mut pool = Scene::<f64, 2>::new(schemes::weakly_compressible().density_with_rates())
+            .body(Body::block(
+                "pool",
+                catalogue::weakly_compressible_water(1.0),
+                [0.0; 2],
+                [1.0; 2],
+                0.02,
+            ))
+            .wall(Wall::around(
+                "tank",
+                [0.0; 2],
+                [1.0; 2],
+                0.02,
+                4,
+                [[true; 2]; 2],
+            ))
             .build()
             .unwrap();
-        let (allocations, steps) = counted(&mut sheet);
-        println!("sheet: {allocations} allocations in {steps} steps");
-        assert!(steps > 40);
-        assert_eq!(allocations, 0);
-        let mut pool = Scene::<f64, 2>::new(
-            schemes::weakly_compressible()
-                .density_with_rates()
-                .compose(),
-        )
-        .body(Body::block(
-            "pool",
-            catalogue::weakly_compressible_water(1.0),
-            [0.0; 2],
-            [1.0; 2],
-            0.02,
-        ))
-        .wall(Wall::around(
-            "tank",
-            [0.0; 2],
-            [1.0; 2],
-            0.02,
-            4,
-            [[true; 2]; 2],
-        ))
-        .build()
-        .unwrap();
         let (allocations, steps) = counted(&mut pool);
         println!("pool of one evaluation: {allocations} allocations in {steps} steps");
         assert!(steps > 40);

@@ -1,92 +1,70 @@
 //! The contract that every pair term keeps: symmetric forces, finite at distance zero, nothing beyond
-//! the support, the same in lanes as in scalars, and no field or sum that is not declared.
+//! the support, the same in lanes as in scalars and as recorded, and no field or sum that is not declared.
 
 mod common;
 
 use common::Random;
 use meshfree::kernel::{Kernel, KernelKind};
-use meshfree::particles::{Field, Output};
-use meshfree::scalar::{Lane, Lanes};
-use meshfree::term::viscosity::{
-    Balsara, CullenDehnen, Inviscid, LimitedMonaghanGingold, MonaghanGingold, MorrisMonaghan,
-    Riemann, SignalVelocity,
-};
-use meshfree::term::{
-    Antuono, CentralViscosity, Compression, ConcentrationGradient, DensityGradient, Fourtakas,
-    InternalEnergy, KernelMoment, KernelSum, LaminarViscosity, LiquidNearWall, Molteni,
-    PressureCurvature, PressureForce, PressureGradient, Probe, RenormalisedCompression,
-    RiemannDiffusion, SlopeInH, Term, Unity, VelocityAtWall, VelocityGradient, Viscosity,
-    ViscosityAtWall, probe,
-};
+use meshfree::particles::{Field, Fields, Output, Outputs};
+use meshfree::scalar::{Lane, Lanes, Real, Record, Traced};
+use meshfree::term::{Layout, Pair, Probe, Sums, Term, TermDoc, probe};
 
-macro_rules! for_each_viscosity_of {
-    ($check:ident, $D:literal, $($Law:ident),*) => {
-        $($check::<$D, _>(Viscosity($Law::default()));)*
+macro_rules! in_all_dimensions {
+    ($check:ident: $($term:expr),*) => {
+        $(
+            $check::<1, _>($term);
+            $check::<2, _>($term);
+            $check::<3, _>($term);
+        )*
     };
 }
 
-macro_rules! count {
-    ($($Law:ident $name:literal),*) => { [$($name),*].len() };
+/// Holds every term of the crate to a check, in all dimensions.
+macro_rules! for_each_term {
+    ($check:ident) => {
+        meshfree::for_each_term!(in_all_dimensions $check:)
+    };
+}
+
+macro_rules! written {
+    ($($term:expr),*) => { [$(stringify!($term)),*] };
+}
+
+/// The types in the sources that implement a trait in D dimensions.
+fn implementors(of: &str, folder: &std::path::Path, found: &mut Vec<String>) {
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            implementors(of, &path, found);
+            continue;
+        }
+        let text = std::fs::read_to_string(&path).unwrap();
+        for line in text.lines().filter(|line| line.starts_with("impl<")) {
+            if let Some((_, name)) = line.split_once(&format!("{of}<D> for ")) {
+                let end = name.find(|c: char| !c.is_alphanumeric()).unwrap();
+                found.push(name[..end].to_owned());
+            }
+        }
+    }
 }
 
 #[test]
-fn the_list_has_every_viscosity() {
-    assert_eq!(
-        meshfree::for_each_viscosity!(count),
-        8,
-        "add it to the list below"
-    );
-}
-
-/// Every term of the crate that acts along rᵢⱼ or vᵢⱼ; each test below runs over this list in all
-/// dimensions. Forces in other directions are held to what they conserve (`liquid_conservation`).
-macro_rules! for_each_term {
-    ($check:ident) => {{
-        for_each_term!($check, 1);
-        for_each_term!($check, 2);
-        for_each_term!($check, 3);
-    }};
-    ($check:ident, $D:literal) => {{
-        $check::<$D, _>(PressureForce);
-        $check::<$D, _>(PressureCurvature {
-            strength: 1.0 / 3.0,
-        });
-        $check::<$D, _>(InternalEnergy);
-        $check::<$D, _>(KernelSum);
-        $check::<$D, _>(Unity);
-        $check::<$D, _>(KernelMoment);
-        $check::<$D, _>(SlopeInH);
-        $check::<$D, _>(Compression);
-        $check::<$D, _>(VelocityGradient);
-        $check::<$D, _>(PressureGradient);
-        $check::<$D, _>(DensityGradient);
-        $check::<$D, _>(LaminarViscosity);
-        $check::<$D, _>(CentralViscosity);
-        $check::<$D, _>(Molteni::default());
-        $check::<$D, _>(Fourtakas::default());
-        $check::<$D, _>(Antuono::default());
-        $check::<$D, _>(RiemannDiffusion);
-        $check::<$D, _>(ConcentrationGradient::<$D> {
-            repulsion: 0.2,
-            at_spacing: 1.0,
-        });
-        $check::<$D, _>(LiquidNearWall);
-        $check::<$D, _>(VelocityAtWall);
-        $check::<$D, _>(ViscosityAtWall);
-        $check::<$D, _>(RenormalisedCompression);
-        for_each_viscosity_of!(
-            $check,
-            $D,
-            Inviscid,
-            MonaghanGingold,
-            LimitedMonaghanGingold,
-            SignalVelocity,
-            Balsara,
-            MorrisMonaghan,
-            CullenDehnen,
-            Riemann
-        );
-    }};
+fn the_list_has_every_term_and_every_viscosity() {
+    let sources = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/term");
+    let mut all = Vec::new();
+    implementors(" Term", &sources, &mut all);
+    implementors(" ArtificialViscosity", &sources, &mut all);
+    let listed = meshfree::for_each_term!(written);
+    // A list of all names, and more than a few: the sources were read.
+    assert!(all.len() > 30, "{all:?}");
+    // What does nothing has nothing to keep.
+    for name in all.iter().filter(|name| *name != "Nothing") {
+        let named = |term: &&str| {
+            let words = term.split(|c: char| !c.is_alphanumeric());
+            words.into_iter().any(|word| word == name)
+        };
+        assert!(listed.iter().any(named), "`for_each_term` lacks {name}");
+    }
 }
 
 const WIDTH: usize = 8;
@@ -142,6 +120,7 @@ fn numbers<L: Lane, const D: usize>(probe: &Probe<L, D>) -> Vec<L> {
         .flat_map(|&output| (0..output.components(D)).map(move |k| probe.sum(output, k)));
     [probe.radial, probe.shear]
         .into_iter()
+        .chain(probe.force)
         .chain(sums)
         .collect()
 }
@@ -163,7 +142,10 @@ where
             Particle::random(&mut random, 0.8),
         );
         let (there, back) = (scalar(&term, kernel, &i, &j), scalar(&term, kernel, &j, &i));
-        for (a, b) in [(there.radial, back.radial), (there.shear, back.shear)] {
+        let mut pairs = vec![(there.radial, back.radial), (there.shear, back.shear)];
+        // A vector changes its sign where what multiplies r and v does not.
+        pairs.extend((0..D).map(|d| (there.force[d], -back.force[d])));
+        for (a, b) in pairs {
             acted |= a != 0.0;
             assert!(
                 (a - b).abs() <= 1e-14 * (1.0 + a.abs()),
@@ -300,6 +282,13 @@ where
             Particle::random(&mut random, 0.5),
         );
         let result = scalar(&term, common::kernel(round), &i, &j);
+        let along = [result.radial, result.shear];
+        let pushed = along.iter().chain(&result.force).any(|&force| force != 0.0);
+        assert!(
+            A::WRITES.contains(Output::FORCE) || !pushed,
+            "{} sets a force",
+            name(&term)
+        );
         for &output in Output::ALL {
             let written = (0..output.components(D)).any(|k| result.sum(output, k) != 0.0);
             let declared = A::WRITES.contains(output);
@@ -361,4 +350,186 @@ where
 #[test]
 fn every_declared_field_changes_something() {
     for_each_term!(reads_matter);
+}
+
+/// Where component `k` of a field of i stands among the inputs of a record; those of j follow on all of i.
+fn input(field: Field, k: usize) -> usize {
+    9 * field.place() + k
+}
+
+/// The numbers of a term for a row of particles, and what its record makes of them.
+fn follows<T: Real, L: Lane<Scalar = T, Broadcast = T>, const D: usize, A: Term<D>>(
+    (term, kernel, record): (&A, KernelKind, &Record),
+    random: &mut Random,
+) where
+    KernelKind: Kernel<D>,
+{
+    let row: Vec<_> = (0..L::WIDTH)
+        .map(|_| Particle::random(random, 1.2))
+        .collect();
+    let j = Particle::random(random, 1.2);
+    let i = |f: Field, k: usize| L::from_fn(|lane| T::from_f64(row[lane].get(f, k)));
+    let j = |f: Field, k: usize| T::from_f64(j.get(f, k));
+    let half = input(Field::ALL[Field::ALL.len() - 1], 9);
+    let mut inputs = vec![L::zero(); 2 * half];
+    for &field in Field::ALL {
+        for k in 0..field.components(D) {
+            inputs[input(field, k)] = i(field, k);
+            inputs[half + input(field, k)] = L::splat(j(field, k));
+        }
+    }
+    let expected = numbers(&probe::<L, D, _, _>(term, &kernel, i, j));
+    let found = record.follow(&inputs);
+    assert_eq!(found.len(), expected.len());
+    for (number, (found, expected)) in found.iter().zip(expected).enumerate() {
+        for lane in 0..L::WIDTH {
+            let (found, expected) = (
+                found.extract(lane).to_f64(),
+                expected.extract(lane).to_f64(),
+            );
+            assert_eq!(
+                found.to_bits(),
+                expected.to_bits(),
+                "{}, number {number}: {found} for {expected}",
+                name(term)
+            );
+        }
+    }
+}
+
+fn can_be_recorded<const D: usize, A: Term<D>>(term: A)
+where
+    KernelKind: Kernel<D>,
+{
+    let mut random = Random(7);
+    for &kernel in KernelKind::ALL {
+        let half = input(Field::ALL[Field::ALL.len() - 1], 9);
+        let record = Record::of(2 * half, |inputs| {
+            let i = |f: Field, k: usize| inputs[input(f, k)];
+            let j = |f: Field, k: usize| inputs[half + input(f, k)];
+            numbers(&probe::<Traced, D, _, _>(&term, &kernel, i, j))
+        });
+        let record = record.unwrap_or_else(|error| panic!("{}: {error}", name(&term)));
+        for _ in 0..3 {
+            let recorded = (&term, kernel, &record);
+            follows::<f64, f64, D, A>(recorded, &mut random);
+            follows::<f64, Lanes<f64, 8, false>, D, A>(recorded, &mut random);
+            follows::<f64, Lanes<f64, 8, true>, D, A>(recorded, &mut random);
+            follows::<f32, Lanes<f32, 16, true>, D, A>(recorded, &mut random);
+        }
+    }
+}
+
+#[test]
+fn the_record_of_a_term_has_its_bits_on_every_lane() {
+    for_each_term!(can_be_recorded);
+}
+
+fn kernels_follow<T: Real, L: Lane<Scalar = T>, K: Kernel<D>, const D: usize>(kernel: &K) {
+    fn text<L: Lane, K: Kernel<D>, const D: usize>(kernel: &K, given: &[L]) -> Vec<L> {
+        let gradient = kernel.gradient(given[0], given[1], given[2]);
+        vec![
+            kernel.shape(given[0]),
+            kernel.slope_over_q(given[0]),
+            gradient,
+        ]
+    }
+    let record = Record::of(3, |given| text(kernel, given)).unwrap();
+    let mut random = Random(8);
+    for _ in 0..50 {
+        let given: [L; 3] =
+            core::array::from_fn(|_| L::from_fn(|_| T::from_f64(3.5 * random.unit())));
+        let expected = text(kernel, &given);
+        for (found, expected) in record.follow(&given).iter().zip(expected) {
+            for lane in 0..L::WIDTH {
+                let (found, expected) = (found.extract(lane), expected.extract(lane));
+                let bits = (found.to_f64().to_bits(), expected.to_f64().to_bits());
+                assert_eq!(bits.0, bits.1, "{} in {D}D", kernel.name());
+            }
+        }
+    }
+}
+
+macro_rules! kernels {
+    ($($Kernel:ident $name:literal),*) => {$(
+        kernels_on_lanes::<_, 1>(&meshfree::kernel::$Kernel);
+        kernels_on_lanes::<_, 2>(&meshfree::kernel::$Kernel);
+        kernels_on_lanes::<_, 3>(&meshfree::kernel::$Kernel);
+    )*};
+}
+
+fn kernels_on_lanes<K: Kernel<D>, const D: usize>(kernel: &K) {
+    kernels_follow::<f64, f64, K, D>(kernel);
+    kernels_follow::<f64, Lanes<f64, 8, true>, K, D>(kernel);
+    kernels_follow::<f32, Lanes<f32, 16, true>, K, D>(kernel);
+}
+
+#[test]
+fn the_record_of_a_kernel_has_its_bits_on_every_lane() {
+    meshfree::for_each_kernel!(kernels);
+}
+
+/// Reads an own stress on both sides: f (σᵢ + σⱼ)·r.
+#[derive(Clone, Debug)]
+struct Stress;
+
+const STRESS: Field = Field::tensor(2);
+const TRACTION: Output = Output::vector(1);
+
+impl<const D: usize> Term<D> for Stress {
+    const READS: Fields = Fields::of(&[STRESS]);
+    const WRITES: Outputs = Outputs::of(&[TRACTION]);
+    #[inline(always)]
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+        let stress = pair.i_tensor(STRESS).plus(L::one(), &pair.j_tensor(STRESS));
+        let traction = stress.dot(&pair.r);
+        for d in 0..D {
+            sums.add_at(TRACTION, d, pair.f * traction[d]);
+        }
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: "stress".into(),
+            equation: "F (σᵢ + σⱼ)·r",
+            source: "",
+        }
+    }
+}
+
+fn tensors_on_both_sides<const D: usize>()
+where
+    KernelKind: Kernel<D>,
+{
+    let r = [0.3, -0.4, 0.2];
+    let sides = [
+        [1.0, 2.0, 3.0, 0.4, 0.5, 0.6],
+        [-2.0, 0.5, 1.5, -0.1, 0.3, 0.2],
+    ];
+    let field = |side: usize| {
+        move |field: Field, k: usize| match field {
+            Field::POSITION if side == 0 => r[k],
+            STRESS => sides[side][k],
+            Field::SMOOTHING_LENGTH => 1.0,
+            _ => 0.0,
+        }
+    };
+    let kernel = KernelKind::CubicSpline;
+    let found = probe::<f64, D, _, _>(&Stress, &kernel, field(0), field(1));
+    // The rows of xx, yy, zz, yz, xz, xy.
+    let places = [[0, 5, 4], [5, 1, 3], [4, 3, 2]];
+    let distance = (0..D).map(|d| r[d] * r[d]).sum::<f64>().sqrt();
+    let f = Kernel::<D>::normalisation(&kernel) * Kernel::<D>::slope_over_q(&kernel, distance);
+    for d in 0..D {
+        let traction: f64 = (0..D)
+            .map(|c| (sides[0][places[d][c]] + sides[1][places[d][c]]) * r[c])
+            .sum();
+        common::assert_close(found.sum(TRACTION, d), f * traction, 1e-15, "traction");
+    }
+}
+
+#[test]
+fn an_own_tensor_is_read_on_both_sides_of_a_pair() {
+    tensors_on_both_sides::<1>();
+    tensors_on_both_sides::<2>();
+    tensors_on_both_sides::<3>();
 }

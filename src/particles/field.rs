@@ -56,6 +56,16 @@ macro_rules! quantities {
             pub const fn place(self) -> usize {
                 self.index as usize
             }
+            /// What stands in a place; one of the free places below 64 holds nothing, and is called a scalar.
+            pub(crate) const fn at(place: usize) -> Self {
+                if place < Self::ALL.len() {
+                    return Self::ALL[place];
+                }
+                Self {
+                    index: place as u8,
+                    shape: own_shape(place),
+                }
+            }
             /// Numbers per particle in `d` dimensions.
             #[must_use]
             pub const fn components(self, d: usize) -> usize {
@@ -166,13 +176,7 @@ macro_rules! quantities {
             }
             /// The members in the order of storage.
             pub fn iter(self) -> impl Iterator<Item = $Quantity> {
-                (0..PLACES as u8).filter(move |&k| self.0 >> k & 1 == 1).map(|k| {
-                    let known = $Quantity::ALL.get(k as usize);
-                    known.copied().unwrap_or($Quantity {
-                        index: k,
-                        shape: own_shape(k as usize),
-                    })
-                })
+                (0..PLACES).filter(move |&k| self.0 >> k & 1 == 1).map($Quantity::at)
             }
         }
     };
@@ -222,7 +226,7 @@ const fn own_places(components: usize) -> u128 {
 }
 
 const fn own_shape(place: usize) -> Shape {
-    match (place - 64) / OWN {
+    match place.saturating_sub(64) / OWN {
         0 => Shape::Scalar,
         1 => Shape::Vector,
         2 => Shape::Tensor,
@@ -373,6 +377,17 @@ quantities! {
     DIVERGENCE_SIGN, Scalar, "divergence_sign", "1";
 }
 
+impl Fields {
+    /// Those of the set that carry tension as well as compression: pressure coefficients, pressure gradients,
+    /// and all symmetric tensors, which are taken for stresses.
+    #[must_use]
+    pub const fn stresses(self) -> Self {
+        const PRESSURES: Fields =
+            Fields::of(&[Field::PRESSURE_COEFFICIENT, Field::PRESSURE_GRADIENT]);
+        Self(self.0 & (PRESSURES.0 | Self::of_shape(6)))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -385,5 +400,19 @@ mod tests {
         assert_eq!(SET.offset(Field::DENSITY, 3), 6);
         assert_eq!(SET.width(3), 7);
         assert_eq!(SET.iter().count(), 3);
+    }
+
+    #[test]
+    fn tensors_are_taken_for_stresses_and_temperatures_are_not() {
+        const STRESS: Field = Field::tensor(3);
+        const TEMPERATURE: Field = Field::scalar(0);
+        let set = Fields::of(&[
+            STRESS,
+            TEMPERATURE,
+            Field::PRESSURE_COEFFICIENT,
+            Field::MASS,
+        ]);
+        let carry = Fields::of(&[STRESS, Field::PRESSURE_COEFFICIENT]);
+        assert_eq!(set.stresses(), carry);
     }
 }

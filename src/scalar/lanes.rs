@@ -144,11 +144,16 @@ impl<T: Real, const W: usize, const FUSED: bool> Lanes<T, W, FUSED> {
 
 impl<T: Real, const W: usize, const FUSED: bool> Lane for Lanes<T, W, FUSED> {
     type Scalar = T;
+    type Broadcast = T;
     type Mask = LaneMask<W>;
     const WIDTH: usize = W;
     #[inline(always)]
     fn splat(value: T) -> Self {
         Self([value; W])
+    }
+    #[inline(always)]
+    fn broadcast(value: T) -> Self {
+        Self::splat(value)
     }
     #[inline(always)]
     fn from_fn(mut f: impl FnMut(usize) -> T) -> Self {

@@ -4,9 +4,11 @@
 mod instructions;
 mod lanes;
 mod root;
+mod traced;
 
 pub use instructions::InstructionSet;
 pub use lanes::{LaneMask, Lanes};
+pub use traced::{Binary, Operation, Record, Traced, TracedMask, Unary, Unrecordable};
 
 use core::fmt::{Debug, Display, LowerExp};
 use core::iter::Sum;
@@ -89,6 +91,9 @@ pub trait Lane:
 {
     /// The type of one element.
     type Scalar: Real;
+    /// One number for all elements, as the neighbour of a row of particles has it: the scalar, or where the
+    /// lane is [`Traced`], what is recorded.
+    type Broadcast: Copy + Debug + Send + Sync + 'static;
     /// The type of an element-wise comparison.
     type Mask: Mask;
     /// The number of elements.
@@ -96,6 +101,8 @@ pub trait Lane:
 
     /// The same value in every element.
     fn splat(value: Self::Scalar) -> Self;
+    /// The same number in every element.
+    fn broadcast(value: Self::Broadcast) -> Self;
     /// Element `k` is `f(k)`.
     fn from_fn(f: impl FnMut(usize) -> Self::Scalar) -> Self;
     /// Element `k`.
@@ -179,7 +186,7 @@ pub trait Lane:
 /// and densities in columns of its own ([`COMPENSATED`](Real::COMPENSATED)), because a plain `f32`
 /// coordinate loses some per cent of a strain of 0.25 % at a spacing of 0.05 mm in 50 mm.
 pub trait Real:
-    Lane<Scalar = Self, Mask = bool>
+    Lane<Scalar = Self, Broadcast = Self, Mask = bool>
     + NumAssign
     + Sum
     + Default
@@ -194,7 +201,7 @@ pub trait Real:
     const NAME: &'static str;
     /// The block of particles that the pair loop takes at once; its width depends on the scalar
     /// alone, so sums have the same order on every machine.
-    type Wide<const FUSED: bool>: Lane<Scalar = Self>;
+    type Wide<const FUSED: bool>: Lane<Scalar = Self, Broadcast = Self>;
 
     /// The root of a row ([`Lane::root`]).
     fn root_of_row<const W: usize, const FUSED: bool>(
@@ -219,10 +226,15 @@ macro_rules! real {
     ($T:ident, $width:literal, $compensated:literal, $root:ident) => {
         impl Lane for $T {
             type Scalar = $T;
+            type Broadcast = $T;
             type Mask = bool;
             const WIDTH: usize = 1;
             #[inline(always)]
             fn splat(value: $T) -> $T {
+                value
+            }
+            #[inline(always)]
+            fn broadcast(value: $T) -> $T {
                 value
             }
             #[inline(always)]

@@ -39,6 +39,7 @@ impl<const D: usize, const FLAGS: u8> Terms<D> for Pressure<FLAGS> {
         }
     };
     const WRITES: Outputs = Outputs::of(&[Output::FORCE]);
+    const TENSILE: Fields = <Self as Terms<D>>::READS.stresses();
     type Then<B: Terms<D>> = B::After<Self>;
     fn then<B: Terms<D>>(self, next: B) -> Self::Then<B> {
         next.after(self)
@@ -82,6 +83,7 @@ impl<const D: usize, const FLAGS: u8> Terms<D> for Rate<FLAGS> {
         <Compression as Term<D>>::READS
     };
     const WRITES: Outputs = Outputs::of(&[Output::COMPRESSION]);
+    const TENSILE: Fields = <Self as Terms<D>>::READS.stresses();
     type Then<B: Terms<D>> = B::After<Self>;
     fn then<B: Terms<D>>(self, next: B) -> Self::Then<B> {
         next.after(self)
@@ -186,6 +188,7 @@ where
         }
         writes
     };
+    const TENSILE: Fields = <Self as Terms<D>>::READS.stresses();
     type Then<B: Terms<D>> = B::After<Self>;
     fn then<B: Terms<D>>(self, next: B) -> Self::Then<B> {
         next.after(self)

@@ -20,9 +20,9 @@
 //! - **Two pairs under way.** The distance of the next pair is begun before the terms of this one: a root
 //!   takes longer than a processor looks ahead. In `f64` it is made of products ([`Lane::root`]): the
 //!   divider would take three times as long.
-//! - **Directions last.** A term adds to the force along rᵢⱼ and along vᵢⱼ as two numbers. The loop
-//!   turns them into vectors once for all terms, so a tuple of terms costs what one written-out loop
-//!   costs.
+//! - **Directions last.** A term adds to the force along rᵢⱼ and along vᵢⱼ as two numbers, or as a vector where
+//!   it has another direction. The loop turns them into one vector for all terms, so a tuple of terms costs
+//!   what one written-out loop costs, and makes power and work of it, so no term can lose its own.
 //! - **Instruction sets.** In 2D and 3D the loop exists for the baseline of the target, AVX2 and
 //!   AVX-512, and the machine chooses at run time ([`InstructionSet::detect`]). In 1D, and for a kernel
 //!   that is itself chosen at run time, the baseline serves.
@@ -50,6 +50,8 @@ mod program;
 mod records;
 mod rows;
 mod task;
+#[cfg(test)]
+mod tests;
 
 pub use program::{PairSweep, Pass, Program, SweepInput};
 pub(crate) use records::two_sum;

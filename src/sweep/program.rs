@@ -9,7 +9,7 @@ use crate::kernel::Kernel;
 use crate::neighbors::{Block, CHUNK, ClusterLists};
 use crate::particles::{Columns, Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
-use crate::term::{Layout, TermDoc, Terms};
+use crate::term::{Layout, TermDoc, Terms, assert_room};
 use core::fmt::Debug;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -202,6 +202,7 @@ impl<K, P, const MODES: u8> Program<K, P, MODES> {
         K: Kernel<D>,
         P: Terms<D>,
     {
+        const { assert_room::<Composed<T, P, D, HOW>, D>() }
         let width = <T::Wide<false> as Lane>::WIDTH;
         rows.lay_out(Composed::<T, P, D, HOW>::WRITES);
         let row = rows.outputs.width(D) * width;

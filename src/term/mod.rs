@@ -21,8 +21,9 @@
 //!
 //! [`probe()`] evaluates a term for one pair, for tests of terms of your own.
 //!
-//! A force is set as its component along rᵢⱼ or along vᵢⱼ, and must be symmetric in i and j. Then it is
-//! opposite for the two, and the scheme conserves momentum.
+//! A force is set as its component along rᵢⱼ or along vᵢⱼ, which must be symmetric in i and j, or as a vector
+//! ([`FreeForce`]), which must change its sign with them. Then it is opposite for the two, and the scheme
+//! conserves momentum; angular momentum too where it lies along rᵢⱼ.
 //!
 //! # Artificial viscosity
 //!
@@ -87,14 +88,15 @@
 //! # Ok::<(), Error>(())
 //! ```
 
-use crate::particles::{Field, Fields, Output, Outputs};
+use crate::particles::{Field, Fields, Output, Outputs, Shape};
 use crate::scalar::Lane;
+use crate::tensor::Symmetric;
 use core::fmt::Debug;
 use core::marker::PhantomData;
-use core::ops::{AddAssign, SubAssign};
 
 mod concentration;
 mod density_diffusion;
+mod force;
 mod gradient;
 mod laminar_viscosity;
 mod momentum;
@@ -108,6 +110,7 @@ mod wall;
 
 pub use concentration::{ConcentrationGradient, Nothing};
 pub use density_diffusion::{Antuono, Fourtakas, Molteni, RiemannDiffusion, STANDARD_DELTA};
+pub use force::{Along, FreeForce};
 pub use gradient::{DensityGradient, MomentMatrix, PressureGradient, VelocityGradient};
 pub use laminar_viscosity::{CentralViscosity, LaminarViscosity};
 pub use momentum::{InternalEnergy, PressureCurvature, PressureForce};
@@ -119,10 +122,79 @@ pub use sums::{Compression, KernelMoment, KernelSum, SlopeInH, Unity};
 pub use viscosity::{ArtificialViscosity, Viscosity, Viscous};
 pub use wall::{LiquidNearWall, VelocityAtWall, ViscosityAtWall};
 
-/// Most numbers that a packed record can hold.
-pub const MOST_READS: usize = 40;
-/// Most numbers that the sums of a sweep can hold.
-pub const MOST_SUMS: usize = 56;
+/// Most numbers that the terms of a sweep can read of a particle.
+///
+/// A sweep that reads more does not compile. Here x takes three and each symmetric tensor six:
+///
+/// ```
+/// # use meshfree::kernel::CubicSpline;
+/// # use meshfree::particles::{Field, Fields, Outputs};
+/// # use meshfree::scalar::Lane;
+/// # use meshfree::sweep::{PairSweep, Program, SmoothingMode};
+/// # use meshfree::term::{Layout, Pair, Sums, Term, TermDoc};
+/// # #[derive(Clone, Debug)]
+/// # struct Reads<const TENSORS: usize>;
+/// # impl<const TENSORS: usize> Term<3> for Reads<TENSORS> {
+/// #     const READS: Fields = {
+/// #         let (mut fields, mut k) = (Fields::NONE, 0);
+/// #         while k < TENSORS {
+/// #             fields = fields.union(Fields::of(&[Field::tensor(k as u8)]));
+/// #             k += 1;
+/// #         }
+/// #         fields
+/// #     };
+/// #     const WRITES: Outputs = Outputs::NONE;
+/// #     fn pair<L: Lane, P: Layout>(&self, _: &Pair<'_, L, 3, P>, _: &mut Sums<L, 3, P>) {}
+/// #     fn document(&self) -> TermDoc {
+/// #         TermDoc { name: "tensors".into(), equation: "", source: "" }
+/// #     }
+/// # }
+/// let sweep: &dyn PairSweep<f64, 3> =
+///     &Program::<_, _>::new(CubicSpline, (Reads::<10>,), SmoothingMode::Uniform);
+/// assert_eq!(sweep.fields().width(3), 3 + 10 * 6);
+/// ```
+/// ```compile_fail
+/// # use meshfree::kernel::CubicSpline;
+/// # use meshfree::particles::{Field, Fields, Outputs};
+/// # use meshfree::scalar::Lane;
+/// # use meshfree::sweep::{PairSweep, Program, SmoothingMode};
+/// # use meshfree::term::{Layout, Pair, Sums, Term, TermDoc};
+/// # #[derive(Clone, Debug)]
+/// # struct Reads<const TENSORS: usize>;
+/// # impl<const TENSORS: usize> Term<3> for Reads<TENSORS> {
+/// #     const READS: Fields = {
+/// #         let (mut fields, mut k) = (Fields::NONE, 0);
+/// #         while k < TENSORS {
+/// #             fields = fields.union(Fields::of(&[Field::tensor(k as u8)]));
+/// #             k += 1;
+/// #         }
+/// #         fields
+/// #     };
+/// #     const WRITES: Outputs = Outputs::NONE;
+/// #     fn pair<L: Lane, P: Layout>(&self, _: &Pair<'_, L, 3, P>, _: &mut Sums<L, 3, P>) {}
+/// #     fn document(&self) -> TermDoc {
+/// #         TermDoc { name: "tensors".into(), equation: "", source: "" }
+/// #     }
+/// # }
+/// let sweep: &dyn PairSweep<f64, 3> =
+///     &Program::<_, _>::new(CubicSpline, (Reads::<11>,), SmoothingMode::Uniform);
+/// assert_eq!(sweep.fields().width(3), 3 + 11 * 6);
+/// ```
+pub const MOST_READS: usize = 64;
+/// Most numbers that the sums of a sweep can hold; one that holds more does not compile.
+pub const MOST_SUMS: usize = 72;
+
+/// Fails to compile where the numbers of a sweep have no room.
+pub(crate) const fn assert_room<P: Layout, const D: usize>() {
+    assert!(
+        P::READS.width(D) <= MOST_READS,
+        "the terms of this sweep read more numbers of a particle than `meshfree::term::MOST_READS`"
+    );
+    assert!(
+        P::WRITES.width(D) <= MOST_SUMS,
+        "the terms of this sweep make more sums than `meshfree::term::MOST_SUMS` numbers"
+    );
+}
 
 /// What the terms of one sweep read and write together; known at compile time.
 pub trait Layout: 'static {
@@ -170,7 +242,7 @@ pub struct Pair<'a, L: Lane, const D: usize, P: Layout> {
     /// particles carry their own.
     pub lattice_moment: L,
     pub(crate) i: &'a [L; MOST_READS],
-    pub(crate) j: &'a [L::Scalar],
+    pub(crate) j: &'a [L::Broadcast],
     pub(crate) layout: PhantomData<P>,
 }
 
@@ -187,7 +259,7 @@ impl<L: Lane, const D: usize, P: Layout> Pair<'_, L, D, P> {
     #[must_use]
     pub fn j(&self, field: Field) -> L {
         debug_assert!(P::READS.contains(field));
-        L::splat(self.j[P::READS.offset(field, D)])
+        L::broadcast(self.j[P::READS.offset(field, D)])
     }
     /// Component `k` of a vector or matrix field of i.
     #[inline(always)]
@@ -201,7 +273,29 @@ impl<L: Lane, const D: usize, P: Layout> Pair<'_, L, D, P> {
     #[must_use]
     pub fn j_at(&self, field: Field, k: usize) -> L {
         debug_assert!(P::READS.contains(field));
-        L::splat(self.j[P::READS.offset(field, D) + k])
+        L::broadcast(self.j[P::READS.offset(field, D) + k])
+    }
+    /// A symmetric tensor of i.
+    #[inline(always)]
+    #[must_use]
+    pub fn i_tensor(&self, field: Field) -> Symmetric<L> {
+        debug_assert!(P::READS.contains(field) && field.shape() == Shape::Tensor);
+        let at = P::READS.offset(field, D);
+        let mut tensor = [L::zero(); 6];
+        tensor.copy_from_slice(&self.i[at..at + 6]);
+        Symmetric::new(tensor)
+    }
+    /// A symmetric tensor of j.
+    #[inline(always)]
+    #[must_use]
+    pub fn j_tensor(&self, field: Field) -> Symmetric<L> {
+        debug_assert!(P::READS.contains(field) && field.shape() == Shape::Tensor);
+        let at = P::READS.offset(field, D);
+        let mut tensor = [L::zero(); 6];
+        for k in 0..6 {
+            tensor[k] = L::broadcast(self.j[at + k]);
+        }
+        Symmetric::new(tensor)
     }
     /// vᵢⱼ·vᵢⱼ \[m²/s²\].
     #[inline(always)]
@@ -213,54 +307,6 @@ impl<L: Lane, const D: usize, P: Layout> Pair<'_, L, D, P> {
     }
 }
 
-/// A force of a pair along one direction, which costs nothing where no term sets it.
-#[derive(Clone, Copy, Debug)]
-pub struct Along<L>(Option<L>);
-
-impl<L: Lane> Along<L> {
-    pub(crate) const NOTHING: Self = Self(None);
-
-    /// The sum of what terms have set; zero where none has.
-    #[inline(always)]
-    #[must_use]
-    pub fn value(self) -> L {
-        self.0.unwrap_or_else(L::zero)
-    }
-    /// Adds a product, with one rounding where lanes are fused.
-    #[inline(always)]
-    pub fn add_product(&mut self, a: L, b: L) {
-        self.0 = Some(match self.0 {
-            Some(sum) => a.mul_add(b, sum),
-            None => a * b,
-        });
-    }
-    /// The force times the component `along` of its direction, and `sum`.
-    #[inline(always)]
-    pub(crate) fn mul_add(self, along: L, sum: L) -> L {
-        match self.0 {
-            Some(force) => force.mul_add(along, sum),
-            None => sum,
-        }
-    }
-}
-
-impl<L: Lane> AddAssign<L> for Along<L> {
-    #[inline(always)]
-    fn add_assign(&mut self, force: L) {
-        self.0 = Some(match self.0 {
-            Some(sum) => sum + force,
-            None => force,
-        });
-    }
-}
-
-impl<L: Lane> SubAssign<L> for Along<L> {
-    #[inline(always)]
-    fn sub_assign(&mut self, force: L) {
-        *self += -force;
-    }
-}
-
 /// The sums of a row of particles over their neighbours.
 #[derive(Debug)]
 pub struct Sums<L: Lane, const D: usize, P: Layout> {
@@ -268,6 +314,8 @@ pub struct Sums<L: Lane, const D: usize, P: Layout> {
     pub radial: Along<L>,
     /// This pair's force on i along vᵢⱼ, divided by vᵢⱼ \[N s/m\]: symmetric in i and j.
     pub shear: Along<L>,
+    /// This pair's force on i in any other direction \[N\]: antisymmetric in i and j.
+    pub force: FreeForce<L, D>,
     pub(crate) kept: [L; MOST_SUMS],
     layout: PhantomData<P>,
 }
@@ -279,6 +327,7 @@ impl<L: Lane, const D: usize, P: Layout> Sums<L, D, P> {
         Self {
             radial: Along::NOTHING,
             shear: Along::NOTHING,
+            force: FreeForce::NOTHING,
             kept: [zero; MOST_SUMS],
             layout: PhantomData,
         }
@@ -301,9 +350,16 @@ impl<L: Lane, const D: usize, P: Layout> Sums<L, D, P> {
     pub(crate) fn clear(&mut self) {
         self.kept[..P::WRITES.width(D)].fill(L::zero());
     }
+    /// Forgets the forces of the pair before.
+    #[inline(always)]
+    pub(crate) fn next_pair(&mut self) {
+        self.radial = Along::NOTHING;
+        self.shear = Along::NOTHING;
+        self.force = FreeForce::NOTHING;
+    }
     /// The kept force; zero where no term sets one.
     #[inline(always)]
-    pub(crate) fn force(&self) -> [L; D] {
+    pub(crate) fn kept_force(&self) -> [L; D] {
         if !P::WRITES.contains(Output::FORCE) {
             return [L::zero(); D];
         }
@@ -311,6 +367,9 @@ impl<L: Lane, const D: usize, P: Layout> Sums<L, D, P> {
         core::array::from_fn(|d| self.kept[at + d])
     }
     /// Adds to a scalar sum.
+    ///
+    /// Power that is added here ([`Output::POWER`]) is energy that no force has done, such as heat that is
+    /// conducted; the power of forces the sweep adds by itself.
     #[inline(always)]
     pub fn add(&mut self, output: Output, value: L) {
         self.add_at(output, 0, value);
@@ -318,15 +377,22 @@ impl<L: Lane, const D: usize, P: Layout> Sums<L, D, P> {
     /// Adds a product to a scalar sum, with one rounding where lanes are fused.
     #[inline(always)]
     pub fn add_product(&mut self, output: Output, a: L, b: L) {
-        if P::WRITES.contains(output) {
+        if output == Output::FORCE {
+            self.force.add(0, a * b);
+        } else if P::WRITES.contains(output) {
             let kept = &mut self.kept[P::WRITES.offset(output, D)];
             *kept = a.mul_add(b, *kept);
         }
     }
     /// Adds to component `k` of a sum.
+    ///
+    /// What is added to [`Output::FORCE`] is a [free force](Self::force) of the pair: its power and its work
+    /// count as those of any other.
     #[inline(always)]
     pub fn add_at(&mut self, output: Output, k: usize, value: L) {
-        if P::WRITES.contains(output) {
+        if output == Output::FORCE {
+            self.force.add(k, value);
+        } else if P::WRITES.contains(output) {
             self.kept[P::WRITES.offset(output, D) + k] += value;
         }
     }
@@ -399,9 +465,16 @@ pub struct TermDoc {
 pub trait Term<const D: usize>: Clone + Debug + Send + Sync + 'static {
     /// Fields of i and j that the term reads, beside the position.
     const READS: Fields;
-    /// Sums that the term adds to. A term that sets `radial` or `shear` names [`Output::FORCE`].
+    /// Sums that the term adds to. A term that sets `radial`, `shear` or `force` names [`Output::FORCE`].
     const WRITES: Outputs;
-    /// Adds what this pair contributes. A force must be symmetric in i and j.
+    /// Those of `READS` that carry tension, of which two sides of a contact that may open see only the
+    /// compression: of a scalar (positive in compression) its positive part, of a symmetric tensor (positive
+    /// in tension) its [compressive part](Symmetric::compressive_part), of a vector or matrix nothing.
+    ///
+    /// Unless a term says otherwise, [what counts as a stress](Fields::stresses). Name here a pressure of your
+    /// own; leave out a tensor that is no stress. What one term of a sweep names counts for all of them.
+    const TENSILE: Fields = Self::READS.stresses();
+    /// Adds what this pair contributes. A force on i must be the opposite of that on j.
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>);
     /// What the term is, for people.
     fn document(&self) -> TermDoc;
@@ -413,6 +486,8 @@ pub trait Terms<const D: usize>: Clone + Debug + Send + Sync + 'static {
     const READS: Fields;
     /// Union of what the terms write.
     const WRITES: Outputs;
+    /// Union of what the terms read and carries tension.
+    const TENSILE: Fields;
     /// These terms and then others, as one list without empty parts.
     type Then<B: Terms<D>>: Terms<D>;
     /// These terms and then others.
@@ -430,6 +505,7 @@ pub trait Terms<const D: usize>: Clone + Debug + Send + Sync + 'static {
 impl<const D: usize> Terms<D> for () {
     const READS: Fields = Fields::NONE;
     const WRITES: Outputs = Outputs::NONE;
+    const TENSILE: Fields = Fields::NONE;
     type Then<B: Terms<D>> = B;
     fn then<B: Terms<D>>(self, next: B) -> B {
         next
@@ -445,12 +521,68 @@ impl<const D: usize> Terms<D> for () {
     }
 }
 
+/// Calls a macro with one term of each kind, as expressions separated by commas, after whatever else it is
+/// given. Every test and benchmark that runs over all terms takes them from here.
+///
+/// ```
+/// use meshfree::term::Term;
+/// fn writes<T: Term<2>>(_term: &T) -> usize {
+///     T::WRITES.iter().count()
+/// }
+/// macro_rules! most {
+///     ($least:literal: $($term:expr),*) => { [$least, $(writes(&$term)),*].into_iter().max() };
+/// }
+/// assert_eq!(meshfree::for_each_term!(most 1:), Some(5));
+/// ```
+#[macro_export]
+macro_rules! for_each_term {
+    ($callback:ident $($given:tt)*) => {
+        $callback! {
+            $($given)*
+            $crate::term::PressureForce,
+            $crate::term::PressureCurvature { strength: 1.0 / 3.0 },
+            $crate::term::InternalEnergy,
+            $crate::term::KernelSum,
+            $crate::term::Unity,
+            $crate::term::KernelMoment,
+            $crate::term::SlopeInH,
+            $crate::term::Compression,
+            $crate::term::VelocityGradient,
+            $crate::term::PressureGradient,
+            $crate::term::DensityGradient,
+            $crate::term::MomentMatrix,
+            $crate::term::LaminarViscosity,
+            $crate::term::CentralViscosity,
+            $crate::term::Molteni::default(),
+            $crate::term::Fourtakas::default(),
+            $crate::term::Antuono::default(),
+            $crate::term::RiemannDiffusion,
+            $crate::term::ConcentrationGradient { repulsion: 0.2, at_spacing: 1.0 },
+            $crate::term::LiquidNearWall,
+            $crate::term::VelocityAtWall,
+            $crate::term::ViscosityAtWall,
+            $crate::term::RenormalisedPressureForce,
+            $crate::term::RenormalisedCompression,
+            $crate::term::Viscosity($crate::term::viscosity::Inviscid),
+            $crate::term::Viscosity($crate::term::viscosity::MonaghanGingold::STANDARD),
+            $crate::term::Viscosity($crate::term::viscosity::LimitedMonaghanGingold::STANDARD),
+            $crate::term::Viscosity($crate::term::viscosity::SignalVelocity::STANDARD),
+            $crate::term::Viscosity($crate::term::viscosity::Balsara::STANDARD),
+            $crate::term::Viscosity($crate::term::viscosity::MorrisMonaghan::STANDARD),
+            $crate::term::Viscosity($crate::term::viscosity::CullenDehnen::STANDARD),
+            $crate::term::Viscosity($crate::term::viscosity::Riemann::STANDARD),
+            $crate::term::Viscosity($crate::term::viscosity::LamPrinted { alpha: 1.0, beta: 2.0 })
+        }
+    };
+}
+
 macro_rules! tuple {
     ($($name:ident),*) => {
         #[allow(non_snake_case)]
         impl<const D: usize, $($name: Term<D>),*> Terms<D> for ($($name,)*) {
             const READS: Fields = Fields::NONE$(.union($name::READS))*;
             const WRITES: Outputs = Outputs::NONE$(.union($name::WRITES))*;
+            const TENSILE: Fields = Fields::NONE$(.union($name::TENSILE))*;
             type Then<Next: Terms<D>> = Next::After<Self>;
             fn then<Next: Terms<D>>(self, next: Next) -> Self::Then<Next> {
                 next.after(self)
@@ -481,21 +613,3 @@ tuple!(A, B, C, E, F);
 tuple!(A, B, C, E, F, G);
 tuple!(A, B, C, E, F, G, H);
 tuple!(A, B, C, E, F, G, H, I);
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_force_that_no_term_sets_is_not_even_multiplied() {
-        let mut force = Along::<f64>::NOTHING;
-        assert_eq!(force.value(), 0.0);
-        // Zero times this would be no number.
-        assert_eq!(force.mul_add(f64::INFINITY, 2.0), 2.0);
-        force -= 3.0;
-        force.add_product(2.0, 4.0);
-        force += 1.0;
-        assert_eq!(force.value(), 6.0);
-        assert_eq!(force.mul_add(0.5, 2.0), 5.0);
-    }
-}

@@ -1,7 +1,7 @@
 //! One pair on its own: what a test of a term looks at.
 //! The crate holds all its terms to one contract with it; a user's own terms can be held to the same.
 
-use super::{Layout, MOST_READS, MOST_SUMS, Pair, Sums, Term};
+use super::{Layout, MOST_READS, MOST_SUMS, Pair, Sums, Term, assert_room};
 use crate::kernel::Kernel;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Lane;
@@ -14,14 +14,22 @@ pub struct Probe<L, const D: usize> {
     pub radial: L,
     /// Force on i along vᵢⱼ, divided by vᵢⱼ \[N s/m\].
     pub shear: L,
+    /// Force on i in any other direction \[N\].
+    pub force: [L; D],
     sums: [L; MOST_SUMS],
+    kept: Outputs,
 }
 
 impl<L: Lane, const D: usize> Probe<L, D> {
-    /// Component `k` of what was added to a sum, declared by the term or not.
+    /// Component `k` of what was added to a sum: one of the crate, declared by the term or not, or one of its
+    /// own that it declares. Forces are not among the sums: see `radial`, `shear` and `force`.
     #[must_use]
     pub fn sum(&self, output: Output, k: usize) -> L {
-        self.sums[Outputs::ALL.offset(output, D) + k]
+        if self.kept.contains(output) {
+            self.sums[self.kept.offset(output, D) + k]
+        } else {
+            L::zero()
+        }
     }
 }
 
@@ -34,12 +42,13 @@ impl<const D: usize, A: Term<D>> Layout for Alone<A, D> {
         Field::VELOCITY,
         Field::SMOOTHING_LENGTH,
     ]));
-    const WRITES: Outputs = Outputs::ALL;
+    const WRITES: Outputs = Outputs::ALL.union(A::WRITES);
 }
 
 /// Evaluates one term for one pair under `kernel` with the mean of the two smoothing lengths, and a body
 /// force of 1 m/s² along the first axis.
-/// `i` and `j` give component k of a field.
+/// `i` and `j` give component k of a field. With [`Traced`](crate::scalar::Traced) numbers it records the term
+/// ([`Record`](crate::scalar::Record)).
 ///
 /// ```
 /// use meshfree::kernel::CubicSpline;
@@ -57,23 +66,24 @@ pub fn probe<L: Lane, const D: usize, K: Kernel<D>, A: Term<D>>(
     term: &A,
     kernel: &K,
     i: impl Fn(Field, usize) -> L,
-    j: impl Fn(Field, usize) -> L::Scalar,
+    j: impl Fn(Field, usize) -> L::Broadcast,
 ) -> Probe<L, D> {
+    const { assert_room::<Alone<A, D>, D>() }
     let reads = <Alone<A, D> as Layout>::READS;
-    let (mut own, mut other) = ([L::zero(); MOST_READS], [L::Scalar::default(); MOST_READS]);
+    let (mut own, mut other) = ([L::zero(); MOST_READS], [j(Field::POSITION, 0); MOST_READS]);
     for field in reads.iter() {
         for k in 0..field.components(D) {
             own[reads.offset(field, D) + k] = i(field, k);
             other[reads.offset(field, D) + k] = j(field, k);
         }
     }
-    let between = |field, k| i(field, k) - L::splat(j(field, k));
+    let between = |field, k| i(field, k) - L::broadcast(j(field, k));
     let r: [L; D] = core::array::from_fn(|d| between(Field::POSITION, d));
     let v: [L; D] = core::array::from_fn(|d| between(Field::VELOCITY, d));
     let r2 = (1..D).fold(r[0] * r[0], |sum, d| r[d].mul_add(r[d], sum));
     let v_dot_r = (1..D).fold(v[0] * r[0], |sum, d| v[d].mul_add(r[d], sum));
     let h_i = i(Field::SMOOTHING_LENGTH, 0);
-    let h = (h_i + L::splat(j(Field::SMOOTHING_LENGTH, 0))) * L::of(0.5);
+    let h = (h_i + L::broadcast(j(Field::SMOOTHING_LENGTH, 0))) * L::of(0.5);
     let inverse = h.recip();
     let q = r2.sqrt() * inverse;
     let norm = L::of(kernel.normalisation()) * inverse.powi(D as u32);
@@ -102,6 +112,8 @@ pub fn probe<L: Lane, const D: usize, K: Kernel<D>, A: Term<D>>(
     Probe {
         radial: sums.radial.value(),
         shear: sums.shear.value(),
+        force: sums.force.value(),
         sums: sums.kept,
+        kept: <Alone<A, D> as Layout>::WRITES,
     }
 }

@@ -49,7 +49,7 @@ impl<const D: usize> Term<D> for RenormalisedPressureForce {
         );
         for d in 0..D {
             let force = x_i.mul_add(own[d], x_j * other[d]);
-            sums.add_at(Output::FORCE, d, -force);
+            sums.force.add(d, -force);
         }
     }
     fn document(&self) -> TermDoc {

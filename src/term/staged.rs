@@ -183,6 +183,7 @@ pub struct Join<A, B>(pub A, pub B);
 impl<const D: usize, A: Terms<D>, B: Terms<D>> Terms<D> for Join<A, B> {
     const READS: Fields = A::READS.union(B::READS);
     const WRITES: Outputs = A::WRITES.union(B::WRITES);
+    const TENSILE: Fields = A::TENSILE.union(B::TENSILE);
     type Then<C: Terms<D>> = C::After<Self>;
     fn then<C: Terms<D>>(self, next: C) -> Self::Then<C> {
         next.after(self)

@@ -8,8 +8,9 @@ use super::rows::Reaction;
 use super::{InstructionSet, Interaction};
 use crate::kernel::Kernel;
 use crate::neighbors::{Block, CHUNK, ChunkList, Segment};
-use crate::particles::{Field, Fields, Output, Outputs};
+use crate::particles::{Field, Fields, Output, Outputs, PLACES, Shape};
 use crate::scalar::{Lane, Mask, Real};
+use crate::tensor::Symmetric;
 use crate::term::{Layout, MOST_READS, Sums, Terms};
 use core::marker::PhantomData;
 use std::ops::Range;
@@ -148,7 +149,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
 
     /// All clusters of one chunk.
     #[inline(always)]
-    fn chunk<L: Lane<Scalar = T>, const HOW: u8>(
+    fn chunk<L: Lane<Scalar = T, Broadcast = T>, const HOW: u8>(
         &self,
         chunk: usize,
         list: &ChunkList,
@@ -158,7 +159,6 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         K: Kernel<D>,
         P: Terms<D>,
     {
-        let reads = const { Composed::<T, P, D, HOW>::READS };
         let stride = const { Composed::<T, P, D, HOW>::READS.width(D) };
         let width_out = const { Composed::<T, P, D, HOW>::WRITES.width(D) };
         let one_sided = const { P::WRITES.contains(Output::MOMENT_MATRIX) };
@@ -195,13 +195,13 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                 }
                 let foreign = forces && other != block;
                 let before = if foreign {
-                    sums.force()
+                    sums.kept_force()
                 } else {
                     [L::zero(); D]
                 };
                 let mut kept = L::zero();
                 if contact {
-                    compressive(reads, &mut own, D);
+                    Shown::across::<T, P, D, HOW, L>(&mut own);
                     kept = sums.take_kernel_sum();
                 }
                 let listed = (
@@ -241,7 +241,12 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
     /// Never inlined: what a call has written comes from memory a row at a time, while numbers that the compiler
     /// follows one by one it may also compute one by one, without vector instructions.
     #[inline(never)]
-    fn read<L: Lane<Scalar = T>>(&self, first: usize, stride: usize, own: &mut [L; MOST_READS]) {
+    fn read<L: Lane<Scalar = T, Broadcast = T>>(
+        &self,
+        first: usize,
+        stride: usize,
+        own: &mut [L; MOST_READS],
+    ) {
         for (k, value) in own.iter_mut().enumerate().take(stride) {
             *value = L::from_fn(|lane| self.records[(first + lane) * stride + k]);
         }
@@ -253,7 +258,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
     /// What a skin lists and what a row of several particles lists for only one of them is mostly too
     /// far away, and finding that out costs less than the terms would.
     #[inline(always)]
-    fn within_reach<L: Lane<Scalar = T>, const HOW: u8>(
+    fn within_reach<L: Lane<Scalar = T, Broadcast = T>, const HOW: u8>(
         &self,
         own: &[L; MOST_READS],
         neighbors: &[u32],
@@ -286,7 +291,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
     /// One cluster against the neighbours of one segment, as far as they are within reach, which the number
     /// of them that comes with the list need not be asked.
     #[inline(always)]
-    fn segment<L: Lane<Scalar = T>, const HOW: u8>(
+    fn segment<L: Lane<Scalar = T, Broadcast = T>, const HOW: u8>(
         &self,
         row: Row<'_, L>,
         (neighbors, staying): (&[u32], usize),
@@ -310,18 +315,76 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
     }
 }
 
-/// What a particle shows the other side of a contact: pressure only where it compresses, and no
-/// curvature of it.
-#[inline(always)]
-fn compressive<L: Lane>(reads: Fields, shown: &mut [L; MOST_READS], d: usize) {
-    if reads.contains(Field::PRESSURE_COEFFICIENT) {
-        let x = &mut shown[reads.offset(Field::PRESSURE_COEFFICIENT, d)];
-        *x = x.positive_part();
+/// What a particle shows the other side of a contact that may open, for the fields of a record that carry
+/// tension ([`Term::TENSILE`](crate::term::Term::TENSILE)); all others are shown as they are.
+#[derive(Clone, Copy)]
+enum Compression {
+    /// A pressure, where it is positive.
+    Positive(usize),
+    /// A stress, less what pulls.
+    Tensor(usize),
+    /// Nothing: a gradient of pressure has no meaning across a gap.
+    Nothing(usize),
+}
+
+/// The fields of a record that a contact hides the tension of; a list, so that the loop sees only those.
+struct Shown {
+    fields: [Compression; MOST_READS],
+    count: usize,
+}
+
+impl Shown {
+    const fn new(reads: Fields, tensile: Fields, d: usize) -> Self {
+        let mut shown = Self {
+            fields: [Compression::Nothing(0); MOST_READS],
+            count: 0,
+        };
+        let mut place = 0;
+        while place < PLACES {
+            let field = Field::at(place);
+            if reads.contains(field) && tensile.contains(field) {
+                let at = reads.offset(field, d);
+                let mut k = 0;
+                while k < field.components(d) {
+                    shown.fields[shown.count] = match field.shape() {
+                        Shape::Scalar => Compression::Positive(at),
+                        Shape::Tensor => Compression::Tensor(at),
+                        _ => Compression::Nothing(at + k),
+                    };
+                    shown.count += 1;
+                    // A tensor is one, all others go component by component.
+                    k += if matches!(field.shape(), Shape::Tensor) {
+                        6
+                    } else {
+                        1
+                    };
+                }
+            }
+            place += 1;
+        }
+        shown
     }
-    if reads.contains(Field::PRESSURE_GRADIENT) {
-        let at = reads.offset(Field::PRESSURE_GRADIENT, d);
-        shown[at..at + d].fill(L::zero());
+
+    #[inline(always)]
+    fn across<T: Real, P: Terms<D>, const D: usize, const HOW: u8, L: Lane>(record: &mut [L]) {
+        let shown = const { &Self::new(Composed::<T, P, D, HOW>::READS, P::TENSILE, D) };
+        for field in &shown.fields[..shown.count] {
+            match *field {
+                Compression::Positive(at) => record[at] = record[at].positive_part(),
+                Compression::Tensor(at) => compress(&mut record[at..at + 6]),
+                Compression::Nothing(at) => record[at] = L::zero(),
+            }
+        }
     }
+}
+
+/// Leaves of a stress what presses. Never inlined: contacts are few, and it is long.
+#[inline(never)]
+fn compress<L: Lane>(stress: &mut [L]) {
+    let mut components = [L::zero(); 6];
+    components.copy_from_slice(stress);
+    let part = Symmetric::new(components).compressive_part();
+    stress.copy_from_slice(part.components());
 }
 
 /// The force that the real particles of a row felt from one segment. Never inlined, as [`Task::read`].
@@ -333,7 +396,7 @@ fn reaction<L: Lane, const D: usize, C: Layout>(
     before: &[L; D],
     sums: &Sums<L, D, C>,
 ) -> Reaction<D> {
-    let after = sums.force();
+    let after = sums.kept_force();
     let force = core::array::from_fn(|d| {
         (0..members)
             .map(|lane| (after[d] - before[d]).extract(lane).to_f64())

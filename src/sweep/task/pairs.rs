@@ -1,17 +1,17 @@
 //! The loop over pairs: one row of particles against one neighbour after the other.
 //! All terms share its distances and kernel values, and it turns their scalar forces into vectors.
 
-use super::{Composed, MEAN, OWN, Row, Task, WORK, compressive};
+use super::{Composed, MEAN, OWN, Row, Shown, Task, WORK};
 use crate::kernel::Kernel;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
-use crate::term::{Along, Layout, MOST_READS, Pair, Sums, Terms};
+use crate::term::{Layout, MOST_READS, Pair, Sums, Terms};
 use core::marker::PhantomData;
 
 impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
     /// Which members of a row touch the other side of a contact; `None` before contacts are known.
     #[inline(always)]
-    fn touches<L: Lane<Scalar = T>>(&self, first: usize) -> Option<L> {
+    fn touches<L: Lane<Scalar = T, Broadcast = T>>(&self, first: usize) -> Option<L> {
         let row = self.touching.get(first..first + L::WIDTH)?;
         Some(L::from_fn(|lane| row[lane]))
     }
@@ -28,7 +28,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
 
     /// Where the row stands from a neighbour: rᵢⱼ, its square and its length.
     #[inline(always)]
-    fn separation<L: Lane<Scalar = T>, const HOW: u8>(
+    fn separation<L: Lane<Scalar = T, Broadcast = T>, const HOW: u8>(
         &self,
         own: &[L; MOST_READS],
         j: u32,
@@ -60,7 +60,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
     /// Across a contact that may open a pair acts only where one of the two touches, shows the
     /// other side only pressure that compresses, and its kernel sum is kept apart.
     #[inline(always)]
-    pub(super) fn pairs<L: Lane<Scalar = T>, const HOW: u8>(
+    pub(super) fn pairs<L: Lane<Scalar = T, Broadcast = T>, const HOW: u8>(
         &self,
         row: Row<'_, L>,
         neighbors: &[u32],
@@ -89,8 +89,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         let body_force = self.body_force.map(L::splat);
         let lattice_moment = L::splat(self.lattice_moment);
         let mut shown = [T::zero(); MOST_READS];
-        // Copies that nothing else points to stay in registers.
-        let terms = self.terms.clone();
+        // A copy that nothing else points to stays in registers.
         let mut kept = sums.copied();
         let (total, sums) = (sums, &mut kept);
         let Some(&first_j) = neighbors.first() else {
@@ -158,19 +157,19 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                     pair.f = (pair.f_i + pair.f_j) * L::of(0.5);
                 }
                 shown[..stride].copy_from_slice(record);
-                compressive(reads, &mut shown, D);
+                Shown::across::<T, P, D, HOW, T>(&mut shown);
                 pair.j = &shown[..stride];
             }
-            sums.radial = Along::NOTHING;
-            sums.shear = Along::NOTHING;
-            terms.pair(&pair, sums);
+            sums.next_pair();
+            self.terms.pair(&pair, sums);
             apply::<L, D, HOW, _>(&pair, sums, &P::WRITES, own, record, reads);
         }
         total.take(&kept);
     }
 }
 
-/// Turns the pair's scalar forces into the kept force, or into work.
+/// Turns the pair's forces along directions into vectors, and adds them with the free one to the kept force,
+/// or all to power and work.
 #[inline(always)]
 fn apply<L: Lane, const D: usize, const HOW: u8, C: Layout>(
     pair: &Pair<'_, L, D, C>,
@@ -187,9 +186,10 @@ fn apply<L: Lane, const D: usize, const HOW: u8, C: Layout>(
         let mean = reads.offset(Field::MEAN_VELOCITY, D);
         let mut work = L::zero();
         for d in 0..D {
+            let free = sums.force.plus(d, L::zero());
             let force = sums
                 .radial
-                .mul_add(pair.r[d], sums.shear.mul_add(pair.v[d], L::zero()));
+                .mul_add(pair.r[d], sums.shear.mul_add(pair.v[d], free));
             work = force.mul_add(L::splat(record[mean + d]) - own[mean + d], work);
         }
         sums.add(Output::POWER, work * L::of(0.5));
@@ -197,13 +197,15 @@ fn apply<L: Lane, const D: usize, const HOW: u8, C: Layout>(
     }
     for d in 0..D {
         let kept = &mut sums.kept[C::WRITES.offset(Output::FORCE, D) + d];
+        *kept = sums.force.plus(d, *kept);
         *kept = sums.radial.mul_add(pair.r[d], *kept);
         *kept = sums.shear.mul_add(pair.v[d], *kept);
     }
     if writes.contains(Output::POWER) {
-        let power = sums
-            .radial
-            .mul_add(pair.v_dot_r, sums.shear.mul_add(pair.v2(), L::zero()));
+        let power = sums.radial.mul_add(
+            pair.v_dot_r,
+            sums.shear.mul_add(pair.v2(), sums.force.dot(&pair.v)),
+        );
         sums.add(Output::POWER, power * L::of(-0.5));
     }
 }
