@@ -489,7 +489,8 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
         } else {
             program.law(Stage::Density, SummedDensity(own.density));
         }
-        if !matches!(own.smoothing, Smoothing::Consistent { .. }) {
+        // Liquids have no contacts, and smoothing that follows density takes bodies as one.
+        if FORCE & ENERGY != 0 && !matches!(own.smoothing, Smoothing::Consistent { .. }) {
             program.law(Stage::Density, ContactActivity);
         }
         if own.energy != EnergyForm::None {
