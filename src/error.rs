@@ -167,6 +167,49 @@ pub enum Error {
         /// In which step.
         step: u64,
     },
+    /// A liquid meets something faster than its sound runs.
+    #[error(
+        "particle {particle} of body `{body}` meets what is before it at {speed} m/s, and its sound runs at \
+         {sound_speed} m/s, at {position:?} m, t = {time} s: the (artificial) sound speed is too low, and the liquid \
+         would go through what it meets; take at least {wanted} m/s, ten times the fastest flow",
+        wanted = 10.0 * .speed
+    )]
+    SoundSpeedTooLow {
+        /// The body.
+        body: String,
+        /// The particle's number in the body.
+        particle: usize,
+        /// Closing speed of the pair \[m/s\].
+        speed: f64,
+        /// Its mean sound speed \[m/s\].
+        sound_speed: f64,
+        /// Where \[m\].
+        position: Vec<f64>,
+        /// When \[s\].
+        time: f64,
+    },
+    /// A wall does not move as a wall can.
+    #[error(
+        "between t = {time} s and t = {end} s wall `{wall}` moves by {distance} m beside what its velocity gives, more \
+         than half a spacing, and would pass the liquid: displacement and velocity of its motion must be finite \
+         numbers, the one the rate of the other, without jumps"
+    )]
+    WallJump {
+        /// The wall.
+        wall: String,
+        /// How far \[m\].
+        distance: f64,
+        /// From when \[s\].
+        time: f64,
+        /// To when \[s\].
+        end: f64,
+    },
+    /// The simulation has failed before.
+    #[error("the simulation has failed and takes no further step; what happened first: {cause}")]
+    Failed {
+        /// The first error, in words.
+        cause: String,
+    },
     /// The time step collapsed.
     #[error(
         "the time step fell to {step} s at t = {time} s (criterion: {criterion}, particle {particle} of body \

@@ -12,7 +12,7 @@ use meshfree::observe::{FlowPlane, PressureProbe, WaveGauge};
 use meshfree::scene::{Body, Scene, Start};
 use meshfree::scheme::EnergyForm;
 use meshfree::schemes;
-use meshfree::simulation::StepControl;
+use meshfree::simulation::{Simulation, StepControl};
 use meshfree::sweep::Interaction;
 use proptest::prelude::*;
 
@@ -666,6 +666,72 @@ fn a_run_that_breaks_says_where_and_when() {
             "{error}"
         );
     }
+}
+
+/// A row of gas under a load that is no number from `start` \[s\] on.
+fn breaking(start: f64) -> Simulation<f64, 1> {
+    let gas = Material::new("gas", IdealGas::new(1.4, 1.0));
+    let row = Body::block("row", gas, [0.0], [1.0], 0.02).energy(2.5);
+    Scene::<f64, 1>::new(schemes::impact())
+        .body(row)
+        .acceleration(move |t| [if t >= start { f64::NAN } else { 0.0 }])
+        .build()
+        .unwrap()
+}
+
+#[test]
+fn the_state_after_the_last_step_is_looked_at() {
+    let end = 1e-4;
+    let mut simulation = breaking(end);
+    let error = simulation.run_until(end).unwrap_err();
+    assert_eq!(simulation.steps(), 1, "one step reaches the end");
+    assert!(
+        matches!(
+            &error,
+            Error::NotFinite {
+                quantity: "velocity",
+                ..
+            }
+        ),
+        "{error:?}"
+    );
+}
+
+#[test]
+fn what_has_failed_takes_no_further_step() {
+    let mut simulation = breaking(1e-3);
+    let first = simulation.run_until(1.0).unwrap_err().to_string();
+    let (time, steps) = (simulation.time(), simulation.steps());
+    let again = [
+        simulation.run_until(1.0).unwrap_err(),
+        simulation.run_until(0.5 * time).unwrap_err(),
+        simulation.step().unwrap_err(),
+        simulation.evaluate().unwrap_err(),
+    ];
+    for error in again {
+        let Error::Failed { cause } = &error else {
+            panic!("{error:?}");
+        };
+        assert_eq!(*cause, first);
+        assert!(
+            error.to_string().contains("takes no further step"),
+            "{error}"
+        );
+    }
+    assert_eq!((simulation.time(), simulation.steps()), (time, steps));
+}
+
+#[test]
+fn a_limit_of_the_step_that_is_no_time() {
+    let mut simulation = good().build().unwrap();
+    for limit in [0.0, -1.0, f64::NAN, f64::NEG_INFINITY] {
+        let Error::Argument(problem) = simulation.step_at_most(limit).unwrap_err() else {
+            panic!("another error");
+        };
+        is_parameter(&problem, "limit of the step", "positive, in seconds");
+    }
+    assert_eq!(simulation.time(), 0.0);
+    assert!(simulation.step_at_most(f64::INFINITY).is_ok());
 }
 
 /// Numbers that a slip of the pen or a broken file can give.
