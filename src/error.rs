@@ -85,6 +85,22 @@ pub enum Problem {
         /// Recommended.
         recommended: f64,
     },
+    /// A particle that a density relative to rest cannot measure.
+    #[error(
+        "particle {particle} of body `{body}` at {position:?} m has no neighbour that the kernel reaches ({reach} m), \
+         and the density form measures compression by neighbours: is the spacing that of the points? Take the \
+         particle out, or a density form by summation"
+    )]
+    Isolated {
+        /// The body.
+        body: String,
+        /// The particle's number in the body.
+        particle: usize,
+        /// Where \[m\].
+        position: Vec<f64>,
+        /// Reach of the kernel \[m\].
+        reach: f64,
+    },
     /// A prescribed time step above the stability limit.
     #[error(
         "the time step is {step} s, above the stability limit of {limit} s ({criterion}): take a smaller \

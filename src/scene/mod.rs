@@ -274,8 +274,12 @@ impl<T: Real, const D: usize> Scene<T, D> {
         let mut simulation =
             Simulation::new(groups, domain, self.integrator, self.control, self.loads);
         simulation.take_references();
+        let problems = simulation.isolated();
+        if !problems.is_empty() {
+            return Err(Error::Build(BuildError { problems }));
+        }
         simulation.evaluate()?;
-        let vote = simulation.vote()?;
+        let vote = simulation.largest_fixed_step()?;
         match fixed {
             Some(step) if step > vote.step => Err(Error::Build(BuildError {
                 problems: vec![Problem::StepAboveLimit {

@@ -260,6 +260,7 @@ impl<K, V, const MODES: u8, const CURVED: bool> SchemeBuilder<K, V, MODES, CURVE
             step_factor: self.step_factor.unwrap_or(DEFAULT_STEP_FACTOR),
             normalised: self.normalised,
             viscosity_problems,
+            kernel_problems: crate::kernel::problems_of(&kernel),
             switch,
             reference: Some(Box::new(Program::<_, _, MODES>::new(
                 kernel,

@@ -137,6 +137,7 @@ pub struct Scheme<T: Real, const D: usize> {
     pub(crate) step_factor: f64,
     pub(crate) normalised: bool,
     pub(crate) viscosity_problems: Vec<(&'static str, f64, &'static str)>,
+    pub(crate) kernel_problems: Vec<(&'static str, f64, &'static str)>,
     pub(crate) switch: Option<Switch>,
     pub(crate) reference: Option<Box<dyn PairSweep<T, D>>>,
     pub(crate) sums: Option<Box<dyn PairSweep<T, D>>>,

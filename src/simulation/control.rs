@@ -24,17 +24,20 @@ use rayon::prelude::*;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepControl {
     /// Factor C on h/(c + signal), where the signal is what the artificial viscosity in use adds;
-    /// taken from the scheme by default (0.55).
+    /// taken from the scheme by default (0.55). It must be below one, and below what the
+    /// [kernel](crate::kernel::Kernel::stable_step) bears.
     pub courant: f64,
-    /// Factor C_a on √(h/|a|); 0.25 by default (Monaghan 1992).
+    /// Factor C_a on √(h/|a|); 0.25 by default (Monaghan 1992), below one.
     pub force: f64,
-    /// Factor C_v on h² ρ/μ where a physical viscosity acts; 0.125 by default (Morris, Fox & Zhu 1997).
+    /// Factor C_v on h² ρ/μ where a physical viscosity acts; 0.125 by default (Morris, Fox & Zhu 1997),
+    /// below 0.5.
     pub viscous: f64,
     /// Factor C_r: the share of its distance by which a pair may close in a step; 0.5 by default, less than one.
     /// Courant, Friedrichs & Lewy (1928) for particles: what is between two may not leave. Where viscosity acts, the
     /// signal of the first criterion asks for less already, so it limits cold gas and flow without viscosity alone.
     pub approach: f64,
-    /// A fixed step \[s\], checked against the limit in every step.
+    /// A fixed step \[s\], held in every step against the limit by the factor of the scheme, or by
+    /// [`courant`](Self::courant) if that is larger.
     pub fixed: Option<f64>,
     /// Smallest step \[s\] before the run stops with [`Error::StepCollapsed`]; by default 10⁻⁶ of the
     /// first.
@@ -104,6 +107,17 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// [`Error::NotFinite`] if a particle's state is no longer finite, or its density not positive, and
     /// [`Error::SoundSpeedTooLow`] where a liquid meets faster than its sound.
     pub fn vote(&self) -> Result<Vote> {
+        self.vote_with(self.control.courant)
+    }
+
+    /// What a fixed step is held against: the factor of the scheme, or a larger one that was asked for. A smaller
+    /// one makes no step unstable.
+    pub(crate) fn largest_fixed_step(&self) -> Result<Vote> {
+        let own = self.groups[0].scheme.step_factor;
+        self.vote_with(self.control.courant.max(own))
+    }
+
+    fn vote_with(&self, courant: f64) -> Result<Vote> {
         let stability = self.integrator.stability();
         let mut all: Option<Vote> = None;
         for (k, group) in self.groups.iter().enumerate() {
@@ -114,7 +128,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 group.scheme.step_factor
             };
             let control = StepControl {
-                courant: self.control.courant.min(own) * stability,
+                courant: courant.min(own) * stability,
                 ..self.control
             };
             let vote = group.vote(&control);
@@ -241,7 +255,9 @@ impl<T: Real, const D: usize> Group<T, D> {
                 let by_force = control.force * (h / a.max(f64::MIN_POSITIVE)).sqrt();
                 let speed = velocity[slot].iter().fold(0.0, |s, v| s + v.to_f64().abs());
                 let density = rho[slot].to_f64();
-                let sound = (acoustic + signal + a + speed).is_finite() && density > 0.0;
+                // Without sound, as in dust, other criteria limit the step.
+                let speeds = c[slot].to_f64() + signal + a + speed;
+                let sound = speeds.is_finite() && !acoustic.is_nan() && density > 0.0;
                 if !sound {
                     return Vote {
                         particle: slot,

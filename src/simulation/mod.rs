@@ -312,12 +312,13 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
         let mut vote = self.vote()?;
         if let Some(fixed) = self.control.fixed {
+            let limit = self.largest_fixed_step()?;
             // A limit that varies by rounding is not a violation.
-            if fixed > vote.step * (1.0 + 1e-6) {
+            if fixed > limit.step * (1.0 + 1e-6) {
                 return Err(Error::Argument(Problem::StepAboveLimit {
                     step: fixed,
-                    limit: vote.step,
-                    criterion: vote.criterion.name(),
+                    limit: limit.step,
+                    criterion: limit.criterion.name(),
                 }));
             }
             vote = Vote {

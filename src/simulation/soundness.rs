@@ -4,10 +4,13 @@
 use super::Simulation;
 use super::evaluate::GRAIN;
 use super::group::Group;
-use crate::error::{Error, Result};
+use crate::error::{Error, Problem, Result};
 use crate::particles::Field;
 use crate::scalar::Real;
 use rayon::prelude::*;
+
+/// Share of a full neighbourhood below which a particle has no neighbours to be measured by.
+const ALONE: f64 = 1e-6;
 
 /// Share of the spacing by which a wall may move beside what its velocity gives.
 const JUMP: f64 = 0.5;
@@ -35,6 +38,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             });
         }
         Ok(())
+    }
+
+    /// Particles without neighbours, where density is measured from the sums at rest: one for each body.
+    pub(crate) fn isolated(&self) -> Vec<Problem> {
+        self.groups.iter().flat_map(Group::isolated).collect()
     }
 
     /// Refuses a step of `dt` \[s\] in which a wall moves beside its own velocity, as one that jumps does.
@@ -84,6 +92,26 @@ impl<T: Real, const D: usize> Group<T, D> {
         let energy = self.columns.raw(Field::Energy).get(slot);
         let internal = energy.map_or(0.0, |energy| energy.to_f64());
         mass * (0.5 * v.iter().map(|v| v.to_f64().powi(2)).sum::<f64>() + internal)
+    }
+
+    /// The first particle of each body that has no neighbours, if that takes its density away.
+    fn isolated(&self) -> Vec<Problem> {
+        let moments = self.columns.raw(Field::Normalisation);
+        let measured = self.scheme.density.has_reference() && self.scheme.normalised;
+        let alone = |slot: &usize| {
+            let moment = moments.get(*slot).map_or(1.0, |moment| moment.to_f64());
+            measured && moment <= ALONE
+        };
+        let first = |body: &super::BodyState<T>| {
+            let slot = body.slots.clone().find(alone)?;
+            Some(Problem::Isolated {
+                body: body.name.clone(),
+                particle: self.ids[slot] as usize - body.ids.start,
+                position: self.position(slot),
+                reach: self.scheme.kernel.support * self.smoothing_length,
+            })
+        };
+        self.bodies.iter().filter_map(first).collect()
     }
 
     /// The first slot whose state is not finite, or whose density is not positive.

@@ -109,6 +109,7 @@ impl<K, V, W, R, S, U, const MODES: u8, const RENORMALISED: bool>
                 * damped_step(self.acoustic_damping, kernel.stable_step()),
             normalised: false,
             viscosity_problems,
+            kernel_problems: crate::kernel::problems_of(&kernel),
             switch: None,
             reference: None,
             sums: None,
