@@ -101,6 +101,21 @@ pub enum Problem {
         /// Reach of the kernel \[m\].
         reach: f64,
     },
+    /// More particles than the memory holds.
+    #[error(
+        "{particles} particles take about {needed} bytes, {each} each, and there are {available}: take fewer \
+         particles, `f32`, or another machine; a limit of one's own is set by Scene::memory_limit"
+    )]
+    Memory {
+        /// Particles of bodies and walls.
+        particles: usize,
+        /// Bytes a particle.
+        each: usize,
+        /// Bytes in all.
+        needed: u64,
+        /// Bytes that there are.
+        available: u64,
+    },
     /// A prescribed time step above the stability limit.
     #[error(
         "the time step is {step} s, above the stability limit of {limit} s ({criterion}): take a smaller \

@@ -1282,6 +1282,40 @@ fn integrators_that_are_none() {
     is_parameter(&found, "kept states of the integrator unfit", "at most 64");
 }
 
+#[test]
+fn more_particles_than_memory_holds() {
+    let scene = || {
+        let cube = Body::block("cube", catalogue::copper(), [0.0; 3], [0.02; 3], DX);
+        Scene::<f64, 3>::new(schemes::impact()).body(cube)
+    };
+    let found = problem(scene().memory_limit(1_000_000));
+    let Problem::Memory {
+        particles,
+        each,
+        needed,
+        available,
+    } = found
+    else {
+        panic!("{found:?}");
+    };
+    assert_eq!((particles, available), (8000, 1_000_000));
+    assert!(needed >= (each * particles) as u64, "{needed}");
+    assert!(found.to_string().contains("Scene::memory_limit"), "{found}");
+    // What is predicted is what is taken, or somewhat more.
+    let mut simulation = scene().memory_limit(needed).build().unwrap();
+    simulation.step().unwrap();
+    let taken = simulation.bytes() as u64;
+    println!("{needed} bytes predicted, {taken} taken");
+    assert!(taken < needed && needed < 3 * taken, "{needed} {taken}");
+    let water = pool().build().unwrap().bytes() as u64;
+    let found = problem(pool().memory_limit(1));
+    let Problem::Memory { needed, .. } = found else {
+        panic!("{found:?}");
+    };
+    println!("{needed} bytes predicted, {water} taken");
+    assert!(water < needed && needed < 4 * water, "{needed} {water}");
+}
+
 /// Numbers that a slip of the pen or a broken file can give.
 fn garbage() -> impl Strategy<Value = f64> {
     prop_oneof![

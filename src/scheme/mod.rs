@@ -316,6 +316,14 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         }
     }
 
+    /// Numbers a particle in the widest record of its sweeps, and in their widest sums.
+    pub(crate) fn widths(&self) -> (usize, usize) {
+        let all = || self.sweeps().chain(self.reference.as_deref());
+        let records = all().map(|sweep| sweep.fields().width(D)).max();
+        let sums = all().map(|sweep| sweep.outputs().width(D)).max();
+        (records.unwrap_or(0), sums.unwrap_or(0))
+    }
+
     /// The coefficient of artificial viscosity that a particle starts with, where it has its own.
     pub(crate) fn starting_coefficient(&self) -> f64 {
         self.switch.map_or(0.0, |switch| switch.start())

@@ -3,6 +3,7 @@
 
 mod groups;
 pub(crate) mod limits;
+mod memory;
 mod scheme;
 mod walls;
 
@@ -59,6 +60,9 @@ impl<T: Real, const D: usize> Scene<T, D> {
             plan.check_walls(&mut problems);
         }
         self.check_loads(&mut problems);
+        if problems.is_empty() {
+            self.check_memory(&mut problems);
+        }
         if problems.is_empty() {
             for plan in &plans {
                 plan.check_overlap(&mut problems);
