@@ -85,6 +85,37 @@ pub enum Problem {
         /// Recommended.
         recommended: f64,
     },
+    /// A particle that a density relative to rest cannot measure.
+    #[error(
+        "particle {particle} of body `{body}` at {position:?} m has no neighbour that the kernel reaches ({reach} m), \
+         and the density form measures compression by neighbours: is the spacing that of the points? Take the \
+         particle out, or a density form by summation"
+    )]
+    Isolated {
+        /// The body.
+        body: String,
+        /// The particle's number in the body.
+        particle: usize,
+        /// Where \[m\].
+        position: Vec<f64>,
+        /// Reach of the kernel \[m\].
+        reach: f64,
+    },
+    /// More particles than the memory holds.
+    #[error(
+        "{particles} particles take about {needed} bytes, {each} each, and there are {available}: take fewer \
+         particles, `f32`, or another machine; a limit of one's own is set by Scene::memory_limit"
+    )]
+    Memory {
+        /// Particles of bodies and walls.
+        particles: usize,
+        /// Bytes a particle.
+        each: usize,
+        /// Bytes in all.
+        needed: u64,
+        /// Bytes that there are.
+        available: u64,
+    },
     /// A prescribed time step above the stability limit.
     #[error(
         "the time step is {step} s, above the stability limit of {limit} s ({criterion}): take a smaller \
@@ -166,6 +197,49 @@ pub enum Error {
         time: f64,
         /// In which step.
         step: u64,
+    },
+    /// A liquid meets something faster than its sound runs.
+    #[error(
+        "particle {particle} of body `{body}` meets what is before it at {speed} m/s, and its sound runs at \
+         {sound_speed} m/s, at {position:?} m, t = {time} s: the (artificial) sound speed is too low, and the liquid \
+         would go through what it meets; take at least {wanted} m/s, ten times the fastest flow",
+        wanted = 10.0 * .speed
+    )]
+    SoundSpeedTooLow {
+        /// The body.
+        body: String,
+        /// The particle's number in the body.
+        particle: usize,
+        /// Closing speed of the pair \[m/s\].
+        speed: f64,
+        /// Its mean sound speed \[m/s\].
+        sound_speed: f64,
+        /// Where \[m\].
+        position: Vec<f64>,
+        /// When \[s\].
+        time: f64,
+    },
+    /// A wall does not move as a wall can.
+    #[error(
+        "between t = {time} s and t = {end} s wall `{wall}` moves by {distance} m beside what its velocity gives, more \
+         than half a spacing, and would pass the liquid: displacement and velocity of its motion must be finite \
+         numbers, the one the rate of the other, without jumps"
+    )]
+    WallJump {
+        /// The wall.
+        wall: String,
+        /// How far \[m\].
+        distance: f64,
+        /// From when \[s\].
+        time: f64,
+        /// To when \[s\].
+        end: f64,
+    },
+    /// The simulation has failed before.
+    #[error("the simulation has failed and takes no further step; what happened first: {cause}")]
+    Failed {
+        /// The first error, in words.
+        cause: String,
     },
     /// The time step collapsed.
     #[error(

@@ -2,18 +2,23 @@
 
 mod common;
 
-use meshfree::boundary::{Inlet, MirrorPlane, Periodic, Translation, Wall};
+use meshfree::boundary::{Boundary, Inlet, MirrorPlane, Outlet, Periodic, Translation, Wall};
 use meshfree::error::{Error, Problem};
-use meshfree::integrator::{LamLeapfrog, RungeKutta4};
+use meshfree::integrator::{Integrator, LamLeapfrog, RungeKutta4, System};
+use meshfree::kernel::{CubicSpline, Kernel};
 use meshfree::material::catalogue;
-use meshfree::material::eos::IdealGas;
+use meshfree::material::eos::{EosState, EquationOfState, Guards, IdealGas};
 use meshfree::material::{Liquid, Material, SoundSpeed, eos::Linear};
 use meshfree::observe::{FlowPlane, PressureProbe, WaveGauge};
+use meshfree::particles::Fields;
+use meshfree::scalar::Lane;
 use meshfree::scene::{Body, Scene, Start};
-use meshfree::scheme::EnergyForm;
+use meshfree::scheme::{DensityForm, EnergyForm, SchemeBuilder};
 use meshfree::schemes;
-use meshfree::simulation::StepControl;
-use meshfree::sweep::Interaction;
+use meshfree::simulation::{Simulation, StepControl};
+use meshfree::sweep::{Interaction, Transform};
+use meshfree::term::viscosity::MonaghanGingold;
+use meshfree::term::{ArtificialViscosity, Layout, Pair, TermDoc, Viscous};
 use proptest::prelude::*;
 
 const DX: f64 = 1e-3;
@@ -666,6 +671,649 @@ fn a_run_that_breaks_says_where_and_when() {
             "{error}"
         );
     }
+}
+
+/// A row of gas under a load that is no number from `start` \[s\] on.
+fn breaking(start: f64) -> Simulation<f64, 1> {
+    let gas = Material::new("gas", IdealGas::new(1.4, 1.0));
+    let row = Body::block("row", gas, [0.0], [1.0], 0.02).energy(2.5);
+    Scene::<f64, 1>::new(schemes::impact())
+        .body(row)
+        .acceleration(move |t| [if t >= start { f64::NAN } else { 0.0 }])
+        .build()
+        .unwrap()
+}
+
+#[test]
+fn the_state_after_the_last_step_is_looked_at() {
+    let end = 1e-4;
+    let mut simulation = breaking(end);
+    let error = simulation.run_until(end).unwrap_err();
+    assert_eq!(simulation.steps(), 1, "one step reaches the end");
+    assert!(
+        matches!(
+            &error,
+            Error::NotFinite {
+                quantity: "velocity",
+                ..
+            }
+        ),
+        "{error:?}"
+    );
+}
+
+#[test]
+fn what_has_failed_takes_no_further_step() {
+    let mut simulation = breaking(1e-3);
+    let first = simulation.run_until(1.0).unwrap_err().to_string();
+    let (time, steps) = (simulation.time(), simulation.steps());
+    let again = [
+        simulation.run_until(1.0).unwrap_err(),
+        simulation.run_until(0.5 * time).unwrap_err(),
+        simulation.step().unwrap_err(),
+        simulation.evaluate().unwrap_err(),
+    ];
+    for error in again {
+        let Error::Failed { cause } = &error else {
+            panic!("{error:?}");
+        };
+        assert_eq!(*cause, first);
+        assert!(
+            error.to_string().contains("takes no further step"),
+            "{error}"
+        );
+    }
+    assert_eq!((simulation.time(), simulation.steps()), (time, steps));
+}
+
+#[test]
+fn a_limit_of_the_step_that_is_no_time() {
+    let mut simulation = good().build().unwrap();
+    for limit in [0.0, -1.0, f64::NAN, f64::NEG_INFINITY] {
+        let Error::Argument(problem) = simulation.step_at_most(limit).unwrap_err() else {
+            panic!("another error");
+        };
+        is_parameter(&problem, "limit of the step", "positive, in seconds");
+    }
+    assert_eq!(simulation.time(), 0.0);
+    assert!(simulation.step_at_most(f64::INFINITY).is_ok());
+}
+
+#[test]
+fn numbers_that_are_finite_and_still_no_start() {
+    let with = |body: Body<f64, 1>| problem(Scene::new(schemes::impact()).body(body));
+    for (velocity, energy) in [(1e300, 0.0), (-3e8, 0.0), (0.0, 1e300), (0.0, -1e12)] {
+        let found = with(rod().velocity([velocity]).energy(energy));
+        let (name, advice) = if velocity == 0.0 {
+            ("energy of body `rod`", "c²")
+        } else {
+            ("velocity of body `rod`", "below that of light")
+        };
+        let advice = if energy > 0.0 {
+            "speed of light"
+        } else {
+            advice
+        };
+        is_parameter(&found, name, advice);
+    }
+    for factor in [1e-3, 0.1, 10.0, 1000.0] {
+        let found = with(rod().density(8930.0 * factor));
+        is_parameter(&found, "density of body `rod`", "four times");
+    }
+    // A gas has whatever density it starts with, and no energy below none.
+    let gas = || {
+        let gas = Material::new("gas", IdealGas::new(1.4, 1.0));
+        Body::block("gas", gas, [0.0], [1.0], 0.02).energy(2.5)
+    };
+    assert_eq!(
+        Scene::new(schemes::impact())
+            .body(gas().density(1e-3))
+            .problems(),
+        []
+    );
+    is_parameter(
+        &with(gas().energy(-1.0)),
+        "energy of body `gas`",
+        "not negative",
+    );
+    let far = Body::points_of("rod", catalogue::copper(), vec![[1e300], [2e300]], 1e-3);
+    is_parameter(&with(far), "position of body `rod`", "of the origin");
+    let huge = Body::block("rod", catalogue::copper(), [0.0], [1e300], 1e299);
+    is_parameter(&with(huge), "position of body `rod`", "in metres");
+    let tiny = Body::block("rod", catalogue::copper(), [0.0], [1e-199], 1e-200);
+    is_parameter(&with(tiny), "spacing of body `rod`", "in metres");
+    for bad in [f64::NAN, f64::INFINITY] {
+        is_parameter(
+            &with(rod().hydrostatic([bad], [0.02])),
+            "hydrostatic start of body `rod`",
+            "finite",
+        );
+        is_parameter(
+            &with(rod().hydrostatic([9.81], [bad])),
+            "hydrostatic start of body `rod`",
+            "finite",
+        );
+    }
+}
+
+/// Dust: no pressure, and no sound.
+#[derive(Clone, Debug)]
+struct Dust;
+
+impl EquationOfState for Dust {
+    fn name(&self) -> &'static str {
+        "dust"
+    }
+    fn reference_density(&self) -> f64 {
+        1000.0
+    }
+    fn uses_energy(&self) -> bool {
+        false
+    }
+    fn state<L: Lane>(&self, _density: L, _energy: L) -> EosState<L> {
+        EosState {
+            pressure: L::zero(),
+            sound_speed: L::zero(),
+            guards: Guards::none(),
+        }
+    }
+}
+
+#[test]
+fn a_law_without_sound() {
+    let dust = Body::block("dust", Material::new("dust", Dust), [0.0], [0.02], DX);
+    let found = problem(Scene::<f64, 1>::new(schemes::impact()).body(dust));
+    is_parameter(&found, "sound speed of body `dust`", "law of the material");
+}
+
+#[test]
+fn particles_without_neighbours() {
+    let isolated = |points: Vec<[f64; 1]>, at: usize| {
+        let body = Body::points_of("rod", catalogue::copper(), points, DX);
+        let scene = Scene::<f64, 1>::new(schemes::impact()).body(body);
+        assert_eq!(scene.problems(), []);
+        let found = problem(scene);
+        let Problem::Isolated { body, particle, .. } = &found else {
+            panic!("{found:?}");
+        };
+        assert_eq!((body.as_str(), *particle), ("rod", at));
+        assert!(
+            found
+                .to_string()
+                .contains("is the spacing that of the points?"),
+            "{found}"
+        );
+    };
+    isolated(vec![[0.0]], 0);
+    // A fragment, and points that are farther apart than the spacing says.
+    isolated(vec![[0.0], [DX], [2.0 * DX], [9.0 * DX]], 3);
+    isolated(vec![[0.0], [5.0 * DX], [10.0 * DX]], 0);
+}
+
+#[test]
+fn names_that_are_empty_and_bodies_against_themselves() {
+    let nameless = Body::block(" ", catalogue::copper(), [0.03], [0.04], DX);
+    incompatible(
+        &problem(good().body(nameless)),
+        "a body has an empty name",
+        "give it one",
+    );
+    let wall = Wall::around("", [0.0; 2], [0.1; 2], 0.01, 3, [[true; 2]; 2]);
+    incompatible(
+        &problem(pool().wall(wall)),
+        "a wall has an empty name",
+        "give it one",
+    );
+    incompatible(
+        &problem(good().between("rod", "rod", Interaction::None)),
+        "`rod` does to itself",
+        "name two bodies",
+    );
+}
+
+#[test]
+fn summation_across_a_contact_that_opens() {
+    let scheme = || schemes::impact().density(DensityForm::Summation);
+    let two = || Scene::<f64, 1>::new(scheme()).body(rod()).body(other(0.02));
+    incompatible(&problem(two()), "in a contact that opens", "bond them");
+    incompatible(
+        &problem(two().between("rod", "other", Interaction::Unilateral)),
+        "in a contact that opens",
+        "NumberDensity",
+    );
+    for said in [Interaction::Bonded, Interaction::None] {
+        assert_eq!(two().between("rod", "other", said).problems(), []);
+    }
+}
+
+#[test]
+fn periods_that_do_not_hold_the_body() {
+    let period = |high: f64| Periodic::along(0, 0.0, high);
+    assert_eq!(good().boundary(period(0.02)).problems(), []);
+    incompatible(
+        &problem(good().boundary(period(0.01))),
+        "would overlap itself",
+        "as long as the body",
+    );
+    incompatible(
+        &problem(good().boundary(period(0.02)).boundary(period(0.03))),
+        "given twice",
+        "one period for each direction",
+    );
+}
+
+/// As many images as it is told to make.
+#[derive(Clone, Debug)]
+struct Kaleidoscope(usize);
+
+impl Boundary<f64, 1> for Kaleidoscope {
+    fn name(&self) -> String {
+        "kaleidoscope".into()
+    }
+    fn images(&self) -> usize {
+        self.0
+    }
+    fn transform(&self, image: usize, _time: f64) -> Transform<f64, 1> {
+        let mut by = Transform::identity();
+        by.shift[0] = 1.0 + image as f64;
+        by
+    }
+    fn reaches(&self, _image: usize, _x: &[f64; 1], _reach: f64, _time: f64) -> bool {
+        true
+    }
+}
+
+#[test]
+fn a_boundary_of_a_million_images() {
+    assert_eq!(good().boundary(Kaleidoscope(2)).problems(), []);
+    let found = problem(good().boundary(Kaleidoscope(1_000_000)));
+    is_parameter(&found, "number of images of the kaleidoscope", "at most 64");
+}
+
+#[test]
+fn factors_of_the_step_that_nothing_bears() {
+    let steps = |change: fn(StepControl) -> StepControl| good().steps(change);
+    for scene in [
+        steps(|control| StepControl {
+            courant: 1.0,
+            ..control
+        }),
+        steps(|control| StepControl {
+            courant: 50.0,
+            ..control
+        }),
+    ] {
+        incompatible(
+            &problem(scene),
+            "the step factor (courant)",
+            "0.55 of the schemes",
+        );
+    }
+    for (scene, name) in [
+        (
+            steps(|control| StepControl {
+                force: 1.0,
+                ..control
+            }),
+            "force factor",
+        ),
+        (
+            steps(|control| StepControl {
+                force: f64::NAN,
+                ..control
+            }),
+            "force factor",
+        ),
+        (
+            steps(|control| StepControl {
+                viscous: 0.5,
+                ..control
+            }),
+            "viscous factor",
+        ),
+        (
+            steps(|control| StepControl {
+                viscous: 0.0,
+                ..control
+            }),
+            "viscous factor",
+        ),
+        (
+            steps(|control| StepControl {
+                approach: 1.0,
+                ..control
+            }),
+            "approach factor",
+        ),
+        (
+            steps(|control| StepControl {
+                approach: -0.1,
+                ..control
+            }),
+            "approach factor",
+        ),
+    ] {
+        is_parameter(&problem(scene), name, "positive and below");
+    }
+    for smallest in [f64::NAN, -1e-9, f64::INFINITY] {
+        let scene = good().steps(|control| StepControl {
+            smallest: Some(smallest),
+            ..control
+        });
+        is_parameter(&problem(scene), "smallest time step", "not negative");
+    }
+    // No factor makes a fixed step longer than what the scheme bears, or shorter.
+    let fixed = |courant: f64, step: f64| {
+        good()
+            .steps(|control| StepControl {
+                courant,
+                fixed: Some(step),
+                ..control
+            })
+            .build()
+    };
+    let limit = good().build().unwrap().vote().unwrap().step;
+    assert!(fixed(0.01, 0.999 * limit).is_ok());
+    assert!(fixed(0.99, 1.9 * limit).is_err());
+}
+
+#[test]
+fn outlets_that_take_all() {
+    let away = Outlet::plane([-1.0, 0.0], [1.0, 0.0]);
+    incompatible(
+        &problem(pool().outlet(away)),
+        "the outlets take every particle of body `water`",
+        "points to where particles leave",
+    );
+    // What leaves later leaves nothing behind, and no error.
+    let mut simulation = pool()
+        .outlet(Outlet::plane([0.0, -0.2], [0.0, -1.0]))
+        .acceleration(|_| [0.0, -9.81])
+        .build()
+        .unwrap();
+    simulation.run_until(0.5).unwrap();
+    assert_eq!(
+        (simulation.particles(), simulation.removed().particles),
+        (0, 100)
+    );
+}
+
+#[test]
+fn probes_out_of_all_proportion() {
+    let open = pool().build().unwrap();
+    for far in [[1e9, 0.0], [0.0, -1e9]] {
+        let error = PressureProbe::disc(&open, "far", far, [1.0, 0.0], 0.01).unwrap_err();
+        assert!(
+            error.to_string().contains("a thousand times the size"),
+            "{error}"
+        );
+    }
+}
+
+#[test]
+fn lattices_that_no_kernel_has() {
+    for ratio in [1e5, -1.0, 1e39, f64::INFINITY, f64::NAN, 0.0] {
+        let water = catalogue::weakly_compressible_water(1.0);
+        let body = Body::block("water", water, [0.0; 2], [0.1; 2], 0.01);
+        let scheme = schemes::weakly_compressible().h_over_dx(ratio);
+        let found = problem(Scene::<f64, 2>::new(scheme).body(body));
+        assert!(matches!(found, Problem::SmoothingRatio { .. }), "{found}");
+    }
+}
+
+/// The quadratic kernel with numbers of one's choice.
+#[derive(Clone, Copy, Debug)]
+struct Odd {
+    support: f64,
+    normalisation: f64,
+    stable_step: f64,
+    slope: f64,
+}
+
+const EVEN: Odd = Odd {
+    support: 2.0,
+    normalisation: 0.375,
+    stable_step: 1.0,
+    slope: 1.0,
+};
+
+impl Kernel<1> for Odd {
+    fn name(&self) -> &'static str {
+        "odd"
+    }
+    fn support(&self) -> f64 {
+        self.support
+    }
+    fn normalisation(&self) -> f64 {
+        self.normalisation
+    }
+    fn h_over_dx(&self) -> f64 {
+        1.2
+    }
+    fn h_over_dx_range(&self) -> (f64, f64) {
+        (1.0, 2.0)
+    }
+    fn stable_step(&self) -> f64 {
+        self.stable_step
+    }
+    fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
+        if self.slope > 2.0 {
+            return vec![("own number", self.slope, "it must be at most 2")];
+        }
+        Vec::new()
+    }
+    fn shape<L: Lane>(&self, q: L) -> L {
+        // ∫ (1 − q²/4) over −2..2 is 8/3.
+        (q * q).mul_add(L::of(-0.25), L::one()).positive_part()
+    }
+    fn slope_over_q<L: Lane>(&self, q: L) -> L {
+        let inside = q.lt(L::of(2.0));
+        L::select(inside, L::of(-0.5 * self.slope), L::zero())
+    }
+}
+
+#[test]
+fn kernels_that_are_none() {
+    let with = |kernel: Odd| {
+        let scheme = SchemeBuilder::new(kernel, MonaghanGingold::default());
+        Scene::<f64, 1>::new(scheme.density(DensityForm::NumberDensity)).body(rod())
+    };
+    assert_eq!(with(EVEN).problems(), []);
+    for (kernel, name) in [
+        (
+            Odd {
+                support: 1e9,
+                ..EVEN
+            },
+            "support of the odd kernel",
+        ),
+        (
+            Odd {
+                support: f64::NAN,
+                ..EVEN
+            },
+            "support of the odd kernel",
+        ),
+        (
+            Odd {
+                support: 1.5,
+                ..EVEN
+            },
+            "shape beyond the support of the odd kernel",
+        ),
+        (
+            Odd {
+                normalisation: 0.0,
+                ..EVEN
+            },
+            "normalisation of the odd kernel",
+        ),
+        (
+            Odd {
+                normalisation: f64::NAN,
+                ..EVEN
+            },
+            "normalisation of the odd kernel",
+        ),
+        (
+            Odd {
+                stable_step: 0.0,
+                ..EVEN
+            },
+            "stable step of the odd kernel",
+        ),
+        (
+            Odd { slope: 0.5, ..EVEN },
+            "first moment of the slope of the odd kernel",
+        ),
+        (Odd { slope: 3.0, ..EVEN }, "own number of the odd kernel"),
+    ] {
+        let found = refused(with(kernel));
+        is_parameter(&found[0], name, "it must be");
+    }
+    // Half of a normalisation is half of both integrals.
+    let found = refused(with(Odd {
+        normalisation: 0.18,
+        ..EVEN
+    }));
+    is_parameter(
+        &found[0],
+        "integral of the odd kernel",
+        "one within a hundredth",
+    );
+}
+
+/// A viscosity with a signal of one's choice.
+#[derive(Clone, Debug)]
+struct Loud(f64);
+
+impl ArtificialViscosity<1> for Loud {
+    const READS: Fields = Fields::NONE;
+    fn pair<L: Lane, P: Layout>(&self, _pair: &Pair<'_, L, 1, P>) -> Viscous<L> {
+        Viscous {
+            pi: L::zero(),
+            signal: L::of(self.0),
+        }
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: "loud".into(),
+            equation: "Π = 0",
+            source: "of this test",
+        }
+    }
+}
+
+#[test]
+fn a_viscosity_of_infinite_signal() {
+    let with = |signal: f64| {
+        let scheme = SchemeBuilder::new(CubicSpline, Loud(signal));
+        Scene::<f64, 1>::new(scheme.density(DensityForm::NumberDensity))
+            .body(rod())
+            .build()
+    };
+    assert!(with(1.0).is_ok());
+    let error = with(f64::INFINITY).map(|_| ()).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .contains("signal of the artificial viscosity of particle"),
+        "{error}"
+    );
+    // Nor does a step that time does not feel run for ever.
+    let error = with(1e300).unwrap().run_until(1e-6).unwrap_err();
+    assert!(matches!(error, Error::StepCollapsed { .. }), "{error}");
+}
+
+/// An integrator that says of itself what is wrong with it.
+#[derive(Clone, Debug)]
+struct Unfit {
+    order: f64,
+    stability: f64,
+    slots: usize,
+}
+
+impl Integrator for Unfit {
+    fn name(&self) -> String {
+        "unfit".into()
+    }
+    fn step(&self, system: &mut dyn System, dt: f64) -> Result<(), Error> {
+        system.kick(dt);
+        system.drift(dt, 0.0)
+    }
+    fn stability(&self) -> f64 {
+        self.stability
+    }
+    fn slots(&self) -> usize {
+        self.slots
+    }
+    fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
+        if self.order < 1.0 {
+            return vec![("order", self.order, "it must be at least 1")];
+        }
+        Vec::new()
+    }
+}
+
+#[test]
+fn integrators_that_are_none() {
+    let with = |order: f64, stability: f64, slots: usize| {
+        good().integrator(Unfit {
+            order,
+            stability,
+            slots,
+        })
+    };
+    assert_eq!(with(1.0, 1.0, 0).problems(), []);
+    is_parameter(
+        &problem(with(0.5, 1.0, 0)),
+        "order of the integrator unfit",
+        "at least 1",
+    );
+    for stability in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let found = problem(with(1.0, stability, 0));
+        is_parameter(
+            &found,
+            "stability of the integrator unfit",
+            "finite and positive",
+        );
+    }
+    let found = problem(with(1.0, 1.0, usize::MAX));
+    is_parameter(&found, "kept states of the integrator unfit", "at most 64");
+}
+
+#[test]
+fn more_particles_than_memory_holds() {
+    let scene = || {
+        let cube = Body::block("cube", catalogue::copper(), [0.0; 3], [0.02; 3], DX);
+        Scene::<f64, 3>::new(schemes::impact()).body(cube)
+    };
+    let found = problem(scene().memory_limit(1_000_000));
+    let Problem::Memory {
+        particles,
+        each,
+        needed,
+        available,
+    } = found
+    else {
+        panic!("{found:?}");
+    };
+    assert_eq!((particles, available), (8000, 1_000_000));
+    assert!(needed >= (each * particles) as u64, "{needed}");
+    assert!(found.to_string().contains("Scene::memory_limit"), "{found}");
+    // What is predicted is what is taken, or somewhat more.
+    let mut simulation = scene().memory_limit(needed).build().unwrap();
+    simulation.step().unwrap();
+    let taken = simulation.bytes() as u64;
+    println!("{needed} bytes predicted, {taken} taken");
+    assert!(taken < needed && needed < 3 * taken, "{needed} {taken}");
+    let water = pool().build().unwrap().bytes() as u64;
+    let found = problem(pool().memory_limit(1));
+    let Problem::Memory { needed, .. } = found else {
+        panic!("{found:?}");
+    };
+    println!("{needed} bytes predicted, {water} taken");
+    assert!(water < needed && needed < 4 * water, "{needed} {water}");
 }
 
 /// Numbers that a slip of the pen or a broken file can give.

@@ -107,6 +107,10 @@ pub trait Integrator: Debug + Send + Sync {
     fn slots(&self) -> usize {
         0
     }
+    /// What is wrong with its parameters, as `(field, value, what it must be)`; empty if nothing.
+    fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
+        Vec::new()
+    }
     /// Whether it advances a density that is integrated in time.
     fn integrates_density(&self) -> bool {
         true

@@ -18,13 +18,21 @@ pub(crate) fn lattice_unity<K: Kernel<D>, const D: usize>(kernel: &K, h_over_dx:
     })
 }
 
+/// Layers of a lattice that a kernel can reach over.
+const MOST_LAYERS: f64 = 32.0;
+
 /// The sum of `of` (distance in spacings) over a cubic lattice, times the kernel's norm for this h.
 fn lattice_sum<K: Kernel<D>, const D: usize>(
     kernel: &K,
     h_over_dx: f64,
     of: impl Fn(f64) -> f64,
 ) -> f64 {
-    let reach = (kernel.support() * h_over_dx).ceil() as i64;
+    let reach = (kernel.support() * h_over_dx).ceil();
+    // What is no number of layers, or takes minutes to add up, is no number here, and refused with the scene.
+    if !(h_over_dx > 0.0 && (1.0..=MOST_LAYERS).contains(&reach)) {
+        return f64::NAN;
+    }
+    let reach = reach as i64;
     let side = (2 * reach + 1) as usize;
     let sum: f64 = (0..side.pow(D as u32))
         .map(|k| {
@@ -57,6 +65,14 @@ mod tests {
         // In a row at h = dx the neighbours at 1 alone count, W' = -5/8 · 3 q (1 - q/2)² = -15/32.
         let row = lattice_moment::<_, 1>(&WendlandC2, 1.0);
         assert!((row - 15.0 / 16.0).abs() < 1e-15, "{row}");
+    }
+
+    #[test]
+    fn what_no_lattice_has_is_no_number() {
+        for h_over_dx in [-1.0, 0.0, 1e5, 1e39, f64::INFINITY, f64::NAN] {
+            assert!(lattice_moment::<_, 3>(&WendlandC2, h_over_dx).is_nan());
+            assert!(lattice_unity::<_, 2>(&WendlandC2, h_over_dx).is_nan());
+        }
     }
 
     #[test]

@@ -60,6 +60,7 @@
 //! assert!((Mueller.normalisation() * integral - 1.0).abs() < 1e-5);
 //! ```
 
+mod check;
 mod cubic;
 mod gaussian;
 pub(crate) mod lattice;
@@ -71,6 +72,7 @@ mod wendland_c2;
 mod wendland_c4;
 mod wendland_c6;
 
+pub(crate) use check::problems_of;
 pub use cubic::CubicSpline;
 pub use gaussian::Gaussian;
 pub use quartic::QuarticSpline;
@@ -110,6 +112,14 @@ pub trait Kernel<const D: usize>: Copy + Debug + Send + Sync + 'static {
     fn h_over_dx_range(&self) -> (f64, f64);
     /// Stable step of an undamped leapfrog in units of h/c on a lattice at the recommended h/dx.
     fn stable_step(&self) -> f64;
+
+    /// What is wrong with its parameters, as `(field, value, what it must be)`; empty if nothing.
+    ///
+    /// Beside it every scene checks that support and h/dx are numbers that a lattice can have, that the shape ends
+    /// at the support, and that shape and slope integrate to one within a hundredth.
+    fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
+        Vec::new()
+    }
 
     /// The shape f(q), q ≥ 0.
     fn shape<L: Lane>(&self, q: L) -> L;

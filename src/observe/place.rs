@@ -25,11 +25,30 @@ impl<const D: usize> Place<D> {
         line: Option<usize>,
     ) -> Result<Self> {
         let reach = 2.0 * simulation.smoothing_length();
+        // Without walls liquid can come anywhere, but not out of all proportion.
+        let mut extent = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
+        for x in simulation.all().map(|particle| particle.position()) {
+            for d in 0..D {
+                extent[0][d] = extent[0][d].min(x[d]);
+                extent[1][d] = extent[1][d].max(x[d]);
+            }
+        }
+        let size = (0..D).fold(reach, |size, d| size.max(extent[1][d] - extent[0][d]));
+        let nearby = |d: usize, x: f64| {
+            let far = FARTHEST * size;
+            simulation.domain.is_some()
+                || size.is_nan()
+                || (extent[0][d] - far <= x && x <= extent[1][d] + far)
+        };
         for (d, &x) in point.iter().enumerate() {
             if !x.is_finite() {
                 return Err(refused(name, "position", x, "it must be finite, in metres"));
             }
             let inside = |[low, high]: [[f64; D]; 2]| low[d] - reach <= x && x <= high[d] + reach;
+            if line != Some(d) && !nearby(d, x) {
+                let must_be = "it must be within a thousand times the size of the scene, in metres";
+                return Err(refused(name, &format!("coordinate {d}"), x, must_be));
+            }
             if line != Some(d) && !simulation.domain.is_none_or(inside) {
                 let must_be =
                     "it must be near the bodies and walls of the scene as built, in metres";
@@ -61,6 +80,9 @@ impl<const D: usize> Place<D> {
         simulation.wall_pose(self.wall)
     }
 }
+
+/// How far from the particles of an open scene a place may be, over their extent.
+const FARTHEST: f64 = 1e3;
 
 /// What a normal must be.
 pub(super) const DIRECTION: &str = "it must be finite and not zero";

@@ -160,7 +160,17 @@ impl<T: Real, const D: usize> Body<T, D> {
     ///
     /// Above the surface, and where the law does not reach the pressure, particles keep their density.
     #[must_use]
-    pub fn hydrostatic(self, acceleration: [f64; D], surface: [f64; D]) -> Self {
+    pub fn hydrostatic(mut self, acceleration: [f64; D], surface: [f64; D]) -> Self {
+        for (what, given) in [
+            ("acceleration of the hydrostatic start", acceleration),
+            ("surface of the hydrostatic start", surface),
+        ] {
+            if let Some(bad) = given.into_iter().find(|x| !x.is_finite()) {
+                let must_be = "it must be finite, in m/s² and in metres";
+                self.shape = self.shape.and(Err((what, bad, must_be)));
+                return self;
+            }
+        }
         let material = self.material.clone();
         let rest = material.reference_density();
         self.start(|x, start| {

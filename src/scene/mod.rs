@@ -87,6 +87,7 @@ pub struct Scene<T: Real, const D: usize> {
     control: StepControl,
     skin: Option<f64>,
     instructions: InstructionSet,
+    memory: Option<u64>,
 }
 
 /// Bodies that share a scheme.
@@ -119,6 +120,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             control,
             skin: None,
             instructions: InstructionSet::detect(),
+            memory: None,
         }
     }
 
@@ -258,6 +260,15 @@ impl<T: Real, const D: usize> Scene<T, D> {
         self
     }
 
+    /// The memory \[bytes\] that bodies, lists and sums may take. A scene that is predicted to take more is refused
+    /// before any of it is allocated; what the machine has to give (`MemAvailable` and the limit of the control group
+    /// on Linux) if not given, and without a limit elsewhere.
+    #[must_use]
+    pub fn memory_limit(mut self, bytes: u64) -> Self {
+        self.memory = Some(bytes);
+        self
+    }
+
     /// Checks the scene and makes a simulation of it.
     ///
     /// # Errors
@@ -273,8 +284,12 @@ impl<T: Real, const D: usize> Scene<T, D> {
         let mut simulation =
             Simulation::new(groups, domain, self.integrator, self.control, self.loads);
         simulation.take_references();
+        let problems = simulation.isolated();
+        if !problems.is_empty() {
+            return Err(Error::Build(BuildError { problems }));
+        }
         simulation.evaluate()?;
-        let vote = simulation.vote()?;
+        let vote = simulation.largest_fixed_step()?;
         match fixed {
             Some(step) if step > vote.step => Err(Error::Build(BuildError {
                 problems: vec![Problem::StepAboveLimit {

@@ -443,6 +443,7 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
             step_factor: own.step_factor * program.step_factor,
             normalised: own.normalisation == Normalisation::AtRest,
             between: own.between,
+            kernel_problems: crate::kernel::problems_of(&self.kernel),
             problems: viscous
                 .map(|one| of(" of the artificial viscosity", one))
                 .chain(effects.map(|one| of("", one)))

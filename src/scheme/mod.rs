@@ -111,6 +111,8 @@ pub struct Scheme<T: Real, const D: usize> {
     pub(crate) normalised: bool,
     /// What its bodies do to each other where a scene says nothing else.
     pub(crate) between: Interaction,
+    /// What is wrong with the kernel.
+    pub(crate) kernel_problems: Vec<(&'static str, f64, &'static str)>,
     /// What is wrong with the parameters of its parts.
     pub(crate) problems: Vec<(String, f64, &'static str)>,
     /// The sums at rest from which density forms measure.
@@ -203,5 +205,13 @@ impl<T: Real, const D: usize> Scheme<T, D> {
             fields = fields.union(Fields::of(&[Field::SMOOTHING_LENGTH]));
         }
         fields
+    }
+
+    /// Numbers a particle in the widest record of its sweeps, and in their widest sums.
+    pub(crate) fn widths(&self) -> (usize, usize) {
+        let all = || self.sweeps.iter().flatten().chain(&self.reference);
+        let records = all().map(|sweep| sweep.fields().width(D)).max();
+        let sums = all().map(|sweep| sweep.outputs().width(D)).max();
+        (records.unwrap_or(0), sums.unwrap_or(0))
     }
 }

@@ -13,19 +13,31 @@ use rayon::prelude::*;
 ///
 #[doc = include_str!("../../docs/equations/time_step.html")]
 ///
+/// and no pair may close by more than a share of its distance: with the closing speed u = −vᵢⱼ·rᵢⱼ/|rᵢⱼ|,
+/// Δt ≤ C_r |rᵢⱼ|/u. Sound and viscosity say nothing of a cold gas, or of liquid that is faster than its sound, and a
+/// step that moved particles through each other would be none. What is not in reach yet counts as a support away. Pairs
+/// are looked at only while the spread of velocities closes a quarter of a spacing in a step.
+///
 /// κ is what the integrator bears relative to a leapfrog
 /// ([`stability`](crate::integrator::Integrator::stability)), and sᵢⱼ the signal that the viscosity in
 /// use adds to the sound speed of a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepControl {
     /// Factor C on h/(c + signal), where the signal is what the artificial viscosity in use adds;
-    /// taken from the scheme by default (0.55).
+    /// taken from the scheme by default (0.55). It must be below one, and below what the
+    /// [kernel](crate::kernel::Kernel::stable_step) bears.
     pub courant: f64,
-    /// Factor C_a on √(h/|a|); 0.25 by default (Monaghan 1992).
+    /// Factor C_a on √(h/|a|); 0.25 by default (Monaghan 1992), below one.
     pub force: f64,
-    /// Factor C_v on h² ρ/μ where a physical viscosity acts; 0.125 by default (Morris, Fox & Zhu 1997).
+    /// Factor C_v on h² ρ/μ where a physical viscosity acts; 0.125 by default (Morris, Fox & Zhu 1997),
+    /// below 0.5.
     pub viscous: f64,
-    /// A fixed step \[s\], checked against the limit in every step.
+    /// Factor C_r: the share of its distance by which a pair may close in a step; 0.5 by default, less than one.
+    /// Courant, Friedrichs & Lewy (1928) for particles: what is between two may not leave. Where viscosity acts, the
+    /// signal of the first criterion asks for less already, so it limits cold gas and flow without viscosity alone.
+    pub approach: f64,
+    /// A fixed step \[s\], held in every step against the limit by the factor of the scheme, or by
+    /// [`courant`](Self::courant) if that is larger.
     pub fixed: Option<f64>,
     /// Smallest step \[s\] before the run stops with [`Error::StepCollapsed`]; by default 10⁻⁶ of the
     /// first.
@@ -38,6 +50,7 @@ impl Default for StepControl {
             courant: crate::scheme::DEFAULT_STEP_FACTOR,
             force: 0.25,
             viscous: 0.125,
+            approach: 0.5,
             fixed: None,
             smallest: None,
         }
@@ -53,6 +66,8 @@ pub enum Criterion {
     Force,
     /// h² ρ/μ: physical viscosity.
     Viscous,
+    /// |rᵢⱼ|/u: particles that move towards each other.
+    Approach,
     /// The step was given.
     Fixed,
     /// The step was cut to end at the time asked for.
@@ -67,6 +82,7 @@ impl Criterion {
             Self::Acoustic => "acoustic: h/(c + viscous signal)",
             Self::Force => "force: sqrt(h/|a|)",
             Self::Viscous => "viscous: h² ρ/mu",
+            Self::Approach => "approach: distance of a pair over its closing speed",
             Self::Fixed => "fixed",
             Self::End => "end of the run",
         }
@@ -88,8 +104,20 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// The largest stable step at the present state, and what sets it.
     ///
     /// # Errors
-    /// [`Error::NotFinite`] if a particle's state is no longer finite, or its density not positive.
+    /// [`Error::NotFinite`] if a particle's state is no longer finite, or its density not positive, and
+    /// [`Error::SoundSpeedTooLow`] where a liquid meets faster than its sound.
     pub fn vote(&self) -> Result<Vote> {
+        self.vote_with(self.control.courant)
+    }
+
+    /// What a fixed step is held against: the factor of the scheme, or a larger one that was asked for. A smaller
+    /// one makes no step unstable.
+    pub(crate) fn largest_fixed_step(&self) -> Result<Vote> {
+        let own = self.groups[0].scheme.step_factor;
+        self.vote_with(self.control.courant.max(own))
+    }
+
+    fn vote_with(&self, courant: f64) -> Result<Vote> {
         let stability = self.integrator.stability();
         let mut all: Option<Vote> = None;
         for (k, group) in self.groups.iter().enumerate() {
@@ -100,7 +128,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 group.scheme.step_factor
             };
             let control = StepControl {
-                courant: self.control.courant.min(own) * stability,
+                courant: courant.min(own) * stability,
                 ..self.control
             };
             let vote = group.vote(&control);
@@ -113,23 +141,60 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 all = Some(Vote { particle, ..vote });
             }
         }
-        Ok(all.unwrap_or(NO_VOTE))
+        let mut all = all.unwrap_or(NO_VOTE);
+        for group in &self.groups {
+            let approach = group.approach(self.control.approach, all.step);
+            if let Some(meeting) = approach.meeting {
+                let body = &group.particles.bodies[group.particles.body_of(meeting.slot)];
+                return Err(Error::SoundSpeedTooLow {
+                    body: body.name.clone(),
+                    particle: group.particles.ids[meeting.slot] as usize - body.ids.start,
+                    speed: meeting.speed,
+                    sound_speed: meeting.speed / meeting.mach,
+                    position: group.position(meeting.slot),
+                    time: self.time,
+                });
+            }
+            if approach.vote.step < all.step {
+                let particle =
+                    group.particles.first_id + group.particles.ids[approach.vote.particle] as usize;
+                all = Vote {
+                    particle,
+                    ..approach.vote
+                };
+            }
+        }
+        Ok(all)
     }
 
     /// The error that describes a particle whose state is no longer finite.
-    fn broken(&self, group: &Group<T, D>, slot: usize) -> Error {
+    pub(super) fn broken(&self, group: &Group<T, D>, slot: usize) -> Error {
         let columns = &group.particles.columns;
-        let number = |field: Field| columns.raw(field)[slot].to_f64();
-        let force = group.work.rates.get(Output::FORCE, 0, slot).to_f64();
+        let worst = |values: &[T]| {
+            let first = values.first().map_or(0.0, |value| value.to_f64());
+            let bad = values.iter().map(|value| value.to_f64());
+            bad.filter(|value| !value.is_finite())
+                .fold(first, |_, bad| bad)
+        };
+        let number = |field: Field| {
+            let width = field.components(D);
+            let own = slot * width..(slot + 1) * width;
+            worst(columns.raw(field).get(own).unwrap_or_default())
+        };
+        let signal = group.work.rates.get(Output::SIGNAL, 0, slot).to_f64();
         let candidates = [
             ("density", number(Field::DENSITY)),
             ("pressure", number(Field::PRESSURE)),
             ("sound speed", number(Field::SOUND_SPEED)),
+            ("position", number(Field::POSITION)),
+            ("velocity", number(Field::VELOCITY)),
+            ("internal energy", number(Field::ENERGY)),
             (
-                "velocity",
-                columns.vectors(Field::VELOCITY)[slot][0].to_f64(),
+                "force",
+                worst(&group.work.rates.vector(Output::FORCE, slot)),
             ),
-            ("force", force),
+            ("signal of the artificial viscosity", signal),
+            ("energy", group.energy_of(slot)),
         ];
         let wrong = |&(name, value): &(&str, f64)| {
             !value.is_finite() || (name == "density" && value <= 0.0)
@@ -140,11 +205,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             quantity,
             value,
             body: body.name.clone(),
-            particle: group.particles.ids[slot] as usize - body.slots.start,
-            position: columns.vectors(Field::POSITION)[slot]
-                .iter()
-                .map(|x| x.to_f64())
-                .collect(),
+            particle: (group.particles.ids[slot] as usize).saturating_sub(body.ids.start),
+            position: group.position(slot),
             time: self.time,
             step: self.steps,
         }
@@ -152,11 +214,20 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 }
 
 /// What nothing limits.
-const NO_VOTE: Vote = Vote {
+pub(super) const NO_VOTE: Vote = Vote {
     step: f64::INFINITY,
     criterion: Criterion::Acoustic,
     particle: usize::MAX,
 };
+
+/// The shorter step; the lower slot wins a tie, whatever the order of reduction.
+pub(super) fn least(a: Vote, b: Vote) -> Vote {
+    if b.step < a.step || (b.step == a.step && b.particle < a.particle) {
+        b
+    } else {
+        a
+    }
+}
 
 impl<T: Real, const D: usize> Group<T, D> {
     /// The largest stable step, and the slot that sets it; negative where a state is not finite.
@@ -175,14 +246,6 @@ impl<T: Real, const D: usize> Group<T, D> {
             criterion: Criterion::Fixed,
             particle: usize::MAX,
         };
-        // The lower slot wins a tie, whatever the order of reduction.
-        let least = |a: Vote, b: Vote| {
-            if b.step < a.step || (b.step == a.step && b.particle < a.particle) {
-                b
-            } else {
-                a
-            }
-        };
         let gravity = Vector::<T, D>::from(self.evaluated_gravity);
         (0..self.particles.mobile)
             .into_par_iter()
@@ -196,7 +259,9 @@ impl<T: Real, const D: usize> Group<T, D> {
                 let by_force = control.force * (h / a.max(f64::MIN_POSITIVE)).sqrt();
                 let speed = velocity[slot].iter().fold(0.0, |s, v| s + v.to_f64().abs());
                 let density = rho[slot].to_f64();
-                let sound = (acoustic + a + speed).is_finite() && density > 0.0;
+                // Without sound, as in dust, other criteria limit the step.
+                let speeds = c[slot].to_f64() + signal + a + speed;
+                let sound = speeds.is_finite() && !acoustic.is_nan() && density > 0.0;
                 if !sound {
                     return Vote {
                         particle: slot,

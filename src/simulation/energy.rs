@@ -30,8 +30,8 @@ pub struct EnergyLedger {
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Work {
     start: f64,
-    load: f64,
-    wall: f64,
+    pub load: f64,
+    pub wall: f64,
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {

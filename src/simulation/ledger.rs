@@ -54,6 +54,9 @@ impl Impulses {
         }
         self.values[index] += value;
     }
+    pub fn values(&self) -> impl Iterator<Item = f64> {
+        self.values.iter().copied()
+    }
     pub fn get(&self, index: usize) -> f64 {
         self.values.get(index).copied().unwrap_or(0.0)
     }

@@ -8,11 +8,15 @@
 //!
 #![doc = include_str!("../../docs/equations/time_step.html")]
 //!
+//! and pairs that close faster than these see: none may close by more than half of its distance. A liquid that meets
+//! something faster than its own sound is refused ([`Error::SoundSpeedTooLow`]).
 //! The first contains the signal sᵢⱼ that the viscosity in use adds to the sound speed, so a larger
 //! coefficient shortens the step by itself. [`Simulation::last_vote`] names the criterion and the
 //! particle that set the step. [`StepControl`] holds the factors; a fixed step is checked against the
 //! limit in every step, and a step that falls below a millionth of the first ends the run with
-//! [`Error::StepCollapsed`]. [`Simulation::run_until`] shortens the last step to end on time.
+//! [`Error::StepCollapsed`]. After every step, the last included, all of the state is looked at: a number that is not
+//! finite is an [`Error::NotFinite`], and a simulation that has failed takes no further step ([`Error::Failed`]).
+//! [`Simulation::run_until`] shortens the last step to end on time.
 //!
 //! # What is counted
 //!
@@ -53,6 +57,7 @@
 //! ```
 
 mod advance;
+mod approach;
 mod control;
 mod energy;
 mod evaluate;
@@ -64,6 +69,7 @@ mod phases;
 mod population;
 mod query;
 mod reference;
+mod soundness;
 mod stages;
 mod state;
 mod structures;
@@ -119,6 +125,8 @@ pub struct Simulation<T: Real, const D: usize> {
     aside: Option<(Vec<Aside<T, D>>, f64, u64)>,
     /// Time \[s\] over which what follows the flow once a step has yet to do so.
     due: f64,
+    /// What ended it, in words.
+    failed: Option<String>,
 }
 
 impl<T: Real, const D: usize> core::fmt::Debug for Simulation<T, D> {
@@ -169,6 +177,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             kept_impulses: Vec::new(),
             aside: None,
             due: 0.0,
+            failed: None,
         }
     }
 
@@ -220,11 +229,13 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Evaluates all rates at the present state, so that pressures and forces can be asked for.
     ///
     /// # Errors
-    /// [`Error::NotFinite`] if a number is no longer finite.
+    /// [`Error::NotFinite`] if a number is no longer finite, [`Error::SoundSpeedTooLow`] if a liquid is faster than
+    /// its sound, and [`Error::Failed`] after a step that has failed.
     ///
     /// Between steps it changes nothing of what comes: the next step starts from the rates that the step before has
     /// left, which belong to predicted velocities (where the evaluation had to build neighbour lists, from its own).
     pub fn evaluate(&mut self) -> Result<()> {
+        self.check_failure()?;
         if self.rates_at_hand && self.aside.is_none() {
             let groups = self.groups.iter().map(Group::set_aside).collect();
             self.aside = Some((groups, self.evaluated, self.evaluations));
@@ -249,6 +260,16 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.rates_at_hand = false;
     }
 
+    /// Refuses to go on after a failure.
+    fn check_failure(&self) -> Result<()> {
+        match &self.failed {
+            Some(cause) => Err(Error::Failed {
+                cause: cause.clone(),
+            }),
+            None => Ok(()),
+        }
+    }
+
     /// Takes one step, and returns its size \[s\].
     ///
     /// # Errors
@@ -257,29 +278,74 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.step_at_most(f64::INFINITY)
     }
 
-    /// Takes one step of at most `limit` \[s\].
+    /// Takes one step of at most `limit` \[s\], which may be infinite.
     ///
     /// # Errors
-    /// As [`run_until`](Simulation::run_until).
+    /// As [`run_until`](Simulation::run_until), and [`Error::Argument`] if the limit is not positive.
     pub fn step_at_most(&mut self, limit: f64) -> Result<f64> {
+        self.check_failure()?;
+        if limit.is_nan() || limit <= 0.0 {
+            return Err(Error::Argument(Problem::Parameter {
+                what: "limit of the step".into(),
+                value: limit,
+                must_be: "it must be positive, in seconds",
+            }));
+        }
         self.take_up();
-        for group in &mut self.groups {
-            if group.emit(self.time)? {
+        for k in 0..self.groups.len() {
+            let entered = self.groups[k].emit(self.time);
+            if self.keep_failure(entered)? {
                 self.rates_at_hand = false;
             }
         }
+        let taken = self.take_step(limit);
+        let kept = |error: &Error| {
+            matches!(
+                error,
+                Error::NotFinite { .. } | Error::WallJump { .. } | Error::SoundSpeedTooLow { .. }
+            )
+        };
+        match taken {
+            Err(error) if kept(&error) => self.keep_failure(Err(error)),
+            taken => taken,
+        }
+    }
+
+    /// The error that describes a step in which time does not go on, by the last vote.
+    fn collapsed(&self, step: f64) -> Error {
+        let vote = self.last_vote.unwrap_or(control::NO_VOTE);
+        let (body, particle) = self.locate(vote.particle);
+        Error::StepCollapsed {
+            step,
+            time: self.time,
+            criterion: vote.criterion.name(),
+            body,
+            particle,
+        }
+    }
+
+    /// Remembers an error after which the state is not to be trusted.
+    fn keep_failure<R>(&mut self, outcome: Result<R>) -> Result<R> {
+        if let Err(error) = &outcome {
+            self.failed = Some(error.to_string());
+        }
+        outcome
+    }
+
+    fn take_step(&mut self, limit: f64) -> Result<f64> {
         let (start, before) = (std::time::Instant::now(), self.phases());
         if !self.rates_at_hand {
             crate::integrator::System::evaluate(self, 0.0)?;
         }
         let mut vote = self.vote()?;
         if let Some(fixed) = self.control.fixed {
+            let limit = self.largest_fixed_step()?;
             // A limit that varies by rounding is not a violation.
-            if fixed > vote.step * (1.0 + 1e-6) {
+            if fixed > limit.step * (1.0 + 1e-6) {
                 return Err(Error::Argument(Problem::StepAboveLimit {
                     step: fixed,
-                    limit: vote.step,
-                    criterion: vote.criterion.name(),
+                    limit: limit.step,
+                    criterion: limit.criterion.name(),
                 }));
             }
             vote = Vote {
@@ -289,15 +355,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             };
         }
         let first = *self.first_step.get_or_insert(vote.step);
-        if vote.step < self.control.smallest.unwrap_or(1e-6 * first) {
-            let (body, particle) = self.locate(vote.particle);
-            return Err(Error::StepCollapsed {
-                step: vote.step,
-                time: self.time,
-                criterion: vote.criterion.name(),
-                body,
-                particle,
-            });
+        let step = vote.step.min(limit);
+        // A step that time does not feel would be taken for ever.
+        let lost = self.time + step <= self.time;
+        if lost || vote.step < self.control.smallest.unwrap_or(1e-6 * first) {
+            self.last_vote = Some(vote);
+            return Err(self.collapsed(step));
         }
         if vote.step > limit {
             vote = Vote {
@@ -306,14 +369,17 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 ..vote
             };
         }
+        self.check_walls(vote.step)?;
         self.last_vote = Some(vote);
         self.due += vote.step;
         // The integrator sees the simulation as a system, and is shared with it while it steps.
         let integrator = self.integrator.clone();
         // Inside the pool the many short loops of a step start without waking a thread for each.
-        rayon::scope(|_| integrator.step(self, vote.step))?;
+        let stepped = rayon::scope(|_| integrator.step(self, vote.step));
+        self.keep_failure(stepped)?;
         self.time += vote.step;
         self.steps += 1;
+        self.check_state()?;
         self.book_step(start, before);
         Ok(vote.step)
     }
@@ -322,7 +388,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     ///
     /// # Errors
     /// [`Error::NotFinite`] when the run has broken, [`Error::StepCollapsed`] when the step has become
-    /// tiny, and [`Error::Argument`] if a fixed step exceeds the stability limit.
+    /// tiny, [`Error::SoundSpeedTooLow`] when a liquid meets something faster than its sound, [`Error::WallJump`]
+    /// when a wall leaves its velocity, [`Error::Failed`] after any of these, and [`Error::Argument`] if a fixed step
+    /// exceeds the stability limit.
     pub fn run_until(&mut self, end: f64) -> Result<()> {
         self.run_with(end, |_| {})
     }
@@ -339,6 +407,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 must_be: "must be a finite time in seconds",
             }));
         }
+        self.check_failure()?;
         // Steps shorter than this are rounding, not time.
         let rounding = 1e-12 * end.abs();
         while end - self.time > rounding {
@@ -349,7 +418,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 Some(vote) if left < 2.0 * vote.step && left > 1.000_001 * vote.step => 0.5 * left,
                 _ => left,
             };
-            self.step_at_most(limit)?;
+            let taken = self.step_at_most(limit)?;
+            if taken < rounding && end - self.time > rounding {
+                return Err(self.collapsed(taken));
+            }
             if end - self.time <= rounding {
                 self.time = end;
             }

@@ -2,6 +2,8 @@
 //! A message names the field, the value, and what to do.
 
 mod groups;
+pub(crate) mod limits;
+mod memory;
 mod scheme;
 mod walls;
 
@@ -37,19 +39,30 @@ impl<T: Real, const D: usize> Scene<T, D> {
         for body in self.bodies() {
             check_body(body, &mut problems);
         }
+        self.check_names(&mut problems);
+        self.check_contacts(&mut problems);
+        self.check_outlets(&mut problems);
         let plans: Vec<Plan<'_, T, D>> = self.plans().collect();
         for plan in &plans {
             plan.check_scheme(&mut problems);
+            plan.check_openings_of_sums(&mut problems);
         }
         self.check_steps(&mut problems);
-        self.check_names(&mut problems);
+        self.check_factors(&mut problems);
         self.check_groups(&mut problems);
+        let before = problems.len();
         self.check_boundaries(&mut problems);
+        if problems.len() == before {
+            self.check_periods(&mut problems);
+        }
         self.check_openings(&mut problems);
         for plan in &plans {
             plan.check_walls(&mut problems);
         }
         self.check_loads(&mut problems);
+        if problems.is_empty() {
+            self.check_memory(&mut problems);
+        }
         if problems.is_empty() {
             for plan in &plans {
                 plan.check_overlap(&mut problems);
@@ -200,7 +213,17 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
     }
 }
 
+/// A parameter out of its range.
+fn parameter(what: &str, value: f64, must_be: &'static str) -> Problem {
+    Problem::Parameter {
+        what: what.into(),
+        value,
+        must_be,
+    }
+}
+
 fn check_body<T: Real, const D: usize>(body: &Body<T, D>, problems: &mut Vec<Problem>) {
+    let before = problems.len();
     let mut parameter = |what: &str, value: f64, must_be: &'static str| {
         problems.push(Problem::Parameter {
             what: format!("{what} of body `{}`", body.name),
@@ -244,6 +267,15 @@ fn check_body<T: Real, const D: usize>(body: &Body<T, D>, problems: &mut Vec<Pro
     if body.points.is_empty() {
         problems.push(Problem::EmptyBody {
             body: body.name.clone(),
+        });
+    }
+    if problems.len() == before
+        && let Some((what, value, must_be)) = limits::check_starts(body)
+    {
+        problems.push(Problem::Parameter {
+            what: format!("{what} of body `{}`", body.name),
+            value,
+            must_be,
         });
     }
 }

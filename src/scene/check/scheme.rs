@@ -43,6 +43,23 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         };
         let asked = scheme.program.requirements.iter();
         problems.extend(asked.filter_map(|requirement| requirement(&facts)));
+        for (what, value, must_be) in &scheme.kernel_problems {
+            problems.push(Problem::Parameter {
+                what: format!("{what} of the {} kernel", kernel.name),
+                value: *value,
+                must_be,
+            });
+        }
+        let moment = scheme.lattice_moment;
+        let known =
+            scheme.kernel_problems.is_empty() && (lowest..=highest).contains(&scheme.h_over_dx);
+        if known && !(moment.is_finite() && moment > 0.0) {
+            problems.push(Problem::Parameter {
+                what: format!("first moment of the {} kernel on a lattice", kernel.name),
+                value: moment,
+                must_be: "it must be finite and positive: h/dx times the support must be between 1 and 32 spacings",
+            });
+        }
         let mut incompatible = |what: String, remedy| {
             problems.push(Problem::Incompatible { what, remedy });
         };
@@ -125,7 +142,6 @@ impl<T: Real, const D: usize> Scene<T, D> {
             }
         };
         positive("step factor (courant)", self.control.courant);
-        positive("force factor of the step", self.control.force);
         if let Some(skin) = self.skin {
             positive("skin", skin);
         }

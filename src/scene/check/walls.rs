@@ -130,6 +130,9 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             if let Some(&bad) = wall.points.iter().flatten().find(|x| !x.is_finite()) {
                 parameter("position", bad, "it must be finite, in metres");
             }
+            if let Some(&bad) = wall.sliding.iter().find(|v| !v.is_finite()) {
+                parameter("velocity", bad, "it must be finite, in m/s");
+            }
             // A lattice that is fitted to a box is stretched by less than half a particle in a row.
             let off = wall.spacing - spacing;
             let fine = matches!(origin, Origin::Structure(..)) && off < 0.0;

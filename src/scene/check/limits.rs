@@ -1,0 +1,289 @@
+//! Numbers that are finite and still no start, step or contact: each limit has its reason beside it.
+//! What lies beyond one would end later as an error that names the run and not the input.
+
+use super::parameter;
+use crate::error::Problem;
+use crate::geometry::Flaw;
+use crate::integrator::Integrator;
+use crate::material::Material;
+use crate::scalar::Real;
+use crate::scene::plan::Plan;
+use crate::scene::{Body, Scene};
+use crate::scheme::DensityForm;
+use crate::sweep::Interaction;
+use crate::tensor::{Matrix, Vector, length};
+
+/// Speed of light \[m/s\]: mechanics here is Newton's, and what is faster has the wrong unit.
+const LIGHT: f64 = 299_792_458.0;
+
+/// Factor by which the density of a solid or liquid may start off that of its law: a strong shock compresses a
+/// monatomic gas by four ((γ + 1)/(γ − 1), γ = 5/3), and nothing denser by more.
+const DENSITIES: f64 = 4.0;
+
+/// Places farther from the origin, in spacings, are known to a thousandth of a spacing and worse in `f64`.
+const FARTHEST: f64 = 1e-3 / f64::EPSILON;
+
+/// Images that a boundary can give a particle.
+const MOST_IMAGES: usize = 64;
+
+/// Share of the spacing by which the ends of a body may come closer than a period, so that jittered lattices may.
+const SEAM: f64 = 0.3;
+
+/// States that an integrator can keep.
+const MOST_STATES: usize = 64;
+
+/// What is wrong with the numbers that particles start with.
+pub(super) fn check_starts<T: Real, const D: usize>(body: &Body<T, D>) -> Option<Flaw> {
+    let positions = body.points.iter().flatten();
+    let farthest = positions.fold(0.0_f64, |most, x| most.max(x.abs()));
+    if farthest > FARTHEST * body.spacing {
+        let must_be = "it must be within 4.5e12 spacings of the origin: farther away rounding moves particles";
+        return Some(("position", farthest, must_be));
+    }
+    if !T::from_f64(farthest * farthest).to_f64().is_finite() {
+        let must_be = "its square must be a finite number of the scalar: is it in metres?";
+        return Some(("position", farthest, must_be));
+    }
+    // The kernel's gradient over a distance has this unit.
+    let steepest = T::from_f64(body.spacing.powi(-(D as i32) - 2)).to_f64();
+    let volume = T::from_f64(body.spacing.powi(D as i32)).to_f64();
+    if !(steepest.is_normal() && volume.is_normal()) {
+        let must_be =
+            "its volume and the gradients over it must be numbers of the scalar: is it in metres?";
+        return Some(("spacing", body.spacing, must_be));
+    }
+    let material = &body.material;
+    let rest = material.reference_density();
+    let least_energy = -material.state(rest, 0.0).1.powi(2);
+    let is_gas = is_gas(material);
+    body.starts.iter().find_map(|start| {
+        let mass = T::from_f64(start.density * body.spacing.powi(D as i32)).to_f64();
+        if let Some(&fast) = start.velocity.iter().find(|v| v.abs() >= LIGHT) {
+            return Some(("velocity", fast, "it must be below that of light, in m/s"));
+        }
+        if start.energy > LIGHT * LIGHT {
+            let must_be = "it must be below 9e16 J/kg, the square of the speed of light";
+            return Some(("energy", start.energy, must_be));
+        }
+        if start.energy < least_energy {
+            let must_be = "it must be above −c², with c the sound speed of the material at rest, and of a gas \
+                           not negative: internal energy is counted from rest";
+            return Some(("energy", start.energy, must_be));
+        }
+        if !is_gas && !(rest / DENSITIES..=rest * DENSITIES).contains(&start.density) {
+            let must_be = "it must be between a quarter of the material's and four times that, in kg/m³: give \
+                           another material, or leave the density to it";
+            return Some(("density", start.density, must_be));
+        }
+        if !mass.is_normal() {
+            return Some(("mass of a particle", mass, "density or spacing is out of range"));
+        }
+        let (pressure, sound_speed) = material.state(start.density, start.energy);
+        let fine = |value: f64| T::from_f64(value * value).to_f64().is_finite();
+        if !fine(pressure) {
+            let must_be = "its square must be finite at the density and energy of the start";
+            return Some(("pressure", pressure, must_be));
+        }
+        if !(fine(sound_speed) && sound_speed > 0.0) {
+            let must_be = "it must be finite and positive at the density and energy of the start: look at the law \
+                           of the material";
+            return Some(("sound speed", sound_speed, must_be));
+        }
+        None
+    })
+}
+
+/// Whether pressure follows from energy alone, so that twice the cold density has no more than twice the pressure;
+/// the density of a gas at rest is only what it starts with.
+pub(crate) fn is_gas<T: Real>(material: &Material<T>) -> bool {
+    let rest = material.reference_density();
+    let [once, twice] = [rest, 2.0 * rest].map(|density| material.state(density, 0.0).0);
+    twice.abs() <= 4.0 * once.abs()
+}
+
+impl<T: Real, const D: usize> Scene<T, D> {
+    /// What the start leaves nothing of.
+    pub(super) fn check_outlets(&self, problems: &mut Vec<Problem>) {
+        for body in self.bodies().filter(|body| !body.points.is_empty()) {
+            let mut particles = body.points.iter().zip(&body.starts);
+            let taken = particles.all(|(x, start)| {
+                let takes = |outlet: &crate::boundary::Outlet<D>| outlet.takes(x, &start.velocity);
+                self.outlets.iter().any(takes)
+            });
+            if taken {
+                problems.push(Problem::Incompatible {
+                    what: format!(
+                        "the outlets take every particle of body `{}` at the start",
+                        body.name
+                    ),
+                    remedy: "turn the normal round: it points to where particles leave; or move the outlet",
+                });
+            }
+        }
+    }
+
+    /// Names that are none, and contacts that cannot be.
+    pub(super) fn check_contacts(&self, problems: &mut Vec<Problem>) {
+        let bodies = self.bodies().map(|body| ("body", &body.name));
+        let walls = self.walls.iter().map(|wall| ("wall", &wall.name));
+        if let Some((kind, _)) = bodies.chain(walls).find(|(_, name)| name.trim().is_empty()) {
+            problems.push(Problem::Incompatible {
+                what: format!("a {kind} has an empty name"),
+                remedy: "give it one: errors, contacts and tables know it by its name",
+            });
+        }
+        for (first, second, _) in &self.contacts {
+            if first == second {
+                problems.push(Problem::Incompatible {
+                    what: format!("what body `{first}` does to itself is given"),
+                    remedy: "name two bodies: a body is always bonded to itself",
+                });
+            }
+        }
+    }
+
+    /// Periods that hold a body, and boundaries with a number of images that can be made.
+    pub(super) fn check_periods(&self, problems: &mut Vec<Problem>) {
+        let mut periods: Vec<(Vector<f64, D>, String)> = Vec::new();
+        for boundary in &self.boundaries {
+            let images = boundary.images();
+            if images > MOST_IMAGES {
+                problems.push(parameter(
+                    &format!("number of images of the {}", boundary.name()),
+                    images as f64,
+                    "it must be at most 64: each is looked for whenever lists are made",
+                ));
+                continue;
+            }
+            // A shift that changes no direction, back from which particles re-enter.
+            if images == 0 {
+                continue;
+            }
+            let by = boundary.transform(0, 0.0);
+            let shift = Vector::<f64, D>::from_fn(|d, _| by.shift[d].to_f64());
+            let period = length(&shift);
+            let straight = by.rotation == Matrix::<T, D>::identity();
+            if !(straight && period.is_finite() && period > 0.0) {
+                continue;
+            }
+            let along = shift / period;
+            if periods
+                .iter()
+                .any(|(other, _)| other.dot(&along).abs() > 0.999_999)
+            {
+                problems.push(Problem::Incompatible {
+                    what: format!("the {} is given twice", boundary.name()),
+                    remedy: "give one period for each direction: a second one fills the space of the first again",
+                });
+            }
+            periods.push((along, boundary.name()));
+            for body in self.bodies() {
+                let heights = body.points.iter().map(|x| along.dot(&Vector::from(*x)));
+                let (low, high) = heights
+                    .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+                        (low.min(x), high.max(x))
+                    });
+                if high - low > period - SEAM * body.spacing {
+                    problems.push(Problem::Incompatible {
+                        what: format!(
+                            "body `{}` reaches over {} m along the {}, which is {period} m long, and would overlap itself",
+                            body.name,
+                            high - low + body.spacing,
+                            boundary.name()
+                        ),
+                        remedy: "make the period as long as the body, or the body shorter",
+                    });
+                }
+            }
+        }
+    }
+
+    /// Factors of the step that integrator and kernel can bear, and what the integrator says of itself.
+    pub(super) fn check_factors(&self, problems: &mut Vec<Problem>) {
+        let kernels = self.parts.iter().map(|part| part.scheme.kernel.stable_step);
+        let bearable = kernels.fold(1.0, f64::min);
+        let control = &self.control;
+        if control.courant.is_finite() && control.courant >= bearable {
+            problems.push(Problem::Incompatible {
+                what: format!(
+                    "the step factor (courant) is {}, and integrator and kernel bear less than {bearable}",
+                    control.courant
+                ),
+                remedy: "take the 0.55 of the schemes, or less for noisy flow",
+            });
+        }
+        for (what, value, limit, must_be) in [
+            (
+                "force factor of the step",
+                control.force,
+                1.0,
+                "it must be positive and below 1: with 1 a particle goes half a smoothing length from rest",
+            ),
+            (
+                "viscous factor of the step",
+                control.viscous,
+                0.5,
+                "it must be positive and below 0.5, where explicit diffusion is no longer stable",
+            ),
+            (
+                "approach factor of the step",
+                control.approach,
+                1.0,
+                "it must be positive and below 1, or pairs go through each other",
+            ),
+        ] {
+            if value.is_nan() || value <= 0.0 || value >= limit {
+                problems.push(parameter(what, value, must_be));
+            }
+        }
+        if let Some(smallest) = control.smallest
+            && !(smallest.is_finite() && smallest >= 0.0)
+        {
+            let must_be = "it must be finite and not negative, in seconds";
+            problems.push(parameter("smallest time step", smallest, must_be));
+        }
+        for (what, value, must_be) in integrator_flaws(self.integrator.as_ref()) {
+            let what = format!("{what} of the integrator {}", self.integrator.name());
+            problems.push(parameter(&what, value, must_be));
+        }
+    }
+}
+
+/// What is wrong with an integrator, by itself and by what a simulation can do.
+fn integrator_flaws(integrator: &dyn Integrator) -> Vec<Flaw> {
+    let mut flaws = integrator.problems();
+    let stability = integrator.stability();
+    if !(stability.is_finite() && stability > 0.0) {
+        let must_be = "it must be finite and positive, 1 for a leapfrog";
+        flaws.push(("stability", stability, must_be));
+    }
+    if integrator.slots() > MOST_STATES {
+        let must_be = "it must be at most 64: each is a copy of all particles";
+        flaws.push(("number of kept states", integrator.slots() as f64, must_be));
+    }
+    flaws
+}
+
+impl<T: Real, const D: usize> Plan<'_, T, D> {
+    /// Density by summation counts both sides of a contact, and would stay compressed or thinned where it opens.
+    pub(super) fn check_openings_of_sums(&self, problems: &mut Vec<Problem>) {
+        let form = self.scheme.density;
+        if !matches!(form, DensityForm::Summation | DensityForm::Normalised) {
+            return;
+        }
+        for (k, second) in self.bodies.iter().enumerate() {
+            for first in &self.bodies[..k] {
+                let said = self.scene.said_between(&first.name, &second.name);
+                if said.is_none_or(|said| said == Interaction::Unilateral) {
+                    problems.push(Problem::Incompatible {
+                        what: format!(
+                            "bodies `{}` and `{}` are in a contact that opens, of which density by {form} knows nothing",
+                            first.name, second.name
+                        ),
+                        remedy: "bond them with Scene::between, or take DensityForm::NumberDensity or Continuity",
+                    });
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,94 @@
+//! Whether the particles of a scene fit into memory, predicted before any of it is allocated.
+//! A number of bytes a particle from what its scheme names, and what the machine has to give.
+
+use crate::error::Problem;
+use crate::scalar::{Lane, Real};
+use crate::scene::{Part, SKINS, Scene};
+use crate::term::MOST_READS;
+
+/// Bytes of the scene's own copies of a place while it is built: cells of the search for overlap, and identities.
+const WHILE_BUILT: f64 = 24.0;
+
+/// Bytes a particle that lists, records and sums may differ by from what is predicted.
+const MARGIN: f64 = 1.1;
+
+impl<T: Real, const D: usize> Scene<T, D> {
+    /// Refuses a scene that memory does not hold.
+    pub(super) fn check_memory(&self, problems: &mut Vec<Problem>) {
+        let walls: usize = self.walls.iter().map(|wall| wall.points.len()).sum();
+        let (mut particles, mut needed) = (0, 0.0);
+        for part in &self.parts {
+            let entering = self.inlets.iter().map(|inlet| inlet.reserve as f64);
+            let own: usize = part.bodies.iter().map(|body| body.points.len()).sum();
+            particles += own;
+            let walls = if part.scheme.meets_walls() { walls } else { 0 };
+            let count = own as f64 + walls as f64 + entering.sum::<f64>();
+            needed +=
+                count * bytes_a_particle(part, self.skin.unwrap_or(SKINS[1]), &*self.integrator);
+        }
+        particles += walls;
+        let needed = needed.ceil();
+        if particles == 0 || needed.is_nan() {
+            return;
+        }
+        let available = self.memory.or_else(available).unwrap_or(u64::MAX);
+        // What the allocator refuses at once need not be tried piece by piece.
+        let granted = needed < isize::MAX as f64
+            && Vec::<u8>::new().try_reserve_exact(needed as usize).is_ok();
+        if needed > available as f64 || !granted {
+            problems.push(Problem::Memory {
+                particles,
+                each: (needed / particles as f64) as usize,
+                needed: needed as u64,
+                available,
+            });
+        }
+    }
+}
+
+/// Bytes a particle: columns, records of the sweeps, sums, lists, and the states of the integrator.
+fn bytes_a_particle<T: Real, const D: usize>(
+    part: &Part<T, D>,
+    skin: f64,
+    integrator: &dyn crate::integrator::Integrator,
+) -> f64 {
+    let scheme = &part.scheme;
+    let number = size_of::<T>() as f64;
+    let columns = scheme.fields().width(D) as f64;
+    // Records of the widest sweep, and those of the work of kicks.
+    let (records, sums) = scheme.widths();
+    let kept = 7 + 3 * D;
+    let states = integrator.slots() * kept + kept;
+    // A row of W particles lists what any of them reaches: a ball as wide as the support and the row.
+    let width = <T::Wide<false> as Lane>::WIDTH as f64;
+    let row = width.powf(1.0 / D as f64);
+    let reach = scheme.kernel.support * scheme.h_over_dx * (1.0 + skin);
+    let ball = match D {
+        1 => 2.0 * reach + row,
+        2 => core::f64::consts::PI * (reach + 0.5 * row).powi(2),
+        _ => 4.0 / 3.0 * core::f64::consts::PI * (reach + 0.5 * row).powi(3),
+    };
+    let lists = 4.0 * ball / width;
+    let numbers = columns + 2.0 * records.min(MOST_READS) as f64 + 2.0 * sums as f64;
+    let places = (2 * D + states) as f64;
+    MARGIN * (number * (numbers + places) + lists + WHILE_BUILT)
+}
+
+/// Bytes that the machine has to give: the smaller of what is free and what the control group leaves.
+fn available() -> Option<u64> {
+    let memory = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let line = memory
+        .lines()
+        .find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    let free = line.split_whitespace().next()?.parse::<u64>().ok()? * 1024;
+    let number = |path: &str| {
+        std::fs::read_to_string(path)
+            .ok()?
+            .trim()
+            .parse::<u64>()
+            .ok()
+    };
+    let limit = number("/sys/fs/cgroup/memory.max");
+    let used = number("/sys/fs/cgroup/memory.current").unwrap_or(0);
+    Some(limit.map_or(free, |limit| free.min(limit.saturating_sub(used))))
+}

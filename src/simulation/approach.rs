@@ -1,0 +1,300 @@
+//! What moves towards each other limits the step: no pair may close by more than a share of its distance.
+//! Pairs are looked at only where the spread of velocities says that they could.
+
+use super::control::{Criterion, NO_VOTE, Vote, least};
+use super::group::Group;
+use crate::boundary::Slip;
+use crate::neighbors::{CHUNK, ChunkList};
+use crate::particles::Field;
+use crate::scalar::{Lane, Real};
+use crate::sweep::Interaction;
+use crate::tensor::{Vector, length};
+use rayon::prelude::*;
+
+/// Distance in spacings that no pair of a liquid or gas in order falls below: what closes by less than a share of it
+/// in a step needs no look at its pairs.
+const ORDERLY: f64 = 0.5;
+
+/// Distance in spacings below which a pair is one particle twice. A step that follows a pair so far has long
+/// collapsed.
+const NEAREST: f64 = 1e-9;
+
+/// Closing speed over sound speed from which a weakly compressible liquid is none. Joukowsky's hammer ρ c u then
+/// asks for a compression u/c of one, where such a liquid is meant for a hundredth (Monaghan 1994).
+const FASTEST: f64 = 1.0;
+
+/// Particles of a liquid that close faster than its sound.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Meeting {
+    /// Closing speed over the mean sound speed of the pair.
+    pub mach: f64,
+    /// Closing speed \[m/s\].
+    pub speed: f64,
+    pub slot: usize,
+}
+
+/// What the approach of pairs asks for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Approach {
+    pub vote: Vote,
+    pub meeting: Option<Meeting>,
+}
+
+const NOTHING: Approach = Approach {
+    vote: NO_VOTE,
+    meeting: None,
+};
+
+impl Approach {
+    /// The shorter step and the faster meeting; the lower slot wins a tie, whatever the order of reduction.
+    fn and(self, other: Self) -> Self {
+        let faster = |a: Meeting, b: Meeting| {
+            if b.mach > a.mach || (b.mach == a.mach && b.slot < a.slot) {
+                b
+            } else {
+                a
+            }
+        };
+        Self {
+            vote: least(self.vote, other.vote),
+            meeting: match (self.meeting, other.meeting) {
+                (Some(a), Some(b)) => Some(faster(a, b)),
+                (a, b) => a.or(b),
+            },
+        }
+    }
+}
+
+impl<T: Real, const D: usize> Group<T, D> {
+    /// The largest step in which no pair closes by more than `share` of its distance, if it is shorter than
+    /// `limit` \[s\], and the fastest meeting of a liquid with what is faster than its sound.
+    ///
+    /// Pairs that are not listed yet are at least a support apart, and close at most by the spread of velocities.
+    pub(super) fn approach(&self, share: f64, limit: f64) -> Approach {
+        let lengths = self.particles.columns.raw(Field::SMOOTHING_LENGTH);
+        let least_h = lengths
+            .iter()
+            .fold(f64::INFINITY, |least, h| least.min(h.to_f64()));
+        let least_h = if lengths.is_empty() {
+            self.smoothing_length
+        } else {
+            least_h
+        };
+        let bearable = share * ORDERLY * least_h / self.scheme.h_over_dx;
+        let harmless = |speed: f64| speed == 0.0 || speed * limit <= bearable;
+        let shifted = self
+            .neighborhood
+            .transforms
+            .iter()
+            .fold(0.0_f64, |most, by| most.max(length(&by.velocity).to_f64()));
+        if harmless(2.0 * self.fastest() + shifted) {
+            return NOTHING;
+        }
+        let range = self.velocities();
+        let spread: f64 = (0..D).map(|d| (range[1][d] - range[0][d]).powi(2)).sum();
+        if harmless(spread.sqrt()) {
+            return NOTHING;
+        }
+        self.neighborhood
+            .lists
+            .chunks()
+            .par_iter()
+            .enumerate()
+            .map(|(chunk, list)| self.approach_in(chunk, list, share, least_h, range))
+            .reduce(|| NOTHING, Approach::and)
+    }
+
+    /// The largest speed \[m/s\] of bodies and walls.
+    fn fastest(&self) -> f64 {
+        let velocities = self.particles.columns.vectors(Field::VELOCITY);
+        let square = |v: &[T; D]| v.iter().map(|v| v.to_f64().powi(2)).sum::<f64>();
+        let slots = self.particles.bodies.iter().map(|body| body.slots.clone());
+        let fastest = |slots: std::ops::Range<usize>| {
+            velocities[slots]
+                .par_iter()
+                .with_min_len(4096)
+                .map(square)
+                .reduce(|| 0.0, f64::max)
+        };
+        slots
+            .chain(self.walls.iter().map(|wall| wall.slots.clone()))
+            .map(fastest)
+            .fold(0.0, f64::max)
+            .sqrt()
+    }
+
+    /// The least and the largest component of velocities \[m/s\] along each axis, of bodies, walls and images.
+    fn velocities(&self) -> [[f64; D]; 2] {
+        let empty = || [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
+        let both = |a: [[f64; D]; 2], b: [[f64; D]; 2]| {
+            [
+                core::array::from_fn(|d| a[0][d].min(b[0][d])),
+                core::array::from_fn(|d| a[1][d].max(b[1][d])),
+            ]
+        };
+        let velocities = self.particles.columns.vectors(Field::VELOCITY);
+        let own = |slots: std::ops::Range<usize>| {
+            velocities[slots]
+                .par_iter()
+                .with_min_len(4096)
+                .map(|v| [v.map(Real::to_f64); 2])
+                .reduce(empty, both)
+        };
+        let bodies = self.particles.bodies.iter().map(|body| body.slots.clone());
+        let walls = self.walls.iter().map(|wall| wall.slots.clone());
+        let direct = bodies.chain(walls).map(own).fold(empty(), both);
+        let images = self
+            .neighborhood
+            .images
+            .par_iter()
+            .with_min_len(4096)
+            .map(|image| {
+                let by = &self.neighborhood.transforms[image.transform as usize];
+                let v = Vector::from(velocities[image.source as usize]);
+                let turned: [T; D] = (by.rotation * v + by.velocity).into();
+                [turned.map(Real::to_f64); 2]
+            });
+        both(direct, images.reduce(empty, both))
+    }
+
+    /// Whether particles of a block wear the mirrored velocity by which a liquid sticks to them, which differs from
+    /// that of the liquid twice as much as their own.
+    fn is_mirrored(&self, block: usize) -> bool {
+        let boundaries = self.boundaries.len();
+        let direct = self.particles.bodies.len() + self.walls.len() + boundaries;
+        let wall = if block < direct {
+            block.checked_sub(self.particles.bodies.len())
+        } else {
+            Some((block - direct) / boundaries)
+        };
+        !self
+            .particles
+            .columns
+            .raw(Field::DYNAMIC_VISCOSITY)
+            .is_empty()
+            && wall
+                .and_then(|wall| self.walls.get(wall))
+                .is_some_and(|wall| wall.slip == Slip::None)
+    }
+
+    /// Place, velocity and sound speed of a neighbour, which may be an image.
+    #[inline(always)]
+    fn neighbor(&self, j: usize) -> ([T; D], [T; D], T) {
+        let columns = &self.particles.columns;
+        let seen = |j: usize| {
+            (
+                columns.vectors(Field::POSITION)[j],
+                columns.vectors(Field::VELOCITY)[j],
+                columns.raw(Field::SOUND_SPEED)[j],
+            )
+        };
+        let Some(image) = j
+            .checked_sub(columns.slots())
+            .and_then(|k| self.neighborhood.images.get(k))
+        else {
+            return seen(j);
+        };
+        let by = &self.neighborhood.transforms[image.transform as usize];
+        let (x, v, c) = seen(image.source as usize);
+        let turned = by.rotation * Vector::from(v) + by.velocity;
+        (by.point(&x), turned.into(), c)
+    }
+
+    /// The same for the particles of one chunk that move by forces.
+    fn approach_in(
+        &self,
+        chunk: usize,
+        list: &ChunkList,
+        share: f64,
+        least_h: f64,
+        range: [[f64; D]; 2],
+    ) -> Approach {
+        type Row<T> = <T as Real>::Wide<false>;
+        let width = Row::<T>::WIDTH;
+        let (positions, velocities) = (
+            self.particles.columns.vectors(Field::POSITION),
+            self.particles.columns.vectors(Field::VELOCITY),
+        );
+        let (sound, lengths) = (
+            self.particles.columns.raw(Field::SOUND_SPEED),
+            self.particles.columns.raw(Field::SMOOTHING_LENGTH),
+        );
+        let uniform = T::from_f64(self.smoothing_length);
+        let h_of = |slot: usize| lengths.get(slot).copied().unwrap_or(uniform);
+        let of_spacing = T::from_f64(NEAREST / self.scheme.h_over_dx);
+        let support = self.scheme.kernel.support;
+        let zero = Row::<T>::of(0.0);
+        let mut all = NOTHING;
+        for (c, bounds) in list.starts.windows(2).enumerate() {
+            let first = (chunk * CHUNK + c) * width;
+            let block = self
+                .neighborhood
+                .blocks
+                .partition_point(|b| b.slots.end <= first);
+            let live = self
+                .neighborhood
+                .blocks
+                .get(block)
+                .filter(|b| b.slots.contains(&first));
+            let Some(own) = live.filter(|_| first < self.particles.mobile) else {
+                continue;
+            };
+            let row = |of: &dyn Fn(usize) -> T| Row::<T>::from_fn(|lane| of(first + lane));
+            let x: [Row<T>; D] = core::array::from_fn(|d| row(&|slot| positions[slot][d]));
+            let v: [Row<T>; D] = core::array::from_fn(|d| row(&|slot| velocities[slot][d]));
+            let nearest = row(&|slot| h_of(slot) * of_spacing);
+            let speeds = row(&|slot| sound[slot]);
+            let (mut rate, mut mach) = (zero, zero);
+            for segment in &list.segments[bounds[0] as usize..bounds[1] as usize] {
+                let other = segment.block as usize;
+                if self.neighborhood.interactions[block * self.neighborhood.blocks.len() + other]
+                    == Interaction::None
+                {
+                    continue;
+                }
+                let seen = Row::<T>::of(if self.is_mirrored(other) { 0.5 } else { 1.0 });
+                for &j in &list.neighbors[segment.start as usize..segment.end as usize] {
+                    let (xj, vj, cj) = self.neighbor(j as usize);
+                    let (mut r2, mut across) = (zero, zero);
+                    for d in 0..D {
+                        let r = x[d] - Row::<T>::splat(xj[d]);
+                        r2 = r.mul_add(r, r2);
+                        across = r.mul_add(v[d] - Row::<T>::splat(vj[d]), across);
+                    }
+                    let distance = r2.sqrt().max(nearest * Row::<T>::of(1e-6));
+                    let closing = (-across).positive_part() * seen / distance;
+                    rate = rate.max(closing / distance.max(nearest));
+                    // Twice the mean of the sound speeds.
+                    mach = mach.max(closing / (speeds + Row::<T>::splat(cj)));
+                }
+            }
+            for slot in first..own.slots.end.min(first + width) {
+                let lane = slot - first;
+                let farthest: f64 = (0..D)
+                    .map(|d| {
+                        let v = velocities[slot][d].to_f64();
+                        (v - range[0][d]).max(range[1][d] - v).powi(2)
+                    })
+                    .sum();
+                let apart = 0.5 * support * (h_of(slot).to_f64() + least_h);
+                let unseen = farthest.sqrt() / apart;
+                let rate = rate.extract(lane).to_f64().max(unseen);
+                let mach = 2.0 * mach.extract(lane).to_f64();
+                let meets = self.scheme.meets_walls() && mach > FASTEST;
+                all = all.and(Approach {
+                    vote: Vote {
+                        step: share / rate,
+                        criterion: Criterion::Approach,
+                        particle: slot,
+                    },
+                    meeting: meets.then_some(Meeting {
+                        mach,
+                        speed: mach * sound[slot].to_f64(),
+                        slot,
+                    }),
+                });
+            }
+        }
+        all
+    }
+}

@@ -1,0 +1,131 @@
+//! Whether a step has left a state that can be stepped on: finite numbers, and walls that did not jump.
+//! Looked at after every step, the last of a run included.
+
+use super::Simulation;
+use super::group::Group;
+use super::stages::GRAIN;
+use crate::error::{Error, Problem, Result};
+use crate::particles::Field;
+use crate::scalar::Real;
+use rayon::prelude::*;
+
+/// Share of a full neighbourhood below which a particle has no neighbours to be measured by.
+const ALONE: f64 = 1e-6;
+
+/// Share of the spacing by which a wall may move beside what its velocity gives.
+const JUMP: f64 = 0.5;
+
+impl<T: Real, const D: usize> Simulation<T, D> {
+    /// Refuses a state in which a number is not finite.
+    pub(super) fn check_state(&self) -> Result<()> {
+        for group in &self.groups {
+            if let Some(slot) = group.unsound() {
+                return Err(self.broken(group, slot));
+            }
+        }
+        let impulse = self.impulses.values().find(|impulse| !impulse.is_finite());
+        let work = self.work.iter().flat_map(|work| [work.load, work.wall]);
+        let mut sums = impulse.into_iter().chain(work);
+        if let Some(value) = sums.find(|value| !value.is_finite()) {
+            return Err(Error::NotFinite {
+                quantity: "impulse or work",
+                value,
+                body: "all".into(),
+                particle: 0,
+                position: Vec::new(),
+                time: self.time,
+                step: self.steps,
+            });
+        }
+        Ok(())
+    }
+
+    /// Particles without neighbours, where density is measured from the sums at rest: one for each body.
+    pub(crate) fn isolated(&self) -> Vec<Problem> {
+        self.groups.iter().flat_map(Group::isolated).collect()
+    }
+
+    /// Refuses a step of `dt` \[s\] in which a wall moves beside its own velocity, as one that jumps does.
+    pub(super) fn check_walls(&self, dt: f64) -> Result<()> {
+        let (time, end) = (self.time, self.time + dt);
+        let spacing = self.spacing();
+        for wall in self.groups.iter().flat_map(|group| &group.walls) {
+            let Some(motion) = &wall.motion else {
+                continue;
+            };
+            let (before, after) = (motion.pose(time), motion.pose(end));
+            let beside = |x: &[f64; D]| {
+                let [from, to] = [&before, &after].map(|pose| (pose.of(0, x), pose.of(1, x)));
+                let off = (0..D).map(|d| to.0[d] - from.0[d] - 0.5 * dt * (from.1[d] + to.1[d]));
+                off.map(|off| off * off).sum::<f64>().sqrt()
+            };
+            // What is not a number is the farthest of all.
+            let farther = |most: f64, x: &[f64; D]| {
+                let off = beside(x);
+                if off <= most { most } else { off }
+            };
+            let off = wall.rest.iter().fold(0.0, farther);
+            if off.is_nan() || off > JUMP * spacing {
+                return Err(Error::WallJump {
+                    wall: wall.name.clone(),
+                    distance: off,
+                    time,
+                    end,
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<T: Real, const D: usize> Group<T, D> {
+    /// Place \[m\] of the particle in a slot.
+    pub(super) fn position(&self, slot: usize) -> Vec<f64> {
+        let x = self.particles.columns.vectors(Field::POSITION)[slot];
+        x.iter().map(|x| x.to_f64()).collect()
+    }
+
+    /// Kinetic and internal energy \[J\] of the particle in a slot.
+    pub(super) fn energy_of(&self, slot: usize) -> f64 {
+        let mass = self.particles.columns.raw(Field::MASS)[slot].to_f64();
+        let v = self.particles.columns.vectors(Field::VELOCITY)[slot];
+        let energy = self.particles.columns.raw(Field::ENERGY).get(slot);
+        let internal = energy.map_or(0.0, |energy| energy.to_f64());
+        mass * (0.5 * v.iter().map(|v| v.to_f64().powi(2)).sum::<f64>() + internal)
+    }
+
+    /// The first particle of each body that has no neighbours, if that takes its density away.
+    fn isolated(&self) -> Vec<Problem> {
+        let moments = self.particles.columns.raw(Field::NORMALISATION);
+        let measured = self.scheme.density.has_reference() && self.scheme.normalised;
+        let alone = |slot: &usize| {
+            let moment = moments.get(*slot).map_or(1.0, |moment| moment.to_f64());
+            measured && moment <= ALONE
+        };
+        let first = |body: &super::BodyState<T>| {
+            let slot = body.slots.clone().find(alone)?;
+            Some(Problem::Isolated {
+                body: body.name.clone(),
+                particle: self.particles.ids[slot] as usize - body.ids.start,
+                position: self.position(slot),
+                reach: self.scheme.kernel.support * self.smoothing_length,
+            })
+        };
+        self.particles.bodies.iter().filter_map(first).collect()
+    }
+
+    /// The first slot whose state is not finite, or whose density is not positive.
+    fn unsound(&self) -> Option<usize> {
+        let positions = self.particles.columns.vectors(Field::POSITION);
+        let density = self.particles.columns.raw(Field::DENSITY);
+        let sound = |slot: usize| {
+            let sum: f64 = positions[slot].iter().map(|x| x.to_f64()).sum();
+            let density = density[slot].to_f64();
+            (sum + density + self.energy_of(slot)).is_finite() && density > 0.0
+        };
+        self.particles.bodies.iter().find_map(|body| {
+            let slots = body.slots.clone().into_par_iter();
+            slots.with_min_len(GRAIN).find_first(|&slot| !sound(slot))
+        })
+    }
+}
