@@ -328,7 +328,7 @@ impl<K, V, W, R, S, U, const MODES: u8, const RENORMALISED: bool>
     /// over the kernel along the wall's normal. So a wall must know the room that it faces: one
     /// [around](crate::boundary::Wall::around) a box does, others are [told](crate::boundary::Wall::facing), and a
     /// scene with one that is not is refused. It costs D sums a wall particle. It leaves water at rest and the period
-    /// of a standing wave as they are, within 10⁻⁴ (`tests/liquids.rs`); it is not the default: not every wall knows
+    /// of a standing wave as they are, within 10⁻⁴ (`tests/liquids/gentle_flows.rs`); it is not the default: not every wall knows
     /// its room, and water that starts [off its lattice](crate::scene::Body::jitter) strikes that box no harder without.
     ///
     /// ```

@@ -1,9 +1,7 @@
 //! Gentle and closed flows of liquids against exact solutions, at resolutions that take seconds.
 //! The examples of the same names take the full ones; docs/liquids.md has their values.
 
-mod common;
-
-use common::tank::{after_rest, swings};
+use crate::tank::{after_rest, swings};
 use meshfree::boundary::Wall;
 use meshfree::kernel::WendlandC2;
 use meshfree::material::rheology::PowerLaw;

@@ -1,7 +1,6 @@
 //! Bad input: each kind has its own error, which says what to do, and nothing panics.
 
-mod common;
-
+use crate::common;
 use meshfree::boundary::{Inlet, MirrorPlane, Periodic, Translation, Wall};
 use meshfree::error::{Error, Problem};
 use meshfree::integrator::{LamLeapfrog, RungeKutta4};
