@@ -7,6 +7,7 @@ mod common;
 mod allocations;
 mod bad_input;
 mod contract;
+mod filling;
 mod invariance;
 mod neighbours;
 mod vtk;

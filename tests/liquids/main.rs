@@ -6,6 +6,7 @@ mod common;
 mod tank;
 
 mod dam_break;
+mod gauges;
 mod gentle_flows;
 mod groups;
 mod jet_on_step;
