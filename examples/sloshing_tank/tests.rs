@@ -1,5 +1,5 @@
 //! Wrong input of the tank, each with the message that names it.
-//! What a right tank does is in `tests/sloshing.rs`.
+//! What a right tank does is in `tests/liquids/sloshing.rs`.
 
 use crate::pulse::Pulse;
 use crate::surface::{Occupancy, Space};

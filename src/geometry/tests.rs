@@ -4,8 +4,7 @@
 use super::*;
 use crate::error::{Error, Problem};
 use crate::material::catalogue;
-use crate::scene::{Body, Scene};
-use crate::schemes;
+use crate::scene::Body;
 use core::f64::consts::PI;
 use proptest::prelude::*;
 
@@ -426,36 +425,6 @@ fn wrong_input_is_refused_by_name() {
     // Shapes that are apart have nothing in common, which is no error.
     let apart = ball.intersection(Ball::new([9.0; 3], 1.0));
     assert!(fill(&apart, 0.1, [0.0; 3]).unwrap().is_empty());
-}
-
-#[test]
-fn a_scene_reports_what_a_body_could_not_be_filled_with() {
-    let problems = |shape: &dyn Shape<2>, spacing: f64| {
-        let scene = Scene::<f64, 2>::new(schemes::impact());
-        let body = Body::fill("drop", catalogue::water(), shape, spacing);
-        let problems = scene.body(body).problems();
-        let texts: Vec<_> = problems.iter().map(ToString::to_string).collect();
-        texts.join("\n")
-    };
-    let disc = Ball::new([0.0; 2], 1.0);
-    assert_eq!(
-        problems(&Ball::new([0.0; 2], -1.0), 0.1),
-        "radius of the ball of body `drop` is -1: it must be finite and positive, in metres"
-    );
-    assert_eq!(
-        problems(&disc.complement(), 0.1),
-        "extent of the shape of body `drop` is inf: it must be finite along every axis: intersect \
-         the shape with a box"
-    );
-    let spacing = problems(&disc, f64::NAN);
-    assert!(
-        spacing.starts_with("spacing of body `drop` is NaN"),
-        "{spacing}"
-    );
-    let many = problems(&disc, 1e-9);
-    assert!(many.contains("is the spacing in metres?"), "{many}");
-    let none = problems(&Ball::new([0.05; 2], 0.04), 0.2);
-    assert!(none.contains("`drop` has no particles"), "{none}");
 }
 
 proptest! {

@@ -2,11 +2,11 @@
 //! Behind [`PairSweep`] it is an object that is called a handful of times a step.
 
 use super::records::{Image, Records, Transform};
-use super::rows::Rows;
+use super::rows::{Reaction, Rows};
 use super::task::{BEYOND, Composed, MEAN, OWN, Task, UNIFORM, WORK, reads};
 use super::{InstructionSet, Interaction, SmoothingMode};
 use crate::kernel::Kernel;
-use crate::neighbors::{Block, CHUNK, ClusterLists};
+use crate::neighbors::{Block, CHUNK, ChunkList, ClusterLists};
 use crate::particles::{Columns, Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
 use crate::term::{Layout, TermDoc, Terms, assert_room};
@@ -236,13 +236,34 @@ impl<K, P, const MODES: u8> Program<K, P, MODES> {
             kernel_norm: T::from_f64(self.kernel.normalisation()),
         };
         rows.reactions.iter_mut().for_each(Vec::clear);
-        rows.data[..length]
-            .par_chunks_mut((row * CHUNK).max(1))
-            .zip(rows.reactions[skipped..].par_iter_mut())
-            .zip(input.lists.chunks()[skipped..].par_iter())
-            .enumerate()
-            .for_each(|(chunk, ((out, reactions), list))| {
+        over_chunks(
+            &mut rows.data[..length],
+            (row * CHUNK).max(1),
+            &mut rows.reactions[skipped..],
+            &input.lists.chunks()[skipped..],
+            &|chunk, list, out, reactions| {
                 task.dispatch::<HOW>(instructions, skipped + chunk, list, out, reactions);
-            });
+            },
+        );
     }
+}
+
+/// What a loop does with one chunk: its number, its lists, its rows and the forces on its blocks.
+type OneChunk<'a, T, const D: usize> =
+    dyn Fn(usize, &ChunkList, &mut [T], &mut Vec<Reaction<D>>) + Sync + 'a;
+
+/// Shares the chunks out over the threads. One indirect call a chunk, and what shares them out is compiled once and
+/// not for every loop.
+fn over_chunks<T: Real, const D: usize>(
+    rows: &mut [T],
+    row: usize,
+    reactions: &mut [Vec<Reaction<D>>],
+    lists: &[ChunkList],
+    work: &OneChunk<'_, T, D>,
+) {
+    rows.par_chunks_mut(row)
+        .zip(reactions.par_iter_mut())
+        .zip(lists.par_iter())
+        .enumerate()
+        .for_each(|(chunk, ((out, reactions), list))| work(chunk, list, out, reactions));
 }

@@ -77,7 +77,8 @@ impl<const D: usize> Particle<D> {
 
 const H: f64 = 0.8;
 
-/// What a law makes of the pair (i, j), the force term included.
+/// What a law makes of the pair (i, j), the force term included; compiled once for all who ask.
+#[inline(never)]
 fn ask<V: ArtificialViscosity<D>, const D: usize>(
     law: &V,
     i: &Particle<D>,

@@ -29,7 +29,7 @@ fn vtk_reads_what_was_written() {
         .frame(0.0, &Vtu::new(Vec::<[f64; 3]>::new()))
         .unwrap();
     series.frame(1e-7, &frame).unwrap();
-    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/read_vtu.py");
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/guarantees/read_vtu.py");
     let read = Command::new(&python)
         .arg(script)
         .arg(&list)

@@ -1,4 +1,4 @@
-//! Steps allocate nothing: counted by an allocator of the test's own.
+//! Steps allocate nothing: counted by an allocator of the test's own, on the threads that step.
 
 use meshfree::boundary::{MirrorPlane, Periodic, Wall};
 use meshfree::kernel::CubicSpline;
@@ -12,23 +12,35 @@ use meshfree::simulation::Simulation;
 use meshfree::term::viscosity::{ArtificialViscosity, Viscous};
 use meshfree::term::{Layout as TermLayout, Pair, TermDoc};
 use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 struct Counting;
 
 static ALLOCATIONS: AtomicU64 = AtomicU64::new(0);
 
+thread_local! {
+    /// Whether this thread's allocations are counted: other tests allocate meanwhile.
+    static COUNTED: Cell<bool> = const { Cell::new(false) };
+}
+
+fn count() {
+    if COUNTED.get() {
+        ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
+    }
+}
+
 // SAFETY: everything is passed on to the system's allocator.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
+        count();
         unsafe { System.alloc(layout) }
     }
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
         unsafe { System.dealloc(pointer, layout) }
     }
     unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
+        count();
         unsafe { System.realloc(pointer, layout, size) }
     }
 }
@@ -87,15 +99,21 @@ impl<const D: usize> ArtificialViscosity<D> for Polynomial {
     }
 }
 
-/// One test, so that nothing else allocates meanwhile.
 #[test]
 fn a_step_between_list_builds_allocates_nothing() {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(2)
+        .start_handler(|_| COUNTED.set(true))
         .build()
         .unwrap();
     // Inside of the pool: handing work to it from outside allocates now and then.
     pool.install(|| {
+        let before = ALLOCATIONS.load(Ordering::Relaxed);
+        drop(std::hint::black_box(Box::new(0)));
+        assert!(
+            ALLOCATIONS.load(Ordering::Relaxed) > before,
+            "nothing is counted"
+        );
         for scheme in [schemes::impact, schemes::impact_by_continuity] {
             let mut rods = Scene::<f64, 1>::new(scheme())
                 .body(

@@ -1,7 +1,6 @@
 //! What results do not depend on: threads to the bit, instruction sets and precision to rounding.
 
-mod common;
-
+use crate::common;
 use meshfree::boundary::Periodic;
 use meshfree::kernel::{Kernel, KernelKind};
 use meshfree::material::catalogue;

@@ -1,9 +1,7 @@
 //! The contract that every pair term keeps: symmetric forces, finite at distance zero, nothing beyond
 //! the support, the same in lanes as in scalars and as recorded, and no field or sum that is not declared.
 
-mod common;
-
-use common::Random;
+use crate::common::{self, AnyKernel, Random};
 use meshfree::kernel::{Kernel, KernelKind};
 use meshfree::particles::{Field, Fields, Output, Outputs};
 use meshfree::scalar::{Lane, Lanes, Real, Record, Traced};
@@ -102,6 +100,8 @@ impl Particle {
     }
 }
 
+/// Compiled once for all tests.
+#[inline(never)]
 fn scalar<const D: usize, A: Term<D>>(
     term: &A,
     kernel: KernelKind,
@@ -111,6 +111,7 @@ fn scalar<const D: usize, A: Term<D>>(
 where
     KernelKind: Kernel<D>,
 {
+    let kernel = AnyKernel(kernel);
     probe(term, &kernel, |f, k| i.get(f, k), |f, k| j.get(f, k))
 }
 
@@ -232,7 +233,7 @@ where
 {
     let mut random = Random(4);
     for round in 0..70 {
-        let kernel = common::kernel(round);
+        let kernel = AnyKernel(common::kernel(round));
         let row: Vec<_> = (0..WIDTH)
             .map(|_| Particle::random(&mut random, 1.2))
             .collect();
@@ -250,7 +251,7 @@ where
             |f, k| j.get(f, k),
         );
         for (lane, i) in row.iter().enumerate() {
-            let one = numbers(&scalar(&term, kernel, i, &j));
+            let one = numbers(&scalar(&term, kernel.0, i, &j));
             let (lanes, fused) = (numbers(&lanes), numbers(&fused));
             for (k, one) in one.iter().enumerate() {
                 assert_eq!(lanes[k].extract(lane), *one, "{}, number {k}", name(&term));

@@ -1,9 +1,7 @@
 //! A liquid's step with one evaluation: what it does to sound by theory, to gentle flow as the step with
 //! two sweeps does, and the longer step at which a violent flow breaks.
 
-mod common;
-
-use common::tank::{GRAVITY, after_rest, swings, tank};
+use crate::tank::{GRAVITY, after_rest, swings, tank};
 use meshfree::boundary::Wall;
 use meshfree::integrator::RungeKutta4;
 use meshfree::kernel::{Kernel, WendlandC2};

@@ -1,7 +1,6 @@
 //! Bad input: each kind has its own error, which says what to do, and nothing panics.
 
-mod common;
-
+use crate::common;
 use meshfree::boundary::{Boundary, Inlet, MirrorPlane, Outlet, Periodic, Translation, Wall};
 use meshfree::error::{Error, Problem};
 use meshfree::integrator::{Integrator, LamLeapfrog, RungeKutta4, System};

@@ -1,9 +1,7 @@
 //! Kernels on a uniform row: the first moment by which uncorrected waves run too fast or too slow,
 //! and the speed of waves with it and with its cure.
 
-mod common;
-
-use common::AnyKernel;
+use crate::common::AnyKernel;
 use meshfree::boundary::Periodic;
 use meshfree::kernel::{CubicSpline, Kernel, KernelKind};
 use meshfree::material::Material;

@@ -1,9 +1,7 @@
 //! Bodies of different schemes in one scene: what a liquid and a structure do to each other, against
 //! acoustics and statics, and what they do not.
 
-mod common;
-
-use common::Random;
+use crate::common::Random;
 use meshfree::boundary::{MirrorPlane, Periodic};
 use meshfree::material::{Liquid, SoundSpeed};
 use meshfree::particles::Field;

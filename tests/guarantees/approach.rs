@@ -1,9 +1,7 @@
 //! What moves towards each other: cold gas, liquid faster than its sound, and walls that jump.
 //! A step ends before particles go through each other, or an error says why there is none.
 
-mod common;
-
-use common::AnyKernel;
+use crate::common::AnyKernel;
 use meshfree::boundary::{MirrorPlane, Translation, Wall};
 use meshfree::error::{Error, Problem};
 use meshfree::kernel::KernelKind;

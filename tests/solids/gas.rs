@@ -1,9 +1,7 @@
 //! Gases: a shock tube, a sound wave, and gas that meets itself, against exact solutions.
 //! Equal masses, density by summation, smoothing lengths that follow it.
 
-mod common;
-
-use common::AnyKernel;
+use crate::common::AnyKernel;
 use meshfree::boundary::{MirrorPlane, Periodic};
 use meshfree::kernel::KernelKind;
 use meshfree::material::Material;

@@ -1,9 +1,7 @@
 //! What forces between particles conserve, on random particle sets, materials, kernels and density
 //! forms, in one, two and three dimensions.
 
-mod common;
-
-use common::{AnyKernel, Random};
+use crate::common::{self, AnyKernel, Random};
 use meshfree::integrator::KickDriftKick;
 use meshfree::kernel::{Kernel, KernelKind};
 use meshfree::scene::{Body, Scene};

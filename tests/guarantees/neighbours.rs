@@ -1,9 +1,7 @@
 //! Neighbour lists hold every pair within reach, against a search over all pairs, and stay valid
 //! while particles move within the skin.
 
-mod common;
-
-use common::Random;
+use crate::common::Random;
 use meshfree::boundary::{MirrorPlane, Periodic};
 use meshfree::material::catalogue;
 use meshfree::neighbors::{Block, ClusterLists, Radii, SearchInput};

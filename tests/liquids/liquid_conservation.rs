@@ -1,9 +1,7 @@
 //! What liquids conserve, under every scheme and every boundary of theirs: mass, momentum with the
 //! impulse of walls, angular momentum where the forces are central, and energy with what is dissipated.
 
-mod common;
-
-use common::Random;
+use crate::common::{self, Random};
 use meshfree::boundary::{Crush, Inlet, Outlet, Rotation, Slip, Translation, Wall};
 use meshfree::prelude::*;
 use meshfree::scene::Start;

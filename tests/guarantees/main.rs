@@ -1,0 +1,15 @@
+//! What holds whatever is simulated: bad input is refused by name, every term keeps its contract, lists miss no pair,
+//! and results do not depend on threads, instruction sets or precision. One program, so that loops are compiled once.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod allocations;
+mod approach;
+mod bad_input;
+mod contract;
+mod filling;
+mod invariance;
+mod neighbours;
+mod step_program;
+mod vtk;

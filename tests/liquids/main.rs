@@ -1,0 +1,19 @@
+//! Liquids, alone and with structures: flows with exact solutions, violent ones, walls, and what is conserved.
+//! One program, so that loops over pairs that several files use are compiled once.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod tank;
+
+mod dam_break;
+mod gauges;
+mod gentle_flows;
+mod groups;
+mod jet_on_step;
+mod liquid_conservation;
+mod mirror_planes;
+mod off_lattice;
+mod one_evaluation;
+mod riemann_walls;
+mod sloshing;
+mod sound_and_volume;

@@ -1,0 +1,14 @@
+//! Solids and gases against exact solutions: rods that strike, waves, shock tubes, and what is conserved.
+//! One program, so that loops over pairs that several files use are compiled once.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod conservation;
+mod convergence;
+mod gas;
+mod integrators;
+mod kernels_on_lattices;
+mod misprints;
+mod rods;
+mod smoothing;
