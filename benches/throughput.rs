@@ -1,12 +1,13 @@
 //! Speed and memory of liquids in a breaking dam: interactions a second, time by phase, bytes a particle,
-//! what each term costs, and the composed pair loop against one that is written out by hand.
+//! what each term costs, the composed pair loop against one that is written out by hand, and kernels and
+//! viscosities of a user's own against those of the crate.
 //!
 //! `cargo bench --bench throughput [-- --quick]`. An interaction is an ordered pair of particles inside
 //! of the support, the first of them liquid. Times are medians over steps, ratios medians over pairs of
 //! runs that take turns.
 
 use meshfree::boundary::Wall;
-use meshfree::kernel::{Kernel, WendlandC2};
+use meshfree::kernel::{Kernel, WendlandC2, WendlandC4};
 use meshfree::material::catalogue;
 use meshfree::neighbors::{Block, CHUNK, Cells, ClusterLists, Radii, SearchInput};
 use meshfree::particles::{Columns, Field, Fields, Output};
@@ -16,8 +17,8 @@ use meshfree::scheme::Scheme;
 use meshfree::sweep::{
     InstructionSet, Interaction, PairSweep, Pass, Program, Records, Rows, SmoothingMode, SweepInput,
 };
-use meshfree::term::viscosity::{Inviscid, MonaghanGingold};
-use meshfree::term::{Nothing, PressureForce, Viscosity};
+use meshfree::term::viscosity::{ArtificialViscosity, Inviscid, MonaghanGingold, Viscous};
+use meshfree::term::{self, Nothing, Pair, PressureForce, TermDoc, Viscosity};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
@@ -354,91 +355,88 @@ impl Fused<'_> {
     }
 }
 
-/// Composed against written out, over the same lists, taking turns.
-fn composed_against_fused(side: usize, turns: usize) {
-    if InstructionSet::detect() != InstructionSet::Avx512 {
-        println!("\ncomposed against written out: skipped, the machine has no AVX-512");
-        return;
-    }
-    let (alpha, h) = (0.02, 1.3);
-    let mut positions = Vec::new();
-    // Blocks of two by two by two, so that clusters are compact without a sort.
-    for block in 0..(side / 2).pow(3) {
-        let corner = [
-            block % (side / 2),
-            block / (side / 2) % (side / 2),
-            block / (side / 2).pow(2),
-        ];
-        for k in 0..8_usize {
-            let cell = [k & 1, k >> 1 & 1, k >> 2];
-            positions.push(core::array::from_fn::<f64, 3, _>(|d| {
-                let noise = (1e4 * ((8 * block + k) as f64 * (0.7 + d as f64)).sin()).fract();
-                (2 * corner[d] + cell[d]) as f64 + 0.1 * noise
-            }));
+/// A block of particles off its lattice, and its lists.
+struct Lattice<T: Real> {
+    columns: Columns<T, 3>,
+    lists: ClusterLists,
+    blocks: [Block; 1],
+}
+
+const H: f64 = 1.3;
+
+impl<T: Real> Lattice<T> {
+    fn new(side: usize, fields: Fields) -> Self {
+        let mut positions = Vec::new();
+        // Blocks of two by two by two, so that clusters are compact without a sort.
+        for block in 0..(side / 2).pow(3) {
+            let corner = [
+                block % (side / 2),
+                block / (side / 2) % (side / 2),
+                block / (side / 2).pow(2),
+            ];
+            for k in 0..8_usize {
+                let cell = [k & 1, k >> 1 & 1, k >> 2];
+                positions.push(core::array::from_fn::<f64, 3, _>(|d| {
+                    let noise = (1e4 * ((8 * block + k) as f64 * (0.7 + d as f64)).sin()).fract();
+                    (2 * corner[d] + cell[d]) as f64 + 0.1 * noise
+                }));
+            }
+        }
+        let slots = positions.len();
+        let mut columns = Columns::<T, 3>::new(fields.union(Fields::of(&[Field::POSITION])), slots);
+        for (slot, x) in positions.iter().enumerate() {
+            columns.vectors_mut(Field::POSITION)[slot] = x.map(T::from_f64);
+            columns.vectors_mut(Field::VELOCITY)[slot] = x.map(|x| T::from_f64((0.3 * x).sin()));
+            for (field, value) in [
+                (Field::MASS, 1000.0),
+                (Field::DENSITY, 1000.0 + (0.2 * x[0]).sin()),
+                (Field::SOUND_SPEED, 30.0),
+                (Field::WEIGHT, 1.0),
+                (Field::PRESSURE_COEFFICIENT, 500.0 * (0.1 * x[2]).cos()),
+            ] {
+                columns.raw_mut(field)[slot] = T::from_f64(value);
+            }
+        }
+        let blocks = [Block {
+            slots: 0..slots,
+            wall: false,
+        }];
+        let mut lists = ClusterLists::default();
+        lists.rebuild(&SearchInput {
+            positions: columns.vectors(Field::POSITION),
+            radii: Radii::Uniform(2.0 * H),
+            blocks: &blocks,
+            listed: &[],
+            width: <T::Wide<false> as Lane>::WIDTH,
+            slots,
+            skin: 0.2 * H,
+        });
+        Self {
+            columns,
+            lists,
+            blocks,
         }
     }
-    let slots = positions.len();
-    let sweep = Program::<_, _, { SmoothingMode::Uniform.bit() }>::new(
-        WendlandC2,
-        (
-            PressureForce,
-            Viscosity(MonaghanGingold { alpha, beta: 0.0 }),
-        ),
-        SmoothingMode::Uniform,
-    );
-    let sweep: &dyn PairSweep<f64, 3> = &sweep;
-    let mut columns =
-        Columns::<f64, 3>::new(sweep.fields().union(Fields::of(&[Field::POSITION])), slots);
-    for (slot, x) in positions.iter().enumerate() {
-        columns.vectors_mut(Field::POSITION)[slot] = *x;
-        columns.vectors_mut(Field::VELOCITY)[slot] = x.map(|x| (0.3 * x).sin());
-        for (field, value) in [
-            (Field::MASS, 1000.0),
-            (Field::DENSITY, 1000.0 + (0.2 * x[0]).sin()),
-            (Field::SOUND_SPEED, 30.0),
-            (Field::WEIGHT, 1.0),
-            (Field::PRESSURE_COEFFICIENT, 500.0 * (0.1 * x[2]).cos()),
-        ] {
-            columns.raw_mut(field)[slot] = value;
+
+    fn input(&self) -> SweepInput<'_, T, 3> {
+        SweepInput {
+            columns: &self.columns,
+            images: &[],
+            transforms: &[],
+            lists: &self.lists,
+            blocks: &self.blocks,
+            interactions: &[Interaction::Bonded],
+            smoothing_length: H,
+            targets: self.blocks[0].slots.clone(),
+            body_force: [T::zero(); 3],
+            lattice_moment: 1.0,
+            instructions: InstructionSet::detect(),
         }
     }
-    let blocks = [Block {
-        slots: 0..slots,
-        wall: false,
-    }];
-    let mut lists = ClusterLists::default();
-    lists.rebuild(&SearchInput {
-        positions: &positions,
-        radii: Radii::Uniform(2.0 * h),
-        blocks: &blocks,
-        listed: &[],
-        width: 8,
-        slots,
-        skin: 0.2 * h,
-    });
-    let input = SweepInput {
-        columns: &columns,
-        images: &[],
-        transforms: &[],
-        lists: &lists,
-        blocks: &blocks,
-        interactions: &[Interaction::Bonded],
-        smoothing_length: h,
-        targets: 0..slots,
-        body_force: [0.0; 3],
-        lattice_moment: 1.0,
-        instructions: InstructionSet::Avx512,
-    };
-    let (mut records, mut rows) = (Records::default(), Rows::default());
-    sweep.pack(Pass::Rates, &input, &mut records);
-    let fused = Fused {
-        records: records.data(),
-        lists: &lists,
-        h,
-        norm: Kernel::<3>::normalisation(&WendlandC2),
-        alpha,
-    };
-    let mut out = vec![0.0; 4 * slots];
+}
+
+/// The time of one over that of another, which take turns on one thread.
+fn ratios(turns: usize, mut one: impl FnMut() + Send, mut other: impl FnMut() + Send) -> Vec<f64> {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(1)
         .build()
@@ -447,19 +445,64 @@ fn composed_against_fused(side: usize, turns: usize) {
         (0..=turns)
             .map(|_| {
                 let start = Instant::now();
-                sweep.run(Pass::Rates, &input, &records, &mut rows);
-                let composed = start.elapsed().as_secs_f64();
+                one();
+                let first = start.elapsed().as_secs_f64();
                 let start = Instant::now();
-                #[cfg(target_arch = "x86_64")]
-                // SAFETY: the machine has been asked above.
-                unsafe {
-                    fused.run_avx512(&mut out);
-                }
-                composed / start.elapsed().as_secs_f64()
+                other();
+                first / start.elapsed().as_secs_f64()
             })
             .skip(1)
             .collect::<Vec<f64>>()
     });
+    ratios.sort_by(f64::total_cmp);
+    ratios
+}
+
+/// The median and order statistics that hold it in 95 % of all samples.
+fn print_ratio(ratios: &[f64]) {
+    let n = ratios.len();
+    let off = (0.98 * (n as f64).sqrt()).ceil() as usize;
+    println!(
+        "{n} turns: median ratio {:.3}, 95 % interval {:.3} to {:.3}",
+        ratios[n / 2],
+        ratios[(n / 2).saturating_sub(off)],
+        ratios[(n / 2 + off).min(n - 1)],
+    );
+}
+
+/// Composed against written out, over the same lists, taking turns.
+fn composed_against_fused(side: usize, turns: usize) {
+    if InstructionSet::detect() != InstructionSet::Avx512 {
+        println!("\ncomposed against written out: skipped, the machine has no AVX-512");
+        return;
+    }
+    let alpha = 0.02;
+    let sweep = pair_loop(WendlandC2, MonaghanGingold { alpha, beta: 0.0 });
+    let sweep: &dyn PairSweep<f64, 3> = &sweep;
+    let lattice = Lattice::new(side, sweep.fields());
+    let slots = lattice.columns.slots();
+    let input = lattice.input();
+    let (mut records, mut rows) = (Records::default(), Rows::default());
+    sweep.pack(Pass::Rates, &input, &mut records);
+    let fused = Fused {
+        records: records.data(),
+        lists: &lattice.lists,
+        h: H,
+        norm: Kernel::<3>::normalisation(&WendlandC2),
+        alpha,
+    };
+    let mut out = vec![0.0; 4 * slots];
+    let ratios = ratios(
+        turns,
+        || sweep.run(Pass::Rates, &input, &records, &mut rows),
+        || {
+            #[cfg(target_arch = "x86_64")]
+            // SAFETY: the machine has been asked above.
+            unsafe {
+                fused.run_avx512(&mut out);
+            }
+        },
+    );
     // Both make the same sums, or the comparison says nothing.
     let largest = out.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     for slot in 0..slots {
@@ -471,15 +514,133 @@ fn composed_against_fused(side: usize, turns: usize) {
             assert!((a - b).abs() < 1e-9 * largest, "slot {slot}: {a} and {b}");
         }
     }
-    ratios.sort_by(f64::total_cmp);
-    let n = ratios.len();
-    // Order statistics that hold the median in 95 % of all samples.
-    let off = (0.98 * (n as f64).sqrt()).ceil() as usize;
-    println!(
-        "\ncomposed against written out, {slots} particles, {n} turns: median ratio {:.3}, 95 % interval {:.3} to {:.3}",
-        ratios[n / 2],
-        ratios[(n / 2).saturating_sub(off)],
-        ratios[(n / 2 + off).min(n - 1)],
+    print!("\ncomposed against written out, {slots} particles, ");
+    print_ratio(&ratios);
+}
+
+/// Pressure and an artificial viscosity under a kernel, in one loop.
+fn pair_loop<K, V>(
+    kernel: K,
+    viscosity: V,
+) -> Program<K, (PressureForce, Viscosity<V>), { SmoothingMode::Uniform.bit() }> {
+    let terms = (PressureForce, Viscosity(viscosity));
+    Program::new(kernel, terms, SmoothingMode::Uniform)
+}
+
+/// The Wendland C4 kernel in 3D as a user's crate would write it.
+#[derive(Clone, Copy, Debug)]
+struct OwnKernel;
+
+impl Kernel<3> for OwnKernel {
+    fn name(&self) -> &'static str {
+        "own Wendland C4"
+    }
+    fn support(&self) -> f64 {
+        2.0
+    }
+    fn normalisation(&self) -> f64 {
+        495.0 / (256.0 * std::f64::consts::PI)
+    }
+    fn h_over_dx(&self) -> f64 {
+        1.8
+    }
+    fn h_over_dx_range(&self) -> (f64, f64) {
+        (1.3, 2.3)
+    }
+    fn stable_step(&self) -> f64 {
+        1.0
+    }
+    #[inline(always)]
+    fn shape<L: Lane>(&self, q: L) -> L {
+        let q = q.min(L::of(2.0));
+        let t = q.mul_add(L::of(-0.5), L::one());
+        let polynomial = q.mul_add(L::of(35.0 / 12.0), L::of(3.0));
+        t.powi(6) * polynomial.mul_add(q, L::one())
+    }
+    #[inline(always)]
+    fn slope_over_q<L: Lane>(&self, q: L) -> L {
+        let q = q.min(L::of(2.0));
+        let t = q.mul_add(L::of(-0.5), L::one());
+        t.powi(5) * q.mul_add(L::of(-35.0 / 3.0), L::of(-14.0 / 3.0))
+    }
+}
+
+/// The viscosity of Monaghan & Gingold as a user's crate would write it.
+#[derive(Clone, Debug)]
+struct OwnViscosity {
+    alpha: f64,
+    beta: f64,
+}
+
+impl<const D: usize> ArtificialViscosity<D> for OwnViscosity {
+    const READS: Fields = Fields::NONE;
+    #[inline(always)]
+    fn pair<L: Lane, P: term::Layout>(&self, pair: &Pair<'_, L, D, P>) -> Viscous<L> {
+        // Twice the means, and one division: the arithmetic of the crate's own, or the comparison says nothing.
+        let sound_speeds = pair.i(Field::SOUND_SPEED) + pair.j(Field::SOUND_SPEED);
+        let densities = pair.i(Field::DENSITY) + pair.j(Field::DENSITY);
+        let approaching = pair.v_dot_r.lt(L::zero());
+        let over_h = pair.r2.mul_add(pair.h.recip(), pair.h * L::of(0.01));
+        let quotient = pair.v_dot_r / (over_h * densities);
+        let quotient = L::select(approaching, quotient, L::zero());
+        let mu = quotient * densities;
+        let speed = mu.mul_add(L::of(-2.0 * self.beta), L::of(self.alpha) * sound_speeds);
+        Viscous {
+            pi: -(quotient * speed),
+            signal: speed * L::of(0.3),
+        }
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: format!("own viscosity, α = {}, β = {}", self.alpha, self.beta),
+            equation: "Π = (−α c̄ μ + β μ²)/ρ̄",
+            source: "Monaghan & Gingold 1983",
+        }
+    }
+}
+
+/// What a user's crate writes against the same in the crate, taking turns: at most 1.05.
+fn own_against_built_in<T: Real>(side: usize, turns: usize) {
+    let against = |what: &str, own: &dyn PairSweep<T, 3>, built_in: &dyn PairSweep<T, 3>| {
+        let lattice = Lattice::new(side, own.fields());
+        let input = lattice.input();
+        let (mut records, mut rows) = (Records::default(), [Rows::default(), Rows::default()]);
+        own.pack(Pass::Rates, &input, &mut records);
+        let [own_rows, rows] = &mut rows;
+        let ratios = ratios(
+            turns,
+            || own.run(Pass::Rates, &input, &records, own_rows),
+            || built_in.run(Pass::Rates, &input, &records, rows),
+        );
+        let force = |rows: &Rows<T, 3>, slot| rows.get(Output::FORCE, 0, slot).to_f64();
+        let slots = 0..lattice.columns.slots();
+        let largest = slots
+            .clone()
+            .fold(0.0_f64, |m, slot| m.max(force(rows, slot).abs()));
+        for slot in slots {
+            let (a, b) = (force(own_rows, slot), force(rows, slot));
+            assert!(
+                (a - b).abs() < 1e-4 * largest,
+                "{what}, slot {slot}: {a} and {b}"
+            );
+        }
+        print!(
+            "{what} of one's own over the same in the crate, {}, ",
+            T::NAME
+        );
+        print_ratio(&ratios);
+    };
+    let (alpha, beta) = (1.0, 2.0);
+    let built_in = MonaghanGingold { alpha, beta };
+    against(
+        "kernel",
+        &pair_loop(OwnKernel, built_in),
+        &pair_loop(WendlandC4, built_in),
+    );
+    against(
+        "viscosity",
+        &pair_loop(WendlandC4, OwnViscosity { alpha, beta }),
+        &pair_loop(WendlandC4, built_in),
     );
 }
 
@@ -494,7 +655,10 @@ fn main() {
         (true, false) => &[20_000, 100_000, 1_000_000],
     };
     let (fall, steps) = if full { (0.05, 30) } else { (0.0, 3) };
-    composed_against_fused(if full { 32 } else { 12 }, if full { 60 } else { 5 });
+    let (side, turns) = if full { (32, 60) } else { (12, 5) };
+    composed_against_fused(side, turns);
+    own_against_built_in::<f64>(side, turns);
+    own_against_built_in::<f32>(side, turns);
     println!();
     print_head();
     let scheme = || schemes::weakly_compressible().h_over_dx(1.3);

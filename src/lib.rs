@@ -160,6 +160,16 @@
 //! [`Lane`](scalar::Lane), so one text serves a single number and a row of them, and what you write is
 //! compiled into the same loop as what the crate brings. A [`Term`](term::Term) is the more general
 //! form of an effect between pairs; a [`PairSweep`](sweep::PairSweep) runs a tuple of terms.
+//!
+//! Mark the methods of kernels, artificial viscosities and terms `#[inline(always)]`, as the examples do: the
+//! loop over pairs is compiled for wider instructions than the rest of a program, and what is not inlined into
+//! it runs without them. That loop is compiled in your crate, with your profile, and without optimisation it is
+//! a hundred times slower. For a debug build that can be used put this into your `Cargo.toml`:
+//!
+//! ```toml
+//! [profile.dev]
+//! opt-level = 2
+//! ```
 #![warn(missing_docs)]
 
 pub mod boundary;

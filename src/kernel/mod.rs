@@ -43,10 +43,12 @@
 //!     fn h_over_dx(&self) -> f64 { 1.2 }
 //!     fn h_over_dx_range(&self) -> (f64, f64) { (1.0, 1.3) }
 //!     fn stable_step(&self) -> f64 { 1.0 }
+//!     #[inline(always)]
 //!     fn shape<L: Lane>(&self, q: L) -> L {
 //!         let t = (q * q).mul_add(L::of(-0.25), L::one()).positive_part();
 //!         t * t * t
 //!     }
+//!     #[inline(always)]
 //!     fn slope_over_q<L: Lane>(&self, q: L) -> L {
 //!         let t = (q * q).mul_add(L::of(-0.25), L::one()).positive_part();
 //!         t * t * L::of(-1.5)
@@ -91,6 +93,10 @@ use core::str::FromStr;
 ///
 /// The two methods are generic over a [`Lane`], so one text serves a single pair and a whole row of
 /// pairs. Both must be finite at q = 0 and exactly zero from [`support`](Kernel::support) on.
+///
+/// Mark them, and every function that they call, `#[inline(always)]`. The pair loop is compiled for wider
+/// instructions than the rest of a program, and what is not inlined into it runs without them, several times
+/// slower.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a smoothing kernel in {D} dimensions",
     note = "implement `Kernel<{D}>`: `shape`, `slope_over_q` and the numbers; see the `kernel` module for an example"

@@ -59,6 +59,7 @@
 //!
 //! impl<const D: usize> ArtificialViscosity<D> for Quadratic {
 //!     const READS: Fields = Fields::NONE;
+//!     #[inline(always)]
 //!     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>) -> Viscous<L> {
 //!         let approach = (-pair.v_dot_r).positive_part();
 //!         let mu = pair.h * approach / pair.h.mul_add(pair.h * L::of(0.01), pair.r2);
@@ -436,6 +437,13 @@ pub struct TermDoc {
 
 /// One effect between pairs of particles.
 ///
+/// Mark [`pair`](Term::pair), and every function that it calls, `#[inline(always)]`. The pair loop is compiled
+/// for wider instructions than the rest of a program, and what is not inlined into it runs without them, several
+/// times slower. A closure that a loop calls counts as such a function.
+///
+/// Write it with the arithmetic of lanes and [`Lane::select`] only, so that it can be
+/// [recorded](crate::scalar::Record). The sweep borrows the term, so a table that it holds is not copied.
+///
 /// ```
 /// use meshfree::particles::{Field, Fields, Output, Outputs};
 /// use meshfree::scalar::Lane;
@@ -450,6 +458,7 @@ pub struct TermDoc {
 /// impl<const D: usize> Term<D> for SummedDensity {
 ///     const READS: Fields = Fields::of(&[Field::MASS]);
 ///     const WRITES: Outputs = Outputs::of(&[SUMMED]);
+///     #[inline(always)]
 ///     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
 ///         sums.add(SUMMED, pair.j(Field::MASS) * pair.w);
 ///     }

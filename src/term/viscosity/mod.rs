@@ -64,6 +64,10 @@ pub struct Viscous<L> {
 /// An artificial viscosity.
 ///
 /// The force on i is −mᵢ mⱼ Πᵢⱼ ∇W; its work heats i and j in equal parts.
+///
+/// Mark [`pair`](ArtificialViscosity::pair) and [`sums`](ArtificialViscosity::sums), and every function that they
+/// call, `#[inline(always)]`. The pair loop is compiled for wider instructions than the rest of a program, and
+/// what is not inlined into it runs without them, several times slower.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not an artificial viscosity in {D} dimensions",
     note = "implement `ArtificialViscosity<{D}>`: the fields it reads and `pair`, which returns Π and a signal speed"
