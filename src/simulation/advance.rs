@@ -67,7 +67,7 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
                 self.groups[k].refresh(begin + 0.5 * dt, Some([begin, begin + dt]));
                 self.follow_moves(k);
                 let group = &mut self.groups[k];
-                group.sum(|scheme| scheme.sweep(Stage::Continuity));
+                group.sum_stage(Stage::Continuity);
                 group.advance(When::Drift, dt);
                 let moment = Moment {
                     dt,

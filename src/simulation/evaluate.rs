@@ -221,6 +221,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         sweep.run(Pass::Rates, &input, &records, &mut rates);
         self.work.phases.packing += packed - start;
         self.work.phases.pairs += packed.elapsed();
+        self.work.spent.sweeps[Stage::Rates.number()] += start.elapsed();
         self.work.records = records;
         self.work.rates = rates;
         if self.scheme.energy == EnergyForm::Compatible {

@@ -31,7 +31,7 @@
 //! | energy of a liquid, work on it, dissipation | [`Simulation::energy`] |
 //! | what left through outlets | [`Simulation::removed`] |
 //! | memory | [`Simulation::bytes`] |
-//! | time, by phase of a step | [`Simulation::phases`] |
+//! | time, by phase of a step, and by effect with bytes and criteria | [`Simulation::phases`], [`Simulation::cost`] |
 //!
 //! # Questions about particles
 //!
@@ -59,6 +59,7 @@
 mod advance;
 mod approach;
 mod control;
+mod cost;
 mod energy;
 mod evaluate;
 mod group;
@@ -77,6 +78,7 @@ mod walls;
 mod workspace;
 
 pub use control::{Criterion, StepControl, Vote};
+pub use cost::{Cost, CostLine};
 pub use energy::EnergyLedger;
 pub use ledger::{Budget, Ledger};
 pub use phases::Phases;
@@ -115,6 +117,8 @@ pub struct Simulation<T: Real, const D: usize> {
     rates_at_hand: bool,
     first_step: Option<f64>,
     last_vote: Option<Vote>,
+    /// Steps by the criterion that set them.
+    votes: Vec<(&'static str, u64)>,
     impulses: Impulses,
     /// Work done on a liquid, where it is kept.
     work: Option<energy::Work>,
@@ -171,6 +175,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             rates_at_hand: false,
             first_step: None,
             last_vote: None,
+            votes: Vec::new(),
             impulses: Impulses::default(),
             work: None,
             evaluated: 0.0,
@@ -379,6 +384,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.keep_failure(stepped)?;
         self.time += vote.step;
         self.steps += 1;
+        let name = vote.criterion.name();
+        match self.votes.iter_mut().find(|own| own.0 == name) {
+            Some(own) => own.1 += 1,
+            None => self.votes.push((name, 1)),
+        }
         self.check_state()?;
         self.book_step(start, before);
         Ok(vote.step)

@@ -10,7 +10,7 @@ use crate::scheme::Scheme;
 use crate::sweep::{PairSweep, Pass, SweepInput};
 use crate::term::Stage;
 use std::ops::Range;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Particles that a thread takes at a time in loops over particles.
 pub(crate) const GRAIN: usize = 4096;
@@ -74,6 +74,13 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.work.sums = sums;
     }
 
+    /// Runs the sweep of a stage over particles of bodies into the sums.
+    pub(super) fn sum_stage(&mut self, stage: Stage) {
+        let start = Instant::now();
+        self.sum(|scheme| scheme.sweep(stage));
+        self.work.spent.sweeps[stage.number()] += start.elapsed();
+    }
+
     /// Runs the sweep of a stage, if there is one, and its laws; again, with new lists, as long as a law says that
     /// it changes much.
     pub(super) fn run_stage(&mut self, stage: Stage, moment: Moment) {
@@ -87,9 +94,9 @@ impl<T: Real, const D: usize> Group<T, D> {
                 self.refresh(moment.time, None);
             }
             if scheme.sweep(stage).is_some() {
-                self.sum(|scheme| scheme.sweep(stage));
+                self.sum_stage(stage);
             }
-            tallies = self.run_laws(laws, moment);
+            tallies = self.run_laws(stage, laws, moment);
             if tallies.iter().all(|tally| tally.change < tolerance) {
                 break;
             }
@@ -103,17 +110,22 @@ impl<T: Real, const D: usize> Group<T, D> {
     pub(super) fn apply_laws(&mut self, stage: Stage, moment: Moment) {
         let scheme = self.scheme.clone();
         let laws = &scheme.program.laws[stage.number()];
-        let tallies = self.run_laws(laws, moment);
+        let tallies = self.run_laws(stage, laws, moment);
         for (law, tally) in laws.iter().zip(tallies) {
             self.count(law.name(), tally.limited);
         }
     }
 
     /// Laws on all particles of bodies, body by body.
-    fn run_laws(&mut self, laws: &[Box<dyn Law<T, D>>], moment: Moment) -> [Tally; MOST_LAWS] {
-        let mut tallies = [Tally::default(); MOST_LAWS];
+    fn run_laws(
+        &mut self,
+        stage: Stage,
+        laws: &[Box<dyn Law<T, D>>],
+        moment: Moment,
+    ) -> [Tally; MOST_LAWS] {
+        let mut outcomes = [Outcome::default(); MOST_LAWS];
         if laws.is_empty() {
-            return tallies;
+            return outcomes.map(|outcome| outcome.tally);
         }
         let mut rest = Slices::of(&mut self.particles.columns);
         for body in &self.particles.bodies {
@@ -137,11 +149,15 @@ impl<T: Real, const D: usize> Group<T, D> {
                 in_drift: moment.in_drift,
             };
             join(
-                &mut tallies,
+                &mut outcomes,
                 &run_chunks(laws, own, run, body.slots.end, around),
             );
         }
-        tallies
+        let spent = &mut self.work.spent.laws[stage.number()];
+        for (own, outcome) in spent.iter_mut().zip(&outcomes) {
+            *own += outcome.time;
+        }
+        outcomes.map(|outcome| outcome.tally)
     }
 
     /// The stage of walls: what they take from the liquid, and the laws that answer it.
@@ -150,7 +166,9 @@ impl<T: Real, const D: usize> Group<T, D> {
             return;
         }
         let slots = self.particles.mobile..self.particles.columns.slots();
+        let start = Instant::now();
         self.sum_over(slots, |scheme| scheme.sweep(Stage::Walls));
+        self.work.spent.sweeps[Stage::Walls.number()] += start.elapsed();
         let scheme = self.scheme.clone();
         let laws = &scheme.program.laws[Stage::Walls.number()];
         let rest = Slices::of(&mut self.particles.columns);
@@ -158,6 +176,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         let Some(body) = self.particles.bodies.first() else {
             return;
         };
+        let mut outcomes = [Outcome::default(); MOST_LAWS];
         for wall in &self.walls {
             let run = wall.slots.start..wall.end;
             let (own, behind) = rest.split(run.len());
@@ -185,7 +204,14 @@ impl<T: Real, const D: usize> Group<T, D> {
                 gravity: self.gravity,
                 in_drift: false,
             };
-            run_chunks(laws, own, run, wall.slots.end, around);
+            join(
+                &mut outcomes,
+                &run_chunks(laws, own, run, wall.slots.end, around),
+            );
+        }
+        let spent = &mut self.work.spent.laws[Stage::Walls.number()];
+        for (own, outcome) in spent.iter_mut().zip(&outcomes) {
+            *own += outcome.time;
         }
     }
 
@@ -195,11 +221,19 @@ impl<T: Real, const D: usize> Group<T, D> {
     }
 }
 
-/// Adds the tallies of other chunks.
-fn join(tallies: &mut [Tally; MOST_LAWS], others: &[Tally; MOST_LAWS]) {
-    for (own, other) in tallies.iter_mut().zip(others) {
-        own.limited += other.limited;
-        own.change = own.change.max(other.change);
+/// What a law did, and how long it took.
+#[derive(Clone, Copy, Debug, Default)]
+struct Outcome {
+    tally: Tally,
+    time: Duration,
+}
+
+/// Adds the outcomes of other chunks.
+fn join(outcomes: &mut [Outcome; MOST_LAWS], others: &[Outcome; MOST_LAWS]) {
+    for (own, other) in outcomes.iter_mut().zip(others) {
+        own.tally.limited += other.tally.limited;
+        own.tally.change = own.tally.change.max(other.tally.change);
+        own.time += other.time;
     }
 }
 
@@ -210,22 +244,24 @@ fn run_chunks<T: Real, const D: usize>(
     slots: Range<usize>,
     live: usize,
     around: Around<'_, T, D>,
-) -> [Tally; MOST_LAWS] {
+) -> [Outcome; MOST_LAWS] {
     if slots.len() > GRAIN {
         let half = (slots.len() / GRAIN).div_ceil(2) * GRAIN;
         let (low, high) = columns.split(half);
         let middle = slots.start + half;
-        let (mut tallies, others) = rayon::join(
+        let (mut outcomes, others) = rayon::join(
             || run_chunks(laws, low, slots.start..middle, live, around),
             || run_chunks(laws, high, middle..slots.end, live, around),
         );
-        join(&mut tallies, &others);
-        return tallies;
+        join(&mut outcomes, &others);
+        return outcomes;
     }
-    let mut tallies = [Tally::default(); MOST_LAWS];
+    let mut outcomes = [Outcome::default(); MOST_LAWS];
     let mut chunk = Chunk::new(columns, slots.clone(), live, around);
-    for (law, tally) in laws.iter().zip(&mut tallies) {
-        *tally = law.apply(&mut chunk);
+    for (law, outcome) in laws.iter().zip(&mut outcomes) {
+        let start = Instant::now();
+        outcome.tally = law.apply(&mut chunk);
+        outcome.time = start.elapsed();
     }
-    tallies
+    outcomes
 }

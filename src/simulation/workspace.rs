@@ -2,6 +2,7 @@
 //! Of it a checkpoint holds what the next step reads before it evaluates.
 
 use super::Phases;
+use super::cost::Spent;
 use super::population::Moves;
 use crate::particles::Field;
 use crate::scalar::Real;
@@ -32,6 +33,8 @@ pub(crate) struct Workspace<T: Real, const D: usize> {
     pub kept: Vec<Saved<T>>,
     /// Where the time went.
     pub phases: Phases,
+    /// Where the time went, by sweep and law.
+    pub spent: Spent,
 }
 
 impl<T: Real, const D: usize> Default for Workspace<T, D> {
@@ -47,6 +50,7 @@ impl<T: Real, const D: usize> Default for Workspace<T, D> {
             predicted: Vec::new(),
             kept: Vec::new(),
             phases: Phases::default(),
+            spent: Spent::default(),
         }
     }
 }
