@@ -32,6 +32,8 @@ pub struct LedgerColumn {
     pub field: Field,
     /// Whether it is taken times the mass.
     pub times_mass: bool,
+    /// What the sum is multiplied with; 1 for none.
+    pub factor: f64,
 }
 
 /// What a scene is made of, as far as an effect may ask.
@@ -139,7 +141,9 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
         self.step_factor *= factor;
     }
 
-    /// Keeps the sum of a field over every body in the ledger.
+    /// Keeps the sum of a scalar field over every body in the ledger, as [`Budget::totals`].
+    ///
+    /// [`Budget::totals`]: crate::simulation::Budget::totals
     pub fn ledger(&mut self, column: LedgerColumn) {
         self.ledger.push(column);
     }
@@ -183,9 +187,57 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
                 .union(residual)
                 .union(read)
         });
-        self.declared
-            .iter()
-            .fold(evolved, |all, own| all.union(Fields::of(&[own.field])))
+        let declared = self.declared.iter().map(|own| own.field);
+        declared
+            .chain(self.ledger.iter().map(|own| own.field))
+            .fold(evolved, |all, field| all.union(Fields::of(&[field])))
+    }
+
+    /// Whether a field belongs to the state: an effect declares it, or it is integrated in time.
+    pub(crate) fn keeps(&self, field: Field) -> bool {
+        self.declared.iter().any(|own| own.field == field)
+            || self.evolved.iter().any(|own| own.field == field)
+    }
+
+    /// Why a field with so many components cannot be set between steps.
+    pub(crate) fn cannot_set(&self, field: Field, components: usize) -> Option<Problem> {
+        let (name, _) = self.name_of(field);
+        if field != Field::VELOCITY && !self.keeps(field) {
+            return Some(Problem::Incompatible {
+                what: format!("the field {name} is no part of the state under this scheme"),
+                remedy: "set the velocity, a field that is integrated in time, or one that an effect declares: \
+                         all others follow from these",
+            });
+        }
+        (components != field.components(D)).then(|| Problem::Parameter {
+            what: format!("number of components given for the field {name}"),
+            value: components as f64,
+            must_be: "it must be 1 for a scalar, the dimension for a vector, 6 for a symmetric tensor, the square \
+                      of the dimension for a matrix",
+        })
+    }
+
+    /// Why bodies cannot start with values of a field with so many components.
+    pub(crate) fn cannot_start(&self, field: Field, components: usize) -> Option<Problem> {
+        let own = [Field::VELOCITY, Field::DENSITY, Field::ENERGY];
+        if own.contains(&field) {
+            return Some(Problem::Incompatible {
+                what: format!("bodies start with a {} of their own", field.name()),
+                remedy: "give it by Body::velocity, Body::density, Body::energy or Body::start",
+            });
+        }
+        self.cannot_set(field, components)
+    }
+
+    /// The fields of the state other than position and velocity, each once, in the order of declaration.
+    pub(crate) fn state(&self) -> impl Iterator<Item = Field> {
+        let declared = self.declared.iter().map(|own| own.field);
+        let all: Vec<_> = declared
+            .chain(self.evolved.iter().map(|own| own.field))
+            .collect();
+        let first = |k: &usize| !all[..*k].contains(&all[*k]);
+        let kept: Vec<_> = (0..all.len()).filter(first).map(|k| all[k]).collect();
+        kept.into_iter()
     }
 
     /// The name and unit of a field.

@@ -74,6 +74,18 @@ impl<T: Real, const D: usize> Scheme<T, D> {
                 }
             ));
         }
+        for own in &self.program.declared {
+            let start = own.start;
+            lines.push(format!("  starts {} [{}] at {start}", own.name, own.unit));
+        }
+        for own in &self.program.ledger {
+            let (name, _) = self.program.name_of(own.field);
+            let mass = if own.times_mass { "m " } else { "" };
+            lines.push(format!(
+                "  ledger: {} [{}] = {} Σ {mass}{name}",
+                own.name, own.unit, own.factor
+            ));
+        }
         for limit in &self.program.limits {
             lines.push(format!("  limits the step: {}", limit.name()));
         }

@@ -61,14 +61,17 @@ mod approach;
 mod control;
 mod energy;
 mod evaluate;
+mod fields;
 mod group;
 mod images;
 mod ledger;
+mod limits;
 mod neighborhood;
 mod phases;
 mod population;
 mod query;
 mod reference;
+mod snapshot;
 mod soundness;
 mod stages;
 mod state;
@@ -78,7 +81,7 @@ mod workspace;
 
 pub use control::{Criterion, StepControl, Vote};
 pub use energy::EnergyLedger;
-pub use ledger::{Budget, Ledger};
+pub use ledger::{Budget, Ledger, Total};
 pub use phases::Phases;
 pub use query::ParticleView;
 
