@@ -54,7 +54,7 @@ pub use laminar::{GeneralisedNewtonian, Laminar};
 pub use law::{Law, Tally};
 pub use limit::Limit;
 pub use list::{Effect, Effects};
-pub use program::{Declared, LedgerColumn, Requirement, SceneFacts, StepProgram};
+pub use program::{Declared, DeclaredSum, LedgerColumn, Requirement, SceneFacts, StepProgram};
 pub use setting::Setting;
 pub use shifting::Shifting;
 pub(crate) use viscosity_switch::ViscositySwitch;

@@ -4,7 +4,7 @@
 use super::{Evolved, Law, Limit, Rate, Setting};
 use crate::error::Problem;
 use crate::material::Material;
-use crate::particles::{Field, Fields};
+use crate::particles::{Field, Fields, Output};
 use crate::scalar::Real;
 use crate::term::{Stage, TermDoc};
 
@@ -19,6 +19,17 @@ pub struct Declared {
     pub unit: &'static str,
     /// The value that every component starts with.
     pub start: f64,
+}
+
+/// A sum over neighbours that an effect declares, for people.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DeclaredSum {
+    /// The sum.
+    pub sum: Output,
+    /// Its name in messages.
+    pub name: &'static str,
+    /// Its SI unit.
+    pub unit: &'static str,
 }
 
 /// A number of each particle whose sum over a body the ledger keeps.
@@ -56,6 +67,9 @@ pub type Requirement<T> = Box<dyn Fn(&SceneFacts<'_, T>) -> Option<Problem> + Se
 pub struct StepProgram<T: Real, const D: usize> {
     pub(crate) setting: Setting,
     pub(crate) declared: Vec<Declared>,
+    pub(crate) sums: Vec<DeclaredSum>,
+    /// Parts of the rates of fields that nothing has begun to integrate.
+    pub(crate) pending: Vec<(Field, Box<dyn Rate<T, D>>)>,
     pub(crate) evolved: Vec<Evolved<T, D>>,
     pub(crate) laws: [Vec<Box<dyn Law<T, D>>>; Stage::COUNT],
     pub(crate) limits: Vec<Box<dyn Limit<T, D>>>,
@@ -81,6 +95,8 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
         Self {
             setting,
             declared: Vec::new(),
+            sums: Vec::new(),
+            pending: Vec::new(),
             evolved: Vec::new(),
             laws: core::array::from_fn(|_| Vec::new()),
             limits: Vec::new(),
@@ -109,20 +125,36 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
         });
     }
 
+    /// Declares a sum over neighbours of its own, with its name and unit. A scheme in which a number is used without
+    /// a name, or under two, is refused.
+    pub fn declare_sum(&mut self, sum: Output, name: &'static str, unit: &'static str) {
+        self.sums.push(DeclaredSum { sum, name, unit });
+    }
+
     /// Lets a field of the crate start with a value.
     pub fn start(&mut self, field: Field, value: f64) {
         self.declare(field, field.name(), field.unit(), value);
     }
 
     /// Integrates a field in time.
-    pub fn evolve(&mut self, evolved: Evolved<T, D>) {
+    pub fn evolve(&mut self, mut evolved: Evolved<T, D>) {
+        let (own, others) = core::mem::take(&mut self.pending)
+            .into_iter()
+            .partition(|(field, _)| *field == evolved.field);
+        self.pending = others;
+        let parts: Vec<(Field, Box<dyn Rate<T, D>>)> = own;
+        evolved
+            .rates
+            .extend(parts.into_iter().map(|(_, rate)| rate));
         self.evolved.push(evolved);
     }
 
-    /// Adds a part to the rate of a field that another effect, or the scheme, integrates.
+    /// Adds a part to the rate of a field that another effect, or the scheme, integrates; a scheme in which none
+    /// does is refused.
     pub fn contribute(&mut self, field: Field, rate: impl Rate<T, D> + 'static) {
-        if let Some(evolved) = self.evolved.iter_mut().find(|own| own.field == field) {
-            evolved.rates.push(Box::new(rate));
+        match self.evolved.iter_mut().find(|own| own.field == field) {
+            Some(evolved) => evolved.rates.push(Box::new(rate)),
+            None => self.pending.push((field, Box::new(rate))),
         }
     }
 
@@ -166,9 +198,15 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
         self.wall_normals = true;
     }
 
-    /// Asks for a column that nothing here writes or evolves.
+    /// Asks for a column that keeps its values from step to step: nothing here writes it, or a law does for the step
+    /// after. It starts with zeros.
     pub fn carry(&mut self, field: Field) {
         self.needed = self.needed.union(Fields::of(&[field]));
+    }
+
+    /// Fields that are asked for by [`carry`](Self::carry).
+    pub(crate) fn carried(&self) -> Fields {
+        self.needed
     }
 
     /// The fields that the program names.

@@ -60,6 +60,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                 must_be: "it must be finite and positive: h/dx times the support must be between 1 and 32 spacings",
             });
         }
+        problems.extend(scheme.misordered());
         self.check_starts(problems);
         let mut incompatible = |what: String, remedy| {
             problems.push(Problem::Incompatible { what, remedy });
