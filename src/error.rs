@@ -137,6 +137,55 @@ pub enum Problem {
         /// What to do.
         remedy: &'static str,
     },
+    /// A part of a step that reads what nothing has written.
+    #[error(
+        "the scheme {scheme} cannot run: {reader} reads the {kind} {quantity} at the stage `{stage}`, and nothing \
+         writes it before; add the effect that does, or move one of the two to another stage"
+    )]
+    NotWritten {
+        /// The scheme.
+        scheme: String,
+        /// The term, law, rate or limit that reads.
+        reader: String,
+        /// Field or sum.
+        kind: &'static str,
+        /// What it reads.
+        quantity: String,
+        /// The stage in which it does.
+        stage: &'static str,
+    },
+    /// A number of a field or sum of its own that two effects claim.
+    #[error(
+        "the scheme {scheme} has two effects that claim the {kind} {number}, one for `{first}` and one for `{second}`: \
+         give one of them another number"
+    )]
+    ClaimedTwice {
+        /// The scheme.
+        scheme: String,
+        /// Field or sum.
+        kind: &'static str,
+        /// Its shape and number.
+        number: String,
+        /// One name.
+        first: &'static str,
+        /// The other.
+        second: &'static str,
+    },
+    /// A field or sum of an effect's own that has no name.
+    #[error(
+        "the scheme {scheme} uses the {kind} {number}, which no effect declares: say what it is with \
+         `StepProgram::{call}`, so that no other effect takes its number"
+    )]
+    NotDeclared {
+        /// The scheme.
+        scheme: String,
+        /// Field or sum.
+        kind: &'static str,
+        /// Its shape and number.
+        number: String,
+        /// The call that declares it.
+        call: &'static str,
+    },
     /// A name that the scene does not know.
     #[error("there is no {kind} called `{name}`: the scene has {known}")]
     UnknownName {

@@ -27,10 +27,13 @@ impl<const D: usize, W: Term<D>> Effect<D> for DensityDiffusion<W> {
         (In::new(self.0.clone()),)
     }
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
-        let rate = BySum {
-            sum: Output::DENSITY_DIFFUSION,
-            over: None,
-        };
-        program.contribute(Field::DENSITY, rate);
+        // There may be none.
+        if W::WRITES.contains(Output::DENSITY_DIFFUSION) {
+            let rate = BySum {
+                sum: Output::DENSITY_DIFFUSION,
+                over: None,
+            };
+            program.contribute(Field::DENSITY, rate);
+        }
     }
 }

@@ -2,8 +2,10 @@
 //! Integrators, prediction, save and combine, insertion, checkpoint and output take it from here.
 
 use super::Around;
+use super::gradients::velocity_gradient;
 use crate::particles::{Columns, Field, Fields, Output, Outputs};
 use crate::scalar::Real;
+use crate::tensor::Matrix;
 use core::fmt::Debug;
 
 /// When an evolved field changes.
@@ -31,8 +33,8 @@ pub enum Update {
         largest: f64,
     },
     /// Y ← R (Y + dt s) Rᵀ for a symmetric tensor, with R the rotation by the spin ½ (∇v − ∇vᵀ) over dt: the
-    /// Jaumann rate, integrated so that a rigid rotation is exact (Hughes & Winget 1980). Needs
-    /// [`Field::VELOCITY_GRADIENT`].
+    /// Jaumann rate, integrated so that a rigid rotation is exact (Hughes & Winget 1980). The spin is that of
+    /// [`View::velocity_gradient`].
     Rotated,
 }
 
@@ -41,7 +43,7 @@ pub enum Update {
 pub struct View<'a, T: Real, const D: usize> {
     /// All columns; that of the field under way is empty.
     pub columns: &'a Columns<T, D>,
-    /// What is around; its material is that of the first body.
+    /// What is around the particles asked about; its material is that of their body.
     pub around: Around<'a, T, D>,
 }
 
@@ -51,6 +53,24 @@ impl<T: Real, const D: usize> View<'_, T, D> {
     #[must_use]
     pub fn sum(&self, output: Output, k: usize, slot: usize) -> T {
         self.around.sums.get(output, k, slot)
+    }
+    /// The corrected velocity gradient ∂vₐ/∂x_b \[1/s\] of the particle in `slot`: from the sums of a
+    /// [term](crate::term::VelocityGradient) in the same sweep, as at the middle of a drift, and else from
+    /// [`Field::VELOCITY_GRADIENT`].
+    #[must_use]
+    pub fn velocity_gradient(&self, slot: usize) -> Matrix<T, D> {
+        let sums = self.around.sums;
+        if sums.outputs().contains(Output::VELOCITY_GRADIENT) {
+            return velocity_gradient(sums, slot);
+        }
+        let gradient = self.columns.raw(Field::VELOCITY_GRADIENT);
+        Matrix::from_fn(|a, b| gradient[slot * D * D + a * D + b])
+    }
+    /// Its antisymmetric part ½ (∇v − ∇vᵀ) \[1/s\].
+    #[must_use]
+    pub fn spin(&self, slot: usize) -> Matrix<T, D> {
+        let gradient = self.velocity_gradient(slot);
+        (gradient - gradient.transpose()) * T::from_f64(0.5)
     }
 }
 
@@ -75,6 +95,17 @@ pub struct BySum {
     pub sum: Output,
     /// What it is divided by, as [`Field::MASS`].
     pub over: Option<Field>,
+}
+
+impl BySum {
+    /// A sum over the mass of the particle, as forces and flows of heat are.
+    #[must_use]
+    pub const fn over_mass(sum: Output) -> Self {
+        Self {
+            sum,
+            over: Some(Field::MASS),
+        }
+    }
 }
 
 impl<T: Real, const D: usize> Rate<T, D> for BySum {

@@ -4,7 +4,7 @@
 use super::{Evolved, Law, Limit, Rate, Setting};
 use crate::error::Problem;
 use crate::material::Material;
-use crate::particles::{Field, Fields};
+use crate::particles::{Field, Fields, Output};
 use crate::scalar::Real;
 use crate::term::{Stage, TermDoc};
 
@@ -21,6 +21,17 @@ pub struct Declared {
     pub start: f64,
 }
 
+/// A sum over neighbours that an effect declares, for people.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DeclaredSum {
+    /// The sum.
+    pub sum: Output,
+    /// Its name in messages.
+    pub name: &'static str,
+    /// Its SI unit.
+    pub unit: &'static str,
+}
+
 /// A number of each particle whose sum over a body the ledger keeps.
 #[derive(Clone, Copy, Debug)]
 pub struct LedgerColumn {
@@ -32,6 +43,8 @@ pub struct LedgerColumn {
     pub field: Field,
     /// Whether it is taken times the mass.
     pub times_mass: bool,
+    /// What the sum is multiplied with; 1 for none.
+    pub factor: f64,
 }
 
 /// What a scene is made of, as far as an effect may ask.
@@ -54,6 +67,9 @@ pub type Requirement<T> = Box<dyn Fn(&SceneFacts<'_, T>) -> Option<Problem> + Se
 pub struct StepProgram<T: Real, const D: usize> {
     pub(crate) setting: Setting,
     pub(crate) declared: Vec<Declared>,
+    pub(crate) sums: Vec<DeclaredSum>,
+    /// Parts of the rates of fields that nothing has begun to integrate.
+    pub(crate) pending: Vec<(Field, Box<dyn Rate<T, D>>)>,
     pub(crate) evolved: Vec<Evolved<T, D>>,
     pub(crate) laws: [Vec<Box<dyn Law<T, D>>>; Stage::COUNT],
     pub(crate) limits: Vec<Box<dyn Limit<T, D>>>,
@@ -79,6 +95,8 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
         Self {
             setting,
             declared: Vec::new(),
+            sums: Vec::new(),
+            pending: Vec::new(),
             evolved: Vec::new(),
             laws: core::array::from_fn(|_| Vec::new()),
             limits: Vec::new(),
@@ -107,20 +125,36 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
         });
     }
 
+    /// Declares a sum over neighbours of its own, with its name and unit. A scheme in which a number is used without
+    /// a name, or under two, is refused.
+    pub fn declare_sum(&mut self, sum: Output, name: &'static str, unit: &'static str) {
+        self.sums.push(DeclaredSum { sum, name, unit });
+    }
+
     /// Lets a field of the crate start with a value.
     pub fn start(&mut self, field: Field, value: f64) {
         self.declare(field, field.name(), field.unit(), value);
     }
 
     /// Integrates a field in time.
-    pub fn evolve(&mut self, evolved: Evolved<T, D>) {
+    pub fn evolve(&mut self, mut evolved: Evolved<T, D>) {
+        let (own, others) = core::mem::take(&mut self.pending)
+            .into_iter()
+            .partition(|(field, _)| *field == evolved.field);
+        self.pending = others;
+        let parts: Vec<(Field, Box<dyn Rate<T, D>>)> = own;
+        evolved
+            .rates
+            .extend(parts.into_iter().map(|(_, rate)| rate));
         self.evolved.push(evolved);
     }
 
-    /// Adds a part to the rate of a field that another effect, or the scheme, integrates.
+    /// Adds a part to the rate of a field that another effect, or the scheme, integrates; a scheme in which none
+    /// does is refused.
     pub fn contribute(&mut self, field: Field, rate: impl Rate<T, D> + 'static) {
-        if let Some(evolved) = self.evolved.iter_mut().find(|own| own.field == field) {
-            evolved.rates.push(Box::new(rate));
+        match self.evolved.iter_mut().find(|own| own.field == field) {
+            Some(evolved) => evolved.rates.push(Box::new(rate)),
+            None => self.pending.push((field, Box::new(rate))),
         }
     }
 
@@ -139,7 +173,9 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
         self.step_factor *= factor;
     }
 
-    /// Keeps the sum of a field over every body in the ledger.
+    /// Keeps the sum of a scalar field over every body in the ledger, as [`Budget::totals`].
+    ///
+    /// [`Budget::totals`]: crate::simulation::Budget::totals
     pub fn ledger(&mut self, column: LedgerColumn) {
         self.ledger.push(column);
     }
@@ -162,9 +198,15 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
         self.wall_normals = true;
     }
 
-    /// Asks for a column that nothing here writes or evolves.
+    /// Asks for a column that keeps its values from step to step: nothing here writes it, or a law does for the step
+    /// after. It starts with zeros.
     pub fn carry(&mut self, field: Field) {
         self.needed = self.needed.union(Fields::of(&[field]));
+    }
+
+    /// Fields that are asked for by [`carry`](Self::carry).
+    pub(crate) fn carried(&self) -> Fields {
+        self.needed
     }
 
     /// The fields that the program names.
@@ -183,9 +225,57 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
                 .union(residual)
                 .union(read)
         });
-        self.declared
-            .iter()
-            .fold(evolved, |all, own| all.union(Fields::of(&[own.field])))
+        let declared = self.declared.iter().map(|own| own.field);
+        declared
+            .chain(self.ledger.iter().map(|own| own.field))
+            .fold(evolved, |all, field| all.union(Fields::of(&[field])))
+    }
+
+    /// Whether a field belongs to the state: an effect declares it, or it is integrated in time.
+    pub(crate) fn keeps(&self, field: Field) -> bool {
+        self.declared.iter().any(|own| own.field == field)
+            || self.evolved.iter().any(|own| own.field == field)
+    }
+
+    /// Why a field with so many components cannot be set between steps.
+    pub(crate) fn cannot_set(&self, field: Field, components: usize) -> Option<Problem> {
+        let (name, _) = self.name_of(field);
+        if field != Field::VELOCITY && !self.keeps(field) {
+            return Some(Problem::Incompatible {
+                what: format!("the field {name} is no part of the state under this scheme"),
+                remedy: "set the velocity, a field that is integrated in time, or one that an effect declares: \
+                         all others follow from these",
+            });
+        }
+        (components != field.components(D)).then(|| Problem::Parameter {
+            what: format!("number of components given for the field {name}"),
+            value: components as f64,
+            must_be: "it must be 1 for a scalar, the dimension for a vector, 6 for a symmetric tensor, the square \
+                      of the dimension for a matrix",
+        })
+    }
+
+    /// Why bodies cannot start with values of a field with so many components.
+    pub(crate) fn cannot_start(&self, field: Field, components: usize) -> Option<Problem> {
+        let own = [Field::VELOCITY, Field::DENSITY, Field::ENERGY];
+        if own.contains(&field) {
+            return Some(Problem::Incompatible {
+                what: format!("bodies start with a {} of their own", field.name()),
+                remedy: "give it by Body::velocity, Body::density, Body::energy or Body::start",
+            });
+        }
+        self.cannot_set(field, components)
+    }
+
+    /// The fields of the state other than position and velocity, each once, in the order of declaration.
+    pub(crate) fn state(&self) -> impl Iterator<Item = Field> {
+        let declared = self.declared.iter().map(|own| own.field);
+        let all: Vec<_> = declared
+            .chain(self.evolved.iter().map(|own| own.field))
+            .collect();
+        let first = |k: &usize| !all[..*k].contains(&all[*k]);
+        let kept: Vec<_> = (0..all.len()).filter(first).map(|k| all[k]).collect();
+        kept.into_iter()
     }
 
     /// The name and unit of a field.

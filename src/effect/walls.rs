@@ -129,6 +129,7 @@ impl<const D: usize> Effect<D> for RiemannWalls {
     }
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
         program.ask_for_wall_normals();
+        program.declare_sum(BEFORE, "liquid_velocity_before_wall", "m/s");
         program.law(Stage::Walls, *self);
         program.document(TermDoc {
             name: "walls as one-sided Riemann problems".into(),

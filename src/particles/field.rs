@@ -66,6 +66,11 @@ macro_rules! quantities {
                     shape: own_shape(place),
                 }
             }
+            /// The number and shape of one that an effect declares, as `scalar 3`; none of those of the crate.
+            pub(crate) fn own_number(self) -> Option<String> {
+                let own = self.place().checked_sub(64)?;
+                Some(format!("{} {}", self.shape.word(), own % OWN))
+            }
             /// Numbers per particle in `d` dimensions.
             #[must_use]
             pub const fn components(self, d: usize) -> usize {
@@ -259,6 +264,14 @@ impl Shape {
             Shape::Tensor => "own tensor",
             Shape::Matrix => "own matrix",
             _ => "own vector",
+        }
+    }
+    const fn word(self) -> &'static str {
+        match self {
+            Shape::Scalar => "scalar",
+            Shape::Tensor => "tensor",
+            Shape::Matrix => "matrix",
+            _ => "vector",
         }
     }
     const fn components(self, d: usize) -> usize {

@@ -4,6 +4,7 @@
 use crate::boundary::Slip;
 use crate::geometry::{FEWER, Flaw, MOST_PARTICLES, POSITIVE, Shape, filled};
 use crate::material::Material;
+use crate::particles::Field;
 use crate::scalar::Real;
 pub use crate::scheme::Start;
 use std::collections::HashMap;
@@ -26,6 +27,16 @@ pub struct Body<T: Real, const D: usize> {
     pub(crate) starts: Vec<Start<D>>,
     pub(crate) slip: Slip,
     pub(crate) shape: Result<(), Flaw>,
+    /// Fields that start with values of their own.
+    pub(crate) fields: Vec<StartField>,
+}
+
+/// A field with the numbers that the particles of a body start with, one particle after the other.
+#[derive(Clone, Debug)]
+pub(crate) struct StartField {
+    pub field: Field,
+    pub components: usize,
+    pub values: Vec<f64>,
 }
 
 impl<T: Real, const D: usize> Body<T, D> {
@@ -130,6 +141,7 @@ impl<T: Real, const D: usize> Body<T, D> {
             starts,
             slip: Slip::Free,
             shape: Ok(()),
+            fields: Vec::new(),
         }
     }
 
@@ -195,6 +207,47 @@ impl<T: Real, const D: usize> Body<T, D> {
         for (x, own) in self.points.iter().zip(&mut self.starts) {
             *own = start(*x, *own);
         }
+        self
+    }
+
+    /// Starts a field that an effect declares or integrates with a function of position \[m\]; `N` is the number of
+    /// its components: 1, D, 6 for a symmetric tensor (xx, yy, zz, yz, xz, xy). Without it, it starts with what the
+    /// effect declares.
+    ///
+    /// ```
+    /// use meshfree::effect::{Effect, Setting, StepProgram};
+    /// use meshfree::prelude::*;
+    ///
+    /// const DYE: Field = Field::scalar(0);
+    ///
+    /// /// A dye that moves with the particles.
+    /// #[derive(Clone, Debug)]
+    /// struct Dye;
+    /// impl<const D: usize> Effect<D> for Dye {
+    ///     type Terms = ();
+    ///     fn terms(&self, _: &Setting) {}
+    ///     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
+    ///         program.declare(DYE, "dye", "1", 0.0);
+    ///     }
+    /// }
+    /// let simulation = Scene::<f64, 1>::new(schemes::impact().with(Dye))
+    ///     .body(Body::block("rod", catalogue::copper(), [0.0], [0.01], 1e-3).field(DYE, |[x]| [100.0 * x]))
+    ///     .build()?;
+    /// assert!((simulation.body(0).last().and_then(|p| p.scalar(DYE)).unwrap_or(0.0) - 0.95).abs() < 1e-12);
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[must_use]
+    pub fn field<const N: usize>(
+        mut self,
+        field: Field,
+        start: impl Fn([f64; D]) -> [f64; N],
+    ) -> Self {
+        let values = self.points.iter().flat_map(|x| start(*x)).collect();
+        self.fields.push(StartField {
+            field,
+            components: N,
+            values,
+        });
         self
     }
 

@@ -119,6 +119,14 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                 let own = (&body.material, body.spacing);
                 self.scheme
                     .place(&mut columns, slot, own, body.points[k], &body.starts[k]);
+                for start in &body.fields {
+                    let width = start.components;
+                    let values = start.values[k * width..(k + 1) * width].iter();
+                    let places = columns.raw_mut(start.field)[slot * width..].iter_mut();
+                    for (place, value) in places.zip(values) {
+                        *place = T::from_f64(*value);
+                    }
+                }
             }
             let ids = start..start + self.room(body);
             start = end;

@@ -404,6 +404,15 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
             let wanted = Gradients::<V, NeedsOf<W, E, D>, FORCE>::wanted::<D>();
             program.law(Stage::Gradients, CorrectedGradients { wanted });
         }
+        // A viscosity that is chosen at run time reads what others of its kind do, and nothing may write that.
+        let remembered = Fields::of(&[Field::VISCOSITY_COEFFICIENT, Field::DIVERGENCE]);
+        let mut unwritten = remembered.minus(remembered.minus(V::READS));
+        if sweeps[Stage::Gradients.number()].is_none() {
+            unwritten = unwritten.union(Gradients::<V, NeedsOf<W, E, D>, FORCE>::wanted::<D>());
+        }
+        for field in unwritten.iter() {
+            program.carry(field);
+        }
         self.evolve(&mut program);
         self.walls.register(&mut program);
         self.effects.register(&mut program);

@@ -35,6 +35,7 @@
 
 mod builder;
 mod force;
+mod order;
 mod print;
 mod start;
 

@@ -43,7 +43,11 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         let mut lines = vec![format!("{}, step by step", self.name)];
         for stage in Stage::ALL {
             if let Some(sweep) = self.sweep(stage) {
-                let sums: Vec<_> = sweep.outputs().iter().map(|sum| sum.name()).collect();
+                let sums: Vec<_> = sweep
+                    .outputs()
+                    .iter()
+                    .map(|sum| self.name_of_sum(sum))
+                    .collect();
                 lines.push(format!("  {}: pairs", stage.name()));
                 lines.push(format!("      reads  {}", self.names(sweep.fields())));
                 lines.push(format!("      sums   {}", sums.join(", ")));
@@ -72,6 +76,18 @@ impl<T: Real, const D: usize> Scheme<T, D> {
                 } else {
                     ""
                 }
+            ));
+        }
+        for own in &self.program.declared {
+            let start = own.start;
+            lines.push(format!("  starts {} [{}] at {start}", own.name, own.unit));
+        }
+        for own in &self.program.ledger {
+            let (name, _) = self.program.name_of(own.field);
+            let mass = if own.times_mass { "m " } else { "" };
+            lines.push(format!(
+                "  ledger: {} [{}] = {} Σ {mass}{name}",
+                own.name, own.unit, own.factor
             ));
         }
         for limit in &self.program.limits {

@@ -68,6 +68,8 @@ pub enum Criterion {
     Viscous,
     /// |rᵢⱼ|/u: particles that move towards each other.
     Approach,
+    /// A limit of an effect, by the [name](crate::effect::Limit::name) that it has in reports.
+    Effect(&'static str),
     /// The step was given.
     Fixed,
     /// The step was cut to end at the time asked for.
@@ -83,6 +85,7 @@ impl Criterion {
             Self::Force => "force: sqrt(h/|a|)",
             Self::Viscous => "viscous: h² ρ/mu",
             Self::Approach => "approach: distance of a pair over its closing speed",
+            Self::Effect(name) => name,
             Self::Fixed => "fixed",
             Self::End => "end of the run",
         }
@@ -131,7 +134,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 courant: courant.min(own) * stability,
                 ..self.control
             };
-            let vote = group.vote(&control);
+            let vote = group.vote_of_effects(group.vote(&control));
             if vote.step < 0.0 {
                 return Err(self.broken(group, vote.particle));
             }
@@ -199,7 +202,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let wrong = |&(name, value): &(&str, f64)| {
             !value.is_finite() || (name == "density" && value <= 0.0)
         };
-        let (quantity, value) = candidates.into_iter().find(wrong).unwrap_or(candidates[0]);
+        let (quantity, value) = candidates
+            .into_iter()
+            .find(wrong)
+            .or_else(|| group.broken_effect(slot))
+            .unwrap_or(candidates[0]);
         let body = &group.particles.bodies[group.particles.body_of(slot)];
         Error::NotFinite {
             quantity,

@@ -18,9 +18,37 @@ pub struct Budget {
     pub kinetic: f64,
     /// Internal energy \[J\].
     pub internal: f64,
+    /// What effects keep in the ledger ([`StepProgram::ledger`]), each once.
+    ///
+    /// [`StepProgram::ledger`]: crate::effect::StepProgram::ledger
+    pub totals: Vec<Total>,
+}
+
+/// The sum over a body of what an effect keeps in the ledger.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Total {
+    /// Its name, as `heat`.
+    pub name: &'static str,
+    /// Its SI unit.
+    pub unit: &'static str,
+    /// The sum.
+    pub value: f64,
 }
 
 impl Budget {
+    /// What an effect keeps under a name; `None` if no effect of the body's scheme does.
+    #[must_use]
+    pub fn total(&self, name: &str) -> Option<f64> {
+        let own = self.totals.iter().find(|total| total.name == name);
+        own.map(|total| total.value)
+    }
+    /// Adds to the total with a name.
+    fn add_total(&mut self, other: &Total) {
+        match self.totals.iter_mut().find(|own| own.name == other.name) {
+            Some(own) => own.value += other.value,
+            None => self.totals.push(*other),
+        }
+    }
     /// Kinetic and internal energy \[J\].
     #[must_use]
     pub fn total_energy(&self) -> f64 {
@@ -125,6 +153,22 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 .map_or(0.0, |e| e.to_f64());
             budget.internal += mass * energy;
         }
+        for own in &group.scheme.program.ledger {
+            let (values, mass) = (columns.raw(own.field), columns.raw(Field::MASS));
+            let sum = body.slots.clone().fold(0.0, |sum, slot| {
+                let share = if own.times_mass {
+                    mass[slot].to_f64()
+                } else {
+                    1.0
+                };
+                sum + share * values[slot].to_f64()
+            });
+            budget.add_total(&Total {
+                name: own.name,
+                unit: own.unit,
+                value: own.factor * sum,
+            });
+        }
         budget
     }
 
@@ -143,6 +187,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             whole.mass += budget.mass;
             whole.kinetic += budget.kinetic;
             whole.internal += budget.internal;
+            for total in &budget.totals {
+                whole.add_total(total);
+            }
             for d in 0..D {
                 whole.momentum[d] += budget.momentum[d];
             }

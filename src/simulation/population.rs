@@ -184,6 +184,9 @@ impl<T: Real, const D: usize> Group<T, D> {
                     Field::VELOCITY,
                 ]);
                 through.re_enter(slot, x, residual, v);
+                for field in self.scheme.program.state() {
+                    through.turn_field(field, slot, self.particles.columns.raw_mut(field));
+                }
                 // Repeats have lost their own places in a new order, and follow their original.
                 if body.is_none() && !self.work.moved.order.is_empty() {
                     continue;

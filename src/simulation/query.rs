@@ -7,7 +7,7 @@ use super::population::{BodyState, Removed};
 use super::walls::WallState;
 use crate::boundary::Pose;
 use crate::material::eos::GuardCounts;
-use crate::particles::{Field, Output};
+use crate::particles::{Field, Output, Shape};
 use crate::scalar::Real;
 use crate::scheme::Scheme;
 use crate::sweep::Rows;
@@ -15,8 +15,8 @@ use crate::sweep::Rows;
 /// A particle as it is now.
 #[derive(Clone, Copy, Debug)]
 pub struct ParticleView<'a, T: Real, const D: usize> {
-    group: &'a Group<T, D>,
-    slot: usize,
+    pub(super) group: &'a Group<T, D>,
+    pub(super) slot: usize,
 }
 
 impl<T: Real, const D: usize> ParticleView<'_, T, D> {
@@ -45,15 +45,14 @@ impl<T: Real, const D: usize> ParticleView<'_, T, D> {
     pub fn velocity(&self) -> [f64; D] {
         self.group.particles.columns.vectors(Field::VELOCITY)[self.slot].map(Real::to_f64)
     }
-    /// A scalar field, or `None` if the scene does not carry it.
+    /// A scalar field, or `None` if the particle does not carry it or it is no scalar.
     #[must_use]
     pub fn scalar(&self, field: Field) -> Option<f64> {
-        self.group
-            .particles
-            .columns
-            .raw(field)
-            .get(self.slot)
-            .map(|value| value.to_f64())
+        if field.shape() != Shape::Scalar {
+            return None;
+        }
+        let column = self.group.particles.columns.raw(field);
+        column.get(self.slot).map(|value| value.to_f64())
     }
     /// Density \[kg/m³\].
     #[must_use]

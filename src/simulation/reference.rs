@@ -54,11 +54,12 @@ impl<T: Real, const D: usize> Group<T, D> {
                 moment.fill(T::one());
             }
         }
-        if !form.has_reference() {
+        if !form.has_reference() || self.scheme.reference.is_none() {
+            let lattice = T::from_f64(self.scheme.lattice_moment);
             self.particles
                 .columns
                 .raw_mut(Field::NORMALISATION)
-                .fill(T::one());
+                .fill(lattice);
         }
         self.take_touching();
         if self.particles.columns.fields().contains(Field::GRAD_H) {

@@ -121,7 +121,8 @@ impl<T: Real, const D: usize> Group<T, D> {
         let sound = |slot: usize| {
             let sum: f64 = positions[slot].iter().map(|x| x.to_f64()).sum();
             let density = density[slot].to_f64();
-            (sum + density + self.energy_of(slot)).is_finite() && density > 0.0
+            let finite = (sum + density + self.energy_of(slot)).is_finite();
+            finite && density > 0.0 && self.has_sound_effects(slot)
         };
         self.particles.bodies.iter().find_map(|body| {
             let slots = body.slots.clone().into_par_iter();

@@ -9,7 +9,7 @@ use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::scheme::EnergyForm;
 use crate::sweep::two_sum;
-use crate::tensor::{Matrix, Symmetric, Vector, rotation};
+use crate::tensor::{Symmetric, Vector, rotation};
 use rayon::prelude::*;
 
 /// Positions, and what their rounding has lost.
@@ -132,12 +132,15 @@ impl<T: Real, const D: usize> Group<T, D> {
                 of_rates: when == When::Kick,
                 ..Moment::at(0.0)
             };
-            let mobile = self.particles.mobile * own.field.components(D);
-            let limited = {
-                let view = self.view(moment);
-                let own_values = (&mut column[..mobile], &mut residual[..]);
-                update(own, &view, 0, own_values, T::from_f64(dt))
-            };
+            let width = own.field.components(D);
+            let mut limited = 0;
+            for (body, state) in self.particles.bodies.iter().enumerate() {
+                let (run, view) = (state.run(), self.view(body, moment));
+                let numbers = run.start * width..run.end * width;
+                let lost = residual.get_mut(numbers.clone()).unwrap_or_default();
+                let values = (&mut column[numbers], lost);
+                limited += update(own, &view, run.start, values, T::from_f64(dt));
+            }
             *self.particles.columns.column_mut(own.field) = column;
             if let Some(kept) = own.residual {
                 *self.particles.columns.column_mut(kept) = residual;
@@ -147,8 +150,8 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
     }
 
-    /// The columns and what is around them.
-    pub(super) fn view(&self, moment: Moment) -> View<'_, T, D> {
+    /// The columns and what is around the particles of a body.
+    pub(super) fn view(&self, body: usize, moment: Moment) -> View<'_, T, D> {
         View {
             columns: &self.particles.columns,
             around: Around {
@@ -158,7 +161,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                     &self.work.sums
                 },
                 rates: &self.work.rates,
-                material: &self.particles.bodies[0].material,
+                material: &self.particles.bodies[body].material,
                 wall: None,
                 smoothing_length: self.smoothing_length,
                 lattice_moment: self.scheme.lattice_moment,
@@ -356,14 +359,18 @@ impl<T: Real, const D: usize> Group<T, D> {
         column: &mut [T],
         mut act: impl FnMut(usize, &mut T, T),
     ) {
-        let view = self.view(of_rates());
         let width = own.field.components(D);
         let piece = RATES / width * width;
         let mut buffer = [T::zero(); RATES];
-        for (k, values) in column.chunks_mut(piece).enumerate() {
-            rates(own, &view, k * piece / width, values, &mut buffer);
-            for (n, y) in values.iter_mut().enumerate() {
-                act(k * piece + n, y, buffer[n]);
+        for (body, state) in self.particles.bodies.iter().enumerate() {
+            let (run, view) = (state.run(), self.view(body, Moment::of_rates()));
+            let numbers = &mut column[run.start * width..run.end * width];
+            for (k, values) in numbers.chunks_mut(piece).enumerate() {
+                let first = run.start * width + k * piece;
+                rates(own, &view, first / width, values, &mut buffer);
+                for (n, y) in values.iter_mut().enumerate() {
+                    act(first + n, y, buffer[n]);
+                }
             }
         }
     }
@@ -397,6 +404,11 @@ impl<T: Real, const D: usize> Group<T, D> {
                     entry.through.re_enter(entry.slot, x, residual, v);
                 }
             }
+            for (field, column) in kept.iter_mut().skip(3) {
+                for entry in &moved.wraps {
+                    entry.through.turn_field(*field, entry.slot, column);
+                }
+            }
         }
         // A prediction is taken back: what it started from is the present state.
         let predicted = self.work.predicted.first_mut();
@@ -407,6 +419,11 @@ impl<T: Real, const D: usize> Group<T, D> {
             given.extend(entry.indices.map(|indices| (None, indices, impulse)));
             if let Some(v) = &mut start {
                 entry.through.turn(entry.slot, v);
+            }
+        }
+        for (field, column) in self.work.predicted.iter_mut().skip(1) {
+            for entry in &moved.wraps {
+                entry.through.turn_field(*field, entry.slot, column);
             }
         }
         if !moved.order.is_empty() {
@@ -457,13 +474,6 @@ impl<T: Real, const D: usize> Group<T, D> {
     }
 }
 
-fn of_rates() -> Moment {
-    Moment {
-        of_rates: true,
-        ..Moment::at(0.0)
-    }
-}
-
 /// dY/dt = g Y + s of some particles from slot `first` on, whose present values are `values`.
 fn rates<T: Real, const D: usize>(
     own: &Evolved<T, D>,
@@ -480,7 +490,7 @@ fn rates<T: Real, const D: usize>(
     if own.update == Update::Rotated {
         for (n, rates) in rates.chunks_exact_mut(width).enumerate() {
             let tensor = Symmetric::from_slice(&values[n * width..]);
-            let turn = tensor.spun(&spin(view, first + n));
+            let turn = tensor.spun(&view.spin(first + n));
             for (rate, turn) in rates.iter_mut().zip(turn.components()) {
                 *rate += *turn;
             }
@@ -512,13 +522,6 @@ fn parts<T: Real, const D: usize>(
         rate.growth(view, first, values, growths);
         rate.source(view, first, sources);
     }
-}
-
-/// ½ (∇v − ∇vᵀ) of the particle in a slot \[1/s\].
-fn spin<T: Real, const D: usize>(view: &View<'_, T, D>, slot: usize) -> Matrix<T, D> {
-    let gradient = view.columns.raw(Field::VELOCITY_GRADIENT);
-    let at = |a: usize, b: usize| gradient[slot * D * D + a * D + b];
-    Matrix::from_fn(|a, b| (at(a, b) - at(b, a)) * T::from_f64(0.5))
 }
 
 /// Values of the particles from slot `first` on over `dt` \[s\] as their declaration says; how many were held at a
@@ -578,7 +581,7 @@ fn update<T: Real, const D: usize>(
                 for (n, values) in values.chunks_exact_mut(width).enumerate() {
                     let source = Symmetric::from_slice(&sources[n * width..]);
                     let moved = Symmetric::from_slice(values).plus(dt, &source);
-                    let turn = rotation(&(spin(view, slot + n) * dt));
+                    let turn = rotation(&(view.spin(slot + n) * dt));
                     values.copy_from_slice(moved.rotated(&turn).components());
                 }
             }

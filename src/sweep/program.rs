@@ -9,7 +9,7 @@ use crate::kernel::Kernel;
 use crate::neighbors::{Block, CHUNK, ChunkList, ClusterLists};
 use crate::particles::{Columns, Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
-use crate::term::{Layout, TermDoc, Terms, assert_room};
+use crate::term::{Layout, TermDoc, TermUse, Terms, assert_room};
 use core::fmt::Debug;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -58,6 +58,8 @@ pub trait PairSweep<T: Real, const D: usize>: Debug + Send + Sync {
     fn outputs(&self) -> Outputs;
     /// Its terms, for people.
     fn document(&self) -> Vec<TermDoc>;
+    /// What each of its terms reads and writes.
+    fn uses(&self) -> Vec<TermUse>;
     /// Packs what a pass reads. `records` keeps its memory between calls.
     fn pack(&self, pass: Pass, input: &SweepInput<'_, T, D>, records: &mut Records<T>);
     /// Renews the mean velocities in records packed for [`Pass::Work`].
@@ -113,6 +115,10 @@ impl<T: Real, const D: usize, K: Kernel<D>, P: Terms<D>, const MODES: u8> PairSw
 
     fn document(&self) -> Vec<TermDoc> {
         self.terms.document()
+    }
+
+    fn uses(&self) -> Vec<TermUse> {
+        self.terms.uses()
     }
 
     fn pack(&self, pass: Pass, input: &SweepInput<'_, T, D>, records: &mut Records<T>) {

@@ -69,6 +69,34 @@ impl<T: Real, const D: usize> Transform<T, D> {
         }
         self.turn(slot, v);
     }
+    /// Turns a vector, tensor or matrix field of the particle in `slot`, other than place and velocity.
+    pub(crate) fn turn_field(&self, field: Field, slot: usize, column: &mut [T]) {
+        let width = field.components(D);
+        if let Some(values) = column.get_mut(slot * width..(slot + 1) * width) {
+            self.turn_values(field, values);
+        }
+    }
+    fn turn_values(&self, field: Field, values: &mut [T]) {
+        let rotation = &self.rotation;
+        match field.shape() {
+            Shape::Scalar => {}
+            Shape::Matrix => {
+                let matrix = Matrix::<T, D>::from_row_slice(values);
+                let turned = rotation * matrix * rotation.transpose();
+                for (k, value) in values.iter_mut().enumerate() {
+                    *value = turned[(k / D, k % D)];
+                }
+            }
+            Shape::Tensor => {
+                let turned = Symmetric::from_slice(values).rotated(rotation);
+                values.copy_from_slice(turned.components());
+            }
+            Shape::Point | Shape::Velocity | Shape::Vector => {
+                let turned = rotation * Vector::<T, D>::from_row_slice(values);
+                values.copy_from_slice(turned.as_slice());
+            }
+        }
+    }
     /// Turns the velocity of the particle in `slot`.
     pub(crate) fn turn(&self, slot: usize, v: &mut [T]) {
         let v = &mut v[slot * D..(slot + 1) * D];
@@ -196,18 +224,7 @@ fn reflect<T: Real, const D: usize>(record: &mut [T], reads: Fields, by: &Transf
     for field in reads.iter() {
         let values = &mut record[offset..offset + field.components(D)];
         match field.shape() {
-            Shape::Scalar => {}
-            Shape::Matrix => {
-                let matrix = Matrix::<T, D>::from_row_slice(values);
-                let turned = by.rotation * matrix * by.rotation.transpose();
-                for (k, value) in values.iter_mut().enumerate() {
-                    *value = turned[(k / D, k % D)];
-                }
-            }
-            Shape::Tensor => {
-                let turned = Symmetric::from_slice(values).rotated(&by.rotation);
-                values.copy_from_slice(turned.components());
-            }
+            Shape::Scalar | Shape::Matrix | Shape::Tensor => by.turn_values(field, values),
             shape => {
                 let turned = by.rotation * Vector::<T, D>::from_row_slice(values);
                 for d in 0..D {

@@ -435,6 +435,17 @@ pub struct TermDoc {
     pub source: &'static str,
 }
 
+/// What a term of a sweep reads and writes, for the check of a scheme's order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TermUse {
+    /// Its name.
+    pub name: String,
+    /// What it reads.
+    pub reads: Fields,
+    /// What it writes.
+    pub writes: Outputs,
+}
+
 /// One effect between pairs of particles.
 ///
 /// Mark [`pair`](Term::pair), and every function that it calls, `#[inline(always)]`. The pair loop is compiled
@@ -509,6 +520,15 @@ pub trait Terms<const D: usize>: Clone + Debug + Send + Sync + 'static {
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>);
     /// The terms, for people.
     fn document(&self) -> Vec<TermDoc>;
+    /// What each term reads and writes; all together as one if not given.
+    fn uses(&self) -> Vec<TermUse> {
+        let names: Vec<_> = self.document().into_iter().map(|own| own.name).collect();
+        vec![TermUse {
+            name: names.join(", "),
+            reads: Self::READS,
+            writes: Self::WRITES,
+        }]
+    }
 }
 
 impl<const D: usize> Terms<D> for () {
@@ -526,6 +546,9 @@ impl<const D: usize> Terms<D> for () {
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, _pair: &Pair<'_, L, D, P>, _sums: &mut Sums<L, D, P>) {}
     fn document(&self) -> Vec<TermDoc> {
+        Vec::new()
+    }
+    fn uses(&self) -> Vec<TermUse> {
         Vec::new()
     }
 }
@@ -610,6 +633,14 @@ macro_rules! tuple {
                 let mut documents = vec![$($name.document(),)*];
                 documents.retain(|document| !document.name.is_empty());
                 documents
+            }
+            fn uses(&self) -> Vec<TermUse> {
+                let ($($name,)*) = self;
+                vec![$(TermUse {
+                    name: $name.document().name,
+                    reads: $name::READS,
+                    writes: $name::WRITES,
+                },)*]
             }
         }
     };

@@ -1,7 +1,7 @@
 //! Terms by stage: of the terms of an effect, those that share the sweep of one stage, as a type.
 //! A sweep is compiled once for the terms that it has, whatever else the schemes that use it name.
 
-use super::{Layout, Pair, Stage, Sums, Term, TermDoc, Terms};
+use super::{Layout, Pair, Stage, Sums, Term, TermDoc, TermUse, Terms};
 use crate::particles::{Fields, Outputs};
 use crate::scalar::Lane;
 use core::fmt::Debug;
@@ -201,5 +201,10 @@ impl<const D: usize, A: Terms<D>, B: Terms<D>> Terms<D> for Join<A, B> {
         let mut documents = self.0.document();
         documents.extend(self.1.document());
         documents
+    }
+    fn uses(&self) -> Vec<TermUse> {
+        let mut uses = self.0.uses();
+        uses.extend(self.1.uses());
+        uses
     }
 }

@@ -1,8 +1,13 @@
 //! What a scheme says of itself is what it runs, and what the architecture page shows.
 //! The page holds the step programs of one liquid and one solid as the crate prints them.
 
+use meshfree::effect::{BySum, Chunk, Effect, Law, Setting, StepProgram, Tally};
+use meshfree::error::Problem;
+use meshfree::particles::{Output, Outputs};
 use meshfree::prelude::*;
-use meshfree::term::LaminarViscosity;
+use meshfree::term::{
+    In, LaminarViscosity, Layout, Pair, Stage, Sums, Term, TermDoc, stage, viscosity,
+};
 
 fn programs() -> String {
     let liquid: Scheme<f64, 2> = schemes::weakly_compressible().compose();
@@ -76,4 +81,292 @@ fn an_effect_that_is_not_named_is_not_in_the_program() {
     }
     // 3 + 3 + 6 numbers: places, velocities, and what pressure and continuity need.
     assert_eq!(plain.fields().width(3), 12);
+}
+
+/// A field and a sum of its own.
+const OWN: Field = Field::scalar(3);
+const SUM: Output = Output::vector(2);
+
+/// A law that reads and writes what a test says, and does nothing.
+#[derive(Clone, Copy, Debug)]
+struct Reads {
+    fields: Fields,
+    sums: Outputs,
+    writes: Fields,
+}
+
+const NOTHING: Reads = Reads {
+    fields: Fields::NONE,
+    sums: Outputs::NONE,
+    writes: Fields::NONE,
+};
+
+impl<T: Real, const D: usize> Law<T, D> for Reads {
+    fn name(&self) -> &'static str {
+        "a law of a test"
+    }
+    fn reads(&self) -> Fields {
+        self.fields
+    }
+    fn sums(&self) -> Outputs {
+        self.sums
+    }
+    fn writes(&self) -> Fields {
+        self.writes
+    }
+    fn apply(&self, _chunk: &mut Chunk<'_, T, D>) -> Tally {
+        Tally::default()
+    }
+}
+
+/// A law at a stage, with names of a field and of a sum.
+#[derive(Clone, Copy, Debug)]
+struct Named {
+    stage: Stage,
+    law: Reads,
+    field: Option<&'static str>,
+    sum: Option<&'static str>,
+}
+
+impl<const D: usize> Effect<D> for Named {
+    type Terms = ();
+    fn terms(&self, _setting: &Setting) {}
+    fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
+        program.law(self.stage, self.law);
+        if let Some(name) = self.field {
+            program.declare(OWN, name, "1", 0.0);
+        }
+        if let Some(name) = self.sum {
+            program.declare_sum(SUM, name, "1");
+        }
+    }
+}
+
+/// A term that reads the own field and writes the own sum.
+#[derive(Clone, Copy, Debug)]
+struct OwnTerm;
+
+impl<const D: usize> Effect<D> for OwnTerm {
+    type Terms = (In<stage::Rates, OwnTerm>,);
+    fn terms(&self, _setting: &Setting) -> Self::Terms {
+        (In::new(*self),)
+    }
+}
+
+impl<const D: usize> Term<D> for OwnTerm {
+    const READS: Fields = Fields::of(&[OWN]);
+    const WRITES: Outputs = Outputs::of(&[SUM]);
+    #[inline(always)]
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+        for d in 0..D {
+            sums.add_at(SUM, d, pair.j(OWN) * pair.r[d]);
+        }
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: "a term of a test".into(),
+            equation: "Σ c r",
+            source: "none",
+        }
+    }
+}
+
+fn problems(scheme: impl Into<Scheme<f64, 1>>) -> Vec<Problem> {
+    let rod = Body::block("rod", catalogue::copper(), [0.0], [0.01], 1e-3);
+    Scene::new(scheme).body(rod).problems()
+}
+
+#[test]
+fn a_stage_that_reads_what_nothing_wrote_is_refused_by_name() {
+    let at = |stage, law| Named {
+        stage,
+        law,
+        field: None,
+        sum: None,
+    };
+    let reads = |field| Reads {
+        fields: Fields::of(&[field]),
+        ..NOTHING
+    };
+    for (stage, law, quantity) in [
+        // Equations of state come after the densities, coefficients of the force after the walls.
+        (
+            Stage::Density,
+            reads(Field::PRESSURE),
+            Some("field pressure"),
+        ),
+        (Stage::State, reads(Field::PRESSURE), None),
+        (
+            Stage::State,
+            reads(Field::PRESSURE_COEFFICIENT),
+            Some("field pressure_coefficient"),
+        ),
+        (Stage::Rates, reads(Field::PRESSURE_COEFFICIENT), None),
+        // Of gradients the scheme asks for those of velocity and pressure.
+        (
+            Stage::Flow,
+            reads(Field::DENSITY_GRADIENT),
+            Some("field density_gradient"),
+        ),
+        (
+            Stage::State,
+            reads(Field::PRESSURE_GRADIENT),
+            Some("field pressure_gradient"),
+        ),
+        (Stage::Flow, reads(Field::PRESSURE_GRADIENT), None),
+        // What an evaluation has written is there in the drift after it.
+        (Stage::Continuity, reads(Field::PRESSURE_GRADIENT), None),
+        (
+            Stage::Rates,
+            Reads {
+                sums: Outputs::of(&[Output::FORCE, Output::UNITY]),
+                ..NOTHING
+            },
+            Some("sum unity"),
+        ),
+    ] {
+        let found = problems(schemes::impact().with(at(stage, law)));
+        let Some(quantity) = quantity else {
+            assert!(found.is_empty(), "{found:?}");
+            continue;
+        };
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!(matches!(found[0], Problem::NotWritten { .. }));
+        let text = found[0].to_string();
+        for part in [quantity, stage.name(), "a law of a test", "impact"] {
+            assert!(text.contains(part), "{part} in {text}");
+        }
+    }
+}
+
+#[test]
+fn a_field_of_ones_own_is_written_at_a_stage_before_it_is_read() {
+    let writes = |stage, field| Named {
+        stage,
+        law: Reads {
+            writes: Fields::of(&[OWN]),
+            ..NOTHING
+        },
+        field,
+        sum: Some("own_sum"),
+    };
+    // Declared, it belongs to the state, whoever writes it.
+    let named = schemes::impact().with(OwnTerm);
+    assert!(problems(named.clone().with(writes(Stage::Rates, Some("colour")))).is_empty());
+    // Not declared, it has no name; and if it is written too late, no value.
+    let unnamed = problems(named.clone().with(writes(Stage::Flow, None)));
+    assert!(
+        matches!(&unnamed[..], [Problem::NotDeclared { number, .. }] if number == "scalar 3"),
+        "{unnamed:?}"
+    );
+    let late = problems(named.with(writes(Stage::Rates, None)));
+    assert!(
+        matches!(&late[..], [Problem::NotDeclared { .. }, Problem::NotWritten { reader, .. }]
+            if reader == "the term `a term of a test`"),
+        "{late:?}"
+    );
+}
+
+#[test]
+fn two_effects_that_claim_one_number_are_refused() {
+    let named = |field, sum| Named {
+        stage: Stage::Rates,
+        law: NOTHING,
+        field: Some(field),
+        sum: Some(sum),
+    };
+    let scheme = || {
+        schemes::impact()
+            .with(OwnTerm)
+            .with(named("colour", "flow"))
+    };
+    assert!(problems(scheme().with(named("colour", "flow"))).is_empty());
+    let text = |own| problems(scheme().with(own))[0].to_string();
+    let field = text(named("salt", "flow"));
+    assert!(
+        field.contains("field scalar 3") && field.contains("`colour`") && field.contains("`salt`")
+    );
+    let sum = text(named("colour", "heat"));
+    assert!(sum.contains("sum vector 2") && sum.contains("`flow`") && sum.contains("`heat`"));
+}
+
+/// An effect that adds to the rate of what nothing integrates.
+#[derive(Clone, Copy, Debug)]
+struct Adds;
+
+impl<const D: usize> Effect<D> for Adds {
+    type Terms = ();
+    fn terms(&self, _setting: &Setting) {}
+    fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
+        let sum = Output::FORCE;
+        program.contribute(Field::DENSITY, BySum { sum, over: None });
+    }
+}
+
+#[test]
+fn a_rate_of_what_nothing_integrates_is_refused() {
+    let found = problems(schemes::impact().with(Adds));
+    assert!(
+        found[0].to_string().contains("rate of density"),
+        "{found:?}"
+    );
+}
+
+/// Every ready scheme, with every effect and switch, reads what has been written.
+#[test]
+fn ready_schemes_are_in_order() {
+    assert!(problems(schemes::impact()).is_empty());
+    assert!(problems(schemes::impact_by_continuity()).is_empty());
+    assert!(
+        problems(schemes::impact().with_viscosity(viscosity::CullenDehnen::default())).is_empty()
+    );
+    assert!(
+        problems(schemes::impact().with_viscosity(viscosity::MorrisMonaghan::default())).is_empty()
+    );
+}
+
+/// The text of every file of a folder of the crate, without comments.
+fn files(folder: &str) -> Vec<(String, String)> {
+    let folder = format!("{}/src/{folder}", env!("CARGO_MANIFEST_DIR"));
+    let entries = std::fs::read_dir(folder).expect("the folder");
+    let paths = entries.map(|entry| entry.expect("a file").path());
+    paths
+        .map(|path| {
+            let text = std::fs::read_to_string(&path).expect("text");
+            let code = text
+                .lines()
+                .filter(|line| !line.trim_start().starts_with("//"));
+            (
+                path.display().to_string(),
+                code.collect::<Vec<_>>().join("\n"),
+            )
+        })
+        .collect()
+}
+
+#[test]
+fn the_driver_names_no_effect_and_effects_do_not_import_the_driver() {
+    let effects = files("effect");
+    let mut names = Vec::new();
+    for (path, code) in &effects {
+        assert!(!code.contains("crate::simulation"), "{path}");
+        let after = code.split("Effect<D> for ").skip(1);
+        let name = |text: &str| {
+            let end = text.find(|c: char| !c.is_alphanumeric());
+            text[..end.unwrap_or(text.len())].to_string()
+        };
+        names.extend(after.map(name));
+    }
+    // `Option` of an effect is one too.
+    names.retain(|name| name != "Option");
+    assert!(
+        names.len() > 10 && names.contains(&"Shifting".into()),
+        "{names:?}"
+    );
+    for (path, code) in files("simulation") {
+        let words: Vec<&str> = code.split(|c: char| !c.is_alphanumeric()).collect();
+        for name in &names {
+            assert!(!words.contains(&name.as_str()), "{path} names {name}");
+        }
+    }
 }

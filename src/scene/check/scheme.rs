@@ -3,7 +3,7 @@
 
 use crate::effect::SceneFacts;
 use crate::error::Problem;
-use crate::particles::{Field, Output};
+use crate::particles::{Field, Output, Shape};
 use crate::scalar::Real;
 use crate::scene::Scene;
 use crate::scene::plan::Plan;
@@ -60,6 +60,8 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                 must_be: "it must be finite and positive: h/dx times the support must be between 1 and 32 spacings",
             });
         }
+        problems.extend(scheme.misordered());
+        self.check_starts(problems);
         let mut incompatible = |what: String, remedy| {
             problems.push(Problem::Incompatible { what, remedy });
         };
@@ -125,6 +127,38 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                 "bodies have different spacings, and the scheme has one smoothing length".into(),
                 "give all bodies the same spacing, or allow it with SchemeBuilder::mixed_spacing",
             );
+        }
+    }
+}
+
+impl<T: Real, const D: usize> Plan<'_, T, D> {
+    /// The fields that bodies give values of, and what effects keep in the ledger.
+    fn check_starts(&self, problems: &mut Vec<Problem>) {
+        let program = &self.scheme.program;
+        for body in self.bodies {
+            for start in &body.fields {
+                if let Some(problem) = program.cannot_start(start.field, start.components) {
+                    problems.push(problem);
+                } else if let Some(value) = start.values.iter().find(|value| !value.is_finite()) {
+                    problems.push(Problem::Parameter {
+                        what: format!("{} of body `{}`", program.name_of(start.field).0, body.name),
+                        value: *value,
+                        must_be: "it must be finite",
+                    });
+                }
+            }
+        }
+        for column in &program.ledger {
+            if column.field.shape() != Shape::Scalar {
+                problems.push(Problem::Incompatible {
+                    what: format!(
+                        "the ledger is asked for {}, the sum of {}, which is no scalar",
+                        column.name,
+                        program.name_of(column.field).0
+                    ),
+                    remedy: "let a law write the number to be summed into a scalar field",
+                });
+            }
         }
     }
 }

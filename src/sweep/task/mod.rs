@@ -161,7 +161,9 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
     {
         let stride = const { Composed::<T, P, D, HOW>::READS.width(D) };
         let width_out = const { Composed::<T, P, D, HOW>::WRITES.width(D) };
-        let one_sided = const { P::WRITES.contains(Output::MOMENT_MATRIX) };
+        let one_sided = const {
+            P::WRITES.contains(Output::MOMENT_MATRIX) && !P::WRITES.contains(Output::COMPRESSION)
+        };
         let forces = const { Composed::<T, P, D, HOW>::WRITES.contains(Output::FORCE) };
         // Made once a chunk: they have room for any terms, and clearing it for each row costs a twelfth of the time.
         let mut own = [L::zero(); MOST_READS];
@@ -189,7 +191,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                 let other = segment.block as usize;
                 let interaction = self.interactions[block * self.blocks.len() + other];
                 let contact = interaction == Interaction::Unilateral;
-                // A gradient does not look across a contact that may open.
+                // A gradient does not look across a contact that may open, unless it shares the sweep of what must.
                 if interaction == Interaction::None || (contact && one_sided) {
                     continue;
                 }

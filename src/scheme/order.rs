@@ -1,0 +1,261 @@
+//! The order of a step: every field and sum that a stage reads has been written by then, or belongs to the state.
+//! What effects call their own has one name, so no two take the same number.
+
+use super::Scheme;
+use crate::effect::{Update, When};
+use crate::error::Problem;
+use crate::particles::{Field, Fields, Output, Outputs};
+use crate::scalar::Real;
+use crate::term::{Stage, TermUse};
+
+/// What the driver itself gives every particle before a step, or keeps for it.
+const GIVEN: Fields = Fields::of(&[
+    Field::POSITION,
+    Field::POSITION_RESIDUAL,
+    Field::VELOCITY,
+    Field::MEAN_VELOCITY,
+    Field::MASS,
+    Field::DENSITY,
+    Field::SMOOTHING_LENGTH,
+    Field::WEIGHT,
+    Field::NORMALISATION,
+    Field::GRAD_H,
+    Field::TOUCHING,
+    Field::TOUCHING_SUM,
+    Field::DYNAMIC_VISCOSITY,
+]);
+/// What equations of state write, after the densities.
+const STATE: Fields = Fields::of(&[Field::PRESSURE, Field::SOUND_SPEED]);
+/// What the pressure form makes of it, once the pressures of walls are known.
+const COEFFICIENTS: Fields = Fields::of(&[Field::PRESSURE_COEFFICIENT]);
+const REFERENCE: Fields = Fields::of(&[Field::REFERENCE_SUM, Field::REFERENCE_DENSITY]);
+/// The stages of an evaluation, in their order; those of a drift come between two evaluations.
+const EVALUATION: [Stage; 6] = [
+    Stage::Density,
+    Stage::State,
+    Stage::Walls,
+    Stage::Gradients,
+    Stage::Flow,
+    Stage::Rates,
+];
+
+/// What a part of a step reads.
+struct Reader {
+    name: String,
+    stage: Stage,
+    fields: Fields,
+    sums: Outputs,
+}
+
+impl<T: Real, const D: usize> Scheme<T, D> {
+    /// What is wrong with the order of the stages, and with the names of what effects call their own.
+    pub(crate) fn misordered(&self) -> Vec<Problem> {
+        let mut problems = Vec::new();
+        self.check_names(&mut problems);
+        let later = [Stage::Continuity, Stage::Bounds];
+        // What a drift writes is there for the evaluation after it, as what belongs to the state.
+        let mut known = later
+            .iter()
+            .fold(self.state(), |all, stage| all.union(self.written(*stage)));
+        for stage in EVALUATION {
+            match stage {
+                Stage::State => known = known.union(STATE),
+                Stage::Gradients => known = known.union(COEFFICIENTS),
+                _ => {}
+            }
+            known = self.check_stage(stage, known, &mut problems);
+        }
+        for stage in later {
+            known = self.check_stage(stage, known, &mut problems);
+        }
+        self.check_evolved(known, &mut problems);
+        problems
+    }
+
+    /// Fields that particles have when a step begins.
+    fn state(&self) -> Fields {
+        let program = &self.program;
+        let mut known = GIVEN.union(program.carried());
+        if self.density.has_reference() && self.reference.is_some() {
+            known = known.union(REFERENCE);
+        }
+        let residuals = program.evolved.iter().filter_map(|own| own.residual);
+        program
+            .state()
+            .chain(residuals)
+            .fold(known, |all, field| all.union(Fields::of(&[field])))
+    }
+
+    /// Fields that the laws of a stage write.
+    fn written(&self, stage: Stage) -> Fields {
+        let laws = self.program.laws[stage.number()].iter();
+        laws.fold(Fields::NONE, |all, law| all.union(law.writes()))
+    }
+
+    /// The sums of the sweep that the laws of a stage see.
+    fn sums(&self, stage: Stage) -> Outputs {
+        let summed_with_rates = stage == Stage::Continuity && self.kicks_density();
+        let stage = if summed_with_rates {
+            Stage::Rates
+        } else {
+            stage
+        };
+        let sweep = self.sweep(stage);
+        sweep.map_or(Outputs::NONE, |sweep| sweep.outputs())
+    }
+
+    /// Checks the sweep of a stage and then its laws, in their order; what is known after them.
+    fn check_stage(&self, stage: Stage, mut known: Fields, problems: &mut Vec<Problem>) -> Fields {
+        let uses = self.sweep(stage).map(|sweep| sweep.uses());
+        // Walls without a sweep over them are met by nobody.
+        if stage == Stage::Walls && uses.is_none() {
+            return known;
+        }
+        for TermUse { name, reads, .. } in uses.into_iter().flatten() {
+            let reader = Reader {
+                name: format!("the term `{name}`"),
+                stage,
+                fields: reads,
+                sums: Outputs::NONE,
+            };
+            self.check(&reader, known, Outputs::NONE, problems);
+        }
+        for law in &self.program.laws[stage.number()] {
+            let reader = Reader {
+                name: format!("the law `{}`", law.name()),
+                stage,
+                fields: law.reads(),
+                sums: law.sums(),
+            };
+            self.check(&reader, known, self.sums(stage), problems);
+            known = known.union(law.writes());
+        }
+        known
+    }
+
+    /// Rates of fields that are integrated, which see everything, but the sums of one sweep alone.
+    fn check_evolved(&self, known: Fields, problems: &mut Vec<Problem>) {
+        let mut seen = Fields::NONE;
+        for own in &self.program.evolved {
+            let stage = match own.when {
+                When::Kick => Stage::Rates,
+                When::Drift => Stage::Continuity,
+            };
+            let (name, _) = self.program.name_of(own.field);
+            if seen.contains(own.field) {
+                problems.push(Problem::Incompatible {
+                    what: format!("the scheme {} integrates {name} twice", self.name),
+                    remedy: "let one effect integrate it, and the other contribute to its rate \
+                             (StepProgram::contribute)",
+                });
+            }
+            seen = seen.union(Fields::of(&[own.field]));
+            let reader = |fields, sums| Reader {
+                name: format!("the rate of {name}"),
+                stage,
+                fields,
+                sums,
+            };
+            for rate in &own.rates {
+                let reader = reader(rate.reads(), rate.sums());
+                self.check(&reader, known, self.sums(stage), problems);
+            }
+            let sums = self.sums(stage);
+            if own.update == Update::Rotated && !sums.contains(Output::VELOCITY_GRADIENT) {
+                let spin = reader(Fields::of(&[Field::VELOCITY_GRADIENT]), Outputs::NONE);
+                self.check(&spin, known, sums, problems);
+            }
+        }
+        for (field, _) in &self.program.pending {
+            problems.push(Problem::Incompatible {
+                what: format!(
+                    "an effect of the scheme {} adds to the rate of {}, which nothing integrates",
+                    self.name,
+                    self.program.name_of(*field).0
+                ),
+                remedy: "take a form that integrates it, or leave the effect out",
+            });
+        }
+    }
+
+    /// Whether all that something reads is there.
+    fn check(&self, by: &Reader, known: Fields, summed: Outputs, problems: &mut Vec<Problem>) {
+        let mut missing = |kind, quantity: &str| {
+            problems.push(Problem::NotWritten {
+                scheme: self.name.clone(),
+                reader: by.name.clone(),
+                kind,
+                quantity: quantity.into(),
+                stage: by.stage.name(),
+            });
+        };
+        for field in by.fields.minus(known).iter() {
+            missing("field", self.program.name_of(field).0);
+        }
+        for sum in by.sums.minus(summed).iter() {
+            missing("sum", self.name_of_sum(sum));
+        }
+    }
+
+    /// The name of a sum.
+    pub(super) fn name_of_sum(&self, sum: Output) -> &'static str {
+        let own = self.program.sums.iter().find(|own| own.sum == sum);
+        own.map_or(sum.name(), |own| own.name)
+    }
+
+    /// Names of what effects call their own: each number has one.
+    fn check_names(&self, problems: &mut Vec<Problem>) {
+        let program = &self.program;
+        let mut claimed = |kind, number: Option<String>, first: &'static str, second| {
+            problems.extend(number.filter(|_| first != second).map(|number| {
+                Problem::ClaimedTwice {
+                    scheme: self.name.clone(),
+                    kind,
+                    number,
+                    first,
+                    second,
+                }
+            }));
+        };
+        for (k, own) in program.declared.iter().enumerate() {
+            for other in program.declared[..k]
+                .iter()
+                .filter(|other| other.field == own.field)
+            {
+                claimed("field", own.field.own_number(), other.name, own.name);
+            }
+        }
+        for (k, own) in program.sums.iter().enumerate() {
+            for other in program.sums[..k]
+                .iter()
+                .filter(|other| other.sum == own.sum)
+            {
+                claimed("sum", own.sum.own_number(), other.name, own.name);
+            }
+        }
+        let mut unnamed = |kind, number, call| {
+            problems.push(Problem::NotDeclared {
+                scheme: self.name.clone(),
+                kind,
+                number,
+                call,
+            });
+        };
+        for field in self.fields().iter() {
+            if !program.declared.iter().any(|own| own.field == field)
+                && let Some(number) = field.own_number()
+            {
+                unnamed("field", number, "declare");
+            }
+        }
+        let sweeps = self.sweeps.iter().flatten();
+        let sums = sweeps.fold(Outputs::NONE, |all, sweep| all.union(sweep.outputs()));
+        for sum in sums.iter() {
+            if !program.sums.iter().any(|own| own.sum == sum)
+                && let Some(number) = sum.own_number()
+            {
+                unnamed("sum", number, "declare_sum");
+            }
+        }
+    }
+}

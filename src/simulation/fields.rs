@@ -1,0 +1,156 @@
+//! Fields of particles by name and by shape: read from a particle, and set for a body between steps.
+//! What is asked for and is not there is an error that lists what is.
+
+use super::{ParticleView, Simulation};
+use crate::error::{Error, Problem, Result};
+use crate::particles::{Field, Shape};
+use crate::scalar::Real;
+use crate::tensor::Symmetric;
+
+impl<T: Real, const D: usize> ParticleView<'_, T, D> {
+    /// All components of a field, or `None` if the particle does not carry it.
+    pub(super) fn numbers(&self, field: Field) -> Option<&[T]> {
+        let width = field.components(D);
+        let column = self.group.particles.columns.raw(field);
+        column.get(self.slot * width..(self.slot + 1) * width)
+    }
+    /// A vector field, or `None` if the particle does not carry it or it is no vector.
+    #[must_use]
+    pub fn vector(&self, field: Field) -> Option<[f64; D]> {
+        let is_vector = matches!(
+            field.shape(),
+            Shape::Point | Shape::Velocity | Shape::Vector
+        );
+        let numbers = self.numbers(field).filter(|_| is_vector)?;
+        Some(core::array::from_fn(|d| numbers[d].to_f64()))
+    }
+    /// A symmetric tensor, or `None` if the particle does not carry it or it is none.
+    #[must_use]
+    pub fn tensor(&self, field: Field) -> Option<Symmetric<f64>> {
+        let is_tensor = field.shape() == Shape::Tensor;
+        let numbers = self.numbers(field).filter(|_| is_tensor)?;
+        Some(Symmetric::new(core::array::from_fn(|k| {
+            numbers[k].to_f64()
+        })))
+    }
+    /// All components of the field with a name, that an effect has declared or the crate knows; `None` if the
+    /// particle does not carry it.
+    #[must_use]
+    pub fn named(&self, name: &str) -> Option<Vec<f64>> {
+        let program = &self.group.scheme.program;
+        let carried = self.group.particles.columns.fields();
+        let field = carried
+            .iter()
+            .find(|&field| program.name_of(field).0 == name)?;
+        let numbers = self.numbers(field)?.iter();
+        Some(numbers.map(|value| value.to_f64()).collect())
+    }
+}
+
+impl<T: Real, const D: usize> Simulation<T, D> {
+    /// The field with a name, that an effect has declared or the crate knows, of those that particles carry.
+    ///
+    /// ```
+    /// use meshfree::prelude::*;
+    /// let simulation = Scene::<f64, 1>::new(schemes::impact())
+    ///     .body(Body::block("rod", catalogue::copper(), [0.0], [0.01], 2e-4))
+    ///     .build()?;
+    /// assert_eq!(simulation.field("density")?, Field::DENSITY);
+    /// assert!(simulation.field("temperature").unwrap_err().to_string().contains("density"));
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If no particle carries a field of that name; the error lists those that there are.
+    pub fn field(&self, name: &str) -> Result<Field> {
+        let mut known: Vec<&str> = Vec::new();
+        for group in &self.groups {
+            for field in group.particles.columns.fields().iter() {
+                let (own, _) = group.scheme.program.name_of(field);
+                if own == name {
+                    return Ok(field);
+                }
+                if !known.contains(&own) {
+                    known.push(own);
+                }
+            }
+        }
+        Err(Error::Argument(Problem::UnknownName {
+            kind: "field",
+            name: name.into(),
+            known: known.join(", "),
+        }))
+    }
+
+    /// Sets a field of all particles of a body between steps, as a function of position \[m\] and present value;
+    /// `N` is the number of its components: 1, D, 6 for a symmetric tensor.
+    ///
+    /// It must be the velocity, a field that is integrated in time, or one that an effect declares: all others
+    /// follow from these.
+    ///
+    /// ```
+    /// use meshfree::prelude::*;
+    /// let mut simulation = Scene::<f64, 1>::new(schemes::impact())
+    ///     .body(Body::block("rod", catalogue::copper(), [0.0], [0.01], 2e-4))
+    ///     .build()?;
+    /// // A spot is heated by 1 kJ/kg.
+    /// simulation.set_field("rod", Field::ENERGY, |[x], [e]| [if x < 0.001 { e + 1000.0 } else { e }])?;
+    /// let energy: Vec<_> = simulation.body(0).map(|particle| particle.energy()).collect();
+    /// assert_eq!((energy[0], energy[49]), (1000.0, 0.0));
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If there is no such body, its particles do not keep the field, it has another number of components, or a
+    /// value is not finite; nothing is changed then.
+    pub fn set_field<const N: usize>(
+        &mut self,
+        body: &str,
+        field: Field,
+        value: impl Fn([f64; D], [f64; N]) -> [f64; N],
+    ) -> Result<()> {
+        let found = self.groups.iter().enumerate().find_map(|(k, group)| {
+            let mut bodies = group.particles.bodies.iter();
+            Some((k, bodies.position(|own| own.name == body)?))
+        });
+        let Some((group, own)) = found else {
+            let known: Vec<_> = self.bodies().collect();
+            return Err(Error::Argument(Problem::UnknownName {
+                kind: "body",
+                name: body.into(),
+                known: known.join(", "),
+            }));
+        };
+        let group = &mut self.groups[group];
+        let program = &group.scheme.program;
+        if let Some(problem) = program.cannot_set(field, N) {
+            return Err(Error::Argument(problem));
+        }
+        let run = group.particles.bodies[own].run();
+        let mut next = Vec::with_capacity(run.len() * N);
+        for slot in run.clone() {
+            let now = ParticleView { group, slot };
+            let x = now.position();
+            let present = now.numbers(field).unwrap_or_default();
+            let values = value(x, core::array::from_fn(|k| present[k].to_f64()));
+            if let Some(wrong) = values.iter().find(|value| !value.is_finite()) {
+                let (name, unit) = program.name_of(field);
+                return Err(Error::Argument(Problem::Parameter {
+                    what: format!("{name} [{unit}] of body `{body}` at {x:?} m"),
+                    value: *wrong,
+                    must_be: "it must be finite",
+                }));
+            }
+            next.extend(values.map(T::from_f64));
+        }
+        let evolved = program.evolved.iter().find(|own| own.field == field);
+        let residual = evolved.and_then(|own| own.residual);
+        let columns = &mut group.particles.columns;
+        columns.raw_mut(field)[run.start * N..run.end * N].copy_from_slice(&next);
+        if let Some(residual) = residual {
+            columns.raw_mut(residual)[run.start * N..run.end * N].fill(T::zero());
+        }
+        self.forget_rates();
+        Ok(())
+    }
+}

@@ -1,0 +1,65 @@
+//! What effects ask of a step: their limits of it, and that the fields they integrate stay numbers.
+//! Reductions have a fixed order, as those of the other criteria.
+
+use super::control::{Criterion, NO_VOTE, Vote, least};
+use super::group::Group;
+use super::stages::{GRAIN, Moment};
+use crate::scalar::Real;
+use rayon::prelude::*;
+
+impl<T: Real, const D: usize> Group<T, D> {
+    /// The vote, if no effect asks for a smaller step; negative where a limit is negative or no number.
+    pub(super) fn vote_of_effects(&self, mut vote: Vote) -> Vote {
+        if vote.step < 0.0 {
+            return vote;
+        }
+        for (body, state) in self.particles.bodies.iter().enumerate() {
+            let view = self.view(body, Moment::of_rates());
+            for limit in &self.scheme.program.limits {
+                let own = state.slots.clone().into_par_iter().with_min_len(GRAIN);
+                let own = own.map(|slot| {
+                    let step = limit.step(&view, slot);
+                    Vote {
+                        step: if step >= 0.0 { step } else { -1.0 },
+                        criterion: Criterion::Effect(limit.name()),
+                        particle: slot,
+                    }
+                });
+                vote = least(vote, own.reduce(|| NO_VOTE, least));
+            }
+        }
+        vote
+    }
+
+    /// Whether all that effects integrate of a particle is finite.
+    pub(super) fn has_sound_effects(&self, slot: usize) -> bool {
+        self.scheme.program.evolved.iter().all(|own| {
+            let width = own.field.components(D);
+            let column = self.particles.columns.raw(own.field);
+            let mut values = column[slot * width..(slot + 1) * width].iter();
+            values.all(|value| value.to_f64().is_finite())
+        })
+    }
+
+    /// A field of a particle that an effect integrates, and that is not finite, or a limit of its step that is negative
+    /// or no number.
+    pub(super) fn broken_effect(&self, slot: usize) -> Option<(&'static str, f64)> {
+        let program = &self.scheme.program;
+        let field = program.evolved.iter().find_map(|own| {
+            let width = own.field.components(D);
+            let column = self.particles.columns.raw(own.field);
+            let values = column[slot * width..(slot + 1) * width].iter();
+            let wrong = values
+                .map(|value| value.to_f64())
+                .find(|value| !value.is_finite())?;
+            Some((program.name_of(own.field).0, wrong))
+        });
+        field.or_else(|| {
+            let view = self.view(self.particles.body_of(slot), Moment::of_rates());
+            program.limits.iter().find_map(|limit| {
+                let step = limit.step(&view, slot);
+                (step.is_nan() || step < 0.0).then_some((limit.name(), step))
+            })
+        })
+    }
+}

@@ -1,0 +1,90 @@
+//! Particles as they are now, for files: positions and whatever the scene carries as its state.
+//! Fields that effects declare are there under their names.
+
+use super::{ParticleView, Simulation};
+use crate::output::vtu::Vtu;
+use crate::particles::{Field, Shape};
+use crate::scalar::Real;
+
+/// What every particle has beside its place and velocity.
+const COMMON: [Field; 3] = [Field::DENSITY, Field::PRESSURE, Field::ENERGY];
+
+impl<T: Real, const D: usize> Simulation<T, D> {
+    /// All particles of bodies now, as a VTK file: position, velocity, density, pressure, internal energy where it
+    /// is carried, body, number, and every field that an effect declares or integrates, under its name. A symmetric
+    /// tensor is written as VTK reads it: xx, yy, zz, xy, yz, xz. Where the scheme of a body does not carry a field
+    /// that another's does, it is not a number.
+    ///
+    /// ```no_run
+    /// # use meshfree::prelude::*;
+    /// # fn write(simulation: &Simulation<f64, 2>) -> Result<(), Error> {
+    /// simulation.vtu().write("out/now.vtu")
+    /// # }
+    /// ```
+    #[must_use]
+    pub fn vtu(&self) -> Vtu {
+        let bodies = self.bodies().enumerate();
+        let owners = bodies.flat_map(|(k, _)| self.body(k).map(move |_| k as i32));
+        let mut vtu = Vtu::new(self.all().map(|particle| particle.position()))
+            .time(self.time())
+            .scalar("body", owners)
+            .scalar("number", self.all().map(|particle| particle.id() as i64))
+            .vector("velocity", self.all().map(|particle| particle.velocity()));
+        let mut fields: Vec<(Field, &str)> = COMMON.map(|field| (field, field.name())).to_vec();
+        for group in &self.groups {
+            for field in group.scheme.program.state() {
+                let own = (field, group.scheme.program.name_of(field).0);
+                if !fields.contains(&own) {
+                    fields.push(own);
+                }
+            }
+        }
+        for (field, name) in fields {
+            if self.all().any(|particle| particle.numbers(field).is_some()) {
+                vtu = self.with(vtu, field, name);
+            }
+        }
+        vtu
+    }
+
+    /// With a field under a name.
+    fn with(&self, vtu: Vtu, field: Field, name: &str) -> Vtu {
+        // The same number may be another field under another scheme.
+        let own = |particle: &ParticleView<'_, T, D>| {
+            particle.group.scheme.program.name_of(field).0 == name
+        };
+        match field.shape() {
+            Shape::Scalar => vtu.scalar(
+                name,
+                self.all()
+                    .map(|p| p.scalar(field).filter(|_| own(&p)).unwrap_or(f64::NAN)),
+            ),
+            Shape::Tensor => vtu.array(
+                name,
+                self.all().map(|p| {
+                    let tensor = p.tensor(field).filter(|_| own(&p));
+                    let [xx, yy, zz, yz, xz, xy] =
+                        tensor.map_or([f64::NAN; 6], |tensor| *tensor.components());
+                    [xx, yy, zz, xy, yz, xz]
+                }),
+            ),
+            Shape::Matrix => vtu.array(
+                name,
+                self.all().map(|p| {
+                    let values = p.named(name).unwrap_or_default();
+                    let at = |a: usize, b: usize| {
+                        let inside = a < D && b < D;
+                        let value = values.get(a * D + b).copied().unwrap_or(f64::NAN);
+                        if inside { value } else { 0.0 }
+                    };
+                    core::array::from_fn::<f64, 9, _>(|k| at(k / 3, k % 3))
+                }),
+            ),
+            Shape::Point | Shape::Velocity | Shape::Vector => vtu.vector(
+                name,
+                self.all()
+                    .map(|p| p.vector(field).filter(|_| own(&p)).unwrap_or([f64::NAN; D])),
+            ),
+        }
+    }
+}

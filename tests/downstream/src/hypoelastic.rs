@@ -1,0 +1,90 @@
+//! A hypoelastic solid: a deviatoric stress of one's own that follows the strain rate, and the force it makes.
+//! The Jaumann rate as in W. Benz, E. Asphaug, Computer Physics Communications 87 (1995) 253–265.
+
+use meshfree::effect::{Effect, Evolved, Limit, Rate, Setting, StepProgram, Update, View, When};
+use meshfree::particles::{Field, Fields, Output, Outputs};
+use meshfree::scalar::{Lane, Real};
+use meshfree::tensor::Symmetric;
+use meshfree::term::{In, Layout, Pair, Sums, Term, TermDoc, VelocityGradient, stage};
+
+/// Deviatoric stress S \[Pa\], positive in tension: xx, yy, zz, yz, xz, xy.
+pub const STRESS: Field = Field::tensor(0);
+
+/// A solid whose shear stress follows the strain rate, dS/dt = 2 G (D − tr D/3) + W S − S W, beside the pressure of its
+/// equation of state.
+#[derive(Clone, Copy, Debug)]
+pub struct Hypoelastic {
+    /// Shear modulus G \[Pa\].
+    pub shear_modulus: f64,
+}
+
+impl<const D: usize> Effect<D> for Hypoelastic {
+    type Terms = (
+        In<stage::Rates, Hypoelastic>,
+        In<stage::Continuity, VelocityGradient>,
+    );
+    fn terms(&self, _setting: &Setting) -> Self::Terms {
+        (In::new(*self), In::new(VelocityGradient))
+    }
+    fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
+        program.declare(STRESS, "deviatoric_stress", "Pa", 0.0);
+        // In the drift, as density: kicked, the step of elastic waves would be no leapfrog.
+        let stress = Evolved::kicked(STRESS)
+            .at(When::Drift)
+            .updated(Update::Rotated);
+        program.evolve(stress.by(*self));
+        program.limit(*self);
+    }
+}
+
+/// 2 G (D − tr D/3) with D the symmetric part of the corrected velocity gradient at the middle of the drift.
+impl<T: Real, const D: usize> Rate<T, D> for Hypoelastic {
+    fn reads(&self) -> Fields {
+        Fields::NONE
+    }
+    fn sums(&self) -> Outputs {
+        Outputs::of(&[Output::VELOCITY_GRADIENT, Output::MOMENT_MATRIX])
+    }
+    fn source(&self, at: &View<'_, T, D>, first: usize, source: &mut [T]) {
+        let twice = T::from_f64(2.0 * self.shear_modulus);
+        for (n, source) in source.chunks_exact_mut(6).enumerate() {
+            let strain = Symmetric::symmetric_part(&at.velocity_gradient(first + n));
+            for (sum, rate) in source.iter_mut().zip(strain.deviator().components()) {
+                *sum += twice * *rate;
+            }
+        }
+    }
+}
+
+impl<const D: usize> Term<D> for Hypoelastic {
+    const READS: Fields = Fields::of(&[STRESS, Field::MASS, Field::DENSITY, Field::NORMALISATION]);
+    const WRITES: Outputs = Outputs::of(&[Output::FORCE]);
+    #[inline(always)]
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+        let volumes = pair.i(Field::MASS) * pair.j(Field::MASS)
+            / (pair.i(Field::DENSITY) * pair.j(Field::DENSITY));
+        let own = volumes * pair.f_i / pair.i(Field::NORMALISATION);
+        let other = volumes * pair.f_j / pair.j(Field::NORMALISATION);
+        let stress = pair.i_tensor(STRESS).scaled(own);
+        sums.force += stress.plus(other, &pair.j_tensor(STRESS)).dot(&pair.r);
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: "force of the deviatoric stress".into(),
+            equation: "mᵢ dvᵢ/dt = Σⱼ Vᵢ Vⱼ (Sᵢ/sᵢ + Sⱼ/sⱼ)·∇Wᵢⱼ",
+            source: "Bonet & Lok 1999, with the stress for −p",
+        }
+    }
+}
+
+impl<T: Real, const D: usize> Limit<T, D> for Hypoelastic {
+    fn name(&self) -> &'static str {
+        "elastic waves: 0.5 h/sqrt(c² + 4G/3ρ)"
+    }
+    fn step(&self, at: &View<'_, T, D>, slot: usize) -> f64 {
+        let number = |field| at.columns.raw(field)[slot].to_f64();
+        let shear = 4.0 / 3.0 * self.shear_modulus / number(Field::DENSITY);
+        let speed2 = number(Field::SOUND_SPEED).powi(2) + shear;
+        0.5 * at.around.smoothing_length / speed2.sqrt()
+    }
+}

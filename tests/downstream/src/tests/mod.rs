@@ -1,0 +1,5 @@
+//! Short runs with every part, each held against something independent.
+
+mod heat;
+mod hypoelastic;
+mod parts;
