@@ -218,7 +218,59 @@ impl fmt::Display for BuildError {
     }
 }
 
-/// What can go wrong while a simulation is built, run or written.
+/// Why a simulation cannot go on from a checkpoint.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum CheckpointProblem {
+    /// The file is not what was written.
+    #[error("it is cut short or altered ({detail}): take an older checkpoint, or start anew")]
+    Damaged {
+        /// Where it shows.
+        detail: String,
+    },
+    /// Another version of the crate wrote it, which held another state.
+    #[error(
+        "its state is of version {found}, and this crate reads version {known}: resume with the version of the \
+         crate that wrote it"
+    )]
+    Version {
+        /// The version of the file.
+        found: String,
+        /// The version that this crate reads.
+        known: &'static str,
+    },
+    /// Simulations of another type: another scalar, dimension, or width of lanes.
+    #[error(
+        "its {what} is {found}, and that of the scene is {own}: resume with the {what} that it was written with"
+    )]
+    Kind {
+        /// Scalar, dimension or lane width.
+        what: &'static str,
+        /// That of the file.
+        found: String,
+        /// That of the scene.
+        own: String,
+    },
+    /// It is of another scene.
+    #[error(
+        "it was written by another scene, which differs in {}: resume with the scene that wrote it", parts.join(", ")
+    )]
+    Scene {
+        /// What differs.
+        parts: Vec<&'static str>,
+    },
+    /// The machine cannot run the loops that it was written by.
+    #[error(
+        "its pair loops ran on {found}, which this machine lacks, and other instructions round otherwise: resume on \
+         a machine that has it, or run on `InstructionSet::Baseline` from the start"
+    )]
+    Instructions {
+        /// The instruction set of the file.
+        found: String,
+    },
+}
+
+/// What can go wrong while a simulation is built, run, written or resumed.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -316,6 +368,14 @@ pub enum Error {
         path: PathBuf,
         /// Why.
         source: std::io::Error,
+    },
+    /// A checkpoint that cannot be resumed from.
+    #[error("cannot resume from {}: {problem}", path.display())]
+    Checkpoint {
+        /// The file.
+        path: PathBuf,
+        /// What differs, and what to do.
+        problem: CheckpointProblem,
     },
     /// An argument of a call after building makes no sense.
     #[error("{0}")]

@@ -144,6 +144,18 @@ pub(crate) struct Emitter<const D: usize> {
 }
 
 impl<const D: usize> Emitter<D> {
+    /// How many layers it has handed over.
+    #[cfg(feature = "checkpoint")]
+    pub fn handed_over(&self) -> u64 {
+        self.handed_over.load(Ordering::Relaxed)
+    }
+
+    /// Says how many layers it has handed over, which moves its buffer too.
+    #[cfg(feature = "checkpoint")]
+    pub fn set_handed_over(&self, layers: u64) {
+        self.handed_over.store(layers, Ordering::Relaxed);
+    }
+
     /// The layer that becomes liquid at `time` \[s\], with its velocity; `None` before it is due.
     pub fn due(&self, time: f64) -> Option<(Vec<[f64; D]>, [f64; D])> {
         let speed = length(&Vector::from(self.velocity));

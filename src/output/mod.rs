@@ -1,6 +1,8 @@
 //! What a run leaves behind: tables, plots, pictures, particle files, reports and a progress line.
 //! Whatever was written before a crash stays readable.
 
+#[cfg(feature = "checkpoint")]
+pub(crate) mod checkpoint;
 pub mod csv;
 mod deflate;
 pub mod picture;

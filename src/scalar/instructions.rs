@@ -13,6 +13,10 @@ pub enum InstructionSet {
 }
 
 impl InstructionSet {
+    /// All of them, which a checkpoint knows by their names.
+    #[cfg(feature = "checkpoint")]
+    pub(crate) const ALL: [Self; 3] = [Self::Baseline, Self::Avx2, Self::Avx512];
+
     /// The best that this machine has.
     #[must_use]
     pub fn detect() -> Self {

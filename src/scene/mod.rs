@@ -44,6 +44,8 @@
 
 mod body;
 mod check;
+#[cfg(feature = "checkpoint")]
+mod fingerprint;
 mod plan;
 
 pub use body::{Body, Start};
@@ -51,11 +53,15 @@ pub use body::{Body, Start};
 use crate::boundary::{Boundary, Inlet, Outlet, Wall};
 use crate::error::{BuildError, Error, Problem, Result};
 use crate::integrator::{Integrator, KickDriftKick};
+#[cfg(feature = "checkpoint")]
+use crate::output::checkpoint::Checkpoint;
 use crate::scalar::Real;
 use crate::scheme::Scheme;
 use crate::simulation::{Load, Simulation, StepControl};
 use crate::sweep::{InstructionSet, Interaction};
 use plan::Plan;
+#[cfg(feature = "checkpoint")]
+use std::path::Path;
 use std::sync::Arc;
 
 /// A scene: bodies, boundaries, a scheme, an integrator, and how parts act on each other.
@@ -274,15 +280,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
     /// # Errors
     /// [`Error::Build`] with every problem that was found.
     pub fn build(self) -> Result<Simulation<T, D>> {
-        let problems = self.problems();
-        if !problems.is_empty() {
-            return Err(Error::Build(BuildError { problems }));
-        }
-        let domain = self.domain();
-        let groups = self.plans().map(Plan::lay_out).collect();
         let fixed = self.control.fixed;
-        let mut simulation =
-            Simulation::new(groups, domain, self.integrator, self.control, self.loads);
+        let mut simulation = self.lay_out()?;
         simulation.take_references();
         let problems = simulation.isolated();
         if !problems.is_empty() {
@@ -300,6 +299,38 @@ impl<T: Real, const D: usize> Scene<T, D> {
             })),
             _ => Ok(simulation),
         }
+    }
+
+    /// Goes on from a [checkpoint](crate::simulation#checkpoint-and-restart) of the same scene, to the same bits as if
+    /// the run had not stopped. The scene supplies what is no state: schemes, materials, motions, loads, the integrator
+    /// and how steps are chosen; the file supplies the rest. The pair loops run on the instruction set that they ran on
+    /// before, whatever [`instructions`](Self::instructions) says.
+    ///
+    /// # Errors
+    /// [`Error::File`] if the file cannot be read, [`Error::Checkpoint`] with what differs if it is cut short or
+    /// altered, or of another scene, scalar, dimension, lane width, or of instructions that this machine lacks, and
+    /// [`Error::Build`] as [`build`](Self::build).
+    #[cfg(feature = "checkpoint")]
+    pub fn resume(self, path: impl AsRef<Path>) -> Result<Simulation<T, D>> {
+        let path = path.as_ref();
+        let file = Checkpoint::read(path)?;
+        self.lay_out()?.resumed(path, &file)
+    }
+
+    /// The simulation before anything is summed.
+    fn lay_out(self) -> Result<Simulation<T, D>> {
+        let problems = self.problems();
+        if !problems.is_empty() {
+            return Err(Error::Build(BuildError { problems }));
+        }
+        let domain = self.domain();
+        let groups = self.plans().map(Plan::lay_out).collect();
+        #[cfg(feature = "checkpoint")]
+        let hashes = self.hashes();
+        let simulation = Simulation::new(groups, domain, self.integrator, self.control, self.loads);
+        #[cfg(feature = "checkpoint")]
+        let simulation = simulation.of_scene(hashes);
+        Ok(simulation)
     }
 
     /// All bodies, those of the scene's own scheme first.

@@ -77,6 +77,17 @@ pub enum Criterion {
 }
 
 impl Criterion {
+    /// All of them, which a checkpoint knows by their names.
+    #[cfg(feature = "checkpoint")]
+    pub(super) const ALL: [Self; 6] = [
+        Self::Acoustic,
+        Self::Force,
+        Self::Viscous,
+        Self::Approach,
+        Self::Fixed,
+        Self::End,
+    ];
+
     /// Its name in reports.
     #[must_use]
     pub fn name(self) -> &'static str {

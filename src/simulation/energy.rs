@@ -29,7 +29,7 @@ pub struct EnergyLedger {
 /// The running sums behind an [`EnergyLedger`].
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Work {
-    start: f64,
+    pub start: f64,
     pub load: f64,
     pub wall: f64,
 }

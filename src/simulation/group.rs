@@ -46,18 +46,18 @@ pub(crate) struct Group<T: Real, const D: usize> {
 /// What an evaluation changes, and the next step needs as the last step has left it.
 #[derive(Debug)]
 pub(super) struct Aside<T: Real, const D: usize> {
-    columns: Columns<T, D>,
-    rates: Rows<T, D>,
-    coupling: Rows<T, D>,
-    records: Records<T>,
-    work_records: Records<T>,
-    records_of_rates: bool,
-    gravity: [[f64; D]; 2],
-    body_force: [T; D],
-    guards: GuardCounts,
-    limited: Vec<(&'static str, u64)>,
-    served: u32,
-    rebuilds: u64,
+    pub columns: Columns<T, D>,
+    pub rates: Rows<T, D>,
+    pub coupling: Rows<T, D>,
+    pub records: Records<T>,
+    pub work_records: Records<T>,
+    pub records_of_rates: bool,
+    pub gravity: [[f64; D]; 2],
+    pub body_force: [T; D],
+    pub guards: GuardCounts,
+    pub limited: Vec<(&'static str, u64)>,
+    pub served: u32,
+    pub rebuilds: u64,
 }
 
 pub(crate) fn width<T: Real>() -> usize {
@@ -230,6 +230,7 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// Lists neighbours at the present positions, with images within `reach` \[m\].
     pub fn list(&mut self, time: f64, reach: f64) {
+        self.neighborhood.listed_reach = reach;
         let walls = self.walls.iter().map(|wall| wall.slots.clone());
         self.neighborhood.remember(&self.particles, walls);
         self.place_images(time, reach);

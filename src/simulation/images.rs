@@ -92,6 +92,7 @@ impl<T: Real, const D: usize> Group<T, D> {
 impl<T: Real, const D: usize> Neighborhood<T, D> {
     /// Brings the transforms of images up to date.
     pub(super) fn place_transforms(&mut self, boundaries: &[Arc<dyn Boundary<T, D>>], time: f64) {
+        self.placed_time = time;
         self.transforms.clear();
         for chain in &self.chains {
             let own = boundaries[chain.boundary as usize].transform(chain.image as usize, time);

@@ -72,7 +72,7 @@ pub struct Ledger {
 /// Momentum that blocks have given each other \[kg m/s\]: bodies first, then boundaries.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Impulses {
-    values: Vec<f64>,
+    pub values: Vec<f64>,
 }
 
 impl Impulses {

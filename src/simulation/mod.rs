@@ -55,9 +55,63 @@
 //! assert!(simulation.ledger().boundary_impulse[0] < 0.0);
 //! # Ok::<(), Error>(())
 //! ```
+//!
+//! # Checkpoint and restart
+//!
+//! With the feature `checkpoint`, `Simulation::save` writes the state to a file, and `Scene::resume` goes on from it:
+//! every number then is, to the bit, what it had been without the stop. The file appears at once and whole, so a
+//! program that is killed while it writes leaves the file before:
+//!
+//! ```
+//! # #[cfg(feature = "checkpoint")] {
+//! use meshfree::prelude::*;
+//! # let folder = std::env::temp_dir().join(format!("meshfree-restart-{}", std::process::id()));
+//! # let file = folder.join("rods.safetensors");
+//! # let rods = || Scene::<f64, 1>::new(schemes::impact())
+//! #     .body(Body::block("rod", catalogue::copper(), [0.0], [0.01], 2e-4).velocity([20.0]))
+//! #     .boundary(MirrorPlane::wall([0.01], [1.0]));
+//! # /*
+//! let file = std::path::Path::new("rods.safetensors");
+//! let rods = || Scene::<f64, 1>::new(schemes::impact()) /* and the rest of the scene */;
+//! # */
+//! # for _ in 0..2 {
+//! let mut simulation = if file.exists() { rods().resume(&file)? } else { rods().build()? };
+//! # let begun = simulation.steps();
+//! let mut saved = Ok(());
+//! simulation.run_with(1e-6, |now| {
+//!     if now.steps() % 10 == 0 {
+//!         saved = now.save(&file);
+//!     }
+//! })?;
+//! saved?;
+//! # assert!(begun == 0 || (begun % 10 == 0 && simulation.steps() - begun < 10));
+//! # }
+//! # let _ = std::fs::remove_dir_all(folder);
+//! # }
+//! # Ok::<(), Error>(())
+//! ```
+//!
+//! | in the file | supplied by the scene, which must be the same | not kept |
+//! |---|---|---|
+//! | time, counts, ledgers, what left through outlets | bodies, materials, schemes, walls and their motions, boundaries | [`phases`](Simulation::phases) |
+//! | every column of every particle, of walls too; fields that effects declare by their names | loads and other closures | what observers have gathered, and files that they write |
+//! | rates at hand, what integrators keep, the state of inlets | the integrator, and how steps are chosen | what an integrator or an effect of your own keeps outside of fields |
+//! | the positions that neighbour lists were built from, not the lists | | |
+//!
+//! A file knows its scene by hashes of all that can be hashed; of a load its presence, and of a motion its name.
+//! It is refused with an [`Error::Checkpoint`] that says why if it is cut short or altered, of another scene, scalar,
+//! dimension or lane width, or if its loops ran on instructions that the machine lacks; where the machine has
+//! them, the run goes on with those that it began with. A program that was built with other versions of the crate or of
+//! the compiler may round otherwise.
+//!
+//! The format is [safetensors](https://github.com/huggingface/safetensors). In Python,
+//! `safetensors.numpy.load_file("rods.safetensors")["group0/particles/position"]` has a row for each slot; `group0/ids`
+//! says which particle is in it, and slots from `group0/body_ends` on repeat the last of a body.
 
 mod advance;
 mod approach;
+#[cfg(feature = "checkpoint")]
+mod checkpoint;
 mod control;
 mod cost;
 mod energy;
@@ -95,6 +149,8 @@ pub(crate) use walls::WallState;
 
 use crate::error::{Error, Problem, Result};
 use crate::integrator::Integrator;
+#[cfg(feature = "checkpoint")]
+use crate::output::checkpoint::Hashes;
 use crate::scalar::Real;
 use group::Aside;
 use ledger::Impulses;
@@ -114,6 +170,9 @@ pub struct Simulation<T: Real, const D: usize> {
     pub(crate) integrator: Arc<dyn Integrator>,
     pub(crate) control: StepControl,
     pub(crate) loads: Vec<Load<D>>,
+    /// Hashes of the scene that it was built from, by what was hashed.
+    #[cfg(feature = "checkpoint")]
+    pub(crate) scene: Hashes,
     time: f64,
     steps: u64,
     evaluations: u64,
@@ -172,6 +231,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             integrator,
             control,
             loads,
+            #[cfg(feature = "checkpoint")]
+            scene: Hashes::new(),
             time: 0.0,
             steps: 0,
             evaluations: 0,

@@ -26,6 +26,10 @@ pub(crate) struct Neighborhood<T: Real, const D: usize> {
     pub listed: Vec<[T; D]>,
     pub listed_h: Vec<T>,
     pub listed_time: f64,
+    /// How far from a boundary particles have images in the lists \[m\].
+    pub listed_reach: f64,
+    /// The time \[s\] at which the transforms of images are.
+    pub placed_time: f64,
     /// The skin of the lists as they are \[m\].
     pub skin: f64,
     /// Skins of lists that last, and of lists that do not \[m\].
@@ -64,6 +68,8 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
             listed: Vec::new(),
             listed_h: Vec::new(),
             listed_time: 0.0,
+            listed_reach: 0.0,
+            placed_time: 0.0,
             skin: skins[0],
             skins,
             served: 0,

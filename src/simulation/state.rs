@@ -200,7 +200,7 @@ impl<T: Real, const D: usize> Group<T, D> {
     }
 
     /// What a kick changes, and a prediction takes back.
-    fn kicked(&self) -> impl Iterator<Item = Field> {
+    pub(super) fn kicked(&self) -> impl Iterator<Item = Field> {
         let evolved = self.scheme.program.evolved.iter();
         let kicked = evolved.filter(|own| own.when == When::Kick);
         core::iter::once(Field::VELOCITY)
@@ -208,7 +208,7 @@ impl<T: Real, const D: usize> Group<T, D> {
     }
 
     /// What a state consists of.
-    fn state(&self) -> impl Iterator<Item = Field> {
+    pub(super) fn state(&self) -> impl Iterator<Item = Field> {
         let evolved = self.scheme.program.evolved.iter();
         let evolved = evolved.flat_map(|own| core::iter::once(own.field).chain(own.residual));
         POSITIONS

@@ -128,6 +128,18 @@ impl<T: Real> Records<T> {
         &self.data
     }
 
+    /// Numbers a record.
+    #[cfg(feature = "checkpoint")]
+    pub(crate) fn stride(&self) -> usize {
+        self.stride
+    }
+
+    /// Records of `stride` numbers as they were [stored](Self::data).
+    #[cfg(feature = "checkpoint")]
+    pub(crate) fn of_stored(data: Vec<T>, stride: usize) -> Self {
+        Self { data, stride }
+    }
+
     /// Bytes held.
     #[must_use]
     pub fn bytes(&self) -> usize {

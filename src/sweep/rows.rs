@@ -131,6 +131,29 @@ impl<T: Real, const D: usize> Rows<T, D> {
         self.reactions.iter().flatten()
     }
 
+    /// All numbers as they are stored, and the slot that they start with.
+    #[cfg(feature = "checkpoint")]
+    pub(crate) fn stored(&self) -> (&[T], usize) {
+        (&self.data, self.first)
+    }
+
+    /// The sums that were [`stored`](Self::stored), with the forces between blocks.
+    #[cfg(feature = "checkpoint")]
+    pub(crate) fn of_stored(
+        outputs: Outputs,
+        (data, first): (Vec<T>, usize),
+        reactions: Vec<Reaction<D>>,
+    ) -> Self {
+        let mut rows = Self {
+            data,
+            first,
+            reactions: vec![reactions],
+            ..Self::default()
+        };
+        rows.lay_out(outputs);
+        rows
+    }
+
     /// Bytes held.
     #[must_use]
     pub fn bytes(&self) -> usize {

@@ -1,0 +1,152 @@
+//! The fingerprint of a scene: a hash of each of its parts, by which a checkpoint knows its scene again.
+//! What closures do cannot be hashed; of loads their number is, of motions their names.
+
+use super::{Body, Part, Scene};
+use crate::boundary::Wall;
+use crate::output::checkpoint::{Hash, Hashes};
+use crate::scalar::Real;
+use core::fmt::Debug;
+
+impl<T: Real, const D: usize> Scene<T, D> {
+    /// The hash of each part, by its name in messages.
+    pub(super) fn hashes(&self) -> Hashes {
+        let Self {
+            parts,
+            walls,
+            outlets,
+            inlets,
+            boundaries,
+            integrator,
+            contacts,
+            loads,
+            control,
+            skin,
+            // A checkpoint says on which it runs on.
+            instructions: _,
+            // What a machine has to give is not of the scene.
+            memory: _,
+        } = self;
+        let schemes = of_texts(parts.iter().map(Part::scheme_text));
+        let mut bodies = Hash::new();
+        for part in parts {
+            text(&mut bodies, part.bodies.len());
+            for body in &part.bodies {
+                hash_body(body, &mut bodies);
+            }
+        }
+        let facing = parts.iter().any(|part| part.scheme.program.wall_normals);
+        let mut all_walls = Hash::new();
+        for wall in walls {
+            hash_wall(wall, facing, &mut all_walls);
+        }
+        vec![
+            ("schemes", schemes),
+            ("bodies", bodies.value()),
+            ("walls", all_walls.value()),
+            ("boundaries", of_texts(boundaries.iter().map(debug))),
+            ("inlets", of_texts(inlets.iter().map(debug))),
+            ("outlets", of_texts(outlets.iter().map(debug))),
+            (
+                "the integrator",
+                of_texts([integrator.name(), debug(integrator)]),
+            ),
+            ("what bodies do to each other", of_texts([debug(contacts)])),
+            ("the number of loads", of_texts([debug(loads.len())])),
+            ("the choice of steps", of_texts([debug(control)])),
+            ("the skin of neighbour lists", of_texts([debug(skin)])),
+        ]
+    }
+}
+
+impl<T: Real, const D: usize> Part<T, D> {
+    /// All that the scheme says of itself.
+    fn scheme_text(&self) -> String {
+        let scheme = &self.scheme;
+        let program = &scheme.program;
+        let (declared, limits) = (&program.declared, &program.limits);
+        let printed = format!("{scheme}\n{}", scheme.step_program());
+        printed + &debug((scheme, declared, limits))
+    }
+}
+
+/// Its debug text without the addresses of functions, which differ from run to run.
+fn debug(value: impl Debug) -> String {
+    let text = format!("{value:?}");
+    let mut parts = text.split("0x");
+    let mut kept: String = parts.next().unwrap_or_default().into();
+    for part in parts {
+        kept.push_str("0x");
+        kept.push_str(part.trim_start_matches(|c: char| c.is_ascii_hexdigit()));
+    }
+    kept
+}
+
+fn text(hash: &mut Hash, value: impl Debug) {
+    hash.bytes(debug(value).as_bytes());
+    // Ends a text, which has no such byte.
+    hash.bytes(&[0xff]);
+}
+
+fn of_texts(texts: impl IntoIterator<Item = String>) -> u64 {
+    let mut hash = Hash::new();
+    for one in texts {
+        hash.bytes(one.as_bytes());
+        hash.bytes(&[0xff]);
+    }
+    hash.value()
+}
+
+fn hash_body<T: Real, const D: usize>(body: &Body<T, D>, hash: &mut Hash) {
+    let Body {
+        name,
+        material,
+        points,
+        spacing,
+        starts,
+        slip,
+        // A scene with a flaw is not built.
+        shape: _,
+    } = body;
+    text(hash, (name, material, spacing, slip, points.len()));
+    hash.numbers(points.as_flattened());
+    for start in starts {
+        hash.numbers(&start.velocity);
+        hash.numbers(&[start.density, start.energy]);
+    }
+}
+
+fn hash_wall<const D: usize>(wall: &Wall<D>, facing: bool, hash: &mut Hash) {
+    let Wall {
+        name,
+        points,
+        spacing,
+        motion,
+        slip,
+        sliding,
+        carries,
+        shape: _,
+        // Known by its normals.
+        room: _,
+    } = wall;
+    let motion = motion.as_ref().map(|motion| motion.name());
+    text(hash, (name, spacing, motion, slip, sliding, carries));
+    text(hash, points.len());
+    hash.numbers(points.as_flattened());
+    if facing {
+        hash.numbers(wall.normals().as_flattened());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::debug;
+
+    #[test]
+    fn addresses_are_left_out() {
+        #[derive(Debug)]
+        struct Law(#[allow(dead_code)] fn(f64) -> f64, #[allow(dead_code)] f64);
+        let [sine, cosine] = [Law(f64::sin, 1.5), Law(f64::cos, 1.5)].map(debug);
+        assert_eq!(sine, "Law(0x, 1.5)");
+        assert_eq!(sine, cosine);
+    }
+}
