@@ -104,6 +104,7 @@ fn hash_body<T: Real, const D: usize>(body: &Body<T, D>, hash: &mut Hash) {
         spacing,
         starts,
         slip,
+        fields,
         // A scene with a flaw is not built.
         shape: _,
     } = body;
@@ -112,6 +113,10 @@ fn hash_body<T: Real, const D: usize>(body: &Body<T, D>, hash: &mut Hash) {
     for start in starts {
         hash.numbers(&start.velocity);
         hash.numbers(&[start.density, start.energy]);
+    }
+    for own in fields {
+        text(hash, (own.field, own.components));
+        hash.numbers(&own.values);
     }
 }
 

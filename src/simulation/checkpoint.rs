@@ -71,6 +71,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             rates_at_hand,
             first_step,
             last_vote,
+            // What a process has counted, as it has its times.
+            votes: _,
             impulses,
             work,
             evaluated,
@@ -423,6 +425,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             predicted,
             kept,
             phases: super::Phases::default(),
+            spent: super::cost::Spent::default(),
         };
         Ok(())
     }
@@ -643,6 +646,7 @@ fn put_workspace<T: Real, const D: usize>(
         predicted,
         kept,
         phases: _,
+        spent: _,
     } = work;
     // Only sums over walls read records without packing them.
     let records = if own.records_of_rates && has_walls {
