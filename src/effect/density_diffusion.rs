@@ -1,7 +1,8 @@
 //! Density diffusion of weakly compressible liquids, summed with the rate of density.
 //! The forms are terms: Molteni & Colagrossi 2009, Fourtakas et al. 2019, Antuono et al. 2010, Riemann.
 
-use super::{BySum, Effect, Setting, StepProgram};
+use super::{BySum, DensityForm, Effect, Setting, StepProgram};
+use crate::error::Problem;
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::term::{In, Term, stage};
@@ -34,6 +35,14 @@ impl<const D: usize, W: Term<D>> Effect<D> for DensityDiffusion<W> {
                 over: None,
             };
             program.contribute(Field::DENSITY, rate);
+            let by_mass = program.setting().density == DensityForm::ContinuityByMass;
+            program.require(move |_| {
+            by_mass.then(|| Problem::Incompatible {
+                what: "density diffusion weighs neighbours by volume, which continuity by mass does not carry"
+                    .into(),
+                remedy: "take DensityForm::Continuity, or no diffusion (term::Nothing)",
+            })
+        });
         }
     }
 }

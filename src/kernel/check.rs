@@ -58,12 +58,12 @@ pub(crate) fn problems_of<K: Kernel<D>, const D: usize>(
         moment -= norm * kernel.slope_over_q(q) * q * q * shell * step / D as f64;
     }
     let must_be = "it must be one within a hundredth: look at the normalisation and at the shape";
-    if !((whole - 1.0).abs() < EXACT) {
+    if whole.is_nan() || (whole - 1.0).abs() >= EXACT {
         problems.push(("integral", whole, must_be));
     }
     let must_be =
         "it must be one within a hundredth: look at whether the slope is that of the shape";
-    if !((moment - 1.0).abs() < EXACT) {
+    if moment.is_nan() || (moment - 1.0).abs() >= EXACT {
         problems.push(("first moment of the slope", moment, must_be));
     }
     let value: f64 = kernel.shape(0.0) + kernel.slope_over_q(0.0);

@@ -243,7 +243,7 @@ fn separating_walls_let_go_unless_suction_is_allowed() {
             Wall::of("wall", points.collect(), spacing).motion(Translation::steady([-1.0, 0.0]));
         let water = water::<f64>(20.0).with_pressure_cut_off(cut_off);
         let body = Body::block("water", water, [0.0; 2], [0.2, 0.2], spacing);
-        let scheme = schemes::weakly_compressible().walls(ExtrapolatedPressure { floor: floor });
+        let scheme = schemes::weakly_compressible().walls(ExtrapolatedPressure { floor });
         let mut simulation = Scene::new(scheme).body(body).wall(wall).build().unwrap();
         simulation.run_until(0.02).unwrap();
         let whole = simulation.ledger().whole;

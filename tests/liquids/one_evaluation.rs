@@ -218,7 +218,7 @@ fn a_violent_flow_needs_the_shorter_step() {
 fn a_bulk_viscosity_damps_sound_in_one_evaluation_too() {
     // An amplitude decays by exp(−λ c h k² t/2), with the k that a lattice sees.
     let strength = 0.3;
-    let scheme = plain().with(AcousticDamping { strength: strength });
+    let scheme = plain().with(AcousticDamping { strength });
     let mut wave = sound::<f64>(scheme.density_with_rates().compose())
         .build()
         .expect("a sound scene");

@@ -55,7 +55,7 @@ fn a_bulk_viscosity_damps_sound_as_it_says() {
     let strength = 0.3;
     let (h, wavenumber) = (1.5 / 48.0, core::f64::consts::TAU);
     let exact = (-strength * SOUND * h * wavenumber.powi(2) * 2.0 / SOUND).exp();
-    let damped = energy_left(plain().with(AcousticDamping { strength: strength }), 2.0);
+    let damped = energy_left(plain().with(AcousticDamping { strength }), 2.0);
     let free = energy_left(plain(), 2.0);
     assert!(
         (damped.ln() / exact.ln() - 1.0).abs() < 0.03,
@@ -126,7 +126,7 @@ fn volume_consistency_brings_densities_back_to_the_space_of_particles() {
     // dρ/dt = κ (c/h) (ρ_true − ρ) while particles stay on their lattice.
     let (strength, time) = (0.05, 0.15);
     let exact = (-strength * SOUND / (1.5 * 0.05) * time).exp();
-    let held = drift_left(plain().with(VolumeConsistency { strength: strength }), time);
+    let held = drift_left(plain().with(VolumeConsistency { strength }), time);
     let free = drift_left(plain(), time);
     // The lattice sum at this h over the narrow spacing is 2 % of the departure below the one at rest.
     assert!((held - exact).abs() < 0.02, "{held}, exactly {exact}");
