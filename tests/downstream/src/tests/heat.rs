@@ -27,7 +27,7 @@ fn scheme() -> SchemeBuilder<WendlandC2, Inviscid, meshfree::effect::NoWalls, ((
 }
 
 /// A square of 1 m, periodic, whose temperature is 300 K + 50 K sin(2πx).
-fn square(count: usize) -> Simulation<f64, 2> {
+fn scene(count: usize) -> Scene<f64, 2> {
     let spacing = 1.0 / count as f64;
     let body = Body::block("square", material(), [0.0; 2], [1.0; 2], spacing)
         .field(TEMPERATURE, |[x, _]| [300.0 + 50.0 * (TAU * x).sin()]);
@@ -35,8 +35,10 @@ fn square(count: usize) -> Simulation<f64, 2> {
         .body(body)
         .boundary(Periodic::along(0, 0.0, 1.0))
         .boundary(Periodic::along(1, 0.0, 1.0))
-        .build()
-        .unwrap()
+}
+
+fn square(count: usize) -> Simulation<f64, 2> {
+    scene(count).build().unwrap()
 }
 
 #[test]
@@ -165,4 +167,23 @@ fn temperature_is_in_files_and_in_the_printed_step() {
     let cold = Body::block("square", material(), [0.0; 2], [1.0; 2], 0.1);
     let wrong = Scene::<f64, 2>::new(scheme()).body(cold.field(Field::PRESSURE, |_| [1.0]));
     assert!(wrong.problems()[0].to_string().contains("pressure"));
+}
+
+#[test]
+fn a_run_that_is_resumed_has_the_temperatures_of_one_that_was_not() {
+    let path = std::env::temp_dir().join(format!("downstream-{}.ckpt", std::process::id()));
+    let mut whole = square(12);
+    whole.run_until(0.01).unwrap();
+    whole.save(&path).unwrap();
+    whole.run_until(0.02).unwrap();
+    let mut resumed = scene(12).resume(&path).unwrap();
+    std::fs::remove_file(&path).unwrap();
+    assert_eq!(resumed.time(), 0.01);
+    resumed.run_until(0.02).unwrap();
+    let temperatures = |of: &Simulation<f64, 2>| -> Vec<u64> {
+        of.all()
+            .map(|p| p.scalar(TEMPERATURE).unwrap().to_bits())
+            .collect()
+    };
+    assert!(temperatures(&whole) == temperatures(&resumed));
 }
