@@ -593,6 +593,8 @@ macro_rules! for_each_term {
             $crate::term::LiquidNearWall,
             $crate::term::VelocityAtWall,
             $crate::term::ViscosityAtWall,
+            $crate::effect::VelocityBeforeWall,
+            $crate::effect::Hypoelastic,
             $crate::term::RenormalisedPressureForce,
             $crate::term::RenormalisedCompression,
             $crate::term::Viscosity($crate::term::viscosity::Inviscid),

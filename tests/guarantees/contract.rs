@@ -3,7 +3,7 @@
 
 use crate::common::{self, AnyKernel, Random};
 use meshfree::kernel::{Kernel, KernelKind};
-use meshfree::particles::{Field, Fields, Output, Outputs};
+use meshfree::particles::{Field, Fields, Output, Outputs, PLACES};
 use meshfree::scalar::{Lane, Lanes, Real, Record, Traced};
 use meshfree::term::{Layout, Pair, Probe, Sums, Term, TermDoc, probe};
 
@@ -48,7 +48,7 @@ fn implementors(of: &str, folder: &std::path::Path, found: &mut Vec<String>) {
 
 #[test]
 fn the_list_has_every_term_and_every_viscosity() {
-    let sources = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/term");
+    let sources = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut all = Vec::new();
     implementors(" Term", &sources, &mut all);
     implementors(" ArtificialViscosity", &sources, &mut all);
@@ -67,28 +67,34 @@ fn the_list_has_every_term_and_every_viscosity() {
 
 const WIDTH: usize = 8;
 
+/// Most numbers of a field.
+const COMPONENTS: usize = 9;
+
 /// A particle with a random value in every field, at most `apart` from the origin along each axis.
 #[derive(Clone)]
 struct Particle(Vec<Vec<f64>>);
 
 impl Particle {
     fn random(random: &mut Random, apart: f64) -> Self {
-        let fields = Field::ALL.iter().map(|&field| {
-            (0..field.components(3))
-                .map(|_| match field {
-                    Field::POSITION => apart * random.sign(),
-                    Field::POSITION_RESIDUAL => 0.0,
-                    Field::SMOOTHING_LENGTH => 1.0 + 0.1 * random.sign(),
+        // Those that effects declare too, with as many numbers as the largest has.
+        let fields = (0..PLACES).map(|place| {
+            let field = Field::ALL.get(place).copied();
+            let mut value = || match field {
+                Some(Field::POSITION) => apart * random.sign(),
+                Some(Field::POSITION_RESIDUAL) => 0.0,
+                Some(Field::SMOOTHING_LENGTH) => 1.0 + 0.1 * random.sign(),
+                Some(
                     Field::VELOCITY
                     | Field::MEAN_VELOCITY
                     | Field::VELOCITY_GRADIENT
                     | Field::PRESSURE_GRADIENT
                     | Field::DIVERGENCE
                     | Field::PRESSURE
-                    | Field::PRESSURE_COEFFICIENT => random.sign(),
-                    _ => 1.5 + random.sign(),
-                })
-                .collect()
+                    | Field::PRESSURE_COEFFICIENT,
+                ) => random.sign(),
+                _ => 1.5 + random.sign(),
+            };
+            (0..COMPONENTS).map(|_| value()).collect()
         });
         Self(fields.collect())
     }
@@ -115,10 +121,12 @@ where
     probe(term, &kernel, |f, k| i.get(f, k), |f, k| j.get(f, k))
 }
 
-fn numbers<L: Lane, const D: usize>(probe: &Probe<L, D>) -> Vec<L> {
-    let sums = Output::ALL
+/// All that a pair makes of a term: forces, the sums of the crate, and those that the term declares.
+fn numbers<L: Lane, const D: usize, A: Term<D>>(_term: &A, probe: &Probe<L, D>) -> Vec<L> {
+    let sums = Outputs::ALL
+        .union(A::WRITES)
         .iter()
-        .flat_map(|&output| (0..output.components(D)).map(move |k| probe.sum(output, k)));
+        .flat_map(|output| (0..output.components(D)).map(move |k| probe.sum(output, k)));
     [probe.radial, probe.shear]
         .into_iter()
         .chain(probe.force)
@@ -184,7 +192,7 @@ where
         }
         for j in [&i, &j] {
             let result = scalar(&term, common::kernel(round), &i, j);
-            let finite = numbers(&result).iter().all(|x| x.is_finite());
+            let finite = numbers(&term, &result).iter().all(|x| x.is_finite());
             assert!(finite, "{}: {result:?}", name(&term));
         }
     }
@@ -212,7 +220,7 @@ where
             let away = Kernel::<D>::support(&kernel) * h * stretch;
             j.set(Field::POSITION, D - 1, away);
             let result = scalar(&term, kernel, &i, &j);
-            let silent = numbers(&result).iter().all(|&x| x == 0.0);
+            let silent = numbers(&term, &result).iter().all(|&x| x == 0.0);
             assert!(
                 silent,
                 "{} at {stretch} supports of {kernel}: {result:?}",
@@ -251,8 +259,8 @@ where
             |f, k| j.get(f, k),
         );
         for (lane, i) in row.iter().enumerate() {
-            let one = numbers(&scalar(&term, kernel.0, i, &j));
-            let (lanes, fused) = (numbers(&lanes), numbers(&fused));
+            let one = numbers(&term, &scalar(&term, kernel.0, i, &j));
+            let (lanes, fused) = (numbers(&term, &lanes), numbers(&term, &fused));
             for (k, one) in one.iter().enumerate() {
                 assert_eq!(lanes[k].extract(lane), *one, "{}, number {k}", name(&term));
                 let off = fused[k].extract(lane) - one;
@@ -331,13 +339,13 @@ where
                 Particle::random(&mut random, 0.8),
                 Particle::random(&mut random, 0.8),
             );
-            let before = numbers(&scalar(&term, kernel, &i, &j));
+            let before = numbers(&term, &scalar(&term, kernel, &i, &j));
             let other = Particle::random(&mut random, 0.8);
             for k in 0..field.components(D) {
                 i.set(field, k, other.get(field, k));
                 j.set(field, k, 0.75 * other.get(field, k));
             }
-            before != numbers(&scalar(&term, kernel, &i, &j))
+            before != numbers(&term, &scalar(&term, kernel, &i, &j))
         });
         assert!(
             matters,
@@ -355,7 +363,7 @@ fn every_declared_field_changes_something() {
 
 /// Where component `k` of a field of i stands among the inputs of a record; those of j follow on all of i.
 fn input(field: Field, k: usize) -> usize {
-    9 * field.place() + k
+    COMPONENTS * field.place() + k
 }
 
 /// The numbers of a term for a row of particles, and what its record makes of them.
@@ -371,15 +379,15 @@ fn follows<T: Real, L: Lane<Scalar = T, Broadcast = T>, const D: usize, A: Term<
     let j = Particle::random(random, 1.2);
     let i = |f: Field, k: usize| L::from_fn(|lane| T::from_f64(row[lane].get(f, k)));
     let j = |f: Field, k: usize| T::from_f64(j.get(f, k));
-    let half = input(Field::ALL[Field::ALL.len() - 1], 9);
+    let half = COMPONENTS * PLACES;
     let mut inputs = vec![L::zero(); 2 * half];
-    for &field in Field::ALL {
+    for field in Fields::ALL.union(A::READS).iter() {
         for k in 0..field.components(D) {
             inputs[input(field, k)] = i(field, k);
             inputs[half + input(field, k)] = L::splat(j(field, k));
         }
     }
-    let expected = numbers(&probe::<L, D, _, _>(term, &kernel, i, j));
+    let expected = numbers(term, &probe::<L, D, _, _>(term, &kernel, i, j));
     let found = record.follow(&inputs);
     assert_eq!(found.len(), expected.len());
     for (number, (found, expected)) in found.iter().zip(expected).enumerate() {
@@ -404,11 +412,11 @@ where
 {
     let mut random = Random(7);
     for &kernel in KernelKind::ALL {
-        let half = input(Field::ALL[Field::ALL.len() - 1], 9);
+        let half = COMPONENTS * PLACES;
         let record = Record::of(2 * half, |inputs| {
             let i = |f: Field, k: usize| inputs[input(f, k)];
             let j = |f: Field, k: usize| inputs[half + input(f, k)];
-            numbers(&probe::<Traced, D, _, _>(&term, &kernel, i, j))
+            numbers(&term, &probe::<Traced, D, _, _>(&term, &kernel, i, j))
         });
         let record = record.unwrap_or_else(|error| panic!("{}: {error}", name(&term)));
         for _ in 0..3 {
