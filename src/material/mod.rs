@@ -340,6 +340,13 @@ impl<T: Real> Material<T> {
     pub fn state(&self, density: f64, energy: f64) -> (f64, f64) {
         self.eos.state(density, energy)
     }
+    /// Whether pressure follows from energy alone, so that twice the cold density has no more than a few times the
+    /// pressure: the density of a gas at rest is only what it starts with, and its energy is never negative.
+    pub(crate) fn is_gas(&self) -> bool {
+        let rest = self.reference_density();
+        let [once, twice] = [rest, 2.0 * rest].map(|density| self.state(density, 0.0).0);
+        twice.abs() <= 4.0 * once.abs()
+    }
     /// Acoustic impedance ρ₀ c \[kg/(m² s)\] at rest.
     #[must_use]
     pub fn impedance(&self) -> f64 {

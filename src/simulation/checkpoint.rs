@@ -494,7 +494,9 @@ fn limits<T: Real, const D: usize>(scheme: &Scheme<T, D>) -> impl Iterator<Item 
     let program = &scheme.program;
     let laws = program.laws.iter().flatten().map(|law| law.name());
     let evolved = program.evolved.iter();
-    laws.chain(evolved.map(|own| program.name_of(own.field).0))
+    let counted = evolved.map(|own| program.name_of(own.field).0);
+    laws.chain(counted)
+        .chain([super::soundness::NEGATIVE_ENERGY])
 }
 
 fn put_particles<T: Real, const D: usize>(

@@ -283,7 +283,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     /// Limits that laws and updates have applied since the start, by name, in particle steps or evaluations: smoothing
-    /// lengths held at a limit, densities of cavitated liquid held from thinning out further.
+    /// lengths held at a limit, densities of cavitated liquid held from thinning out further, gas whose internal energy is
+    /// negative: a few ahead of a strong shock do no harm, many say that the viscosity is too weak or the step too long.
     #[must_use]
     pub fn limits(&self) -> Vec<(&'static str, u64)> {
         let mut all: Vec<(&'static str, u64)> = Vec::new();

@@ -12,12 +12,16 @@ use rayon::prelude::*;
 /// Share of a full neighbourhood below which a particle has no neighbours to be measured by.
 const ALONE: f64 = 1e-6;
 
+/// The name under which gas of negative energy is counted.
+pub(super) const NEGATIVE_ENERGY: &str = "negative internal energy";
+
 /// Share of the spacing by which a wall may move beside what its velocity gives.
 const JUMP: f64 = 0.5;
 
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// Refuses a state in which a number is not finite.
-    pub(super) fn check_state(&self) -> Result<()> {
+    pub(super) fn check_state(&mut self) -> Result<()> {
+        self.groups.iter_mut().for_each(Group::count_energies);
         for group in &self.groups {
             if let Some(slot) = group.unsound() {
                 return Err(self.broken(group, slot));
@@ -112,6 +116,21 @@ impl<T: Real, const D: usize> Group<T, D> {
             })
         };
         self.particles.bodies.iter().filter_map(first).collect()
+    }
+
+    /// Counts gas whose internal energy is negative, in particle steps: its law takes it as none
+    /// ([`IdealGas::minimum_energy`](crate::material::eos::IdealGas::minimum_energy)), and the ledger as it is.
+    fn count_energies(&mut self) {
+        let energy = self.particles.columns.raw(Field::ENERGY);
+        let mut negative = 0;
+        for body in &self.particles.bodies {
+            let own = energy.get(body.slots.clone()).unwrap_or_default();
+            if !own.is_empty() && body.material.is_gas() {
+                let own = own.par_iter().with_min_len(GRAIN);
+                negative += own.filter(|energy| **energy < T::zero()).count() as u64;
+            }
+        }
+        self.count(NEGATIVE_ENERGY, negative);
     }
 
     /// The first slot whose state is not finite, or whose density is not positive.

@@ -5,7 +5,6 @@ use super::parameter;
 use crate::error::Problem;
 use crate::geometry::Flaw;
 use crate::integrator::Integrator;
-use crate::material::Material;
 use crate::scalar::Real;
 use crate::scene::plan::Plan;
 use crate::scene::{Body, Scene};
@@ -55,7 +54,7 @@ pub(super) fn check_starts<T: Real, const D: usize>(body: &Body<T, D>) -> Option
     let material = &body.material;
     let rest = material.reference_density();
     let least_energy = -material.state(rest, 0.0).1.powi(2);
-    let is_gas = is_gas(material);
+    let is_gas = material.is_gas();
     body.starts.iter().find_map(|start| {
         let mass = T::from_f64(start.density * body.spacing.powi(D as i32)).to_f64();
         if let Some(&fast) = start.velocity.iter().find(|v| v.abs() >= LIGHT) {
@@ -91,14 +90,6 @@ pub(super) fn check_starts<T: Real, const D: usize>(body: &Body<T, D>) -> Option
         }
         None
     })
-}
-
-/// Whether pressure follows from energy alone, so that twice the cold density has no more than twice the pressure;
-/// the density of a gas at rest is only what it starts with.
-pub(crate) fn is_gas<T: Real>(material: &Material<T>) -> bool {
-    let rest = material.reference_density();
-    let [once, twice] = [rest, 2.0 * rest].map(|density| material.state(density, 0.0).0);
-    twice.abs() <= 4.0 * once.abs()
 }
 
 impl<T: Real, const D: usize> Scene<T, D> {

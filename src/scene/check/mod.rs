@@ -2,7 +2,7 @@
 //! A message names the field, the value, and what to do.
 
 mod groups;
-pub(crate) mod limits;
+mod limits;
 mod memory;
 mod scheme;
 mod walls;
