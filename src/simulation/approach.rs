@@ -11,13 +11,9 @@ use crate::sweep::Interaction;
 use crate::tensor::{Vector, length};
 use rayon::prelude::*;
 
-/// Distance in spacings that no pair of a liquid or gas in order falls below: what closes by less than a share of it
-/// in a step needs no look at its pairs.
-const ORDERLY: f64 = 0.5;
-
-/// Distance in spacings below which a pair is one particle twice. A step that follows a pair so far has long
-/// collapsed.
-const NEAREST: f64 = 1e-9;
+/// Distance in spacings that a pair has at least, as far as its step is concerned: spray and gas behind a shock have
+/// pairs that are nearer, which kernels do not resolve and which would stop the run.
+const NEAREST: f64 = 0.5;
 
 /// Closing speed over sound speed from which a weakly compressible liquid is none. Joukowsky's hammer ρ c u then
 /// asks for a compression u/c of one, where such a liquid is meant for a hundredth (Monaghan 1994).
@@ -80,7 +76,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         } else {
             least_h
         };
-        let bearable = share * ORDERLY * least_h / self.scheme.h_over_dx;
+        let bearable = share * NEAREST * least_h / self.scheme.h_over_dx;
         let harmless = |speed: f64| speed == 0.0 || speed * limit <= bearable;
         let shifted = self
             .neighborhood

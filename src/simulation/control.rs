@@ -15,8 +15,8 @@ use rayon::prelude::*;
 ///
 /// and no pair may close by more than a share of its distance: with the closing speed u = −vᵢⱼ·rᵢⱼ/|rᵢⱼ|,
 /// Δt ≤ C_r |rᵢⱼ|/u. Sound and viscosity say nothing of a cold gas, or of liquid that is faster than its sound, and a
-/// step that moved particles through each other would be none. What is not in reach yet counts as a support away. Pairs
-/// are looked at only while the spread of velocities closes a quarter of a spacing in a step.
+/// step that moved particles through each other would be none. Distances below half a spacing count as that, and
+/// what is not in reach yet as a support away.
 ///
 /// κ is what the integrator bears relative to a leapfrog
 /// ([`stability`](crate::integrator::Integrator::stability)), and sᵢⱼ the signal that the viscosity in
