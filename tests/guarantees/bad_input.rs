@@ -12,7 +12,7 @@ use meshfree::observe::{FlowPlane, PressureProbe, WaveGauge};
 use meshfree::particles::Fields;
 use meshfree::scalar::Lane;
 use meshfree::scene::{Body, Scene, Start};
-use meshfree::scheme::{DensityForm, EnergyForm, SchemeBuilder};
+use meshfree::scheme::{DensityForm, EnergyForm, SchemeBuilder, Smoothing};
 use meshfree::schemes;
 use meshfree::simulation::{Simulation, StepControl};
 use meshfree::sweep::{Interaction, Transform};
@@ -889,18 +889,31 @@ fn names_that_are_empty_and_bodies_against_themselves() {
 }
 
 #[test]
-fn summation_across_a_contact_that_opens() {
-    let scheme = || schemes::impact().density(DensityForm::Summation);
+fn a_smoothing_length_that_sees_one_side_of_a_contact() {
+    let scheme = || {
+        SchemeBuilder::new(CubicSpline, MonaghanGingold::default())
+            .density(DensityForm::Summation)
+            .smoothing(Smoothing::Consistent {
+                smallest: 0.5,
+                largest: 2.0,
+            })
+    };
     let two = || Scene::<f64, 1>::new(scheme()).body(rod()).body(other(0.02));
-    incompatible(&problem(two()), "in a contact that opens", "bond them");
+    incompatible(&problem(two()), "sees one side of it", "bond them");
     incompatible(
         &problem(two().between("rod", "other", Interaction::Unilateral)),
         "in a contact that opens",
-        "NumberDensity",
+        "fixed smoothing length",
     );
     for said in [Interaction::Bonded, Interaction::None] {
         assert_eq!(two().between("rod", "other", said).problems(), []);
     }
+    // Bonded, density is the same at the joint as elsewhere, and so it is if the scheme says so.
+    let bonded = scheme().between_bodies(Interaction::Bonded);
+    let bonded = Scene::<f64, 1>::new(bonded).body(rod()).body(other(0.02));
+    let bonded = bonded.build().unwrap();
+    let at = |k: usize| bonded.body(0).nth(k).unwrap().density();
+    assert!((at(19) / at(10) - 1.0).abs() < 1e-9);
 }
 
 #[test]

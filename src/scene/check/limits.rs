@@ -8,7 +8,7 @@ use crate::integrator::Integrator;
 use crate::scalar::Real;
 use crate::scene::plan::Plan;
 use crate::scene::{Body, Scene};
-use crate::scheme::DensityForm;
+use crate::scheme::Smoothing;
 use crate::sweep::Interaction;
 use crate::tensor::{Matrix, Vector, length};
 
@@ -256,22 +256,22 @@ fn integrator_flaws(integrator: &dyn Integrator) -> Vec<Flaw> {
 }
 
 impl<T: Real, const D: usize> Plan<'_, T, D> {
-    /// Density by summation counts both sides of a contact, and would stay compressed or thinned where it opens.
+    /// A smoothing length that is solved with the density sees one side of a contact, and half of the density there.
     pub(super) fn check_openings_of_sums(&self, problems: &mut Vec<Problem>) {
-        let form = self.scheme.density;
-        if !matches!(form, DensityForm::Summation | DensityForm::Normalised) {
+        if !matches!(self.scheme.smoothing, Smoothing::Consistent { .. }) {
             return;
         }
         for (k, second) in self.bodies.iter().enumerate() {
             for first in &self.bodies[..k] {
                 let said = self.scene.said_between(&first.name, &second.name);
-                if said.is_none_or(|said| said == Interaction::Unilateral) {
+                if said.unwrap_or(self.scheme.between) == Interaction::Unilateral {
                     problems.push(Problem::Incompatible {
                         what: format!(
-                            "bodies `{}` and `{}` are in a contact that opens, of which density by {form} knows nothing",
+                            "bodies `{}` and `{}` are in a contact that opens, and a smoothing length that follows the density \
+                             sees one side of it",
                             first.name, second.name
                         ),
-                        remedy: "bond them with Scene::between, or take DensityForm::NumberDensity or Continuity",
+                        remedy: "bond them with Scene::between, or take a fixed smoothing length",
                     });
                 }
             }
