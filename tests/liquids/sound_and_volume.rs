@@ -238,7 +238,7 @@ fn tearing_that_cannot_be_is_refused() {
     let body = |material| Body::block("liquid", material, [0.0; 2], [1.0; 2], 0.1);
     let scheme = || plain().with(ExpansionMemory);
     let solid = Scene::<f64, 2>::new(scheme()).body(body(liquid()));
-    assert!(solid.problems()[0].to_string().contains("can tear"));
+    assert!(solid.problems()[0].to_string().contains("can cavitate"));
     let torn = body(liquid().with_pressure_cut_off(0.0));
     let combined = Scene::<f64, 2>::new(scheme().density_with_rates().compose())
         .body(torn)
