@@ -63,8 +63,8 @@
 //! program that is killed while it writes leaves the file before:
 //!
 //! ```
-//! # #[cfg(feature = "checkpoint")] {
 //! use meshfree::prelude::*;
+//! # #[cfg(feature = "checkpoint")] {
 //! # let folder = std::env::temp_dir().join(format!("meshfree-restart-{}", std::process::id()));
 //! # let file = folder.join("rods.safetensors");
 //! # let rods = || Scene::<f64, 1>::new(schemes::impact())
