@@ -72,6 +72,7 @@ impl<'a, T: Real, const D: usize> Chunk<'a, T, D> {
     /// not carry a field, all empty if one is named twice.
     #[must_use]
     pub fn columns<const N: usize>(&mut self, fields: [Field; N]) -> [&mut [T]; N] {
+        const { assert!(N <= ABSENT, "no more columns at once than may be absent") };
         let mut missing = 0;
         let places = fields.map(|field| {
             self.columns.place(field).unwrap_or_else(|| {

@@ -15,6 +15,9 @@ pub struct Tally {
     pub change: f64,
 }
 
+/// Most laws of a stage.
+pub const MOST_LAWS: usize = 16;
+
 /// What an effect does to single particles at a stage.
 ///
 /// A law sees a [`Chunk`]: some particles of one body, with their columns and sums. It must treat each particle

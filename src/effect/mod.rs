@@ -53,7 +53,7 @@ pub use evolved::{ByField, BySum, Evolved, Rate, Update, View, When};
 pub(crate) use gradients::CorrectedGradients;
 pub use hypoelastic::Hypoelastic;
 pub use laminar::{GeneralisedNewtonian, Laminar};
-pub use law::{Law, Tally};
+pub use law::{Law, MOST_LAWS, Tally};
 pub use limit::Limit;
 pub use list::{Effect, Effects};
 pub use program::{Declared, DeclaredSum, LedgerColumn, Requirement, SceneFacts, StepProgram};

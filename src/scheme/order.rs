@@ -2,7 +2,7 @@
 //! What effects call their own has one name, so no two take the same number.
 
 use super::Scheme;
-use crate::effect::{Update, When};
+use crate::effect::{MOST_COLUMNS, MOST_LAWS, Update, When};
 use crate::error::Problem;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Real;
@@ -52,6 +52,7 @@ impl<T: Real, const D: usize> Scheme<T, D> {
     pub(crate) fn misordered(&self) -> Vec<Problem> {
         let mut problems = Vec::new();
         self.check_names(&mut problems);
+        self.check_room(&mut problems);
         let later = [Stage::Continuity, Stage::Bounds];
         // What a drift writes is there for the evaluation after it, as what belongs to the state.
         let mut known = later
@@ -201,6 +202,28 @@ impl<T: Real, const D: usize> Scheme<T, D> {
     pub(super) fn name_of_sum(&self, sum: Output) -> &'static str {
         let own = self.program.sums.iter().find(|own| own.sum == sum);
         own.map_or(sum.name(), |own| own.name)
+    }
+
+    /// Whether there is room for all fields, with the two that contacts may add, and for the laws of every stage.
+    fn check_room(&self, problems: &mut Vec<Problem>) {
+        const OF_CONTACTS: usize = 2;
+        let mut held = |what, count: usize, most: usize| {
+            if count > most {
+                problems.push(Problem::Parameter {
+                    what: format!("number of {what} of the scheme {}", self.name),
+                    value: count as f64,
+                    must_be: "there is no room for more than 46 fields, and 16 laws a stage: leave effects out",
+                });
+            }
+        };
+        held(
+            "fields",
+            self.fields().iter().count(),
+            MOST_COLUMNS - OF_CONTACTS,
+        );
+        for laws in &self.program.laws {
+            held("laws at a stage", laws.len(), MOST_LAWS);
+        }
     }
 
     /// Names of what effects call their own: each number has one.

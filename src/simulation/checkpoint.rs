@@ -112,7 +112,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 criterion,
                 particle,
             } = vote;
-            file.put_text("last vote", format!("{criterion:?}"));
+            file.put_text("last vote", criterion.name());
             file.put_one("last_vote/step".into(), *step);
             file.put_one("last_vote/particle".into(), *particle as u64);
         }
@@ -153,8 +153,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.last_vote = None;
         if file.has("last_vote/step") {
             let name = file.text("last vote")?;
-            let named = |own: &Criterion| format!("{own:?}") == name;
-            let criterion = Criterion::ALL.into_iter().find(named);
+            let limits = self
+                .groups
+                .iter()
+                .flat_map(|group| &group.scheme.program.limits);
+            let criteria = Criterion::ALL
+                .into_iter()
+                .chain(limits.map(|limit| Criterion::Effect(limit.name())));
+            let criterion = criteria.into_iter().find(|own| own.name() == name);
             self.last_vote = Some(Vote {
                 step: file.get_one("last_vote/step")?,
                 criterion: criterion.ok_or_else(|| damaged("its criterion has no name"))?,

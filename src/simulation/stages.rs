@@ -3,7 +3,7 @@
 
 use super::group::Group;
 use crate::boundary::WallSurface;
-use crate::effect::{Around, Chunk, Law, Slices, Tally};
+use crate::effect::{Around, Chunk, Law, MOST_LAWS, Slices, Tally};
 use crate::particles::Field;
 use crate::scalar::Real;
 use crate::scheme::Scheme;
@@ -14,9 +14,6 @@ use std::time::{Duration, Instant};
 
 /// Particles that a thread takes at a time in loops over particles.
 pub(crate) const GRAIN: usize = 4096;
-
-/// Most laws of a stage whose limits are counted apart.
-pub(crate) const MOST_LAWS: usize = 16;
 
 /// Where and when a stage runs.
 #[derive(Clone, Copy, Debug)]

@@ -1,5 +1,6 @@
 //! What holds whatever is simulated: bad input is refused by name, every term keeps its contract, lists miss no pair,
-//! and results do not depend on threads, instruction sets or precision. One program, so that loops are compiled once.
+//! results do not depend on threads, instruction sets or precision, and a run resumes to the same bits. One program, so
+//! that loops are compiled once.
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -11,5 +12,7 @@ mod contract;
 mod filling;
 mod invariance;
 mod neighbours;
+#[cfg(feature = "checkpoint")]
+mod restart;
 mod step_program;
 mod vtk;

@@ -290,6 +290,42 @@ fn two_effects_that_claim_one_number_are_refused() {
     assert!(sum.contains("sum vector 2") && sum.contains("`flow`") && sum.contains("`heat`"));
 }
 
+/// So many laws at one stage, and scalars and vectors of its own.
+#[derive(Clone, Copy, Debug)]
+struct Many {
+    laws: usize,
+    fields: usize,
+}
+
+impl<const D: usize> Effect<D> for Many {
+    type Terms = ();
+    fn terms(&self, _setting: &Setting) {}
+    fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
+        for _ in 0..self.laws {
+            program.law(Stage::Rates, NOTHING);
+        }
+        for number in 0..self.fields {
+            let own = number as u8 % 16;
+            let shapes = [Field::scalar, Field::vector, Field::tensor];
+            program.declare(shapes[number / 16](own), "colour", "1", 0.0);
+        }
+    }
+}
+
+#[test]
+fn more_laws_and_fields_than_there_is_room_for_are_refused() {
+    let many = |laws, fields| problems(schemes::impact().with(Many { laws, fields }));
+    assert!(many(12, 24).is_empty());
+    for (laws, fields, what) in [
+        (17, 0, "number of laws at a stage"),
+        (0, 47, "number of fields"),
+    ] {
+        let found = many(laws, fields);
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!(found[0].to_string().contains(what), "{found:?}");
+    }
+}
+
 /// An effect that adds to the rate of what nothing integrates.
 #[derive(Clone, Copy, Debug)]
 struct Adds;

@@ -1,10 +1,9 @@
 //! Restart: a simulation that stops at any moment and goes on from its file ends with the same bits, in every kind of
 //! scheme; and a file that is not its own is refused with what differs.
 
-mod common;
-
-use common::Random;
+use crate::common::{self, Random};
 use meshfree::boundary::{Crush, Inlet, Outlet, Rotation, Wall};
+use meshfree::effect::Hypoelastic;
 use meshfree::error::CheckpointProblem;
 use meshfree::integrator::Predictor;
 use meshfree::material::Material;
@@ -218,6 +217,23 @@ fn a_solid_that_flows_through_a_period_by_runge_kutta() {
             .integrator(RungeKutta4)
     };
     stop_and_go_on("runge-kutta", scene, false, 4e-6);
+}
+
+#[test]
+fn an_elastic_plate_that_spins_as_its_edge_is_struck() {
+    let scene = || {
+        let steel = catalogue::steel().with_shear_modulus(77e9);
+        let struck = |[x, y]: [f64; 2], start| Start {
+            velocity: [
+                2000.0 * (0.005 - y),
+                2000.0 * (x - 0.01) + if x < 0.002 { 5.0 } else { 0.0 },
+            ],
+            ..start
+        };
+        Scene::<f64, 2>::new(schemes::impact_by_continuity().with(Hypoelastic))
+            .body(Body::block("plate", steel, [0.0; 2], [0.02, 0.01], 1e-3).start(struck))
+    };
+    stop_and_go_on("plate", scene, false, 5e-6);
 }
 
 #[test]
@@ -759,7 +775,7 @@ fn a_process_killed_at_any_moment_leaves_a_file_to_go_on_from() {
         let mut victim = Command::new(std::env::current_exe().unwrap())
             .args([
                 "--exact",
-                "a_process_killed_at_any_moment_leaves_a_file_to_go_on_from",
+                "restart::a_process_killed_at_any_moment_leaves_a_file_to_go_on_from",
             ])
             .env(VICTIM, &path)
             .stdout(Stdio::null())
