@@ -173,6 +173,7 @@
 #![warn(missing_docs)]
 
 pub mod boundary;
+pub mod coupling;
 pub mod effect;
 pub mod error;
 pub mod geometry;

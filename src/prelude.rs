@@ -8,6 +8,8 @@ pub use crate::boundary::{
     Boundary, Crush, MirrorPlane, Motion, Outlet, Periodic, Rotation, Translation, Wall,
 };
 #[doc(no_inline)]
+pub use crate::coupling::Coupling;
+#[doc(no_inline)]
 pub use crate::effect::{
     AcousticDamping, Cavitation, DensityDiffusion, Effect, ExpansionMemory, ExtrapolatedPressure,
     GeneralisedNewtonian, Laminar, RiemannWalls, VolumeConsistency,

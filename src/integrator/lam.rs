@@ -56,6 +56,9 @@ impl Integrator for LamLeapfrog {
     fn slots(&self) -> usize {
         1
     }
+    fn drifts(&self) -> bool {
+        false
+    }
     fn integrates_density(&self) -> bool {
         false
     }

@@ -115,6 +115,10 @@ pub trait Integrator: Debug + Send + Sync {
     fn integrates_density(&self) -> bool {
         true
     }
+    /// Whether positions change by drifts alone, as sub-cycling needs.
+    fn drifts(&self) -> bool {
+        self.kicks()
+    }
     /// Whether velocity changes by kicks alone, as the compatible energy form needs.
     fn kicks(&self) -> bool {
         true

@@ -18,6 +18,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
             boundaries,
             integrator,
             contacts,
+            couplings,
+            sub_cycled,
             loads,
             control,
             skin,
@@ -51,6 +53,15 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 of_texts([integrator.name(), debug(integrator)]),
             ),
             ("what bodies do to each other", of_texts([debug(contacts)])),
+            (
+                "couplings and sub-cycling",
+                of_texts(
+                    couplings
+                        .iter()
+                        .map(|own| debug((&own.first, &own.second, &own.coupling)))
+                        .chain([debug(sub_cycled)]),
+                ),
+            ),
             ("the number of loads", of_texts([debug(loads.len())])),
             ("the choice of steps", of_texts([debug(control)])),
             ("the skin of neighbour lists", of_texts([debug(skin)])),

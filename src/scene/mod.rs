@@ -40,10 +40,14 @@
 //! | liquid and liquid | one liquid | do not meet, which has to be said |
 //! | liquid and solid | no: a liquid needs a scheme of liquids | pressure, and friction with [`Body::no_slip`] |
 //!
+//! Any two bodies of different groups act on each other as a [coupling](crate::coupling) of one's own says
+//! ([`Scene::couple`]), and a stiff group takes steps of its own ([`Scene::sub_cycle`]).
+//!
 //! Solids do not see walls of particles; a [`MirrorPlane`](crate::boundary::MirrorPlane) holds solids and liquids.
 
 mod body;
 mod check;
+mod coupled;
 #[cfg(feature = "checkpoint")]
 mod fingerprint;
 mod plan;
@@ -51,6 +55,9 @@ mod plan;
 pub use body::{Body, Start};
 
 use crate::boundary::{Boundary, Inlet, Outlet, Wall};
+use crate::coupling::Coupling;
+#[cfg(doc)]
+use crate::coupling::LiquidStructure;
 use crate::error::{BuildError, Error, Problem, Result};
 use crate::integrator::{Integrator, KickDriftKick};
 #[cfg(feature = "checkpoint")]
@@ -89,11 +96,20 @@ pub struct Scene<T: Real, const D: usize> {
     boundaries: Vec<Arc<dyn Boundary<T, D>>>,
     integrator: Arc<dyn Integrator>,
     contacts: Vec<(String, String, Interaction)>,
+    couplings: Vec<Coupled<T, D>>,
+    sub_cycled: Vec<(String, u32)>,
     loads: Vec<Load<D>>,
     control: StepControl,
     skin: Option<f64>,
     instructions: InstructionSet,
     memory: Option<u64>,
+}
+
+/// Two bodies of different groups, and how they act on each other.
+struct Coupled<T: Real, const D: usize> {
+    first: String,
+    second: String,
+    coupling: Arc<dyn Coupling<T, D>>,
 }
 
 /// Bodies that share a scheme.
@@ -122,6 +138,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
             boundaries: Vec::new(),
             integrator: Arc::new(KickDriftKick),
             contacts: Vec::new(),
+            couplings: Vec::new(),
+            sub_cycled: Vec::new(),
             loads: Vec::new(),
             control,
             skin: None,
@@ -215,6 +233,35 @@ impl<T: Real, const D: usize> Scene<T, D> {
     pub fn between(mut self, first: &str, second: &str, interaction: Interaction) -> Self {
         self.contacts
             .push((first.into(), second.into(), interaction));
+        self
+    }
+
+    /// Says how a body and a body of another [group](Scene::group) act on each other. Where nothing is said a liquid
+    /// meets a solid by [`LiquidStructure`], and all others do not meet, which has to be said.
+    #[must_use]
+    pub fn couple(
+        mut self,
+        first: &str,
+        second: &str,
+        coupling: impl Coupling<T, D> + 'static,
+    ) -> Self {
+        self.couplings.push(Coupled {
+            first: first.into(),
+            second: second.into(),
+            coupling: Arc::new(coupling),
+        });
+        self
+    }
+
+    /// Lets the group of a body take steps of its own, of equal size in every half of a drift of the others, and at most
+    /// `most` in a step. The others then step as if that body were `most` times less stiff, and what couplings do to it
+    /// comes in [impulses](crate::coupling#sub-cycling) at their kicks. It gains where a solid's sound is much faster
+    /// than that of the liquid around it, and wants an integrator that kicks and drifts.
+    ///
+    /// A liquid that meets walls or structures steps with the others.
+    #[must_use]
+    pub fn sub_cycle(mut self, body: &str, most: u32) -> Self {
+        self.sub_cycled.push((body.into(), most));
         self
     }
 
@@ -325,9 +372,17 @@ impl<T: Real, const D: usize> Scene<T, D> {
         }
         let domain = self.domain();
         let groups = self.plans().map(Plan::lay_out).collect();
+        let couples = self.couples();
         #[cfg(feature = "checkpoint")]
         let hashes = self.hashes();
-        let simulation = Simulation::new(groups, domain, self.integrator, self.control, self.loads);
+        let simulation = Simulation::new(
+            groups,
+            couples,
+            domain,
+            self.integrator,
+            self.control,
+            self.loads,
+        );
         #[cfg(feature = "checkpoint")]
         let simulation = simulation.of_scene(hashes);
         Ok(simulation)

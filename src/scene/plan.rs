@@ -49,7 +49,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
             for (k, other) in self.parts.iter().enumerate() {
                 if !is_liquid(other) {
                     let structures = other.bodies.iter().enumerate();
-                    let met = structures.filter(|(_, body)| meets(self, part, body));
+                    let met =
+                        structures.filter(|(_, body)| self.wall_coupling_of(part, body).is_some());
                     walls.extend(met.map(|(b, body)| (as_wall(body), Origin::Structure(k, b))));
                 }
             }
@@ -62,18 +63,6 @@ impl<T: Real, const D: usize> Scene<T, D> {
             walls,
         }
     }
-}
-
-/// Whether any body of a part acts on a body of another.
-fn meets<T: Real, const D: usize>(
-    scene: &Scene<T, D>,
-    part: &Part<T, D>,
-    body: &Body<T, D>,
-) -> bool {
-    let said = |own: &Body<T, D>| scene.said_between(&own.name, &body.name);
-    part.bodies
-        .iter()
-        .any(|own| said(own) != Some(Interaction::None))
 }
 
 /// A body as the wall that liquids of other groups meet.
@@ -168,6 +157,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         group.instructions = self.scene.instructions;
         group.outlets.clone_from(&self.scene.outlets);
         group.emitters = emitters;
+        group.sub_cycle = self.scene.sub_cycle_of(self.number);
         group
     }
 
@@ -187,17 +177,23 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         origin: Origin,
         slots: std::ops::Range<usize>,
         end: usize,
-    ) -> WallState<D> {
+    ) -> WallState<T, D> {
         let (index, structure) = match origin {
             Origin::Wall(index) => (index, None),
             Origin::Structure(group, body) => {
-                let accelerations = vec![[0.0; D]; wall.points.len()];
+                let part = &self.scene.parts[self.number];
+                let solid = &self.scene.parts[group].bodies[body];
+                let coupling = self.scene.wall_coupling_of(part, solid);
+                let apart = self.scene.sub_cycle_of(group).map(|_| wall.points.len());
                 (
                     0,
-                    Some(Structure {
+                    coupling.map(|coupling| Structure {
+                        coupling,
                         group,
                         body,
-                        accelerations,
+                        accelerations: vec![[0.0; D]; wall.points.len()],
+                        before: vec![[0.0; D]; apart.unwrap_or(0)],
+                        evaluated: f64::NAN,
                     }),
                 )
             }
@@ -373,13 +369,17 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                 images.chain([bodies + wall]).collect()
             })
         };
-        for (first, second, interaction) in &self.scene.contacts {
-            if *interaction == Interaction::None {
-                for a in blocks_of(first) {
-                    for b in blocks_of(second) {
-                        all[a * blocks + b] = Interaction::None;
-                        all[b * blocks + a] = Interaction::None;
-                    }
+        let contacts = self.scene.contacts.iter();
+        let apart = contacts.filter(|own| own.2 == Interaction::None);
+        let apart = apart.map(|(first, second, _)| (first, second));
+        let couplings = self.scene.couplings.iter();
+        let by_force = couplings.filter(|own| !own.coupling.is_wall());
+        let by_force = by_force.map(|own| (&own.first, &own.second));
+        for (first, second) in apart.chain(by_force) {
+            for a in blocks_of(first) {
+                for b in blocks_of(second) {
+                    all[a * blocks + b] = Interaction::None;
+                    all[b * blocks + a] = Interaction::None;
                 }
             }
         }

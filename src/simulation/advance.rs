@@ -18,88 +18,73 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
         for group in &mut self.groups {
             group.evaluated_gravity = group.gravity.map(T::from_f64);
         }
-        self.place_structures();
+        self.place_structures(Some(time));
         // What follows the flow once a step does so at the first evaluation.
         let elapsed = core::mem::take(&mut self.due);
         for k in 0..self.groups.len() {
-            self.groups[k].evaluate(time, elapsed);
-            self.follow_moves(k);
+            // A group that sub-cycles comes with rates of its own.
+            if self.groups[k].sub_cycle.is_none() || !self.rates_at_hand {
+                self.groups[k].evaluate(time, elapsed);
+                self.follow_moves(k);
+            }
         }
-        self.load_structures();
+        self.couple();
         self.evaluations += 1;
         self.rates_at_hand = true;
         Ok(())
     }
 
     fn kick(&mut self, dt: f64) {
-        for group in &mut self.groups {
+        for group in self.together() {
             group.heat_in_kick(dt);
         }
-        self.record_impulses(dt);
-        self.record_work(dt);
+        self.record_kick(None, dt);
         let time = self.time;
         for group in &mut self.groups {
-            group.kick(dt);
-            if group.evolves_at(When::Kick) {
-                group.apply_laws(Stage::Bounds, Moment::at(time));
+            if group.sub_cycle.is_some() {
+                group.kick_apart(dt);
+            } else {
+                group.kick_all(dt, time);
             }
         }
     }
 
     fn drift(&mut self, dt: f64, offset: f64) -> Result<()> {
-        let begin = self.time + offset;
-        for group in &mut self.groups {
-            if group.scheme.sums_in_drift() {
-                group.predict_weights(0.5 * dt);
-            }
-            let whole = group.drifts_at_once();
-            group.move_particles(if whole { dt } else { 0.5 * dt });
+        let (begin, half) = (self.time + offset, 0.5 * dt);
+        self.sub_cycle(begin, half)?;
+        for group in self.together() {
+            group.begin_drift(dt);
         }
-        if self.groups.iter().all(Group::drifts_at_once) {
-            return Ok(());
+        if self.together().all(|group| group.drifts_at_once()) {
+            return self.sub_cycle(begin + half, half);
         }
         // Loads and walls at the middle of the drift, and walls go straight through it as particles do:
         // a tank that moves is then a tank at rest in a frame that does.
-        self.load_groups(begin + 0.5 * dt);
-        self.place_structures();
+        self.load_groups(begin + half);
+        self.place_structures(None);
         for k in 0..self.groups.len() {
-            if self.groups[k].scheme.sums_in_drift() {
-                self.groups[k].refresh(begin + 0.5 * dt, Some([begin, begin + dt]));
-                self.follow_moves(k);
-                let group = &mut self.groups[k];
-                group.sum_stage(Stage::Continuity);
-                group.advance(When::Drift, dt);
-                let moment = Moment {
-                    dt,
-                    in_drift: true,
-                    ..Moment::at(begin + 0.5 * dt)
-                };
-                group.apply_laws(Stage::Continuity, moment);
-                group.apply_laws(Stage::Bounds, moment);
-            }
-            let group = &mut self.groups[k];
-            if !group.drifts_at_once() {
-                group.move_particles(0.5 * dt);
+            if self.groups[k].sub_cycle.is_none() {
+                self.end_drift(k, begin, dt);
             }
         }
-        Ok(())
+        self.sub_cycle(begin + half, half)
     }
 
     fn shift(&mut self, dv: f64, da: f64) {
-        for group in &mut self.groups {
+        for group in self.together() {
             group.move_particles(dv);
             group.move_by_rates(da);
         }
     }
 
     fn predict(&mut self, dt: f64) {
-        for group in &mut self.groups {
+        for group in self.together() {
             group.predict(dt);
         }
     }
 
     fn restore(&mut self) {
-        for group in &mut self.groups {
+        for group in self.together() {
             group.restore();
         }
     }
@@ -149,8 +134,37 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
+    /// Groups that do not sub-cycle.
+    fn together(&mut self) -> impl Iterator<Item = &mut Group<T, D>> {
+        let groups = self.groups.iter_mut();
+        groups.filter(|group| group.sub_cycle.is_none())
+    }
+
+    /// The middle and the second half of a drift of a group that something looks at on its way.
+    pub(super) fn end_drift(&mut self, group: usize, begin: f64, dt: f64) {
+        let middle = begin + 0.5 * dt;
+        if self.groups[group].scheme.sums_in_drift() {
+            self.groups[group].refresh(middle, Some([begin, begin + dt]));
+            self.follow_moves(group);
+            let group = &mut self.groups[group];
+            group.sum_stage(Stage::Continuity);
+            group.advance(When::Drift, dt);
+            let moment = Moment {
+                dt,
+                in_drift: true,
+                ..Moment::at(middle)
+            };
+            group.apply_laws(Stage::Continuity, moment);
+            group.apply_laws(Stage::Bounds, moment);
+        }
+        let group = &mut self.groups[group];
+        if !group.drifts_at_once() {
+            group.move_particles(0.5 * dt);
+        }
+    }
+
     /// Tells the kept states of a group what list builds did to its particles, and the ledger what boundaries gave.
-    fn follow_moves(&mut self, group: usize) {
+    pub(super) fn follow_moves(&mut self, group: usize) {
         for (kept, [on, from], impulse) in self.groups[group].follow_moves() {
             for (d, value) in impulse.into_iter().enumerate() {
                 let index = self.impulse_index(on, from, d);
@@ -168,5 +182,24 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         for group in &mut self.groups {
             group.gravity = gravity;
         }
+    }
+}
+
+impl<T: Real, const D: usize> Group<T, D> {
+    /// A kick of all but energy, and the bounds of what it has changed.
+    pub(super) fn kick_all(&mut self, dt: f64, time: f64) {
+        self.kick(dt);
+        if self.evolves_at(When::Kick) {
+            self.apply_laws(Stage::Bounds, Moment::at(time));
+        }
+    }
+
+    /// The first half of a drift, or all of it where nobody looks at the group in its middle.
+    pub(super) fn begin_drift(&mut self, dt: f64) {
+        if self.scheme.sums_in_drift() {
+            self.predict_weights(0.5 * dt);
+        }
+        let whole = self.drifts_at_once();
+        self.move_particles(if whole { dt } else { 0.5 * dt });
     }
 }

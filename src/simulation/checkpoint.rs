@@ -4,12 +4,13 @@
 //! Neighbour lists are not held: they follow from the positions that they were built from. Neither is what the scene
 //! supplies again.
 
+use super::couplings::Structure;
 use super::energy::Work;
 use super::group::{Aside, Group};
 use super::ledger::Impulses;
 use super::neighborhood::Neighborhood;
 use super::population::{BodyState, Moves, Particles, Removed};
-use super::structures::Structure;
+use super::sub_cycle::SubCycle;
 use super::workspace::{Saved, Workspace};
 use super::{Criterion, Simulation, Vote, width};
 use crate::error::{CheckpointProblem, Error, Result};
@@ -60,6 +61,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     fn put(&self) -> Checkpoint {
         let Self {
             groups,
+            couples,
             domain: _,
             integrator: _,
             control: _,
@@ -82,9 +84,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             failed: _,
         } = self;
         // The next step takes up what was set aside.
-        let (evaluated, evaluations) = match aside {
-            Some((_, evaluated, evaluations)) => (evaluated, evaluations),
-            None => (evaluated, evaluations),
+        let now: Vec<_> = couples.iter().map(|own| (own.force, own.step)).collect();
+        let (acting, evaluated, evaluations) = match aside {
+            Some(aside) => (&aside.acting, &aside.evaluated, &aside.evaluations),
+            None => (&now, evaluated, evaluations),
         };
         let mut file = Checkpoint::default();
         file.put_text("format", FORMAT);
@@ -123,8 +126,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         for (k, kept) in kept_impulses.iter().enumerate() {
             file.put(format!("kept{k}/impulses"), 1, &kept.values);
         }
+        for (k, (force, step)) in acting.iter().enumerate() {
+            file.put(format!("coupling{k}/force"), 1, force);
+            file.put_one(format!("coupling{k}/step"), *step);
+        }
         for (k, group) in groups.iter().enumerate() {
-            let aside = aside.as_ref().and_then(|(groups, ..)| groups.get(k));
+            let aside = aside.as_ref().and_then(|aside| aside.groups.get(k));
             group.put(aside, &format!("group{k}"), &mut file);
         }
         file
@@ -157,9 +164,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 .groups
                 .iter()
                 .flat_map(|group| &group.scheme.program.limits);
+            let limits = limits.map(|limit| limit.name());
+            let couplings = self.couples.iter().map(|couple| couple.coupling.name());
             let criteria = Criterion::ALL
                 .into_iter()
-                .chain(limits.map(|limit| Criterion::Effect(limit.name())));
+                .chain(limits.chain(couplings).map(Criterion::Effect));
             let criterion = criteria.into_iter().find(|own| own.name() == name);
             self.last_vote = Some(Vote {
                 step: file.get_one("last_vote/step")?,
@@ -180,6 +189,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         {
             let values = file.get(&name)?;
             self.kept_impulses.push(Impulses { values });
+        }
+        for (k, couple) in self.couples.iter_mut().enumerate() {
+            couple.force = file.get_array(&format!("coupling{k}/force"))?;
+            couple.step = file.get_one(&format!("coupling{k}/step"))?;
         }
         for (k, group) in self.groups.iter_mut().enumerate() {
             group.take_state(&format!("group{k}"), file)?;
@@ -259,6 +272,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             body_force,
             indices: _,
             is_met: _,
+            sub_cycle,
             smoothing_length: _,
             instructions: _,
             guards,
@@ -270,6 +284,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             columns: &particles.columns,
             rates: &work.rates,
             coupling: &work.coupling,
+            apart: sub_cycle.as_ref().map_or(&[], |apart| &apart.forces),
             records: &work.records,
             work_records: &work.work_records,
             records_of_rates: work.records_of_rates,
@@ -289,13 +304,30 @@ impl<T: Real, const D: usize> Group<T, D> {
         for (k, wall) in walls.iter().enumerate() {
             if let Some(structure) = &wall.structure {
                 let Structure {
+                    coupling: _,
                     group: _,
                     body: _,
                     accelerations,
+                    before,
+                    evaluated,
                 } = structure;
                 let numbers = accelerations.as_flattened();
                 file.put(format!("{name}/wall{k}/accelerations"), D, numbers);
+                let numbers = before.as_flattened();
+                file.put(format!("{name}/wall{k}/velocities_before"), D, numbers);
+                file.put_one(format!("{name}/wall{k}/evaluated"), *evaluated);
             }
+        }
+        if let Some(SubCycle {
+            most: _,
+            forces: _,
+            work,
+            steps,
+        }) = sub_cycle
+        {
+            file.put_reals(format!("{name}/apart/forces"), D, own.apart.as_flattened());
+            file.put(format!("{name}/apart/work"), 1, work);
+            file.put_one(format!("{name}/apart/steps"), *steps);
         }
         let layers: Vec<u64> = emitters.iter().map(|(_, own)| own.handed_over()).collect();
         file.put(format!("{name}/handed_over"), 1, layers);
@@ -332,7 +364,20 @@ impl<T: Real, const D: usize> Group<T, D> {
                 let own = structure.accelerations.as_flattened_mut();
                 let column = format!("{name}/wall{k}/accelerations");
                 own.copy_from_slice(&file.get_all::<f64>(&column, own.len())?);
+                let own = structure.before.as_flattened_mut();
+                let column = format!("{name}/wall{k}/velocities_before");
+                own.copy_from_slice(&file.get_all::<f64>(&column, own.len())?);
+                structure.evaluated = file.get_one(&format!("{name}/wall{k}/evaluated"))?;
             }
+        }
+        if let Some(apart) = &mut self.sub_cycle {
+            let count = self.particles.mobile;
+            apart.forces.resize(count, [T::zero(); D]);
+            let forces = file.get_all_reals(&format!("{name}/apart/forces"), count * D)?;
+            apart.forces.as_flattened_mut().copy_from_slice(&forces);
+            let bodies = apart.work.len();
+            apart.work = file.get_all(&format!("{name}/apart/work"), bodies)?;
+            apart.steps = file.get_one(&format!("{name}/apart/steps"))?;
         }
         self.gravity = file.get_array(&format!("{name}/gravity"))?;
         let evaluated: [f64; D] = file.get_array(&format!("{name}/evaluated_gravity"))?;
@@ -442,6 +487,7 @@ struct Put<'a, T: Real, const D: usize> {
     columns: &'a Columns<T, D>,
     rates: &'a Rows<T, D>,
     coupling: &'a Rows<T, D>,
+    apart: &'a [[T; D]],
     records: &'a Records<T>,
     work_records: &'a Records<T>,
     records_of_rates: bool,
@@ -458,6 +504,7 @@ impl<'a, T: Real, const D: usize> Put<'a, T, D> {
             columns,
             rates,
             coupling,
+            apart,
             records,
             work_records,
             records_of_rates,
@@ -472,6 +519,7 @@ impl<'a, T: Real, const D: usize> Put<'a, T, D> {
             columns,
             rates,
             coupling,
+            apart,
             records,
             work_records,
             records_of_rates: *records_of_rates,

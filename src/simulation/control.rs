@@ -132,53 +132,88 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     fn vote_with(&self, courant: f64) -> Result<Vote> {
-        let stability = self.integrator.stability();
         let mut all: Option<Vote> = None;
-        for (k, group) in self.groups.iter().enumerate() {
-            // What a user asks of the first scheme may be more than another bears.
-            let own = if k == 0 {
-                f64::INFINITY
-            } else {
-                group.scheme.step_factor
-            };
-            let control = StepControl {
-                courant: courant.min(own) * stability,
-                ..self.control
-            };
-            let vote = group.vote_of_effects(group.vote(&control));
-            if vote.step < 0.0 {
-                return Err(self.broken(group, vote.particle));
-            }
-            if all.is_none_or(|all| vote.step < all.step) {
-                let id = group.particles.ids.get(vote.particle);
-                let particle = id.map_or(usize::MAX, |&id| group.particles.first_id + id as usize);
-                all = Some(Vote { particle, ..vote });
+        for group in 0..self.groups.len() {
+            let vote = self.vote_of(group, courant)?;
+            let step = vote.step * self.groups[group].steps_at_most();
+            if all.is_none_or(|all| step < all.step) {
+                all = Some(Vote { step, ..vote });
             }
         }
         let mut all = all.unwrap_or(NO_VOTE);
-        for group in &self.groups {
-            let approach = group.approach(self.control.approach, all.step);
-            if let Some(meeting) = approach.meeting {
-                let body = &group.particles.bodies[group.particles.body_of(meeting.slot)];
-                return Err(Error::SoundSpeedTooLow {
-                    body: body.name.clone(),
-                    particle: group.particles.ids[meeting.slot] as usize - body.ids.start,
-                    speed: meeting.speed,
-                    sound_speed: meeting.speed / meeting.mach,
-                    position: group.position(meeting.slot),
-                    time: self.time,
-                });
-            }
-            if approach.vote.step < all.step {
-                let particle =
-                    group.particles.first_id + group.particles.ids[approach.vote.particle] as usize;
+        for (k, group) in self.groups.iter().enumerate() {
+            let most = group.steps_at_most();
+            let limit = Vote {
+                step: all.step / most,
+                ..all
+            };
+            let vote = self.approach_of(k, limit)?;
+            if vote.step < limit.step {
                 all = Vote {
-                    particle,
-                    ..approach.vote
+                    step: vote.step * most,
+                    ..vote
+                };
+            }
+        }
+        for couple in &self.couples {
+            if couple.step < all.step {
+                let [(group, body), _] = couple.sides;
+                let group = &self.groups[group];
+                all = Vote {
+                    step: couple.step,
+                    criterion: Criterion::Effect(couple.coupling.name()),
+                    particle: group.particles.first_id + group.particles.bodies[body].ids.start,
                 };
             }
         }
         Ok(all)
+    }
+
+    /// The vote of a group, but for pairs that approach each other.
+    pub(super) fn vote_of(&self, group: usize, courant: f64) -> Result<Vote> {
+        // What a user asks of the first scheme may be more than another bears.
+        let own = if group == 0 {
+            f64::INFINITY
+        } else {
+            self.groups[group].scheme.step_factor
+        };
+        let group = &self.groups[group];
+        let control = StepControl {
+            courant: courant.min(own) * self.integrator.stability(),
+            ..self.control
+        };
+        let vote = group.vote_of_effects(group.vote(&control));
+        if vote.step < 0.0 {
+            return Err(self.broken(group, vote.particle));
+        }
+        let id = group.particles.ids.get(vote.particle);
+        let particle = id.map_or(usize::MAX, |&id| group.particles.first_id + id as usize);
+        Ok(Vote { particle, ..vote })
+    }
+
+    /// `limit`, or a shorter step that pairs of a group ask for which approach each other.
+    pub(super) fn approach_of(&self, group: usize, limit: Vote) -> Result<Vote> {
+        let group = &self.groups[group];
+        let approach = group.approach(self.control.approach, limit.step);
+        if let Some(meeting) = approach.meeting {
+            let body = &group.particles.bodies[group.particles.body_of(meeting.slot)];
+            return Err(Error::SoundSpeedTooLow {
+                body: body.name.clone(),
+                particle: group.particles.ids[meeting.slot] as usize - body.ids.start,
+                speed: meeting.speed,
+                sound_speed: meeting.speed / meeting.mach,
+                position: group.position(meeting.slot),
+                time: self.time,
+            });
+        }
+        if approach.vote.step >= limit.step {
+            return Ok(limit);
+        }
+        let id = group.particles.ids[approach.vote.particle] as usize;
+        Ok(Vote {
+            particle: group.particles.first_id + id,
+            ..approach.vote
+        })
     }
 
     /// The error that describes a particle whose state is no longer finite.

@@ -2,7 +2,6 @@
 //! Kept on request, because summing momentum in every kick is not free.
 
 use super::Simulation;
-use super::group::Group;
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::sweep::Rows;
@@ -79,13 +78,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         (kinetic, compression)
     }
 
-    /// Adds the work of a kick over `dt` \[s\], with the velocities at its middle.
-    pub(super) fn record_work(&mut self, dt: f64) {
+    /// Adds the work of a kick over `dt` \[s\], with the velocities at its middle: of a group that sub-cycles alone, or of
+    /// all others together.
+    pub(super) fn record_work(&mut self, alone: Option<usize>, dt: f64) {
         if self.work.is_none() {
             return;
         }
         let (mut mass, mut momentum) = (0.0, [0.0; D]);
-        for (group, body) in self.all_bodies() {
+        for (group, body) in self.bodies_that_step(alone) {
             for slot in body.slots.clone() {
                 let own = group.particles.columns.raw(Field::MASS)[slot].to_f64();
                 let v = group.particles.columns.vectors(Field::VELOCITY)[slot];
@@ -97,7 +97,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
         // Half of what the kick will add: pair forces between bodies cancel, walls and loads remain.
         let bodies = self.body_count();
-        for (_, from, force) in self.groups.iter().flat_map(Group::reactions) {
+        for (_, from, force) in self.reactions(alone) {
             if from >= bodies {
                 for d in 0..D {
                     momentum[d] += 0.5 * dt * force[d];
@@ -110,7 +110,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             momentum[d] += 0.5 * dt * mass * gravity[d];
             load += dt * gravity[d] * momentum[d];
         }
-        let wall = dt * self.wall_power();
+        // Walls move liquids, which do not sub-cycle.
+        let wall = alone.map_or_else(|| dt * self.wall_power(), |_| 0.0);
         if let Some(work) = &mut self.work {
             work.load += load;
             work.wall += wall;

@@ -3,6 +3,7 @@
 
 use super::neighborhood::Neighborhood;
 use super::population::Particles;
+use super::sub_cycle::SubCycle;
 use super::walls::WallState;
 use super::workspace::Workspace;
 use crate::boundary::{Boundary, Emitter, Outlet};
@@ -20,7 +21,7 @@ pub(crate) struct Group<T: Real, const D: usize> {
     pub neighborhood: Neighborhood<T, D>,
     pub work: Workspace<T, D>,
     pub scheme: Arc<Scheme<T, D>>,
-    pub walls: Vec<WallState<D>>,
+    pub walls: Vec<WallState<T, D>>,
     pub boundaries: Vec<Arc<dyn Boundary<T, D>>>,
     pub outlets: Vec<Outlet<D>>,
     /// Inlets, each with the body that it feeds.
@@ -36,6 +37,8 @@ pub(crate) struct Group<T: Real, const D: usize> {
     pub indices: Vec<usize>,
     /// Whether a liquid of another group meets one of its bodies.
     pub is_met: bool,
+    /// What it has beside others if it takes several steps in one of theirs.
+    pub sub_cycle: Option<SubCycle<T, D>>,
     pub smoothing_length: f64,
     pub instructions: InstructionSet,
     pub guards: GuardCounts,
@@ -49,6 +52,8 @@ pub(super) struct Aside<T: Real, const D: usize> {
     pub columns: Columns<T, D>,
     pub rates: Rows<T, D>,
     pub coupling: Rows<T, D>,
+    /// What couplings do to a group that sub-cycles.
+    pub apart: Vec<[T; D]>,
     pub records: Records<T>,
     pub work_records: Records<T>,
     pub records_of_rates: bool,
@@ -67,7 +72,7 @@ pub(crate) fn width<T: Real>() -> usize {
 impl<T: Real, const D: usize> Group<T, D> {
     pub fn new(
         particles: Particles<T, D>,
-        walls: Vec<WallState<D>>,
+        walls: Vec<WallState<T, D>>,
         boundaries: Vec<Arc<dyn Boundary<T, D>>>,
         scheme: Arc<Scheme<T, D>>,
         interactions: Vec<Interaction>,
@@ -89,6 +94,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             body_force: [T::zero(); D],
             indices: Vec::new(),
             is_met: false,
+            sub_cycle: None,
             smoothing_length,
             instructions: InstructionSet::detect(),
             guards: GuardCounts::default(),
@@ -102,6 +108,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             columns: self.particles.columns.clone(),
             rates: self.work.rates.clone(),
             coupling: self.work.coupling.clone(),
+            apart: (self.sub_cycle.as_ref()).map_or(Vec::new(), |apart| apart.forces.clone()),
             records: self.work.records.clone(),
             work_records: self.work.work_records.clone(),
             records_of_rates: self.work.records_of_rates,
@@ -123,6 +130,9 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.particles.columns = aside.columns;
         self.work.rates = aside.rates;
         self.work.coupling = aside.coupling;
+        if let Some(apart) = &mut self.sub_cycle {
+            apart.forces = aside.apart;
+        }
         self.work.records = aside.records;
         self.work.work_records = aside.work_records;
         self.work.records_of_rates = aside.records_of_rates;
@@ -136,7 +146,13 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// Whether nobody looks at it on its way through a drift.
     pub fn drifts_at_once(&self) -> bool {
-        !self.scheme.sums_in_drift() && !self.is_met
+        !self.scheme.sums_in_drift() && (!self.is_met || self.sub_cycle.is_some())
+    }
+
+    /// How many steps it may take in one of the others.
+    pub fn steps_at_most(&self) -> f64 {
+        let apart = self.sub_cycle.as_ref();
+        apart.map_or(1.0, |apart| f64::from(apart.most))
     }
 
     /// Whether bodies touch that may part.

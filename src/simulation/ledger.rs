@@ -112,18 +112,26 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         (on * self.blocks() + from) * D + d
     }
 
-    pub(super) fn record_impulses(&mut self, dt: f64) {
+    /// Books a kick over `dt` \[s\]: of a group that sub-cycles alone, or of all others together.
+    pub(super) fn record_kick(&mut self, alone: Option<usize>, dt: f64) {
+        self.record_impulses(alone, dt);
+        self.record_work(alone, dt);
+    }
+
+    fn record_impulses(&mut self, alone: Option<usize>, dt: f64) {
         let blocks = self.blocks();
-        for (on, from, force) in self.groups.iter().flat_map(Group::reactions) {
+        let mut impulses = core::mem::take(&mut self.impulses);
+        for (on, from, force) in self.reactions(alone) {
             for (d, force) in force.iter().enumerate() {
-                self.impulses.add((on * blocks + from) * D + d, dt * force);
+                impulses.add((on * blocks + from) * D + d, dt * force);
             }
         }
+        self.impulses = impulses;
     }
 
     pub(super) fn impulse_rates(&self) -> Impulses {
         let mut rates = Impulses::default();
-        for (on, from, force) in self.groups.iter().flat_map(Group::reactions) {
+        for (on, from, force) in self.reactions(None) {
             for (d, force) in force.iter().enumerate() {
                 rates.add(self.impulse_index(on, from, d), *force);
             }
@@ -167,6 +175,15 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 name: own.name,
                 unit: own.unit,
                 value: own.factor * sum,
+            });
+        }
+        if let Some(apart) = &group.sub_cycle {
+            let mut bodies = group.particles.bodies.iter().zip(&apart.work);
+            let own = bodies.find(|(other, _)| core::ptr::eq(*other, body));
+            budget.add_total(&Total {
+                name: "work of couplings",
+                unit: "J",
+                value: own.map_or(0.0, |(_, work)| *work),
             });
         }
         budget
@@ -241,7 +258,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     #[must_use]
     pub fn force_between(&self, on: usize, from: usize) -> [f64; D] {
         let mut force = [0.0; D];
-        for (felt, exerted, by) in self.groups.iter().flat_map(Group::reactions) {
+        let apart = (0..self.groups.len()).filter(|&k| self.groups[k].sub_cycle.is_some());
+        let alone = apart.flat_map(|group| self.reactions(Some(group)));
+        for (felt, exerted, by) in self.reactions(None).chain(alone) {
             if (felt, exerted) == (on, from) {
                 for d in 0..D {
                     force[d] += by[d];

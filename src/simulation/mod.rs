@@ -114,6 +114,7 @@ mod approach;
 mod checkpoint;
 mod control;
 mod cost;
+mod couplings;
 mod energy;
 mod evaluate;
 mod fields;
@@ -130,7 +131,7 @@ mod snapshot;
 mod soundness;
 mod stages;
 mod state;
-mod structures;
+mod sub_cycle;
 mod walls;
 mod workspace;
 
@@ -141,10 +142,11 @@ pub use ledger::{Budget, Ledger, Total};
 pub use phases::Phases;
 pub use query::ParticleView;
 
+pub(crate) use couplings::{Couple, Structure};
 pub(crate) use group::{Group, width};
 pub use population::Removed;
 pub(crate) use population::{BodyState, Particles};
-pub(crate) use structures::Structure;
+pub(crate) use sub_cycle::SubCycle;
 pub(crate) use walls::WallState;
 
 use crate::error::{Error, Problem, Result};
@@ -159,12 +161,25 @@ use std::sync::Arc;
 /// A load: an acceleration that acts on all particles as a function of time.
 pub type Load<const D: usize> = Box<dyn Fn(f64) -> [f64; D] + Send + Sync>;
 
+/// What an evaluation between steps changes, and the next step needs as the last step has left it.
+#[derive(Debug)]
+struct SetAside<T: Real, const D: usize> {
+    groups: Vec<Aside<T, D>>,
+    /// Force and limit of the step of each coupling by forces.
+    acting: Vec<([f64; D], f64)>,
+    /// The time \[s\] and the number of the last evaluation.
+    evaluated: f64,
+    evaluations: u64,
+}
+
 /// A simulation in `D` dimensions with scalar `T`.
 ///
 /// See the [crate page](crate) for a first program.
 pub struct Simulation<T: Real, const D: usize> {
     /// Bodies by the schemes that they share; there is one at least.
     pub(crate) groups: Vec<Group<T, D>>,
+    /// Bodies of different groups that act on each other by forces.
+    pub(crate) couples: Vec<Couple<T, D>>,
     /// The box around bodies and walls as built \[m\], where walls alone bound the scene.
     pub(crate) domain: Option<[[f64; D]; 2]>,
     pub(crate) integrator: Arc<dyn Integrator>,
@@ -187,8 +202,8 @@ pub struct Simulation<T: Real, const D: usize> {
     /// The time \[s\] of the last evaluation.
     evaluated: f64,
     kept_impulses: Vec<Impulses>,
-    /// What an evaluation between steps has set aside: groups, and the time and number of the last evaluation.
-    aside: Option<(Vec<Aside<T, D>>, f64, u64)>,
+    /// What an evaluation between steps has set aside.
+    aside: Option<SetAside<T, D>>,
     /// Time \[s\] over which what follows the flow once a step has yet to do so.
     due: f64,
     /// What ended it, in words.
@@ -208,6 +223,7 @@ impl<T: Real, const D: usize> core::fmt::Debug for Simulation<T, D> {
 impl<T: Real, const D: usize> Simulation<T, D> {
     pub(crate) fn new(
         mut groups: Vec<Group<T, D>>,
+        couples: Vec<Couple<T, D>>,
         domain: Option<[[f64; D]; 2]>,
         integrator: Arc<dyn Integrator>,
         control: StepControl,
@@ -227,6 +243,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
         Self {
             groups,
+            couples,
             domain,
             integrator,
             control,
@@ -307,7 +324,13 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.check_failure()?;
         if self.rates_at_hand && self.aside.is_none() {
             let groups = self.groups.iter().map(Group::set_aside).collect();
-            self.aside = Some((groups, self.evaluated, self.evaluations));
+            let acting = self.couples.iter().map(|own| (own.force, own.step));
+            self.aside = Some(SetAside {
+                groups,
+                acting: acting.collect(),
+                evaluated: self.evaluated,
+                evaluations: self.evaluations,
+            });
         }
         crate::integrator::System::evaluate(self, 0.0)?;
         self.vote().map(|_| ())
@@ -315,11 +338,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Takes up again what an evaluation between steps has set aside.
     fn take_up(&mut self) {
-        if let Some((groups, evaluated, evaluations)) = self.aside.take() {
-            for (group, aside) in self.groups.iter_mut().zip(groups) {
+        if let Some(aside) = self.aside.take() {
+            for (group, aside) in self.groups.iter_mut().zip(aside.groups) {
                 group.take_up(aside);
             }
-            (self.evaluated, self.evaluations) = (evaluated, evaluations);
+            for (couple, acting) in self.couples.iter_mut().zip(aside.acting) {
+                (couple.force, couple.step) = acting;
+            }
+            (self.evaluated, self.evaluations) = (aside.evaluated, aside.evaluations);
         }
     }
 

@@ -143,9 +143,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     /// A wall of the scene by its index, and the first group of liquids that meets it.
-    pub(super) fn find_wall(&self, index: usize) -> Option<(&Group<T, D>, &WallState<D>)> {
+    pub(super) fn find_wall(&self, index: usize) -> Option<(&Group<T, D>, &WallState<T, D>)> {
         self.groups.iter().find_map(|group| {
-            let own = |wall: &&WallState<D>| wall.structure.is_none() && wall.index == index;
+            let own = |wall: &&WallState<T, D>| wall.structure.is_none() && wall.index == index;
             Some((group, group.walls.iter().find(own)?))
         })
     }

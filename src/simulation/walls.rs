@@ -1,8 +1,8 @@
 //! Walls of particles: their places, by their motions or by the bodies that they are.
 //! How they answer a liquid is the wall law's of its scheme.
 
+use super::couplings::Structure;
 use super::group::Group;
-use super::structures::Structure;
 use crate::boundary::{Motion, Pose, Slip};
 use crate::particles::Field;
 use crate::scalar::Real;
@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 /// A wall in a simulation: particles that a motion places.
 #[derive(Clone, Debug)]
-pub(crate) struct WallState<const D: usize> {
+pub(crate) struct WallState<T, const D: usize> {
     pub name: String,
     /// Slots of its particles; the rest of the last cluster repeats the last of them.
     pub slots: Range<usize>,
@@ -31,7 +31,7 @@ pub(crate) struct WallState<const D: usize> {
     /// Its number among the walls of the scene; of no meaning for a structure.
     pub index: usize,
     /// The body of another group that its particles are, if it is not a wall of the scene.
-    pub structure: Option<Structure<D>>,
+    pub structure: Option<Structure<T, D>>,
 }
 
 impl<T: Real, const D: usize> Group<T, D> {

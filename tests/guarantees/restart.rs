@@ -371,6 +371,7 @@ fn a_liquid_on_a_structure() {
             .acceleration(down)
     };
     stop_and_go_on("structure", scene, false, 0.02);
+    stop_and_go_on("sub-cycled", || scene().sub_cycle("block", 16), true, 0.02);
 }
 
 #[test]

@@ -3,9 +3,11 @@
 
 use crate::common::Random;
 use meshfree::boundary::{MirrorPlane, Periodic};
+use meshfree::coupling::{CoupledParticle, LiquidStructure};
 use meshfree::material::{Liquid, SoundSpeed};
 use meshfree::particles::Field;
 use meshfree::prelude::*;
+use meshfree::term::TermDoc;
 
 /// A soft solid without shear strength: 2000 kg/m³, 40 m/s.
 fn soft() -> Material<f64> {
@@ -275,6 +277,168 @@ fn groups_that_do_not_meet_are_simulations_of_their_own() {
         both.bodies().collect::<Vec<_>>(),
         ["water", "left", "right"]
     );
+}
+
+/// A copper plate that strikes slow water, whose sound is twenty times slower than the plate's.
+fn plate_on_slow_water(most: Option<u32>) -> Scene<f64, 1> {
+    let water = catalogue::weakly_compressible_water(20.0);
+    let plate = Body::block("plate", catalogue::copper(), [-4e-3], [0.0], 1e-4);
+    let scene = Scene::new(schemes::weakly_compressible())
+        .body(Body::block("water", water, [0.0], [2e-2], 1e-4))
+        .group(schemes::impact(), [plate.velocity([1.0])]);
+    match most {
+        Some(most) => scene.sub_cycle("plate", most),
+        None => scene,
+    }
+}
+
+/// The plate takes its own short steps, the water long ones: what both do is the same, momentum stays to rounding, and
+/// what the plate has of energy is what couplings have worked on it.
+#[test]
+fn a_stiff_plate_sub_cycles_in_slow_water() {
+    let run = |most| {
+        let mut simulation = plate_on_slow_water(most).build().unwrap();
+        let before = simulation.ledger();
+        simulation.run_until(2e-5).unwrap();
+        (before, simulation)
+    };
+    let ((_, together), (before, apart)) = (run(None), run(Some(40)));
+    // The plate asks for as many steps as before; the water for some 200/3940 of them.
+    assert!(
+        together.steps() > 15 * apart.steps(),
+        "{} and {} steps",
+        together.steps(),
+        apart.steps()
+    );
+    assert!(apart.sub_steps() as f64 > 0.8 * together.steps() as f64);
+    let after = apart.ledger();
+    let momentum = before.whole.momentum[0];
+    let change = after.whole.momentum[0] / momentum - 1.0;
+    assert!(change.abs() < 1e-12, "momentum changes by {change:e}");
+    let [plate, then] = [&after, &before].map(|ledger| ledger.bodies[1].1.clone());
+    let worked = plate.total("work of couplings").unwrap();
+    let gain = plate.total_energy() - then.total_energy() - worked;
+    assert!(worked < -1e-3 * then.kinetic, "{worked} J");
+    assert!(gain.abs() < 1e-9 * then.kinetic, "{gain:e} J from nowhere");
+    let slowed = |ledger: meshfree::simulation::Ledger| ledger.bodies[1].1.momentum[0] - momentum;
+    let (one, other) = (slowed(together.ledger()), slowed(apart.ledger()));
+    assert!((other / one - 1.0).abs() < 0.01, "{other} and {one} kg m/s");
+    assert!(together.sub_steps() == 0);
+}
+
+/// Pushes apart what is nearer than a spacing, as strongly as is said.
+#[derive(Clone, Copy, Debug)]
+struct Penalty(f64);
+
+impl<T: Real, const D: usize> Coupling<T, D> for Penalty {
+    fn name(&self) -> &'static str {
+        "penalty"
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: "penalty".into(),
+            equation: "F = k (s − |r|) r/|r|",
+            source: "",
+        }
+    }
+    fn reach(&self, spacings: [f64; 2]) -> f64 {
+        0.5 * (spacings[0] + spacings[1])
+    }
+    fn force(&self, on: &CoupledParticle<T, D>, from: &CoupledParticle<T, D>) -> [T; D] {
+        let r: [T; D] = core::array::from_fn(|d| on.position[d] - from.position[d]);
+        let distance = r.iter().fold(T::zero(), |sum, x| sum + *x * *x).sqrt();
+        let spacing = T::from_f64(0.5) * (on.spacing + from.spacing);
+        r.map(|x| T::from_f64(self.0) * (spacing - distance) * x / distance)
+    }
+    fn step(&self, on: &CoupledParticle<T, D>, from: &CoupledParticle<T, D>) -> f64 {
+        0.25 * (on.mass.to_f64().min(from.mass.to_f64()) / self.0).sqrt()
+    }
+}
+
+/// A drop on a block, coupled by a force of one's own instead of the wall that the block would be: momentum stays to
+/// rounding, nothing gets through, and each side can sub-cycle.
+fn drop_by_penalty(most: Option<u32>) -> Simulation<f64, 2> {
+    let water = catalogue::weakly_compressible_water(2.0);
+    let drop = Body::block("drop", water, [0.0, 0.0], [0.1, 0.1], 0.01).velocity([0.0, -1.0]);
+    let block = Body::block("block", soft(), [-0.05, -0.105], [0.15, -0.005], 0.01);
+    let scene = Scene::new(schemes::weakly_compressible())
+        .body(drop)
+        .group(schemes::impact(), [block])
+        .couple("drop", "block", Penalty(4e5));
+    let scene = match most {
+        Some(most) => scene.sub_cycle("block", most),
+        None => scene,
+    };
+    scene.build().unwrap()
+}
+
+#[test]
+fn a_coupling_of_ones_own_acts_by_opposite_forces() {
+    for most in [None, Some(20)] {
+        let mut simulation = drop_by_penalty(most);
+        assert_eq!(simulation.walls().count(), 0);
+        let before = simulation.ledger().whole.momentum[1];
+        let mut felt = 0.0_f64;
+        simulation
+            .run_with(0.03, |now| {
+                let [on, from] = [now.force_between(0, 1), now.force_between(1, 0)];
+                assert_eq!(on.map(|force| -force), from);
+                felt = felt.max(on[1]);
+            })
+            .unwrap();
+        let ledger = simulation.ledger();
+        let change = ledger.whole.momentum[1] / before - 1.0;
+        assert!(change.abs() < 1e-12, "{change:e}");
+        assert!(felt > 0.0 && ledger.bodies[1].1.momentum[1] < 0.3 * before);
+        let lowest = simulation.body(0).map(|p| p.position()[1]);
+        assert!(lowest.fold(f64::INFINITY, f64::min) > -0.01);
+    }
+}
+
+#[test]
+fn couplings_and_sub_cycles_that_cannot_be_are_refused() {
+    let scene = || {
+        let body = |name: &str, low: f64| Body::block(name, soft(), [low], [low + 0.1], 0.01);
+        Scene::<f64, 1>::new(schemes::weakly_compressible())
+            .body(body("water", 0.0))
+            .group(schemes::impact(), [body("left", -0.1), body("right", 0.1)])
+    };
+    assert!(scene().problems().is_empty());
+    assert!(
+        scene()
+            .couple("right", "water", Penalty(1.0))
+            .problems()
+            .is_empty()
+    );
+    assert!(scene().sub_cycle("left", 8).problems().is_empty());
+    for (scene, part) in [
+        (
+            scene().couple("water", "wall", Penalty(1.0)),
+            "there is no body called `wall`",
+        ),
+        (
+            scene().couple("left", "right", Penalty(1.0)),
+            "between bodies of one group",
+        ),
+        (
+            scene().couple("left", "water", LiquidStructure),
+            "makes the second a wall",
+        ),
+        (scene().sub_cycle("water", 8), "is a liquid"),
+        (scene().sub_cycle("left", 0), "largest number of steps"),
+        (
+            scene().sub_cycle("left", 8).integrator(LamLeapfrog {
+                predictor: meshfree::integrator::Predictor::Fresh,
+            }),
+            "does not step by kicks and drifts",
+        ),
+    ] {
+        let all: Vec<String> = scene.problems().iter().map(ToString::to_string).collect();
+        assert!(
+            all.iter().any(|text| text.contains(part)),
+            "{part}: {all:?}"
+        );
+    }
 }
 
 #[test]

@@ -1,5 +1,5 @@
-//! What can be wrong between groups: bodies of different schemes that nothing couples.
-//! A liquid meets structures; all else has to be said not to meet.
+//! What can be wrong between groups: bodies of different schemes that nothing couples, couplings and sub-cycling.
+//! A liquid meets structures; all else is coupled by what the scene says, or has to be said not to meet.
 
 use crate::error::Problem;
 use crate::scalar::Real;
@@ -31,6 +31,9 @@ impl<T: Real, const D: usize> Scene<T, D> {
         (other, second): (&Part<T, D>, &Body<T, D>),
         problems: &mut Vec<Problem>,
     ) {
+        if self.coupling(&first.name, &second.name).is_some() {
+            return;
+        }
         let said = self.said_between(&first.name, &second.name);
         let liquids = [own, other].map(|part| part.scheme.meets_walls());
         let coupled = liquids[0] != liquids[1];
@@ -42,7 +45,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
             }
             _ if coupled => return,
             _ => {
-                "give both to one group; if they never meet, say Interaction::None between the two"
+                "give both to one group, or couple them by Scene::couple; if they never meet, say \
+                 Interaction::None between the two"
             }
         };
         problems.push(Problem::Incompatible {
@@ -56,5 +60,116 @@ impl<T: Real, const D: usize> Scene<T, D> {
             ),
             remedy,
         });
+    }
+
+    /// Couplings that the scene names.
+    pub(super) fn check_couplings(&self, problems: &mut Vec<Problem>) {
+        for own in &self.couplings {
+            let (name, coupling) = (own.coupling.name(), &own.coupling);
+            for (what, value, must_be) in coupling.problems() {
+                problems.push(Problem::Parameter {
+                    what: format!("{what} of the coupling {name}"),
+                    value,
+                    must_be,
+                });
+            }
+            let sides = [&own.first, &own.second].map(|body| self.known_place(body, problems));
+            let [Some(first), Some(second)] = sides else {
+                continue;
+            };
+            let mut incompatible = |what: &str, remedy| {
+                problems.push(Problem::Incompatible {
+                    what: format!(
+                        "the coupling {name} of `{}` and `{}` {what}",
+                        own.first, own.second
+                    ),
+                    remedy,
+                });
+            };
+            if first.0 == second.0 {
+                incompatible(
+                    "is between bodies of one group",
+                    "say what they do to each other by Scene::between, or give one of them a group of its own",
+                );
+                continue;
+            }
+            let liquids = [first, second].map(|(group, _)| self.parts[group].scheme.meets_walls());
+            if coupling.is_wall() && liquids != [true, false] {
+                incompatible(
+                    "makes the second a wall of the first",
+                    "name a body of a scheme of liquids first, and one of another scheme second",
+                );
+            }
+            let spacings =
+                [first, second].map(|(group, body)| self.parts[group].bodies[body].spacing);
+            let reach = coupling.reach(spacings);
+            if !(reach.is_finite() && reach >= 0.0) {
+                problems.push(Problem::Parameter {
+                    what: format!("reach of the coupling {name}"),
+                    value: reach,
+                    must_be: "it must be finite and not negative, in metres",
+                });
+            } else if reach == 0.0 && !coupling.is_wall() {
+                incompatible(
+                    "neither is a wall nor reaches",
+                    "give it a reach (Coupling::reach), or say Interaction::None between the two",
+                );
+            }
+        }
+    }
+
+    /// Groups that take steps of their own.
+    pub(super) fn check_sub_cycles(&self, problems: &mut Vec<Problem>) {
+        for (body, most) in &self.sub_cycled {
+            let place = self.known_place(body, problems);
+            if *most == 0 {
+                problems.push(Problem::Parameter {
+                    what: format!("largest number of steps of the group of body `{body}`"),
+                    value: 0.0,
+                    must_be: "it must be one or more",
+                });
+            }
+            let Some((group, _)) = place else {
+                continue;
+            };
+            let mut incompatible = |what: String, remedy| {
+                problems.push(Problem::Incompatible { what, remedy });
+            };
+            if self.parts[group].scheme.meets_walls() {
+                incompatible(
+                    format!("body `{body}` is a liquid, whose walls move with the others' steps"),
+                    "let the group of the solid sub-cycle",
+                );
+            }
+            if self.parts.len() == 1 {
+                incompatible(
+                    format!("body `{body}` is of the only group"),
+                    "leave Scene::sub_cycle out: there is nothing to step more often than",
+                );
+            }
+            if !self.integrator.kicks() || !self.integrator.drifts() {
+                incompatible(
+                    format!(
+                        "the integrator {} does not step by kicks and drifts, between which groups sub-cycle",
+                        self.integrator.name()
+                    ),
+                    "take KickDriftKick, or leave Scene::sub_cycle out",
+                );
+            }
+        }
+    }
+
+    /// Where a body is, or the problem that there is none.
+    fn known_place(&self, body: &str, problems: &mut Vec<Problem>) -> Option<(usize, usize)> {
+        let place = self.place_of(body);
+        if place.is_none() {
+            let known: Vec<_> = self.bodies().map(|own| format!("`{}`", own.name)).collect();
+            problems.push(Problem::UnknownName {
+                kind: "body",
+                name: body.into(),
+                known: known.join(", "),
+            });
+        }
+        place
     }
 }

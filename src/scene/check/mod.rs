@@ -50,6 +50,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
         self.check_steps(&mut problems);
         self.check_factors(&mut problems);
         self.check_groups(&mut problems);
+        self.check_couplings(&mut problems);
+        self.check_sub_cycles(&mut problems);
         let before = problems.len();
         self.check_boundaries(&mut problems);
         if problems.len() == before {

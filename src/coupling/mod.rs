@@ -1,0 +1,132 @@
+//! Couplings: how the bodies of two groups act on each other, one file each.
+//! Both sides keep schemes of their own; a coupling says what one is to the other.
+//!
+//! | coupling | what the second body is to the first | use it for |
+//! |---|---|---|
+//! | [`LiquidStructure`] | a wall that moves, and bears what the liquid feels | liquid and structure; the default between them |
+//! | a [`Coupling`] of one's own | a wall, or a pair force | penalty contact, springs, ties |
+//!
+//! A coupling acts in one of two ways, or in both:
+//!
+//! - **As a wall**: particles of the second body stand among those of the liquid that the first one is, with the mass
+//!   that [`Coupling::wall_mass`] gives. The liquid's own pair terms and wall law act on them, and the body gets each
+//!   pair force with the opposite sign.
+//! - **By a force**: [`Coupling::force`] between every two particles nearer than [`Coupling::reach`], opposite on both
+//!   sides to the bit.
+//!
+//! Either way momentum is kept to rounding, and the ledger knows what the two gave each other
+//! ([`Simulation::force_between`](crate::simulation::Simulation::force_between)).
+//!
+//! # Sub-cycling
+//!
+//! A stiff body asks for shorter steps than the liquid around it. With
+//! [`Scene::sub_cycle`](crate::scene::Scene::sub_cycle) its group takes several steps in each of the others', and
+//! what couplings do to it comes in impulses at the kicks of the others, with the forces that these feel: the
+//! reversible multiple-step method of Tuckerman, Berne & Martyna 1992 (J. Chem. Phys. 97, 1990, eq. 2.25), which keeps
+//! momentum to rounding. The impulses must come well above the slowest frequency at which the body would answer them.
+//! What they have worked is in the ledger of each body, as `work of couplings`.
+
+mod liquid_structure;
+
+pub use liquid_structure::LiquidStructure;
+
+use crate::scalar::Real;
+use crate::term::TermDoc;
+use core::fmt::Debug;
+
+/// A particle of a body that is coupled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CoupledParticle<T, const D: usize> {
+    /// Position \[m\].
+    pub position: [T; D],
+    /// Velocity \[m/s\].
+    pub velocity: [T; D],
+    /// Mass \[kg\].
+    pub mass: T,
+    /// Density \[kg/m³\].
+    pub density: T,
+    /// Spacing of its body as built \[m\].
+    pub spacing: T,
+}
+
+/// How a body of one group and a body of another act on each other.
+///
+/// A penalty force, as one's own coupling:
+///
+/// ```
+/// use meshfree::coupling::{CoupledParticle, Coupling};
+/// use meshfree::prelude::*;
+/// use meshfree::term::TermDoc;
+///
+/// /// Pushes apart what is nearer than a mean spacing, by k per metre.
+/// #[derive(Clone, Copy, Debug)]
+/// struct Penalty { stiffness: f64 }
+///
+/// impl<T: Real, const D: usize> Coupling<T, D> for Penalty {
+///     fn name(&self) -> &'static str { "penalty" }
+///     fn document(&self) -> TermDoc {
+///         TermDoc { name: "penalty".into(), equation: "F = k (s − |r|) r/|r|", source: "" }
+///     }
+///     fn reach(&self, spacings: [f64; 2]) -> f64 { 0.5 * (spacings[0] + spacings[1]) }
+///     fn force(&self, on: &CoupledParticle<T, D>, from: &CoupledParticle<T, D>) -> [T; D] {
+///         let r: [T; D] = core::array::from_fn(|d| on.position[d] - from.position[d]);
+///         let distance = r.iter().fold(T::zero(), |sum, x| sum + *x * *x).sqrt();
+///         let spacing = T::from_f64(0.5) * (on.spacing + from.spacing);
+///         r.map(|x| T::from_f64(self.stiffness) * (spacing - distance) * x / distance)
+///     }
+///     fn step(&self, on: &CoupledParticle<T, D>, from: &CoupledParticle<T, D>) -> f64 {
+///         let mass = on.mass.to_f64().min(from.mass.to_f64());
+///         0.5 * (mass / self.stiffness).sqrt()
+///     }
+/// }
+///
+/// // A copper ball of the first scheme strikes a steel plate of another.
+/// let ball = Body::block("ball", catalogue::copper(), [0.0005], [0.0105], 5e-4).velocity([-10.0]);
+/// let plate = Body::block("plate", catalogue::steel(), [-0.01], [0.0], 5e-4);
+/// let mut simulation = Scene::<f64, 1>::new(schemes::impact())
+///     .body(ball)
+///     .group(schemes::impact_by_continuity(), [plate])
+///     .couple("ball", "plate", Penalty { stiffness: 1e14 })
+///     .build()?;
+/// let before = simulation.ledger().whole.momentum[0];
+/// simulation.run_until(2e-6)?;
+/// let ledger = simulation.ledger();
+/// assert!(ledger.bodies[1].1.momentum[0] < 0.1 * before, "the plate is pushed");
+/// assert!((ledger.whole.momentum[0] / before - 1.0).abs() < 1e-12);
+/// # Ok::<(), Error>(())
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no coupling in {D} dimensions",
+    note = "implement `Coupling<{T}, {D}>`: what it is, and how particles of the two bodies act on each other"
+)]
+pub trait Coupling<T: Real, const D: usize>: Debug + Send + Sync {
+    /// Its name in reports, and of its limit of the step.
+    fn name(&self) -> &'static str;
+    /// What it is, for people.
+    fn document(&self) -> TermDoc;
+    /// Whether particles of the second body stand among those of the first, a liquid, as walls.
+    fn is_wall(&self) -> bool {
+        false
+    }
+    /// The mass \[kg\] with which they do, where the liquid has a density at rest of `rest` \[kg/m³\].
+    fn wall_mass(&self, _rest: T, particle: &CoupledParticle<T, D>) -> T {
+        particle.mass
+    }
+    /// How near \[m\] two particles must be to act on each other by [`force`](Self::force), for bodies of these
+    /// spacings \[m\]; zero if none do.
+    fn reach(&self, _spacings: [f64; 2]) -> f64 {
+        0.0
+    }
+    /// The force \[N\] on a particle of the first body by one of the second; that on the second is its opposite.
+    fn force(&self, _on: &CoupledParticle<T, D>, _from: &CoupledParticle<T, D>) -> [T; D] {
+        [T::zero(); D]
+    }
+    /// The largest step \[s\] that a pair within reach bears.
+    fn step(&self, _on: &CoupledParticle<T, D>, _from: &CoupledParticle<T, D>) -> f64 {
+        f64::INFINITY
+    }
+    /// What is wrong with its parameters, as `(field, value, what it must be)`; empty if nothing.
+    fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
+        Vec::new()
+    }
+}

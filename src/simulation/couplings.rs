@@ -1,0 +1,377 @@
+//! The driver of couplings: brings structures to the liquids that they are walls of, and hands forces over.
+//! What a coupling does is its own; the order, the search, the ledger and the opposite forces are here.
+
+use super::Simulation;
+use super::group::Group;
+use super::population::BodyState;
+use crate::coupling::{CoupledParticle, Coupling};
+use crate::particles::{Field, Output};
+use crate::scalar::Real;
+use crate::sweep::{Pass, Records, Rows, SweepInput};
+use crate::term::Stage;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// The body of another group whose particles a wall is made of.
+#[derive(Clone, Debug)]
+pub(crate) struct Structure<T, const D: usize> {
+    pub coupling: Arc<dyn Coupling<T, D>>,
+    /// The group of the body, and its index there.
+    pub group: usize,
+    pub body: usize,
+    /// What its particles have been accelerated by at the last evaluation \[m/s²\], in the order of the
+    /// scene: the pressure of a wall follows from it. The mean since the evaluation before where the body sub-cycles.
+    pub accelerations: Vec<[f64; D]>,
+    /// Velocities \[m/s\] at that evaluation where the body sub-cycles; else none.
+    pub before: Vec<[f64; D]>,
+    /// The time \[s\] of that evaluation; no number before the first.
+    pub evaluated: f64,
+}
+
+/// Two bodies of different groups that act on each other by forces between their particles.
+#[derive(Debug)]
+pub(crate) struct Couple<T, const D: usize> {
+    pub coupling: Arc<dyn Coupling<T, D>>,
+    /// The group and the body there, of both sides.
+    pub sides: [(usize, usize); 2],
+    /// Their scene indices.
+    pub indices: [usize; 2],
+    /// How near particles act on each other \[m\].
+    pub reach: f64,
+    /// The force \[N\] on the first at the last evaluation.
+    pub force: [f64; D],
+    /// The largest step \[s\] that it bears since then.
+    pub step: f64,
+    /// Slots of particles of the two that may be near each other.
+    pub near: [Vec<u32>; 2],
+}
+
+impl<T: Real, const D: usize> Simulation<T, D> {
+    /// Brings the walls that structures are to where their particles are now; `evaluated` is the time \[s\] if all
+    /// rates are about to be evaluated.
+    pub(super) fn place_structures(&mut self, evaluated: Option<f64>) {
+        self.for_each_structure(|liquid, wall, group, body| {
+            liquid.follow(wall, group, body, evaluated);
+        });
+    }
+
+    /// Gives bodies of other groups the forces of couplings, with the rates at hand.
+    pub(super) fn couple(&mut self) {
+        for group in &mut self.groups {
+            if let Some(apart) = &mut group.sub_cycle {
+                apart.forces.clear();
+                apart.forces.resize(group.particles.mobile, [T::zero(); D]);
+            }
+            group.sum_on_structures();
+        }
+        // What the liquids feel with the opposite sign, pair by pair.
+        self.for_each_structure(|liquid, wall, group, body| {
+            for slot in liquid.walls[wall].slots.clone() {
+                if let Some(own) = liquid.slot_of_structure(wall, slot, group, body) {
+                    group.push(own, liquid.work.coupling.vector(Output::FORCE, slot));
+                }
+            }
+        });
+        for couple in &mut self.couples {
+            let [first, second] = couple.sides.map(|(group, _)| group);
+            if let Ok([first, second]) = self.groups.get_disjoint_mut([first, second]) {
+                couple.act(first, second);
+            }
+        }
+    }
+
+    fn for_each_structure(
+        &mut self,
+        mut act: impl FnMut(&mut Group<T, D>, usize, &mut Group<T, D>, usize),
+    ) {
+        for k in 0..self.groups.len() {
+            for wall in 0..self.groups[k].walls.len() {
+                let Some(structure) = &self.groups[k].walls[wall].structure else {
+                    continue;
+                };
+                let (group, body) = (structure.group, structure.body);
+                if let Ok([liquid, group]) = self.groups.get_disjoint_mut([k, group]) {
+                    act(liquid, wall, group, body);
+                }
+            }
+        }
+    }
+
+    /// Forces between blocks at the last evaluation, with their scene indices: which feels, which exerts, and the
+    /// force \[N\]; of a group that sub-cycles alone, or of all others together with what couples them.
+    pub(super) fn reactions(
+        &self,
+        alone: Option<usize>,
+    ) -> impl Iterator<Item = (usize, usize, [f64; D])> {
+        let own = self.stepping(alone).flat_map(Group::reactions);
+        let own = own.map(|(on, from, force)| (on, from, *force));
+        let couples = self.couples.iter().filter(move |_| alone.is_none());
+        own.chain(couples.flat_map(|couple| {
+            let [first, second] = couple.indices;
+            let back = couple.force.map(|force| -force);
+            [(first, second, couple.force), (second, first, back)]
+        }))
+    }
+
+    /// A group that sub-cycles alone, or all others.
+    fn stepping(&self, alone: Option<usize>) -> impl Iterator<Item = &Group<T, D>> {
+        let steps = move |(k, group): &(usize, &Group<T, D>)| match alone {
+            Some(alone) => *k == alone,
+            None => group.sub_cycle.is_none(),
+        };
+        let groups = self.groups.iter().enumerate().filter(steps);
+        groups.map(|(_, group)| group)
+    }
+
+    /// The bodies of these.
+    pub(super) fn bodies_that_step(
+        &self,
+        alone: Option<usize>,
+    ) -> impl Iterator<Item = (&Group<T, D>, &BodyState<T>)> {
+        let groups = self.stepping(alone);
+        groups.flat_map(|group| group.particles.bodies.iter().map(move |body| (group, body)))
+    }
+}
+
+impl<T: Real, const D: usize> Couple<T, D> {
+    /// Forces between all pairs within reach, on both groups.
+    fn act(&mut self, first: &mut Group<T, D>, second: &mut Group<T, D>) {
+        self.force = [0.0; D];
+        self.step = f64::INFINITY;
+        let [(_, body), (_, other)] = self.sides;
+        let [mut near, mut others] = core::mem::take(&mut self.near);
+        second.slots_within(other, first.extent(body), self.reach, &mut others);
+        let extent = second.extent_of(others.iter().map(|&slot| slot as usize));
+        first.slots_within(body, extent, self.reach, &mut near);
+        // Along the first axis, so that what is within reach of a particle is a run.
+        let along = |slot: u32| {
+            second.particles.columns.vectors(Field::POSITION)[slot as usize][0].to_f64()
+        };
+        others.sort_by(|&a, &b| along(a).total_cmp(&along(b)).then(a.cmp(&b)));
+        let spacings = [first.spacing_of(body), second.spacing_of(other)].map(T::from_f64);
+        for &slot in &near {
+            let on = first.coupled_particle(slot as usize, spacings[0]);
+            let x = on.position[0].to_f64();
+            let start = others.partition_point(|&slot| second.at(slot)[0] < x - self.reach);
+            for &from in &others[start..] {
+                let place = second.at(from);
+                if place[0] > x + self.reach {
+                    break;
+                }
+                let square = (0..D).map(|d| (on.position[d].to_f64() - place[d]).powi(2));
+                if square.sum::<f64>() >= self.reach * self.reach {
+                    continue;
+                }
+                let by = second.coupled_particle(from as usize, spacings[1]);
+                let force = self.coupling.force(&on, &by);
+                let step = self.coupling.step(&on, &by);
+                // What is no number is no step at all.
+                self.step = if step >= 0.0 {
+                    self.step.min(step)
+                } else {
+                    0.0
+                };
+                first.push(slot as usize, force);
+                second.push(from as usize, force.map(|force| -force));
+                for d in 0..D {
+                    self.force[d] += force[d].to_f64();
+                }
+            }
+        }
+        self.near = [near, others];
+    }
+}
+
+impl<T: Real, const D: usize> Group<T, D> {
+    /// Adds a force \[N\] of a coupling on a particle: to its rates, or apart from them where it sub-cycles.
+    fn push(&mut self, slot: usize, force: [T; D]) {
+        match &mut self.sub_cycle {
+            None => self.work.rates.add(Output::FORCE, slot, force),
+            Some(apart) => {
+                for d in 0..D {
+                    apart.forces[slot][d] += force[d];
+                }
+            }
+        }
+    }
+
+    fn at(&self, slot: u32) -> [f64; D] {
+        self.particles.columns.vectors(Field::POSITION)[slot as usize].map(Real::to_f64)
+    }
+
+    fn spacing_of(&self, body: usize) -> f64 {
+        self.particles.bodies[body].spacing
+    }
+
+    /// The box around a body \[m\].
+    fn extent(&self, body: usize) -> [[f64; D]; 2] {
+        self.extent_of(self.particles.bodies[body].slots.clone())
+    }
+
+    fn extent_of(&self, slots: impl Iterator<Item = usize>) -> [[f64; D]; 2] {
+        let start = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
+        slots.fold(start, |[low, high], slot| {
+            let x = self.at(slot as u32);
+            [
+                core::array::from_fn(|d| low[d].min(x[d])),
+                core::array::from_fn(|d| high[d].max(x[d])),
+            ]
+        })
+    }
+
+    /// Slots of a body within `reach` \[m\] of a box.
+    fn slots_within(
+        &self,
+        body: usize,
+        [low, high]: [[f64; D]; 2],
+        reach: f64,
+        slots: &mut Vec<u32>,
+    ) {
+        slots.clear();
+        let inside = |slot: &usize| {
+            let x = self.at(*slot as u32);
+            (0..D).all(|d| (low[d] - reach..=high[d] + reach).contains(&x[d]))
+        };
+        let own = self.particles.bodies[body].slots.clone();
+        slots.extend(own.filter(inside).map(|slot| slot as u32));
+    }
+
+    fn coupled_particle(&self, slot: usize, spacing: T) -> CoupledParticle<T, D> {
+        let columns = &self.particles.columns;
+        CoupledParticle {
+            position: columns.vectors(Field::POSITION)[slot],
+            velocity: columns.vectors(Field::VELOCITY)[slot],
+            mass: columns.raw(Field::MASS)[slot],
+            density: columns.raw(Field::DENSITY)[slot],
+            spacing,
+        }
+    }
+
+    /// Slots of walls, from the first that is a structure; these stand behind the walls of the scene.
+    fn structure_slots(&self) -> Range<usize> {
+        let first = self.walls.iter().find(|wall| wall.structure.is_some());
+        let slots = self.particles.columns.slots();
+        first.map_or(slots, |wall| wall.slots.start)..slots
+    }
+
+    /// The number of a wall particle among those of its wall as built.
+    pub(super) fn rest_of(&self, wall: usize, slot: usize) -> usize {
+        let wall = &self.walls[wall];
+        (self.particles.ids[slot] as usize - wall.slots.start).min(wall.rest.len() - 1)
+    }
+
+    /// The slot, in the group of a structure, of the particle that a wall particle is; none if it has left.
+    fn slot_of_structure(
+        &self,
+        wall: usize,
+        slot: usize,
+        group: &Self,
+        body: usize,
+    ) -> Option<usize> {
+        let id = group.particles.bodies[body].ids.start + self.rest_of(wall, slot);
+        let own = group.particles.slot_of[id];
+        (own != u32::MAX).then_some(own as usize)
+    }
+
+    /// Moves a wall to the particles of the body that it is.
+    fn follow(&mut self, wall: usize, group: &Self, body: usize, evaluated: Option<f64>) {
+        let run = self.walls[wall].slots.start..self.walls[wall].end;
+        let spacing = T::from_f64(group.spacing_of(body));
+        for slot in run {
+            let at = self.rest_of(wall, slot);
+            let Some(own) = self.slot_of_structure(wall, slot, group, body) else {
+                self.particles.columns.raw_mut(Field::MASS)[slot] = T::zero();
+                continue;
+            };
+            let particle = group.coupled_particle(own, spacing);
+            if let Some(structure) = &mut self.walls[wall].structure {
+                let rest = self.particles.columns.raw(Field::DENSITY)[slot];
+                let mass = structure.coupling.wall_mass(rest, &particle);
+                self.particles.columns.raw_mut(Field::MASS)[slot] = mass;
+                structure.accelerate(at, own, group, evaluated);
+            }
+            for field in [Field::POSITION, Field::POSITION_RESIDUAL, Field::VELOCITY] {
+                let from = group.particles.columns.vectors(field).get(own);
+                let to = self.particles.columns.vectors_mut(field).get_mut(slot);
+                if let (Some(from), Some(to)) = (from, to) {
+                    *to = *from;
+                }
+            }
+            let [x, residual, v] = self.particles.columns.many_mut([
+                Field::POSITION,
+                Field::POSITION_RESIDUAL,
+                Field::VELOCITY,
+            ]);
+            // The group of the structure lets particles re-enter a period when its lists are built.
+            for boundary in &self.boundaries {
+                let now = core::array::from_fn(|d| x[slot * D + d]);
+                if let Some(back) = boundary.wrap(&now) {
+                    back.re_enter(slot, x, residual, v);
+                }
+            }
+        }
+        let structure = self.walls[wall].structure.as_mut();
+        if let (Some(structure), Some(time)) = (structure, evaluated) {
+            structure.evaluated = time;
+        }
+    }
+
+    /// The force of the liquid on every particle of a structure with the rates at hand.
+    fn sum_on_structures(&mut self) {
+        let targets = self.structure_slots();
+        if targets.is_empty() {
+            return;
+        }
+        let mut rows = core::mem::take(&mut self.work.coupling);
+        self.sum_on_walls(targets, &mut rows);
+        self.work.coupling = rows;
+    }
+
+    /// The force of the liquid on wall particles with the rates at hand: the forces on the liquid with
+    /// the opposite sign.
+    pub(super) fn sum_on_walls(&self, targets: Range<usize>, rows: &mut Rows<T, D>) {
+        let input = SweepInput {
+            targets,
+            ..self.input()
+        };
+        let Some(rates) = self.scheme.sweep(Stage::Rates) else {
+            return;
+        };
+        if self.work.records_of_rates {
+            rates.run(Pass::Rates, &input, &self.work.records, rows);
+        } else {
+            // Another sweep has used the records since.
+            let mut records = Records::default();
+            rates.pack(Pass::Rates, &input, &mut records);
+            rates.run(Pass::Rates, &input, &records, rows);
+        }
+    }
+}
+
+impl<T: Real, const D: usize> Structure<T, D> {
+    /// What has accelerated its particle in a slot of its group.
+    fn accelerate(&mut self, at: usize, own: usize, group: &Group<T, D>, evaluated: Option<f64>) {
+        let velocity = group.particles.columns.vectors(Field::VELOCITY)[own].map(Real::to_f64);
+        let elapsed = evaluated.map_or(0.0, |time| time - self.evaluated);
+        match self.before.get_mut(at) {
+            // A stiff body swings many times in a step of the liquid, which feels the mean.
+            Some(before) if !self.evaluated.is_nan() => {
+                if elapsed > 0.0 {
+                    self.accelerations[at] =
+                        core::array::from_fn(|d| (velocity[d] - before[d]) / elapsed);
+                    *before = velocity;
+                }
+            }
+            before => {
+                let mass = group.particles.columns.raw(Field::MASS)[own];
+                let force = group.work.rates.vector(Output::FORCE, own);
+                self.accelerations[at] = core::array::from_fn(|d| {
+                    (force[d] / mass + group.evaluated_gravity[d]).to_f64()
+                });
+                if let Some(before) = before {
+                    *before = velocity;
+                }
+            }
+        }
+    }
+}
