@@ -5,7 +5,8 @@
 
 #[doc(no_inline)]
 pub use crate::boundary::{
-    Boundary, Crush, MirrorPlane, Motion, Outlet, Periodic, Rotation, Translation, Wall,
+    Boundary, Crush, LeesEdwards, MirrorPlane, Motion, Outlet, Periodic, Rotation, Translation,
+    Wall,
 };
 #[doc(no_inline)]
 pub use crate::coupling::Coupling;

@@ -7,6 +7,7 @@
 //! | [`MirrorPlane::wall`] | the reflection, in contact that opens | rigid walls, at rest or moving |
 //! | [`MirrorPlane::symmetry`] | the reflection, bonded | half of a symmetric problem |
 //! | [`Periodic`] | the copy one period on | waves, homogeneous flow |
+//! | [`LeesEdwards`] | the copy one period on, which slides past | homogeneous shear without walls, rheology |
 //! | [`Wall`] | – (particles of its own) | tanks, obstacles, pistons of any shape, for liquids |
 //! | [`Inlet`] | – (particles enter) | channels, jets |
 //! | [`Outlet`] | – (particles leave) | liquid that is driven out |
@@ -22,6 +23,7 @@
 //! [`Wall`]s of particles of their own: they hold liquids, move as [prescribed](Motion), and may deny slip.
 
 mod inlet;
+mod lees_edwards;
 mod mirror;
 mod motion;
 mod outlet;
@@ -34,6 +36,7 @@ use core::fmt::Debug;
 
 pub(crate) use inlet::Emitter;
 pub use inlet::Inlet;
+pub use lees_edwards::LeesEdwards;
 pub use mirror::MirrorPlane;
 pub use motion::{Crush, Motion, Pose, Rotation, Translation};
 pub use outlet::Outlet;
@@ -82,7 +85,7 @@ pub trait Boundary<T: Real, const D: usize>: Debug + Send + Sync {
     fn name(&self) -> String;
     /// How many images a particle can have.
     fn images(&self) -> usize;
-    /// The transform that makes image `image` at `time` \[s\].
+    /// The transform that makes image `image` at `time` \[s\]. Its velocity is the rate of its shift.
     fn transform(&self, image: usize, time: f64) -> Transform<T, D>;
     /// Whether image `image` of a particle at `x` \[m\] lies within `reach` \[m\] of the domain.
     fn reaches(&self, image: usize, x: &[T; D], reach: f64, time: f64) -> bool;
@@ -98,8 +101,8 @@ pub trait Boundary<T: Real, const D: usize>: Debug + Send + Sync {
     fn crossed(&self, _x: &[T; D], _time: f64) -> bool {
         false
     }
-    /// Where a particle that has left re-enters; `None` if it has not left.
-    fn wrap(&self, _x: &[T; D]) -> Option<Transform<T, D>> {
+    /// How a particle at `x` \[m\] that has left at `time` \[s\] re-enters; `None` if it has not left.
+    fn wrap(&self, _x: &[T; D], _time: f64) -> Option<Transform<T, D>> {
         None
     }
     /// What particles and images do to each other.

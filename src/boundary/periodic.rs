@@ -21,8 +21,28 @@ impl Periodic {
         Self { axis, low, high }
     }
 
+    /// Its axis.
+    pub(super) fn axis(&self) -> usize {
+        self.axis
+    }
+
+    /// Its length \[m\].
+    pub(super) fn length(&self) -> f64 {
+        self.high - self.low
+    }
+
+    /// How many periods on a coordinate \[m\] is; zero inside.
+    pub(super) fn periods(&self, x: f64) -> f64 {
+        ((x - self.low) / self.length()).floor()
+    }
+
+    /// Whether a coordinate \[m\] is within `reach` \[m\] of the period.
+    pub(super) fn nears(&self, x: f64, reach: f64) -> bool {
+        self.low - reach < x && x < self.high + reach
+    }
+
     fn shift<T: Real, const D: usize>(&self, periods: f64) -> Transform<T, D> {
-        let period = periods * (self.high - self.low);
+        let period = periods * self.length();
         let component = |d: usize| if d == self.axis { period } else { 0.0 };
         Transform {
             shift: Vector::from_fn(|d, _| T::from_f64(component(d))),
@@ -49,14 +69,13 @@ impl<T: Real, const D: usize> Boundary<T, D> for Periodic {
             x > self.high - reach
         }
     }
-    fn wrap(&self, x: &[T; D]) -> Option<Transform<T, D>> {
-        let x = x[self.axis].to_f64();
-        let periods = ((x - self.low) / (self.high - self.low)).floor();
+    fn wrap(&self, x: &[T; D], _time: f64) -> Option<Transform<T, D>> {
+        let periods = self.periods(x[self.axis].to_f64());
         // NaN and points inside both stay where they are.
         (periods != 0.0 && periods.is_finite()).then(|| self.shift(-periods))
     }
     fn problems(&self, reach: f64) -> Vec<(&'static str, f64, &'static str)> {
-        let period = self.high - self.low;
+        let period = self.length();
         if self.axis >= D {
             return vec![("axis", self.axis as f64, "must be below the dimension")];
         }
@@ -78,8 +97,8 @@ mod tests {
     #[test]
     fn what_leaves_re_enters() {
         let period = Periodic::along(1, -1.0, 1.0);
-        let back: Transform<f64, 2> = period.wrap(&[0.3, 1.25]).unwrap();
+        let back: Transform<f64, 2> = period.wrap(&[0.3, 1.25], 0.0).unwrap();
         assert_eq!(back.point(&[0.3, 1.25]), [0.3, -0.75]);
-        assert!(Boundary::<f64, 2>::wrap(&period, &[5.0, 0.5]).is_none());
+        assert!(Boundary::<f64, 2>::wrap(&period, &[5.0, 0.5], 0.0).is_none());
     }
 }

@@ -18,7 +18,8 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
         for group in &mut self.groups {
             group.evaluated_gravity = group.gravity.map(T::from_f64);
         }
-        self.place_structures(Some(time));
+        self.place_structures(time, true);
+        self.impulses.time = time;
         // What follows the flow once a step does so at the first evaluation.
         let elapsed = core::mem::take(&mut self.due);
         for k in 0..self.groups.len() {
@@ -51,6 +52,7 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
 
     fn drift(&mut self, dt: f64, offset: f64) -> Result<()> {
         let (begin, half) = (self.time + offset, 0.5 * dt);
+        self.impulses.time = begin + dt;
         self.sub_cycle(begin, half)?;
         for group in self.together() {
             group.begin_drift(dt);
@@ -61,7 +63,7 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
         // Loads and walls at the middle of the drift, and walls go straight through it as particles do:
         // a tank that moves is then a tank at rest in a frame that does.
         self.load_groups(begin + half);
-        self.place_structures(None);
+        self.place_structures(begin + half, false);
         for k in 0..self.groups.len() {
             if self.groups[k].sub_cycle.is_none() {
                 self.end_drift(k, begin, dt);
@@ -75,6 +77,7 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
             group.move_particles(dv);
             group.move_by_rates(da);
         }
+        self.impulses.time += dv;
     }
 
     fn predict(&mut self, dt: f64) {
@@ -165,7 +168,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Tells the kept states of a group what list builds did to its particles, and the ledger what boundaries gave.
     pub(super) fn follow_moves(&mut self, group: usize) {
-        for (kept, [on, from], impulse) in self.groups[group].follow_moves() {
+        let kept = &self.kept_impulses;
+        let time_of = |slot: usize| kept.get(slot).map_or(0.0, |kept| kept.time);
+        for (kept, [on, from], impulse) in self.groups[group].follow_moves(time_of) {
             for (d, value) in impulse.into_iter().enumerate() {
                 let index = self.impulse_index(on, from, d);
                 match kept {

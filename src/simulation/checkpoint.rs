@@ -125,6 +125,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         file.put("impulses".into(), 1, &impulses.values);
         for (k, kept) in kept_impulses.iter().enumerate() {
             file.put(format!("kept{k}/impulses"), 1, &kept.values);
+            file.put_one(format!("kept{k}/time"), kept.time);
         }
         for (k, (force, step)) in acting.iter().enumerate() {
             file.put(format!("coupling{k}/force"), 1, force);
@@ -181,14 +182,17 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let [start, load, wall] = file.get_array("work")?;
             self.work = Some(Work { start, load, wall });
         }
+        let time = self.time;
         let values = file.get("impulses")?;
-        self.impulses = Impulses { values };
+        self.impulses = Impulses { values, time };
         self.kept_impulses.clear();
-        while let name = format!("kept{}/impulses", self.kept_impulses.len())
-            && file.has(&name)
+        while let name = format!("kept{}", self.kept_impulses.len())
+            && file.has(&format!("{name}/impulses"))
         {
-            let values = file.get(&name)?;
-            self.kept_impulses.push(Impulses { values });
+            self.kept_impulses.push(Impulses {
+                values: file.get(&format!("{name}/impulses"))?,
+                time: file.get_one(&format!("{name}/time"))?,
+            });
         }
         for (k, couple) in self.couples.iter_mut().enumerate() {
             couple.force = file.get_array(&format!("coupling{k}/force"))?;

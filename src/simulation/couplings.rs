@@ -47,11 +47,11 @@ pub(crate) struct Couple<T, const D: usize> {
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
-    /// Brings the walls that structures are to where their particles are now; `evaluated` is the time \[s\] if all
-    /// rates are about to be evaluated.
-    pub(super) fn place_structures(&mut self, evaluated: Option<f64>) {
+    /// Brings the walls that structures are to where their particles are now, at `time` \[s\]; whether all rates are
+    /// about to be evaluated.
+    pub(super) fn place_structures(&mut self, time: f64, evaluated: bool) {
         self.for_each_structure(|liquid, wall, group, body| {
-            liquid.follow(wall, group, body, evaluated);
+            liquid.follow(wall, (group, body), time, evaluated);
         });
     }
 
@@ -273,8 +273,8 @@ impl<T: Real, const D: usize> Group<T, D> {
         (own != u32::MAX).then_some(own as usize)
     }
 
-    /// Moves a wall to the particles of the body that it is.
-    fn follow(&mut self, wall: usize, group: &Self, body: usize, evaluated: Option<f64>) {
+    /// Moves a wall to the particles of the body that it is, as they are at `time` \[s\].
+    fn follow(&mut self, wall: usize, (group, body): (&Self, usize), time: f64, evaluated: bool) {
         let run = self.walls[wall].slots.start..self.walls[wall].end;
         let spacing = T::from_f64(group.spacing_of(body));
         for slot in run {
@@ -288,7 +288,12 @@ impl<T: Real, const D: usize> Group<T, D> {
                 let rest = self.particles.columns.raw(Field::DENSITY)[slot];
                 let mass = structure.coupling.wall_mass(rest, &particle);
                 self.particles.columns.raw_mut(Field::MASS)[slot] = mass;
-                structure.accelerate(at, own, group, evaluated);
+                let elapsed = if evaluated {
+                    time - structure.evaluated
+                } else {
+                    0.0
+                };
+                structure.accelerate(at, own, group, elapsed);
             }
             for field in [Field::POSITION, Field::POSITION_RESIDUAL, Field::VELOCITY] {
                 let from = group.particles.columns.vectors(field).get(own);
@@ -305,13 +310,12 @@ impl<T: Real, const D: usize> Group<T, D> {
             // The group of the structure lets particles re-enter a period when its lists are built.
             for boundary in &self.boundaries {
                 let now = core::array::from_fn(|d| x[slot * D + d]);
-                if let Some(back) = boundary.wrap(&now) {
+                if let Some(back) = boundary.wrap(&now, time) {
                     back.re_enter(slot, x, residual, v);
                 }
             }
         }
-        let structure = self.walls[wall].structure.as_mut();
-        if let (Some(structure), Some(time)) = (structure, evaluated) {
+        if let Some(structure) = self.walls[wall].structure.as_mut().filter(|_| evaluated) {
             structure.evaluated = time;
         }
     }
@@ -349,10 +353,9 @@ impl<T: Real, const D: usize> Group<T, D> {
 }
 
 impl<T: Real, const D: usize> Structure<T, D> {
-    /// What has accelerated its particle in a slot of its group.
-    fn accelerate(&mut self, at: usize, own: usize, group: &Group<T, D>, evaluated: Option<f64>) {
+    /// What has accelerated its particle in a slot of its group, `elapsed` \[s\] after the evaluation before.
+    fn accelerate(&mut self, at: usize, own: usize, group: &Group<T, D>, elapsed: f64) {
         let velocity = group.particles.columns.vectors(Field::VELOCITY)[own].map(Real::to_f64);
-        let elapsed = evaluated.map_or(0.0, |time| time - self.evaluated);
         match self.before.get_mut(at) {
             // A stiff body swings many times in a step of the liquid, which feels the mean.
             Some(before) if !self.evaluated.is_nan() => {

@@ -73,6 +73,8 @@ pub struct Ledger {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Impulses {
     pub values: Vec<f64>,
+    /// The time \[s\] of the state that they belong to; of rates it is one.
+    pub time: f64,
 }
 
 impl Impulses {
@@ -98,6 +100,7 @@ impl Impulses {
         let sum = |k: usize| a * self.get(k) + b * other.get(k) + dt * rate.get(k);
         Self {
             values: (0..length).map(sum).collect(),
+            time: a * self.time + b * other.time + dt * rate.time,
         }
     }
 }
@@ -130,7 +133,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     pub(super) fn impulse_rates(&self) -> Impulses {
-        let mut rates = Impulses::default();
+        let mut rates = Impulses {
+            time: 1.0,
+            ..Impulses::default()
+        };
         for (on, from, force) in self.reactions(None) {
             for (d, force) in force.iter().enumerate() {
                 rates.add(self.impulse_index(on, from, d), *force);

@@ -467,6 +467,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.check_walls(vote.step)?;
         self.last_vote = Some(vote);
         self.due += vote.step;
+        self.impulses.time = self.time;
         // The integrator sees the simulation as a system, and is shared with it while it steps.
         let integrator = self.integrator.clone();
         // Inside the pool the many short loops of a step start without waking a thread for each.

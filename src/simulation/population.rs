@@ -126,6 +126,8 @@ pub(crate) struct ReEntry<T, const D: usize> {
     /// Its slot in the order before sorting.
     pub slot: usize,
     pub through: Transform<T, D>,
+    /// When \[s\].
+    pub time: f64,
     /// What it is, and the boundary, in the scene; none for a repeat, and where nothing is given.
     pub indices: Option<[usize; 2]>,
     pub mass: T,
@@ -134,6 +136,15 @@ pub(crate) struct ReEntry<T, const D: usize> {
 }
 
 impl<T: Real, const D: usize> ReEntry<T, D> {
+    /// How it went through for a state at another time \[s\], in which a boundary that moves was elsewhere.
+    pub fn through_at(&self, time: f64) -> Transform<T, D> {
+        let later = T::from_f64(time - self.time);
+        Transform {
+            shift: self.through.shift + self.through.velocity * later,
+            ..self.through.clone()
+        }
+    }
+
     /// The momentum \[kg m/s\] that the boundary gave a state in which the particle had that velocity.
     pub fn impulse(&self, velocity: &Vector<T, D>) -> [f64; D] {
         let after = self.through.rotation * velocity + self.through.velocity;
@@ -167,7 +178,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                 let x = self.particles.columns.vectors(Field::POSITION)[slot];
                 let through = if boundary.crossed(&x, time) {
                     boundary.transform(0, time)
-                } else if let Some(through) = boundary.wrap(&x) {
+                } else if let Some(through) = boundary.wrap(&x, time) {
                     through
                 } else {
                     continue;
@@ -202,6 +213,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                         .get(slot)
                         .map_or(slot, |&old| old as usize),
                     through,
+                    time,
                     indices: given.map(|body| [self.indices[body], boundary]),
                     mass: self.particles.columns.raw(Field::MASS)[slot],
                     velocity,

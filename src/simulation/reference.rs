@@ -10,7 +10,7 @@ use crate::scheme::DensityForm;
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// Takes the sums at rest of all groups, with structures in their places.
     pub(crate) fn take_references(&mut self) {
-        self.place_structures(None);
+        self.place_structures(self.time, false);
         for group in &mut self.groups {
             group.take_reference();
         }

@@ -384,8 +384,8 @@ impl<T: Real, const D: usize> Group<T, D> {
     }
 
     /// Brings saved states into the order of the particles after a list build, and through the boundaries that
-    /// particles have crossed. Gives what these gave.
-    pub(super) fn follow_moves(&mut self) -> Vec<Given<D>> {
+    /// particles have crossed, each where it was at the time \[s\] of the state. Gives what these gave.
+    pub(super) fn follow_moves(&mut self, time_of: impl Fn(usize) -> f64) -> Vec<Given<D>> {
         let moved = &mut self.work.moved;
         let mut given = Vec::new();
         let at = |v: &[T], slot: usize| Vector::from_row_slice(&v[slot * D..(slot + 1) * D]);
@@ -401,7 +401,8 @@ impl<T: Real, const D: usize> Group<T, D> {
                             .indices
                             .map(|indices| (Some(number), indices, impulse)),
                     );
-                    entry.through.re_enter(entry.slot, x, residual, v);
+                    let through = entry.through_at(time_of(number));
+                    through.re_enter(entry.slot, x, residual, v);
                 }
             }
             for (field, column) in kept.iter_mut().skip(3) {

@@ -91,7 +91,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                     *residual = core::array::from_fn(|d| T::from_f64(x[d] - rounded[d].to_f64()));
                 }
                 for boundary in &self.boundaries {
-                    if let Some(back) = boundary.wrap(&rounded) {
+                    if let Some(back) = boundary.wrap(&rounded, time) {
                         let [x, residual, v] = self.particles.columns.many_mut([
                             Field::POSITION,
                             Field::POSITION_RESIDUAL,

@@ -10,6 +10,7 @@ mod gauges;
 mod gentle_flows;
 mod groups;
 mod jet_on_step;
+mod lees_edwards;
 mod liquid_conservation;
 mod mirror_planes;
 mod off_lattice;

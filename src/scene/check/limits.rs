@@ -135,7 +135,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
 
     /// Periods that hold a body, and boundaries with a number of images that can be made.
     pub(super) fn check_periods(&self, problems: &mut Vec<Problem>) {
-        let mut periods: Vec<(Vector<f64, D>, String)> = Vec::new();
+        let mut periods: Vec<Vector<f64, D>> = Vec::new();
         for boundary in &self.boundaries {
             let images = boundary.images();
             if images > MOST_IMAGES {
@@ -146,45 +146,58 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 ));
                 continue;
             }
-            // A shift that changes no direction, back from which particles re-enter.
-            if images == 0 {
-                continue;
-            }
-            let by = boundary.transform(0, 0.0);
-            let shift = Vector::<f64, D>::from_fn(|d, _| by.shift[d].to_f64());
-            let period = length(&shift);
-            let straight = by.rotation == Matrix::<T, D>::identity();
-            if !(straight && period.is_finite() && period > 0.0) {
-                continue;
-            }
-            let along = shift / period;
-            if periods
-                .iter()
-                .any(|(other, _)| other.dot(&along).abs() > 0.999_999)
-            {
-                problems.push(Problem::Incompatible {
-                    what: format!("the {} is given twice", boundary.name()),
-                    remedy: "give one period for each direction: a second one fills the space of the first again",
-                });
-            }
-            periods.push((along, boundary.name()));
-            for body in self.bodies() {
-                let heights = body.points.iter().map(|x| along.dot(&Vector::from(*x)));
-                let (low, high) = heights
-                    .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-                        (low.min(x), high.max(x))
-                    });
-                if high - low > period - SEAM * body.spacing {
+            let (before, said) = (periods.len(), problems.len());
+            for image in 0..images {
+                // A shift that changes no direction, back from which particles re-enter.
+                let by = boundary.transform(image, 0.0);
+                let shift = Vector::<f64, D>::from_fn(|d, _| by.shift[d].to_f64());
+                let period = length(&shift);
+                let straight = by.rotation == Matrix::<T, D>::identity();
+                let along = shift / period;
+                let parallel = |other: &Vector<f64, D>| other.dot(&along).abs() > 0.999_999;
+                // The way back is the same period.
+                let known = periods[before..].iter().any(&parallel);
+                if !straight || !period.is_finite() || period <= 0.0 || known {
+                    continue;
+                }
+                if periods[..before].iter().any(parallel) {
                     problems.push(Problem::Incompatible {
+                        what: format!("the {} is given twice", boundary.name()),
+                        remedy: "give one period for each direction: a second one fills the space of the first again",
+                    });
+                }
+                periods.push(along);
+                // One direction says it: what is too long for one is so for those between it and others.
+                if problems.len() == said {
+                    self.check_bodies_in_period(&boundary.name(), along, period, problems);
+                }
+            }
+        }
+    }
+
+    /// Bodies that are longer than a period in a direction overlap their own images.
+    fn check_bodies_in_period(
+        &self,
+        name: &str,
+        along: Vector<f64, D>,
+        period: f64,
+        problems: &mut Vec<Problem>,
+    ) {
+        for body in self.bodies() {
+            let heights = body.points.iter().map(|x| along.dot(&Vector::from(*x)));
+            let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+                (low.min(x), high.max(x))
+            });
+            if high - low > period - SEAM * body.spacing {
+                problems.push(Problem::Incompatible {
                         what: format!(
                             "body `{}` reaches over {} m along the {}, which is {period} m long, and would overlap itself",
                             body.name,
                             high - low + body.spacing,
-                            boundary.name()
+                            name
                         ),
                         remedy: "make the period as long as the body, or the body shorter",
                     });
-                }
             }
         }
     }

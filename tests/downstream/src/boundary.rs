@@ -44,7 +44,7 @@ impl<T: Real> Boundary<T, 2> for Glide {
             x > self.period - reach
         }
     }
-    fn wrap(&self, x: &[T; 2]) -> Option<Transform<T, 2>> {
+    fn wrap(&self, x: &[T; 2], _time: f64) -> Option<Transform<T, 2>> {
         let periods = (x[0].to_f64() / self.period).floor();
         (periods != 0.0 && periods.is_finite()).then(|| self.by(-periods))
     }
