@@ -59,7 +59,7 @@
 //! | [`material`] | equations of state, viscosity laws and named materials with their sources |
 //! | [`schemes`] | ready schemes |
 //! | [`simulation`] | steps, criteria of the time step, ledgers, questions about particles |
-//! | [`observe`] | pressure probes, wave gauges, flow through planes |
+//! | [`observe`] | pressure probes, wave gauges, flow through planes, fields at points and on grids |
 //! | [`output`] | tables, plots, pictures, particle files, progress |
 //! | [`study`] | exact and reference solutions, norms, orders of convergence |
 //! | [`error`] | what went wrong, where, and what to try |

@@ -1,4 +1,4 @@
-//! Watching a simulation: pressure probes, wave gauges, flow through planes.
+//! Watching a simulation: pressure probes, wave gauges, flow through planes, any field at any points.
 //! An observer reads and never writes, so a run with it is the run without it.
 //!
 //! | observer | reads |
@@ -6,6 +6,7 @@
 //! | [`PressureProbe`] | pressure averaged over a disc on a wall, moving with it, and the force on that disc |
 //! | [`WaveGauge`] | height of a free surface along a line, and the length of it that liquid wets |
 //! | [`FlowPlane`] | mass beyond a plane, and its rate |
+//! | [`Simulation::sample`](crate::simulation::Simulation::sample) | any field, the crate's or an effect's, at any points or on a [`SampleGrid`] |
 //!
 //! Forces and impulses on whole walls are [`Simulation::wall_force`](crate::simulation::Simulation::wall_force)
 //! and [`wall_impulse`](crate::simulation::Simulation::wall_impulse); energy is in the
@@ -39,13 +40,17 @@
 //! too, liquid can come anywhere, and every place is accepted.
 
 mod gauge;
+mod grid;
 mod place;
 mod plane;
 mod probe;
+mod sample;
 
 pub use gauge::WaveGauge;
+pub use grid::SampleGrid;
 pub use plane::FlowPlane;
 pub use probe::PressureProbe;
+pub use sample::Sample;
 
 /// The weight with which observers average, (1 − q/2)⁴ (1 + 2 q) for q < 2 (Wendland 1995).
 fn weight(q: f64) -> f64 {

@@ -10,6 +10,7 @@ pub mod png;
 pub mod progress;
 pub mod svg;
 pub mod table;
+pub mod vti;
 pub mod vtu;
 
 use crate::error::{Error, Result};

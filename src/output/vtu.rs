@@ -4,6 +4,7 @@
 use super::csv::number;
 use super::{file_error, write_whole, xml_escape};
 use crate::error::Result;
+use crate::particles::Shape;
 use std::fmt::Write as _;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -45,17 +46,21 @@ macro_rules! vtk_numbers {
 }
 vtk_numbers!(f32 => "Float32", f64 => "Float64", u8 => "UInt8", i32 => "Int32", u32 => "UInt32", i64 => "Int64");
 
+/// The numbers of a field, as many as it has, and then nothing of meaning.
+pub(crate) type FieldTuple = [f64; 9];
+
+/// A quantity of every particle, or of every point of a grid, in the bytes of a file.
 #[derive(Clone, Debug)]
-struct Array {
-    name: String,
+pub(super) struct Array {
+    pub name: String,
     kind: &'static str,
     components: usize,
-    tuples: usize,
+    pub tuples: usize,
     bytes: Vec<u8>,
 }
 
 impl Array {
-    fn new<T: VtkNumber, const C: usize>(
+    pub fn new<T: VtkNumber, const C: usize>(
         name: &str,
         tuples: impl IntoIterator<Item = [T; C]>,
     ) -> Self {
@@ -73,6 +78,36 @@ impl Array {
             }
         }
         array
+    }
+}
+
+impl Array {
+    /// A field in `D` dimensions as VTK reads it: vectors and matrices padded with zeros to three dimensions, a
+    /// symmetric tensor as xx, yy, zz, xy, yz, xz.
+    pub fn of_field<const D: usize>(
+        name: &str,
+        shape: Shape,
+        tuples: impl Iterator<Item = FieldTuple>,
+    ) -> Self {
+        match shape {
+            Shape::Scalar => Self::new(name, tuples.map(|[value, ..]| [value])),
+            Shape::Tensor => Self::new(
+                name,
+                tuples.map(|[xx, yy, zz, yz, xz, xy, ..]| [xx, yy, zz, xy, yz, xz]),
+            ),
+            Shape::Matrix => {
+                let at = |tuple: &FieldTuple, a: usize, b: usize| {
+                    let inside = a < D && b < D;
+                    if inside { tuple[a * D + b] } else { 0.0 }
+                };
+                let whole = |tuple| core::array::from_fn::<f64, 9, _>(|k| at(&tuple, k / 3, k % 3));
+                Self::new(name, tuples.map(whole))
+            }
+            Shape::Point | Shape::Velocity | Shape::Vector => {
+                let own = |tuple: FieldTuple| padded::<_, D>(core::array::from_fn(|d| tuple[d]));
+                Self::new(name, tuples.map(own))
+            }
+        }
     }
 }
 
@@ -165,6 +200,18 @@ impl Vtu {
         self
     }
 
+    /// Adds a field in `D` dimensions.
+    #[must_use]
+    pub(crate) fn field<const D: usize>(
+        mut self,
+        name: &str,
+        shape: Shape,
+        tuples: impl Iterator<Item = FieldTuple>,
+    ) -> Self {
+        self.arrays.push(Array::of_field::<D>(name, shape, tuples));
+        self
+    }
+
     /// Says when, in the file itself \[s\].
     ///
     /// ```
@@ -212,16 +259,7 @@ impl Vtu {
     /// When the file cannot be written, or an array has another length than the positions.
     pub fn write(&self, path: impl AsRef<Path>) -> Result<()> {
         let path = path.as_ref();
-        if let Some(array) = self.arrays.iter().find(|a| a.tuples != self.len()) {
-            let what = format!(
-                "the array `{}` has {} values for {} particles",
-                array.name,
-                array.tuples,
-                self.len()
-            );
-            let source = io::Error::new(io::ErrorKind::InvalidInput, what);
-            return Err(file_error("write", path)(source));
-        }
+        check_lengths(&self.arrays, self.len(), "particles", path)?;
         write_whole(path, &self.bytes())
     }
 
@@ -263,8 +301,24 @@ impl Vtu {
     }
 }
 
+/// Refuses arrays of another length than that of what they belong to.
+pub(super) fn check_lengths(
+    arrays: &[Array],
+    count: usize,
+    of: &'static str,
+    path: &Path,
+) -> Result<()> {
+    let Some(array) = arrays.iter().find(|array| array.tuples != count) else {
+        return Ok(());
+    };
+    let (name, own) = (&array.name, array.tuples);
+    let what = format!("the array `{name}` has {own} values for {count} {of}");
+    let source = io::Error::new(io::ErrorKind::InvalidInput, what);
+    Err(file_error("write", path)(source))
+}
+
 /// Declares an array in the XML and appends its length and content to the data.
-fn append(xml: &mut String, data: &mut Vec<u8>, array: &Array, more: &str) {
+pub(super) fn append(xml: &mut String, data: &mut Vec<u8>, array: &Array, more: &str) {
     let _ = writeln!(
         xml,
         "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"{more} format=\"appended\" offset=\"{}\"/>",

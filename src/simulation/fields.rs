@@ -1,6 +1,8 @@
 //! Fields of particles by name and by shape: read from a particle, and set for a body between steps.
 //! What is asked for and is not there is an error that lists what is.
 
+use super::group::Group;
+use super::query::views;
 use super::{ParticleView, Simulation};
 use crate::error::{Error, Problem, Result};
 use crate::particles::{Field, Shape};
@@ -9,7 +11,7 @@ use crate::tensor::Symmetric;
 
 impl<T: Real, const D: usize> ParticleView<'_, T, D> {
     /// All components of a field, or `None` if the particle does not carry it.
-    pub(super) fn numbers(&self, field: Field) -> Option<&[T]> {
+    pub(crate) fn numbers(&self, field: Field) -> Option<&[T]> {
         let width = field.components(D);
         let column = self.group.particles.columns.raw(field);
         column.get(self.slot * width..(self.slot + 1) * width)
@@ -63,23 +65,50 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// # Errors
     /// If no particle carries a field of that name; the error lists those that there are.
     pub fn field(&self, name: &str) -> Result<Field> {
+        let found = self.carried().find(|(_, _, own)| *own == name);
+        let found = found.map(|(_, field, _)| field);
+        found.ok_or_else(|| self.unknown_field(name))
+    }
+
+    /// Every field that particles carry, group by group, with its name under the scheme of the group.
+    fn carried(&self) -> impl Iterator<Item = (&Group<T, D>, Field, &'static str)> {
+        self.groups.iter().flat_map(|group| {
+            let columns = &group.particles.columns;
+            let fields = columns.fields().iter();
+            let there = fields.filter(|&field| !columns.raw(field).is_empty());
+            there.map(move |field| (group, field, group.scheme.program.name_of(field).0))
+        })
+    }
+
+    /// The error that lists the fields that there are.
+    fn unknown_field(&self, name: &str) -> Error {
         let mut known: Vec<&str> = Vec::new();
-        for group in &self.groups {
-            for field in group.particles.columns.fields().iter() {
-                let (own, _) = group.scheme.program.name_of(field);
-                if own == name {
-                    return Ok(field);
-                }
-                if !known.contains(&own) {
-                    known.push(own);
-                }
+        for (_, _, own) in self.carried() {
+            if !known.contains(&own) {
+                known.push(own);
             }
         }
-        Err(Error::Argument(Problem::UnknownName {
+        Error::Argument(Problem::UnknownName {
             kind: "field",
             name: name.into(),
             known: known.join(", "),
-        }))
+        })
+    }
+
+    /// The name of a field, and all particles of bodies that carry it. The number of one that an effect declares may be
+    /// another field under another scheme: the first scheme says which is meant.
+    pub(crate) fn carriers(
+        &self,
+        field: Field,
+    ) -> Result<(&'static str, impl Iterator<Item = ParticleView<'_, T, D>>)> {
+        let found = self.carried().find(|(_, own, _)| *own == field);
+        let (_, _, name) = found.ok_or_else(|| self.unknown_field(&field_text(field)))?;
+        let bodies = self.all_bodies();
+        let own = bodies.filter(move |(group, _)| {
+            let columns = &group.particles.columns;
+            !columns.raw(field).is_empty() && group.scheme.program.name_of(field).0 == name
+        });
+        Ok((name, own.flat_map(views)))
     }
 
     /// Sets a field of all particles of a body between steps, as a function of position \[m\] and present value;
@@ -153,4 +182,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.forget_rates();
         Ok(())
     }
+}
+
+/// A field in words, without the scheme that names it: of one that an effect declares its shape and number.
+fn field_text(field: Field) -> String {
+    field.own_number().unwrap_or_else(|| field.name().into())
 }

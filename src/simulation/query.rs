@@ -349,7 +349,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 }
 
 /// The particles of a body in the order of the scene.
-fn views<'a, T: Real, const D: usize>(
+pub(super) fn views<'a, T: Real, const D: usize>(
     (group, body): (&'a Group<T, D>, &'a BodyState<T>),
 ) -> impl Iterator<Item = ParticleView<'a, T, D>> {
     let slots = body.ids.clone().map(|id| group.particles.slot_of[id]);

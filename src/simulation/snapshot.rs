@@ -3,7 +3,7 @@
 
 use super::{ParticleView, Simulation};
 use crate::output::vtu::Vtu;
-use crate::particles::{Field, Shape};
+use crate::particles::Field;
 use crate::scalar::Real;
 
 /// What every particle has beside its place and velocity.
@@ -50,41 +50,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// With a field under a name.
     fn with(&self, vtu: Vtu, field: Field, name: &str) -> Vtu {
         // The same number may be another field under another scheme.
-        let own = |particle: &ParticleView<'_, T, D>| {
-            particle.group.scheme.program.name_of(field).0 == name
+        let tuple = |particle: ParticleView<'_, T, D>| {
+            let own = particle.group.scheme.program.name_of(field).0 == name;
+            let numbers = particle.numbers(field).filter(|_| own);
+            let at = |k: usize| numbers.and_then(|numbers| numbers.get(k));
+            core::array::from_fn(|k| at(k).map_or(f64::NAN, |number| number.to_f64()))
         };
-        match field.shape() {
-            Shape::Scalar => vtu.scalar(
-                name,
-                self.all()
-                    .map(|p| p.scalar(field).filter(|_| own(&p)).unwrap_or(f64::NAN)),
-            ),
-            Shape::Tensor => vtu.array(
-                name,
-                self.all().map(|p| {
-                    let tensor = p.tensor(field).filter(|_| own(&p));
-                    let [xx, yy, zz, yz, xz, xy] =
-                        tensor.map_or([f64::NAN; 6], |tensor| *tensor.components());
-                    [xx, yy, zz, xy, yz, xz]
-                }),
-            ),
-            Shape::Matrix => vtu.array(
-                name,
-                self.all().map(|p| {
-                    let values = p.named(name).unwrap_or_default();
-                    let at = |a: usize, b: usize| {
-                        let inside = a < D && b < D;
-                        let value = values.get(a * D + b).copied().unwrap_or(f64::NAN);
-                        if inside { value } else { 0.0 }
-                    };
-                    core::array::from_fn::<f64, 9, _>(|k| at(k / 3, k % 3))
-                }),
-            ),
-            Shape::Point | Shape::Velocity | Shape::Vector => vtu.vector(
-                name,
-                self.all()
-                    .map(|p| p.vector(field).filter(|_| own(&p)).unwrap_or([f64::NAN; D])),
-            ),
-        }
+        vtu.field::<D>(name, field.shape(), self.all().map(tuple))
     }
 }

@@ -16,5 +16,6 @@ mod mirror_planes;
 mod off_lattice;
 mod one_evaluation;
 mod riemann_walls;
+mod sampling;
 mod sloshing;
 mod sound_and_volume;

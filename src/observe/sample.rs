@@ -1,0 +1,224 @@
+//! Any field at any points: what particles carry, interpolated at places and on regular grids.
+//! Each value comes with how full its place is, so that what is dry is known.
+
+use super::grid::SampleGrid;
+use super::{normalisation, weight};
+use crate::error::{Error, Problem, Result};
+use crate::neighbors::Cells;
+use crate::particles::{Field, Shape};
+use crate::scalar::Real;
+use crate::simulation::Simulation;
+use crate::tensor::Symmetric;
+use rayon::prelude::*;
+
+/// A field at points, as [`Simulation::sample`] reads it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sample<const D: usize> {
+    name: &'static str,
+    shape: Shape,
+    components: usize,
+    values: Vec<f64>,
+    filling: Vec<f64>,
+}
+
+impl<const D: usize> Sample<D> {
+    /// The name of the field.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        self.name
+    }
+    /// How the field changes under rotation: a scalar, a vector, a symmetric tensor or a matrix.
+    #[must_use]
+    pub fn shape(&self) -> Shape {
+        self.shape
+    }
+    /// The number of points.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.filling.len()
+    }
+    /// Whether there are no points.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.filling.is_empty()
+    }
+    /// Numbers of the field: 1, D, 6 for a symmetric tensor (xx, yy, zz, yz, xz, xy), D² for a matrix, row by row.
+    #[must_use]
+    pub fn components(&self) -> usize {
+        self.components
+    }
+    /// All values, [`components`](Self::components) a point, in the unit of the field.
+    #[must_use]
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+    /// Σ V W of every point: near 1 inside, near ½ on a face, zero where there is nothing.
+    #[must_use]
+    pub fn filling(&self) -> &[f64] {
+        &self.filling
+    }
+    /// The numbers of the field at a point, by its index; `None` without such a point.
+    #[must_use]
+    pub fn at(&self, point: usize) -> Option<&[f64]> {
+        let first = point.checked_mul(self.components)?;
+        self.values.get(first..first.checked_add(self.components)?)
+    }
+    /// A scalar field at a point; `None` without such a point, or if the field is none.
+    #[must_use]
+    pub fn scalar(&self, point: usize) -> Option<f64> {
+        let numbers = self.at(point).filter(|_| self.shape == Shape::Scalar)?;
+        Some(numbers[0])
+    }
+    /// A vector field at a point; `None` without such a point, or if the field is none.
+    #[must_use]
+    pub fn vector(&self, point: usize) -> Option<[f64; D]> {
+        let vectors = [Shape::Point, Shape::Velocity, Shape::Vector];
+        let numbers = self.at(point).filter(|_| vectors.contains(&self.shape))?;
+        Some(core::array::from_fn(|d| numbers[d]))
+    }
+    /// A symmetric tensor at a point; `None` without such a point, or if the field is none.
+    #[must_use]
+    pub fn tensor(&self, point: usize) -> Option<Symmetric<f64>> {
+        let numbers = self.at(point).filter(|_| self.shape == Shape::Tensor)?;
+        Some(Symmetric::from_slice(numbers))
+    }
+}
+
+/// What a particle gives to the points around it.
+struct Source<const D: usize> {
+    x: [f64; D],
+    h: f64,
+    /// Its volume over hᴰ, times the norm of the weight.
+    share: f64,
+}
+
+impl<T: Real, const D: usize> Simulation<T, D> {
+    /// A field at points \[m\]: one of the crate's, or one that an effect declares.
+    ///
+    /// A = Σ V A W / Σ V W over the particles of all bodies that carry the field, with the weight W of
+    /// [observers](crate::observe), which reaches two smoothing lengths of each particle (Shepard 1968).
+    /// A constant is exact everywhere; what is linear is so where particles lie evenly around a point, and on a face it is
+    /// that of half a smoothing length inside. Σ V W comes with it as the [filling](Sample::filling): 1 inside of bodies,
+    /// ½ on a face, zero out of reach of all, where values are not numbers. Beyond a face a value is that of the nearest
+    /// particles.
+    ///
+    /// Pressure and what else follows from the state is that of the last evaluation
+    /// ([`evaluate`](Simulation::evaluate) makes one). Walls are not sampled, and images behind boundaries neither: by a
+    /// period or a symmetry plane a point sees one side.
+    ///
+    /// It costs a look at every particle, a sort of those near the points, and for each point a pass over the particles
+    /// in the cells around it: (5 h)ᴰ of volume, 56 particles in 2D and 420 in 3D with h of 1.5 spacings. The points
+    /// are spread over threads, and the sums are the same on any number of them.
+    ///
+    /// ```
+    /// use meshfree::prelude::*;
+    /// let water = catalogue::weakly_compressible_water(2.0);
+    /// let body = Body::block("water", water, [0.0; 2], [0.2, 0.1], 0.01);
+    /// let simulation = Scene::<f64, 2>::new(schemes::weakly_compressible())
+    ///     .body(body.velocity([0.5, -1.0]))
+    ///     .build()?;
+    /// let velocity = simulation.sample(Field::VELOCITY, &[[0.1, 0.05], [0.1, 0.1], [0.1, 1.0]])?;
+    /// let [u, v] = velocity.vector(0).unwrap_or_default();
+    /// assert!((u - 0.5).abs() < 1e-12 && (v + 1.0).abs() < 1e-12);
+    /// let [inside, on_the_surface, in_air] = velocity.filling() else { unreachable!() };
+    /// assert!((inside - 1.0).abs() < 0.01 && (on_the_surface - 0.5).abs() < 0.01 && *in_air == 0.0);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If no body carries the field, or a point is not finite.
+    pub fn sample(&self, field: Field, points: &[[f64; D]]) -> Result<Sample<D>> {
+        let (name, carriers) = self.carriers(field)?;
+        check_points(points)?;
+        let components = field.components(D);
+        let [low, high] = bounds(points);
+        let mut reach = 0.0_f64;
+        let (mut sources, mut numbers) = (Vec::new(), Vec::new());
+        let norm = normalisation(D);
+        for particle in carriers {
+            let (x, h) = (particle.position(), particle.smoothing_length());
+            // Most of a scene is often out of reach of all points.
+            let near = |d: usize| low[d] - 2.0 * h < x[d] && x[d] < high[d] + 2.0 * h;
+            let Some(own) = particle.numbers(field).filter(|_| (0..D).all(near)) else {
+                continue;
+            };
+            let volume = particle.mass() / particle.density();
+            let share = norm * volume / h.powi(D as i32);
+            reach = reach.max(2.0 * h);
+            sources.push(Source { x, h, share });
+            numbers.extend(own.iter().map(|number| number.to_f64()));
+        }
+        let positions: Vec<[f64; D]> = sources.iter().map(|source| source.x).collect();
+        let all: Vec<u32> = (0..sources.len() as u32).collect();
+        // Cells of half the reach: a box around a point has few more of them than the ball in it.
+        let cells = Cells::build(&positions, &all, (0.5 * reach).max(f64::MIN_POSITIVE));
+        let mut values = vec![0.0; components * points.len()];
+        let mut filling = vec![0.0; points.len()];
+        values
+            .par_chunks_mut(components)
+            .zip(filling.par_iter_mut())
+            .zip(points)
+            .for_each(|((sums, filling), point)| {
+                let [from, to] = [-reach, reach].map(|r| point.map(|x| x + r));
+                cells.for_each_run(from, to, |run| {
+                    for source in run.iter().map(|&k| k as usize) {
+                        let Source { x, h, share } = &sources[source];
+                        let r2: f64 = (0..D).map(|d| (x[d] - point[d]).powi(2)).sum();
+                        if r2 < 4.0 * h * h {
+                            let part = share * weight(r2.sqrt() / h);
+                            *filling += part;
+                            let own = &numbers[source * components..];
+                            for (sum, number) in sums.iter_mut().zip(own) {
+                                *sum += part * number;
+                            }
+                        }
+                    }
+                });
+                for sum in sums {
+                    *sum /= *filling;
+                }
+            });
+        Ok(Sample {
+            name,
+            shape: field.shape(),
+            components,
+            values,
+            filling,
+        })
+    }
+
+    /// A field at the points of a grid, as [`sample`](Self::sample) reads it.
+    ///
+    /// # Errors
+    /// If no body carries the field.
+    pub fn sample_grid(&self, field: Field, grid: &SampleGrid<D>) -> Result<Sample<D>> {
+        self.sample(field, &grid.points())
+    }
+}
+
+/// The box around points.
+fn bounds<const D: usize>(points: &[[f64; D]]) -> [[f64; D]; 2] {
+    let mut bounds = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
+    for point in points {
+        for d in 0..D {
+            bounds[0][d] = bounds[0][d].min(point[d]);
+            bounds[1][d] = bounds[1][d].max(point[d]);
+        }
+    }
+    bounds
+}
+
+fn check_points<const D: usize>(points: &[[f64; D]]) -> Result<()> {
+    for (k, point) in points.iter().enumerate() {
+        for (d, &value) in point.iter().enumerate() {
+            if !value.is_finite() {
+                return Err(Error::Argument(Problem::Parameter {
+                    what: format!("coordinate {d} of point {k} of a sample"),
+                    value,
+                    must_be: "it must be finite, in metres",
+                }));
+            }
+        }
+    }
+    Ok(())
+}
