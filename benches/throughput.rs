@@ -110,6 +110,7 @@ fn count_pairs<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> (u64, 
     positions.extend(simulation.wall_particle_forces().iter().map(|(x, _)| *x));
     let h = simulation
         .body(0)
+        .expect("the liquid")
         .next()
         .map_or(0.0, |p| p.smoothing_length());
     let reach = 2.0 * h;

@@ -113,10 +113,11 @@ fn run(case: &Case, spacing: f64) -> Result<Front, Box<dyn Error>> {
             spacing,
         ))
         .build()?;
-    let middle = simulation.body(0).count() / 2;
+    let middle = simulation.body("striker")?.count() / 2;
     let (mut times, mut pressures) = (vec![0.0], vec![0.0]);
     simulation.run_with(END, |now| {
-        let two = now.body(0).skip(middle - 1).take(2);
+        // The particles of the striker are the first.
+        let two = now.all().skip(middle - 1).take(2);
         times.push(now.time());
         pressures.push(0.5 * two.map(|particle| particle.pressure()).sum::<f64>());
     })?;

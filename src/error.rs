@@ -187,7 +187,7 @@ pub enum Problem {
         call: &'static str,
     },
     /// A name that the scene does not know.
-    #[error("there is no {kind} called `{name}`: the scene has {known}")]
+    #[error("there is no {kind} called `{name}`: the scene has {}", or_none(.known))]
     UnknownName {
         /// Body, boundary or probe.
         kind: &'static str,
@@ -196,6 +196,21 @@ pub enum Problem {
         /// The names that exist.
         known: String,
     },
+    /// An index that the scene does not have.
+    #[error("there is no {kind} with the index {index}: the scene has {}, counted from 0", or_none(.known))]
+    UnknownIndex {
+        /// Body, wall or boundary.
+        kind: &'static str,
+        /// The index asked for.
+        index: usize,
+        /// The names that exist, in order.
+        known: String,
+    },
+}
+
+/// Names that exist, in words.
+fn or_none(known: &str) -> &str {
+    if known.is_empty() { "none" } else { known }
 }
 
 /// Everything that is wrong with a scene.

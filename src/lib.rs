@@ -36,7 +36,7 @@
 //!     }
 //!     let whole = simulation.ledger().whole;
 //!     println!("{} steps, {} J/m²", simulation.steps(), whole.total_energy());
-//! #   let middle = simulation.body(0).nth(50).map_or(0.0, |particle| particle.pressure());
+//! #   let middle = simulation.body("striker")?.nth(50).map_or(0.0, |particle| particle.pressure());
 //! #   assert!((middle / 353.17e6 - 1.0).abs() < 0.01, "{middle}");
 //! #   assert!((whole.total_energy() / 17_860.0 - 1.0).abs() < 1e-12);
 //!     Ok(())

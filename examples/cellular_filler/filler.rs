@@ -248,7 +248,9 @@ fn picture<T: Real>(
     let places = simulation
         .all()
         .map(|particle| (particle.position(), 1e-6 * particle.pressure()));
-    let front = simulation.wall(0).map(|particle| particle.position());
+    let front = simulation
+        .wall("structure")?
+        .map(|particle| particle.position());
     let picture = Picture::new(1200, 800)
         .title(&format!("{name}, {:.0} µs", 1e6 * simulation.time()))
         .view(-75.0, 15.0)

@@ -495,8 +495,9 @@ pub fn paraview<T: Real, const D: usize>(
     series: &mut Pvd,
     now: &Simulation<T, D>,
 ) -> Result<(), Failure> {
-    let walls = now.walls().count();
-    let all = || now.all().chain((0..walls).flat_map(|wall| now.wall(wall)));
+    let walls = now.walls().map(|name| now.wall(name));
+    let walls = walls.collect::<Result<Vec<_>, _>>()?;
+    let all = || now.all().chain(walls.iter().cloned().flatten());
     let liquid = now.particles();
     let vtu = Vtu::new(all().map(|p| p.position()))
         .scalar("pressure", all().map(|p| p.pressure() as f32))

@@ -118,7 +118,8 @@ pub fn plane<T: Real>(case: &Flat, now: &Simulation<T, 2>, path: &Path) -> Resul
     let top = (2.0 * case.column[1]).min(case.tank[1]);
     let hydrostatic = case.density * crate::flat::GRAVITY * case.column[1];
     let value = Axis::linear("pressure", "kPa").range(0.0, 1e-3 * hydrostatic);
-    let walls = (0..now.walls().count()).flat_map(|wall| now.wall(wall));
+    let walls = now.walls().map(|name| now.wall(name));
+    let walls = walls.collect::<Result<Vec<_>, _>>()?.into_iter().flatten();
     let water = now.all().map(|p| (p.position(), 1e-3 * p.pressure()));
     Picture::new(1600, (1600.0 * top / case.tank[0]) as usize)
         .bounds([0.0, 0.0], [case.tank[0], top])
@@ -235,7 +236,7 @@ pub fn space<T: Real>(now: &Simulation<T, 3>, path: &Path) -> Result<(), Failure
     let value = Axis::linear("pressure", "kPa").range(0.0, 5.0);
     let water = now.all().map(|p| (p.position(), 1e-3 * p.pressure()));
     let [low, high] = BOX;
-    let obstacle = now.wall(1).map(|p| p.position());
+    let obstacle = now.wall("box")?.map(|p| p.position());
     let picture = Picture::new(1400, 700)
         .title(&format!("t = {:.2} s", now.time()))
         .bounds([0.0; 3], TANK)

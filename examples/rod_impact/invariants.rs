@@ -75,7 +75,7 @@ fn against_mirror(case: &Case) -> Result<f64, Failure> {
     for end in [2e-6, 4e-6, 6e-6, 8e-6] {
         wall.run_until(end)?;
         pair.run_until(end)?;
-        for (a, b) in wall.body(0).zip(pair.body(0)) {
+        for (a, b) in wall.body("striker")?.zip(pair.body("striker")?) {
             most = most.max((a.pressure() - b.pressure()).abs() / 709e6);
             most = most.max((a.velocity()[0] - b.velocity()[0]).abs() / case.speed);
         }

@@ -98,8 +98,8 @@ impl Place {
     }
 
     /// Stress and velocity.
-    fn read<T: Real>(&self, simulation: &Simulation<T, 1>) -> (f64, f64) {
-        let mut particles = simulation.body(self.body).skip(self.left);
+    fn read<T: Real>(&self, simulation: &Simulation<T, 1>) -> Result<(f64, f64)> {
+        let mut particles = simulation.body(self.body)?.skip(self.left);
         let state =
             |p: meshfree::simulation::ParticleView<'_, T, 1>| (0.0 - p.pressure(), p.velocity()[0]);
         let left = particles.next().map_or((0.0, 0.0), state);
@@ -108,7 +108,7 @@ impl Place {
             _ => left,
         };
         let mix = |a: f64, b: f64| if a == b { a } else { a + self.weight * (b - a) };
-        (mix(left.0, right.0), mix(left.1, right.1))
+        Ok((mix(left.0, right.0), mix(left.1, right.1)))
     }
 }
 
@@ -200,8 +200,8 @@ fn run_in<T: Real>(case: &Case, watch: Watch<'_>, progress: &mut dyn FnMut(f64))
         .transpose()?;
     let bodies = 0..simulation.bodies().count();
     let references: Vec<Vec<f64>> = bodies
-        .map(|body| simulation.body(body).map(|p| p.position()[0]).collect())
-        .collect();
+        .map(|body| Ok(simulation.body(body)?.map(|p| p.position()[0]).collect()))
+        .collect::<Result<_>>()?;
     let places: Vec<_> = case
         .probes
         .iter()
@@ -240,7 +240,7 @@ fn run_in<T: Real>(case: &Case, watch: Watch<'_>, progress: &mut dyn FnMut(f64))
     let mut observe = |simulation: &Simulation<T, 1>, record: &mut Record| -> Result<()> {
         let ledger = (files.is_some() || simulation.steps().is_multiple_of(100))
             .then(|| simulation.ledger());
-        note(simulation, &places, record);
+        note(simulation, &places, record)?;
         if let Some(ledger) = &ledger {
             note_drift(&first, ledger, record);
             if let Some(files) = &mut files {
@@ -264,7 +264,7 @@ fn run_in<T: Real>(case: &Case, watch: Watch<'_>, progress: &mut dyn FnMut(f64))
             }
         }
         if case.snapshots.contains(&stop) {
-            let shot = take_snapshot(&simulation, &references, stop);
+            let shot = take_snapshot(&simulation, &references, stop)?;
             if let Some(folder) = folder {
                 write_snapshot(folder, case, &shot)?;
             }
@@ -279,17 +279,22 @@ fn run_in<T: Real>(case: &Case, watch: Watch<'_>, progress: &mut dyn FnMut(f64))
     Ok(record)
 }
 
-fn note<T: Real>(simulation: &Simulation<T, 1>, places: &[Place], record: &mut Record) {
+fn note<T: Real>(
+    simulation: &Simulation<T, 1>,
+    places: &[Place],
+    record: &mut Record,
+) -> Result<()> {
     record.time.push(simulation.time());
     for (probe, place) in record.probes.iter_mut().zip(places) {
-        let (stress, velocity) = place.read(simulation);
+        let (stress, velocity) = place.read(simulation)?;
         probe.stress.push(stress);
         probe.velocity.push(velocity);
     }
     let head = record.case.head();
     // The target is the body after the head; a wall comes after all bodies, which is the same index.
-    let force = simulation.force_between(head, head + 1)[0];
+    let force = simulation.force_between(head, head + 1)?[0];
     record.contact.push(0.0 - force);
+    Ok(())
 }
 
 fn note_drift(first: &Ledger, now: &Ledger, record: &mut Record) {
@@ -307,10 +312,10 @@ fn take_snapshot<T: Real>(
     simulation: &Simulation<T, 1>,
     references: &[Vec<f64>],
     time: f64,
-) -> Snapshot {
+) -> Result<Snapshot> {
     let mut points = Vec::with_capacity(simulation.particles());
     for (body, references) in references.iter().enumerate() {
-        for (p, &reference) in simulation.body(body).zip(references) {
+        for (p, &reference) in simulation.body(body)?.zip(references) {
             points.push(Point {
                 body,
                 reference,
@@ -322,7 +327,7 @@ fn take_snapshot<T: Real>(
             });
         }
     }
-    Snapshot { time, points }
+    Ok(Snapshot { time, points })
 }
 
 fn write_snapshot(folder: &Path, case: &Case, shot: &Snapshot) -> Result<()> {

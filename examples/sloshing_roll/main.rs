@@ -136,7 +136,7 @@ where
             place(normal, 0.0, 0.0),
             0.009,
         )?
-        .on_wall(0)
+        .on_wall("tank")
     };
     let watch = Watch {
         probes: vec![sensor("left", -half, 1.0)?, sensor("right", half, -1.0)?],
@@ -149,7 +149,9 @@ where
     };
     let inside = |now: &Simulation<T, D>, x: [f64; D]| {
         // Back into the tank's own frame: its linear part is a rotation.
-        let pose = now.wall_pose(Some(0));
+        let Ok(pose) = now.wall_pose("tank") else {
+            return false;
+        };
         let own = pose.linear[0].transpose() * (meshfree::tensor::Vector::from(x) - pose.shift[0]);
         // A drop that strikes a wall alone dives a little before it bounces.
         let deep = 0.5 * now.spacing();
@@ -182,7 +184,7 @@ fn picture<T: Real, const D: usize>(
     let value = Axis::linear("pressure", "kPa").range(0.0, 2.0);
     let side = |x: [f64; D]| [x[0], x[1]];
     let water = now.all().map(|p| (side(p.position()), 1e-3 * p.pressure()));
-    let walls = now.wall(0).map(|p| p.position());
+    let walls = now.wall("tank")?.map(|p| p.position());
     let walls = walls.filter(|x| (2..D).all(|d| (0.0..=breadth).contains(&x[d])));
     let walls = walls.map(side);
     let picture = Picture::new(1200, 600)

@@ -140,50 +140,55 @@ pub fn run<T: Real>(case: &Case, folder: Option<&Path>, ends: bool) -> Result<Re
     let mut stops = vec![SNAPSHOT.min(case.until), case.until];
     stops.dedup();
     let (mut next, mut next_frame, mut next_ends) = (0.0, 0.0, ENDS);
-    let mut failed: Result<(), Error> = Ok(());
     for stop in stops {
-        simulation.run_with(stop, |now| {
+        let mut failed: Result<(), Error> = Ok(());
+        let mut watch = |now: &Simulation<T, 3>| {
             let time = now.time();
             if let Some(cover) = cover.as_ref().filter(|_| time >= next_ends) {
                 next_ends += ENDS;
-                record.ends.push(ends_of(case, cover, now));
+                record.ends.push(ends_of(case, cover, now)?);
             }
             if time >= next || time >= case.until {
                 next = time + SAMPLING;
-                let sample = sample(now, &sensors);
-                if let (Some(files), Ok(())) = (&mut files, &failed) {
-                    failed = files.sample(&sample);
-                    if time >= next_frame && failed.is_ok() {
+                let sample = sample(now, &sensors)?;
+                if let Some(files) = &mut files {
+                    files.sample(&sample)?;
+                    if time >= next_frame {
                         next_frame += FRAMES;
-                        failed = files.frame(now);
+                        files.frame(now)?;
                     }
                 }
                 record.samples.push(sample);
-                let places = in_tank(now).map(|(x, _)| outside(case, &x));
+                let places = in_tank(now)?.map(|(x, _)| outside(case, &x));
                 record.deepest = places.fold(record.deepest, f64::max);
                 progress.update(
                     time / case.until,
                     format_args!("t = {:.2} ms, {} steps", 1e3 * time, now.steps()),
                 );
             }
+            Ok(())
+        };
+        simulation.run_with(stop, |now| {
+            if failed.is_ok() {
+                failed = watch(now);
+            }
         })?;
         failed?;
-        failed = Ok(());
         if stop == SNAPSHOT.min(case.until) {
-            let occupied = Occupancy::of(case, &simulation);
+            let occupied = Occupancy::of(case, &simulation)?;
             record.surface = occupied.mid_plane();
             record.space[0] = occupied.space(water);
-            record.far_wall = far_wall(case, &simulation);
+            record.far_wall = far_wall(case, &simulation)?;
             if let Some(folder) = folder {
                 snapshot(case, &simulation, &record.surface, folder)?;
             }
         }
     }
     progress.finish();
-    record.space[1] = Occupancy::of(case, &simulation).space(water);
+    record.space[1] = Occupancy::of(case, &simulation)?.space(water);
     record.seconds = started.elapsed().as_secs_f64();
     record.steps = simulation.steps();
-    record.impulse = simulation.wall_impulse(0);
+    record.impulse = simulation.wall_impulse("tank")?;
     let whole = simulation.ledger().whole;
     record.momentum = core::array::from_fn(|d| whole.momentum[d]);
     let gravity = [0.0, 0.0, -whole.mass * GRAVITY * simulation.time()];
@@ -192,21 +197,21 @@ pub fn run<T: Real>(case: &Case, folder: Option<&Path>, ends: bool) -> Result<Re
         let lack = core::array::from_fn(|d| record.momentum[d] + record.impulse[d] - gravity[d]);
         record.imbalance = size(lack) / size(record.impulse);
     }
-    record.leaked = in_tank(&simulation)
+    record.leaked = in_tank(&simulation)?
         .filter(|(x, _)| outside(case, x) > case.spacing)
         .count();
     Ok(record)
 }
 
-fn sample<T: Real>(now: &Simulation<T, 3>, sensors: &[PressureProbe<3>]) -> Sample {
-    Sample {
+fn sample<T: Real>(now: &Simulation<T, 3>, sensors: &[PressureProbe<3>]) -> Result<Sample, Error> {
+    Ok(Sample {
         time: now.time(),
         pressures: PressureProbe::pressures(sensors, now),
         contact: sensors
             .first()
             .map_or(0.0, |sensor| sensor.contact_pressure(now)),
-        force: now.wall_force(0),
-    }
+        force: now.wall_force("tank")?,
+    })
 }
 
 /// How far a place is outside of the tank \[m\], negative inside.
@@ -216,15 +221,17 @@ fn outside(case: &Case, x: &[f64; 3]) -> f64 {
 }
 
 /// Places in the tank \[m\] and pressures \[Pa\] of the water.
-pub fn in_tank<T: Real>(now: &Simulation<T, 3>) -> impl Iterator<Item = ([f64; 3], f64)> + '_ {
-    let shift = now.wall_pose(Some(0)).shift[0];
-    now.all().map(move |particle| {
+pub fn in_tank<T: Real>(
+    now: &Simulation<T, 3>,
+) -> Result<impl Iterator<Item = ([f64; 3], f64)> + '_, Error> {
+    let shift = now.wall_pose("tank")?.shift[0];
+    Ok(now.all().map(move |particle| {
         let x = particle.position();
         (
             core::array::from_fn(|d| x[d] - shift[d]),
             particle.pressure(),
         )
-    })
+    }))
 }
 
 /// Sensors all over both ends of the tank, with their areas, those of the far end negative.
@@ -243,7 +250,7 @@ fn cover<T: Real>(
         for (x, sign) in [(0.0, -1.0), (length, 1.0)] {
             let normal = [-sign, 0.0, 0.0];
             let sensor = PressureProbe::disc(now, "end", [x, y, z], normal, case.spacing)?;
-            sensors.push(sensor.on_wall(0)?);
+            sensors.push(sensor.on_wall("tank")?);
             outwards.push(sign * area);
         }
     }
@@ -255,22 +262,22 @@ fn ends_of<T: Real>(
     case: &Case,
     (sensors, outwards): &(Vec<PressureProbe<3>>, Vec<f64>),
     now: &Simulation<T, 3>,
-) -> Ends {
+) -> Result<Ends, Error> {
     let pressures = PressureProbe::pressures(sensors, now);
-    let shift = now.wall_pose(Some(0)).shift[0][0];
+    let shift = now.wall_pose("tank")?.shift[0][0];
     let forces = now.wall_particle_forces();
     let at_ends = forces
         .iter()
         .filter(|(x, _)| !(0.0..=case.size[0]).contains(&(x[0] - shift)));
-    Ends {
+    Ok(Ends {
         time: now.time(),
         sensed: pressures.iter().zip(outwards).map(|(p, a)| p * a).sum(),
         felt: at_ends.map(|(_, force)| force[0]).sum(),
-        tank: now.wall_force(0)[0],
-    }
+        tank: now.wall_force("tank")?[0],
+    })
 }
 
-fn far_wall<T: Real>(case: &Case, now: &Simulation<T, 3>) -> FarWall {
+fn far_wall<T: Real>(case: &Case, now: &Simulation<T, 3>) -> Result<FarWall, Error> {
     let h = now.smoothing_length();
     let mass = case.mass() / now.particles() as f64;
     let mut found = FarWall {
@@ -278,7 +285,7 @@ fn far_wall<T: Real>(case: &Case, now: &Simulation<T, 3>) -> FarWall {
         lowest: f64::INFINITY,
         ..FarWall::default()
     };
-    for (x, pressure) in in_tank(now) {
+    for (x, pressure) in in_tank(now)? {
         if x[0] < h {
             found.wetted = found.wetted.max(x[2]);
             found.lowest = found.lowest.min(pressure);
@@ -287,12 +294,12 @@ fn far_wall<T: Real>(case: &Case, now: &Simulation<T, 3>) -> FarWall {
             found.film += mass;
         }
     }
-    let shift = now.wall_pose(Some(0)).shift[0][0];
+    let shift = now.wall_pose("tank")?.shift[0][0];
     let walls = now
-        .wall(0)
+        .wall("tank")?
         .filter(|particle| particle.position()[0] - shift < 0.0);
     found.lowest = walls.fold(found.lowest, |least, wall| least.min(wall.pressure()));
-    found
+    Ok(found)
 }
 
 /// Surface, picture and particles at 38 ms.
@@ -313,7 +320,7 @@ fn snapshot<T: Real>(
         .particles(
             Axis::linear("pressure", "kPa").range(0.0, top.max(1.0)),
             case.spacing,
-            in_tank(now).map(|(x, p)| (x, 1e-3 * p)),
+            in_tank(now)?.map(|(x, p)| (x, 1e-3 * p)),
         )
         .edges([0.0; 3], case.size);
     picture.save(folder.join("particles_38ms.svg"))?;
@@ -357,13 +364,13 @@ impl Files {
     }
 
     fn frame<T: Real>(&mut self, now: &Simulation<T, 3>) -> Result<(), Error> {
-        let velocity = now.wall_pose(Some(0)).shift[1];
+        let velocity = now.wall_pose("tank")?.shift[1];
         let relative = now.all().map(|particle| {
             let v = particle.velocity();
             core::array::from_fn::<f32, 3, _>(|d| (v[d] - velocity[d]) as f32)
         });
-        let vtu = Vtu::new(in_tank(now).map(|(x, _)| x.map(|x| x as f32)))
-            .scalar("pressure_pa", in_tank(now).map(|(_, p)| p as f32))
+        let vtu = Vtu::new(in_tank(now)?.map(|(x, _)| x.map(|x| x as f32)))
+            .scalar("pressure_pa", in_tank(now)?.map(|(_, p)| p as f32))
             .vector("velocity_in_tank_m_s", relative)
             .time(now.time());
         self.movie.frame(now.time(), &vtu).map(|_| ())

@@ -26,16 +26,16 @@ pub struct Space {
 }
 
 impl Occupancy {
-    pub fn of<T: Real>(case: &Case, now: &Simulation<T, 3>) -> Self {
-        let shift = now.wall_pose(Some(0)).shift[0];
+    pub fn of<T: Real>(case: &Case, now: &Simulation<T, 3>) -> Result<Self, Error> {
+        let shift = now.wall_pose("tank")?.shift[0];
         let water = now.all().map(|particle| (particle, false));
-        let walls = now.wall(0).map(|particle| (particle, true));
+        let walls = now.wall("tank")?.map(|particle| (particle, true));
         let particles = water.chain(walls).map(|(particle, wall)| {
             let x = particle.position();
             let place = core::array::from_fn(|d| x[d] - shift[d]);
             (place, particle.mass() / particle.density(), wall)
         });
-        Self::of_particles(case, now.smoothing_length(), particles)
+        Ok(Self::of_particles(case, now.smoothing_length(), particles))
     }
 
     /// Of particles with a place in the tank \[m\] and a volume \[m³\], and whether they are of a wall.

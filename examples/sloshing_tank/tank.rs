@@ -157,7 +157,7 @@ impl Case {
             let normal = self.normal(probe)?;
             let name = format!("{},{},{}", probe[0], probe[1], probe[2]);
             let sensor = PressureProbe::disc(simulation, &name, *probe, normal, SENSOR);
-            Some(sensor.and_then(|sensor| sensor.on_wall(0)))
+            Some(sensor.and_then(|sensor| sensor.on_wall("tank")))
         };
         self.probes.iter().filter_map(sensor).collect()
     }

@@ -304,7 +304,7 @@ mod tests {
             .unwrap();
         let dt = two.step().unwrap();
         for (body, modulus) in [(0, 1e6), (1, 4e6)] {
-            let middle = two.body(body).nth(25).unwrap();
+            let middle = two.body(body).unwrap().nth(25).unwrap();
             let stress = middle.tensor(Hypoelastic::STRESS).unwrap();
             let [xx, yy, zz, ..] = *stress.components();
             let exact = 4.0 / 3.0 * modulus * dt;

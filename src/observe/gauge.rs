@@ -5,7 +5,7 @@ use super::place::{Place, refused};
 use super::{normalisation, weight};
 use crate::error::Result;
 use crate::scalar::Real;
-use crate::simulation::Simulation;
+use crate::simulation::{Simulation, Which};
 
 /// A gauge that measures from its foot along an axis.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,12 +36,12 @@ impl<const D: usize> WaveGauge<D> {
         Ok(Self { foot, axis })
     }
 
-    /// Fixes its foot to a wall, by its index; the axis keeps its direction.
+    /// Fixes its foot to a wall; the axis keeps its direction.
     ///
     /// # Errors
-    /// If the scene does not have that wall.
-    pub fn on_wall(self, wall: usize) -> Result<Self> {
-        let foot = self.foot.on_wall(wall)?;
+    /// If the scene does not have that wall; the error lists those that it has.
+    pub fn on_wall(self, wall: impl Which) -> Result<Self> {
+        let foot = self.foot.on_wall(&wall)?;
         Ok(Self { foot, ..self })
     }
 

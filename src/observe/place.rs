@@ -4,16 +4,17 @@
 use crate::boundary::Pose;
 use crate::error::{Error, Problem, Result};
 use crate::scalar::Real;
-use crate::simulation::Simulation;
+use crate::simulation::{Simulation, Which, find};
 
 /// A place in the scene as built.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Place<const D: usize> {
     pub name: String,
     pub point: [f64; D],
+    /// The index of the wall that it moves with.
     pub wall: Option<usize>,
-    /// Walls of the scene.
-    pub walls: usize,
+    /// Names of the walls of the scene.
+    pub walls: Vec<String>,
 }
 
 impl<const D: usize> Place<D> {
@@ -59,25 +60,23 @@ impl<const D: usize> Place<D> {
             name: name.into(),
             point,
             wall: None,
-            walls: simulation.walls().count(),
+            walls: simulation.walls().map(Into::into).collect(),
         })
     }
 
-    /// The same place on a wall, by its index.
-    pub fn on_wall(self, wall: usize) -> Result<Self> {
-        if wall >= self.walls {
-            let must_be = "it must be the index of a wall of the scene, 0 for the first";
-            return Err(refused(&self.name, "wall", wall as f64, must_be));
-        }
+    /// The same place on a wall.
+    pub fn on_wall(self, wall: &impl Which) -> Result<Self> {
+        let (index, ()) = find(wall, "wall", self.walls.iter().map(|name| (name, ())))?;
         Ok(Self {
-            wall: Some(wall),
+            wall: Some(index),
             ..self
         })
     }
 
-    /// Where its wall is now.
+    /// Where its wall is now; as built in a simulation that does not have it.
     pub fn pose<T: Real>(&self, simulation: &Simulation<T, D>) -> Pose<D> {
-        simulation.wall_pose(self.wall)
+        let pose = self.wall.map(|wall| simulation.wall_pose(wall));
+        pose.and_then(Result::ok).unwrap_or_else(Pose::rest)
     }
 }
 

@@ -6,7 +6,7 @@ use super::{normalisation, weight};
 use crate::error::Result;
 use crate::geometry::POSITIVE;
 use crate::scalar::Real;
-use crate::simulation::Simulation;
+use crate::simulation::{Simulation, Which};
 use crate::tensor::{Vector, length};
 
 /// Share of the kernel above which a place counts as full of liquid and wall: what full places have, less
@@ -55,12 +55,12 @@ impl<const D: usize> PressureProbe<D> {
         })
     }
 
-    /// Fixes it to a wall, by its index, whose motion it follows.
+    /// Fixes it to a wall whose motion it follows.
     ///
     /// # Errors
-    /// If the scene does not have that wall.
-    pub fn on_wall(self, wall: usize) -> Result<Self> {
-        let centre = self.centre.on_wall(wall)?;
+    /// If the scene does not have that wall; the error lists those that it has.
+    pub fn on_wall(self, wall: impl Which) -> Result<Self> {
+        let centre = self.centre.on_wall(&wall)?;
         Ok(Self { centre, ..self })
     }
 
@@ -233,7 +233,7 @@ mod tests {
                 name: "p".into(),
                 point: [1.0, 2.0, 3.0],
                 wall: None,
-                walls: 0,
+                walls: Vec::new(),
             },
             normal: [0.0, 0.6, 0.8],
             diameter: 0.2,

@@ -233,7 +233,7 @@ impl<T: Real, const D: usize> Body<T, D> {
     /// let simulation = Scene::<f64, 1>::new(schemes::impact().with(Dye))
     ///     .body(Body::block("rod", catalogue::copper(), [0.0], [0.01], 1e-3).field(DYE, |[x]| [100.0 * x]))
     ///     .build()?;
-    /// assert!((simulation.body(0).last().and_then(|p| p.scalar(DYE)).unwrap_or(0.0) - 0.95).abs() < 1e-12);
+    /// assert!((simulation.all().last().and_then(|p| p.scalar(DYE)).unwrap_or(0.0) - 0.95).abs() < 1e-12);
     /// # Ok::<(), Error>(())
     /// ```
     #[must_use]

@@ -83,7 +83,7 @@ use std::sync::Arc;
 ///     .body(Body::block("target", catalogue::copper(), [0.01], [0.05], 2e-4))
 ///     .build()?;
 /// simulation.run_until(2.5e-6)?;
-/// let middle = simulation.body(0).nth(25).map(|particle| particle.pressure());
+/// let middle = simulation.body("striker")?.nth(25).map(|particle| particle.pressure());
 /// assert!((middle.unwrap_or(0.0) / 353e6 - 1.0).abs() < 0.01);
 /// # Ok::<(), meshfree::error::Error>(())
 /// ```

@@ -137,7 +137,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             return moving()
                 .map(|(k, motion)| {
                     let v = motion.pose(time).shift[1];
-                    let force = self.wall_force(k);
+                    let force = self.force_on_wall(k);
                     (0..D).map(|d| -force[d] * v[d]).sum::<f64>()
                 })
                 .sum();

@@ -2,8 +2,8 @@
 //! What is asked for and is not there is an error that lists what is.
 
 use super::group::Group;
-use super::query::views;
-use super::{ParticleView, Simulation};
+use super::which::{Which, find};
+use super::{ParticleView, ParticleViews, Simulation};
 use crate::error::{Error, Problem, Result};
 use crate::particles::{Field, Shape};
 use crate::scalar::Real;
@@ -108,7 +108,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let columns = &group.particles.columns;
             !columns.raw(field).is_empty() && group.scheme.program.name_of(field).0 == name
         });
-        Ok((name, own.flat_map(views)))
+        Ok((name, own.flat_map(ParticleViews::of_body)))
     }
 
     /// Sets a field of all particles of a body between steps, as a function of position \[m\] and present value;
@@ -124,7 +124,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     ///     .build()?;
     /// // A spot is heated by 1 kJ/kg.
     /// simulation.set_field("rod", Field::ENERGY, |[x], [e]| [if x < 0.001 { e + 1000.0 } else { e }])?;
-    /// let energy: Vec<_> = simulation.body(0).map(|particle| particle.energy()).collect();
+    /// let energy: Vec<_> = simulation.body("rod")?.map(|particle| particle.energy()).collect();
     /// assert_eq!((energy[0], energy[49]), (1000.0, 0.0));
     /// # Ok::<(), Error>(())
     /// ```
@@ -134,22 +134,15 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// value is not finite; nothing is changed then.
     pub fn set_field<const N: usize>(
         &mut self,
-        body: &str,
+        body: impl Which,
         field: Field,
         value: impl Fn([f64; D], [f64; N]) -> [f64; N],
     ) -> Result<()> {
-        let found = self.groups.iter().enumerate().find_map(|(k, group)| {
-            let mut bodies = group.particles.bodies.iter();
-            Some((k, bodies.position(|own| own.name == body)?))
+        let all = self.groups.iter().enumerate().flat_map(|(group, own)| {
+            let bodies = own.particles.bodies.iter().enumerate();
+            bodies.map(move |(own, body)| (&body.name, (group, own)))
         });
-        let Some((group, own)) = found else {
-            let known: Vec<_> = self.bodies().collect();
-            return Err(Error::Argument(Problem::UnknownName {
-                kind: "body",
-                name: body.into(),
-                known: known.join(", "),
-            }));
-        };
+        let (_, (group, own)) = find(&body, "body", all)?;
         let group = &mut self.groups[group];
         let program = &group.scheme.program;
         if let Some(problem) = program.cannot_set(field, N) {
@@ -165,7 +158,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             if let Some(wrong) = values.iter().find(|value| !value.is_finite()) {
                 let (name, unit) = program.name_of(field);
                 return Err(Error::Argument(Problem::Parameter {
-                    what: format!("{name} [{unit}] of body `{body}` at {x:?} m"),
+                    what: format!(
+                        "{name} [{unit}] of body `{}` at {x:?} m",
+                        group.particles.bodies[own].name
+                    ),
                     value: *wrong,
                     must_be: "it must be finite",
                 }));

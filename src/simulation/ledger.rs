@@ -4,8 +4,11 @@
 use super::Simulation;
 use super::group::Group;
 use super::population::BodyState;
+use super::which::{Which, find};
+use crate::error::Result;
 use crate::particles::Field;
 use crate::scalar::Real;
+use std::borrow::Cow;
 
 /// Mass, momentum and energy of a body, or of all.
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -235,23 +238,34 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
     }
 
-    /// The momentum \[kg m/s\] that bodies have given a wall since the start, by the wall's index.
-    #[must_use]
-    pub fn wall_impulse(&self, wall: usize) -> [f64; D] {
+    /// The momentum \[kg m/s\] that bodies have given a wall since the start.
+    ///
+    /// # Errors
+    /// If there is no such wall; the error lists those that there are.
+    pub fn wall_impulse(&self, wall: impl Which) -> Result<[f64; D]> {
+        let (wall, _) = self.wall_of(&wall)?;
         let bodies = self.body_count();
-        core::array::from_fn(|d| {
+        Ok(core::array::from_fn(|d| {
             (0..bodies)
                 .map(|on| -self.impulses.get(self.impulse_index(on, bodies + wall, d)))
                 .sum()
-        })
+        }))
     }
 
-    /// The force \[N\] that bodies exert on a wall at the last evaluation, by the wall's index.
-    #[must_use]
-    pub fn wall_force(&self, wall: usize) -> [f64; D] {
+    /// The force \[N\] that bodies exert on a wall at the last evaluation.
+    ///
+    /// # Errors
+    /// If there is no such wall; the error lists those that there are.
+    pub fn wall_force(&self, wall: impl Which) -> Result<[f64; D]> {
+        let (wall, _) = self.wall_of(&wall)?;
+        Ok(self.force_on_wall(wall))
+    }
+
+    /// The same of the wall with an index that there is.
+    pub(super) fn force_on_wall(&self, wall: usize) -> [f64; D] {
         let bodies = self.body_count();
         (0..bodies).fold([0.0; D], |mut sum, on| {
-            let force = self.force_between(on, bodies + wall);
+            let force = self.force_of_block(on, bodies + wall);
             for d in 0..D {
                 sum[d] -= force[d];
             }
@@ -259,10 +273,45 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         })
     }
 
-    /// The force \[N\] that body, wall or boundary `from` exerts on body `on` at the last evaluation, by
-    /// index: bodies in the order of the scene, then walls, then boundaries.
-    #[must_use]
-    pub fn force_between(&self, on: usize, from: usize) -> [f64; D] {
+    /// The force \[N\] that body, wall or boundary `from` exerts on body `on` at the last evaluation. Indices count
+    /// bodies in the order of the scene, then walls, then boundaries. A structure, which is a wall to the liquids of a
+    /// scene, is the body that it is.
+    ///
+    /// ```
+    /// use meshfree::prelude::*;
+    /// let mut simulation = Scene::<f64, 1>::new(schemes::impact())
+    ///     .body(Body::block("striker", catalogue::copper(), [0.0], [0.01], 2e-4).velocity([20.0]))
+    ///     .body(Body::block("target", catalogue::copper(), [0.01], [0.05], 2e-4))
+    ///     .build()?;
+    /// simulation.run_until(1e-6)?;
+    /// let (on, back) = (
+    ///     simulation.force_between("target", "striker")?,
+    ///     simulation.force_between("striker", "target")?,
+    /// );
+    /// assert!(on[0] > 0.0 && (on[0] + back[0]).abs() < 1e-12 * on[0]);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If there is no such body, wall or boundary; the error lists those that there are.
+    pub fn force_between(&self, on: impl Which, from: impl Which) -> Result<[f64; D]> {
+        let named = self.bodies().chain(self.walls()).map(Cow::Borrowed);
+        let boundaries = self.groups[0].boundaries.iter();
+        let boundaries = boundaries.map(|boundary| Cow::Owned(boundary.name()));
+        let blocks = || {
+            named
+                .clone()
+                .chain(boundaries.clone())
+                .map(|name| (name, ()))
+        };
+        let kind = "body, wall or boundary";
+        let (on, ()) = find(&on, kind, blocks())?;
+        let (from, ()) = find(&from, kind, blocks())?;
+        Ok(self.force_of_block(on, from))
+    }
+
+    /// The force \[N\] of a block on another, by scene indices.
+    fn force_of_block(&self, on: usize, from: usize) -> [f64; D] {
         let mut force = [0.0; D];
         let apart = (0..self.groups.len()).filter(|&k| self.groups[k].sub_cycle.is_some());
         let alone = apart.flat_map(|group| self.reactions(Some(group)));

@@ -36,7 +36,8 @@
 //! # Questions about particles
 //!
 //! [`Simulation::body`] runs over the particles of a body in the order in which the scene placed them,
-//! although they are sorted in memory, so the n-th is the same particle throughout.
+//! although they are sorted in memory, so the n-th is the same particle throughout. Bodies and walls are asked for by
+//! name or by index ([`Which`]), and one that the scene does not have is an error.
 //! [`Simulation::run_with`] shows the simulation to a closure after every step:
 //!
 //! ```
@@ -47,8 +48,8 @@
 //!     .build()?;
 //! let mut history = Vec::new();
 //! simulation.run_with(1e-6, |now| {
-//!     let wall = now.body(0).last().map_or(0.0, |particle| particle.pressure());
-//!     history.push((now.time(), wall));
+//!     let pressure = now.all().last().map_or(0.0, |particle| particle.pressure());
+//!     history.push((now.time(), pressure));
 //! })?;
 //! let (_, pressure) = history[history.len() - 1];
 //! assert!((pressure / 709e6 - 1.0).abs() < 0.02, "{pressure}");
@@ -133,6 +134,7 @@ mod stages;
 mod state;
 mod sub_cycle;
 mod walls;
+mod which;
 mod workspace;
 
 pub use control::{Criterion, StepControl, Vote};
@@ -140,7 +142,9 @@ pub use cost::{Cost, CostLine};
 pub use energy::EnergyLedger;
 pub use ledger::{Budget, Ledger, Total};
 pub use phases::Phases;
-pub use query::ParticleView;
+pub use query::{ParticleView, ParticleViews};
+pub use which::Which;
+pub(crate) use which::find;
 
 pub(crate) use couplings::{Couple, Structure};
 pub(crate) use group::{Group, width};

@@ -1,16 +1,19 @@
-//! Questions about particles: by body, in the order in which the scene placed them.
+//! Questions about particles: by body or wall, in the order in which the scene placed them.
 //! Values come out as `f64`, whatever the scalar of the simulation.
 
 use super::Simulation;
 use super::group::Group;
 use super::population::{BodyState, Removed};
 use super::walls::WallState;
+use super::which::{Which, find};
 use crate::boundary::Pose;
+use crate::error::Result;
 use crate::material::eos::GuardCounts;
 use crate::particles::{Field, Output, Shape};
 use crate::scalar::Real;
 use crate::scheme::Scheme;
 use crate::sweep::Rows;
+use std::ops::Range;
 
 /// A particle as it is now.
 #[derive(Clone, Copy, Debug)]
@@ -82,6 +85,40 @@ impl<T: Real, const D: usize> ParticleView<'_, T, D> {
     }
 }
 
+/// The particles of a body or of a wall, in the order in which the scene placed them.
+#[derive(Clone, Debug)]
+pub struct ParticleViews<'a, T: Real, const D: usize> {
+    group: &'a Group<T, D>,
+    /// Where those are that are still to come.
+    slots: core::slice::Iter<'a, u32>,
+}
+
+impl<'a, T: Real, const D: usize> ParticleViews<'a, T, D> {
+    /// Those with some of the numbers that the group has given.
+    fn new(group: &'a Group<T, D>, ids: Range<usize>) -> Self {
+        let slots = group.particles.slot_of[ids].iter();
+        Self { group, slots }
+    }
+
+    /// Those of a body.
+    pub(super) fn of_body((group, body): (&'a Group<T, D>, &BodyState<T>)) -> Self {
+        Self::new(group, body.ids.clone())
+    }
+}
+
+impl<'a, T: Real, const D: usize> Iterator for ParticleViews<'a, T, D> {
+    type Item = ParticleView<'a, T, D>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        // Those that have left are nowhere.
+        let slot = self.slots.find(|&&slot| slot != u32::MAX)?;
+        Some(ParticleView {
+            group: self.group,
+            slot: *slot as usize,
+        })
+    }
+}
+
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// Number of particles.
     #[must_use]
@@ -93,7 +130,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     /// Every body with its group, in the order of the scene.
-    pub(super) fn all_bodies(&self) -> impl Iterator<Item = (&Group<T, D>, &BodyState<T>)> {
+    pub(super) fn all_bodies(&self) -> impl Iterator<Item = (&Group<T, D>, &BodyState<T>)> + Clone {
         let groups = self.groups.iter();
         groups.flat_map(|group| group.particles.bodies.iter().map(move |body| (group, body)))
     }
@@ -107,14 +144,19 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Names of the bodies, in the order of the scene: those of its own scheme, then those of other
     /// [groups](crate::scene::Scene::group).
-    pub fn bodies(&self) -> impl Iterator<Item = &str> {
+    pub fn bodies(&self) -> impl Iterator<Item = &str> + Clone {
         self.all_bodies().map(|(_, body)| body.name.as_str())
     }
 
-    /// The particles of a body, by its index, in the order in which the scene placed them; those that
-    /// have left through an outlet are missing.
-    pub fn body(&self, body: usize) -> impl Iterator<Item = ParticleView<'_, T, D>> {
-        self.all_bodies().nth(body).into_iter().flat_map(views)
+    /// The particles of a body in the order in which the scene placed them; those that have left through an outlet
+    /// are missing.
+    ///
+    /// # Errors
+    /// If there is no such body; the error lists those that there are.
+    pub fn body(&self, body: impl Which) -> Result<ParticleViews<'_, T, D>> {
+        let all = self.all_bodies().map(|own| (&own.1.name, own));
+        let (_, found) = find(&body, "body", all)?;
+        Ok(ParticleViews::of_body(found))
     }
 
     /// Sets every velocity \[m/s\] as a function of position \[m\] and present velocity, between steps.
@@ -131,7 +173,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// All particles, body after body.
     pub fn all(&self) -> impl Iterator<Item = ParticleView<'_, T, D>> {
-        self.all_bodies().flat_map(views)
+        self.all_bodies().flat_map(ParticleViews::of_body)
     }
 
     pub(super) fn wall_count(&self) -> usize {
@@ -150,28 +192,42 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         })
     }
 
-    /// Names of the walls, in the order of the scene.
-    pub fn walls(&self) -> impl Iterator<Item = &str> {
-        let walls = (0..self.wall_count()).filter_map(|index| self.find_wall(index));
-        walls.map(|(_, wall)| wall.name.as_str())
+    /// Every wall with the first group of liquids that meets it, in the order of the scene.
+    fn all_walls(&self) -> impl Iterator<Item = (&Group<T, D>, &WallState<T, D>)> + Clone {
+        (0..self.wall_count()).filter_map(|index| self.find_wall(index))
     }
 
-    /// The particles of a wall, by its index, in the order of memory; in a scene of several liquids as
-    /// the first of them meets it.
-    pub fn wall(&self, wall: usize) -> impl Iterator<Item = ParticleView<'_, T, D>> {
-        let found = self.find_wall(wall).into_iter();
-        found.flat_map(|(group, wall)| {
-            let slots = wall.slots.clone();
-            slots.map(move |slot| ParticleView { group, slot })
-        })
+    /// The index and the state of a wall.
+    pub(super) fn wall_of(
+        &self,
+        wall: &impl Which,
+    ) -> Result<(usize, (&Group<T, D>, &WallState<T, D>))> {
+        find(wall, "wall", self.all_walls().map(|own| (&own.1.name, own)))
+    }
+
+    /// Names of the walls, in the order of the scene, then those of the buffers of inlets.
+    pub fn walls(&self) -> impl Iterator<Item = &str> + Clone {
+        self.all_walls().map(|(_, wall)| wall.name.as_str())
+    }
+
+    /// The particles of a wall in the order in which the scene placed them; in a scene of several liquids as the first
+    /// of them meets it.
+    ///
+    /// # Errors
+    /// If there is no such wall; the error lists those that there are.
+    pub fn wall(&self, wall: impl Which) -> Result<ParticleViews<'_, T, D>> {
+        let (_, (group, wall)) = self.wall_of(&wall)?;
+        Ok(ParticleViews::new(group, wall.slots.clone()))
     }
 
     /// Where a wall is now: the pose of its motion; at rest without one.
-    #[must_use]
-    pub fn wall_pose(&self, wall: Option<usize>) -> Pose<D> {
-        wall.and_then(|wall| self.find_wall(wall))
-            .and_then(|(_, wall)| wall.motion.as_ref())
-            .map_or_else(Pose::rest, |motion| motion.pose(self.time))
+    ///
+    /// # Errors
+    /// If there is no such wall; the error lists those that there are.
+    pub fn wall_pose(&self, wall: impl Which) -> Result<Pose<D>> {
+        let (_, (_, wall)) = self.wall_of(&wall)?;
+        let motion = wall.motion.as_ref();
+        Ok(motion.map_or_else(Pose::rest, |motion| motion.pose(self.time)))
     }
 
     /// The groups that observers read: those of liquids, which meet all other bodies as walls, or all.
@@ -346,16 +402,4 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub fn integrator_name(&self) -> String {
         self.integrator.name()
     }
-}
-
-/// The particles of a body in the order of the scene.
-pub(super) fn views<'a, T: Real, const D: usize>(
-    (group, body): (&'a Group<T, D>, &'a BodyState<T>),
-) -> impl Iterator<Item = ParticleView<'a, T, D>> {
-    let slots = body.ids.clone().map(|id| group.particles.slot_of[id]);
-    let there = slots.filter(|&slot| slot != u32::MAX);
-    there.map(|slot| ParticleView {
-        group,
-        slot: slot as usize,
-    })
 }

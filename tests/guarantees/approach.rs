@@ -120,9 +120,9 @@ fn what_is_not_in_reach_yet_does_not_jump_over_what_it_meets() {
         .build()
         .unwrap();
     simulation.run_until(0.15).unwrap();
-    let edge = simulation.body(0).last().unwrap().position()[0];
+    let edge = simulation.body(0).unwrap().last().unwrap().position()[0];
     assert!(edge < 0.01, "{edge}");
-    assert!(simulation.body(1).all(|p| p.position()[0] > edge));
+    assert!(simulation.body(1).unwrap().all(|p| p.position()[0] > edge));
 }
 
 const DX: f64 = 0.01;

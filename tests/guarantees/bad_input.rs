@@ -573,6 +573,40 @@ fn inlets_that_make_no_sense() {
 }
 
 #[test]
+fn bodies_and_walls_that_are_not_there() {
+    let tank = Wall::around("tank", [0.0; 2], [0.2, 0.1], 0.01, 3, [[true; 2]; 2]);
+    let tank = pool().wall(tank).build().unwrap();
+    let open = pool().build().unwrap();
+    let of = |error: Option<Error>| error.map(|error| error.to_string()).unwrap_or_default();
+    let body = "there is no body called `ice`: the scene has water";
+    assert_eq!(of(tank.body("ice").err()), body);
+    // A wall is no body, whatever asks for one.
+    let (name, wall) = (
+        String::from("tank"),
+        "there is no body called `tank`: the scene has water",
+    );
+    assert_eq!(of(tank.body(&name).err()), wall);
+    let index = "there is no wall with the index 1: the scene has tank, counted from 0";
+    assert_eq!(of(tank.wall(1).err()), index);
+    assert_eq!(of(tank.wall_force(1).err()), index);
+    assert_eq!(of(tank.wall_impulse(1).err()), index);
+    assert_eq!(of(tank.wall_pose(1).err()), index);
+    let none = "there is no wall called `tank`: the scene has none";
+    assert_eq!(of(open.wall("tank").err()), none);
+    let block = "there is no body, wall or boundary with the index 2: the scene has water, tank, counted from 0";
+    assert_eq!(of(tank.force_between(0, 2).err()), block);
+    let [by_name, by_index] = [
+        tank.force_between("water", "tank"),
+        tank.force_between(0, 1),
+    ];
+    assert_eq!(by_name.unwrap(), by_index.unwrap());
+    assert_eq!(
+        tank.wall("tank").unwrap().count(),
+        tank.wall(0).unwrap().count()
+    );
+}
+
+#[test]
 fn observers_that_would_read_nothing() {
     let closed = [[true; 2]; 2];
     let tank = Wall::around("tank", [0.0; 2], [0.2, 0.1], 0.01, 3, closed);
@@ -609,8 +643,10 @@ fn observers_that_would_read_nothing() {
         let advice = "near the bodies and walls of the scene as built";
         refused(error, "of observer `p`", advice);
     }
+    assert!(probe(place, normal, 0.01).unwrap().on_wall("tank").is_ok());
     let error = probe(place, normal, 0.01).unwrap().on_wall(1).unwrap_err();
-    refused(error, "wall of observer `p`", "index of a wall");
+    let missing = "there is no wall with the index 1: the scene has tank, counted from 0";
+    assert_eq!(error.to_string(), missing);
 
     let gauge = |foot: [f64; 2], axis: usize| WaveGauge::upwards(&tank, "h", foot, axis);
     // Heights may count from anywhere below.
@@ -621,8 +657,9 @@ fn observers_that_would_read_nothing() {
     refused(error, "position of observer `h`", "finite");
     let error = gauge([0.3, 0.0], 1).unwrap_err();
     refused(error, "coordinate 0 of observer `h`", "near the bodies");
-    let error = gauge([0.1, 0.0], 1).unwrap().on_wall(7).unwrap_err();
-    refused(error, "wall of observer `h`", "index of a wall");
+    let error = gauge([0.1, 0.0], 1).unwrap().on_wall("lid").unwrap_err();
+    let missing = "there is no wall called `lid`: the scene has tank";
+    assert_eq!(error.to_string(), missing);
 
     // Without walls liquid can come anywhere.
     assert!(WaveGauge::upwards(&open, "far", [9.0, 0.0], 1).is_ok());
@@ -912,7 +949,7 @@ fn a_smoothing_length_that_sees_one_side_of_a_contact() {
     let bonded = scheme().between_bodies(Interaction::Bonded);
     let bonded = Scene::<f64, 1>::new(bonded).body(rod()).body(other(0.02));
     let bonded = bonded.build().unwrap();
-    let at = |k: usize| bonded.body(0).nth(k).unwrap().density();
+    let at = |k: usize| bonded.body(0).unwrap().nth(k).unwrap().density();
     assert!((at(19) / at(10) - 1.0).abs() < 1e-9);
 }
 

@@ -55,7 +55,7 @@ fn said<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Vec<u64> {
     ];
     all.extend(simulation.limits().iter().map(|limit| limit.1));
     let walls = simulation.walls().count();
-    let of_walls = (0..walls).flat_map(|wall| simulation.wall(wall));
+    let of_walls = (0..walls).flat_map(|wall| simulation.wall(wall).unwrap());
     for particle in simulation.all().chain(of_walls) {
         all.push(particle.id() as u64);
         all.extend(particle.position().map(f64::to_bits));
@@ -71,8 +71,8 @@ fn said<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Vec<u64> {
         all.extend([budget.mass, budget.kinetic, budget.internal].map(f64::to_bits));
     }
     for wall in 0..walls {
-        all.extend(simulation.wall_impulse(wall).map(f64::to_bits));
-        all.extend(simulation.wall_force(wall).map(f64::to_bits));
+        all.extend(simulation.wall_impulse(wall).unwrap().map(f64::to_bits));
+        all.extend(simulation.wall_force(wall).unwrap().map(f64::to_bits));
     }
     for (x, force) in simulation.wall_particle_forces() {
         all.extend(x.into_iter().chain(force).map(f64::to_bits));

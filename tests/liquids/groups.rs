@@ -40,6 +40,7 @@ fn a_plate_that_strikes_water_matches_impedances() {
     let mean = |body: usize, low: f64, high: f64, of: fn(&[f64; 2]) -> f64| {
         let near = simulation
             .body(body)
+            .unwrap()
             .filter(|particle| (low..high).contains(&particle.position()[0]));
         let values: Vec<f64> = near
             .map(|particle| of(&[particle.velocity()[0], particle.pressure()]))
@@ -87,8 +88,8 @@ fn a_block_bears_the_water_that_stands_on_it() {
         .run_with(1.2, |now| {
             if now.time() > 0.6 {
                 samples += 1.0;
-                forces[0] += now.force_between(0, 1)[1];
-                forces[1] += now.force_between(1, 3)[1];
+                forces[0] += now.force_between(0, 1).unwrap()[1];
+                forces[1] += now.force_between(1, 3).unwrap()[1];
             }
         })
         .unwrap();
@@ -104,6 +105,7 @@ fn a_block_bears_the_water_that_stands_on_it() {
     );
     let top = simulation
         .body(0)
+        .unwrap()
         .map(|p| p.position()[1])
         .fold(0.0, f64::max);
     assert!(
@@ -145,7 +147,10 @@ fn momentum_is_kept_to_rounding_and_forces_are_opposite() {
     let mut largest = 0.0_f64;
     simulation
         .run_with(0.05, |now| {
-            let [on, from] = [now.force_between(0, 1), now.force_between(1, 0)];
+            let [on, from] = [
+                now.force_between(0, 1).unwrap(),
+                now.force_between(1, 0).unwrap(),
+            ];
             for d in 0..2 {
                 opposite = opposite.max((on[d] + from[d]).abs());
                 largest = largest.max(on[d].abs());
@@ -212,9 +217,10 @@ fn a_finer_block_stops_a_drop() {
     assert!((ledger.whole.momentum[2] / before - 1.0).abs() < 1e-5);
     assert!(ledger.bodies[1].1.momentum[2] < 0.1 * before);
     // The block is dented; what stands in a column of it lies above all of it.
-    for drop in simulation.body(0).map(|p| p.position()) {
+    for drop in simulation.body(0).unwrap().map(|p| p.position()) {
         let below = simulation
             .body(1)
+            .unwrap()
             .map(|p| p.position())
             .filter(|x| (0..2).all(|d| (x[d] - drop[d]).abs() < 0.004));
         for x in below {
@@ -266,7 +272,12 @@ fn groups_that_do_not_meet_are_simulations_of_their_own() {
     let numbers: std::collections::HashSet<usize> = both.all().map(|p| p.id()).collect();
     assert_eq!((both.particles(), numbers.len()), (150, 150));
     assert_eq!(both.bytes(), liquid.bytes() + solid.bytes());
-    let energy = |body: usize| both.body(body).next().and_then(|p| p.scalar(Field::ENERGY));
+    let energy = |body: usize| {
+        both.body(body)
+            .unwrap()
+            .next()
+            .and_then(|p| p.scalar(Field::ENERGY))
+    };
     assert_eq!(
         energy(0),
         None,

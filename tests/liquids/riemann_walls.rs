@@ -41,7 +41,7 @@ fn rebound<T: Real>(riemann: bool, rows: usize, lift: f64, floor: &Wall<2>) -> (
     let before = simulation.ledger().whole.momentum[1];
     simulation.run_until(0.08).unwrap();
     let whole = simulation.ledger().whole;
-    let lack = whole.momentum[1] + simulation.wall_impulse(0)[1] - before;
+    let lack = whole.momentum[1] + simulation.wall_impulse(0).unwrap()[1] - before;
     let leaves = whole.momentum[1] / whole.mass - lift;
     (leaves / SPEED, (lack / (whole.mass * SPEED)).abs())
 }

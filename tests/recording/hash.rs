@@ -81,7 +81,7 @@ pub fn particles<T: Real, const D: usize>(now: &Simulation<T, D>) -> Hash {
     }
     for (index, name) in now.walls().enumerate() {
         name.bytes().for_each(|byte| hash.count(u64::from(byte)));
-        hash.unordered(now.wall(index).map(|own| {
+        hash.unordered(now.wall(index).unwrap().map(|own| {
             let mut hash = Hash::new();
             particle(&mut hash, &own);
             hash
@@ -118,12 +118,12 @@ pub fn balances<T: Real, const D: usize>(now: &Simulation<T, D>) -> Hash {
     hash.numbers(removed.momentum);
     let (bodies, walls) = (now.bodies().count(), now.walls().count());
     for wall in 0..walls {
-        hash.numbers(now.wall_impulse(wall));
-        hash.numbers(now.wall_force(wall));
+        hash.numbers(now.wall_impulse(wall).unwrap());
+        hash.numbers(now.wall_force(wall).unwrap());
     }
     for on in 0..bodies {
         for from in (0..bodies + walls).filter(|&from| from != on) {
-            hash.numbers(now.force_between(on, from));
+            hash.numbers(now.force_between(on, from).unwrap());
         }
     }
     hash.unordered(now.wall_particle_forces().into_iter().map(|(x, force)| {

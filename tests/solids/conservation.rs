@@ -155,7 +155,10 @@ where
     let (e, e0) = (after.ledger().whole, before.ledger().whole);
     let scale = e.kinetic.abs().max(e0.kinetic);
     common::assert_close(e.total_energy(), e0.total_energy(), 1e-12 * scale, "energy");
-    let (there, back) = (after.force_between(0, 1), after.force_between(1, 0));
+    let (there, back) = (
+        after.force_between(0, 1).unwrap(),
+        after.force_between(1, 0).unwrap(),
+    );
     // Forces of pairs are of the order of the pressure over the area of a particle, and cancel.
     let top = after.all().fold(0.0_f64, |m, p| m.max(p.pressure().abs()));
     let strength = top * (SIDES[D - 1] as f64 * DX).powi(D as i32 - 1);

@@ -86,7 +86,12 @@ fn pad(length: f64, until: f64) -> (f64, f64) {
     let mut history = vec![(0.0, 0.0)];
     simulation
         .run_with(until, |simulation| {
-            let middle = simulation.body(0).skip(99).take(2).map(|p| p.pressure());
+            let middle = simulation
+                .body(0)
+                .unwrap()
+                .skip(99)
+                .take(2)
+                .map(|p| p.pressure());
             history.push((simulation.time(), 0.5 * middle.sum::<f64>()));
         })
         .unwrap();

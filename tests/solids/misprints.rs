@@ -25,6 +25,7 @@ fn strike<V: ArtificialViscosity<1>>(viscosity: V) -> f64 {
     let run = simulation.run_with(2e-6, |simulation| {
         let middle = simulation
             .body(0)
+            .unwrap()
             .nth(50)
             .map(|particle| particle.pressure());
         peak = peak.max(middle.unwrap_or(f64::NAN));

@@ -78,7 +78,7 @@ struct History {
 }
 
 fn between(simulation: &Simulation<f64, 1>, body: usize, k: usize) -> f64 {
-    let mut around = simulation.body(body).skip(k - 1).take(2);
+    let mut around = simulation.body(body).unwrap().skip(k - 1).take(2);
     0.5 * around
         .by_ref()
         .map(|particle| particle.pressure())
@@ -96,7 +96,7 @@ fn record(simulation: &mut Simulation<f64, 1>, until: f64) -> History {
             if now.bodies().count() > 1 {
                 history.target.push(between(now, 1, 100));
             }
-            history.contact.push(-now.force_between(0, 1)[0]);
+            history.contact.push(-now.force_between(0, 1).unwrap()[0]);
             let ledger = now.ledger();
             let momentum = ledger.whole.momentum[0] - ledger.boundary_impulse[0] - p0;
             history.momentum = history.momentum.max((momentum / p0).abs());
@@ -171,6 +171,7 @@ fn bars_hold(scheme: impl Fn() -> Scheme<f64, 1>, target: &str, pressure: f64) {
     let velocity = 0.5
         * simulation
             .body(0)
+            .unwrap()
             .skip(99)
             .take(2)
             .map(|p| p.velocity()[0])
@@ -304,7 +305,7 @@ fn a_mirror_wall_is_the_other_half_of_a_symmetric_impact() {
         for until in [2.5e-6, 4e-6, 6e-6] {
             wall.run_until(until).unwrap();
             pair.run_until(until).unwrap();
-            for (a, b) in wall.body(0).zip(pair.body(0)) {
+            for (a, b) in wall.body(0).unwrap().zip(pair.body(0).unwrap()) {
                 worst = worst.max((a.pressure() - b.pressure()).abs() / 709e6);
             }
             println!(
@@ -339,12 +340,13 @@ fn an_interface_that_no_wave_has_reached_feels_nothing() {
         assert!(simulation.all().all(|p| p.pressure() == 0.0));
         // The wave needs 3.8 us through the pad.
         simulation.run_until(3e-6).unwrap();
-        let hit = simulation.body(1).last().unwrap().pressure();
+        let hit = simulation.body(1).unwrap().last().unwrap().pressure();
         assert!(hit > 50e6, "the target was not hit: {hit}");
         let near = simulation
             .body(0)
+            .unwrap()
             .skip(190)
-            .chain(simulation.body(1).take(10));
+            .chain(simulation.body(1).unwrap().take(10));
         let most = near.fold(0.0_f64, |m, p| m.max(p.pressure().abs()));
         println!(
             "stress at the joint ahead of the wave: {:.1e} of the plateau",

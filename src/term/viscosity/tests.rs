@@ -256,7 +256,7 @@ fn medium() -> Material<f64> {
 }
 
 fn coefficient<const D: usize>(simulation: &Simulation<f64, D>, k: usize) -> f64 {
-    let particle = simulation.body(0).nth(k);
+    let particle = simulation.all().nth(k);
     particle
         .and_then(|p| p.scalar(Field::VISCOSITY_COEFFICIENT))
         .unwrap_or(f64::NAN)

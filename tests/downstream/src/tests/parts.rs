@@ -207,7 +207,7 @@ fn a_wall_of_ones_own_carries_the_weight_of_what_rests_on_it() {
         .unwrap();
     let (mut impulse, mut last) = (0.0, 0.0);
     tank.run_with(0.5, |now| {
-        impulse += now.wall_force(0)[1] * (now.time() - last);
+        impulse += now.wall_force(0).unwrap()[1] * (now.time() - last);
         last = now.time();
     })
     .unwrap();
