@@ -314,6 +314,25 @@ pub enum Error {
         /// In which step.
         step: u64,
     },
+    /// A load gave no number to go on with.
+    #[error(
+        "the load ({load}) gave {value} to particle {particle} of body `{body}` at {position:?} m, t = {time} s: its \
+         function must give finite numbers, in m/s² or W/kg, wherever a particle comes"
+    )]
+    Load {
+        /// What it is, and on which body.
+        load: String,
+        /// The value.
+        value: f64,
+        /// The body.
+        body: String,
+        /// The particle's number in the body.
+        particle: usize,
+        /// Where \[m\].
+        position: Vec<f64>,
+        /// When \[s\].
+        time: f64,
+    },
     /// A liquid meets something faster than its sound runs.
     #[error(
         "particle {particle} of body `{body}` meets what is before it at {speed} m/s, and its sound runs at \

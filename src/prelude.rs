@@ -43,7 +43,7 @@ pub use crate::scheme::{DensityForm, EnergyForm, Scheme, SchemeBuilder, Shifting
 #[doc(no_inline)]
 pub use crate::schemes;
 #[doc(no_inline)]
-pub use crate::simulation::{Ledger, Simulation, StepControl};
+pub use crate::simulation::{Ledger, Load, Simulation, StepControl};
 #[doc(no_inline)]
 pub use crate::sweep::Interaction;
 #[doc(no_inline)]

@@ -341,6 +341,10 @@ quantities! {
     DYNAMIC_VISCOSITY, Scalar, "dynamic_viscosity", "Pa s";
     /// Density gradient ∇ρ.
     DENSITY_GRADIENT, Vector, "density_gradient", "kg/m⁴";
+    /// Acceleration by [loads](crate::simulation::Load) that depend on the particle.
+    LOAD_ACCELERATION, Vector, "load_acceleration", "m/s²";
+    /// Rate of specific internal energy by heat sources.
+    LOAD_HEATING, Scalar, "load_heating", "W/kg";
 }
 
 quantities! {

@@ -1,5 +1,5 @@
 //! The fingerprint of a scene: a hash of each of its parts, by which a checkpoint knows its scene again.
-//! What closures do cannot be hashed; of loads their number is, of motions their names.
+//! What closures do cannot be hashed; of loads their number, kind and body is, of motions their names.
 
 use super::{Body, Part, Scene};
 use crate::boundary::Wall;
@@ -20,6 +20,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             contacts,
             couplings,
             sub_cycled,
+            accelerations,
             loads,
             control,
             skin,
@@ -41,6 +42,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
         for wall in walls {
             hash_wall(wall, facing, &mut all_walls);
         }
+        let count = debug(accelerations.len());
+        let all_loads = core::iter::once(count).chain(loads.iter().map(ToString::to_string));
         vec![
             ("schemes", schemes),
             ("bodies", bodies.value()),
@@ -62,7 +65,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
                         .chain([debug(sub_cycled)]),
                 ),
             ),
-            ("the number of loads", of_texts([debug(loads.len())])),
+            ("the loads", of_texts(all_loads)),
             ("the choice of steps", of_texts([debug(control)])),
             ("the skin of neighbour lists", of_texts([debug(skin)])),
         ]

@@ -29,6 +29,14 @@
 //! assert_eq!(wrong.problems().len(), 3);
 //! ```
 //!
+//! # Loads
+//!
+//! | what acts | call | known to walls and density diffusion |
+//! |---|---|---|
+//! | the same acceleration on all particles, by time: gravity, a frame that is shaken | [`Scene::acceleration`] | yes |
+//! | an acceleration by place, velocity, density, body and time: a well, drag, a frame that turns | [`Scene::load`] with [`Load::acceleration`] | no |
+//! | a heat source by the same | [`Scene::load`] with [`Load::heating`] | |
+//!
 //! # Several schemes
 //!
 //! A scheme is what a group of bodies obeys, and [`Scene::group`] adds bodies with one of their own. A
@@ -62,9 +70,10 @@ use crate::error::{BuildError, Error, Problem, Result};
 use crate::integrator::{Integrator, KickDriftKick};
 #[cfg(feature = "checkpoint")]
 use crate::output::checkpoint::Checkpoint;
+use crate::particles::Fields;
 use crate::scalar::Real;
 use crate::scheme::Scheme;
-use crate::simulation::{Load, Simulation, StepControl};
+use crate::simulation::{Load, Simulation, StepControl, UniformLoad};
 use crate::sweep::{InstructionSet, Interaction};
 use plan::Plan;
 #[cfg(feature = "checkpoint")]
@@ -98,6 +107,7 @@ pub struct Scene<T: Real, const D: usize> {
     contacts: Vec<(String, String, Interaction)>,
     couplings: Vec<Coupled<T, D>>,
     sub_cycled: Vec<(String, u32)>,
+    accelerations: Vec<UniformLoad<D>>,
     loads: Vec<Load<D>>,
     control: StepControl,
     skin: Option<f64>,
@@ -140,6 +150,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             contacts: Vec::new(),
             couplings: Vec::new(),
             sub_cycled: Vec::new(),
+            accelerations: Vec::new(),
             loads: Vec::new(),
             control,
             skin: None,
@@ -279,10 +290,21 @@ impl<T: Real, const D: usize> Scene<T, D> {
         self
     }
 
-    /// Adds an acceleration \[m/s²\] that acts on all particles, as a function of time \[s\].
+    /// Adds an acceleration \[m/s²\] that acts on all particles, as a function of time \[s\]: gravity, or that of the
+    /// frame. Walls and density diffusion know it.
     #[must_use]
-    pub fn acceleration(mut self, load: impl Fn(f64) -> [f64; D] + Send + Sync + 'static) -> Self {
-        self.loads.push(Box::new(load));
+    pub fn acceleration(
+        mut self,
+        acceleration: impl Fn(f64) -> [f64; D] + Send + Sync + 'static,
+    ) -> Self {
+        self.accelerations.push(Box::new(acceleration));
+        self
+    }
+
+    /// Adds a load: an acceleration or a heat source that depends on place, velocity, density, body and time.
+    #[must_use]
+    pub fn load(mut self, load: Load<D>) -> Self {
+        self.loads.push(load);
         self
     }
 
@@ -381,11 +403,21 @@ impl<T: Real, const D: usize> Scene<T, D> {
             domain,
             self.integrator,
             self.control,
+            self.accelerations,
             self.loads,
         );
         #[cfg(feature = "checkpoint")]
         let simulation = simulation.of_scene(hashes);
         Ok(simulation)
+    }
+
+    /// Fields of a group: those of its scheme, and those of the loads on its bodies.
+    fn fields_of(&self, scheme: &Scheme<T, D>, bodies: &[Body<T, D>]) -> Fields {
+        let acts = |load: &&Load<D>| bodies.iter().any(|body| load.acts_on(&body.name));
+        let own = self.loads.iter().filter(acts).map(Load::field);
+        own.fold(scheme.fields(), |all, field| {
+            all.union(Fields::of(&[field]))
+        })
     }
 
     /// All bodies, those of the scene's own scheme first.

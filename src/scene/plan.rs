@@ -87,7 +87,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         let emitters = self.place_inlets();
         let interactions = self.interactions();
         let unilateral = interactions.contains(&Interaction::Unilateral);
-        let mut fields = self.scheme.fields();
+        let mut fields = self.scene.fields_of(self.scheme, self.bodies);
         if unilateral {
             fields = fields.union(Fields::of(&[Field::TOUCHING, Field::TOUCHING_SUM]));
         }

@@ -27,6 +27,7 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
             if self.groups[k].sub_cycle.is_none() || !self.rates_at_hand {
                 self.groups[k].evaluate(time, elapsed);
                 self.follow_moves(k);
+                self.apply_loads(k, time)?;
             }
         }
         self.couple();
@@ -181,7 +182,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
     }
 
-    /// Tells groups what the loads give at `time` \[s\].
+    /// Tells groups what the uniform loads give at `time` \[s\].
     fn load_groups(&mut self, time: f64) {
         let gravity = self.body_acceleration(time);
         for group in &mut self.groups {

@@ -65,6 +65,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             domain: _,
             integrator: _,
             control: _,
+            accelerations: _,
             loads: _,
             scene,
             time,

@@ -14,7 +14,7 @@ pub struct EnergyLedger {
     pub kinetic: f64,
     /// Energy stored in compression now, Σ m ∫ p/ρ² dρ from the density at rest.
     pub compression: f64,
-    /// Work of the loads (gravity, the frame) since the start.
+    /// Work of the loads (gravity, the frame, those that depend on the particle) since the start.
     pub load_work: f64,
     /// Work of the walls since the start.
     pub wall_work: f64,
@@ -104,8 +104,19 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 }
             }
         }
-        let gravity = self.groups[0].gravity;
         let mut load = 0.0;
+        if !self.loads.is_empty() {
+            let (given, work) = self.kick_of_loads(alone, dt);
+            load += work;
+            for d in 0..D {
+                momentum[d] += 0.5 * given[d];
+            }
+        }
+        let first = self
+            .groups
+            .iter()
+            .position(|group| group.sub_cycle.is_none());
+        let gravity = self.groups[alone.or(first).unwrap_or(0)].gravity;
         for d in 0..D {
             momentum[d] += 0.5 * dt * mass * gravity[d];
             load += dt * gravity[d] * momentum[d];

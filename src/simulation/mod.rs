@@ -99,8 +99,8 @@
 //! | rates at hand, what integrators keep, the state of inlets | the integrator, and how steps are chosen | what an integrator or an effect of your own keeps outside of fields |
 //! | the positions that neighbour lists were built from, not the lists | | |
 //!
-//! A file knows its scene by hashes of all that can be hashed; of a load its presence, and of a motion its name.
-//! It is refused with an [`Error::Checkpoint`] that says why if it is cut short or altered, of another scene, scalar,
+//! A file knows its scene by hashes of all that can be hashed; of a load its presence, kind and body, and of a motion its
+//! name. It is refused with an [`Error::Checkpoint`] that says why if it is cut short or altered, of another scene, scalar,
 //! dimension or lane width, or if its loops ran on instructions that the machine lacks; where the machine has
 //! them, the run goes on with those that it began with. A program that was built with other versions of the crate or of
 //! the compiler may round otherwise.
@@ -123,6 +123,8 @@ mod group;
 mod images;
 mod ledger;
 mod limits;
+mod load;
+mod loads;
 mod neighborhood;
 mod phases;
 mod population;
@@ -141,6 +143,7 @@ pub use control::{Criterion, StepControl, Vote};
 pub use cost::{Cost, CostLine};
 pub use energy::EnergyLedger;
 pub use ledger::{Budget, Ledger, Total};
+pub use load::{Load, LoadPoint};
 pub use phases::Phases;
 pub use query::{ParticleView, ParticleViews};
 pub use which::Which;
@@ -162,8 +165,8 @@ use group::Aside;
 use ledger::Impulses;
 use std::sync::Arc;
 
-/// A load: an acceleration that acts on all particles as a function of time.
-pub type Load<const D: usize> = Box<dyn Fn(f64) -> [f64; D] + Send + Sync>;
+/// An acceleration \[m/s²\] that acts on all particles as a function of time \[s\].
+pub(crate) type UniformLoad<const D: usize> = Box<dyn Fn(f64) -> [f64; D] + Send + Sync>;
 
 /// What an evaluation between steps changes, and the next step needs as the last step has left it.
 #[derive(Debug)]
@@ -188,6 +191,9 @@ pub struct Simulation<T: Real, const D: usize> {
     pub(crate) domain: Option<[[f64; D]; 2]>,
     pub(crate) integrator: Arc<dyn Integrator>,
     pub(crate) control: StepControl,
+    /// Uniform accelerations, which walls know.
+    pub(crate) accelerations: Vec<UniformLoad<D>>,
+    /// Loads that depend on the particle.
     pub(crate) loads: Vec<Load<D>>,
     /// Hashes of the scene that it was built from, by what was hashed.
     #[cfg(feature = "checkpoint")]
@@ -231,6 +237,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         domain: Option<[[f64; D]; 2]>,
         integrator: Arc<dyn Integrator>,
         control: StepControl,
+        accelerations: Vec<UniformLoad<D>>,
         loads: Vec<Load<D>>,
     ) -> Self {
         let mut slots = 0;
@@ -251,6 +258,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             domain,
             integrator,
             control,
+            accelerations,
             loads,
             #[cfg(feature = "checkpoint")]
             scene: Hashes::new(),
@@ -307,8 +315,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     fn body_acceleration(&self, time: f64) -> [f64; D] {
         let mut sum = [0.0; D];
-        for load in &self.loads {
-            let a = load(time);
+        for acceleration in &self.accelerations {
+            let a = acceleration(time);
             for d in 0..D {
                 sum[d] += a[d];
             }
@@ -319,8 +327,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Evaluates all rates at the present state, so that pressures and forces can be asked for.
     ///
     /// # Errors
-    /// [`Error::NotFinite`] if a number is no longer finite, [`Error::SoundSpeedTooLow`] if a liquid is faster than
-    /// its sound, and [`Error::Failed`] after a step that has failed.
+    /// [`Error::NotFinite`] if a number is no longer finite, [`Error::Load`] if one of a load is not,
+    /// [`Error::SoundSpeedTooLow`] if a liquid is faster than its sound, and [`Error::Failed`] after a step that has
+    /// failed.
     ///
     /// Between steps it changes nothing of what comes: the next step starts from the rates that the step before has
     /// left, which belong to predicted velocities (where the evaluation had to build neighbour lists, from its own).
@@ -401,7 +410,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let kept = |error: &Error| {
             matches!(
                 error,
-                Error::NotFinite { .. } | Error::WallJump { .. } | Error::SoundSpeedTooLow { .. }
+                Error::NotFinite { .. }
+                    | Error::Load { .. }
+                    | Error::WallJump { .. }
+                    | Error::SoundSpeedTooLow { .. }
             )
         };
         match taken {
@@ -492,8 +504,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Steps until `end` \[s\]; the last step is shortened to end there.
     ///
     /// # Errors
-    /// [`Error::NotFinite`] when the run has broken, [`Error::StepCollapsed`] when the step has become
-    /// tiny, [`Error::SoundSpeedTooLow`] when a liquid meets something faster than its sound, [`Error::WallJump`]
+    /// [`Error::NotFinite`] when the run has broken, [`Error::Load`] when a load has, [`Error::StepCollapsed`] when the
+    /// step has become tiny, [`Error::SoundSpeedTooLow`] when a liquid meets something faster than its sound, [`Error::WallJump`]
     /// when a wall leaves its velocity, [`Error::Failed`] after any of these, and [`Error::Argument`] if a fixed step
     /// exceeds the stability limit.
     pub fn run_until(&mut self, end: f64) -> Result<()> {

@@ -85,6 +85,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             });
         self.sum_work();
         self.heat(dt, true);
+        self.heat_by_loads(dt);
     }
 
     /// v ← v + dt a, and what else is kicked, but no energy.
@@ -377,7 +378,7 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// Component `k` of the column of accelerations.
     #[inline(always)]
-    fn acceleration(&self, k: usize) -> T {
+    pub(super) fn acceleration(&self, k: usize) -> T {
         let (slot, d) = (k / D, k % D);
         let mass = self.particles.columns.raw(Field::MASS)[slot];
         self.work.rates.get(Output::FORCE, d, slot) / mass + self.evaluated_gravity[d]

@@ -133,7 +133,7 @@ impl<T: Real, const D: usize> System for Alone<'_, T, D> {
         group.evaluated_gravity = gravity.map(T::from_f64);
         group.evaluate(time, elapsed);
         self.simulation.follow_moves(self.group);
-        Ok(())
+        self.simulation.apply_loads(self.group, time)
     }
 
     fn kick(&mut self, dt: f64) {

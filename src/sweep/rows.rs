@@ -3,6 +3,7 @@
 
 use crate::particles::{Output, Outputs, PLACES};
 use crate::scalar::{Lane, Real};
+use rayon::prelude::*;
 
 /// The force that the particles of one cluster felt from another block.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,6 +15,9 @@ pub struct Reaction<const D: usize> {
     /// The force \[N\].
     pub force: [f64; D],
 }
+
+/// Clusters that a thread takes at a time.
+const CLUSTERS: usize = 512;
 
 /// The place of a sum that is not here.
 const ABSENT: u32 = u32::MAX;
@@ -97,6 +101,27 @@ impl<T: Real, const D: usize> Rows<T, D> {
                 *sum += value;
             }
         }
+    }
+
+    /// Adds the product of a weight and a value to a sum of every particle, where it was asked for; values stand slot by
+    /// slot with all of their components.
+    pub(crate) fn add_weighted(&mut self, output: Output, weights: &[T], values: &[T]) {
+        let offset = self.offsets[output.place()];
+        if offset == ABSENT {
+            return;
+        }
+        let (width, offset) = (output.components(D), offset as usize);
+        let clusters = self.data.par_chunks_mut(self.stride * Self::WIDTH);
+        let clusters = clusters.enumerate().with_min_len(CLUSTERS);
+        clusters.for_each(|(cluster, sums)| {
+            for lane in 0..Self::WIDTH {
+                let slot = self.first + cluster * Self::WIDTH + lane;
+                for d in 0..width {
+                    let value = weights[slot] * values[slot * width + d];
+                    sums[(offset + d) * Self::WIDTH + lane] += value;
+                }
+            }
+        });
     }
 
     /// Where component `offset` of the n-th particle stands.

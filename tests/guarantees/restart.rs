@@ -673,7 +673,7 @@ fn another_scene_is_refused_with_what_differs() {
     assert!(base().resume(&path).is_ok());
     let cases = [
         (scene(0.02, 0.0).acceleration(down), "walls"),
-        (scene(0.02, 0.0).wall(closed_tank()), "the number of loads"),
+        (scene(0.02, 0.0).wall(closed_tank()), "the loads"),
         (
             scene(0.02, 1e-15).wall(closed_tank()).acceleration(down),
             "bodies",

@@ -9,6 +9,7 @@ mod convergence;
 mod gas;
 mod integrators;
 mod kernels_on_lattices;
+mod loads;
 mod misprints;
 mod rods;
 mod smoothing;

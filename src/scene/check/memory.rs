@@ -2,6 +2,7 @@
 //! A number of bytes a particle from what its scheme names, and what the machine has to give.
 
 use crate::error::Problem;
+use crate::particles::Fields;
 use crate::scalar::{Lane, Real};
 use crate::scene::{Part, SKINS, Scene};
 use crate::term::MOST_READS;
@@ -23,8 +24,9 @@ impl<T: Real, const D: usize> Scene<T, D> {
             particles += own;
             let walls = if part.scheme.meets_walls() { walls } else { 0 };
             let count = own as f64 + walls as f64 + entering.sum::<f64>();
-            needed +=
-                count * bytes_a_particle(part, self.skin.unwrap_or(SKINS[1]), &*self.integrator);
+            let columns = self.fields_of(&part.scheme, &part.bodies);
+            let skin = self.skin.unwrap_or(SKINS[1]);
+            needed += count * bytes_a_particle(part, columns, skin, &*self.integrator);
         }
         particles += walls;
         let needed = needed.ceil();
@@ -49,12 +51,13 @@ impl<T: Real, const D: usize> Scene<T, D> {
 /// Bytes a particle: columns, records of the sweeps, sums, lists, and the states of the integrator.
 fn bytes_a_particle<T: Real, const D: usize>(
     part: &Part<T, D>,
+    columns: Fields,
     skin: f64,
     integrator: &dyn crate::integrator::Integrator,
 ) -> f64 {
     let scheme = &part.scheme;
     let number = size_of::<T>() as f64;
-    let columns = scheme.fields().width(D) as f64;
+    let columns = columns.width(D) as f64;
     // Records of the widest sweep, and those of the work of kicks.
     let (records, sums) = scheme.widths();
     let kept = 7 + 3 * D;

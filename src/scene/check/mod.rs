@@ -11,7 +11,8 @@ use super::{Body, Part, Plan, SKINS, Scene};
 use crate::error::Problem;
 use crate::neighbors::Cells;
 use crate::scalar::Real;
-use crate::simulation::Load;
+use crate::scheme::EnergyForm;
+use crate::simulation::{Load, UniformLoad};
 
 /// Share of the spacing below which two particles of different bodies cannot be neighbours by intent.
 const TOO_CLOSE: f64 = 0.6;
@@ -75,13 +76,6 @@ impl<T: Real, const D: usize> Scene<T, D> {
     }
 
     fn check_names(&self, problems: &mut Vec<Problem>) {
-        let known = || {
-            let names: Vec<_> = self
-                .bodies()
-                .map(|body| format!("`{}`", body.name))
-                .collect();
-            names.join(", ")
-        };
         for (k, body) in self.bodies().enumerate() {
             if self
                 .bodies()
@@ -100,12 +94,21 @@ impl<T: Real, const D: usize> Scene<T, D> {
             .flat_map(|(first, second, _)| [first, second])
         {
             if !self.bodies().any(|body| body.name == *name) {
-                problems.push(Problem::UnknownName {
-                    kind: "body",
-                    name: name.clone(),
-                    known: known(),
-                });
+                problems.push(self.unknown_body(name));
             }
+        }
+    }
+
+    /// The problem that no body has a name.
+    fn unknown_body(&self, name: &str) -> Problem {
+        let names: Vec<_> = self
+            .bodies()
+            .map(|body| format!("`{}`", body.name))
+            .collect();
+        Problem::UnknownName {
+            kind: "body",
+            name: name.into(),
+            known: names.join(", "),
         }
     }
 
@@ -142,13 +145,38 @@ impl<T: Real, const D: usize> Scene<T, D> {
     }
 
     fn check_loads(&self, problems: &mut Vec<Problem>) {
-        let bad = |load: &Load<D>| load(0.0).into_iter().find(|a| !a.is_finite());
-        if let Some(value) = self.loads.iter().find_map(bad) {
+        let bad = |load: &UniformLoad<D>| load(0.0).into_iter().find(|a| !a.is_finite());
+        if let Some(value) = self.accelerations.iter().find_map(bad) {
             problems.push(Problem::Parameter {
                 what: "acceleration at t = 0".into(),
                 value,
                 must_be: "it must be finite, in m/s²",
             });
+        }
+        for load in &self.loads {
+            self.check_load(load, problems);
+        }
+    }
+
+    /// A load on a body that there is, and heat where there is energy.
+    fn check_load(&self, load: &Load<D>, problems: &mut Vec<Problem>) {
+        if let Some(name) = load.body()
+            && !self.bodies().any(|body| body.name == name)
+        {
+            problems.push(self.unknown_body(name));
+        }
+        for part in &self.parts {
+            let cold = load.heats() && part.scheme.energy == EnergyForm::None;
+            let mut own = part.bodies.iter();
+            if let Some(body) = own.find(|body| cold && load.acts_on(&body.name)) {
+                problems.push(Problem::Incompatible {
+                    what: format!(
+                        "the load ({load}) heats body `{}`, and the scheme {} carries no energy",
+                        body.name, part.scheme.name
+                    ),
+                    remedy: "take an energy form that does, or limit the load with `Load::on` to a body that has one",
+                });
+            }
         }
     }
 }

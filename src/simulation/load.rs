@@ -1,0 +1,160 @@
+//! Loads: accelerations and heat sources that depend on place, velocity, density, body and time.
+//! What pushes or heats a particle whatever its neighbours are: wells, drag, rotating frames, lasers, decay.
+
+use crate::particles::Field;
+use crate::scalar::Real;
+use core::fmt;
+
+/// What a load may depend on: a particle at the time of an evaluation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct LoadPoint<'a, const D: usize> {
+    /// Position x \[m\].
+    pub position: [f64; D],
+    /// Velocity v \[m/s\], predicted to the time of the evaluation by leapfrogs.
+    pub velocity: [f64; D],
+    /// Density ρ \[kg/m³\].
+    pub density: f64,
+    /// Time t \[s\].
+    pub time: f64,
+    /// The name of the body.
+    pub body: &'a str,
+}
+
+/// A law of a load.
+type Law<R, const D: usize> = Box<dyn Fn(&LoadPoint<'_, D>) -> R + Send + Sync>;
+
+/// An acceleration or a heat source that acts on the particles of bodies: dv/dt = … + a(x, v, ρ, t), or
+/// de/dt = … + q(x, v, ρ, t).
+///
+/// It is evaluated with the rates, so the integrator has the order with it that it has without, and the
+/// [force criterion](super::StepControl::force) of the step sees it. What an acceleration works is no heat in
+/// either [energy form](crate::scheme::EnergyForm), and
+/// [`EnergyLedger::load_work`](super::EnergyLedger) where the ledger is kept. Drag that is to heat needs a
+/// heat source beside it.
+///
+/// Walls do not know of it: a liquid that leans on walls of particles takes its weight, and that of an accelerated frame,
+/// from [`Scene::acceleration`](crate::scene::Scene::acceleration), which walls and density diffusion know.
+///
+/// A load costs a call of its function for each particle of its bodies in each evaluation; all accelerations together a
+/// vector a particle, and all heat sources a number. A scene without them pays nothing.
+///
+/// ```
+/// use meshfree::prelude::*;
+/// // A copper rod is drawn to the origin, slowed down, and heated at its left end.
+/// let (omega, drag) = (1e3, 50.0);
+/// let mut simulation = Scene::<f64, 1>::new(schemes::impact())
+///     .body(Body::block("rod", catalogue::copper(), [0.0], [0.01], 2e-4))
+///     .load(Load::acceleration(move |at| [-omega * omega * at.position[0] - drag * at.velocity[0]]))
+///     .load(Load::heating(|at| if at.position[0] < 1e-3 { 1e6 } else { 0.0 }).on("rod"))
+///     .build()?;
+/// simulation.run_until(1e-6)?;
+/// let heated = simulation.body("rod")?.next().map_or(0.0, |particle| particle.energy());
+/// assert!((heated - 1.0).abs() < 0.01, "1 MW/kg for 1 µs, {heated} J/kg");
+/// assert!(simulation.ledger().whole.momentum[0] < 0.0);
+/// # Ok::<(), Error>(())
+/// ```
+pub struct Load<const D: usize> {
+    kind: Kind<D>,
+    /// The body on which it acts; on all without one.
+    body: Option<String>,
+}
+
+/// What a load gives.
+enum Kind<const D: usize> {
+    Acceleration(Law<[f64; D], D>),
+    Heating(Law<f64, D>),
+}
+
+impl<const D: usize> Load<D> {
+    /// An acceleration a \[m/s²\] of each particle.
+    #[must_use]
+    pub fn acceleration(
+        law: impl Fn(&LoadPoint<'_, D>) -> [f64; D] + Send + Sync + 'static,
+    ) -> Self {
+        Self {
+            kind: Kind::Acceleration(Box::new(law)),
+            body: None,
+        }
+    }
+
+    /// A heat source q \[W/kg\] of each particle. Bodies whose scheme carries no energy cannot be heated.
+    #[must_use]
+    pub fn heating(law: impl Fn(&LoadPoint<'_, D>) -> f64 + Send + Sync + 'static) -> Self {
+        Self {
+            kind: Kind::Heating(Box::new(law)),
+            body: None,
+        }
+    }
+
+    /// Lets it act on one body alone, by its name; on all bodies if not given.
+    #[must_use]
+    pub fn on(self, body: &str) -> Self {
+        Self {
+            body: Some(body.into()),
+            ..self
+        }
+    }
+
+    /// The name of the body that it was limited to.
+    pub(crate) fn body(&self) -> Option<&str> {
+        self.body.as_deref()
+    }
+
+    /// Whether it acts on the body with a name.
+    pub(crate) fn acts_on(&self, body: &str) -> bool {
+        self.body().is_none_or(|own| own == body)
+    }
+
+    /// Whether it is a heat source.
+    pub(crate) fn heats(&self) -> bool {
+        matches!(self.kind, Kind::Heating(_))
+    }
+
+    /// The field in which its values are kept.
+    pub(crate) fn field(&self) -> Field {
+        match self.kind {
+            Kind::Acceleration(_) => Field::LOAD_ACCELERATION,
+            Kind::Heating(_) => Field::LOAD_HEATING,
+        }
+    }
+
+    /// Adds what it gives a particle to that field; the first value after which the sum is not finite, if there is one.
+    pub(crate) fn add<T: Real>(&self, at: &LoadPoint<'_, D>, sum: &mut [T]) -> Option<f64> {
+        match &self.kind {
+            Kind::Acceleration(law) => add(sum, &law(at)),
+            Kind::Heating(law) => add(sum, &[law(at)]),
+        }
+    }
+}
+
+fn add<T: Real>(sum: &mut [T], values: &[f64]) -> Option<f64> {
+    let mut wrong = None;
+    for (sum, &value) in sum.iter_mut().zip(values) {
+        *sum += T::from_f64(value);
+        if !sum.to_f64().is_finite() {
+            wrong = wrong.or(Some(value));
+        }
+    }
+    wrong
+}
+
+/// What it is, in messages and in the fingerprint of a scene.
+impl<const D: usize> fmt::Display for Load<D> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self.kind {
+            Kind::Acceleration(_) => "acceleration",
+            Kind::Heating(_) => "heating",
+        })?;
+        match &self.body {
+            Some(body) => write!(f, " on body `{body}`"),
+            None => f.write_str(" on all bodies"),
+        }
+    }
+}
+
+impl<const D: usize> fmt::Debug for Load<D> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Load({self})")
+    }
+}

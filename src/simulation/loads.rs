@@ -1,0 +1,136 @@
+//! Loads that depend on the particle: what they add to the rates of an evaluation, to heat, and to the ledger.
+//! Their values stay in columns, which list builds, checkpoints and evaluations between steps treat as all others.
+
+use super::Simulation;
+use super::group::Group;
+use super::load::{Load, LoadPoint};
+use super::query::ParticleView;
+use super::stages::GRAIN;
+use crate::error::{Error, Result};
+use crate::particles::{Field, Output};
+use crate::scalar::Real;
+use rayon::prelude::*;
+
+/// A value of a load that is no number to go on with.
+struct Wrong<'a, const D: usize> {
+    load: &'a Load<D>,
+    value: f64,
+    slot: usize,
+}
+
+impl<T: Real, const D: usize> Simulation<T, D> {
+    /// Adds what loads give a group at `time` \[s\] to the rates of an evaluation.
+    pub(super) fn apply_loads(&mut self, group: usize, time: f64) -> Result<()> {
+        let group = &mut self.groups[group];
+        let Some(Wrong { load, value, slot }) = group.apply_loads(&self.loads, time) else {
+            return Ok(());
+        };
+        let body = &group.particles.bodies[group.particles.body_of(slot)];
+        Err(Error::Load {
+            load: load.to_string(),
+            value,
+            body: body.name.clone(),
+            particle: group.particles.ids[slot] as usize - body.ids.start,
+            position: group.position(slot),
+            time,
+        })
+    }
+
+    /// What loads give in a kick over `dt` \[s\]: momentum \[kg m/s\] and work \[J\], each particle with its velocity in the
+    /// middle of the kick; of a group that sub-cycles alone, or of all others together.
+    pub(super) fn kick_of_loads(&self, alone: Option<usize>, dt: f64) -> ([f64; D], f64) {
+        let (mut momentum, mut work) = ([0.0; D], 0.0);
+        for (group, body) in self.bodies_that_step(alone) {
+            let columns = &group.particles.columns;
+            let loads = columns.vectors(Field::LOAD_ACCELERATION);
+            if loads.is_empty() {
+                continue;
+            }
+            for slot in body.slots.clone() {
+                let mass = columns.raw(Field::MASS)[slot].to_f64();
+                let v = columns.vectors(Field::VELOCITY)[slot];
+                for d in 0..D {
+                    let given = dt * mass * loads[slot][d].to_f64();
+                    let a = group.acceleration(slot * D + d).to_f64();
+                    momentum[d] += given;
+                    work += given * (v[d].to_f64() + 0.5 * dt * a);
+                }
+            }
+        }
+        (momentum, work)
+    }
+}
+
+impl<T: Real, const D: usize> Group<T, D> {
+    /// Evaluates loads at `time` \[s\], and adds them to forces and powers; the first value that is wrong, if there is one.
+    fn apply_loads<'a>(&mut self, loads: &'a [Load<D>], time: f64) -> Option<Wrong<'a, D>> {
+        for (field, sum) in [
+            (Field::LOAD_ACCELERATION, Output::FORCE),
+            (Field::LOAD_HEATING, Output::POWER),
+        ] {
+            if self.particles.columns.raw(field).is_empty() {
+                continue;
+            }
+            let mut values = self.take(field);
+            values.fill(T::zero());
+            let mut own = loads.iter().filter(|load| load.field() == field);
+            let wrong = own.find_map(|load| self.evaluate_load(load, time, &mut values));
+            *self.particles.columns.column_mut(field) = values;
+            if wrong.is_some() {
+                return wrong;
+            }
+            let columns = &self.particles.columns;
+            let (mass, values) = (columns.raw(Field::MASS), columns.raw(field));
+            self.work.rates.add_weighted(sum, mass, values);
+        }
+        None
+    }
+
+    /// Adds what a load gives the particles of its bodies to the values of its field.
+    fn evaluate_load<'a>(
+        &self,
+        load: &'a Load<D>,
+        time: f64,
+        values: &mut [T],
+    ) -> Option<Wrong<'a, D>> {
+        let width = load.field().components(D);
+        let bodies = self.particles.bodies.iter();
+        for body in bodies.filter(|body| load.acts_on(&body.name) && !body.slots.is_empty()) {
+            let run = body.run();
+            let live = body.slots.len() * width;
+            let (own, repeats) = values[run.start * width..run.end * width].split_at_mut(live);
+            let numbers = own.par_chunks_mut(width).enumerate();
+            let wrong = numbers.with_min_len(GRAIN).find_map_first(|(k, sum)| {
+                let slot = run.start + k;
+                let particle = ParticleView { group: self, slot };
+                let at = LoadPoint {
+                    position: particle.position(),
+                    velocity: particle.velocity(),
+                    density: particle.density(),
+                    time,
+                    body: &body.name,
+                };
+                let value = load.add(&at, sum)?;
+                Some(Wrong { load, value, slot })
+            });
+            if wrong.is_some() {
+                return wrong;
+            }
+            // What repeats the last particle goes where that goes.
+            for repeat in repeats.chunks_mut(width) {
+                repeat.copy_from_slice(&own[live - width..]);
+            }
+        }
+        None
+    }
+
+    /// e ← e + dt q with the heat sources of the last evaluation, where energy changes by the work of pairs.
+    pub(super) fn heat_by_loads(&mut self, dt: f64) {
+        let dt = T::from_f64(dt);
+        let columns = &mut self.particles.columns;
+        let [energy, heating] = columns.many_mut([Field::ENERGY, Field::LOAD_HEATING]);
+        for (energy, heating) in energy.iter_mut().zip(heating) {
+            *energy += dt * *heating;
+        }
+    }
+}
