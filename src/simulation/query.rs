@@ -85,6 +85,9 @@ impl<T: Real, const D: usize> ParticleView<'_, T, D> {
     }
 }
 
+/// A wall, and the group of a liquid that meets it.
+type OfWall<'a, T, const D: usize> = (&'a Group<T, D>, &'a WallState<T, D>);
+
 /// The particles of a body or of a wall, in the order in which the scene placed them.
 #[derive(Clone, Debug)]
 pub struct ParticleViews<'a, T: Real, const D: usize> {
@@ -185,7 +188,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     /// A wall of the scene by its index, and the first group of liquids that meets it.
-    pub(super) fn find_wall(&self, index: usize) -> Option<(&Group<T, D>, &WallState<T, D>)> {
+    pub(super) fn find_wall(&self, index: usize) -> Option<OfWall<'_, T, D>> {
         self.groups.iter().find_map(|group| {
             let own = |wall: &&WallState<T, D>| wall.structure.is_none() && wall.index == index;
             Some((group, group.walls.iter().find(own)?))
@@ -193,15 +196,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     /// Every wall with the first group of liquids that meets it, in the order of the scene.
-    fn all_walls(&self) -> impl Iterator<Item = (&Group<T, D>, &WallState<T, D>)> + Clone {
+    fn all_walls(&self) -> impl Iterator<Item = OfWall<'_, T, D>> + Clone {
         (0..self.wall_count()).filter_map(|index| self.find_wall(index))
     }
 
     /// The index and the state of a wall.
-    pub(super) fn wall_of(
-        &self,
-        wall: &impl Which,
-    ) -> Result<(usize, (&Group<T, D>, &WallState<T, D>))> {
+    pub(super) fn wall_of(&self, wall: &impl Which) -> Result<(usize, OfWall<'_, T, D>)> {
         find(wall, "wall", self.all_walls().map(|own| (&own.1.name, own)))
     }
 
