@@ -15,7 +15,8 @@ use meshfree::prelude::*;
 use meshfree::scalar::{Lane, Lanes, Mask};
 use meshfree::scheme::Scheme;
 use meshfree::sweep::{
-    InstructionSet, Interaction, PairSweep, Pass, Program, Records, Rows, SmoothingMode, SweepInput,
+    FusedKernel, InstructionSet, Interaction, PairSweep, Pass, Records, Results, SmoothingMode,
+    SweepInput,
 };
 use meshfree::term::viscosity::{ArtificialViscosity, Inviscid, MonaghanGingold, Viscous};
 use meshfree::term::{self, Nothing, Pair, PressureForce, TermDoc, Viscosity};
@@ -430,7 +431,7 @@ impl<T: Real> Lattice<T> {
             smoothing_length: H,
             targets: self.blocks[0].slots.clone(),
             body_force: [T::zero(); 3],
-            lattice_moment: 1.0,
+            lattice_consistency_factor: 1.0,
             instructions: InstructionSet::detect(),
         }
     }
@@ -483,7 +484,7 @@ fn composed_against_fused(side: usize, turns: usize) {
     let lattice = Lattice::new(side, sweep.fields());
     let slots = lattice.columns.slots();
     let input = lattice.input();
-    let (mut records, mut rows) = (Records::default(), Rows::default());
+    let (mut records, mut rows) = (Records::default(), Results::default());
     sweep.pack(Pass::Rates, &input, &mut records);
     let fused = Fused {
         records: records.data(),
@@ -523,9 +524,9 @@ fn composed_against_fused(side: usize, turns: usize) {
 fn pair_loop<K, V>(
     kernel: K,
     viscosity: V,
-) -> Program<K, (PressureForce, Viscosity<V>), { SmoothingMode::Uniform.bit() }> {
+) -> FusedKernel<K, (PressureForce, Viscosity<V>), { SmoothingMode::Uniform.bit() }> {
     let terms = (PressureForce, Viscosity(viscosity));
-    Program::new(kernel, terms, SmoothingMode::Uniform)
+    FusedKernel::new(kernel, terms, SmoothingMode::Uniform)
 }
 
 /// The Wendland C4 kernel in 3D as a user's crate would write it.
@@ -605,7 +606,8 @@ fn own_against_built_in<T: Real>(side: usize, turns: usize) {
     let against = |what: &str, own: &dyn PairSweep<T, 3>, built_in: &dyn PairSweep<T, 3>| {
         let lattice = Lattice::new(side, own.fields());
         let input = lattice.input();
-        let (mut records, mut rows) = (Records::default(), [Rows::default(), Rows::default()]);
+        let (mut records, mut rows) =
+            (Records::default(), [Results::default(), Results::default()]);
         own.pack(Pass::Rates, &input, &mut records);
         let [own_rows, rows] = &mut rows;
         let ratios = ratios(
@@ -613,7 +615,7 @@ fn own_against_built_in<T: Real>(side: usize, turns: usize) {
             || own.run(Pass::Rates, &input, &records, own_rows),
             || built_in.run(Pass::Rates, &input, &records, rows),
         );
-        let force = |rows: &Rows<T, 3>, slot| rows.get(Output::FORCE, 0, slot).to_f64();
+        let force = |rows: &Results<T, 3>, slot| rows.get(Output::FORCE, 0, slot).to_f64();
         let slots = 0..lattice.columns.slots();
         let largest = slots
             .clone()

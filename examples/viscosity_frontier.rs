@@ -20,7 +20,7 @@ const LENGTH: f64 = 0.010;
 /// End of a run \[s\], and the interval of the plateau.
 const END: f64 = 3.5e-6;
 const PLATEAU: (f64, f64) = (2.0e-6, 3.2e-6);
-/// Strengths of the pressure curvature: none, and what cancels the leading dispersion.
+/// Strengths of the midpoint reconstruction: none, and what cancels the leading dispersion.
 const CURVATURES: [Option<f64>; 3] = [None, Some(0.25), Some(1.0 / 3.0)];
 const TARGETS: [&str; 2] = ["copper", "pmma"];
 /// The laws with the coefficients that are tried; `docs/viscosity_frontier.md` says why some of them
@@ -98,7 +98,7 @@ struct Case {
 fn run(case: &Case, spacing: f64) -> Result<Front, Box<dyn Error>> {
     let plain = SchemeBuilder::new(CubicSpline, case.viscosity).density(DensityForm::NumberDensity);
     let scheme: Scheme<f64, 1> = match case.curvature {
-        Some(strength) => plain.pressure_curvature(strength).compose(),
+        Some(strength) => plain.midpoint_reconstruction(strength).compose(),
         None => plain.compose(),
     };
     let target = catalogue::by_name(case.target)?;

@@ -159,7 +159,7 @@
 //! The first four run inside the loop over pairs or over particles. Their methods are generic over a
 //! [`Lane`](scalar::Lane), so one text serves a single number and a row of them, and what you write is
 //! compiled into the same loop as what the crate brings. A [`Term`](term::Term) is the more general
-//! form of an effect between pairs; a [`PairSweep`](sweep::PairSweep) runs a tuple of terms.
+//! form of an effect between pairs.
 //!
 //! Mark the methods of kernels, artificial viscosities and terms `#[inline(always)]`, as the examples do: the
 //! loop over pairs is compiled for wider instructions than the rest of a program, and what is not inlined into

@@ -14,8 +14,8 @@
 //! |---|---|---|---|
 //! | density | number density at rest | continuity, V | summation, smoothed |
 //! | viscosity | limited, α = 2, β = 2 | the same | plain, α = 1, β = 2 |
-//! | pressure curvature χ | 1/3 | 1/3 | 0 |
-//! | normalised by the moment at rest | yes | yes | no |
+//! | midpoint reconstruction χ | 1/3 | 1/3 | 0 |
+//! | first-moment consistency factor at rest | yes | yes | no |
 //! | energy | compatible | compatible | symmetric |
 //! | step factor | 0.55 | 0.55 | 0.5 |
 //!
@@ -26,12 +26,13 @@
 //! | density diffusion | Fourtakas, δ = 0.1 | Riemann | none | none |
 //! | kernel, h/dx | Wendland C2, 1.5 | Wendland C2, 1.5 | cubic spline, 1.2 | cubic spline, 1.2 |
 //! | smoothing length | fixed | fixed | by divergence | by divergence |
-//! | normalised by the moment of the lattice | yes | yes | no | no |
+//! | first-moment consistency factor of the lattice | yes | yes | no | no |
 //!
 //! [`ls_dyna_renormalised`] and [`ls_dyna_fluid_renormalised`] correct the gradients of the last two.
 
 use crate::effect::{Cavitation, DensityDiffusion, ExtrapolatedPressure, NoWalls};
 use crate::kernel::{CubicSpline, WendlandC2, WendlandC4};
+use crate::scheme::forms;
 use crate::scheme::{DensityForm, EnergyForm, LiquidBuilder, SchemeBuilder, Smoothing};
 use crate::sweep::{Interaction, SmoothingMode};
 use crate::term::viscosity::{LimitedMonaghanGingold, MonaghanGingold, Riemann, SignalVelocity};
@@ -44,7 +45,7 @@ pub type ImpactBuilder = SchemeBuilder<
     NoWalls,
     (),
     { SmoothingMode::Uniform.bit() },
-    5,
+    { forms::ENERGY | forms::MIDPOINT },
 >;
 
 /// What [`weakly_compressible`] and [`riemann_liquid`] return, with an artificial viscosity and a density diffusion.
@@ -52,7 +53,7 @@ pub type DiffusiveLiquid<V, X> =
     LiquidBuilder<WendlandC2, V, (((), Cavitation), DensityDiffusion<X>)>;
 
 /// Impact of solids with weak to moderate shocks: number density relative to the shape at rest,
-/// pressure curvature χ = 1/3, limited viscosity α = 2, β = 2, compatible energy, cubic spline at
+/// midpoint reconstruction χ = 1/3, limited viscosity α = 2, β = 2, compatible energy, cubic spline at
 /// h/dx 1.2.
 ///
 /// The default for rods: fronts of 0.09 µs at a spacing of 0.05 mm without overshoot, waves at the
@@ -64,7 +65,7 @@ pub fn impact() -> ImpactBuilder {
     SchemeBuilder::new(CubicSpline, LimitedMonaghanGingold::STANDARD)
         .named("impact")
         .density(DensityForm::NumberDensity)
-        .pressure_curvature(1.0 / 3.0)
+        .midpoint_reconstruction(1.0 / 3.0)
 }
 
 /// As [`impact`], with density by continuity in volume form: the same accuracy where bodies keep
@@ -78,7 +79,7 @@ pub fn impact_by_continuity() -> ImpactBuilder {
 
 /// The scheme of Lam, Shen & Gong (2002), with its misprints corrected: summation smoothed at joints,
 /// equation 25 at end particles, plain Monaghan–Gingold viscosity, symmetric energy, no
-/// normalisation. Use it with [`LamLeapfrog`](crate::integrator::LamLeapfrog), and bond the bodies:
+/// consistency factor. Use it with [`LamLeapfrog`](crate::integrator::LamLeapfrog), and bond the bodies:
 /// the paper has no contact law.
 #[must_use]
 pub fn lam2002() -> SchemeBuilder<CubicSpline, MonaghanGingold> {
@@ -86,7 +87,7 @@ pub fn lam2002() -> SchemeBuilder<CubicSpline, MonaghanGingold> {
         .named("lam2002")
         .density(DensityForm::Lam)
         .energy(EnergyForm::Symmetric)
-        .without_normalisation()
+        .without_consistency_factor()
         // Half of what the leapfrog bears: the printed integrator is stable to 0.707 of it.
         .step_factor(0.5)
 }
@@ -111,8 +112,14 @@ pub fn weakly_compressible() -> DiffusiveLiquid<MonaghanGingold, Fourtakas> {
 }
 
 /// What [`gas`] returns.
-pub type GasBuilder =
-    SchemeBuilder<WendlandC4, SignalVelocity, NoWalls, (), { SmoothingMode::ALL }, 4>;
+pub type GasBuilder = SchemeBuilder<
+    WendlandC4,
+    SignalVelocity,
+    NoWalls,
+    (),
+    { SmoothingMode::ALL },
+    { forms::ENERGY },
+>;
 
 /// Gases: summed density with a smoothing length that is consistent with it between a fifth and five times the first
 /// (grad-h terms), signal-velocity viscosity, compatible energy, Wendland C4; bodies are one gas where they meet.
@@ -153,8 +160,8 @@ const BULK: MonaghanGingold = MonaghanGingold {
 /// Limits of the smoothing length in units of the first (HMIN and HMAX of its section card).
 const LIMITS: [f64; 2] = [0.2, 2.0];
 
-/// Builder of [`ls_dyna_default`] and [`ls_dyna_fluid`] with 0, and with 2 of their renormalised forms.
-pub type LsDynaBuilder<const FORCE: u8> = SchemeBuilder<
+/// What the LS-DYNA schemes return: plain, or with `{ forms::RENORMALISED }` their renormalised forms.
+pub type LsDynaBuilder<const FORCE: u8 = 0> = SchemeBuilder<
     CubicSpline,
     MonaghanGingold,
     ExtrapolatedPressure,
@@ -165,23 +172,23 @@ pub type LsDynaBuilder<const FORCE: u8> = SchemeBuilder<
 
 /// FORM 5 of LS-DYNA, "fluid particle approximation": continuity and pressure by volume, cubic spline at
 /// h/dx 1.2, bulk viscosity, smoothing length that follows the divergence between 0.2 and 2 of the first,
-/// neither density diffusion nor normalisation.
+/// neither density diffusion nor consistency factor.
 ///
 /// The equations behind the forms are as generally understood; its theory manual was not at hand. Its
 /// renormalised sibling FORM 6 is [`ls_dyna_fluid_renormalised`].
 #[must_use]
-pub fn ls_dyna_fluid() -> LsDynaBuilder<0> {
+pub fn ls_dyna_fluid() -> LsDynaBuilder {
     SchemeBuilder::liquid(CubicSpline, BULK)
         .named("LS-DYNA FORM 5, fluid")
         .h_over_dx(1.2)
-        .without_normalisation()
+        .without_consistency_factor()
         .smoothing_by_divergence(LIMITS[0], LIMITS[1])
 }
 
 /// FORM 0 of LS-DYNA, the default: continuity by mass with the σ/ρ² force; the rest as
 /// [`ls_dyna_fluid`].
 #[must_use]
-pub fn ls_dyna_default() -> LsDynaBuilder<0> {
+pub fn ls_dyna_default() -> LsDynaBuilder {
     ls_dyna_fluid()
         .density(DensityForm::ContinuityByMass)
         .named("LS-DYNA FORM 0, default")
@@ -189,7 +196,7 @@ pub fn ls_dyna_default() -> LsDynaBuilder<0> {
 
 /// FORM 1 of LS-DYNA: [`ls_dyna_default`] with renormalised gradients.
 #[must_use]
-pub fn ls_dyna_renormalised() -> LsDynaBuilder<2> {
+pub fn ls_dyna_renormalised() -> LsDynaBuilder<{ forms::RENORMALISED }> {
     ls_dyna_default()
         .renormalised()
         .named("LS-DYNA FORM 1, renormalised")
@@ -197,7 +204,7 @@ pub fn ls_dyna_renormalised() -> LsDynaBuilder<2> {
 
 /// FORM 6 of LS-DYNA: [`ls_dyna_fluid`] with renormalised gradients.
 #[must_use]
-pub fn ls_dyna_fluid_renormalised() -> LsDynaBuilder<2> {
+pub fn ls_dyna_fluid_renormalised() -> LsDynaBuilder<{ forms::RENORMALISED }> {
     ls_dyna_fluid()
         .renormalised()
         .named("LS-DYNA FORM 6, fluid renormalised")

@@ -46,12 +46,12 @@ const SHARED: [Own; 14] = [
     own(
         "--cut-off-pa",
         "P",
-        "least pressure of the liquid (0: it tears)",
+        "least pressure of the liquid (0: it cavitates)",
     ),
     own(
         "--expansion-memory",
         "",
-        "lets torn liquid close where it tore (it forgets)",
+        "remembers how far cavitated liquid has expanded (it forgets)",
     ),
     own(
         "--riemann-walls",
@@ -61,7 +61,7 @@ const SHARED: [Own; 14] = [
     own(
         "--jitter",
         "S",
-        "how far off the lattice particles start, over dx (0; spheric2: 0.2, rows out of step)",
+        "how far off the lattice particles start, over dx (0; spheric2: 0.2, with lattice rows offset)",
     ),
     own("--seed", "N", "another draw of the jitter (1)"),
     own(

@@ -149,7 +149,7 @@ impl Flat {
             });
             let size = [dx * layers as f64, dx * rows as f64];
             let plate = Cuboid::new([width, 0.0], [width + size[0], size[1]]);
-            let gate = Wall::of("gate", points.collect(), dx).facing(plate.complement());
+            let gate = Wall::of("gate", points.collect(), dx).fluid_side(plate.complement());
             scene = scene.wall(gate.motion(Translation::steady([0.0, speed])));
         }
         scene

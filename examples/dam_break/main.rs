@@ -7,6 +7,7 @@ mod common;
 mod consistency;
 mod figures;
 mod flat;
+mod lattice_rows;
 mod obstacle;
 #[path = "../common/violent.rs"]
 mod violent;

@@ -4,7 +4,7 @@
 use crate::common::{Failure, Options};
 use crate::flat::GRAVITY;
 use crate::violent::{self, Choices, Keep, Watch};
-use crate::{bars, consistency, figures};
+use crate::{bars, consistency, figures, lattice_rows};
 use meshfree::geometry::{Cuboid, Shape, fill};
 use meshfree::material::{Liquid, SoundSpeed};
 use meshfree::observe::{PressureProbe, WaveGauge};
@@ -49,10 +49,10 @@ fn obstacle(spacing: f64, layers: usize) -> Result<Wall<3>, Failure> {
     let volume: f64 = (0..3).map(|d| size[d] / counts[d]).product();
     // Its foot is not a surface.
     let solid = Cuboid::new([low[0], low[1], -1.0], high);
-    Ok(Wall::of("box", points, volume.cbrt()).facing(solid.complement()))
+    Ok(Wall::of("box", points, volume.cbrt()).fluid_side(solid.complement()))
 }
 
-/// Off the lattice, whose rows would strike the box all at once; rows are out of step as well.
+/// Off the lattice, whose rows would strike the box all at once; lattice rows have a random offset as well.
 const JITTER: f64 = 0.2;
 
 fn scene<T: Real>(spacing: f64, choices: &Choices) -> Result<Scene<T, 3>, Failure> {
@@ -68,7 +68,7 @@ fn scene<T: Real>(spacing: f64, choices: &Choices) -> Result<Scene<T, 3>, Failur
         spacing,
     );
     if choices.jitter != Some(0.0) {
-        column = column.stagger(0, [true, false], choices.seed);
+        column = lattice_rows::offset(column, 0, spacing, [true, false], choices.seed);
     }
     let column = choices
         .jittered(column, JITTER)
@@ -131,7 +131,7 @@ pub fn perform<T: Real>(options: &Options, choices: &Choices) -> Result<(), Fail
     let start = match choices.jitter.unwrap_or(JITTER) {
         0.0 => "on the lattice".into(),
         share => format!(
-            "rows out of step, off the lattice by up to {share} of the spacing (draw {})",
+            "lattice rows with random offset, off the lattice by up to {share} of the spacing (draw {})",
             choices.seed
         ),
     };

@@ -111,7 +111,7 @@ where
     let tank = choices
         .slip(tank)
         .motion(Rotation::about([0.0; D], roll))
-        .carries_liquid();
+        .container_frame();
     let mut scene = Scene::<T, D>::new(choices.compose::<T, D>())
         .body(body)
         .wall(tank)

@@ -178,7 +178,7 @@ impl Case {
             .hydrostatic(gravity, surface);
         let closed = [[true; 2]; 3];
         let tank = Wall::around("tank", [0.0; 3], self.size, self.spacing, LAYERS, closed)
-            .carries_liquid();
+            .container_frame();
         let motion = self.pulse.motion::<3>(self.peak())?;
         let scene = Scene::<T, 3>::new(self.scheme::<T>()?).body(water);
         let step = self.step;

@@ -18,7 +18,7 @@
 //! [ledger](crate::simulation::Ledger::boundary_impulse).
 //!
 //! A wall by reflection is exact in that nothing can cross it: a rod on a wall is half of two rods that
-//! meet. What has no pressure, as a torn drop, flies through a plane as its image does: the two change
+//! meet. What has no pressure, as a cavitated drop, flies through a plane as its image does: the two change
 //! places, and the drop is on its side again. Such a wall slips along the plane. Walls of other shapes are
 //! [`Wall`]s of particles of their own: they hold liquids, move as [prescribed](Motion), and may deny slip.
 

@@ -45,10 +45,10 @@ pub struct Wall<const D: usize> {
     pub(crate) motion: Option<Arc<dyn Motion<D>>>,
     pub(crate) slip: Slip,
     pub(crate) sliding: [f64; D],
-    pub(crate) carries: bool,
+    pub(crate) container_frame: bool,
     pub(crate) shape: Result<(), Flaw>,
     /// What liquid may fill, if the wall was told.
-    pub(crate) room: Option<Arc<dyn Shape<D>>>,
+    pub(crate) fluid_side: Option<Arc<dyn Shape<D>>>,
 }
 
 impl<const D: usize> Wall<D> {
@@ -62,9 +62,9 @@ impl<const D: usize> Wall<D> {
             motion: None,
             slip: Slip::Free,
             sliding: [0.0; D],
-            carries: false,
+            container_frame: false,
             shape: Ok(()),
-            room: None,
+            fluid_side: None,
         }
     }
 
@@ -106,8 +106,8 @@ impl<const D: usize> Wall<D> {
         let total: f64 = (0..D).map(|d| (last[d] - first[d]) as f64).product();
         let inside: f64 = counts.iter().map(|&n| n as f64).product();
         let mut points = Vec::new();
-        let room = (total - inside) as usize;
-        if total > MOST_PARTICLES || points.try_reserve_exact(room).is_err() {
+        let capacity = (total - inside) as usize;
+        if total > MOST_PARTICLES || points.try_reserve_exact(capacity).is_err() {
             return refused(("number of particles", total, FEWER));
         }
         let mut at = first;
@@ -128,35 +128,35 @@ impl<const D: usize> Wall<D> {
         }
         // Of the volume of a cell as fitted, as the liquid's are: the force on the wall is in proportion.
         let volume: f64 = (0..D).map(|d| size[d] / counts[d] as f64).product();
-        Self::of(name, points, volume.powf(1.0 / D as f64)).facing(Cuboid::new(low, high))
+        Self::of(name, points, volume.powf(1.0 / D as f64)).fluid_side(Cuboid::new(low, high))
     }
 
-    /// Tells it the room that liquid may fill, from whose distance it takes the normals that
+    /// Tells it the side that fluid may fill, from whose distance it takes the normals that
     /// [`RiemannWalls`](crate::effect::RiemannWalls) needs. A wall [around](Self::around) a box knows
-    /// its room.
+    /// its fluid side.
     ///
-    /// A normal is the slope of the room's distance at a particle, in the scene as built, and turns with the wall; where
+    /// A normal is the slope of that shape's distance at a particle, in the scene as built, and turns with the wall; where
     /// there is no slope, as in the middle of a plate, a particle has none and does without.
     ///
     /// ```
     /// use meshfree::boundary::Wall;
     /// use meshfree::geometry::{Ball, Shape, fill};
     /// let post = Ball::new([0.0; 2], 0.1);
-    /// let wall = Wall::of("post", fill(&post, 0.01, [0.0; 2])?, 0.01).facing(post.complement());
+    /// let wall = Wall::of("post", fill(&post, 0.01, [0.0; 2])?, 0.01).fluid_side(post.complement());
     /// # Ok::<(), meshfree::error::Error>(())
     /// ```
     #[must_use]
-    pub fn facing(mut self, room: impl Shape<D> + 'static) -> Self {
-        if let (Ok(()), Some(flaw)) = (self.shape, room.problems().first()) {
+    pub fn fluid_side(mut self, fluid_side: impl Shape<D> + 'static) -> Self {
+        if let (Ok(()), Some(flaw)) = (self.shape, fluid_side.problems().first()) {
             self.shape = Err(*flaw);
         }
-        self.room = Some(Arc::new(room));
+        self.fluid_side = Some(Arc::new(fluid_side));
         self
     }
 
-    /// Unit vectors from the liquid into the wall at its particles, or zero; none if it knows no room.
+    /// Unit vectors from the liquid into the wall at its particles, or zero; none if it knows no fluid side.
     pub(crate) fn normals(&self) -> Vec<[f64; D]> {
-        let Some(room) = &self.room else {
+        let Some(fluid_side) = &self.fluid_side else {
             return Vec::new();
         };
         let step = 1e-3 * self.spacing;
@@ -165,7 +165,7 @@ impl<const D: usize> Wall<D> {
                 let beside = |side: f64| {
                     let mut x = *x;
                     x[d] += side * step;
-                    room.signed_distance(&x)
+                    fluid_side.signed_distance(&x)
                 };
                 beside(1.0) - beside(-1.0)
             });
@@ -203,13 +203,13 @@ impl<const D: usize> Wall<D> {
         self
     }
 
-    /// Says that the wall carries the liquid with it, as a tank does and a piston does not.
+    /// Makes the frame of the wall the container frame: it takes the liquid with it, as a tank does and a piston does not.
     ///
     /// A density diffusion that leaves the hydrostatic part out ([`Fourtakas`](crate::term::Fourtakas))
     /// takes that part in the frame of this wall.
     #[must_use]
-    pub fn carries_liquid(mut self) -> Self {
-        self.carries = true;
+    pub fn container_frame(mut self) -> Self {
+        self.container_frame = true;
         self
     }
 

@@ -74,7 +74,7 @@ impl<T: Real, const D: usize> Law<T, D> for KeptDivergence {
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let (sums, first) = (chunk.around.sums, chunk.first);
-        let lattice = T::from_f64(chunk.around.lattice_moment);
+        let lattice = T::from_f64(chunk.around.lattice_consistency_factor);
         let [divergence, density] = chunk.columns([Field::DIVERGENCE, Field::DENSITY]);
         for (n, (divergence, density)) in divergence.iter_mut().zip(density).enumerate() {
             let sum = sums.get(Output::COMPRESSION, 0, first + n);

@@ -5,16 +5,16 @@ use crate::boundary::WallSurface;
 use crate::material::Material;
 use crate::particles::{Columns, Field, Output};
 use crate::scalar::Real;
-use crate::sweep::Rows;
+use crate::sweep::Results;
 use std::ops::Range;
 
 /// What is around a particle beside its own columns.
 #[derive(Clone, Copy, Debug)]
 pub struct Around<'a, T: Real, const D: usize> {
     /// The sums of the stage's own sweep; of the rates where they were summed with those.
-    pub sums: &'a Rows<T, D>,
+    pub sums: &'a Results<T, D>,
     /// The rates of the last evaluation.
-    pub rates: &'a Rows<T, D>,
+    pub rates: &'a Results<T, D>,
     /// The material of the body; of the first body for walls.
     pub material: &'a Material<T>,
     /// The wall, at [`Stage::Walls`](crate::term::Stage).
@@ -22,7 +22,7 @@ pub struct Around<'a, T: Real, const D: usize> {
     /// The smoothing length where it is the same for all, as built \[m\].
     pub smoothing_length: f64,
     /// First moment −Σ V r·∇W/D of the lattice; one in schemes whose particles carry their own.
-    pub lattice_moment: f64,
+    pub lattice_consistency_factor: f64,
     /// The step \[s\] over which the stage acts: of the drift, or since the law last ran in an earlier step;
     /// zero where time does not go on.
     pub dt: f64,

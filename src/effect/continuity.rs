@@ -30,9 +30,9 @@ impl Compression {
         } else {
             self.pressure
         };
-        let [rest, moment] =
-            [Field::REFERENCE_DENSITY, Field::NORMALISATION].map(|field| at.columns.raw(field));
-        let lattice = T::from_f64(at.around.lattice_moment);
+        let [rest, moment] = [Field::REFERENCE_DENSITY, Field::CONSISTENCY_FACTOR]
+            .map(|field| at.columns.raw(field));
+        let lattice = T::from_f64(at.around.lattice_consistency_factor);
         for (n, growth) in growth.iter_mut().enumerate() {
             let slot = first + n;
             let sum = at.sum(Output::COMPRESSION, 0, slot);

@@ -28,8 +28,8 @@ impl<T: Real, const D: usize> Law<T, D> for SummedDensity {
             Field::DENSITY,
             Field::REFERENCE_DENSITY,
             Field::REFERENCE_SUM,
-            Field::NORMALISATION,
-            Field::TOUCHING_SUM,
+            Field::CONSISTENCY_FACTOR,
+            Field::CONTACT_THRESHOLD,
         ]);
         let at = |column: &[T], n: usize| column.get(n).copied().unwrap_or(T::zero());
         for (n, density) in density.iter_mut().enumerate() {
@@ -74,7 +74,8 @@ impl<T: Real, const D: usize> Law<T, D> for ContactActivity {
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let (sums, first) = (chunk.around.sums, chunk.first);
-        let [active, threshold] = chunk.columns([Field::TOUCHING, Field::TOUCHING_SUM]);
+        let [active, threshold] =
+            chunk.columns([Field::CONTACT_ACTIVITY, Field::CONTACT_THRESHOLD]);
         for (n, (active, threshold)) in active.iter_mut().zip(threshold).enumerate() {
             let pressed = sums.get(Output::CONTACT_SUM, 0, first + n) > *threshold;
             *active = if pressed { T::one() } else { T::zero() };

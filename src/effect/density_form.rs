@@ -35,7 +35,7 @@ pub enum DensityForm {
     ///
     #[doc = include_str!("../../docs/equations/density_number.html")]
     ///
-    /// Across a contact the sum enters only as far as it exceeds its value at touching, so a contact
+    /// Across a contact the sum enters only as far as it exceeds its threshold, so a contact
     /// compresses and never pulls ([`Interaction::Unilateral`](crate::sweep::Interaction)).
     NumberDensity,
     /// Continuity in volume form: large motion, and density ratios at joints.

@@ -4,7 +4,7 @@
 use super::{Chunk, Law, Tally};
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Real;
-use crate::sweep::Rows;
+use crate::sweep::Results;
 use crate::tensor::{Matrix, inverse};
 
 /// Gradients and corrections, as far as the scheme carries them.
@@ -66,7 +66,7 @@ impl<T: Real, const D: usize> Law<T, D> for CorrectedGradients {
 }
 
 /// The inverse of a particle's moment matrix.
-fn correction<T: Real, const D: usize>(sums: &Rows<T, D>, slot: usize) -> Matrix<T, D> {
+fn correction<T: Real, const D: usize>(sums: &Results<T, D>, slot: usize) -> Matrix<T, D> {
     let moment = Matrix::<T, D>::from_fn(|a, b| sums.get(Output::MOMENT_MATRIX, a * D + b, slot));
     // A thin jet has no gradient across itself: leave the sum uncorrected there.
     inverse(&moment, SINGULAR).unwrap_or_else(Matrix::identity)
@@ -74,7 +74,7 @@ fn correction<T: Real, const D: usize>(sums: &Rows<T, D>, slot: usize) -> Matrix
 
 /// ∇v of a particle from the sums of its sweep \[1/s\].
 pub(super) fn velocity_gradient<T: Real, const D: usize>(
-    sums: &Rows<T, D>,
+    sums: &Results<T, D>,
     slot: usize,
 ) -> Matrix<T, D> {
     let sum = Matrix::<T, D>::from_fn(|a, b| sums.get(Output::VELOCITY_GRADIENT, a * D + b, slot));

@@ -5,7 +5,7 @@ use super::gradients::velocity_gradient;
 use super::{Chunk, Effect, Law, Setting, StepProgram, Tally};
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Real;
-use crate::sweep::Rows;
+use crate::sweep::Results;
 use crate::term::{In, Stage, Term, VelocityAtWall, VelocityGradient, ViscosityAtWall, stage};
 
 /// A physical viscosity, of the liquids' own dynamic viscosity:
@@ -146,7 +146,7 @@ impl<T: Real, const D: usize> Law<T, D> for GeneralisedNewtonian {
 }
 
 /// √(2 D:D) \[1/s\] with D the symmetric part of ∇v without its trace.
-fn shear_rate<T: Real, const D: usize>(sums: &Rows<T, D>, slot: usize) -> T {
+fn shear_rate<T: Real, const D: usize>(sums: &Results<T, D>, slot: usize) -> T {
     let gradient = velocity_gradient(sums, slot);
     let half = T::from_f64(0.5);
     let mean = gradient.trace() / T::from_f64(D as f64);

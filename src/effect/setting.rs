@@ -2,7 +2,7 @@
 //! Evaluated when the scene is built, so the order in which a builder was told does not matter.
 
 use super::{DensityForm, When};
-use crate::kernel::lattice::{lattice_moment, lattice_unity};
+use crate::kernel::lattice::{lattice_consistency_factor, lattice_unity};
 use crate::kernel::{Kernel, KernelFacts};
 
 /// What a scheme is, as far as its effects may ask.
@@ -19,7 +19,7 @@ pub struct Setting {
     /// When an integrated density changes.
     pub density_changes: When,
     /// First moment −Σ V r·∇W/D of the lattice.
-    pub lattice_moment: f64,
+    pub lattice_consistency_factor: f64,
     /// Σ V W over the lattice.
     pub lattice_unity: f64,
     /// hᴰ W at the spacing.
@@ -39,7 +39,7 @@ impl Setting {
             density,
             pressure_form,
             density_changes,
-            lattice_moment: lattice_moment(kernel, h_over_dx),
+            lattice_consistency_factor: lattice_consistency_factor(kernel, h_over_dx),
             lattice_unity: lattice_unity(kernel, h_over_dx),
             kernel_at_spacing: kernel.normalisation() * Kernel::<D>::shape(kernel, 1.0 / h_over_dx),
         }

@@ -63,7 +63,7 @@ impl<T: Real, const D: usize> Law<T, D> for ViscositySwitch {
             Field::DIVERGENCE,
             Field::DENSITY,
             Field::REFERENCE_DENSITY,
-            Field::NORMALISATION,
+            Field::CONSISTENCY_FACTOR,
             Field::SMOOTHING_LENGTH,
             Field::SOUND_SPEED,
             Field::VELOCITY_GRADIENT,

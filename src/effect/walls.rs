@@ -102,7 +102,7 @@ impl<T: Real, const D: usize> Law<T, D> for ExtrapolatedPressure {
 /// spreads: a row thrown at a floor leaves it with 0.39 of its speed without this, 0.12 with it
 /// (`tests/liquids/riemann_walls.rs`). u is the mean over the kernel along the wall's normal, so a wall must know the
 /// container that it faces: one [around](crate::boundary::Wall::around) a box does, others are
-/// [told](crate::boundary::Wall::facing), and a scene with one that is not is refused. It costs D sums a wall
+/// [told](crate::boundary::Wall::fluid_side), and a scene with one that is not is refused. It costs D sums a wall
 /// particle.
 ///
 /// ```

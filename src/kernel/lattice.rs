@@ -4,7 +4,10 @@
 use super::Kernel;
 
 /// −Σ V r·∇W/D over a cubic lattice, by which sums of gradients fall short or exceed.
-pub(crate) fn lattice_moment<K: Kernel<D>, const D: usize>(kernel: &K, h_over_dx: f64) -> f64 {
+pub(crate) fn lattice_consistency_factor<K: Kernel<D>, const D: usize>(
+    kernel: &K,
+    h_over_dx: f64,
+) -> f64 {
     let sum = lattice_sum(kernel, h_over_dx, |r| {
         -r * r * Kernel::<D>::slope_over_q(kernel, r / h_over_dx)
     });
@@ -59,18 +62,18 @@ mod tests {
     fn the_moment_of_a_lattice_is_that_of_its_sum() {
         // Σ r |dW/dr| / 2 over the unit lattice, with the slope by differences of W.
         for (h_over_dx, expected) in [(1.3, 0.973_921), (1.5, 0.997_399)] {
-            let moment = lattice_moment::<_, 2>(&WendlandC2, h_over_dx);
+            let moment = lattice_consistency_factor::<_, 2>(&WendlandC2, h_over_dx);
             assert!((moment - expected).abs() < 1e-6, "{h_over_dx}: {moment}");
         }
         // In a row at h = dx the neighbours at 1 alone count, W' = -5/8 · 3 q (1 - q/2)² = -15/32.
-        let row = lattice_moment::<_, 1>(&WendlandC2, 1.0);
+        let row = lattice_consistency_factor::<_, 1>(&WendlandC2, 1.0);
         assert!((row - 15.0 / 16.0).abs() < 1e-15, "{row}");
     }
 
     #[test]
     fn what_no_lattice_has_is_no_number() {
         for h_over_dx in [-1.0, 0.0, 1e5, 1e39, f64::INFINITY, f64::NAN] {
-            assert!(lattice_moment::<_, 3>(&WendlandC2, h_over_dx).is_nan());
+            assert!(lattice_consistency_factor::<_, 3>(&WendlandC2, h_over_dx).is_nan());
             assert!(lattice_unity::<_, 2>(&WendlandC2, h_over_dx).is_nan());
         }
     }

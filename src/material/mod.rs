@@ -1,7 +1,7 @@
 //! Materials: equations of state, viscosity laws and the catalogue of named materials.
 //! A material is evaluated once per particle and step, never inside the pair loop.
 //!
-//! A [`Material`] is a name, a source, an equation of state and what else is known of the stuff. The
+//! A [`Material`] is a name, a source, an equation of state and what else is known of it. The
 //! law's type is erased, so one scene holds copper, water and air; each block of particles is still
 //! evaluated by code compiled for its law.
 //!
@@ -247,7 +247,7 @@ impl<T: Real> Material<T> {
         }
     }
 
-    /// The same stuff with another equation of state; a pressure cut-off stays.
+    /// The same material with another equation of state; a pressure cut-off stays.
     #[must_use]
     pub fn with_eos(mut self, eos: impl EquationOfState) -> Self {
         self.eos = Arc::new(Erased {
@@ -312,7 +312,7 @@ impl<T: Real> Material<T> {
         &*self.eos
     }
     /// The viscosity law: the [one given](Self::with_rheology), or the Newtonian of the constant
-    /// [`dynamic_viscosity`](Self::dynamic_viscosity); `None` for stuff without viscosity.
+    /// [`dynamic_viscosity`](Self::dynamic_viscosity); `None` for what has no viscosity.
     #[must_use]
     pub fn rheology(&self) -> Option<&dyn RheologyObject<T>> {
         let constant = self.dynamic_viscosity.as_ref();

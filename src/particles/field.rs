@@ -315,8 +315,8 @@ quantities! {
     WEIGHT, Scalar, "weight", "kg or m³";
     /// The pressure coefficient X of the density form; pair forces are −Bᵢ Bⱼ (Xᵢ + Xⱼ) ∇W.
     PRESSURE_COEFFICIENT, Scalar, "pressure_coefficient", "by the density form";
-    /// First moment of the kernel gradient at rest, by which the pair is normalised.
-    NORMALISATION, Scalar, "normalisation", "1";
+    /// First-moment consistency factor −Σ V r·∇W/D of the reference configuration, by which pair sums are divided.
+    CONSISTENCY_FACTOR, Scalar, "consistency_factor", "1";
     /// Sum of kernel weights at rest.
     REFERENCE_SUM, Scalar, "reference_sum", "by the density form";
     /// Density at rest, from which compression is measured.
@@ -333,10 +333,10 @@ quantities! {
     DIVERGENCE, Scalar, "divergence", "1/s";
     /// Factor Ω of a smoothing length that follows the density.
     GRAD_H, Scalar, "grad_h", "1";
-    /// Kernel sum over the other side of a contact at the moment of touching.
-    TOUCHING_SUM, Scalar, "touching_sum", "1";
-    /// One where the particle touches the other side of a contact, zero elsewhere.
-    TOUCHING, Scalar, "touching", "1";
+    /// Kernel sum over the other side of a contact from which on the contact is active.
+    CONTACT_THRESHOLD, Scalar, "contact_threshold", "1";
+    /// One where the particle is active in a contact, zero elsewhere.
+    CONTACT_ACTIVITY, Scalar, "contact_activity", "1";
     /// Dynamic viscosity μ.
     DYNAMIC_VISCOSITY, Scalar, "dynamic_viscosity", "Pa s";
     /// Density gradient ∇ρ.

@@ -7,7 +7,6 @@ use crate::material::Material;
 use crate::particles::Field;
 use crate::scalar::Real;
 pub use crate::scheme::Start;
-use std::collections::HashMap;
 
 /// A body: particles of one material.
 ///
@@ -255,8 +254,7 @@ impl<T: Real, const D: usize> Body<T, D> {
     ///
     /// A lattice strikes a wall row by row, all of a row at once, and a pressure sensor reads spikes; particles that
     /// have lost their order strike one after the other, as water does. In a coarse dam break in space the peak at the
-    /// foot of a wall falls from 20 to 7 kPa and its mean stays, with this as with [`stagger`](Self::stagger)
-    /// (`tests/liquids/off_lattice.rs`); in a plane, where a row is one particle, nothing is gained (`docs/dam_breaks.md`). Runs
+    /// foot of a wall falls from 20 to 7 kPa and its mean stays (`tests/liquids/off_lattice.rs`); in a plane, where a row is one particle, nothing is gained (`docs/dam_breaks.md`). Runs
     /// of other seeds say what of a violent flow is chance.
     ///
     /// A fifth is enough. It may be from 0 to 0.3, beyond which neighbours are too close. Give it before what starts
@@ -283,62 +281,22 @@ impl<T: Real, const D: usize> Body<T, D> {
         self
     }
 
-    /// Puts its rows along `axis` out of step: each moves along itself by its own share of up to half a spacing, at
-    /// random, the same for the same `seed`.
+    /// Moves every particle to where a function of its place says \[m\].
     ///
-    /// `free` says of the low and the high end of the rows whether they may move; toward an end that may not, as next
-    /// to a wall, a row moves less and less over its last four particles. Rows are particles that share all other
-    /// coordinates, as those of a lattice.
-    ///
-    /// The tip of a wave that comes from a column is the first particles of its rows. In step they strike a wall at
-    /// once, and so do the next; out of step they strike one after the other. [`jitter`](Self::jitter) does that too,
-    /// by a fifth of a spacing and not by half; the example `dam_break` has both in space, and `docs/dam_breaks.md` what
-    /// each gains. Give them before what starts particles by their places, as [`hydrostatic`](Self::hydrostatic), and
-    /// this one first: a jittered lattice has no rows.
+    /// Give it before what starts particles by their places, as [`hydrostatic`](Self::hydrostatic).
     ///
     /// ```
     /// use meshfree::material::catalogue;
     /// use meshfree::scene::Body;
-    /// // A column that breaks towards its low end.
-    /// let column = || Body::<f64, 2>::block("column", catalogue::water(), [0.0; 2], [0.1; 2], 0.01);
-    /// let (even, out_of_step) = (column(), column().stagger(0, [true, false], 1));
-    /// for (a, b) in even.points().iter().zip(out_of_step.points()) {
-    ///     let last = a[0] > 0.09;
-    ///     assert!((a[0] == b[0]) == last && (a[0] - b[0]).abs() <= 0.005 && a[1] == b[1]);
-    /// }
+    /// // A bar that is bent before the scene begins.
+    /// let bar = Body::<f64, 2>::block("bar", catalogue::steel(), [0.0; 2], [0.1, 0.01], 1e-3);
+    /// let bent = bar.displace(|[x, y]| [x, y + x * x]);
+    /// assert!((bent.points()[99][1] - (0.0005 + 0.0995 * 0.0995)).abs() < 1e-12);
     /// ```
     #[must_use]
-    pub fn stagger(mut self, axis: usize, free: [bool; 2], seed: u64) -> Self {
-        if axis >= D {
-            let must_be = "it must be an axis of the scene, counted from 0";
-            self.shape = self.shape.and(Err(("stagger axis", axis as f64, must_be)));
-            return self;
-        }
-        let row = |x: &[f64; D]| {
-            // Adding zero makes one of the two zeros.
-            let mut across = x.map(|x| (x + 0.0).to_bits());
-            across[axis] = 0;
-            across
-        };
-        // Of each row its number, and its ends.
-        let mut rows = HashMap::new();
-        for x in &self.points {
-            let number = rows.len() as u64;
-            let (_, ends) = rows.entry(row(x)).or_insert((number, [x[axis]; 2]));
-            *ends = [ends[0].min(x[axis]), ends[1].max(x[axis])];
-        }
-        for x in &mut self.points {
-            let (number, ends) = rows[&row(x)];
-            let freedom = |end: usize| {
-                let particles = (x[axis] - ends[end]).abs() / self.spacing;
-                if free[end] {
-                    1.0
-                } else {
-                    (particles / 4.0).min(1.0)
-                }
-            };
-            x[axis] += freedom(0) * freedom(1) * 0.5 * self.spacing * random(seed, number);
-        }
+    pub fn displace(mut self, place: impl FnMut([f64; D]) -> [f64; D]) -> Self {
+        let places = self.points.iter().copied().map(place).collect();
+        self.points = places;
         self
     }
 

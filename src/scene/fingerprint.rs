@@ -119,7 +119,7 @@ fn hash_body<T: Real, const D: usize>(body: &Body<T, D>, hash: &mut Hash) {
         starts,
         slip,
         fields,
-        // A scene with a flaw is not built.
+        // A scene with an error is not built.
         shape: _,
     } = body;
     text(hash, (name, material, spacing, slip, points.len()));
@@ -142,13 +142,16 @@ fn hash_wall<const D: usize>(wall: &Wall<D>, facing: bool, hash: &mut Hash) {
         motion,
         slip,
         sliding,
-        carries,
+        container_frame,
         shape: _,
         // Known by its normals.
-        room: _,
+        fluid_side: _,
     } = wall;
     let motion = motion.as_ref().map(|motion| motion.name());
-    text(hash, (name, spacing, motion, slip, sliding, carries));
+    text(
+        hash,
+        (name, spacing, motion, slip, sliding, container_frame),
+    );
     text(hash, points.len());
     hash.numbers(points.as_flattened());
     if facing {

@@ -6,7 +6,7 @@
 //!
 //! 1. runs every check and reports all problems together, each with what to do,
 //! 2. lays out one column for each field that the scheme or a contact names,
-//! 3. finds neighbours and takes the sums at rest: a body at rest is free of stress from here on,
+//! 3. finds neighbours and takes the reference configuration: a body at rest is free of stress from here on,
 //! 4. evaluates once and refuses a fixed step above the stability limit.
 //!
 //! What two bodies do to each other is [`Interaction::Unilateral`] unless [`Scene::between`] says

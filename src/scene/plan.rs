@@ -89,10 +89,13 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         let unilateral = interactions.contains(&Interaction::Unilateral);
         let mut fields = self.scene.fields_of(self.scheme, self.bodies);
         if unilateral {
-            fields = fields.union(Fields::of(&[Field::TOUCHING, Field::TOUCHING_SUM]));
+            fields = fields.union(Fields::of(&[
+                Field::CONTACT_ACTIVITY,
+                Field::CONTACT_THRESHOLD,
+            ]));
         }
         let width = width::<T>();
-        let counts = self.bodies.iter().map(|body| self.room(body));
+        let counts = self.bodies.iter().map(|body| self.capacity(body));
         let slots = counts
             .chain(self.walls.iter().map(|(wall, _)| wall.points.len()))
             .map(|count| count.next_multiple_of(width))
@@ -102,7 +105,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         let mut start = 0;
         for body in self.bodies {
             let own = start..start + body.points.len();
-            let end = (start + self.room(body)).next_multiple_of(width);
+            let end = (start + self.capacity(body)).next_multiple_of(width);
             for slot in start..end {
                 let k = (slot - start).min(body.points.len() - 1);
                 let own = (&body.material, body.spacing);
@@ -117,7 +120,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                     }
                 }
             }
-            let ids = start..start + self.room(body);
+            let ids = start..start + self.capacity(body);
             start = end;
             bodies.push(BodyState {
                 name: body.name.clone(),
@@ -212,7 +215,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             motion: wall.motion.clone(),
             slip: wall.slip,
             sliding: wall.sliding,
-            carries: wall.carries,
+            container_frame: wall.container_frame,
             mass: self.wall_mass(wall),
             index,
             structure,
@@ -243,7 +246,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
     }
 
     /// Particles that a body can have: those that it starts with, and what inlets may add.
-    fn room(&self, body: &Body<T, D>) -> usize {
+    fn capacity(&self, body: &Body<T, D>) -> usize {
         let inlets = self
             .scene
             .inlets

@@ -1,7 +1,7 @@
 //! The builder of schemes: the choices, and how they are compiled into sweeps over pairs.
 //! What the builder's type rules out leaves no loop behind.
 
-use super::force::{CURVED, ENERGY, Gradients, KICKED, Needs, Pressure, RENORMALISED, Rate};
+use super::force::{ENERGY, Gradients, KICKED, Needs, Pressure, Rate};
 use super::{EnergyForm, Scheme, Smoothing};
 use crate::effect::{
     BySum, Cavitation, Compression, ConsistentSmoothing, ContactActivity, CorrectedGradients,
@@ -12,9 +12,9 @@ use crate::error::Problem;
 use crate::kernel::{Kernel, KernelFacts};
 use crate::particles::{Field, Fields, Output};
 use crate::scalar::Real;
-use crate::sweep::{Interaction, PairSweep, Program, SmoothingMode};
+use crate::sweep::{FusedKernel, Interaction, PairSweep, SmoothingMode};
 use crate::term::{
-    ArtificialViscosity, InternalEnergy, KernelMoment, KernelSum, PressureCurvature, SlopeInH,
+    ArtificialViscosity, InternalEnergy, KernelMoment, KernelSum, MidpointReconstruction, SlopeInH,
     Stage, StageMarker, StagedTerms, Terms, Unity, Viscosity, stage,
 };
 use core::marker::PhantomData;
@@ -60,7 +60,7 @@ struct Settings {
     pressure_form: Option<DensityForm>,
     energy: EnergyForm,
     smoothing: Smoothing,
-    normalisation: Normalisation,
+    consistency: Consistency,
     h_over_dx: Option<f64>,
     curvature: f64,
     step_factor: f64,
@@ -69,7 +69,7 @@ struct Settings {
 
 /// By which first moment sums of gradients are divided.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Normalisation {
+enum Consistency {
     /// By none.
     None,
     /// By that of each particle at rest.
@@ -93,7 +93,7 @@ impl<K, V> SchemeBuilder<K, V> {
                 pressure_form: None,
                 energy: EnergyForm::default(),
                 smoothing: Smoothing::default(),
-                normalisation: Normalisation::AtRest,
+                consistency: Consistency::AtRest,
                 h_over_dx: None,
                 curvature: 0.0,
                 step_factor: DEFAULT_STEP_FACTOR,
@@ -111,7 +111,7 @@ impl<K, V> LiquidBuilder<K, V> {
     /// A scheme of weakly compressible liquids with a kernel and an artificial viscosity: continuity, walls that
     /// extrapolate the pressure, no internal energy, no density diffusion.
     ///
-    /// A liquid does not keep its neighbours, so it is normalised by the moment of the lattice, one number of
+    /// A liquid does not keep its neighbours, so it is divided by the consistency factor of the lattice, one number of
     /// kernel and h/dx.
     #[must_use]
     pub fn liquid(kernel: K, viscosity: V) -> Self {
@@ -125,7 +125,7 @@ impl<K, V> LiquidBuilder<K, V> {
                 name: "liquid".into(),
                 density: DensityForm::Continuity,
                 energy: EnergyForm::None,
-                normalisation: Normalisation::Lattice,
+                consistency: Consistency::Lattice,
                 ..solid.settings
             },
         }
@@ -241,12 +241,12 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
     pub fn step_factor(self, factor: f64) -> Self {
         self.set(|own| own.step_factor = factor)
     }
-    /// Leaves out the normalisation by the first moment of the kernel gradient, at rest or of the lattice, so that
+    /// Leaves out the first-moment consistency factor of the kernel gradient, at rest or of the lattice, so that
     /// waves run at the wrong speed that uncorrected SPH gives them, and a liquid column at h/dx 1.3 with Wendland
     /// C2 is 2.7 % too heavy.
     #[must_use]
-    pub fn without_normalisation(self) -> Self {
-        self.set(|own| own.normalisation = Normalisation::None)
+    pub fn without_consistency_factor(self) -> Self {
+        self.set(|own| own.consistency = Consistency::None)
     }
     /// Compiles the choices into sweeps.
     #[must_use]
@@ -263,19 +263,19 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
 
 /// Methods that choose a form of the force, each from the forms that it goes with.
 macro_rules! forms {
-    ($( $from:literal => [$curved:expr, $plain:expr, $renormalised:expr] ),*) => {$(
+    ($( $from:literal => [$midpoint:expr, $plain:expr, $renormalised:expr] ),*) => {$(
         impl<K, V, W, E, const MODES: u8> SchemeBuilder<K, V, W, E, MODES, $from> {
-            /// Adds midpoint reconstruction of the pressure with strength χ; see [`PressureCurvature`].
+            /// Adds midpoint reconstruction of the pressure with strength χ; see [`MidpointReconstruction`].
             #[must_use]
-            pub fn pressure_curvature(
+            pub fn midpoint_reconstruction(
                 self,
                 strength: f64,
-            ) -> SchemeBuilder<K, V, W, E, MODES, { $curved }> {
+            ) -> SchemeBuilder<K, V, W, E, MODES, { $midpoint }> {
                 self.set(|own| own.curvature = strength).map(|k, v, w, e| (k, v, w, e))
             }
             /// Leaves midpoint reconstruction of the pressure out.
             #[must_use]
-            pub fn without_pressure_curvature(
+            pub fn without_midpoint_reconstruction(
                 self,
             ) -> SchemeBuilder<K, V, W, E, MODES, { $plain }> {
                 self.map(|k, v, w, e| (k, v, w, e))
@@ -284,20 +284,22 @@ macro_rules! forms {
             /// the price of a sweep.
             #[must_use]
             pub fn renormalised(self) -> SchemeBuilder<K, V, W, E, MODES, { $renormalised }> {
-                self.without_normalisation().map(|k, v, w, e| (k, v, w, e))
+                self.without_consistency_factor().map(|k, v, w, e| (k, v, w, e))
             }
         }
     )*};
 }
+// Every set of the bits MIDPOINT, RENORMALISED and ENERGY, which is no pattern: with midpoint reconstruction, without it,
+// and with renormalised gradients.
 forms! {
-    0 => [CURVED, 0, RENORMALISED],
-    1 => [CURVED, 0, 3],
-    2 => [3, RENORMALISED, RENORMALISED],
-    3 => [3, RENORMALISED, 3],
-    4 => [5, ENERGY, 6],
-    5 => [5, ENERGY, 7],
-    6 => [7, 6, 6],
-    7 => [7, 6, 7]
+    0b000 => [0b001, 0b000, 0b010],
+    0b001 => [0b001, 0b000, 0b011],
+    0b010 => [0b011, 0b010, 0b010],
+    0b011 => [0b011, 0b010, 0b011],
+    0b100 => [0b101, 0b100, 0b110],
+    0b101 => [0b101, 0b100, 0b111],
+    0b110 => [0b111, 0b110, 0b110],
+    0b111 => [0b111, 0b110, 0b111]
 }
 
 impl<K, V, W, E, const MODES: u8> SchemeBuilder<K, V, W, E, MODES, 0> {
@@ -450,7 +452,7 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
             smoothing: own.smoothing,
             h_over_dx: setting.h_over_dx,
             step_factor: own.step_factor * program.step_factor,
-            normalised: own.normalisation == Normalisation::AtRest,
+            consistent_at_rest: own.consistency == Consistency::AtRest,
             between: own.between,
             kernel_problems: crate::kernel::problems_of(&self.kernel),
             problems: viscous
@@ -459,8 +461,8 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
                 .collect(),
             reference: (FORCE & ENERGY != 0).then(|| compiled.reference()),
             sweeps,
-            lattice_moment: if own.normalisation == Normalisation::Lattice {
-                setting.lattice_moment
+            lattice_consistency_factor: if own.consistency == Consistency::Lattice {
+                setting.lattice_consistency_factor
             } else {
                 1.0
             },
@@ -535,7 +537,11 @@ impl<K, V, E, N: Needs, const MODES: u8, const FORCE: u8> Compiled<K, V, E, N, M
     where
         K: Kernel<D>,
     {
-        Box::new(Program::<_, _, MODES>::new(self.kernel, terms, self.mode))
+        Box::new(FusedKernel::<_, _, MODES>::new(
+            self.kernel,
+            terms,
+            self.mode,
+        ))
     }
 
     /// The sweep of some terms, if there are any.
@@ -612,7 +618,7 @@ impl<K, V, E, N: Needs, const MODES: u8, const FORCE: u8> Compiled<K, V, E, N, M
         E: Effects<D>,
     {
         let pressure = Pressure::<FORCE> {
-            curvature: PressureCurvature {
+            curvature: MidpointReconstruction {
                 strength: self.curvature,
             },
         };

@@ -4,25 +4,25 @@
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Lane;
 use crate::term::{
-    ArtificialViscosity, Compression, DensityGradient, Join, Layout, MomentMatrix, Pair,
-    PressureCurvature, PressureForce, PressureGradient, RenormalisedCompression,
+    ArtificialViscosity, Compression, DensityGradient, Join, Layout, MidpointReconstruction,
+    MomentMatrix, Pair, PressureForce, PressureGradient, RenormalisedCompression,
     RenormalisedPressureForce, Sums, Term, TermDoc, Terms, VelocityGradient,
 };
 use core::marker::PhantomData;
 
 /// Pressure at the middle of a pair is reconstructed.
-pub(super) const CURVED: u8 = 1;
+pub const MIDPOINT: u8 = 1;
 /// Gradients of force and compression are renormalised.
-pub(super) const RENORMALISED: u8 = 2;
+pub const RENORMALISED: u8 = 2;
 /// Internal energy is carried.
-pub(super) const ENERGY: u8 = 4;
+pub const ENERGY: u8 = 4;
 /// The rate of density is summed with the forces, and density is kicked.
-pub(super) const KICKED: u8 = 8;
+pub const KICKED: u8 = 8;
 
 /// The pressure force.
 #[derive(Clone, Debug)]
 pub(super) struct Pressure<const FLAGS: u8> {
-    pub curvature: PressureCurvature,
+    pub curvature: MidpointReconstruction,
 }
 
 impl<const D: usize, const FLAGS: u8> Terms<D> for Pressure<FLAGS> {
@@ -32,8 +32,8 @@ impl<const D: usize, const FLAGS: u8> Terms<D> for Pressure<FLAGS> {
         } else {
             <PressureForce as Term<D>>::READS
         };
-        if FLAGS & CURVED != 0 {
-            own.union(<PressureCurvature as Term<D>>::READS)
+        if FLAGS & MIDPOINT != 0 {
+            own.union(<MidpointReconstruction as Term<D>>::READS)
         } else {
             own
         }
@@ -55,7 +55,7 @@ impl<const D: usize, const FLAGS: u8> Terms<D> for Pressure<FLAGS> {
         } else {
             PressureForce.pair(pair, sums);
         }
-        if const { FLAGS & CURVED != 0 } {
+        if const { FLAGS & MIDPOINT != 0 } {
             self.curvature.pair(pair, sums);
         }
     }
@@ -65,7 +65,7 @@ impl<const D: usize, const FLAGS: u8> Terms<D> for Pressure<FLAGS> {
         } else {
             Term::<D>::document(&PressureForce)
         }];
-        if FLAGS & CURVED != 0 {
+        if FLAGS & MIDPOINT != 0 {
             documents.push(Term::<D>::document(&self.curvature));
         }
         documents

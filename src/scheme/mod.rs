@@ -13,7 +13,7 @@
 //! | rates | always | force, power, signal; rate of compression where density is integrated |
 //! | continuity | in a drift, where density is integrated | rate of compression at the middle of the drift |
 //!
-//! One more sweep runs once, when the scene is built: it takes the sums at rest from which
+//! One more sweep runs once, when the scene is built: it takes the reference configuration from which
 //! [`DensityForm::NumberDensity`] and [`DensityForm::Continuity`] measure.
 //!
 //! # Density and pressure are one choice
@@ -34,6 +34,11 @@
 //! long the step. [`EnergyForm::Symmetric`] saves that pass, and drifts with the order of the step.
 
 mod builder;
+/// Bits that tell the forms of the pair force apart in the type of a builder.
+pub mod forms {
+    pub use super::force::{ENERGY, KICKED, MIDPOINT, RENORMALISED};
+}
+
 mod force;
 mod order;
 mod print;
@@ -109,18 +114,18 @@ pub struct Scheme<T: Real, const D: usize> {
     pub(crate) h_over_dx: f64,
     pub(crate) step_factor: f64,
     /// Whether sums are divided by the first moment of each particle at rest.
-    pub(crate) normalised: bool,
+    pub(crate) consistent_at_rest: bool,
     /// What its bodies do to each other where a scene says nothing else.
     pub(crate) between: Interaction,
     /// What is wrong with the kernel.
     pub(crate) kernel_problems: Vec<(&'static str, f64, &'static str)>,
     /// What is wrong with the parameters of its parts.
     pub(crate) problems: Vec<(String, f64, &'static str)>,
-    /// The sums at rest from which density forms measure.
+    /// The reference configuration from which density forms measure.
     pub(crate) reference: Option<Box<dyn PairSweep<T, D>>>,
     pub(crate) sweeps: [Option<Box<dyn PairSweep<T, D>>>; Stage::COUNT],
     /// First moment of the kernel gradient on the lattice, where particles do not carry their own.
-    pub(crate) lattice_moment: f64,
+    pub(crate) lattice_consistency_factor: f64,
     /// What its effects do beside their pair terms.
     pub(crate) program: StepProgram<T, D>,
 }
@@ -197,7 +202,7 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         }
         if self.density.has_reference() && self.reference.is_some() {
             fields = fields.union(Fields::of(&[
-                Field::NORMALISATION,
+                Field::CONSISTENCY_FACTOR,
                 Field::REFERENCE_SUM,
                 Field::REFERENCE_DENSITY,
             ]));

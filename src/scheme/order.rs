@@ -18,10 +18,10 @@ const GIVEN: Fields = Fields::of(&[
     Field::DENSITY,
     Field::SMOOTHING_LENGTH,
     Field::WEIGHT,
-    Field::NORMALISATION,
+    Field::CONSISTENCY_FACTOR,
     Field::GRAD_H,
-    Field::TOUCHING,
-    Field::TOUCHING_SUM,
+    Field::CONTACT_ACTIVITY,
+    Field::CONTACT_THRESHOLD,
     Field::DYNAMIC_VISCOSITY,
 ]);
 /// What equations of state write, after the densities.

@@ -19,7 +19,7 @@ use crate::output::checkpoint::{Checkpoint, Hashes, Read, damaged};
 use crate::particles::{Columns, Field, Output, Outputs};
 use crate::scalar::Real;
 use crate::scheme::Scheme;
-use crate::sweep::{InstructionSet, Reaction, Records, Rows};
+use crate::sweep::{InstructionSet, Reaction, Records, Results};
 use crate::term::Stage;
 use std::ops::Range;
 use std::path::Path;
@@ -490,8 +490,8 @@ impl<T: Real, const D: usize> Group<T, D> {
 /// What an evaluation between steps sets aside: the file has that, or what is there now.
 struct Put<'a, T: Real, const D: usize> {
     columns: &'a Columns<T, D>,
-    rates: &'a Rows<T, D>,
-    coupling: &'a Rows<T, D>,
+    rates: &'a Results<T, D>,
+    coupling: &'a Results<T, D>,
     apart: &'a [[T; D]],
     records: &'a Records<T>,
     work_records: &'a Records<T>,
@@ -758,7 +758,7 @@ fn sum_name(sum: Output) -> String {
     format!("{} {}", sum.name(), sum.place())
 }
 
-fn put_rows<T: Real, const D: usize>(rows: &Rows<T, D>, name: &str, file: &mut Checkpoint) {
+fn put_rows<T: Real, const D: usize>(rows: &Results<T, D>, name: &str, file: &mut Checkpoint) {
     let names: Vec<_> = rows.outputs().iter().map(sum_name).collect();
     let (data, first) = rows.stored();
     file.put_text(name, names.join("\n"));
@@ -780,7 +780,7 @@ fn take_rows<T: Real, const D: usize>(
     scheme: &Scheme<T, D>,
     name: &str,
     file: &Checkpoint,
-) -> Read<Rows<T, D>> {
+) -> Read<Results<T, D>> {
     let sweeps = Stage::ALL
         .into_iter()
         .filter_map(|stage| scheme.sweep(stage));
@@ -807,7 +807,11 @@ fn take_rows<T: Real, const D: usize>(
             force: *force,
         });
     let data = file.get_reals(name)?;
-    Ok(Rows::of_stored(outputs, (data, first), reactions.collect()))
+    Ok(Results::of_stored(
+        outputs,
+        (data, first),
+        reactions.collect(),
+    ))
 }
 
 #[cfg(test)]

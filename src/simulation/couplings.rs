@@ -7,7 +7,7 @@ use super::population::BodyState;
 use crate::coupling::{CoupledParticle, Coupling};
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
-use crate::sweep::{Pass, Records, Rows, SweepInput};
+use crate::sweep::{Pass, Records, Results, SweepInput};
 use crate::term::Stage;
 use std::ops::Range;
 use std::sync::Arc;
@@ -333,7 +333,7 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// The force of the liquid on wall particles with the rates at hand: the forces on the liquid with
     /// the opposite sign.
-    pub(super) fn sum_on_walls(&self, targets: Range<usize>, rows: &mut Rows<T, D>) {
+    pub(super) fn sum_on_walls(&self, targets: Range<usize>, rows: &mut Results<T, D>) {
         let input = SweepInput {
             targets,
             ..self.input()

@@ -4,7 +4,7 @@
 use super::Simulation;
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
-use crate::sweep::Rows;
+use crate::sweep::Results;
 use crate::tensor::length;
 
 /// Energies \[J\] of a liquid, and the work done on it since the start.
@@ -155,7 +155,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
         let mut power = 0.0;
         for group in &self.groups {
-            let mut rows = Rows::default();
+            let mut rows = Results::default();
             group.sum_on_walls(
                 group.particles.mobile..group.particles.columns.slots(),
                 &mut rows,

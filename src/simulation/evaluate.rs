@@ -56,7 +56,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             Field::MASS,
             Field::DENSITY,
             Field::REFERENCE_DENSITY,
-            Field::NORMALISATION,
+            Field::CONSISTENCY_FACTOR,
         ]);
         let (mass, density) = (&*mass, &*density);
         let (rest, moment) = (&*rest, &*moment);
@@ -188,13 +188,13 @@ impl<T: Real, const D: usize> Group<T, D> {
                 Field::PRESSURE,
                 Field::DENSITY,
                 Field::REFERENCE_DENSITY,
-                Field::NORMALISATION,
+                Field::CONSISTENCY_FACTOR,
                 Field::GRAD_H,
             ]);
         let (pressure, density) = (&*pressure, &*density);
         let (rest, moment, omega) = (&*rest, &*moment, &*omega);
         let one = |column: &[T], slot: usize| column.get(slot).copied().unwrap_or(T::one());
-        let lattice = T::from_f64(self.scheme.lattice_moment);
+        let lattice = T::from_f64(self.scheme.lattice_consistency_factor);
         coefficient
             .par_iter_mut()
             .enumerate()

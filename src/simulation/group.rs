@@ -11,7 +11,7 @@ use crate::material::eos::GuardCounts;
 use crate::particles::Columns;
 use crate::scalar::{Lane, Real};
 use crate::scheme::Scheme;
-use crate::sweep::{InstructionSet, Interaction, Records, Rows, SweepInput};
+use crate::sweep::{InstructionSet, Interaction, Records, Results, SweepInput};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -50,8 +50,8 @@ pub(crate) struct Group<T: Real, const D: usize> {
 #[derive(Debug)]
 pub(super) struct Aside<T: Real, const D: usize> {
     pub columns: Columns<T, D>,
-    pub rates: Rows<T, D>,
-    pub coupling: Rows<T, D>,
+    pub rates: Results<T, D>,
+    pub coupling: Results<T, D>,
     /// What couplings do to a group that sub-cycles.
     pub apart: Vec<[T; D]>,
     pub records: Records<T>,
@@ -265,7 +265,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             blocks: &self.neighborhood.blocks,
             interactions: &self.neighborhood.interactions,
             smoothing_length: self.smoothing_length,
-            lattice_moment: self.scheme.lattice_moment,
+            lattice_consistency_factor: self.scheme.lattice_consistency_factor,
             instructions: self.instructions,
         }
     }

@@ -12,7 +12,7 @@ use crate::material::eos::GuardCounts;
 use crate::particles::{Field, Output, Shape};
 use crate::scalar::Real;
 use crate::scheme::Scheme;
-use crate::sweep::Rows;
+use crate::sweep::Results;
 use std::ops::Range;
 
 /// A particle as it is now.
@@ -279,7 +279,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Structures are walls to the liquids of a scene.
     #[must_use]
     pub fn wall_particle_forces(&self) -> Vec<([f64; D], [f64; D])> {
-        let mut rows = Rows::default();
+        let mut rows = Results::default();
         let mut forces = Vec::new();
         for group in &self.groups {
             group.sum_on_walls(

@@ -1,4 +1,4 @@
-//! The sums at rest from which density forms measure compression, taken when a scene is built.
+//! The reference configuration from which density forms measure compression, taken when a scene is built.
 //! Lam, Shen & Gong 2002, section 4.1, for theirs.
 
 use super::Simulation;
@@ -8,7 +8,7 @@ use crate::scalar::Real;
 use crate::scheme::DensityForm;
 
 impl<T: Real, const D: usize> Simulation<T, D> {
-    /// Takes the sums at rest of all groups, with structures in their places.
+    /// Takes the reference configuration of all groups, with structures in their places.
     pub(crate) fn take_references(&mut self) {
         self.place_structures(self.time, false);
         for group in &mut self.groups {
@@ -18,12 +18,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 }
 
 impl<T: Real, const D: usize> Group<T, D> {
-    /// Takes the sums at rest from which stress is measured. Called once, when the scene is built.
+    /// Takes the reference configuration from which stress is measured. Called once, when the scene is built.
     pub fn take_reference(&mut self) {
         // At rest the two sides of a contact lie against each other, and count as one neighbourhood.
         self.particles
             .columns
-            .raw_mut(Field::TOUCHING)
+            .raw_mut(Field::CONTACT_ACTIVITY)
             .fill(T::one());
         self.set_weights(self.scheme.density);
         self.refresh(0.0, None);
@@ -32,10 +32,10 @@ impl<T: Real, const D: usize> Group<T, D> {
         if form == DensityForm::Lam {
             self.smooth_reference();
         } else if form.has_reference() && self.scheme.reference.is_some() {
-            let normalised = self.scheme.normalised;
+            let consistent = self.scheme.consistent_at_rest;
             let rows = &self.work.sums;
             let [moment, sum, rest, density] = self.particles.columns.many_mut([
-                Field::NORMALISATION,
+                Field::CONSISTENCY_FACTOR,
                 Field::REFERENCE_SUM,
                 Field::REFERENCE_DENSITY,
                 Field::DENSITY,
@@ -44,42 +44,42 @@ impl<T: Real, const D: usize> Group<T, D> {
                 sum[slot] = rows.get(Output::KERNEL_SUM, 0, slot);
                 rest[slot] = density[slot];
                 let all = sum[slot] + rows.get(Output::CONTACT_SUM, 0, slot);
-                moment[slot] = if normalised {
+                moment[slot] = if consistent {
                     rows.get(Output::MOMENT, 0, slot)
                 } else {
                     all
                 };
             }
-            if form == DensityForm::Continuity && !normalised {
+            if form == DensityForm::Continuity && !consistent {
                 moment.fill(T::one());
             }
         }
         if !form.has_reference() || self.scheme.reference.is_none() {
-            let lattice = T::from_f64(self.scheme.lattice_moment);
+            let lattice = T::from_f64(self.scheme.lattice_consistency_factor);
             self.particles
                 .columns
-                .raw_mut(Field::NORMALISATION)
+                .raw_mut(Field::CONSISTENCY_FACTOR)
                 .fill(lattice);
         }
-        self.take_touching();
+        self.take_contact_thresholds();
         if self.particles.columns.fields().contains(Field::GRAD_H) {
             self.particles.columns.raw_mut(Field::GRAD_H).fill(T::one());
         }
     }
 
-    /// Kernel sum across each contact at which the two sides touch: what a particle lacks to a full
-    /// neighbourhood, or, where the bodies lie against each other, exactly what is there.
-    fn take_touching(&mut self) {
+    /// Kernel sum across each contact from which on it is active: what a particle lacks to a full
+    /// neighbourhood, or, where the bodies abut, exactly what is there.
+    fn take_contact_thresholds(&mut self) {
         if !self
             .particles
             .columns
             .fields()
-            .contains(Field::TOUCHING_SUM)
+            .contains(Field::CONTACT_THRESHOLD)
         {
             return;
         }
         let rows = &self.work.sums;
-        let [touching] = self.particles.columns.many_mut([Field::TOUCHING_SUM]);
+        let [threshold] = self.particles.columns.many_mut([Field::CONTACT_THRESHOLD]);
         for body in &self.particles.bodies {
             let own = |slot: usize| rows.get(Output::KERNEL_SUM, 0, slot);
             let full = body
@@ -89,8 +89,8 @@ impl<T: Real, const D: usize> Group<T, D> {
             for slot in body.run() {
                 let across = rows.get(Output::CONTACT_SUM, 0, slot);
                 let lacking = (full - own(slot)).positive_part();
-                let lies_against = across >= lacking * T::from_f64(0.9);
-                touching[slot] = if lies_against { across } else { lacking };
+                let abuts = across >= lacking * T::from_f64(0.9);
+                threshold[slot] = if abuts { across } else { lacking };
             }
         }
     }
@@ -103,7 +103,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             Field::REFERENCE_SUM,
             Field::REFERENCE_DENSITY,
             Field::DENSITY,
-            Field::NORMALISATION,
+            Field::CONSISTENCY_FACTOR,
         ]);
         for slot in 0..density.len() {
             let unity = rows.get(Output::UNITY, 0, slot);

@@ -44,7 +44,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         Ok(())
     }
 
-    /// Particles without neighbours, where density is measured from the sums at rest: one for each body.
+    /// Particles without neighbours, where density is measured from the reference configuration: one for each body.
     pub(crate) fn isolated(&self) -> Vec<Problem> {
         self.groups.iter().flat_map(Group::isolated).collect()
     }
@@ -100,8 +100,8 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// The first particle of each body that has no neighbours, if that takes its density away.
     fn isolated(&self) -> Vec<Problem> {
-        let moments = self.particles.columns.raw(Field::NORMALISATION);
-        let measured = self.scheme.density.has_reference() && self.scheme.normalised;
+        let moments = self.particles.columns.raw(Field::CONSISTENCY_FACTOR);
+        let measured = self.scheme.density.has_reference() && self.scheme.consistent_at_rest;
         let alone = |slot: &usize| {
             let moment = moments.get(*slot).map_or(1.0, |moment| moment.to_f64());
             measured && moment <= ALONE

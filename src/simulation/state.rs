@@ -165,7 +165,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                 material: &self.particles.bodies[body].material,
                 wall: None,
                 smoothing_length: self.smoothing_length,
-                lattice_moment: self.scheme.lattice_moment,
+                lattice_consistency_factor: self.scheme.lattice_consistency_factor,
                 dt: moment.dt,
                 time: moment.time,
                 gravity: self.gravity,

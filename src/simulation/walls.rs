@@ -25,7 +25,7 @@ pub(crate) struct WallState<T, const D: usize> {
     pub slip: Slip,
     /// Velocity of its surface beside its motion \[m/s\].
     pub sliding: [f64; D],
-    pub carries: bool,
+    pub container_frame: bool,
     /// Mass of a particle as built, in the liquid's density \[kg\].
     pub mass: f64,
     /// Its number among the walls of the scene; of no meaning for a structure.
@@ -46,7 +46,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                     .on_chord(ends.map(|end| motion.pose(end)), ends),
                 None => motion.pose(time),
             });
-            if wall.carries {
+            if wall.container_frame {
                 let acceleration = pose
                     .as_ref()
                     .map_or([0.0; D], |pose| pose.of(2, &wall.rest[0]));
@@ -106,7 +106,7 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// How far the wall that carries the liquid has gone since the last list build \[m\].
     pub(super) fn carried(&self, time: f64) -> [f64; D] {
-        let Some(wall) = self.walls.iter().find(|wall| wall.carries) else {
+        let Some(wall) = self.walls.iter().find(|wall| wall.container_frame) else {
             return [0.0; D];
         };
         let Some(motion) = &wall.motion else {

@@ -6,7 +6,7 @@ use super::cost::Spent;
 use super::population::Moves;
 use crate::particles::Field;
 use crate::scalar::Real;
-use crate::sweep::{Records, Rows};
+use crate::sweep::{Records, Results};
 
 /// Columns of a saved state.
 pub(super) type Saved<T> = Vec<(Field, Vec<T>)>;
@@ -20,11 +20,11 @@ pub(crate) struct Workspace<T: Real, const D: usize> {
     /// Whether the records are those of the rates; all sweeps share them.
     pub records_of_rates: bool,
     /// The rates of the last evaluation.
-    pub rates: Rows<T, D>,
+    pub rates: Results<T, D>,
     /// The sums of the last other sweep.
-    pub sums: Rows<T, D>,
+    pub sums: Results<T, D>,
     /// What its liquid does to the particles of structures, which are walls here.
-    pub coupling: Rows<T, D>,
+    pub coupling: Results<T, D>,
     /// What list builds have done to particles since saved states were last told.
     pub moved: Moves<T, D>,
     /// What a prediction has changed, and takes back.
@@ -43,9 +43,9 @@ impl<T: Real, const D: usize> Default for Workspace<T, D> {
             records: Records::default(),
             work_records: Records::default(),
             records_of_rates: false,
-            rates: Rows::default(),
-            sums: Rows::default(),
-            coupling: Rows::default(),
+            rates: Results::default(),
+            sums: Results::default(),
+            coupling: Results::default(),
             moved: Moves::default(),
             predicted: Vec::new(),
             kept: Vec::new(),

@@ -1,14 +1,13 @@
 //! The hot loop: every sum over neighbours in the crate runs here.
 //! Rows of particles against one broadcast neighbour, in fixed order, over fixed chunks of clusters.
 //!
-//! A [`Program`] is a kernel and a tuple of [terms](crate::term), compiled into one loop. Behind the
-//! trait [`PairSweep`] its type is forgotten, so a scheme can hold it; that costs one indirect call a
-//! sweep, and none a pair.
+//! A fused pair kernel is a smoothing kernel and a tuple of [terms](crate::term), compiled into one loop. A scheme
+//! holds it behind a trait that forgets its type; that costs one indirect call a sweep, and none a pair.
 //!
 //! # How the loop works
 //!
 //! - **Records.** Before a sweep the fields that its terms read are packed side by side, one
-//!   [record](Records) a particle. [Images](Image) behind boundaries are records too, made from their
+//!   record a particle. Images behind boundaries are records too, made from their
 //!   source by a [`Transform`], so the loop does not know that there are boundaries.
 //! - **Clusters.** W consecutive particles, 8 in `f64` and 16 in `f32`, form a cluster with one list of
 //!   neighbours. Particles are sorted along a space-filling curve, so a cluster is compact.
@@ -46,17 +45,22 @@
 //! [`Lane::root`]: crate::scalar::Lane::root
 //! [`Field::POSITION_RESIDUAL`]: crate::particles::Field::POSITION_RESIDUAL
 
-mod program;
+mod fused_kernel;
 mod records;
-mod rows;
+mod results;
 mod task;
 #[cfg(test)]
 mod tests;
 
-pub use program::{PairSweep, Pass, Program, SweepInput};
+// For the crate's own benches: no part of its interface.
+#[doc(hidden)]
+pub use fused_kernel::{FusedKernel, PairSweep, Pass, SweepInput};
+pub use records::Transform;
 pub(crate) use records::two_sum;
-pub use records::{Image, Records, Transform};
-pub use rows::{Reaction, Rows};
+#[doc(hidden)]
+pub use records::{Image, Records};
+#[doc(hidden)]
+pub use results::{Reaction, Results};
 
 pub use crate::scalar::InstructionSet;
 
@@ -68,13 +72,13 @@ pub enum Interaction {
     Bonded,
     /// Carries compression only, and opens.
     ///
-    /// A particle touches the other side where its kernel sum across the contact exceeds what it was
-    /// when the two sides just met: what a full neighbourhood lacks there, or, where the bodies lie
-    /// against each other in the scene, exactly what is found.
+    /// A particle is active in a contact where its kernel sum across the contact exceeds what it was
+    /// when the two sides just met: what a full neighbourhood lacks there, or, where the bodies abut
+    /// in the scene, exactly what is found.
     ///
-    #[doc = include_str!("../../docs/equations/contact_touch.html")]
+    #[doc = include_str!("../../docs/equations/contact_activity.html")]
     ///
-    /// A pair across the contact acts as far as its members touch, and shows only pressure that
+    /// A pair across the contact acts as far as its members are active, and shows only pressure that
     /// compresses. Viscosity carries the mean of the two θ, so a gap has neither force nor friction.
     ///
     #[doc = include_str!("../../docs/equations/contact_force.html")]

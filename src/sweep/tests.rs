@@ -83,7 +83,7 @@ fn particles() -> Columns<f64, 2> {
 fn a_free_force_counts_in_force_power_and_work() {
     let columns = particles();
     let oblique = Oblique { strength: 0.8 };
-    let sweep = Program::<_, _, { SmoothingMode::Uniform.bit() }>::new(
+    let sweep = FusedKernel::<_, _, { SmoothingMode::Uniform.bit() }>::new(
         WendlandC2,
         (oblique, PressureForce, InternalEnergy),
         SmoothingMode::Uniform,
@@ -113,11 +113,11 @@ fn a_free_force_counts_in_force_power_and_work() {
         smoothing_length: H,
         targets: 0..36,
         body_force: [0.0; 2],
-        lattice_moment: 1.0,
+        lattice_consistency_factor: 1.0,
         instructions: InstructionSet::detect(),
     };
     let (mut records, mut rates, mut works) =
-        (Records::default(), Rows::default(), Rows::default());
+        (Records::default(), Results::default(), Results::default());
     sweep.pack(Pass::Rates, &input, &mut records);
     sweep.run(Pass::Rates, &input, &records, &mut rates);
     sweep.pack(Pass::Work, &input, &mut records);
@@ -263,7 +263,7 @@ fn across(stress: [f64; 6], interaction: Interaction) -> [f64; 2] {
         columns.raw_mut(Field::WEIGHT)[slot] = 1.0;
         columns.raw_mut(STRESS)[6 * slot..6 * slot + 6].copy_from_slice(&stress);
     }
-    let sweep = Program::<_, _, { SmoothingMode::Uniform.bit() }>::new(
+    let sweep = FusedKernel::<_, _, { SmoothingMode::Uniform.bit() }>::new(
         WendlandC2,
         (StressForce,),
         SmoothingMode::Uniform,
@@ -296,10 +296,10 @@ fn across(stress: [f64; 6], interaction: Interaction) -> [f64; 2] {
         smoothing_length: H,
         targets: 0..16,
         body_force: [0.0; 2],
-        lattice_moment: 1.0,
+        lattice_consistency_factor: 1.0,
         instructions: InstructionSet::detect(),
     };
-    let (mut records, mut rows) = (Records::default(), Rows::default());
+    let (mut records, mut rows) = (Records::default(), Results::default());
     sweep.pack(Pass::Rates, &input, &mut records);
     sweep.run(Pass::Rates, &input, &records, &mut rows);
     let forces: Vec<_> = rows.reactions().collect();

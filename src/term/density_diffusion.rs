@@ -67,7 +67,7 @@ impl<const D: usize> Term<D> for Molteni {
 /// c = 10 √(gH) gained 2 % of its pressure in 20 √(H/g).
 ///
 /// g is the body force in the frame of the wall that
-/// [carries the liquid](crate::boundary::Wall::carries_liquid), so a tank under 30 g is at rest in it.
+/// [carries the liquid](crate::boundary::Wall::container_frame), so a tank under 30 g is at rest in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fourtakas {
     /// Strength δ; 0.1.
@@ -83,7 +83,7 @@ impl Default for Fourtakas {
 }
 
 /// pᵢ − pⱼ less its hydrostatic part, which liquid that has no pressure does not have: where it falls or
-/// is torn there is nothing to leave out.
+/// has cavitated there is nothing to leave out.
 #[inline(always)]
 fn dynamic_jump<L: Lane, const D: usize, P: Layout>(pair: &Pair<'_, L, D, P>) -> L {
     let (p_i, p_j) = (pair.i(Field::PRESSURE), pair.j(Field::PRESSURE));
@@ -221,7 +221,7 @@ mod tests {
             ((1000.0, 1000.0 + weight), 0.0),
             ((1000.0, 1000.0), -weight),
             ((0.0, 10.0), 10.0 - weight),
-            // Without pressure, and torn.
+            // Without pressure, and cavitated.
             ((0.0, 0.0), 0.0),
             ((10.0, -20.0), -30.0),
             ((-10.0, 10.0), 20.0),

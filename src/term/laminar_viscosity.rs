@@ -39,7 +39,7 @@ fn factor<L: Lane, const D: usize, P: Layout>(pair: &Pair<'_, L, D, P>) -> L {
     let mu = (mu_i + mu_i) * mu_j / sum;
     let volumes = pair.i(Field::MASS) * pair.j(Field::MASS)
         / (pair.i(Field::DENSITY) * pair.j(Field::DENSITY));
-    (volumes + volumes) * mu * pair.f / pair.lattice_moment
+    (volumes + volumes) * mu * pair.f / pair.lattice_consistency_factor
 }
 
 const READS: Fields = Fields::of(&[

@@ -10,7 +10,7 @@
 //! | [`KernelSum`], [`Unity`], [`KernelMoment`], [`SlopeInH`] | density | sums that density is made of |
 //! | [`Compression`] | density | rate of compression |
 //! | [`VelocityGradient`], [`PressureGradient`] | – | gradients for viscosities and curvature |
-//! | [`PressureForce`], [`PressureCurvature`] | momentum | force |
+//! | [`PressureForce`], [`MidpointReconstruction`] | momentum | force |
 //! | [`Viscosity`] | momentum | force and signal of an [artificial viscosity](viscosity) |
 //! | [`InternalEnergy`] | energy | half the power of all forces |
 //! | [`RenormalisedPressureForce`], [`RenormalisedCompression`] | momentum, density | the same with corrected gradients |
@@ -114,7 +114,7 @@ pub use density_diffusion::{Antuono, Fourtakas, Molteni, RiemannDiffusion, STAND
 pub use force::{Along, FreeForce};
 pub use gradient::{DensityGradient, MomentMatrix, PressureGradient, VelocityGradient};
 pub use laminar_viscosity::{CentralViscosity, LaminarViscosity};
-pub use momentum::{InternalEnergy, PressureCurvature, PressureForce};
+pub use momentum::{InternalEnergy, MidpointReconstruction, PressureForce};
 pub use probe::{Probe, probe};
 pub use renormalised::{RenormalisedCompression, RenormalisedPressureForce};
 pub use staged::{In, Join, StageMarker, StagedTerms, stage};
@@ -131,7 +131,7 @@ pub use wall::{LiquidNearWall, VelocityAtWall, ViscosityAtWall};
 /// # use meshfree::kernel::CubicSpline;
 /// # use meshfree::particles::{Field, Fields, Outputs};
 /// # use meshfree::scalar::Lane;
-/// # use meshfree::sweep::{PairSweep, Program, SmoothingMode};
+/// # use meshfree::sweep::{PairSweep, FusedKernel, SmoothingMode};
 /// # use meshfree::term::{Layout, Pair, Sums, Term, TermDoc};
 /// # #[derive(Clone, Debug)]
 /// # struct Reads<const TENSORS: usize>;
@@ -151,14 +151,14 @@ pub use wall::{LiquidNearWall, VelocityAtWall, ViscosityAtWall};
 /// #     }
 /// # }
 /// let sweep: &dyn PairSweep<f64, 3> =
-///     &Program::<_, _>::new(CubicSpline, (Reads::<10>,), SmoothingMode::Uniform);
+///     &FusedKernel::<_, _>::new(CubicSpline, (Reads::<10>,), SmoothingMode::Uniform);
 /// assert_eq!(sweep.fields().width(3), 3 + 10 * 6);
 /// ```
 /// ```compile_fail
 /// # use meshfree::kernel::CubicSpline;
 /// # use meshfree::particles::{Field, Fields, Outputs};
 /// # use meshfree::scalar::Lane;
-/// # use meshfree::sweep::{PairSweep, Program, SmoothingMode};
+/// # use meshfree::sweep::{PairSweep, FusedKernel, SmoothingMode};
 /// # use meshfree::term::{Layout, Pair, Sums, Term, TermDoc};
 /// # #[derive(Clone, Debug)]
 /// # struct Reads<const TENSORS: usize>;
@@ -178,7 +178,7 @@ pub use wall::{LiquidNearWall, VelocityAtWall, ViscosityAtWall};
 /// #     }
 /// # }
 /// let sweep: &dyn PairSweep<f64, 3> =
-///     &Program::<_, _>::new(CubicSpline, (Reads::<11>,), SmoothingMode::Uniform);
+///     &FusedKernel::<_, _>::new(CubicSpline, (Reads::<11>,), SmoothingMode::Uniform);
 /// assert_eq!(sweep.fields().width(3), 3 + 11 * 6);
 /// ```
 pub const MOST_READS: usize = 64;
@@ -241,7 +241,7 @@ pub struct Pair<'a, L: Lane, const D: usize, P: Layout> {
     pub body_force: [L; D],
     /// First moment −Σ V r·∇W/D of the lattice, for terms that are divided by it; one in schemes whose
     /// particles carry their own.
-    pub lattice_moment: L,
+    pub lattice_consistency_factor: L,
     pub(crate) i: &'a [L; MOST_READS],
     pub(crate) j: &'a [L::Broadcast],
     pub(crate) layout: PhantomData<P>,
@@ -572,7 +572,7 @@ macro_rules! for_each_term {
         $callback! {
             $($given)*
             $crate::term::PressureForce,
-            $crate::term::PressureCurvature { strength: 1.0 / 3.0 },
+            $crate::term::MidpointReconstruction { strength: 1.0 / 3.0 },
             $crate::term::InternalEnergy,
             $crate::term::KernelSum,
             $crate::term::Unity,

@@ -42,7 +42,7 @@ impl<const D: usize> Term<D> for PressureForce {
 /// Pressure reconstructed at the middle of a pair from both sides, which removes the leading
 /// dispersion of the pair form.
 ///
-#[doc = include_str!("../../docs/equations/pressure_curvature.html")]
+#[doc = include_str!("../../docs/equations/midpoint_reconstruction.html")]
 ///
 /// On a lattice the uncorrected pair moves a wave of wavenumber k too slowly, by moments of the
 /// gradient factor F:
@@ -54,17 +54,17 @@ impl<const D: usize> Term<D> for PressureForce {
 /// the force: χ = 1/3 makes up for both, for every kernel. The force stays antisymmetric, but derives
 /// from no energy: pair it with the compatible energy form.
 #[derive(Clone, Copy, Debug)]
-pub struct PressureCurvature {
+pub struct MidpointReconstruction {
     /// Strength χ; 1/3 cancels the leading dispersion.
     pub strength: f64,
 }
 
-impl<const D: usize> Term<D> for PressureCurvature {
+impl<const D: usize> Term<D> for MidpointReconstruction {
     const READS: Fields = Fields::of(&[
         Field::MASS,
         Field::DENSITY,
         Field::PRESSURE_GRADIENT,
-        Field::NORMALISATION,
+        Field::CONSISTENCY_FACTOR,
     ]);
     const WRITES: Outputs = Outputs::of(&[Output::FORCE]);
     #[inline(always)]
@@ -76,12 +76,12 @@ impl<const D: usize> Term<D> for PressureCurvature {
         }
         let volumes = pair.i(Field::MASS) * pair.j(Field::MASS)
             / (pair.i(Field::DENSITY) * pair.j(Field::DENSITY));
-        let normalisation = pair.i(Field::NORMALISATION) + pair.j(Field::NORMALISATION);
-        sums.radial += L::of(4.0 * self.strength) * volumes * bend * pair.f / normalisation;
+        let consistency = pair.i(Field::CONSISTENCY_FACTOR) + pair.j(Field::CONSISTENCY_FACTOR);
+        sums.radial += L::of(4.0 * self.strength) * volumes * bend * pair.f / consistency;
     }
     fn document(&self) -> TermDoc {
         TermDoc {
-            name: format!("pressure curvature, strength {}", self.strength),
+            name: format!("midpoint reconstruction, strength {}", self.strength),
             equation: "mᵢ dvᵢ/dt = Σⱼ 2χ Vᵢ Vⱼ (∇pᵢ − ∇pⱼ)·rᵢⱼ ∇Wᵢⱼ / s̄ᵢⱼ",
             source: "linear reconstruction after van Leer 1979, applied to the pair pressure",
         }

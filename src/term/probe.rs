@@ -102,7 +102,7 @@ pub fn probe<L: Lane, const D: usize, K: Kernel<D>, A: Term<D>>(
         mobile: L::one(),
         mobile_i: L::one(),
         body_force: core::array::from_fn(|d| if d == 0 { L::one() } else { L::zero() }),
-        lattice_moment: L::one(),
+        lattice_consistency_factor: L::one(),
         i: &own,
         j: &other,
         layout: PhantomData,

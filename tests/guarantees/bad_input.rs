@@ -138,10 +138,10 @@ fn a_density_of_zero_or_less() {
 
 #[test]
 fn a_material_with_constants_that_make_no_sense() {
-    let stuff = Material::new("stuff", Linear::new(1000.0, f64::NAN));
-    let rod = Body::block("rod", stuff, [0.0], [0.02], DX);
+    let solid = Material::new("solid", Linear::new(1000.0, f64::NAN));
+    let rod = Body::block("rod", solid, [0.0], [0.02], DX);
     let found = problem(Scene::<f64, 1>::new(schemes::impact()).body(rod));
-    is_parameter(&found, "of material `stuff`", "");
+    is_parameter(&found, "of material `solid`", "");
 }
 
 fn overlaps(problem: &Problem) {
@@ -195,15 +195,6 @@ fn a_jitter_that_brings_particles_too_close() {
     assert_eq!(good().body(other(0.02).jitter(0.3, 1)).problems(), []);
 }
 
-#[test]
-fn a_stagger_along_an_axis_that_is_not_there() {
-    let rod = || rod().stagger(1, [true; 2], 1);
-    let found = problem(Scene::new(schemes::impact()).body(rod()));
-    is_parameter(&found, "stagger axis of body `rod`", "counted from 0");
-    assert_eq!(rod().points(), self::rod().points());
-}
-
-/// Where its motion has put it by the start, not where it was drawn.
 #[test]
 fn a_wall_that_liquid_overlaps_is_one_where_it_starts() {
     let water = Liquid::new(1000.0, 1480.0, 1e-3).material("water", SoundSpeed::Physical);

@@ -330,7 +330,7 @@ fn liquids_in_tanks_that_roll_and_that_are_crushed() {
     };
     let rolled = || {
         let motion = Rotation::about([0.05; 2], swing(0.02, 60.0));
-        scene(closed_tank().motion(motion).no_slip().carries_liquid())
+        scene(closed_tank().motion(motion).no_slip().container_frame())
     };
     stop_and_go_on("rolled", rolled, true, 0.04);
     let crushed = || scene(closed_tank().motion(Crush::along(1, 0.0, |t| [0.5 * t, 0.5, 0.0])));

@@ -171,7 +171,7 @@ fn walls() -> Vec<(&'static str, Vec<Wall<2>>)> {
         ("no slip", vec![tank("tank").no_slip()]),
         (
             "shaken",
-            vec![tank("tank").motion(translation).carries_liquid()],
+            vec![tank("tank").motion(translation).container_frame()],
         ),
         (
             "rolled",

@@ -12,7 +12,7 @@ const PISTON: f64 = 0.05;
 const SPACING: f64 = 0.01;
 const UNTIL: f64 = 0.12;
 
-/// Torn drops of one particle each on their way to the corner of a plane at rest and one that moves.
+/// Cavitated drops of one particle each on their way to the corner of a plane at rest and one that moves.
 fn drops<T: Real>() -> Body<T, 3> {
     let water = Liquid::new(1000.0, 1480.0, 1e-3)
         .material("water", SoundSpeed::Chosen(20.0))
@@ -87,7 +87,7 @@ fn a_torn_drop_does_not_pass_a_plane() {
     let front = PISTON * UNTIL;
     let behind = |x: &[f64; 3]| x[0] < 0.0 || x[1] < front;
     assert!(states(&held).iter().all(|[x, _]| !behind(x)));
-    // Its one image is not enough to close the tear: without the swap a drop passes. The second meets the edge,
+    // Its one image is not enough to close the gap: without the swap a drop passes. The second meets the edge,
     // where three images are.
     let passed: Vec<bool> = states(&open).iter().map(|[x, _]| behind(x)).collect();
     assert_eq!(passed, [true, false, true]);

@@ -60,43 +60,6 @@ fn particles_off_the_lattice_strike_one_after_the_other() {
     };
     for seed in [1, 2] {
         let jitter = |column: Body<f64, 3>| column.jitter(0.2, seed);
-        let stagger = |column: Body<f64, 3>| column.stagger(0, [false, true], seed);
         check("jitter", strike(jitter));
-        check("stagger", strike(stagger));
-        check("both", strike(|column| jitter(stagger(column))));
-    }
-}
-
-#[test]
-fn a_row_out_of_step_moves_as_one_and_less_towards_an_end_that_may_not() {
-    let column = || {
-        let water = Liquid::new(1000.0, 1480.0, 1e-3).material("water", SoundSpeed::Chosen(40.0));
-        Body::<f64, 2>::block("column", water, [0.0; 2], [0.4; 2], DX)
-    };
-    let shifts = |free: [bool; 2]| -> Vec<Vec<f64>> {
-        let (even, moved) = (column(), column().stagger(0, free, 1));
-        let pairs = even.points().iter().zip(moved.points());
-        let shifts: Vec<f64> = pairs.map(|(a, b)| (b[0] - a[0]) / DX).collect();
-        // Ten particles a row, along the first axis first.
-        shifts.chunks(10).map(<[f64]>::to_vec).collect()
-    };
-    let rows = shifts([true, true]);
-    for (k, row) in rows.iter().enumerate() {
-        assert!(
-            row.iter().all(|own| (own - row[0]).abs() < 1e-12),
-            "{row:?}"
-        );
-        assert!(row[0].abs() <= 0.5, "{row:?}");
-        assert!(
-            rows[..k]
-                .iter()
-                .all(|other| (other[0] - row[0]).abs() > 1e-6)
-        );
-    }
-    for (free, held) in rows.iter().zip(shifts([true, false])) {
-        for (k, own) in held.iter().enumerate() {
-            let share = ((9 - k) as f64 / 4.0).min(1.0);
-            assert!((own - share * free[0]).abs() < 1e-12, "{held:?}");
-        }
     }
 }

@@ -74,8 +74,8 @@ fn what_strikes_a_wall_alone_does_not_bounce() {
 }
 
 /// The floor of points, which is told what it faces.
-fn told(room: impl Shape<2> + 'static) -> Wall<2> {
-    Wall::of("floor", floor().points().to_vec(), DX).facing(room)
+fn told(fluid_side: impl Shape<2> + 'static) -> Wall<2> {
+    Wall::of("floor", floor().points().to_vec(), DX).fluid_side(fluid_side)
 }
 
 #[test]
@@ -129,7 +129,8 @@ fn walls_that_know_no_room_are_refused_by_name() {
     let refused = scene.wall(Wall::of("floor", points, DX)).build();
     let text = refused.map(|_| ()).unwrap_err().to_string();
     assert!(
-        text.contains("wall `floor` does not know the container") && text.contains("Wall::facing"),
+        text.contains("wall `floor` does not know the container")
+            && text.contains("Wall::fluid_side"),
         "{text}"
     );
 }

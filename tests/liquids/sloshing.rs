@@ -75,7 +75,7 @@ impl Case {
             3,
             [[true; 2]; 2],
         )
-        .carries_liquid();
+        .container_frame();
         let scheme = schemes::weakly_compressible()
             .with_viscosity(MonaghanGingold {
                 alpha: 0.002,

@@ -1,5 +1,5 @@
 //! The cures of liquids that act on density alone: bulk viscosity and volume consistency against exact
-//! decay, reversible tearing against straight paths; each with its control.
+//! decay, expansion memory against straight paths; each with its control.
 
 use meshfree::boundary::Periodic;
 use meshfree::kernel::WendlandC2;
@@ -186,23 +186,23 @@ fn volume_consistency_wants_one_smoothing_length() {
     }
 }
 
-/// How much wider than at first a square of liquid is that was torn to twice its width, and whose velocities
+/// How much wider than at first a square of liquid is that was stretched to twice its width, and whose velocities
 /// were then turned round, at the time at which free particles are back where they were.
 fn width_after_tearing(scheme: impl Into<Scheme<f64, 2>>) -> f64 {
     let (dx, rate, time) = (0.05, 2.0, 0.5);
-    let torn = Body::block(
+    let wide = Body::block(
         "liquid",
         liquid().with_pressure_cut_off(0.0),
         [-0.5; 2],
         [0.5; 2],
         dx,
     );
-    let torn = torn.start(|x, start| Start {
+    let wide = wide.start(|x, start| Start {
         velocity: x.map(|x| rate * x),
         ..start
     });
     let mut simulation = Scene::new(scheme)
-        .body(torn)
+        .body(wide)
         .build()
         .expect("a sound scene");
     let width = |now: &Simulation<f64, 2>| {
@@ -217,7 +217,7 @@ fn width_after_tearing(scheme: impl Into<Scheme<f64, 2>>) -> f64 {
     let stretched = width(&simulation) / first;
     assert!(
         (stretched - 2.0).abs() < 0.01,
-        "torn water flies freely: {stretched}"
+        "cavitated water flies freely: {stretched}"
     );
     simulation.set_velocities(|_, v| v.map(|v| -v));
     simulation.run_until(2.0 * time).expect("a run");
@@ -228,20 +228,20 @@ fn width_after_tearing(scheme: impl Into<Scheme<f64, 2>>) -> f64 {
 fn liquid_closes_where_it_tore() {
     let wider = width_after_tearing(plain().with(ExpansionMemory));
     assert!(wider.abs() < 0.02, "{wider}");
-    // The control forgets how far it was torn, and has pressure long before it has closed.
+    // The control forgets how far it was stretched, and has pressure long before it has closed.
     let forgetful = width_after_tearing(plain());
     assert!(forgetful > 0.1, "{forgetful}");
 }
 
 #[test]
-fn tearing_that_cannot_be_is_refused() {
+fn expansion_memory_that_cannot_be_is_refused() {
     let body = |material| Body::block("liquid", material, [0.0; 2], [1.0; 2], 0.1);
     let scheme = || plain().with(ExpansionMemory);
     let solid = Scene::<f64, 2>::new(scheme()).body(body(liquid()));
     assert!(solid.problems()[0].to_string().contains("can cavitate"));
-    let torn = body(liquid().with_pressure_cut_off(0.0));
+    let wide = body(liquid().with_pressure_cut_off(0.0));
     let combined = Scene::<f64, 2>::new(scheme().density_with_rates().compose())
-        .body(torn)
+        .body(wide)
         .integrator(meshfree::integrator::RungeKutta4);
     assert!(combined.problems()[0].to_string().contains("does not hold"));
 }

@@ -11,7 +11,7 @@ const CARRIED: [Field; 6] = [
     Field::VISCOSITY_COEFFICIENT,
     Field::DYNAMIC_VISCOSITY,
     Field::EXPANSION,
-    Field::TOUCHING,
+    Field::CONTACT_ACTIVITY,
     Field::GRAD_H,
 ];
 

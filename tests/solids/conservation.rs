@@ -76,7 +76,7 @@ where
         .density(case.form)
         .energy(case.energy);
     if case.curvature {
-        builder.pressure_curvature(1.0 / 3.0).compose()
+        builder.midpoint_reconstruction(1.0 / 3.0).compose()
     } else {
         builder.compose()
     }

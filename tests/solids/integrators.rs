@@ -293,8 +293,8 @@ const LENGTH: usize = 32;
 /// A smooth wave in a periodic row, inviscid.
 fn wave(form: DensityForm, integrator: Box<dyn Integrator>, step: f64) -> Simulation<f64, 1> {
     let k = 2.0 * PI / LENGTH as f64;
-    let stuff = Material::new("linear", Linear::new(1000.0, 1000.0));
-    let row = Body::block("row", stuff, [0.0], [LENGTH as f64], 1.0).start(|x, start| Start {
+    let solid = Material::new("linear", Linear::new(1000.0, 1000.0));
+    let row = Body::block("row", solid, [0.0], [LENGTH as f64], 1.0).start(|x, start| Start {
         velocity: [5.0 * (k * x[0]).sin()],
         ..start
     });

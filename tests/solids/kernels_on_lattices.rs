@@ -56,12 +56,12 @@ fn standing_wave(
         .energy(EnergyForm::Compatible)
         .h_over_dx(ratio);
     let scheme: Scheme<f64, 1> = match cure {
-        Cure::Nothing => scheme.without_normalisation().compose(),
+        Cure::Nothing => scheme.without_consistency_factor().compose(),
         Cure::Normalisation => scheme.compose(),
-        Cure::Both => scheme.pressure_curvature(1.0 / 3.0).compose(),
+        Cure::Both => scheme.midpoint_reconstruction(1.0 / 3.0).compose(),
     };
-    let stuff = Material::new("linear", Linear::new(1000.0, SOUND_SPEED));
-    let row = Body::block("row", stuff, [0.0], [length], 1.0).start(|x, start| Start {
+    let solid = Material::new("linear", Linear::new(1000.0, SOUND_SPEED));
+    let row = Body::block("row", solid, [0.0], [length], 1.0).start(|x, start| Start {
         velocity: [AMPLITUDE * (k * x[0]).sin()],
         ..start
     });
@@ -135,7 +135,7 @@ fn waves_of_fifty_spacings_run_at_the_sound_speed_for_every_kernel() {
 }
 
 #[test]
-fn without_pressure_curvature_they_lag() {
+fn without_midpoint_reconstruction_they_lag() {
     let error = wave_speed(KernelKind::CubicSpline, 1.2, 50, Cure::Normalisation) - 1.0;
     println!(
         "cubic spline at h/dx 1.2 without curvature: {:+.4} %",
@@ -145,7 +145,7 @@ fn without_pressure_curvature_they_lag() {
 }
 
 #[test]
-fn without_normalisation_they_run_at_the_first_moment_times_the_sound_speed() {
+fn without_consistency_factor_they_run_at_the_first_moment_times_the_sound_speed() {
     for ratio in RATIOS {
         let speed = wave_speed(KernelKind::CubicSpline, ratio, 400, Cure::Nothing);
         let s = first_moment(&CubicSpline, ratio);
@@ -158,7 +158,7 @@ fn without_normalisation_they_run_at_the_first_moment_times_the_sound_speed() {
 }
 
 #[test]
-fn with_pressure_curvature_the_error_is_of_fourth_order() {
+fn with_midpoint_reconstruction_the_error_is_of_fourth_order() {
     for kernel in [
         KernelKind::CubicSpline,
         KernelKind::WendlandC2,

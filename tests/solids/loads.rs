@@ -15,7 +15,7 @@ use meshfree::simulation::{Criterion, Load, Simulation, StepControl};
 fn alone(x: f64, v: f64, dt: f64) -> Scene<f64, 1> {
     let soft = Material::new("soft", Linear::new(1000.0, 0.01));
     let body = Body::points_of("a", soft, vec![[x]], 0.01).velocity([v]);
-    let scheme = schemes::impact_by_continuity().without_normalisation();
+    let scheme = schemes::impact_by_continuity().without_consistency_factor();
     let scheme = scheme.energy(EnergyForm::None);
     Scene::new(scheme).body(body).steps(|steps| StepControl {
         fixed: Some(dt),

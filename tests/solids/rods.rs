@@ -410,7 +410,7 @@ fn joint(pressure_form: Option<DensityForm>) -> Option<(f64, f64)> {
     let mut scheme = SchemeBuilder::new(CubicSpline, MonaghanGingold::default())
         .density(DensityForm::Continuity)
         .energy(EnergyForm::Symmetric)
-        .without_normalisation();
+        .without_consistency_factor();
     if let Some(form) = pressure_form {
         scheme = scheme.mismatched_pressure_form(form);
     }

@@ -50,7 +50,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                 must_be,
             });
         }
-        let moment = scheme.lattice_moment;
+        let moment = scheme.lattice_consistency_factor;
         let known =
             scheme.kernel_problems.is_empty() && (lowest..=highest).contains(&scheme.h_over_dx);
         if known && !(moment.is_finite() && moment > 0.0) {

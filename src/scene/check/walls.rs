@@ -85,14 +85,14 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             // The buffers of inlets, which are numbered after the walls, face nothing.
             if self.scheme.program.wall_normals
                 && matches!(origin, Origin::Wall(k) if *k < self.scene.walls.len())
-                && wall.room.is_none()
+                && wall.fluid_side.is_none()
             {
                 problems.push(Problem::Incompatible {
                     what: format!(
                         "the wall law of the scheme {} needs normals, and wall `{}` does not know the container that it faces",
                         self.scheme.name, wall.name
                     ),
-                    remedy: "give it the container of the liquid, Wall::facing, or take ExtrapolatedPressure",
+                    remedy: "give it the container of the liquid, Wall::fluid_side, or take ExtrapolatedPressure",
                 });
             }
             if self.scheme.kicks_density()

@@ -4,7 +4,7 @@
 mod pairs;
 
 use super::records::Image;
-use super::rows::Reaction;
+use super::results::Reaction;
 use super::{InstructionSet, Interaction};
 use crate::kernel::Kernel;
 use crate::neighbors::{Block, CHUNK, ChunkList, Segment};
@@ -53,12 +53,12 @@ pub(super) struct Task<'a, T, K, P, const D: usize> {
     pub records: &'a [T],
     pub blocks: &'a [Block],
     pub interactions: &'a [Interaction],
-    /// Which slots touch the other side of a contact; empty without contacts.
-    pub touching: &'a [T],
+    /// Which slots are active in a contact; empty without contacts.
+    pub contact_activity: &'a [T],
     pub images: &'a [Image],
     pub targets: &'a Range<usize>,
     pub body_force: [T; D],
-    pub lattice_moment: T,
+    pub lattice_consistency_factor: T,
     pub h: T,
     /// Square of the distance beyond which nothing acts where there is one smoothing length.
     pub reach2: T,

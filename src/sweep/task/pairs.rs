@@ -9,10 +9,10 @@ use crate::term::{Layout, MOST_READS, Pair, Sums, Terms};
 use core::marker::PhantomData;
 
 impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
-    /// Which members of a row touch the other side of a contact; `None` before contacts are known.
+    /// Which members of a lane row are active in a contact; `None` before contacts are known.
     #[inline(always)]
-    fn touches<L: Lane<Scalar = T, Broadcast = T>>(&self, first: usize) -> Option<L> {
-        let row = self.touching.get(first..first + L::WIDTH)?;
+    fn active<L: Lane<Scalar = T, Broadcast = T>>(&self, first: usize) -> Option<L> {
+        let row = self.contact_activity.get(first..first + L::WIDTH)?;
         Some(L::from_fn(|lane| row[lane]))
     }
 
@@ -21,7 +21,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
     fn source(&self, j: u32) -> usize {
         let j = j as usize;
         let image = j
-            .checked_sub(self.touching.len())
+            .checked_sub(self.contact_activity.len())
             .and_then(|k| self.images.get(k));
         image.map_or(j, |image| image.source as usize)
     }
@@ -57,7 +57,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
 
     /// One cluster against some neighbours.
     ///
-    /// Across a contact that may open a pair acts only where one of the two touches, shows the
+    /// Across a contact that may open a pair acts only where one of the two is active, shows the
     /// other side only pressure that compresses, and its kernel sum is kept apart.
     #[inline(always)]
     pub(super) fn pairs<L: Lane<Scalar = T, Broadcast = T>, const HOW: u8>(
@@ -87,7 +87,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
             Scale::new(own[h_at], norm, D)
         };
         let body_force = self.body_force.map(L::splat);
-        let lattice_moment = L::splat(self.lattice_moment);
+        let lattice_consistency_factor = L::splat(self.lattice_consistency_factor);
         let mut shown = [T::zero(); MOST_READS];
         // A copy that nothing else points to stays in registers.
         let mut kept = sums.copied();
@@ -145,15 +145,15 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                 mobile: mobile[1],
                 mobile_i: mobile[0],
                 body_force,
-                lattice_moment,
+                lattice_consistency_factor,
                 i: own,
                 j: record,
                 layout: PhantomData,
             };
             if contact {
-                if let Some(touching) = self.touches::<L>(first) {
-                    pair.f_i *= touching;
-                    pair.f_j *= L::splat(self.touching[self.source(j)]);
+                if let Some(active) = self.active::<L>(first) {
+                    pair.f_i *= active;
+                    pair.f_j *= L::splat(self.contact_activity[self.source(j)]);
                     pair.f = (pair.f_i + pair.f_j) * L::of(0.5);
                 }
                 shown[..stride].copy_from_slice(record);

@@ -105,7 +105,7 @@ fn ask<V: ArtificialViscosity<D>, const D: usize>(
         mobile: 1.0,
         mobile_i: 1.0,
         body_force: [0.0; D],
-        lattice_moment: 1.0,
+        lattice_consistency_factor: 1.0,
         i: &own,
         j: &other,
         layout: PhantomData,

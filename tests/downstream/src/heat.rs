@@ -61,7 +61,7 @@ impl<const D: usize> Term<D> for HeatConduction {
         CONDUCTIVITY,
         Field::MASS,
         Field::DENSITY,
-        Field::NORMALISATION,
+        Field::CONSISTENCY_FACTOR,
     ]);
     const WRITES: Outputs = Outputs::of(&[FLOW]);
     #[inline(always)]
@@ -71,7 +71,7 @@ impl<const D: usize> Term<D> for HeatConduction {
         let volumes = pair.i(Field::MASS) * pair.j(Field::MASS)
             / (pair.i(Field::DENSITY) * pair.j(Field::DENSITY));
         // Over the mean first moment of the kernel gradient, without which heat spreads 1 to 3 % too fast.
-        let moment = pair.i(Field::NORMALISATION) + pair.j(Field::NORMALISATION);
+        let moment = pair.i(Field::CONSISTENCY_FACTOR) + pair.j(Field::CONSISTENCY_FACTOR);
         let jump = pair.i(TEMPERATURE) - pair.j(TEMPERATURE);
         let factor = L::of(8.0 / self.specific_heat) * volumes * mean;
         sums.add(FLOW, factor * jump * pair.f / moment);

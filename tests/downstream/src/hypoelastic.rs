@@ -57,14 +57,14 @@ impl<T: Real, const D: usize> Rate<T, D> for Hypoelastic {
 }
 
 impl<const D: usize> Term<D> for Hypoelastic {
-    const READS: Fields = Fields::of(&[STRESS, Field::MASS, Field::DENSITY, Field::NORMALISATION]);
+    const READS: Fields = Fields::of(&[STRESS, Field::MASS, Field::DENSITY, Field::CONSISTENCY_FACTOR]);
     const WRITES: Outputs = Outputs::of(&[Output::FORCE]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
         let volumes = pair.i(Field::MASS) * pair.j(Field::MASS)
             / (pair.i(Field::DENSITY) * pair.j(Field::DENSITY));
-        let own = volumes * pair.f_i / pair.i(Field::NORMALISATION);
-        let other = volumes * pair.f_j / pair.j(Field::NORMALISATION);
+        let own = volumes * pair.f_i / pair.i(Field::CONSISTENCY_FACTOR);
+        let other = volumes * pair.f_j / pair.j(Field::CONSISTENCY_FACTOR);
         let stress = pair.i_tensor(STRESS).scaled(own);
         sums.force += stress.plus(other, &pair.j_tensor(STRESS)).dot(&pair.r);
     }

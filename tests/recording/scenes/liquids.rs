@@ -20,7 +20,7 @@ pub fn add(scenes: &mut Scenes) {
     options(scenes);
     viscous(scenes);
     walls(scenes);
-    tearing(scenes);
+    cavitating(scenes);
 }
 
 fn water<T: Real>() -> Material<T> {
@@ -227,7 +227,7 @@ fn options(scenes: &mut Scenes) {
     });
     scenes.add("liquid-off-its-lattice", 30, move || {
         let body = Body::block("water", water(), [0.0; 2], [0.16; 2], DX);
-        let body = body.stagger(0, [true, true], 3).jitter(0.2, 7);
+        let body = body.jitter(0.2, 7);
         Scene::<f64, 2>::new(weak()).body(body.velocity([0.5, 0.2]))
     });
 }
@@ -289,14 +289,14 @@ fn walls(scenes: &mut Scenes) {
     scenes.add_with("wall-translated", plan(), move || {
         dam_in::<f64>(weak(), water(), |tank| {
             tank.motion(Translation::steady([0.7, -0.2]))
-                .carries_liquid()
+                .container_frame()
         })
     });
     scenes.add("wall-that-accelerates", 40, move || {
         let record = [(0.0, [0.0; 2]), (0.005, [60.0, 0.0]), (0.1, [-20.0, 5.0])];
         dam_in::<f64>(weak(), water(), move |tank| {
             let motion = Translation::from_acceleration(&record).expect("a record");
-            tank.motion(motion).carries_liquid()
+            tank.motion(motion).container_frame()
         })
     });
     scenes.add_with("wall-rotated", plan(), move || {
@@ -337,7 +337,7 @@ fn walls(scenes: &mut Scenes) {
         dam_in::<f64>(riemann(), water(), |tank| {
             let points = tank.points().to_vec();
             Wall::of("tank", points, DX)
-                .facing(HalfSpace::new([0.0, 0.0], [0.0, -1.0]))
+                .fluid_side(HalfSpace::new([0.0, 0.0], [0.0, -1.0]))
                 .motion(Rotation::about([0.0; 2], |t| [t, 1.0, 0.0]))
         })
     });
@@ -352,9 +352,9 @@ fn walls(scenes: &mut Scenes) {
     });
 }
 
-/// Liquid that tears and closes again.
-fn tearing(scenes: &mut Scenes) {
-    fn torn(scheme: impl Into<Scheme<f64, 2>>) -> Scene<f64, 2> {
+/// Liquid that cavitates and closes again.
+fn cavitating(scenes: &mut Scenes) {
+    fn stretched(scheme: impl Into<Scheme<f64, 2>>) -> Scene<f64, 2> {
         let material = water::<f64>().with_pressure_cut_off(0.0);
         let body = Body::block("water", material, [-0.09; 2], [0.09; 2], DX);
         let body = body.start(|x, start| Start {
@@ -369,8 +369,8 @@ fn tearing(scenes: &mut Scenes) {
         read: |_| Vec::new(),
     };
     let scheme = bare;
-    scenes.add_with("tearing", turned(), move || torn(scheme()));
-    scenes.add_with("tearing-that-is-reversible", turned(), move || {
-        torn(scheme().with(ExpansionMemory))
+    scenes.add_with("cavitation", turned(), move || stretched(scheme()));
+    scenes.add_with("cavitation-with-expansion-memory", turned(), move || {
+        stretched(scheme().with(ExpansionMemory))
     });
 }

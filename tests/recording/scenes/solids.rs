@@ -103,7 +103,7 @@ fn ready(scenes: &mut Scenes) {
         blocks::<f64, 3>(continuity(), 6)
     });
     scenes.add("impact-without-curvature", 40, || {
-        rods::<f64>(schemes::impact().without_pressure_curvature())
+        rods::<f64>(schemes::impact().without_midpoint_reconstruction())
     });
     for (name, predictor) in [
         ("lam2002-fresh", Predictor::Fresh),
@@ -162,7 +162,7 @@ fn forms(scenes: &mut Scenes) {
         rods::<f64>(
             plain()
                 .density(DensityForm::Continuity)
-                .without_normalisation(),
+                .without_consistency_factor(),
         )
     });
 }

@@ -24,7 +24,7 @@ const ABSENT: u32 = u32::MAX;
 
 /// The sums of a sweep.
 #[derive(Clone, Debug)]
-pub struct Rows<T, const D: usize> {
+pub struct Results<T, const D: usize> {
     pub(super) data: Vec<T>,
     /// The slot that the sums start with.
     pub(super) first: usize,
@@ -37,7 +37,7 @@ pub struct Rows<T, const D: usize> {
     pub(super) reactions: Vec<Vec<Reaction<D>>>,
 }
 
-impl<T: Real, const D: usize> Default for Rows<T, D> {
+impl<T: Real, const D: usize> Default for Results<T, D> {
     fn default() -> Self {
         Self {
             data: Vec::new(),
@@ -50,7 +50,7 @@ impl<T: Real, const D: usize> Default for Rows<T, D> {
     }
 }
 
-impl<T: Real, const D: usize> Rows<T, D> {
+impl<T: Real, const D: usize> Results<T, D> {
     const WIDTH: usize = <T::Wide<false> as Lane>::WIDTH;
 
     /// Prepares for other sums.

@@ -2,7 +2,7 @@
 //! Behind [`PairSweep`] it is an object that is called a handful of times a step.
 
 use super::records::{Image, Records, Transform};
-use super::rows::{Reaction, Rows};
+use super::results::{Reaction, Results};
 use super::task::{BEYOND, Composed, MEAN, OWN, Task, UNIFORM, WORK, reads};
 use super::{InstructionSet, Interaction, SmoothingMode};
 use crate::kernel::Kernel;
@@ -45,7 +45,7 @@ pub struct SweepInput<'a, T, const D: usize> {
     /// The acceleration that acts on all particles \[m/s²\], in the frame of their container.
     pub body_force: [T; D],
     /// First moment of the kernel gradient on the lattice, by which sums of gradients are divided.
-    pub lattice_moment: f64,
+    pub lattice_consistency_factor: f64,
     /// The instruction set to run on.
     pub instructions: InstructionSet,
 }
@@ -70,7 +70,7 @@ pub trait PairSweep<T: Real, const D: usize>: Debug + Send + Sync {
         pass: Pass,
         input: &SweepInput<'_, T, D>,
         records: &Records<T>,
-        rows: &mut Rows<T, D>,
+        rows: &mut Results<T, D>,
     );
 }
 
@@ -79,13 +79,13 @@ pub trait PairSweep<T: Real, const D: usize>: Debug + Send + Sync {
 /// `MODES` says which [`SmoothingMode`]s the loop is compiled for, as a union of their bits; all if
 /// not given.
 #[derive(Clone, Debug)]
-pub struct Program<K, P, const MODES: u8 = { SmoothingMode::ALL }> {
+pub struct FusedKernel<K, P, const MODES: u8 = { SmoothingMode::ALL }> {
     kernel: K,
     terms: P,
     mode: SmoothingMode,
 }
 
-impl<K, P, const MODES: u8> Program<K, P, MODES> {
+impl<K, P, const MODES: u8> FusedKernel<K, P, MODES> {
     /// The program of `terms` under `kernel`. `mode` must be one that the loop is compiled for.
     #[must_use]
     pub fn new(kernel: K, terms: P, mode: SmoothingMode) -> Self {
@@ -99,7 +99,7 @@ impl<K, P, const MODES: u8> Program<K, P, MODES> {
 }
 
 impl<T: Real, const D: usize, K: Kernel<D>, P: Terms<D>, const MODES: u8> PairSweep<T, D>
-    for Program<K, P, MODES>
+    for FusedKernel<K, P, MODES>
 {
     fn fields(&self) -> Fields {
         reads::<T, P, D>(if self.mode == SmoothingMode::Uniform {
@@ -141,7 +141,7 @@ impl<T: Real, const D: usize, K: Kernel<D>, P: Terms<D>, const MODES: u8> PairSw
         pass: Pass,
         input: &SweepInput<'_, T, D>,
         records: &Records<T>,
-        rows: &mut Rows<T, D>,
+        rows: &mut Results<T, D>,
     ) {
         // A mode that the program is not compiled for leaves no loop behind.
         match self.mode {
@@ -164,7 +164,7 @@ impl<T: Real, const D: usize, K: Kernel<D>, P: Terms<D>, const MODES: u8> PairSw
     }
 }
 
-impl<K, P, const MODES: u8> Program<K, P, MODES> {
+impl<K, P, const MODES: u8> FusedKernel<K, P, MODES> {
     fn layout<T: Real, const D: usize>(&self, pass: Pass) -> Fields
     where
         P: Terms<D>,
@@ -183,7 +183,7 @@ impl<K, P, const MODES: u8> Program<K, P, MODES> {
         pass: Pass,
         input: &SweepInput<'_, T, D>,
         records: &Records<T>,
-        rows: &mut Rows<T, D>,
+        rows: &mut Results<T, D>,
     ) where
         K: Kernel<D>,
         P: Terms<D>,
@@ -203,7 +203,7 @@ impl<K, P, const MODES: u8> Program<K, P, MODES> {
         &self,
         input: &SweepInput<'_, T, D>,
         records: &Records<T>,
-        rows: &mut Rows<T, D>,
+        rows: &mut Results<T, D>,
     ) where
         K: Kernel<D>,
         P: Terms<D>,
@@ -243,11 +243,11 @@ impl<K, P, const MODES: u8> Program<K, P, MODES> {
             records: records.data(),
             blocks: input.blocks,
             interactions: input.interactions,
-            touching: input.columns.raw(Field::TOUCHING),
+            contact_activity: input.columns.raw(Field::CONTACT_ACTIVITY),
             images: input.images,
             targets: &input.targets,
             body_force: input.body_force,
-            lattice_moment: T::from_f64(input.lattice_moment),
+            lattice_consistency_factor: T::from_f64(input.lattice_consistency_factor),
             h,
             reach2: T::from_f64((self.kernel.support() * input.smoothing_length).powi(2) * BEYOND),
             kernel_norm: T::from_f64(self.kernel.normalisation()),
