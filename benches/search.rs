@@ -4,6 +4,7 @@
 //! `cargo bench --bench search [-- --quick]`
 
 use meshfree::neighbors::{Block, Cells, ClusterLists, Radii, SearchInput};
+use meshfree::scalar::InstructionSet;
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -67,6 +68,7 @@ fn by_clusters(points: &[[f64; 3]]) -> usize {
         width: 8,
         slots,
         skin: 0.0,
+        instructions: InstructionSet::detect(),
     });
     lists.entries()
 }

@@ -412,6 +412,7 @@ impl<T: Real> Lattice<T> {
             width: <T::Wide<false> as Lane>::WIDTH,
             slots,
             skin: 0.2 * H,
+            instructions: InstructionSet::detect(),
         });
         Self {
             columns,

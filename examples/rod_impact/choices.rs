@@ -110,7 +110,7 @@ impl ContactChoice {
     pub fn wall(self) -> study::End {
         match self {
             Self::Unilateral => study::End::Wall,
-            Self::Bonded => study::End::Clamped,
+            Self::Bonded => study::End::Bonded,
         }
     }
 }

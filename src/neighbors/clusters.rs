@@ -67,6 +67,8 @@ pub struct SearchInput<'a, T, const D: usize> {
     pub slots: usize,
     /// Added to the radius so that the lists stay valid while particles move.
     pub skin: f64,
+    /// What the search runs on, which this machine must have; lists are the same on all.
+    pub instructions: InstructionSet,
 }
 
 impl<T, const D: usize> SearchInput<'_, T, D> {
@@ -120,7 +122,7 @@ impl ClusterLists {
 
     /// Finds the neighbours of every cluster.
     pub fn rebuild<T: Real, const D: usize>(&mut self, input: &SearchInput<'_, T, D>) {
-        let instructions = InstructionSet::detect();
+        let instructions = input.instructions.or_baseline();
         // Blocks at once: liquid by one thread and walls by another.
         let sources: Vec<Source<T, D>> = (0..input.blocks.len())
             .into_par_iter()
@@ -288,7 +290,7 @@ impl<T: Real, const D: usize> Sieve<'_, T, D> {
     #[inline(always)]
     fn dispatch(&self, instructions: InstructionSet, found: &mut Vec<u32>, far: &mut Vec<u32>) {
         #[cfg(target_arch = "x86_64")]
-        // SAFETY: `InstructionSet::detect` found them on this machine.
+        // SAFETY: `InstructionSet::or_baseline` found them on this machine.
         match instructions {
             InstructionSet::Avx512 => unsafe { return self.run_avx512(found, far) },
             InstructionSet::Avx2 => unsafe { return self.run_avx2(found, far) },
@@ -404,6 +406,7 @@ mod tests {
             width: 8,
             slots: 400,
             skin,
+            instructions: InstructionSet::detect(),
         });
         let (mut near, mut far) = (0, 0);
         for (c, chunk) in lists.chunks().iter().enumerate() {

@@ -465,11 +465,6 @@ impl<T: Real, const D: usize> Group<T, D> {
             };
             kept.push(saved(&what, fields)?);
         }
-        let predicted = if file.has(&format!("{name}/predicted/velocity")) {
-            saved("predicted", self.kicked().collect())?
-        } else {
-            Saved::new()
-        };
         self.work = Workspace {
             records: take_records(&format!("{name}/records"), file)?,
             work_records: take_records(&format!("{name}/work_records"), file)?,
@@ -478,7 +473,8 @@ impl<T: Real, const D: usize> Group<T, D> {
             sums: rows("sums")?,
             coupling: rows("coupling")?,
             moved: Moves::default(),
-            predicted,
+            predicted: Saved::new(),
+            is_predicted: false,
             kept,
             phases: super::Phases::default(),
             spent: super::cost::Spent::default(),
@@ -704,7 +700,9 @@ fn put_workspace<T: Real, const D: usize>(
         coupling: _,
         // Saved states have been told between steps.
         moved: _,
-        predicted,
+        // A prediction is taken back in the step that makes it.
+        predicted: _,
+        is_predicted: _,
         kept,
         phases: _,
         spent: _,
@@ -733,7 +731,6 @@ fn put_workspace<T: Real, const D: usize>(
             file.put_reals(name, field.components(D), column);
         }
     };
-    put_saved("predicted", predicted);
     for (k, saved) in kept.iter().enumerate() {
         put_saved(&format!("kept{k}"), saved);
     }

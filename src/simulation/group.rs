@@ -250,7 +250,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         let walls = self.walls.iter().map(|wall| wall.slots.clone());
         self.neighborhood.remember(&self.particles, walls);
         self.place_images(time, reach);
-        self.neighborhood.list();
+        self.neighborhood.list(self.instructions);
     }
 
     /// What a sweep over all that moves by forces works on.

@@ -8,7 +8,7 @@ use crate::boundary::Boundary;
 use crate::neighbors::{Block, ClusterLists, Radii, SearchInput};
 use crate::particles::Field;
 use crate::scalar::Real;
-use crate::sweep::{Image, Interaction, Transform};
+use crate::sweep::{Image, InstructionSet, Interaction, Transform};
 use crate::tensor::{Vector, length};
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -177,7 +177,7 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
     }
 
     /// Builds the lists from what it remembers, with the images in place.
-    pub fn list(&mut self) {
+    pub fn list(&mut self, instructions: InstructionSet) {
         let slots = self.listed.len() - self.images.len();
         let h = &mut self.listed_h;
         let radii = if h.is_empty() {
@@ -201,6 +201,7 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
             width: width::<T>(),
             slots,
             skin: self.skin,
+            instructions,
         });
     }
 

@@ -48,6 +48,19 @@ impl<T: Real, const D: usize> ParticleView<'_, T, D> {
     pub fn velocity(&self) -> [f64; D] {
         self.group.particles.columns.vectors(Field::VELOCITY)[self.slot].map(Real::to_f64)
     }
+    /// Acceleration \[m/s²\] at the last evaluation, by pairs, walls, couplings and loads; zero for particles of walls.
+    #[must_use]
+    pub fn acceleration(&self) -> [f64; D] {
+        if !self.is_mobile() {
+            return [0.0; D];
+        }
+        let apart = self.group.sub_cycle.as_ref();
+        let coupled = apart.and_then(|apart| apart.forces.get(self.slot));
+        core::array::from_fn(|d| {
+            let own = self.group.acceleration(self.slot * D + d).to_f64();
+            own + coupled.map_or(0.0, |force| force[d].to_f64() / self.mass())
+        })
+    }
     /// A scalar field, or `None` if the particle does not carry it or it is no scalar.
     #[must_use]
     pub fn scalar(&self, field: Field) -> Option<f64> {

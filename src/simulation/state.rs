@@ -233,6 +233,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                 .for_each(|(saved, now)| saved.copy_from_slice(now));
         }
         self.work.predicted = predicted;
+        self.work.is_predicted = true;
         self.kick(dt);
         if self.carries_energy() {
             self.heat(dt, false);
@@ -241,6 +242,7 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// Takes the last prediction back.
     pub(super) fn restore(&mut self) {
+        self.work.is_predicted = false;
         for (field, saved) in &mut self.work.predicted {
             core::mem::swap(self.particles.columns.column_mut(*field), saved);
         }
@@ -412,9 +414,13 @@ impl<T: Real, const D: usize> Group<T, D> {
                 }
             }
         }
-        // A prediction is taken back: what it started from is the present state.
-        let predicted = self.work.predicted.first_mut();
-        let mut start = predicted.map(|own| &mut own.1).filter(|v| !v.is_empty());
+        // A prediction is taken back: what it started from is the present state, and none is under way otherwise.
+        let predicted = match self.work.is_predicted {
+            true => self.work.predicted.as_mut_slice(),
+            false => &mut [],
+        };
+        let (start, others) = predicted.split_at_mut(predicted.len().min(1));
+        let mut start = start.first_mut().map(|own| &mut own.1);
         for entry in &moved.wraps {
             let velocity = start.as_ref().map_or(entry.velocity, |v| at(v, entry.slot));
             let impulse = entry.impulse(&velocity);
@@ -423,14 +429,14 @@ impl<T: Real, const D: usize> Group<T, D> {
                 entry.through.turn(entry.slot, v);
             }
         }
-        for (field, column) in self.work.predicted.iter_mut().skip(1) {
+        for (field, column) in others.iter_mut() {
             for entry in &moved.wraps {
                 entry.through.turn_field(*field, entry.slot, column);
             }
         }
         if !moved.order.is_empty() {
             let columns = self.work.kept.iter_mut().flatten();
-            for (_, column) in columns.chain(&mut self.work.predicted) {
+            for (_, column) in columns.chain(predicted) {
                 let width = column.len() / moved.order.len();
                 let before = column.clone();
                 for (k, &from) in moved.order.iter().enumerate() {

@@ -29,6 +29,8 @@ pub(crate) struct Workspace<T: Real, const D: usize> {
     pub moved: Moves<T, D>,
     /// What a prediction has changed, and takes back.
     pub predicted: Saved<T>,
+    /// Whether a prediction is under way.
+    pub is_predicted: bool,
     /// States that an integrator keeps.
     pub kept: Vec<Saved<T>>,
     /// Where the time went.
@@ -48,6 +50,7 @@ impl<T: Real, const D: usize> Default for Workspace<T, D> {
             coupling: Results::default(),
             moved: Moves::default(),
             predicted: Vec::new(),
+            is_predicted: false,
             kept: Vec::new(),
             phases: Phases::default(),
             spent: Spent::default(),

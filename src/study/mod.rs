@@ -137,7 +137,7 @@ pub enum StudyError {
 /// How two neighbouring segments of a rod touch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Contact {
-    /// Glued: transmits tension, never opens.
+    /// Transmits tension, never opens.
     Bonded,
     /// Transmits compression only: opens when tension arrives and closes when the gap is used up.
     Unilateral,
@@ -150,8 +150,8 @@ pub enum End {
     Free,
     /// A rigid wall at rest that can push but not pull; the rod may leave it and come back.
     Wall,
-    /// A rigid wall at rest to which the rod is glued.
-    Clamped,
+    /// A rigid wall at rest to which the rod is bonded.
+    Bonded,
 }
 
 /// A place where segments meet, or an end of the chain.

@@ -102,6 +102,7 @@ fn a_free_force_counts_in_force_power_and_work() {
         width: 8,
         slots: 40,
         skin: 0.1,
+        instructions: InstructionSet::detect(),
     });
     let input = SweepInput {
         columns: &columns,
@@ -280,6 +281,7 @@ fn across(stress: [f64; 6], interaction: Interaction) -> [f64; 2] {
         width: 8,
         slots: 16,
         skin: 0.1,
+        instructions: InstructionSet::detect(),
     });
     let input = SweepInput {
         columns: &columns,

@@ -7,6 +7,7 @@ use meshfree::particles::{Field, Fields, Output, Outputs, PLACES};
 use meshfree::scalar::{Lane, Lanes, Real, Record, Traced};
 use meshfree::term::{Layout, Pair, Probe, Sums, Term, TermDoc, probe};
 
+// Checks are not inlined: a test that held the text of all terms would take minutes to compile.
 macro_rules! in_all_dimensions {
     ($check:ident: $($term:expr),*) => {
         $(
@@ -75,6 +76,7 @@ const COMPONENTS: usize = 9;
 struct Particle(Vec<Vec<f64>>);
 
 impl Particle {
+    #[inline(never)]
     fn random(random: &mut Random, apart: f64) -> Self {
         // Those that effects declare too, with as many numbers as the largest has.
         let fields = (0..PLACES).map(|place| {
@@ -178,6 +180,7 @@ fn name<const D: usize, A: Term<D>>(term: &A) -> String {
     format!("{} in {D}D", term.document().name)
 }
 
+#[inline(never)]
 fn forces_are_symmetric<const D: usize, A: Term<D>>(term: A)
 where
     KernelKind: Kernel<D>,
@@ -218,6 +221,7 @@ fn the_force_on_i_is_the_opposite_of_that_on_j() {
     for_each_term!(forces_are_symmetric);
 }
 
+#[inline(never)]
 fn finite_on_itself<const D: usize, A: Term<D>>(term: A)
 where
     KernelKind: Kernel<D>,
@@ -243,6 +247,7 @@ fn everything_is_finite_at_distance_zero() {
     for_each_term!(finite_on_itself);
 }
 
+#[inline(never)]
 fn nothing_beyond<const D: usize, A: Term<D>>(term: A)
 where
     KernelKind: Kernel<D>,
@@ -275,6 +280,7 @@ fn nothing_acts_beyond_the_support() {
     for_each_term!(nothing_beyond);
 }
 
+#[inline(never)]
 fn lanes_as_scalars<const D: usize, A: Term<D>>(term: A)
 where
     KernelKind: Kernel<D>,
@@ -319,6 +325,7 @@ fn a_lane_is_the_scalar_to_the_bit_and_a_fused_lane_to_rounding() {
     for_each_term!(lanes_as_scalars);
 }
 
+#[inline(never)]
 fn declares_what_it_writes<const D: usize, A: Term<D>>(term: A)
 where
     KernelKind: Kernel<D>,
@@ -360,6 +367,7 @@ fn no_term_writes_a_sum_that_it_does_not_declare() {
 /// forces, and what rounding has taken from positions.
 const USED_BY_THE_SWEEP: [Field; 2] = [Field::VELOCITY, Field::POSITION_RESIDUAL];
 
+#[inline(never)]
 fn reads_matter<const D: usize, A: Term<D>>(term: A)
 where
     KernelKind: Kernel<D>,
@@ -435,6 +443,7 @@ fn follows<T: Real, L: Lane<Scalar = T, Broadcast = T>, const D: usize, A: Term<
     }
 }
 
+#[inline(never)]
 fn can_be_recorded<const D: usize, A: Term<D>>(term: A)
 where
     KernelKind: Kernel<D>,
@@ -462,7 +471,9 @@ fn the_record_of_a_term_has_its_bits_on_every_lane() {
     for_each_term!(can_be_recorded);
 }
 
+#[inline(never)]
 fn kernels_follow<T: Real, L: Lane<Scalar = T>, K: Kernel<D>, const D: usize>(kernel: &K) {
+    #[inline(never)]
     fn text<L: Lane, K: Kernel<D>, const D: usize>(kernel: &K, given: &[L]) -> Vec<L> {
         let gradient = kernel.gradient(given[0], given[1], given[2]);
         vec![
@@ -533,6 +544,7 @@ impl<const D: usize> Term<D> for Stress {
     }
 }
 
+#[inline(never)]
 fn tensors_on_both_sides<const D: usize>()
 where
     KernelKind: Kernel<D>,

@@ -5,6 +5,7 @@ use crate::common::Random;
 use meshfree::boundary::{MirrorPlane, Periodic};
 use meshfree::material::catalogue;
 use meshfree::neighbors::{Block, ClusterLists, Radii, SearchInput};
+use meshfree::scalar::InstructionSet;
 use meshfree::scene::{Body, Scene};
 use meshfree::schemes;
 use meshfree::simulation::{Simulation, StepControl};
@@ -84,6 +85,7 @@ fn lists_hold_all<const D: usize>(
             width: WIDTH,
             slots: set.slots,
             skin,
+            instructions: InstructionSet::detect(),
         });
     }
     let mut entries = 0;

@@ -69,6 +69,8 @@ fn a_well_swings_with_the_period_and_the_energy_of_the_integrator() {
     for n in 1..=2000 {
         simulation.step().unwrap();
         let [now, v] = state(&simulation);
+        let [a] = simulation.all().next().unwrap().acceleration();
+        assert!((a + omega * omega * now).abs() < 1e-15, "{a}");
         assert!((now / x - (f64::from(n) * phase).cos()).abs() < 1e-11);
         let energy = v * v + share * now * now;
         assert!((energy / (share * x * x) - 1.0).abs() < 1e-12, "{energy}");

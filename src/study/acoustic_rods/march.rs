@@ -38,7 +38,7 @@ impl March {
         let bond_of = |end: End| match end {
             End::Free => None,
             End::Wall => Some(Contact::Unilateral),
-            End::Clamped => Some(Contact::Bonded),
+            End::Bonded => Some(Contact::Bonded),
         };
         let mut bonds = vec![bond_of(rods.left)];
         bonds.extend(rods.contacts.iter().map(|&contact| Some(contact)));
@@ -110,7 +110,7 @@ impl March {
         let count = solution.segments.len();
         let beyond = |end: End| match end {
             End::Free => Side::Void,
-            End::Wall | End::Clamped => Side::Wall,
+            End::Wall | End::Bonded => Side::Wall,
         };
         let heard = |steps: &Steps, k: usize| {
             steps.at(time - solution.segments[k].transit() + solution.tolerance)

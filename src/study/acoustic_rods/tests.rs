@@ -217,7 +217,7 @@ fn gap_is_the_difference_of_displacements_and_closes_again() {
 fn clamped_and_bonded_joints_pull() {
     let waves = AcousticRods::new()
         .segment(rod(STEEL, 0.02, 3.0))
-        .left_end(End::Clamped)
+        .left_end(End::Bonded)
         .solve(5e-6)
         .unwrap();
     close(waves.stress(0.0, 1e-6).unwrap(), 28.0245e6 * 3.0, 1.0);
@@ -257,7 +257,7 @@ fn pads_leave_the_target() {
 }
 
 fn end() -> impl Strategy<Value = End> {
-    prop_oneof![Just(End::Free), Just(End::Wall), Just(End::Clamped)]
+    prop_oneof![Just(End::Free), Just(End::Wall), Just(End::Bonded)]
 }
 
 proptest! {

@@ -100,7 +100,7 @@ impl JointFace {
         match end {
             End::Free => None,
             End::Wall => Some(Contact::Unilateral),
-            End::Clamped => Some(Contact::Bonded),
+            End::Bonded => Some(Contact::Bonded),
         }
     }
 

@@ -114,7 +114,7 @@ fn smooth_acoustic_waves_converge_with_second_order() {
         // Half the pulse meets the free end, half the clamped one: v returns even, and odd.
         let run = GodunovRods::new(cells)
             .segment(RodSegment::at_rest(Arc::new(COPPER), 0.05, 8930.0).initially(initially))
-            .right_end(End::Clamped)
+            .right_end(End::Bonded)
             .courant(0.6)
             .snapshot(0.045 / c)
             .solve(0.045 / c)
@@ -154,8 +154,8 @@ fn shock_tube_converges_with_first_order() {
             .starting_at(-0.5)
             .segment(RodSegment::at_rest(law.clone(), 0.5, 1.0).with_energy(2.5))
             .segment(RodSegment::at_rest(law, 0.5, 0.125).with_energy(2.0))
-            .left_end(End::Clamped)
-            .right_end(End::Clamped)
+            .left_end(End::Bonded)
+            .right_end(End::Bonded)
             .snapshot(0.2)
             .solve(0.2)
             .unwrap();
