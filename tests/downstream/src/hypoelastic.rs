@@ -57,7 +57,12 @@ impl<T: Real, const D: usize> Rate<T, D> for Hypoelastic {
 }
 
 impl<const D: usize> Term<D> for Hypoelastic {
-    const READS: Fields = Fields::of(&[STRESS, Field::MASS, Field::DENSITY, Field::CONSISTENCY_FACTOR]);
+    const READS: Fields = Fields::of(&[
+        STRESS,
+        Field::MASS,
+        Field::DENSITY,
+        Field::CONSISTENCY_FACTOR,
+    ]);
     const WRITES: Outputs = Outputs::of(&[Output::FORCE]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
