@@ -294,48 +294,53 @@ impl<T: Real, const D: usize> Group<T, D> {
         );
         let velocity = columns.vectors(Field::VELOCITY);
         let uniform = self.smoothing_length;
-        let bad = Vote {
-            step: -1.0,
-            criterion: Criterion::Fixed,
-            particle: usize::MAX,
-        };
         let gravity = Vector::<T, D>::from(self.evaluated_gravity);
-        (0..self.particles.mobile)
+        // Of each criterion, in the order in which one wins a tie; negative where the state is not sound.
+        let limits = |slot: usize| {
+            let h = h.get(slot).map_or(uniform, |h| h.to_f64());
+            let signal = self.work.rates.get(Output::SIGNAL, 0, slot).to_f64();
+            let acoustic = control.courant * h / (c[slot].to_f64() + signal);
+            let force: Vector<T, D> = self.work.rates.vector(Output::FORCE, slot).into();
+            let a = length(&(force / mass[slot] + gravity)).to_f64();
+            let by_force = control.force * (h / a.max(f64::MIN_POSITIVE)).sqrt();
+            let speed = velocity[slot].iter().fold(0.0, |s, v| s + v.to_f64().abs());
+            let density = rho[slot].to_f64();
+            // Without sound, as in dust, other criteria limit the step.
+            let speeds = c[slot].to_f64() + signal + a + speed;
+            if !(speeds.is_finite() && !acoustic.is_nan() && density > 0.0) {
+                return [-1.0; 3];
+            }
+            let by_viscosity = viscosity.get(slot).map_or(f64::INFINITY, |mu| {
+                control.viscous * h * h * density / mu.to_f64()
+            });
+            [acoustic, by_force, by_viscosity]
+        };
+        let shortest = |slot: usize| (limits(slot).into_iter().fold(f64::INFINITY, f64::min), slot);
+        // The lower slot wins a tie, whatever the order of reduction.
+        let (step, particle) = (0..self.particles.mobile)
             .into_par_iter()
             .with_min_len(4096)
-            .map(|slot| {
-                let h = h.get(slot).map_or(uniform, |h| h.to_f64());
-                let signal = self.work.rates.get(Output::SIGNAL, 0, slot).to_f64();
-                let acoustic = control.courant * h / (c[slot].to_f64() + signal);
-                let force: Vector<T, D> = self.work.rates.vector(Output::FORCE, slot).into();
-                let a = length(&(force / mass[slot] + gravity)).to_f64();
-                let by_force = control.force * (h / a.max(f64::MIN_POSITIVE)).sqrt();
-                let speed = velocity[slot].iter().fold(0.0, |s, v| s + v.to_f64().abs());
-                let density = rho[slot].to_f64();
-                // Without sound, as in dust, other criteria limit the step.
-                let speeds = c[slot].to_f64() + signal + a + speed;
-                let sound = speeds.is_finite() && !acoustic.is_nan() && density > 0.0;
-                if !sound {
-                    return Vote {
-                        particle: slot,
-                        ..bad
-                    };
-                }
-                let by_viscosity = viscosity.get(slot).map_or(f64::INFINITY, |mu| {
-                    control.viscous * h * h * density / mu.to_f64()
-                });
-                let vote = |step, criterion| Vote {
-                    step,
-                    criterion,
-                    particle: slot,
-                };
-                let by_force = vote(by_force, Criterion::Force);
-                let acoustic = vote(acoustic, Criterion::Acoustic);
-                least(
-                    acoustic,
-                    least(by_force, vote(by_viscosity, Criterion::Viscous)),
-                )
-            })
-            .reduce(|| NO_VOTE, least)
+            .map(shortest)
+            .reduce(
+                || (NO_VOTE.step, NO_VOTE.particle),
+                |a, b| {
+                    if b.0 < a.0 || (b.0 == a.0 && b.1 < a.1) {
+                        b
+                    } else {
+                        a
+                    }
+                },
+            );
+        if particle == NO_VOTE.particle {
+            return NO_VOTE;
+        }
+        let own = limits(particle);
+        let kinds = [Criterion::Acoustic, Criterion::Force, Criterion::Viscous];
+        let set = kinds.into_iter().zip(own).find(|(_, limit)| *limit == step);
+        Vote {
+            step,
+            criterion: set.map_or(Criterion::Fixed, |(criterion, _)| criterion),
+            particle,
+        }
     }
 }

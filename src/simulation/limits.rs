@@ -6,6 +6,7 @@ use super::group::Group;
 use super::stages::{GRAIN, Moment};
 use crate::scalar::Real;
 use rayon::prelude::*;
+use std::ops::Range;
 
 impl<T: Real, const D: usize> Group<T, D> {
     /// The vote, if no effect asks for a smaller step; negative where a limit is negative or no number.
@@ -31,13 +32,15 @@ impl<T: Real, const D: usize> Group<T, D> {
         vote
     }
 
-    /// Whether all that effects integrate of a particle is finite.
-    pub(super) fn has_sound_effects(&self, slot: usize) -> bool {
+    /// Whether all that effects integrate is finite in a run of slots.
+    pub(super) fn has_sound_effects(&self, run: Range<usize>) -> bool {
         self.scheme.program.evolved.iter().all(|own| {
             let width = own.field.components(D);
-            let column = self.particles.columns.raw(own.field);
-            let mut values = column[slot * width..(slot + 1) * width].iter();
-            values.all(|value| value.to_f64().is_finite())
+            let numbers =
+                &self.particles.columns.raw(own.field)[run.start * width..run.end * width];
+            // What is no number, or infinite, is not zero times itself.
+            let finite = |value: &T| *value * T::zero() == T::zero();
+            numbers.iter().fold(true, |all, value| all & finite(value))
         })
     }
 

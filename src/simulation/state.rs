@@ -415,9 +415,10 @@ impl<T: Real, const D: usize> Group<T, D> {
             }
         }
         // A prediction is taken back: what it started from is the present state, and none is under way otherwise.
-        let predicted = match self.work.is_predicted {
-            true => self.work.predicted.as_mut_slice(),
-            false => &mut [],
+        let predicted = if self.work.is_predicted {
+            self.work.predicted.as_mut_slice()
+        } else {
+            &mut []
         };
         let (start, others) = predicted.split_at_mut(predicted.len().min(1));
         let mut start = start.first_mut().map(|own| &mut own.1);

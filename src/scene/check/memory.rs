@@ -1,10 +1,12 @@
 //! Whether the particles of a scene fit into memory, predicted before any of it is allocated.
 //! A number of bytes a particle from what its scheme names, and what the machine has to give.
 
+use crate::effect::When;
 use crate::error::Problem;
-use crate::particles::Fields;
+use crate::particles::{Field, Fields};
 use crate::scalar::{Lane, Real};
 use crate::scene::{Part, SKINS, Scene};
+use crate::scheme::EnergyForm;
 use crate::term::MOST_READS;
 
 /// Bytes of the scene's own copies of a place while it is built: cells of the search for overlap, and identities.
@@ -33,10 +35,11 @@ impl<T: Real, const D: usize> Scene<T, D> {
         if particles == 0 || needed.is_nan() {
             return;
         }
-        let available = self.memory.or_else(available).unwrap_or(u64::MAX);
-        // What the allocator refuses at once need not be tried piece by piece.
+        let known = self.memory.or_else(available);
+        let available = known.unwrap_or(u64::MAX);
+        // Where nothing says what there is, the allocator is asked: what it refuses at once need not be tried by pieces.
         let granted = needed < isize::MAX as f64
-            && Vec::<u8>::new().try_reserve_exact(needed as usize).is_ok();
+            && (known.is_some() || Vec::<u8>::new().try_reserve_exact(needed as usize).is_ok());
         if needed > available as f64 || !granted {
             problems.push(Problem::Memory {
                 particles,
@@ -58,21 +61,32 @@ fn bytes_a_particle<T: Real, const D: usize>(
     let scheme = &part.scheme;
     let number = size_of::<T>() as f64;
     let columns = columns.width(D) as f64;
-    // Records of the widest sweep, and those of the work of kicks.
+    // Records of the widest sweep and, with compatible energy, those of the work of kicks.
     let (records, sums) = scheme.widths();
-    let kept = 7 + 3 * D;
-    let states = integrator.slots() * kept + kept;
+    let packed = if scheme.energy == EnergyForm::Compatible {
+        2
+    } else {
+        1
+    };
+    // States that the integrator keeps, and what a prediction takes back.
+    let width = |fields: &mut dyn Iterator<Item = Field>| -> usize {
+        fields.map(|field| field.components(D)).sum()
+    };
+    let evolved = || scheme.program.evolved.iter();
+    let all = 3 * D + width(&mut evolved().map(|own| own.field));
+    let kicked = evolved().filter(|own| own.when == When::Kick);
+    let states = integrator.slots() * all + D + width(&mut kicked.map(|own| own.field));
     // A row of W particles lists what any of them reaches: a ball as wide as the support and the row.
-    let width = <T::Wide<false> as Lane>::WIDTH as f64;
-    let row = width.powf(1.0 / D as f64);
+    let lanes = <T::Wide<false> as Lane>::WIDTH as f64;
+    let row = lanes.powf(1.0 / D as f64);
     let reach = scheme.kernel.support * scheme.h_over_dx * (1.0 + skin);
     let ball = match D {
         1 => 2.0 * reach + row,
         2 => core::f64::consts::PI * (reach + 0.5 * row).powi(2),
         _ => 4.0 / 3.0 * core::f64::consts::PI * (reach + 0.5 * row).powi(3),
     };
-    let lists = 4.0 * ball / width;
-    let numbers = columns + 2.0 * records.min(MOST_READS) as f64 + 2.0 * sums as f64;
+    let lists = 4.0 * ball / lanes;
+    let numbers = columns + (packed * records.min(MOST_READS) + 2 * sums) as f64;
     let places = (2 * D + states) as f64;
     MARGIN * (number * (numbers + places) + lists + WHILE_BUILT)
 }

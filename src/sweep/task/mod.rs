@@ -105,10 +105,24 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
             // SAFETY: `go` passes only what `InstructionSet::or_baseline` found on this machine.
             match instructions {
                 InstructionSet::Avx512 => unsafe {
-                    return self.chunk_avx512::<HOW>(chunk, list, out, reactions);
+                    return self.chunk_avx512::<HOW>(
+                        self.kernel,
+                        self.terms,
+                        chunk,
+                        list,
+                        out,
+                        reactions,
+                    );
                 },
                 InstructionSet::Avx2 => unsafe {
-                    return self.chunk_avx2::<HOW>(chunk, list, out, reactions);
+                    return self.chunk_avx2::<HOW>(
+                        self.kernel,
+                        self.terms,
+                        chunk,
+                        list,
+                        out,
+                        reactions,
+                    );
                 },
                 InstructionSet::Baseline => {}
             }
@@ -117,10 +131,14 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         self.chunk::<T::Wide<false>, HOW>(chunk, list, out, reactions);
     }
 
+    // Kernel and terms come as arguments: what those point to nothing else changes, so constants of a term are read and
+    // converted once, and not for every pair.
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx512f,avx512vl,avx512dq,fma")]
     fn chunk_avx512<const HOW: u8>(
         &self,
+        kernel: &K,
+        terms: &P,
         chunk: usize,
         list: &ChunkList,
         out: &mut [T],
@@ -129,13 +147,20 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         K: Kernel<D>,
         P: Terms<D>,
     {
-        self.chunk::<T::Wide<true>, HOW>(chunk, list, out, reactions);
+        let own = Task {
+            kernel,
+            terms,
+            ..*self
+        };
+        own.chunk::<T::Wide<true>, HOW>(chunk, list, out, reactions);
     }
 
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2,fma")]
     fn chunk_avx2<const HOW: u8>(
         &self,
+        kernel: &K,
+        terms: &P,
         chunk: usize,
         list: &ChunkList,
         out: &mut [T],
@@ -144,7 +169,12 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         K: Kernel<D>,
         P: Terms<D>,
     {
-        self.chunk::<T::Wide<true>, HOW>(chunk, list, out, reactions);
+        let own = Task {
+            kernel,
+            terms,
+            ..*self
+        };
+        own.chunk::<T::Wide<true>, HOW>(chunk, list, out, reactions);
     }
 
     /// All clusters of one chunk.
