@@ -147,7 +147,7 @@ impl<T: Real, const D: usize> Couple<T, D> {
         let along = |slot: u32| {
             second.particles.columns.vectors(Field::POSITION)[slot as usize][0].to_f64()
         };
-        others.sort_by(|&a, &b| along(a).total_cmp(&along(b)).then(a.cmp(&b)));
+        others.sort_unstable_by(|&a, &b| along(a).total_cmp(&along(b)).then(a.cmp(&b)));
         let spacings = [first.spacing_of(body), second.spacing_of(other)].map(T::from_f64);
         for &slot in &near {
             let on = first.coupled_particle(slot as usize, spacings[0]);
