@@ -12,9 +12,9 @@
 //! A [`Liquid`] becomes a material at its physical [`SoundSpeed`] or at an artificial one, which costs
 //! fewer steps; [`rheology`] holds viscosities that follow from the shear rate.
 //!
-//! Strength is not modelled: a solid is a fluid here, which is right for one-dimensional impact below
-//! the yield stress in so far as the law's bulk sound speed is that of the waves, and wrong where shear
-//! matters.
+//! [`strength`] holds the yield stresses of solids. Shear and strength act under schemes with the effects
+//! [`Hypoelastic`](crate::effect::Hypoelastic) and [`Plasticity`](crate::effect::Plasticity); without them a solid is
+//! a fluid with its equation of state.
 //!
 //! ```
 //! use meshfree::material::{Material, catalogue, eos::{MieGruneisen, TensionCutOff}};
@@ -33,6 +33,7 @@ mod cold;
 pub mod eos;
 mod liquid;
 pub mod rheology;
+pub mod strength;
 
 pub use liquid::{Liquid, SoundSpeed};
 
@@ -41,6 +42,7 @@ use core::fmt::Debug;
 use eos::{EosState, EquationOfState, GuardCounts};
 use rheology::{RheologyObject, ViscosityLaw};
 use std::sync::Arc;
+use strength::{PlasticHeating, Strength};
 
 /// An equation of state whose type is erased: what a [`Material`] holds.
 ///
@@ -217,13 +219,15 @@ pub struct Material<T: Real> {
     pub name: String,
     /// Where the constants come from.
     pub source: String,
-    /// Yield stress Y₀ \[Pa\] in simple tension, if known.
+    /// Yield stress Y₀ \[Pa\] in simple tension, if known; a [law of strength](Self::with_strength) goes before it.
     pub yield_stress: Option<f64>,
     /// Shear modulus G \[Pa\], if known.
     pub shear_modulus: Option<f64>,
     /// Dynamic viscosity μ \[Pa s\], if known; a [rheology](Self::with_rheology) goes before it.
     pub dynamic_viscosity: Option<f64>,
     rheology: Option<Arc<dyn RheologyObject<T>>>,
+    strength: Option<Arc<dyn Strength>>,
+    plastic_heating: Option<PlasticHeating>,
     sound_speed: SoundSpeed,
     eos: Arc<dyn EosObject<T>>,
 }
@@ -239,6 +243,8 @@ impl<T: Real> Material<T> {
             shear_modulus: None,
             dynamic_viscosity: None,
             rheology: None,
+            strength: None,
+            plastic_heating: None,
             sound_speed: SoundSpeed::Physical,
             eos: Arc::new(Erased {
                 law: eos,
@@ -306,6 +312,20 @@ impl<T: Real> Material<T> {
         self
     }
 
+    /// A yield stress that follows from plastic strain, rate, temperature and pressure; the constant
+    /// [`yield_stress`](Self::yield_stress) stays what it is in reports.
+    #[must_use]
+    pub fn with_strength(mut self, law: impl Strength) -> Self {
+        self.strength = Some(Arc::new(law));
+        self
+    }
+    /// The temperature that plastic work gives it, for laws of strength that follow from temperature.
+    #[must_use]
+    pub const fn with_plastic_heating(mut self, heating: PlasticHeating) -> Self {
+        self.plastic_heating = Some(heating);
+        self
+    }
+
     /// The equation of state.
     #[must_use]
     pub fn eos(&self) -> &dyn EosObject<T> {
@@ -319,6 +339,20 @@ impl<T: Real> Material<T> {
         self.rheology
             .as_deref()
             .or(constant.map(|viscosity| viscosity as &dyn RheologyObject<T>))
+    }
+    /// The law of strength: the [one given](Self::with_strength), or perfect plasticity at the constant
+    /// [`yield_stress`](Self::yield_stress); `None` for what has neither.
+    #[must_use]
+    pub fn strength(&self) -> Option<&dyn Strength> {
+        let constant = self.yield_stress.as_ref();
+        self.strength
+            .as_deref()
+            .or(constant.map(|stress| stress as &dyn Strength))
+    }
+    /// The temperature that plastic work gives it, if [known](Self::with_plastic_heating).
+    #[must_use]
+    pub const fn plastic_heating(&self) -> Option<PlasticHeating> {
+        self.plastic_heating
     }
     /// How the sound speed of a [`Liquid`] was chosen; [`Physical`](SoundSpeed::Physical) for all else.
     #[must_use]
@@ -353,6 +387,28 @@ impl<T: Real> Material<T> {
         let density = self.reference_density();
         density * self.state(density, 0.0).1
     }
+    /// Bulk modulus K = ρ₀ c² \[Pa\] at rest.
+    #[must_use]
+    pub fn bulk_modulus(&self) -> f64 {
+        let density = self.reference_density();
+        density * self.state(density, 0.0).1.powi(2)
+    }
+    /// Poisson's ratio ν = (3K − 2G)/(6K + 2G) at rest, of what has a
+    /// [shear modulus](Self::with_shear_modulus).
+    #[must_use]
+    pub fn poisson_ratio(&self) -> Option<f64> {
+        let bulk = self.bulk_modulus();
+        self.shear_modulus
+            .map(|shear| (3.0 * bulk - 2.0 * shear) / (6.0 * bulk + 2.0 * shear))
+    }
+    /// Young's modulus E = 9KG/(3K + G) \[Pa\] at rest, of what has a
+    /// [shear modulus](Self::with_shear_modulus).
+    #[must_use]
+    pub fn youngs_modulus(&self) -> Option<f64> {
+        let bulk = self.bulk_modulus();
+        self.shear_modulus
+            .map(|shear| 9.0 * bulk * shear / (3.0 * bulk + shear))
+    }
     /// What is wrong with the constants, as `(field, value, what it must be)`; empty if nothing.
     #[must_use]
     pub fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
@@ -369,6 +425,12 @@ impl<T: Real> Material<T> {
         }
         if let Some(law) = &self.rheology {
             problems.extend(law.problems());
+        }
+        if let Some(law) = &self.strength {
+            problems.extend(law.problems());
+        }
+        if let Some(heating) = &self.plastic_heating {
+            problems.extend(heating.problems());
         }
         problems.extend(self.sound_speed.problems());
         problems
