@@ -97,6 +97,7 @@
 //! |---|---|
 //! | solids that meet at weak to moderate shocks and keep their shape | [`schemes::impact`] |
 //! | the same with large motion | [`schemes::impact_by_continuity`] |
+//! | the same with shear and strength | [`schemes::impact_by_continuity`] with [`Hypoelastic`](effect::Hypoelastic) and [`Plasticity`](effect::Plasticity) |
 //! | a result of Lam, Shen & Gong (2002) to repeat | [`schemes::lam2002`] with [`LamLeapfrog`](integrator::LamLeapfrog), bodies bonded |
 //! | a liquid with a free surface, still or violent | [`schemes::weakly_compressible`] |
 //! | the same, without a coefficient to choose | [`schemes::riemann_liquid`] |

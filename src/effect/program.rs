@@ -58,6 +58,8 @@ pub struct SceneFacts<'a, T: Real> {
     pub kicks: bool,
     /// Whether smoothing lengths vary or differ.
     pub lengths_vary: bool,
+    /// The fields that the scheme integrates in time.
+    pub integrated: Fields,
 }
 
 /// What an effect asks of the scene that it is used in.
@@ -229,6 +231,12 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
         declared
             .chain(self.ledger.iter().map(|own| own.field))
             .fold(evolved, |all, field| all.union(Fields::of(&[field])))
+    }
+
+    /// The fields that are integrated in time.
+    pub(crate) fn integrated(&self) -> Fields {
+        let evolved = self.evolved.iter();
+        evolved.fold(Fields::NONE, |all, own| all.union(Fields::of(&[own.field])))
     }
 
     /// Whether a field belongs to the state: an effect declares it, or it is integrated in time.

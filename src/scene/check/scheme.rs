@@ -40,6 +40,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             integrator: self.scene.integrator.name(),
             kicks: self.scene.integrator.kicks(),
             lengths_vary: scheme.fields().contains(Field::SMOOTHING_LENGTH),
+            integrated: scheme.program.integrated(),
         };
         let asked = scheme.program.requirements.iter();
         problems.extend(asked.filter_map(|requirement| requirement(&facts)));
