@@ -1,9 +1,11 @@
 //! A case: a striker, perhaps with a pad on its head, that hits a rod or a wall.
 //! Geometry, materials and numerical choices; its scene and its exact solutions follow from it.
 
-use crate::choices::{ContactChoice, IntegratorChoice, Precision, SchemeChoice};
+use crate::choices::{
+    ContactChoice, IntegratorChoice, Precision, SchemeChoice, StateChoice, StrengthChoice,
+};
 use meshfree::boundary::MirrorPlane;
-use meshfree::effect::NoWalls;
+use meshfree::effect::{Hypoelastic, NoWalls, Plasticity, UniaxialStress};
 use meshfree::error::{Error, Result};
 use meshfree::kernel::{CubicSpline, KernelKind};
 use meshfree::material::{Material, catalogue};
@@ -27,6 +29,9 @@ pub struct Case {
     pub speed: f64,
     pub striker_length: f64,
     pub target_length: f64,
+    pub state: StateChoice,
+    /// Whether rods yield; `None` is as their state has it.
+    pub strength: Option<StrengthChoice>,
     pub spacing: f64,
     pub scheme: SchemeChoice,
     pub kernel: Option<KernelKind>,
@@ -50,6 +55,8 @@ impl Default for Case {
             speed: 20.0,
             striker_length: 0.010,
             target_length: 0.040,
+            state: StateChoice::Hydrodynamic,
+            strength: None,
             spacing: 5e-5,
             scheme: SchemeChoice::Impact,
             kernel: None,
@@ -96,7 +103,36 @@ pub fn material<T: Real>(name: &str) -> Result<Material<T>> {
     })
 }
 
+/// A material with a shear modulus, that of a relative in the catalogue where it has none: the paper states none.
+pub fn with_shear<T: Real>(material: Material<T>) -> Material<T> {
+    let relative: Material<T> = match material.name.as_str() {
+        "copper" => catalogue::ofhc_copper(),
+        "steel" => catalogue::steel_4340(),
+        "aluminium" => catalogue::aluminium_6061_t6(),
+        "pmma" => catalogue::tank_pmma(),
+        _ => return material,
+    };
+    match (material.shear_modulus, relative.shear_modulus) {
+        (None, Some(modulus)) => material.with_shear_modulus(modulus),
+        _ => material,
+    }
+}
+
 impl Case {
+    /// Whether rods bear more than pressure.
+    pub fn bears_shear(&self) -> bool {
+        self.state != StateChoice::Hydrodynamic
+    }
+    /// Whether rods yield.
+    pub fn strength(&self) -> StrengthChoice {
+        let own = if self.bears_shear() {
+            StrengthChoice::On
+        } else {
+            StrengthChoice::Off
+        };
+        self.strength.unwrap_or(own)
+    }
+
     /// The rods from left to right.
     pub fn rods(&self) -> Vec<Rod> {
         let mut rods = Vec::new();
@@ -169,13 +205,11 @@ impl Case {
         let mut scene =
             Scene::<T, 1>::new(self.scheme()).boxed_integrator(self.integrator().make());
         for rod in self.rods() {
-            let body = Body::block(
-                rod.name,
-                material(&rod.material)?,
-                [rod.from],
-                [rod.to],
-                self.spacing,
-            );
+            let mut material = material(&rod.material)?;
+            if self.bears_shear() {
+                material = with_shear(material);
+            }
+            let body = Body::block(rod.name, material, [rod.from], [rod.to], self.spacing);
             scene = scene.body(body.velocity([rod.speed]));
         }
         if self.pad.is_some() {
@@ -200,6 +234,20 @@ impl Case {
 
     /// The scheme with all choices made.
     pub fn scheme<T: Real>(&self) -> Scheme<T, 1> {
+        if self.bears_shear() {
+            let mut builder = schemes::impact_by_continuity();
+            if let Some(ratio) = self.h_over_dx {
+                builder = builder.h_over_dx(ratio);
+            }
+            let bar = self.state == StateChoice::UniaxialStress;
+            let yields = self.strength() == StrengthChoice::On;
+            return builder
+                .mixed_spacing()
+                .with(Hypoelastic)
+                .with(bar.then_some(UniaxialStress))
+                .with(yields.then_some(Plasticity))
+                .compose();
+        }
         match self.scheme {
             SchemeChoice::Impact => self.with_choices(schemes::impact()),
             SchemeChoice::Continuity => self.with_choices(schemes::impact_by_continuity()),

@@ -55,6 +55,18 @@ choices! {
 }
 
 choices! {
+    /// What stress a rod bears: pressure alone, or that of a layer of a plate, or that of a slender bar.
+    StateChoice, "--state":
+    Hydrodynamic "hydrodynamic", UniaxialStrain "uniaxial-strain", UniaxialStress "uniaxial-stress",
+}
+
+choices! {
+    /// Whether rods yield.
+    StrengthChoice, "--strength":
+    On "on", Off "off",
+}
+
+choices! {
     /// The scalar of the particles.
     Precision, "--precision":
     F32 "f32", F64 "f64",

@@ -2,7 +2,9 @@
 //! A bad option names itself, the value it was given, and what it takes.
 
 use crate::cases::{Case, material};
-use crate::choices::{ContactChoice, IntegratorChoice, Precision, SchemeChoice};
+use crate::choices::{
+    ContactChoice, IntegratorChoice, Precision, SchemeChoice, StateChoice, StrengthChoice,
+};
 use core::fmt;
 use meshfree::kernel::{Kernel, KernelKind};
 use meshfree::material::catalogue;
@@ -23,9 +25,11 @@ The case
   --speed M/S               20
   --striker-length MM       10
   --target-length MM        40
+  --state NAME              hydrodynamic, uniaxial-strain, uniaxial-stress
+  --strength on|off         whether rods of the last two yield; on
 The method
   --spacing MM              0.05 (--quick: 0.2)
-  --scheme NAME             impact, continuity, lam2002
+  --scheme NAME             impact, continuity, lam2002; rods that bear shear take continuity
   --kernel NAME             cubic, quartic, quintic, wendland-c2, wendland-c4, wendland-c6, gaussian
   --h-over-dx RATIO         as the kernel recommends
   --integrator NAME         kick-drift-kick, drift-kick-drift, position-verlet, midpoint, ssp-rk3,
@@ -86,13 +90,15 @@ pub struct Options {
     pub out: Option<PathBuf>,
 }
 
-const TAKES_VALUE: [&str; 18] = [
+const TAKES_VALUE: [&str; 20] = [
     "--striker",
     "--target",
     "--pad",
     "--speed",
     "--striker-length",
     "--target-length",
+    "--state",
+    "--strength",
     "--spacing",
     "--scheme",
     "--kernel",
@@ -120,7 +126,7 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Bad
         threads: None,
         out: None,
     };
-    let (mut spacing, mut until) = (None, None);
+    let (mut spacing, mut until, mut scheme) = (None, None, None);
     let mut arguments = arguments.into_iter();
     while let Some(argument) = arguments.next() {
         let (name, inline) = match argument.split_once('=') {
@@ -166,7 +172,9 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Bad
             "--striker-length" => case.striker_length = 1e-3 * positive("mm")?,
             "--target-length" => case.target_length = 1e-3 * positive("mm")?,
             "--spacing" => spacing = Some(1e-3 * positive("mm")?),
-            "--scheme" => case.scheme = SchemeChoice::parse(&value)?,
+            "--state" => case.state = StateChoice::parse(&value)?,
+            "--strength" => case.strength = Some(StrengthChoice::parse(&value)?),
+            "--scheme" => scheme = Some(SchemeChoice::parse(&value)?),
             "--kernel" => case.kernel = Some(kernel(&value)?),
             "--h-over-dx" => case.h_over_dx = Some(positive("times the spacing")?),
             "--integrator" => case.integrator = Some(IntegratorChoice::parse(&value)?),
@@ -183,8 +191,48 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Bad
         }
     }
     options.case.spacing = spacing.unwrap_or(if options.quick { 2e-4 } else { 5e-5 });
+    options.case.scheme = match (scheme, options.case.bears_shear()) {
+        (Some(scheme), _) => scheme,
+        (None, true) => SchemeChoice::Continuity,
+        (None, false) => SchemeChoice::Impact,
+    };
+    shear(&options.case)?;
     complete(&mut options.case, until)?;
     Ok(options)
+}
+
+/// What does not go with rods that bear shear, and with those that do not.
+fn shear(case: &Case) -> Result<(), BadOption> {
+    let state = case.state.key();
+    if !case.bears_shear() {
+        return match case.strength {
+            Some(StrengthChoice::On) => Err(BadOption::conflict(format!(
+                "--strength: `on` needs shear, which --state {state} has not; take --state uniaxial-strain or \
+                 uniaxial-stress"
+            ))),
+            _ => Ok(()),
+        };
+    }
+    let refuse = |option: &str, value: &str| {
+        Err(BadOption::conflict(format!(
+            "{option}: `{value}` does not go with --state {state}, which has --scheme continuity with its own kernel \
+             and viscosity, and an integrator that kicks; leave it out"
+        )))
+    };
+    if case.scheme != SchemeChoice::Continuity {
+        return refuse("--scheme", case.scheme.key());
+    }
+    if let Some(kernel) = case.kernel {
+        return refuse("--kernel", kernel.key());
+    }
+    if let Some(viscosity) = &case.viscosity {
+        return refuse("--viscosity", viscosity.key());
+    }
+    let integrator = case.integrator();
+    if !integrator.make().kicks() {
+        return refuse("--integrator", integrator.key());
+    }
+    Ok(())
 }
 
 /// Fills in what follows from the rest, and checks what options mean together.

@@ -3,10 +3,11 @@
 
 use crate::cases::{Case, short};
 use crate::choices::{IntegratorChoice, Precision};
+use meshfree::effect::{Hypoelastic, Plasticity};
 use meshfree::error::Result;
 use meshfree::output::csv::{Cell, CsvWriter};
 use meshfree::scalar::Real;
-use meshfree::simulation::{Ledger, Simulation};
+use meshfree::simulation::{Ledger, ParticleView, Simulation};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -55,6 +56,8 @@ pub struct Record {
     pub particles: usize,
     pub steps: u64,
     pub guards: u64,
+    /// Where rods yield: plastic work \[J\], and the largest plastic strain, of each at the end.
+    pub plastic: Vec<(f64, f64)>,
     pub scheme: String,
     pub integrator: String,
     pub wall_time: Duration,
@@ -100,8 +103,7 @@ impl Place {
     /// Stress and velocity.
     fn read<T: Real>(&self, simulation: &Simulation<T, 1>) -> Result<(f64, f64)> {
         let mut particles = simulation.body(self.body)?.skip(self.left);
-        let state =
-            |p: meshfree::simulation::ParticleView<'_, T, 1>| (0.0 - p.pressure(), p.velocity()[0]);
+        let state = |p: ParticleView<'_, T, 1>| (stress(&p), p.velocity()[0]);
         let left = particles.next().map_or((0.0, 0.0), state);
         let right = match particles.next() {
             Some(particle) if self.right > self.left => state(particle),
@@ -110,6 +112,13 @@ impl Place {
         let mix = |a: f64, b: f64| if a == b { a } else { a + self.weight * (b - a) };
         Ok((mix(left.0, right.0), mix(left.1, right.1)))
     }
+}
+
+/// Stress along the rod \[Pa\], positive in tension.
+fn stress<T: Real>(p: &ParticleView<'_, T, 1>) -> f64 {
+    let deviator = p.tensor(Hypoelastic::STRESS);
+    let along = deviator.map_or(0.0, |stress| stress.components()[0].to_f64());
+    along - p.pressure()
 }
 
 /// The open files of a run.
@@ -227,6 +236,7 @@ fn run_in<T: Real>(case: &Case, watch: Watch<'_>, progress: &mut dyn FnMut(f64))
         particles: simulation.particles(),
         steps: 0,
         guards: 0,
+        plastic: Vec::new(),
         scheme: simulation.scheme().to_string(),
         integrator: simulation.integrator_name(),
         wall_time: Duration::ZERO,
@@ -271,7 +281,16 @@ fn run_in<T: Real>(case: &Case, watch: Watch<'_>, progress: &mut dyn FnMut(f64))
             shots.push(shot);
         }
     }
-    note_drift(&first, &simulation.ledger(), &mut record);
+    let last = simulation.ledger();
+    note_drift(&first, &last, &mut record);
+    for (body, (_, budget)) in last.bodies.iter().enumerate() {
+        if let Some(work) = budget.total("plastic work") {
+            let strains = simulation
+                .body(body)?
+                .filter_map(|p| p.scalar(Plasticity::STRAIN));
+            record.plastic.push((work, strains.fold(0.0, f64::max)));
+        }
+    }
     record.snapshots = shots;
     record.steps = simulation.steps();
     record.guards = simulation.guard_counts().total();
@@ -320,7 +339,7 @@ fn take_snapshot<T: Real>(
                 body,
                 reference,
                 x: p.position()[0],
-                stress: 0.0 - p.pressure(),
+                stress: stress(&p),
                 velocity: p.velocity()[0],
                 density: p.density(),
                 energy: p.energy(),

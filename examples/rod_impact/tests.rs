@@ -1,6 +1,7 @@
 //! Tests of the command line: every bad option has a message that helps.
 //! Figures are drawn unless an option says something of the case.
 
+use crate::choices::{SchemeChoice, StrengthChoice};
 use crate::options::{Options, Task, parse};
 
 fn parse_line(line: &str) -> Result<Options, String> {
@@ -40,6 +41,20 @@ fn bad_options_name_themselves_and_what_they_take() {
             "`lam-fresh`",
             "density",
         ),
+        ("--state gas", "--state", "`gas`", "uniaxial-stress"),
+        ("--strength on", "--strength", "`on`", "uniaxial-strain"),
+        (
+            "--state uniaxial-stress --scheme impact",
+            "--scheme",
+            "`impact`",
+            "continuity",
+        ),
+        (
+            "--state uniaxial-strain --integrator rk4",
+            "--integrator",
+            "`rk4`",
+            "kicks",
+        ),
         ("--speed", "--speed", "needs a value", ""),
         ("--quick=yes", "--quick", "`yes`", "no value"),
         ("--sped 3", "`--sped`", "not an option", "--speed"),
@@ -61,4 +76,6 @@ fn options_that_say_nothing_of_the_case_leave_the_figures() {
     let case = parse_line("--target=wall --pad pmma:7.5 --quick --spacing 0.1");
     let case = case.map(|o| (o.task, o.case.length(), o.case.spacing, o.case.probes.len()));
     assert_eq!(case, Ok((Task::Case, 0.0175, 1e-4, 2)));
+    let solid = parse_line("--state uniaxial-strain").map(|o| (o.case.scheme, o.case.strength()));
+    assert_eq!(solid, Ok((SchemeChoice::Continuity, StrengthChoice::On)));
 }
