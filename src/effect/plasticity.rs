@@ -42,7 +42,7 @@ use crate::term::{Stage, TermDoc};
 /// let rod = Body::block("rod", catalogue::ofhc_copper(), [0.0], [0.01], 1e-4).velocity([-50.0]);
 /// let mut rod = Scene::<f64, 1>::new(scheme)
 ///     .body(rod)
-///     .boundary(MirrorPlane::low(0, 0.0))
+///     .boundary(MirrorPlane::wall([0.0], [-1.0]))
 ///     .build()?;
 /// rod.run_until(1e-6)?;
 /// let work = rod.ledger().whole.total("plastic work").unwrap_or(0.0);

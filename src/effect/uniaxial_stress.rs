@@ -33,7 +33,7 @@ use crate::term::{Stage, TermDoc};
 /// let scheme = schemes::impact_by_continuity().with(Hypoelastic).with(UniaxialStress);
 /// let mut rod = Scene::<f64, 1>::new(scheme)
 ///     .body(strike)
-///     .boundary(MirrorPlane::low(0, 0.0))
+///     .boundary(MirrorPlane::wall([0.0], [-1.0]))
 ///     .build()?;
 /// rod.run_until(4e-6)?;
 /// let foot = rod.body("rod")?.next().and_then(|p| p.scalar(UniaxialStress::LATERAL_STRAIN));
