@@ -544,6 +544,46 @@ mod tests {
         );
     }
 
+    /// Simple shear in the plane, forth and back, each step with the velocities of the same shear rate: the shear stress
+    /// goes between ±Y/√3, and the path is what is left of the shear beyond the elastic parts.
+    #[test]
+    fn cyclic_shear_yields_both_ways() {
+        const RATE: f64 = 10.0;
+        let material = bar::<f64>(PerfectPlasticity::new(YIELD));
+        let scheme = schemes::impact_by_continuity()
+            .with(Plasticity)
+            .with(Hypoelastic);
+        let mut block = Scene::<f64, 2>::new(scheme)
+            .body(Body::block("block", material, [0.0; 2], [0.2; 2], 0.02))
+            .build()
+            .unwrap();
+        let (elastic, mut sheared) = (YIELD / (SHEAR * 3f64.sqrt()), 0.0);
+        for (sign, path) in [(1.0, -elastic), (-1.0, -3.0 * elastic)] {
+            for _ in 0..20 {
+                block
+                    .set_field("block", Field::VELOCITY, |[_, y], [_, _]| {
+                        [sign * RATE * y, 0.0]
+                    })
+                    .unwrap();
+                sheared += RATE * block.step_at_most(1e-5).unwrap();
+            }
+            let middle = block
+                .all()
+                .find(|p| p.position().iter().all(|x| (x - 0.11).abs() < 0.005))
+                .unwrap();
+            let stress = middle.tensor(Hypoelastic::STRESS).unwrap();
+            let shear = sign * stress.at(0, 1) * 3f64.sqrt() / YIELD;
+            assert!((shear - 1.0).abs() < 1e-4, "{shear}");
+            let equivalent = (1.5 * stress.contract(&stress)).sqrt();
+            assert!((equivalent / YIELD - 1.0).abs() < 1e-12, "{equivalent}");
+            let flowed = middle.scalar(STRAIN).unwrap() * 3f64.sqrt();
+            assert!(
+                (flowed / (sheared + path) - 1.0).abs() < 2e-3,
+                "{flowed} {sheared}"
+            );
+        }
+    }
+
     #[test]
     fn what_it_needs_is_asked_for_by_name() {
         let body = |material| Body::block("plate", material, [0.0; 2], [0.2; 2], 0.02);
