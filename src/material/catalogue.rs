@@ -114,7 +114,7 @@ pub fn air<T: Real>() -> Material<T> {
 
 /// OFHC copper of the Taylor cylinders: shock line C₀ 3940 m/s, S 1.489, Γ 2.02, ρ₀ 8930 kg/m³
 /// (Steinberg 1996), G 46 GPa and the strength of Johnson & Cook (1983): A 90 MPa, B 292 MPa, n 0.31, C 0.025, m 1.09,
-/// melting at 1356 K, c 383 J/(kg K). Their paper was not at hand; two public tables agree on A to m and 1356 K.
+/// melting at 1356 K, c 383 J/(kg K). Their paper was not at hand; a public table agrees on A to m and 1356 K.
 #[must_use]
 pub fn ofhc_copper<T: Real>() -> Material<T> {
     Material::new(
