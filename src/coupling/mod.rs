@@ -81,7 +81,7 @@ pub struct CoupledParticle<T, const D: usize> {
 /// }
 ///
 /// // A copper ball of the first scheme strikes a steel plate of another.
-/// let ball = Body::block("ball", catalogue::copper(), [0.0005], [0.0105], 5e-4).velocity([-10.0]);
+/// let ball = Body::block("ball", catalogue::copper(), [0.0], [0.01], 5e-4).velocity([-10.0]);
 /// let plate = Body::block("plate", catalogue::steel(), [-0.01], [0.0], 5e-4);
 /// let mut simulation = Scene::<f64, 1>::new(schemes::impact())
 ///     .body(ball)
