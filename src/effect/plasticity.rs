@@ -453,10 +453,11 @@ mod tests {
     }
 
     fn profile(bar: &Simulation<f64, 1>) -> Vec<[f64; 2]> {
-        let stress = |p: &crate::simulation::ParticleView<'_, f64, 1>| {
-            p.pressure() - p.tensor(Hypoelastic::STRESS).unwrap().components()[0]
-        };
-        let mut all: Vec<_> = bar.all().map(|p| [p.position()[0], stress(&p)]).collect();
+        let stress = bar.all().map(|p| {
+            let deviator = p.tensor(Hypoelastic::STRESS).unwrap();
+            [p.position()[0], p.pressure() - deviator.components()[0]]
+        });
+        let mut all: Vec<_> = stress.collect();
         all.sort_by(|a, b| a[0].total_cmp(&b[0]));
         all
     }
