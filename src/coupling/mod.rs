@@ -23,8 +23,12 @@
 //! [`Scene::sub_cycle`](crate::scene::Scene::sub_cycle) its group takes several steps in each of the others', and
 //! what couplings do to it comes in impulses at the kicks of the others, with the forces that these feel: the
 //! reversible multiple-step method of Tuckerman, Berne & Martyna 1992 (J. Chem. Phys. 97, 1990, eq. 2.25), which keeps
-//! momentum to rounding. The impulses must come well above the slowest frequency at which the body would answer them.
-//! What they have worked is in the ledger of each body, as `work of couplings`.
+//! momentum to rounding. What the impulses have worked is in the ledger of each body, as `work of couplings`.
+//!
+//! A mode of the body that swings by a whole number of halves in a step of the others resonates with the impulses
+//! (Biesiadecki & Skeel 1993, J. Comput. Phys. 109, 318), the more the larger the share of a coupling in its stiffness.
+//! Liquids give little of that, and artificial viscosity in the body damps it; where `work of couplings` grows without
+//! cause, ask for fewer steps.
 
 mod liquid_structure;
 
@@ -65,7 +69,7 @@ pub struct CoupledParticle<T, const D: usize> {
 /// impl<T: Real, const D: usize> Coupling<T, D> for Penalty {
 ///     fn name(&self) -> &'static str { "penalty" }
 ///     fn document(&self) -> TermDoc {
-///         TermDoc { name: "penalty".into(), equation: "F = k (s − |r|) r/|r|", source: "" }
+///         TermDoc { name: "penalty".into(), equation: "F = k (s − |r|) r/|r|", source: "this example" }
 ///     }
 ///     fn reach(&self, spacings: [f64; 2]) -> f64 { 0.5 * (spacings[0] + spacings[1]) }
 ///     fn force(&self, on: &CoupledParticle<T, D>, from: &CoupledParticle<T, D>) -> [T; D] {
@@ -93,6 +97,7 @@ pub struct CoupledParticle<T, const D: usize> {
 /// let ledger = simulation.ledger();
 /// assert!(ledger.bodies[1].1.momentum[0] < 0.1 * before, "the plate is pushed");
 /// assert!((ledger.whole.momentum[0] / before - 1.0).abs() < 1e-12);
+/// assert_eq!(simulation.couplings()[0].name, "penalty");
 /// # Ok::<(), Error>(())
 /// ```
 #[diagnostic::on_unimplemented(
@@ -102,7 +107,9 @@ pub struct CoupledParticle<T, const D: usize> {
 pub trait Coupling<T: Real, const D: usize>: Debug + Send + Sync {
     /// Its name in reports, and of its limit of the step.
     fn name(&self) -> &'static str;
-    /// What it is, for people.
+    /// What it is, with its equation and source; [`Simulation::couplings`] lists it.
+    ///
+    /// [`Simulation::couplings`]: crate::simulation::Simulation::couplings
     fn document(&self) -> TermDoc;
     /// Whether particles of the second body stand among those of the first, a liquid, as walls.
     fn is_wall(&self) -> bool {

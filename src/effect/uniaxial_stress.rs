@@ -15,9 +15,9 @@ use crate::term::{Stage, TermDoc};
 /// ε̇_yy = ε̇_zz = −ν ε̇_xx,  p = S_yy,  so that σ_yy = σ_zz = S_yy − p = 0 and dσ_xx/dt = E ε̇_xx
 ///
 /// with Young's modulus E = 9KG/(3K + G) and Poisson's ratio ν of the material at rest;
-/// [`Plasticity`](super::Plasticity) keeps lateral stress at zero too. The pressure of the equation of state does not act. Strains are small: the force
-/// is that on the cross-section at rest, so at a strain of 10 % it is some 10 % too small in compression, and
-/// too large in tension. The step, and viscosity, take the speed of longitudinal waves in the bulk, which is above
+/// [`Plasticity`](super::Plasticity) keeps lateral stress at zero too. The pressure of the equation of state does not
+/// act. Strains are small: the force is that on the cross-section at rest, so at a strain of 10 % it is some 10 % too
+/// small in compression, and too large in tension. The step, and viscosity, take the speed of longitudinal waves in the bulk, which is above
 /// that of the bar.
 ///
 /// | it adds | as |

@@ -8,7 +8,7 @@ use crate::coupling::{CoupledParticle, Coupling};
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::sweep::{Pass, Records, Results, SweepInput};
-use crate::term::Stage;
+use crate::term::{Stage, TermDoc};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -47,6 +47,21 @@ pub(crate) struct Couple<T, const D: usize> {
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
+    /// What its groups do to each other: every coupling that acts, with its equation and source, once.
+    #[must_use]
+    pub fn couplings(&self) -> Vec<TermDoc> {
+        let walls = self.groups.iter().flat_map(|group| &group.walls);
+        let walls = walls.filter_map(|wall| Some(&wall.structure.as_ref()?.coupling));
+        let mut all: Vec<TermDoc> = Vec::new();
+        for coupling in walls.chain(self.couples.iter().map(|couple| &couple.coupling)) {
+            let own = coupling.document();
+            if !all.contains(&own) {
+                all.push(own);
+            }
+        }
+        all
+    }
+
     /// Brings the walls that structures are to where their particles are now, at `time` \[s\]; whether all rates are
     /// about to be evaluated.
     pub(super) fn place_structures(&mut self, time: f64, evaluated: bool) {

@@ -303,8 +303,8 @@ fn plate_on_slow_water(most: Option<u32>) -> Scene<f64, 1> {
     }
 }
 
-/// The plate takes its own short steps, the water long ones: what both do is the same, momentum stays to rounding, and
-/// what the plate has of energy is what couplings have worked on it.
+/// The plate takes its own short steps, the water long ones: it is slowed as theory says either way, momentum stays to
+/// rounding, and what the plate has of energy is what couplings have worked on it.
 #[test]
 fn a_stiff_plate_sub_cycles_in_slow_water() {
     let run = |most| {
@@ -331,10 +331,18 @@ fn a_stiff_plate_sub_cycles_in_slow_water() {
     let gain = plate.total_energy() - then.total_energy() - worked;
     assert!(worked < -1e-3 * then.kinetic, "{worked} J");
     assert!(gain.abs() < 1e-9 * then.kinetic, "{gain:e} J from nowhere");
-    let slowed = |ledger: meshfree::simulation::Ledger| ledger.bodies[1].1.momentum[0] - momentum;
-    let (one, other) = (slowed(together.ledger()), slowed(apart.ledger()));
-    assert!((other / one - 1.0).abs() < 0.01, "{other} and {one} kg m/s");
-    assert!(together.sub_steps() == 0);
+    // Sound takes Z = ρ c of its velocity from a plate of mass m per area, v = v₀ e^(−Z t/m) (Taylor 1941), until it is
+    // back from the far end.
+    let slowed = |run: &Simulation<f64, 1>| 1.0 - run.ledger().bodies[1].1.momentum[0] / momentum;
+    let exact = 1.0 - (-1000.0 * 200.0 * 2e-5 / (8930.0 * 4e-3_f64)).exp();
+    let found = [&together, &apart].map(|run| slowed(run) / exact);
+    println!("slowed over exact, together and apart: {found:?}");
+    assert!(
+        found.iter().all(|ratio| (ratio - 1.0).abs() < 0.01),
+        "{found:?}"
+    );
+    let listed: Vec<_> = apart.couplings().into_iter().map(|own| own.name).collect();
+    assert_eq!(listed, ["liquid and structure"]);
 }
 
 /// Pushes apart what is nearer than a spacing, as strongly as is said.

@@ -163,12 +163,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
     fn known_place(&self, body: &str, problems: &mut Vec<Problem>) -> Option<(usize, usize)> {
         let place = self.place_of(body);
         if place.is_none() {
-            let known: Vec<_> = self.bodies().map(|own| format!("`{}`", own.name)).collect();
-            problems.push(Problem::UnknownName {
-                kind: "body",
-                name: body.into(),
-                known: known.join(", "),
-            });
+            problems.push(self.unknown_body(body));
         }
         place
     }

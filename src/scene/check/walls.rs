@@ -30,12 +30,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 Some((&part.scheme, body))
             });
             let Some((scheme, body)) = fed else {
-                let known: Vec<_> = self.bodies().map(|body| body.name.as_str()).collect();
-                problems.push(Problem::UnknownName {
-                    kind: "body",
-                    name: inlet.body.clone(),
-                    known: known.join(", "),
-                });
+                problems.push(self.unknown_body(&inlet.body));
                 continue;
             };
             if !scheme.meets_walls() {
