@@ -36,6 +36,7 @@ mod limit;
 mod list;
 mod plasticity;
 mod program;
+mod radial_return;
 mod setting;
 mod shifting;
 mod uniaxial_stress;

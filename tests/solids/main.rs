@@ -6,6 +6,7 @@ mod common;
 
 mod conservation;
 mod convergence;
+mod elastic_plastic_waves;
 mod gas;
 mod integrators;
 mod kernels_on_lattices;
