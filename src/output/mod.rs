@@ -11,6 +11,7 @@ pub mod progress;
 pub mod svg;
 pub mod table;
 pub mod vti;
+mod vtk;
 pub mod vtu;
 
 use crate::error::{Error, Result};

@@ -1,11 +1,10 @@
 //! Points of a regular grid as VTK image data (`.vti`): slices, contours and streamlines of sampled fields.
 //! Binary, little-endian, appended to the XML, as visualisation programs read it fastest.
 
-use super::vtu::{Array, FieldTuple, VtkNumber, append, check_lengths};
+use super::vtk::{Array, FieldTuple, VtkFile, VtkNumber, check_lengths};
 use super::write_whole;
 use crate::error::Result;
 use crate::particles::Shape;
-use std::fmt::Write as _;
 use std::path::Path;
 
 /// A regular grid and what is known at each of its points, x varying first.
@@ -98,32 +97,16 @@ impl Vti {
         let [x, y, z] = self.counts.map(|count| count.saturating_sub(1));
         let extent = format!("0 {x} 0 {y} 0 {z}");
         let words = |numbers: [f64; 3]| numbers.map(super::csv::number).join(" ");
-        let mut xml = String::from(concat!(
-            "<?xml version=\"1.0\"?>\n",
-            "<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n",
-        ));
-        let mut data: Vec<u8> = Vec::new();
-        let _ = writeln!(
-            xml,
-            "<ImageData WholeExtent=\"{extent}\" Origin=\"{}\" Spacing=\"{}\">",
+        let attributes = format!(
+            " WholeExtent=\"{extent}\" Origin=\"{}\" Spacing=\"{}\"",
             words(self.origin),
             words(self.spacing)
         );
-        if let Some(time) = self.time {
-            xml += "<FieldData>\n";
-            let time = Array::new("TimeValue", [[time]]);
-            append(&mut xml, &mut data, &time, " NumberOfTuples=\"1\"");
-            xml += "</FieldData>\n";
-        }
-        let _ = writeln!(xml, "<Piece Extent=\"{extent}\">\n<PointData>");
-        for array in &self.arrays {
-            append(&mut xml, &mut data, array, "");
-        }
-        xml += "</PointData>\n</Piece>\n</ImageData>\n<AppendedData encoding=\"raw\">\n_";
-        let mut bytes = xml.into_bytes();
-        bytes.append(&mut data);
-        bytes.extend_from_slice(b"\n</AppendedData>\n</VTKFile>\n");
-        bytes
+        let mut file = VtkFile::new("ImageData", &attributes, self.time);
+        file.line(&format!("<Piece Extent=\"{extent}\">"));
+        file.arrays("PointData", &self.arrays);
+        file.line("</Piece>");
+        file.bytes()
     }
 }
 

@@ -2,119 +2,14 @@
 //! Binary, little-endian, appended to the XML, as visualisation programs read it fastest.
 
 use super::csv::number;
-use super::{file_error, write_whole, xml_escape};
+use super::vtk::{Array, FieldTuple, VtkFile, check_lengths, padded};
+use super::{write_whole, xml_escape};
 use crate::error::Result;
 use crate::particles::Shape;
 use std::fmt::Write as _;
-use std::io;
 use std::path::{Path, PathBuf};
 
-mod sealed {
-    pub trait Sealed {}
-}
-
-/// A number type that VTK knows.
-///
-/// ```
-/// use meshfree::output::vtu::VtkNumber;
-/// assert_eq!(f32::NAME, "Float32");
-/// ```
-pub trait VtkNumber: sealed::Sealed + Copy + Default {
-    /// Its name in VTK.
-    const NAME: &'static str;
-    /// Appends the little-endian bytes.
-    ///
-    /// ```
-    /// use meshfree::output::vtu::VtkNumber;
-    /// let mut bytes = Vec::new();
-    /// 258_i32.push_bytes(&mut bytes);
-    /// assert_eq!(bytes, [2, 1, 0, 0]);
-    /// ```
-    fn push_bytes(self, bytes: &mut Vec<u8>);
-}
-
-macro_rules! vtk_numbers {
-    ($($number:ty => $name:literal),*) => {$(
-        impl sealed::Sealed for $number {}
-        impl VtkNumber for $number {
-            const NAME: &'static str = $name;
-            fn push_bytes(self, bytes: &mut Vec<u8>) {
-                bytes.extend_from_slice(&self.to_le_bytes());
-            }
-        }
-    )*};
-}
-vtk_numbers!(f32 => "Float32", f64 => "Float64", u8 => "UInt8", i32 => "Int32", u32 => "UInt32", i64 => "Int64");
-
-/// The numbers of a field, as many as it has, and then nothing of meaning.
-pub(crate) type FieldTuple = [f64; 9];
-
-/// A quantity of every particle, or of every point of a grid, in the bytes of a file.
-#[derive(Clone, Debug)]
-pub(super) struct Array {
-    pub name: String,
-    kind: &'static str,
-    components: usize,
-    pub tuples: usize,
-    bytes: Vec<u8>,
-}
-
-impl Array {
-    pub fn new<T: VtkNumber, const C: usize>(
-        name: &str,
-        tuples: impl IntoIterator<Item = [T; C]>,
-    ) -> Self {
-        let mut array = Self {
-            name: name.to_string(),
-            kind: T::NAME,
-            components: C,
-            tuples: 0,
-            bytes: Vec::new(),
-        };
-        for tuple in tuples {
-            array.tuples += 1;
-            for value in tuple {
-                value.push_bytes(&mut array.bytes);
-            }
-        }
-        array
-    }
-}
-
-impl Array {
-    /// A field in `D` dimensions as VTK reads it: vectors and matrices padded with zeros to three dimensions, a
-    /// symmetric tensor as xx, yy, zz, xy, yz, xz.
-    pub fn of_field<const D: usize>(
-        name: &str,
-        shape: Shape,
-        tuples: impl Iterator<Item = FieldTuple>,
-    ) -> Self {
-        match shape {
-            Shape::Scalar => Self::new(name, tuples.map(|[value, ..]| [value])),
-            Shape::Tensor => Self::new(
-                name,
-                tuples.map(|[xx, yy, zz, yz, xz, xy, ..]| [xx, yy, zz, xy, yz, xz]),
-            ),
-            Shape::Matrix => {
-                let at = |tuple: &FieldTuple, a: usize, b: usize| {
-                    let inside = a < D && b < D;
-                    if inside { tuple[a * D + b] } else { 0.0 }
-                };
-                let whole = |tuple| core::array::from_fn::<f64, 9, _>(|k| at(&tuple, k / 3, k % 3));
-                Self::new(name, tuples.map(whole))
-            }
-            Shape::Point | Shape::Velocity | Shape::Vector => {
-                let own = |tuple: FieldTuple| padded::<_, D>(core::array::from_fn(|d| tuple[d]));
-                Self::new(name, tuples.map(own))
-            }
-        }
-    }
-}
-
-/// Pads a vector in fewer dimensions with zeros.
-fn padded<T: VtkNumber, const D: usize>(vector: [T; D]) -> [T; 3] {
-    core::array::from_fn(|d| vector.get(d).copied().unwrap_or_default())
-}
+pub use super::vtk::VtkNumber;
 
 /// Particles at one instant: positions and what is known at each.
 ///
@@ -266,69 +161,20 @@ impl Vtu {
     /// The whole file.
     fn bytes(&self) -> Vec<u8> {
         let n = self.len();
-        let time = self.time.map(|time| Array::new("TimeValue", [[time]]));
         let connectivity = Array::new("connectivity", (0..n as i64).map(|i| [i]));
         let offsets = Array::new("offsets", (1..=n as i64).map(|i| [i]));
         let types = Array::new("types", (0..n).map(|_| [1_u8]));
 
-        let mut xml = String::from(concat!(
-            "<?xml version=\"1.0\"?>\n",
-            "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n",
-            "<UnstructuredGrid>\n",
+        let mut file = VtkFile::new("UnstructuredGrid", "", self.time);
+        file.line(&format!(
+            "<Piece NumberOfPoints=\"{n}\" NumberOfCells=\"{n}\">"
         ));
-        let mut data: Vec<u8> = Vec::new();
-        if let Some(time) = &time {
-            xml += "<FieldData>\n";
-            append(&mut xml, &mut data, time, " NumberOfTuples=\"1\"");
-            xml += "</FieldData>\n";
-        }
-        let _ = writeln!(xml, "<Piece NumberOfPoints=\"{n}\" NumberOfCells=\"{n}\">");
-        xml += "<PointData>\n";
-        for array in &self.arrays {
-            append(&mut xml, &mut data, array, "");
-        }
-        xml += "</PointData>\n<Points>\n";
-        append(&mut xml, &mut data, &self.positions, "");
-        xml += "</Points>\n<Cells>\n";
-        for array in [&connectivity, &offsets, &types] {
-            append(&mut xml, &mut data, array, "");
-        }
-        xml += "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
-        let mut bytes = xml.into_bytes();
-        bytes.append(&mut data);
-        bytes.extend_from_slice(b"\n</AppendedData>\n</VTKFile>\n");
-        bytes
+        file.arrays("PointData", &self.arrays);
+        file.arrays("Points", [&self.positions]);
+        file.arrays("Cells", [&connectivity, &offsets, &types]);
+        file.line("</Piece>");
+        file.bytes()
     }
-}
-
-/// Refuses arrays of another length than that of what they belong to.
-pub(super) fn check_lengths(
-    arrays: &[Array],
-    count: usize,
-    of: &'static str,
-    path: &Path,
-) -> Result<()> {
-    let Some(array) = arrays.iter().find(|array| array.tuples != count) else {
-        return Ok(());
-    };
-    let (name, own) = (&array.name, array.tuples);
-    let what = format!("the array `{name}` has {own} values for {count} {of}");
-    let source = io::Error::new(io::ErrorKind::InvalidInput, what);
-    Err(file_error("write", path)(source))
-}
-
-/// Declares an array in the XML and appends its length and content to the data.
-pub(super) fn append(xml: &mut String, data: &mut Vec<u8>, array: &Array, more: &str) {
-    let _ = writeln!(
-        xml,
-        "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"{more} format=\"appended\" offset=\"{}\"/>",
-        array.kind,
-        xml_escape(&array.name),
-        array.components,
-        data.len()
-    );
-    data.extend_from_slice(&(array.bytes.len() as u64).to_le_bytes());
-    data.extend_from_slice(&array.bytes);
 }
 
 /// Particle files over time, listed in a `.pvd` file that is complete after each frame.
