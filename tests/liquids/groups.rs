@@ -310,7 +310,7 @@ fn a_stiff_plate_sub_cycles_in_slow_water() {
     let run = |most| {
         let mut simulation = plate_on_slow_water(most).build().unwrap();
         let before = simulation.ledger();
-        simulation.run_until(2e-5).unwrap();
+        simulation.run_until(8e-5).unwrap();
         (before, simulation)
     };
     let ((_, together), (before, apart)) = (run(None), run(Some(40)));
@@ -331,16 +331,23 @@ fn a_stiff_plate_sub_cycles_in_slow_water() {
     let gain = plate.total_energy() - then.total_energy() - worked;
     assert!(worked < -1e-3 * then.kinetic, "{worked} J");
     assert!(gain.abs() < 1e-9 * then.kinetic, "{gain:e} J from nowhere");
-    // Sound takes Z = ρ c of its velocity from a plate of mass m per area, v = v₀ e^(−Z t/m) (Taylor 1941), until it is
-    // back from the far end.
+    // Sound takes p = Z v (1 + 2 v/c), Z = ρ c, from a plate of mass m per area, until it is back from the far end: of
+    // a simple wave in Tait's law with γ = 7, to second order, so with E = e^(−Z t/m)
+    // v = v₀ E/(1 + 2 v₀ (1 − E)/c) (Taylor 1941 for weak waves).
+    let (c, time) = (200.0, 8e-5);
+    let decay = (-1000.0 * c * time / (8930.0 * 4e-3_f64)).exp();
+    let exact = 1.0 - decay / (1.0 + 2.0 / c * (1.0 - decay));
     let slowed = |run: &Simulation<f64, 1>| 1.0 - run.ledger().bodies[1].1.momentum[0] / momentum;
-    let exact = 1.0 - (-1000.0 * 200.0 * 2e-5 / (8930.0 * 4e-3_f64)).exp();
     let found = [&together, &apart].map(|run| slowed(run) / exact);
     println!("slowed over exact, together and apart: {found:?}");
+    // The pressure stands some two dx/c after the blow, when the kernel's reach of water is at speed: at 2e-5 s 4 % of
+    // the impulse are still to come, as much at half the time with half the spacing. Measured 0.9970 and 0.9964.
     assert!(
-        found.iter().all(|ratio| (ratio - 1.0).abs() < 0.01),
+        found.iter().all(|ratio| (ratio - 1.0).abs() < 0.006),
         "{found:?}"
     );
+    let [together, own] = found;
+    assert!((own / together - 1.0).abs() < 1e-3, "{found:?}");
     let listed: Vec<_> = apart.couplings().into_iter().map(|own| own.name).collect();
     assert_eq!(listed, ["liquid and structure"]);
 }
