@@ -1,0 +1,222 @@
+//! What a checkpoint holds of a group: what it is made of, what couplings have done to it, and what is counted.
+//! What an evaluation between steps has set aside is put in place of what that has left.
+
+use super::particles::{check_run, put_particles, take_particles};
+use super::workspace::{put_neighborhood, put_workspace};
+use crate::material::eos::GuardCounts;
+use crate::output::checkpoint::{Checkpoint, Read, damaged};
+use crate::particles::Columns;
+use crate::scalar::Real;
+use crate::scheme::Scheme;
+use crate::simulation::couplings::Structure;
+use crate::simulation::group::{Aside, Group};
+use crate::simulation::soundness::NEGATIVE_ENERGY;
+use crate::simulation::sub_cycle::SubCycle;
+use crate::sweep::{Records, Results};
+
+impl<T: Real, const D: usize> Group<T, D> {
+    pub(super) fn put(&self, aside: Option<&Aside<T, D>>, name: &str, file: &mut Checkpoint) {
+        // What was set aside before lists were built is not taken up.
+        let aside = aside.filter(|aside| aside.rebuilds == self.neighborhood.rebuilds);
+        let Self {
+            particles,
+            neighborhood,
+            work,
+            scheme,
+            walls,
+            boundaries: _,
+            outlets: _,
+            emitters,
+            gravity,
+            evaluated_gravity,
+            body_force,
+            indices: _,
+            is_met: _,
+            sub_cycle,
+            smoothing_length: _,
+            instructions: _,
+            guards,
+            limited,
+        } = self;
+        let slots = particles.columns.slots();
+        let evaluated_gravity = evaluated_gravity.map(Real::to_f64);
+        let mut own = Put {
+            columns: &particles.columns,
+            rates: &work.rates,
+            coupling: &work.coupling,
+            apart: sub_cycle.as_ref().map_or(&[], |apart| &apart.forces),
+            records: &work.records,
+            work_records: &work.work_records,
+            records_of_rates: work.records_of_rates,
+            gravity: [*gravity, evaluated_gravity],
+            body_force: *body_force,
+            guards: *guards,
+            limited,
+            served: neighborhood.served,
+        };
+        if let Some(aside) = aside {
+            own = Put::of(aside);
+        }
+        put_particles(particles, own.columns, scheme, name, file);
+        put_neighborhood(neighborhood, slots, name, file);
+        file.put_one(format!("{name}/served"), own.served);
+        put_workspace(work, &own, (scheme, !walls.is_empty()), name, file);
+        for (k, wall) in walls.iter().enumerate() {
+            if let Some(structure) = &wall.structure {
+                let Structure {
+                    coupling: _,
+                    group: _,
+                    body: _,
+                    accelerations,
+                    before,
+                    evaluated,
+                } = structure;
+                let numbers = accelerations.as_flattened();
+                file.put(format!("{name}/wall{k}/accelerations"), D, numbers);
+                let numbers = before.as_flattened();
+                file.put(format!("{name}/wall{k}/velocities_before"), D, numbers);
+                file.put_one(format!("{name}/wall{k}/evaluated"), *evaluated);
+            }
+        }
+        if let Some(SubCycle {
+            most: _,
+            forces: _,
+            work,
+            steps,
+        }) = sub_cycle
+        {
+            file.put_reals(format!("{name}/apart/forces"), D, own.apart.as_flattened());
+            file.put(format!("{name}/apart/work"), 1, work);
+            file.put_one(format!("{name}/apart/steps"), *steps);
+        }
+        let layers: Vec<u64> = emitters.iter().map(|(_, own)| own.handed_over()).collect();
+        file.put(format!("{name}/handed_over"), 1, layers);
+        let [gravity, evaluated_gravity] = own.gravity;
+        file.put(format!("{name}/gravity"), 1, gravity);
+        file.put(format!("{name}/evaluated_gravity"), 1, evaluated_gravity);
+        file.put_reals(format!("{name}/body_force"), 1, &own.body_force);
+        let GuardCounts {
+            compression,
+            expansion,
+            cut_off,
+        } = own.guards;
+        let guards = [compression, expansion, cut_off];
+        file.put(format!("{name}/guards"), 1, guards);
+        let (names, counts): (Vec<&str>, Vec<u64>) = own.limited.iter().copied().unzip();
+        file.put_text(format!("{name}/limits"), names.join("\n"));
+        file.put(format!("{name}/limited"), 1, counts);
+    }
+
+    pub(super) fn take_state(&mut self, name: &str, file: &Checkpoint) -> Read<()> {
+        let scheme = self.scheme.clone();
+        let layers = file.get_all(&format!("{name}/handed_over"), self.emitters.len())?;
+        for ((_, emitter), layers) in self.emitters.iter().zip(layers) {
+            emitter.set_handed_over(layers);
+        }
+        take_particles(&mut self.particles, &scheme, name, file)?;
+        for wall in &self.walls {
+            check_run(&self.particles, wall.slots.start..wall.end)?;
+        }
+        self.take_neighborhood(name, file)?;
+        self.take_workspace(name, file)?;
+        for (k, wall) in self.walls.iter_mut().enumerate() {
+            if let Some(structure) = &mut wall.structure {
+                let own = structure.accelerations.as_flattened_mut();
+                let column = format!("{name}/wall{k}/accelerations");
+                own.copy_from_slice(&file.get_all::<f64>(&column, own.len())?);
+                let own = structure.before.as_flattened_mut();
+                let column = format!("{name}/wall{k}/velocities_before");
+                own.copy_from_slice(&file.get_all::<f64>(&column, own.len())?);
+                structure.evaluated = file.get_one(&format!("{name}/wall{k}/evaluated"))?;
+            }
+        }
+        if let Some(apart) = &mut self.sub_cycle {
+            let count = self.particles.mobile;
+            apart.forces.resize(count, [T::zero(); D]);
+            let forces = file.get_all_reals(&format!("{name}/apart/forces"), count * D)?;
+            apart.forces.as_flattened_mut().copy_from_slice(&forces);
+            let bodies = apart.work.len();
+            apart.work = file.get_all(&format!("{name}/apart/work"), bodies)?;
+            apart.steps = file.get_one(&format!("{name}/apart/steps"))?;
+        }
+        self.gravity = file.get_array(&format!("{name}/gravity"))?;
+        let evaluated: [f64; D] = file.get_array(&format!("{name}/evaluated_gravity"))?;
+        self.evaluated_gravity = evaluated.map(T::from_f64);
+        let force = file.get_all_reals::<T>(&format!("{name}/body_force"), D)?;
+        self.body_force.copy_from_slice(&force);
+        let [compression, expansion, cut_off] = file.get_array(&format!("{name}/guards"))?;
+        self.guards = GuardCounts {
+            compression,
+            expansion,
+            cut_off,
+        };
+        let names = file.text(&format!("{name}/limits"))?;
+        let counts = file.get::<u64>(&format!("{name}/limited"))?;
+        self.limited.clear();
+        for (limit, count) in names.lines().zip(counts) {
+            let known = limits(&scheme).find(|own| *own == limit);
+            let known = known.ok_or_else(|| damaged(format!("there is no limit `{limit}`")))?;
+            self.limited.push((known, count));
+        }
+        Ok(())
+    }
+}
+
+/// What an evaluation between steps sets aside: the file has that, or what is there now.
+pub(super) struct Put<'a, T: Real, const D: usize> {
+    pub columns: &'a Columns<T, D>,
+    pub rates: &'a Results<T, D>,
+    pub coupling: &'a Results<T, D>,
+    pub apart: &'a [[T; D]],
+    pub records: &'a Records<T>,
+    pub work_records: &'a Records<T>,
+    pub records_of_rates: bool,
+    pub gravity: [[f64; D]; 2],
+    pub body_force: [T; D],
+    pub guards: GuardCounts,
+    pub limited: &'a [(&'static str, u64)],
+    pub served: u32,
+}
+
+impl<'a, T: Real, const D: usize> Put<'a, T, D> {
+    fn of(aside: &'a Aside<T, D>) -> Self {
+        let Aside {
+            columns,
+            rates,
+            coupling,
+            apart,
+            records,
+            work_records,
+            records_of_rates,
+            gravity,
+            body_force,
+            guards,
+            limited,
+            served,
+            rebuilds: _,
+        } = aside;
+        Self {
+            columns,
+            rates,
+            coupling,
+            apart,
+            records,
+            work_records,
+            records_of_rates: *records_of_rates,
+            gravity: *gravity,
+            body_force: *body_force,
+            guards: *guards,
+            limited,
+            served: *served,
+        }
+    }
+}
+
+/// Names under which limits are counted.
+fn limits<T: Real, const D: usize>(scheme: &Scheme<T, D>) -> impl Iterator<Item = &'static str> {
+    let program = &scheme.program;
+    let laws = program.laws.iter().flatten().map(|law| law.name());
+    let evolved = program.evolved.iter();
+    let counted = evolved.map(|own| program.name_of(own.field).0);
+    laws.chain(counted).chain([NEGATIVE_ENERGY])
+}

@@ -1,0 +1,280 @@
+//! What a checkpoint holds of a simulation: what it puts, and beside it how that is taken back.
+//! Structs are taken apart whole here, so a new part of one does not compile before it is said what becomes of it.
+//!
+//! Neighbour lists are not held: they follow from the positions that they were built from. Neither is what the scene
+//! supplies again.
+
+mod group;
+mod particles;
+mod workspace;
+
+use super::energy::Work;
+use super::ledger::Impulses;
+use super::{Criterion, Simulation, Vote, width};
+use crate::error::{CheckpointProblem, Error, Result};
+use crate::output::checkpoint::{Checkpoint, Hashes, Read, damaged};
+use crate::scalar::Real;
+use crate::sweep::InstructionSet;
+use std::path::Path;
+
+/// The version of what is held. It rises with every change of it.
+const VERSION: &str = "1";
+
+const FORMAT: &str = "meshfree checkpoint";
+
+impl<T: Real, const D: usize> Simulation<T, D> {
+    /// Writes a checkpoint, from which [`Scene::resume`](crate::scene::Scene::resume) goes on to the same bits; see
+    /// [checkpoint and restart](crate::simulation#checkpoint-and-restart). The file appears at once and whole: a crash
+    /// while it is written leaves the one before.
+    ///
+    /// After an [evaluation](Self::evaluate) between steps it holds what the next step starts from.
+    ///
+    /// # Errors
+    /// [`Error::File`] if the file cannot be written, and [`Error::Failed`] after a step that has failed: its state is
+    /// none to go on from.
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
+        self.check_failure()?;
+        self.put().write(path.as_ref())
+    }
+
+    /// The same, as of a scene.
+    pub(crate) fn of_scene(self, scene: Hashes) -> Self {
+        Self { scene, ..self }
+    }
+
+    /// Goes on from the state in a file.
+    pub(crate) fn resumed(mut self, path: &Path, file: &Checkpoint) -> Result<Self> {
+        self.take(file).map_err(|problem| Error::Checkpoint {
+            path: path.to_path_buf(),
+            problem,
+        })?;
+        Ok(self)
+    }
+
+    fn put(&self) -> Checkpoint {
+        let Self {
+            groups,
+            couples,
+            domain: _,
+            integrator: _,
+            control: _,
+            accelerations: _,
+            loads: _,
+            scene,
+            time,
+            steps,
+            evaluations,
+            rates_at_hand,
+            first_step,
+            last_vote,
+            // What a process has counted, as it has its times.
+            votes: _,
+            impulses,
+            work,
+            evaluated,
+            kept_impulses,
+            aside,
+            due,
+            failed: _,
+        } = self;
+        // The next step takes up what was set aside.
+        let now: Vec<_> = couples.iter().map(|own| (own.force, own.step)).collect();
+        let (acting, evaluated, evaluations) = match aside {
+            Some(aside) => (&aside.acting, &aside.evaluated, &aside.evaluations),
+            None => (&now, evaluated, evaluations),
+        };
+        let mut file = Checkpoint::default();
+        file.put_text("format", FORMAT);
+        file.put_text("version", VERSION);
+        file.put_text("crate version", env!("CARGO_PKG_VERSION"));
+        file.put_text("scalar", T::NAME);
+        file.put_text("dimension", D.to_string());
+        file.put_text("lane width", width::<T>().to_string());
+        file.put_text("instructions", format!("{:?}", self.instructions()));
+        for (part, hash) in scene {
+            file.put_text(format!("hash of {part}"), format!("{hash:016x}"));
+        }
+        file.put_one("time".into(), *time);
+        file.put_one("steps".into(), *steps);
+        file.put_one("evaluations".into(), *evaluations);
+        file.put_one("rates_at_hand".into(), u32::from(*rates_at_hand));
+        file.put_one("evaluated".into(), *evaluated);
+        file.put_one("due".into(), *due);
+        if let Some(step) = first_step {
+            file.put_one("first_step".into(), *step);
+        }
+        if let Some(vote) = last_vote {
+            let Vote {
+                step,
+                criterion,
+                particle,
+            } = vote;
+            file.put_text("last vote", criterion.name());
+            file.put_one("last_vote/step".into(), *step);
+            file.put_one("last_vote/particle".into(), *particle as u64);
+        }
+        if let Some(Work { start, load, wall }) = work {
+            file.put("work".into(), 1, [*start, *load, *wall]);
+        }
+        file.put("impulses".into(), 1, &impulses.values);
+        for (k, kept) in kept_impulses.iter().enumerate() {
+            file.put(format!("kept{k}/impulses"), 1, &kept.values);
+            file.put_one(format!("kept{k}/time"), kept.time);
+        }
+        for (k, (force, step)) in acting.iter().enumerate() {
+            file.put(format!("coupling{k}/force"), 1, force);
+            file.put_one(format!("coupling{k}/step"), *step);
+        }
+        for (k, group) in groups.iter().enumerate() {
+            let aside = aside.as_ref().and_then(|aside| aside.groups.get(k));
+            group.put(aside, &format!("group{k}"), &mut file);
+        }
+        file
+    }
+
+    fn take(&mut self, file: &Checkpoint) -> Read<()> {
+        self.check(file, InstructionSet::detect())?;
+        let set = file.text("instructions")?;
+        let set = InstructionSet::ALL
+            .into_iter()
+            .find(|own| format!("{own:?}") == set);
+        let set = set.ok_or_else(|| damaged("its instruction set has no name"))?;
+        for group in &mut self.groups {
+            group.instructions = set;
+        }
+        self.time = file.get_one("time")?;
+        self.steps = file.get_one("steps")?;
+        self.evaluations = file.get_one("evaluations")?;
+        self.rates_at_hand = file.get_one::<u32>("rates_at_hand")? != 0;
+        self.evaluated = file.get_one("evaluated")?;
+        self.due = file.get_one("due")?;
+        self.first_step = None;
+        if file.has("first_step") {
+            self.first_step = Some(file.get_one("first_step")?);
+        }
+        self.last_vote = None;
+        if file.has("last_vote/step") {
+            let name = file.text("last vote")?;
+            let limits = self
+                .groups
+                .iter()
+                .flat_map(|group| &group.scheme.program.limits);
+            let limits = limits.map(|limit| limit.name());
+            let couplings = self.couples.iter().map(|couple| couple.coupling.name());
+            let criteria = Criterion::ALL
+                .into_iter()
+                .chain(limits.chain(couplings).map(Criterion::Effect));
+            let criterion = criteria.into_iter().find(|own| own.name() == name);
+            self.last_vote = Some(Vote {
+                step: file.get_one("last_vote/step")?,
+                criterion: criterion.ok_or_else(|| damaged("its criterion has no name"))?,
+                particle: file.get_one::<u64>("last_vote/particle")? as usize,
+            });
+        }
+        self.work = None;
+        if file.has("work") {
+            let [start, load, wall] = file.get_array("work")?;
+            self.work = Some(Work { start, load, wall });
+        }
+        let time = self.time;
+        let values = file.get("impulses")?;
+        self.impulses = Impulses { values, time };
+        self.kept_impulses.clear();
+        while let name = format!("kept{}", self.kept_impulses.len())
+            && file.has(&format!("{name}/impulses"))
+        {
+            self.kept_impulses.push(Impulses {
+                values: file.get(&format!("{name}/impulses"))?,
+                time: file.get_one(&format!("{name}/time"))?,
+            });
+        }
+        for (k, couple) in self.couples.iter_mut().enumerate() {
+            couple.force = file.get_array(&format!("coupling{k}/force"))?;
+            couple.step = file.get_one(&format!("coupling{k}/step"))?;
+        }
+        for (k, group) in self.groups.iter_mut().enumerate() {
+            group.take_state(&format!("group{k}"), file)?;
+        }
+        Ok(())
+    }
+
+    /// The instruction set that its pair loops run on.
+    fn instructions(&self) -> InstructionSet {
+        let first = self.groups.first();
+        let asked = first.map_or_else(InstructionSet::detect, |group| group.instructions);
+        asked.or_baseline()
+    }
+
+    /// Whether a file goes on from a simulation like this one, on a machine of which `best` is the best.
+    fn check(&self, file: &Checkpoint, best: InstructionSet) -> Read<()> {
+        if file.text("format")? != FORMAT {
+            return Err(damaged("it is no checkpoint"));
+        }
+        let found = file.text("version")?;
+        if found != VERSION {
+            return Err(CheckpointProblem::Version {
+                found: found.into(),
+                known: VERSION,
+            });
+        }
+        let kinds = [
+            ("scalar", T::NAME.to_string()),
+            ("dimension", D.to_string()),
+            ("lane width", width::<T>().to_string()),
+        ];
+        for (what, own) in kinds {
+            let found = file.text(what)?;
+            if found != own {
+                return Err(CheckpointProblem::Kind {
+                    what,
+                    found: found.into(),
+                    own,
+                });
+            }
+        }
+        let differs = |(part, hash): &&(&'static str, u64)| {
+            let found = file.text(&format!("hash of {part}"));
+            !found.is_ok_and(|found| found == format!("{hash:016x}"))
+        };
+        let parts: Vec<_> = self.scene.iter().filter(differs).collect();
+        if !parts.is_empty() {
+            let parts = parts.into_iter().map(|(part, _)| *part);
+            return Err(CheckpointProblem::Scene {
+                parts: parts.collect(),
+            });
+        }
+        let set = file.text("instructions")?;
+        let lacks = |own: InstructionSet| format!("{own:?}") == set && own > best;
+        if InstructionSet::ALL.into_iter().any(lacks) {
+            return Err(CheckpointProblem::Instructions { found: set.into() });
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::prelude::{Body, Scene, catalogue, schemes};
+
+    #[test]
+    fn instructions_that_a_machine_lacks_are_named() {
+        let rod = Body::block("rod", catalogue::copper(), [0.0], [0.01], 1e-3);
+        let scene = Scene::<f64, 1>::new(schemes::impact()).body(rod);
+        let simulation = scene.instructions(InstructionSet::Baseline).build();
+        let simulation = simulation.unwrap();
+        let mut file = simulation.put();
+        for (set, best, runs) in [
+            ("Baseline", InstructionSet::Baseline, true),
+            ("Avx2", InstructionSet::Avx512, true),
+            ("Avx2", InstructionSet::Baseline, false),
+            ("Avx512", InstructionSet::Avx2, false),
+        ] {
+            file.put_text("instructions", set);
+            let found = set.into();
+            let lacks = Err(CheckpointProblem::Instructions { found });
+            let expected = if runs { Ok(()) } else { lacks };
+            assert_eq!(simulation.check(&file, best), expected, "{set}");
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! What a checkpoint holds of particles: their columns, which slot each is in, and what has left.
+//! Columns are put under the names of their fields.
+
+use crate::output::checkpoint::{Checkpoint, Read, damaged};
+use crate::particles::{Columns, Field};
+use crate::scalar::Real;
+use crate::scheme::Scheme;
+use crate::simulation::population::{BodyState, Particles, Removed};
+use std::ops::Range;
+
+/// A column's name in files. Fields that effects declare may share a name.
+pub(super) fn column_name<T: Real, const D: usize>(scheme: &Scheme<T, D>, field: Field) -> String {
+    let name_of = |field: Field| scheme.program.name_of(field).0;
+    let mut others = scheme.fields().iter().filter(|other| *other != field);
+    let name = name_of(field);
+    if others.any(|other| name_of(other) == name) {
+        return format!("{name} {}", field.place());
+    }
+    name.into()
+}
+
+pub(super) fn put_particles<T: Real, const D: usize>(
+    particles: &Particles<T, D>,
+    columns: &Columns<T, D>,
+    scheme: &Scheme<T, D>,
+    name: &str,
+    file: &mut Checkpoint,
+) {
+    let Particles {
+        columns: _,
+        bodies,
+        mobile: _,
+        ids,
+        slot_of,
+        removed,
+        first_id: _,
+    } = particles;
+    for field in columns.fields().iter() {
+        let column = format!("{name}/particles/{}", column_name(scheme, field));
+        file.put_reals(column, field.components(D), columns.raw(field));
+    }
+    let end = |body: &BodyState<T>| {
+        let BodyState {
+            name: _,
+            material: _,
+            slots,
+            end: _,
+            ids: _,
+            spacing: _,
+        } = body;
+        slots.end as u64
+    };
+    let ends: Vec<u64> = bodies.iter().map(end).collect();
+    file.put(format!("{name}/body_ends"), 1, ends);
+    file.put(format!("{name}/ids"), 1, ids);
+    file.put(format!("{name}/slot_of"), 1, slot_of);
+    let Removed {
+        particles,
+        mass,
+        momentum,
+        kinetic,
+    } = removed;
+    file.put_one(format!("{name}/removed/particles"), *particles);
+    file.put_one(format!("{name}/removed/mass"), *mass);
+    file.put(format!("{name}/removed/momentum"), 1, momentum);
+    file.put_one(format!("{name}/removed/kinetic"), *kinetic);
+}
+
+pub(super) fn take_particles<T: Real, const D: usize>(
+    particles: &mut Particles<T, D>,
+    scheme: &Scheme<T, D>,
+    name: &str,
+    file: &Checkpoint,
+) -> Read<()> {
+    let slots = particles.columns.slots();
+    for field in particles.columns.fields().iter() {
+        let column = format!("{name}/particles/{}", column_name(scheme, field));
+        let numbers = file.get_all_reals(&column, slots * field.components(D))?;
+        *particles.columns.column_mut(field) = numbers;
+    }
+    let ends = file.get_all::<u64>(&format!("{name}/body_ends"), particles.bodies.len())?;
+    particles.ids = file.get_all(&format!("{name}/ids"), slots)?;
+    particles.slot_of = file.get_all(&format!("{name}/slot_of"), slots)?;
+    for (k, end) in ends.into_iter().enumerate() {
+        let run = particles.bodies[k].run();
+        check_run(particles, run.clone())?;
+        let end = end as usize;
+        if !(run.start..=run.end).contains(&end) {
+            return Err(damaged("a body ends outside of its run"));
+        }
+        particles.bodies[k].slots.end = end;
+    }
+    particles.removed = Removed {
+        particles: file.get_one(&format!("{name}/removed/particles"))?,
+        mass: file.get_one(&format!("{name}/removed/mass"))?,
+        momentum: file.get_array(&format!("{name}/removed/momentum"))?,
+        kinetic: file.get_one(&format!("{name}/removed/kinetic"))?,
+    };
+    Ok(())
+}
+
+/// Particles stay in the run of their body or wall.
+pub(super) fn check_run<T: Real, const D: usize>(
+    particles: &Particles<T, D>,
+    run: Range<usize>,
+) -> Read<()> {
+    let inside = |slot: &u32| run.contains(&(*slot as usize));
+    let ids = particles.ids[run.clone()].iter().all(inside);
+    let slots = particles.slot_of[run.clone()].iter();
+    if ids && slots.filter(|slot| **slot != u32::MAX).all(inside) {
+        return Ok(());
+    }
+    Err(damaged("a particle is outside of the run of its body"))
+}

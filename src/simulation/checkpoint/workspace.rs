@@ -1,0 +1,261 @@
+//! What a checkpoint holds of a group's lists and workspace: where lists were built, rates, sums, and saved states.
+//! Lists follow from the places that they were built from, and are built again.
+
+use super::group::Put;
+use super::particles::column_name;
+use crate::output::checkpoint::{Checkpoint, Read, damaged};
+use crate::particles::{Columns, Field, Output, Outputs};
+use crate::scalar::Real;
+use crate::scheme::Scheme;
+use crate::simulation::Phases;
+use crate::simulation::cost::Spent;
+use crate::simulation::group::Group;
+use crate::simulation::neighborhood::Neighborhood;
+use crate::simulation::population::Moves;
+use crate::simulation::workspace::{Saved, Workspace};
+use crate::sweep::{Reaction, Records, Results};
+use crate::term::Stage;
+
+impl<T: Real, const D: usize> Group<T, D> {
+    pub(super) fn take_neighborhood(&mut self, name: &str, file: &Checkpoint) -> Read<()> {
+        let slots = self.particles.columns.slots();
+        let own = &mut self.neighborhood;
+        own.listed_time = file.get_one(&format!("{name}/listed_time"))?;
+        own.listed_reach = file.get_one(&format!("{name}/listed_reach"))?;
+        let placed_time = file.get_one(&format!("{name}/placed_time"))?;
+        own.skin = file.get_one(&format!("{name}/skin"))?;
+        own.served = file.get_one(&format!("{name}/served"))?;
+        own.rebuilds = file.get_one(&format!("{name}/rebuilds"))?;
+        let entries = file.get_one::<u64>(&format!("{name}/sorted_entries"))?;
+        own.sorted_entries = entries as usize;
+        let (time, reach) = (own.listed_time, own.listed_reach);
+        let x = file.get_all_reals(&format!("{name}/listed_position"), slots * D)?;
+        let mut listed = vec![(Field::POSITION, x)];
+        let h = self.particles.columns.raw(Field::SMOOTHING_LENGTH).len();
+        let lengths = file.get_all_reals(&format!("{name}/listed_smoothing_length"), h)?;
+        listed.push((Field::SMOOTHING_LENGTH, lengths));
+        // Lists follow from the places and lengths that they were built from.
+        let mut exchange = |columns: &mut Columns<T, D>| {
+            for (field, column) in &mut listed {
+                core::mem::swap(columns.column_mut(*field), column);
+            }
+        };
+        exchange(&mut self.particles.columns);
+        self.list(time, reach);
+        exchange(&mut self.particles.columns);
+        self.neighborhood
+            .place_transforms(&self.boundaries, placed_time);
+        Ok(())
+    }
+
+    pub(super) fn take_workspace(&mut self, name: &str, file: &Checkpoint) -> Read<()> {
+        let scheme = self.scheme.clone();
+        let rows = |what: &str| take_rows(&scheme, &format!("{name}/{what}"), file);
+        let saved = |what: &str, fields: Vec<Field>| -> Read<Saved<T>> {
+            let mut columns = Saved::new();
+            for field in fields {
+                let column = format!("{name}/{what}/{}", column_name(&scheme, field));
+                // What has no column is kept as none.
+                let count = self.particles.columns.raw(field).len();
+                let numbers = match count {
+                    0 => Vec::new(),
+                    _ => file.get_all_reals(&column, count)?,
+                };
+                columns.push((field, numbers));
+            }
+            Ok(columns)
+        };
+        let mut kept = Vec::new();
+        while let what = format!("kept{}", kept.len())
+            && let Ok(full) = file.get_one::<u32>(&format!("{name}/{what}/full"))
+        {
+            let fields = if full == 0 {
+                Vec::new()
+            } else {
+                self.state().collect()
+            };
+            kept.push(saved(&what, fields)?);
+        }
+        self.work = Workspace {
+            records: take_records(&format!("{name}/records"), file)?,
+            work_records: take_records(&format!("{name}/work_records"), file)?,
+            records_of_rates: file.get_one::<u32>(&format!("{name}/records_of_rates"))? != 0,
+            rates: rows("rates")?,
+            sums: rows("sums")?,
+            coupling: rows("coupling")?,
+            moved: Moves::default(),
+            predicted: Saved::new(),
+            is_predicted: false,
+            kept,
+            phases: Phases::default(),
+            spent: Spent::default(),
+        };
+        Ok(())
+    }
+}
+
+pub(super) fn put_neighborhood<T: Real, const D: usize>(
+    neighborhood: &Neighborhood<T, D>,
+    slots: usize,
+    name: &str,
+    file: &mut Checkpoint,
+) {
+    let Neighborhood {
+        blocks: _,
+        interactions: _,
+        images: _,
+        transforms: _,
+        chains: _,
+        lists: _,
+        listed,
+        listed_h,
+        listed_time,
+        listed_reach,
+        placed_time,
+        skin,
+        skins: _,
+        served: _,
+        rebuilds,
+        sorted_entries,
+        support: _,
+        smoothing_length: _,
+    } = neighborhood;
+    // Images stand behind the slots.
+    let listed = listed[..slots].as_flattened();
+    let lengths = &listed_h[..slots.min(listed_h.len())];
+    file.put_reals(format!("{name}/listed_position"), D, listed);
+    file.put_reals(format!("{name}/listed_smoothing_length"), 1, lengths);
+    file.put_one(format!("{name}/listed_time"), *listed_time);
+    file.put_one(format!("{name}/listed_reach"), *listed_reach);
+    file.put_one(format!("{name}/placed_time"), *placed_time);
+    file.put_one(format!("{name}/skin"), *skin);
+    file.put_one(format!("{name}/rebuilds"), *rebuilds);
+    file.put_one(format!("{name}/sorted_entries"), *sorted_entries as u64);
+}
+
+pub(super) fn put_workspace<T: Real, const D: usize>(
+    work: &Workspace<T, D>,
+    own: &Put<'_, T, D>,
+    (scheme, has_walls): (&Scheme<T, D>, bool),
+    name: &str,
+    file: &mut Checkpoint,
+) {
+    let Workspace {
+        records: _,
+        work_records: _,
+        records_of_rates: _,
+        rates: _,
+        sums,
+        coupling: _,
+        // Saved states have been told between steps.
+        moved: _,
+        // A prediction is taken back in the step that makes it.
+        predicted: _,
+        is_predicted: _,
+        kept,
+        phases: _,
+        spent: _,
+    } = work;
+    // Only sums over walls read records without packing them.
+    let records = if own.records_of_rates && has_walls {
+        own.records
+    } else {
+        &Records::default()
+    };
+    put_records(records, &format!("{name}/records"), file);
+    put_records(own.work_records, &format!("{name}/work_records"), file);
+    let of_rates = u32::from(own.records_of_rates);
+    file.put_one(format!("{name}/records_of_rates"), of_rates);
+    let all = [
+        ("rates", own.rates),
+        ("sums", sums),
+        ("coupling", own.coupling),
+    ];
+    for (what, rows) in all {
+        put_rows(rows, &format!("{name}/{what}"), file);
+    }
+    let mut put_saved = |what: &str, saved: &Saved<T>| {
+        for (field, column) in saved.iter().filter(|(_, column)| !column.is_empty()) {
+            let name = format!("{name}/{what}/{}", column_name(scheme, *field));
+            file.put_reals(name, field.components(D), column);
+        }
+    };
+    for (k, saved) in kept.iter().enumerate() {
+        put_saved(&format!("kept{k}"), saved);
+    }
+    for (k, saved) in kept.iter().enumerate() {
+        let full = u32::from(!saved.is_empty());
+        file.put_one(format!("{name}/kept{k}/full"), full);
+    }
+}
+
+fn put_records<T: Real>(records: &Records<T>, name: &str, file: &mut Checkpoint) {
+    file.put_reals(name.into(), records.stride().max(1), records.data());
+    file.put_one(format!("{name}/stride"), records.stride() as u64);
+}
+
+fn take_records<T: Real>(name: &str, file: &Checkpoint) -> Read<Records<T>> {
+    let stride = file.get_one::<u64>(&format!("{name}/stride"))? as usize;
+    Ok(Records::of_stored(file.get_reals(name)?, stride))
+}
+
+/// A sum's name in files: those that effects declare have no names of their own.
+fn sum_name(sum: Output) -> String {
+    format!("{} {}", sum.name(), sum.place())
+}
+
+fn put_rows<T: Real, const D: usize>(rows: &Results<T, D>, name: &str, file: &mut Checkpoint) {
+    let names: Vec<_> = rows.outputs().iter().map(sum_name).collect();
+    let (data, first) = rows.stored();
+    file.put_text(name, names.join("\n"));
+    file.put_reals(name.into(), 1, data);
+    file.put_one(format!("{name}/first"), first as u64);
+    let blocks: Vec<u32> = rows
+        .reactions()
+        .flat_map(|Reaction { on, from, force: _ }| [*on, *from])
+        .collect();
+    let forces: Vec<f64> = rows
+        .reactions()
+        .flat_map(|reaction| reaction.force)
+        .collect();
+    file.put(format!("{name}/reactions/blocks"), 2, blocks);
+    file.put(format!("{name}/reactions/force"), D, forces);
+}
+
+fn take_rows<T: Real, const D: usize>(
+    scheme: &Scheme<T, D>,
+    name: &str,
+    file: &Checkpoint,
+) -> Read<Results<T, D>> {
+    let sweeps = Stage::ALL
+        .into_iter()
+        .filter_map(|stage| scheme.sweep(stage));
+    let sweeps = sweeps.chain(scheme.reference.as_deref());
+    let known = sweeps.fold(Outputs::ALL, |all, sweep| all.union(sweep.outputs()));
+    let mut outputs = Outputs::NONE;
+    for sum in file.text(name)?.lines() {
+        let own = known.iter().find(|own| sum_name(*own) == sum);
+        let own = own.ok_or_else(|| damaged(format!("there is no sum `{sum}`")))?;
+        outputs = outputs.union(Outputs::of(&[own]));
+    }
+    let first = file.get_one::<u64>(&format!("{name}/first"))? as usize;
+    let blocks = file.get::<u32>(&format!("{name}/reactions/blocks"))?;
+    let (blocks, _) = blocks.as_chunks::<2>();
+    let column = format!("{name}/reactions/force");
+    let forces = file.get_all::<f64>(&column, blocks.len() * D)?;
+    let (forces, _) = forces.as_chunks::<D>();
+    let reactions = blocks
+        .iter()
+        .zip(forces)
+        .map(|([on, from], force)| Reaction {
+            on: *on,
+            from: *from,
+            force: *force,
+        });
+    let data = file.get_reals(name)?;
+    Ok(Results::of_stored(
+        outputs,
+        (data, first),
+        reactions.collect(),
+    ))
+}
