@@ -33,6 +33,7 @@ mod cold;
 pub mod eos;
 mod liquid;
 pub mod rheology;
+mod solid;
 pub mod strength;
 
 pub use liquid::{Liquid, SoundSpeed};
@@ -285,18 +286,6 @@ impl<T: Real> Material<T> {
         self.source = source.into();
         self
     }
-    /// Yield stress Y₀ \[Pa\] in simple tension.
-    #[must_use]
-    pub const fn with_yield_stress(mut self, yield_stress: f64) -> Self {
-        self.yield_stress = Some(yield_stress);
-        self
-    }
-    /// Shear modulus G \[Pa\].
-    #[must_use]
-    pub const fn with_shear_modulus(mut self, shear_modulus: f64) -> Self {
-        self.shear_modulus = Some(shear_modulus);
-        self
-    }
     /// A constant dynamic viscosity μ \[Pa s\], in place of any [rheology](Self::with_rheology).
     #[must_use]
     pub fn with_dynamic_viscosity(mut self, dynamic_viscosity: f64) -> Self {
@@ -309,20 +298,6 @@ impl<T: Real> Material<T> {
     pub fn with_rheology(mut self, law: impl ViscosityLaw) -> Self {
         self.dynamic_viscosity = None;
         self.rheology = Some(Arc::new(rheology::Erased(law)));
-        self
-    }
-
-    /// A yield stress that follows from plastic strain, rate, temperature and pressure; the constant
-    /// [`yield_stress`](Self::yield_stress) stays what it is in reports.
-    #[must_use]
-    pub fn with_strength(mut self, law: impl Strength) -> Self {
-        self.strength = Some(Arc::new(law));
-        self
-    }
-    /// The temperature that plastic work gives it, for laws of strength that follow from temperature.
-    #[must_use]
-    pub const fn with_plastic_heating(mut self, heating: PlasticHeating) -> Self {
-        self.plastic_heating = Some(heating);
         self
     }
 
@@ -339,20 +314,6 @@ impl<T: Real> Material<T> {
         self.rheology
             .as_deref()
             .or(constant.map(|viscosity| viscosity as &dyn RheologyObject<T>))
-    }
-    /// The law of strength: the [one given](Self::with_strength), or perfect plasticity at the constant
-    /// [`yield_stress`](Self::yield_stress); `None` for what has neither.
-    #[must_use]
-    pub fn strength(&self) -> Option<&dyn Strength> {
-        let constant = self.yield_stress.as_ref();
-        self.strength
-            .as_deref()
-            .or(constant.map(|stress| stress as &dyn Strength))
-    }
-    /// The temperature that plastic work gives it, if [known](Self::with_plastic_heating).
-    #[must_use]
-    pub const fn plastic_heating(&self) -> Option<PlasticHeating> {
-        self.plastic_heating
     }
     /// How the sound speed of a [`Liquid`] was chosen; [`Physical`](SoundSpeed::Physical) for all else.
     #[must_use]
@@ -392,22 +353,6 @@ impl<T: Real> Material<T> {
     pub fn bulk_modulus(&self) -> f64 {
         let density = self.reference_density();
         density * self.state(density, 0.0).1.powi(2)
-    }
-    /// Poisson's ratio ν = (3K − 2G)/(6K + 2G) at rest, of what has a
-    /// [shear modulus](Self::with_shear_modulus).
-    #[must_use]
-    pub fn poisson_ratio(&self) -> Option<f64> {
-        let bulk = self.bulk_modulus();
-        self.shear_modulus
-            .map(|shear| (3.0 * bulk - 2.0 * shear) / (6.0 * bulk + 2.0 * shear))
-    }
-    /// Young's modulus E = 9KG/(3K + G) \[Pa\] at rest, of what has a
-    /// [shear modulus](Self::with_shear_modulus).
-    #[must_use]
-    pub fn youngs_modulus(&self) -> Option<f64> {
-        let bulk = self.bulk_modulus();
-        self.shear_modulus
-            .map(|shear| 9.0 * bulk * shear / (3.0 * bulk + shear))
     }
     /// What is wrong with the constants, as `(field, value, what it must be)`; empty if nothing.
     #[must_use]

@@ -1,0 +1,66 @@
+//! What makes a material a solid: elastic constants, strength, and the heat of plastic work.
+//! They act under schemes with the effects that take them, and are known to reports without.
+
+use super::Material;
+use super::strength::{PlasticHeating, Strength};
+use crate::scalar::Real;
+use std::sync::Arc;
+
+impl<T: Real> Material<T> {
+    /// Yield stress Y₀ \[Pa\] in simple tension.
+    #[must_use]
+    pub const fn with_yield_stress(mut self, yield_stress: f64) -> Self {
+        self.yield_stress = Some(yield_stress);
+        self
+    }
+    /// Shear modulus G \[Pa\].
+    #[must_use]
+    pub const fn with_shear_modulus(mut self, shear_modulus: f64) -> Self {
+        self.shear_modulus = Some(shear_modulus);
+        self
+    }
+    /// A yield stress that follows from plastic strain, rate, temperature and pressure; the constant
+    /// [`yield_stress`](Self::yield_stress) stays what it is in reports.
+    #[must_use]
+    pub fn with_strength(mut self, law: impl Strength) -> Self {
+        self.strength = Some(Arc::new(law));
+        self
+    }
+    /// The temperature that plastic work gives it, for laws of strength that follow from temperature.
+    #[must_use]
+    pub const fn with_plastic_heating(mut self, heating: PlasticHeating) -> Self {
+        self.plastic_heating = Some(heating);
+        self
+    }
+
+    /// The law of strength: the [one given](Self::with_strength), or perfect plasticity at the constant
+    /// [`yield_stress`](Self::yield_stress); `None` for what has neither.
+    #[must_use]
+    pub fn strength(&self) -> Option<&dyn Strength> {
+        let constant = self.yield_stress.as_ref();
+        self.strength
+            .as_deref()
+            .or(constant.map(|stress| stress as &dyn Strength))
+    }
+    /// The temperature that plastic work gives it, if [known](Self::with_plastic_heating).
+    #[must_use]
+    pub const fn plastic_heating(&self) -> Option<PlasticHeating> {
+        self.plastic_heating
+    }
+    /// Poisson's ratio ν = (3K − 2G)/(6K + 2G) at rest, of what has a
+    /// [shear modulus](Self::with_shear_modulus).
+    #[must_use]
+    pub fn poisson_ratio(&self) -> Option<f64> {
+        let bulk = self.bulk_modulus();
+        self.shear_modulus
+            .map(|shear| (3.0 * bulk - 2.0 * shear) / (6.0 * bulk + 2.0 * shear))
+    }
+    /// Young's modulus E = 9KG/(3K + G) \[Pa\] at rest, of what has a
+    /// [shear modulus](Self::with_shear_modulus).
+    #[must_use]
+    pub fn youngs_modulus(&self) -> Option<f64> {
+        let bulk = self.bulk_modulus();
+        self.shear_modulus
+            .map(|shear| 9.0 * bulk * shear / (3.0 * bulk + shear))
+    }
+}
