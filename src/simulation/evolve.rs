@@ -1,0 +1,165 @@
+//! How numbers of the state change: by rates, as their declarations say, and with what rounding loses.
+//! On slices of columns; which of these change when is in `state`.
+
+use super::stages::GRAIN;
+use crate::effect::{Evolved, Update, View};
+use crate::scalar::Real;
+use crate::sweep::two_sum;
+use crate::tensor::{Symmetric, rotation};
+use rayon::prelude::*;
+
+/// Numbers whose rates are on the stack at a time; a whole number of particles of any shape.
+pub(super) const RATES: usize = 360;
+
+/// dY/dt = g Y + s of some particles from slot `first` on, whose present values are `values`.
+pub(super) fn rates<T: Real, const D: usize>(
+    own: &Evolved<T, D>,
+    view: &View<'_, T, D>,
+    first: usize,
+    values: &[T],
+    rates: &mut [T; RATES],
+) {
+    let width = own.field.components(D);
+    let mut growths = [T::zero(); RATES];
+    let growths = &mut growths[..values.len() / width];
+    let rates = &mut rates[..values.len()];
+    parts(own, view, first, values, growths, rates);
+    if own.update == Update::Rotated {
+        for (n, rates) in rates.chunks_exact_mut(width).enumerate() {
+            let tensor = Symmetric::from_slice(&values[n * width..]);
+            let turn = tensor.spun(&view.spin(first + n));
+            for (rate, turn) in rates.iter_mut().zip(turn.components()) {
+                *rate += *turn;
+            }
+        }
+        return;
+    }
+    // A length spans a volume.
+    let share = match own.update {
+        Update::Within { .. } => T::from_f64(D as f64),
+        _ => T::one(),
+    };
+    for (k, rate) in rates.iter_mut().enumerate() {
+        *rate = values[k] * growths[k / width] / share + *rate;
+    }
+}
+
+/// The parts g and s of the rates of some particles.
+fn parts<T: Real, const D: usize>(
+    own: &Evolved<T, D>,
+    view: &View<'_, T, D>,
+    first: usize,
+    values: &[T],
+    growths: &mut [T],
+    sources: &mut [T],
+) {
+    growths.fill(T::zero());
+    sources.fill(T::zero());
+    for rate in &own.rates {
+        rate.growth(view, first, values, growths);
+        rate.source(view, first, sources);
+    }
+}
+
+/// Values of the particles from slot `first` on over `dt` \[s\] as their declaration says; how many were held at a
+/// limit.
+pub(super) fn update<T: Real, const D: usize>(
+    own: &Evolved<T, D>,
+    view: &View<'_, T, D>,
+    first: usize,
+    (column, residual): (&mut [T], &mut [T]),
+    dt: T,
+) -> u64 {
+    let width = own.field.components(D);
+    let slots = column.len() / width;
+    if slots > GRAIN {
+        let half = (slots / GRAIN).div_ceil(2) * GRAIN;
+        let kept = residual.len().min(half * width);
+        let (low, high) = column.split_at_mut(half * width);
+        let (low_residual, high_residual) = residual.split_at_mut(kept);
+        let (a, b) = rayon::join(
+            || update(own, view, first, (low, low_residual), dt),
+            || update(own, view, first + half, (high, high_residual), dt),
+        );
+        return a + b;
+    }
+    let (mut growths, mut sources) = ([T::zero(); RATES], [T::zero(); RATES]);
+    let mut limited = 0;
+    let piece = RATES / width * width;
+    for (k, values) in column.chunks_mut(piece).enumerate() {
+        let (start, slot) = (k * piece, first + k * piece / width);
+        let growths = &mut growths[..values.len() / width];
+        let sources = &mut sources[..values.len()];
+        parts(own, view, slot, values, growths, sources);
+        match own.update {
+            Update::Increment => {
+                for (k, y) in values.iter_mut().enumerate() {
+                    let change = dt * (*y * growths[k / width] + sources[k]);
+                    add(y, residual.get_mut(start + k), change);
+                }
+            }
+            Update::Exponential => {
+                for (k, y) in values.iter_mut().enumerate() {
+                    let change = *y * expm1(growths[k / width] * dt) + dt * sources[k];
+                    add(y, residual.get_mut(start + k), change);
+                }
+            }
+            Update::Within { smallest, largest } => {
+                let [low, high] = [smallest, largest]
+                    .map(|limit| T::from_f64(limit * view.around.smoothing_length));
+                let dimension = T::from_f64(D as f64);
+                for (k, y) in values.iter_mut().enumerate() {
+                    let next = *y * (growths[k / width] * dt / dimension).exp();
+                    *y = next.max(low).min(high);
+                    limited += u64::from(*y != next);
+                }
+            }
+            Update::Rotated => {
+                for (n, values) in values.chunks_exact_mut(width).enumerate() {
+                    let source = Symmetric::from_slice(&sources[n * width..]);
+                    let moved = Symmetric::from_slice(values).plus(dt, &source);
+                    let turn = rotation(&(view.spin(slot + n) * dt));
+                    values.copy_from_slice(moved.rotated(&turn).components());
+                }
+            }
+        }
+    }
+    limited
+}
+
+/// y ← y + change, with the rounding error kept where there is a place for it.
+#[inline(always)]
+pub(super) fn add<T: Real>(y: &mut T, residual: Option<&mut T>, change: T) {
+    match residual {
+        Some(residual) => (*y, *residual) = two_sum(*y, *residual + change),
+        None => *y += change,
+    }
+}
+
+/// x ← x + dt v, with the rounding error kept where there is a column for it.
+pub(super) fn add_scaled<T: Real>(x: &mut [T], residual: &mut [T], v: &[T], dt: T) {
+    if residual.is_empty() {
+        x.par_iter_mut()
+            .zip(v)
+            .with_min_len(GRAIN)
+            .for_each(|(x, v)| *x += dt * *v);
+        return;
+    }
+    x.par_iter_mut()
+        .zip(residual.par_iter_mut())
+        .zip(v)
+        .with_min_len(GRAIN)
+        .for_each(|((x, residual), v)| {
+            (*x, *residual) = two_sum(*x, *residual + dt * *v);
+        });
+}
+
+/// eˣ − 1 for the small x of a time step, without cancellation.
+#[inline(always)]
+fn expm1<T: Real>(x: T) -> T {
+    if x.abs() > T::from_f64(0.01) {
+        return x.exp() - T::one();
+    }
+    let term = |n: f64| T::from_f64(1.0 / n);
+    x * (T::one() + x * (term(2.0) + x * (term(6.0) + x * (term(24.0) + x * term(120.0)))))
+}
