@@ -1,23 +1,15 @@
-//! The builder of schemes: the choices, and how they are compiled into sweeps over pairs.
-//! What the builder's type rules out leaves no loop behind.
+//! The builder of schemes: the choices, which `compile` turns into sweeps over pairs.
+//! What its type rules out leaves no loop behind.
 
-use super::force::{ENERGY, Gradients, KICKED, Needs, Pressure, Rate};
+use super::force::{ENERGY, KICKED};
 use super::{EnergyForm, Scheme, Smoothing};
 use crate::effect::{
-    BySum, Cavitation, Compression, ConsistentSmoothing, ContactActivity, CorrectedGradients,
-    DensityDiffusion, DensityForm, Divergence, Effect, Effects, Evolved, ExtrapolatedPressure,
-    NoWalls, Setting, StepProgram, SummedDensity, Update, ViscositySwitch, When,
+    Cavitation, DensityDiffusion, DensityForm, Effect, Effects, ExtrapolatedPressure, NoWalls,
 };
-use crate::error::Problem;
-use crate::kernel::{Kernel, KernelFacts};
-use crate::particles::{Field, Fields, Output};
+use crate::kernel::Kernel;
 use crate::scalar::Real;
-use crate::sweep::{FusedKernel, Interaction, PairSweep, SmoothingMode};
-use crate::term::{
-    ArtificialViscosity, InternalEnergy, KernelMoment, KernelSum, MidpointReconstruction, SlopeInH,
-    Stage, StageMarker, StagedTerms, Terms, Unity, Viscosity, stage,
-};
-use core::marker::PhantomData;
+use crate::sweep::{Interaction, SmoothingMode};
+use crate::term::ArtificialViscosity;
 
 /// Chooses the parts of a scheme: a kernel, an artificial viscosity, forms of density and energy, how walls
 /// answer, and a list of [effects](crate::effect).
@@ -45,31 +37,31 @@ pub struct SchemeBuilder<
     const MODES: u8 = { SmoothingMode::Uniform.bit() },
     const FORCE: u8 = ENERGY,
 > {
-    kernel: K,
-    viscosity: V,
-    walls: W,
-    effects: E,
-    settings: Settings,
+    pub(super) kernel: K,
+    pub(super) viscosity: V,
+    pub(super) walls: W,
+    pub(super) effects: E,
+    pub(super) settings: Settings,
 }
 
 /// The choices that are no types.
 #[derive(Clone, Debug)]
-struct Settings {
-    name: String,
-    density: DensityForm,
-    pressure_form: Option<DensityForm>,
-    energy: EnergyForm,
-    smoothing: Smoothing,
-    consistency: Consistency,
-    h_over_dx: Option<f64>,
-    curvature: f64,
-    step_factor: f64,
-    between: Interaction,
+pub(super) struct Settings {
+    pub name: String,
+    pub density: DensityForm,
+    pub pressure_form: Option<DensityForm>,
+    pub energy: EnergyForm,
+    pub smoothing: Smoothing,
+    pub consistency: Consistency,
+    pub h_over_dx: Option<f64>,
+    pub curvature: f64,
+    pub step_factor: f64,
+    pub between: Interaction,
 }
 
 /// By which first moment sums of gradients are divided.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Consistency {
+pub(super) enum Consistency {
     /// By none.
     None,
     /// By that of each particle at rest.
@@ -265,7 +257,8 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
 macro_rules! forms {
     ($( $from:literal => [$midpoint:expr, $plain:expr, $renormalised:expr] ),*) => {$(
         impl<K, V, W, E, const MODES: u8> SchemeBuilder<K, V, W, E, MODES, $from> {
-            /// Adds midpoint reconstruction of the pressure with strength χ; see [`MidpointReconstruction`].
+            /// Adds midpoint reconstruction of the pressure with strength χ; see
+            /// [`MidpointReconstruction`](crate::term::MidpointReconstruction).
             #[must_use]
             pub fn midpoint_reconstruction(
                 self,
@@ -340,322 +333,6 @@ impl<K, V, W, E, Y, const MODES: u8, const FORCE: u8>
         diffusion: X,
     ) -> SchemeBuilder<K, V, W, (E, DensityDiffusion<X>), MODES, FORCE> {
         self.map(|k, v, w, (e, _)| (k, v, w, (e, DensityDiffusion(diffusion))))
-    }
-}
-
-impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MODES, FORCE> {
-    fn setting<const D: usize>(&self) -> Setting
-    where
-        K: Kernel<D>,
-    {
-        let own = &self.settings;
-        let h_over_dx = own.h_over_dx.unwrap_or(self.kernel.h_over_dx());
-        let changes = if FORCE & KICKED == 0 {
-            When::Drift
-        } else {
-            When::Kick
-        };
-        let forms = (own.density, own.pressure_form.unwrap_or(own.density));
-        Setting::of(&self.kernel, h_over_dx, forms, changes)
-    }
-
-    fn mode(&self) -> SmoothingMode {
-        match self.settings.smoothing {
-            Smoothing::Consistent { .. } => SmoothingMode::Own,
-            Smoothing::Divergence { .. } => SmoothingMode::Mean,
-            Smoothing::Fixed if MODES & SmoothingMode::Uniform.bit() != 0 => SmoothingMode::Uniform,
-            Smoothing::Fixed => SmoothingMode::Mean,
-        }
-    }
-
-    fn composed<T: Real, const D: usize>(self) -> Scheme<T, D>
-    where
-        K: Kernel<D>,
-        V: ArtificialViscosity<D>,
-        W: Effect<D>,
-        E: Effects<D>,
-    {
-        let setting = self.setting::<D>();
-        let compiled = Compiled::<K, V, E, NeedsOf<W, E, D>, MODES, FORCE> {
-            kernel: self.kernel,
-            mode: self.mode(),
-            viscosity: self.viscosity.clone(),
-            curvature: self.settings.curvature,
-            effects: self.effects.clone(),
-            setting,
-            needs: PhantomData,
-        };
-        let own = &self.settings;
-        let integrated = own.density.is_integrated();
-        let follows_divergence = matches!(own.smoothing, Smoothing::Divergence { .. });
-        // A switch follows the compression once a step, by the sum that the rates make.
-        let switch = self.viscosity.switch();
-        let with_rates = integrated || follows_divergence || switch.is_some();
-        let mut sweeps: [Option<Box<dyn PairSweep<T, D>>>; Stage::COUNT] = Default::default();
-        sweeps[Stage::Density.number()] = compiled.density(own.density);
-        let walls = self.walls.terms(&setting).at::<stage::Walls>();
-        let walls = walls.then(self.effects.at::<stage::Walls>(&setting));
-        sweeps[Stage::Walls.number()] = compiled.named(walls);
-        sweeps[Stage::Gradients.number()] = compiled.gradients();
-        sweeps[Stage::Flow.number()] = compiled.at::<stage::Flow, T, D>();
-        sweeps[Stage::Rates.number()] = Some(compiled.rates(with_rates));
-        sweeps[Stage::Continuity.number()] = compiled.continuity(integrated || follows_divergence);
-
-        let mut program = StepProgram::new(setting);
-        if sweeps[Stage::Gradients.number()].is_some() {
-            let wanted = Gradients::<V, NeedsOf<W, E, D>, FORCE>::wanted::<D>();
-            program.law(Stage::Gradients, CorrectedGradients { wanted });
-        }
-        // A viscosity that is chosen at run time reads what others of its kind do, and nothing may write that.
-        let remembered = Fields::of(&[Field::VISCOSITY_COEFFICIENT, Field::DIVERGENCE]);
-        let mut unwritten = remembered.minus(remembered.minus(V::READS));
-        if sweeps[Stage::Gradients.number()].is_none() {
-            unwritten = unwritten.union(Gradients::<V, NeedsOf<W, E, D>, FORCE>::wanted::<D>());
-        }
-        for field in unwritten.iter() {
-            program.carry(field);
-        }
-        self.evolve(&mut program);
-        self.walls.register(&mut program);
-        self.effects.register(&mut program);
-        if let Some(switch) = switch {
-            program.start(Field::VISCOSITY_COEFFICIENT, switch.start());
-            let law = ViscositySwitch {
-                switch,
-                form: own.density,
-                support: setting.kernel.support,
-            };
-            program.law(Stage::Rates, law);
-        }
-        let carries_energy = own.energy != EnergyForm::None;
-        let cannot = FORCE & ENERGY == 0 && (carries_energy || !integrated);
-        program.require(move |_| {
-            cannot.then(|| Problem::Incompatible {
-                what: "a scheme of liquids integrates its density and carries no internal energy".into(),
-                remedy: "start from SchemeBuilder::new, or take DensityForm::Continuity or ContinuityByMass with \
-                         EnergyForm::None",
-            })
-        });
-        let of = |what: &str, (name, value, must_be)| (format!("{name}{what}"), value, must_be);
-        let viscous = self.viscosity.problems().into_iter();
-        let effects = self
-            .walls
-            .problems()
-            .into_iter()
-            .chain(self.effects.problems());
-        Scheme {
-            name: own.name.clone(),
-            kernel: KernelFacts::of(&self.kernel),
-            density: own.density,
-            pressure_form: setting.pressure_form,
-            energy: own.energy,
-            smoothing: own.smoothing,
-            h_over_dx: setting.h_over_dx,
-            step_factor: own.step_factor * program.step_factor,
-            consistent_at_rest: own.consistency == Consistency::AtRest,
-            between: own.between,
-            kernel_problems: crate::kernel::problems_of(&self.kernel),
-            problems: viscous
-                .map(|one| of(" of the artificial viscosity", one))
-                .chain(effects.map(|one| of("", one)))
-                .collect(),
-            reference: (FORCE & ENERGY != 0).then(|| compiled.reference()),
-            sweeps,
-            lattice_consistency_factor: if own.consistency == Consistency::Lattice {
-                setting.lattice_consistency_factor
-            } else {
-                1.0
-            },
-            program,
-        }
-    }
-
-    /// What the scheme itself integrates in time, and how density follows from sums.
-    fn evolve<T: Real, const D: usize>(&self, program: &mut StepProgram<T, D>) {
-        let own = &self.settings;
-        let (setting, when) = (*program.setting(), program.setting().density_changes);
-        let compression = Compression {
-            density: setting.density,
-            pressure: setting.pressure_form,
-        };
-        if let Smoothing::Divergence { smallest, largest } = own.smoothing {
-            program.evolve(
-                Evolved::kicked(Field::SMOOTHING_LENGTH)
-                    .at(When::Drift)
-                    .updated(Update::Within { smallest, largest })
-                    .by(Divergence(compression)),
-            );
-        }
-        if own.density.is_integrated() {
-            let density = Evolved::kicked(Field::DENSITY)
-                .at(when)
-                .updated(Update::Exponential)
-                .by(compression);
-            program.evolve(density.keeping(Field::DENSITY_RESIDUAL));
-        } else if let Smoothing::Consistent { smallest, largest } = own.smoothing {
-            let law = ConsistentSmoothing {
-                eta: setting.h_over_dx,
-                limits: [smallest, largest],
-            };
-            program.law(Stage::Density, law);
-        } else {
-            program.law(Stage::Density, SummedDensity(own.density));
-        }
-        // Liquids have no contacts, and smoothing that follows density takes bodies as one.
-        if FORCE & ENERGY != 0 && !matches!(own.smoothing, Smoothing::Consistent { .. }) {
-            program.law(Stage::Density, ContactActivity);
-        }
-        if own.energy != EnergyForm::None {
-            program.evolve(Evolved::kicked(Field::ENERGY).by(BySum {
-                sum: Output::POWER,
-                over: Some(Field::MASS),
-            }));
-        }
-    }
-}
-
-/// What the terms and laws of a scheme read beside those of force and viscosity.
-struct NeedsOf<W, E, const D: usize>(PhantomData<fn() -> (W, E)>);
-
-impl<W: Effect<D>, E: Effects<D>, const D: usize> Needs for NeedsOf<W, E, D> {
-    const NEEDS: Fields = W::NEEDS.union(E::READS);
-}
-
-/// The choices on their way into sweeps.
-struct Compiled<K, V, E, N, const MODES: u8, const FORCE: u8> {
-    kernel: K,
-    mode: SmoothingMode,
-    viscosity: V,
-    curvature: f64,
-    effects: E,
-    setting: Setting,
-    needs: PhantomData<fn() -> N>,
-}
-
-impl<K, V, E, N: Needs, const MODES: u8, const FORCE: u8> Compiled<K, V, E, N, MODES, FORCE> {
-    fn sweep<T: Real, const D: usize>(&self, terms: impl Terms<D>) -> Box<dyn PairSweep<T, D>>
-    where
-        K: Kernel<D>,
-    {
-        Box::new(FusedKernel::<_, _, MODES>::new(
-            self.kernel,
-            terms,
-            self.mode,
-        ))
-    }
-
-    /// The sweep of some terms, if there are any.
-    fn named<T: Real, const D: usize, A: Terms<D>>(
-        &self,
-        terms: A,
-    ) -> Option<Box<dyn PairSweep<T, D>>>
-    where
-        K: Kernel<D>,
-    {
-        if const { A::WRITES.is_empty() } {
-            return None;
-        }
-        Some(self.sweep(terms))
-    }
-
-    /// The sweep of a stage that effects alone name.
-    fn at<S: StageMarker<D>, T: Real, const D: usize>(&self) -> Option<Box<dyn PairSweep<T, D>>>
-    where
-        K: Kernel<D>,
-        E: Effects<D>,
-    {
-        self.named(self.effects.at::<S>(&self.setting))
-    }
-
-    fn density<T: Real, const D: usize>(
-        &self,
-        form: DensityForm,
-    ) -> Option<Box<dyn PairSweep<T, D>>>
-    where
-        K: Kernel<D>,
-        E: Effects<D>,
-    {
-        // Liquids integrate their density.
-        if const { FORCE & ENERGY == 0 } || form.is_integrated() {
-            return self.at::<stage::Density, T, D>();
-        }
-        let own = self.effects.at::<stage::Density>(&self.setting);
-        Some(match (form, self.mode) {
-            (DensityForm::Normalised | DensityForm::Lam, _) => {
-                self.sweep((KernelSum, Unity).then(own))
-            }
-            (_, SmoothingMode::Own) => self.sweep((KernelSum, SlopeInH).then(own)),
-            _ => self.sweep((KernelSum,).then(own)),
-        })
-    }
-
-    fn reference<T: Real, const D: usize>(&self) -> Box<dyn PairSweep<T, D>>
-    where
-        K: Kernel<D>,
-    {
-        self.sweep((KernelSum, Unity, KernelMoment))
-    }
-
-    fn gradients<T: Real, const D: usize>(&self) -> Option<Box<dyn PairSweep<T, D>>>
-    where
-        K: Kernel<D>,
-        V: ArtificialViscosity<D>,
-        E: Effects<D>,
-    {
-        if const { Gradients::<V, N, FORCE>::wanted::<D>().is_empty() } {
-            return None;
-        }
-        // A viscosity that is chosen at run time may ask for nothing.
-        let asked = const { !Gradients::<V, N, FORCE>::of_others::<D>().is_empty() };
-        (asked || self.viscosity.needs_velocity_gradient())
-            .then(|| self.sweep(Gradients::<V, N, FORCE>::NEW))
-    }
-
-    fn rates<T: Real, const D: usize>(&self, with_compression: bool) -> Box<dyn PairSweep<T, D>>
-    where
-        K: Kernel<D>,
-        V: ArtificialViscosity<D>,
-        E: Effects<D>,
-    {
-        let pressure = Pressure::<FORCE> {
-            curvature: MidpointReconstruction {
-                strength: self.curvature,
-            },
-        };
-        let viscosity = (Viscosity(self.viscosity.clone()),);
-        let own = self.effects.at::<stage::Rates>(&self.setting);
-        let forces = pressure.then(viscosity).then(own);
-        if const { FORCE & KICKED != 0 } {
-            let density = self.effects.at::<stage::Continuity>(&self.setting);
-            return self.sweep(forces.then(Rate::<FORCE>).then(density));
-        }
-        if const { FORCE & ENERGY == 0 } {
-            return self.sweep(forces);
-        }
-        let forces = forces.then((InternalEnergy,));
-        if with_compression {
-            self.sweep(forces.then(Rate::<FORCE>))
-        } else {
-            self.sweep(forces)
-        }
-    }
-
-    fn continuity<T: Real, const D: usize>(
-        &self,
-        integrated: bool,
-    ) -> Option<Box<dyn PairSweep<T, D>>>
-    where
-        K: Kernel<D>,
-        E: Effects<D>,
-    {
-        if const { FORCE & KICKED != 0 } {
-            return None;
-        }
-        if !integrated {
-            return self.at::<stage::Continuity, T, D>();
-        }
-        let own = self.effects.at::<stage::Continuity>(&self.setting);
-        Some(self.sweep(Rate::<FORCE>.then(own)))
     }
 }
 

@@ -34,6 +34,7 @@
 //! long the step. [`EnergyForm::Symmetric`] saves that pass, and drifts with the order of the step.
 
 mod builder;
+mod compile;
 /// Bits that tell the forms of the pair force apart in the type of a builder.
 pub mod forms {
     pub use super::force::{ENERGY, KICKED, MIDPOINT, RENORMALISED};
