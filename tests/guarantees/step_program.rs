@@ -362,23 +362,30 @@ fn ready_schemes_are_in_order() {
     );
 }
 
-/// The text of every file of a folder of the crate, without comments.
+/// The text of every file of a folder of the crate and of the folders in it, without comments.
 fn files(folder: &str) -> Vec<(String, String)> {
-    let folder = format!("{}/src/{folder}", env!("CARGO_MANIFEST_DIR"));
-    let entries = std::fs::read_dir(folder).expect("the folder");
-    let paths = entries.map(|entry| entry.expect("a file").path());
-    paths
-        .map(|path| {
+    let mut folders = vec![
+        std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("src")
+            .join(folder),
+    ];
+    let mut files = Vec::new();
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).expect("the folder") {
+            let path = entry.expect("a file").path();
+            if path.is_dir() {
+                folders.push(path);
+                continue;
+            }
             let text = std::fs::read_to_string(&path).expect("text");
             let code = text
                 .lines()
                 .filter(|line| !line.trim_start().starts_with("//"));
-            (
-                path.display().to_string(),
-                code.collect::<Vec<_>>().join("\n"),
-            )
-        })
-        .collect()
+            let code: Vec<_> = code.collect();
+            files.push((path.display().to_string(), code.join("\n")));
+        }
+    }
+    files
 }
 
 #[test]
