@@ -30,12 +30,18 @@
 //!
 //! [`ls_dyna_renormalised`] and [`ls_dyna_fluid_renormalised`] correct the gradients of the last two.
 
-use crate::effect::{Cavitation, DensityDiffusion, ExtrapolatedPressure, NoWalls};
+use crate::effect::{
+    Cavitation, DensityDiffusion, ExtrapolatedPressure, HourglassControl, NoWalls, TotalLagrangian,
+};
 use crate::kernel::{CubicSpline, WendlandC2, WendlandC4};
 use crate::scheme::forms;
-use crate::scheme::{DensityForm, EnergyForm, LiquidBuilder, SchemeBuilder, Smoothing};
+use crate::scheme::{
+    DensityForm, EnergyForm, LiquidBuilder, SchemeBuilder, Smoothing, TotalLagrangianBuilder,
+};
 use crate::sweep::{Interaction, SmoothingMode};
-use crate::term::viscosity::{LimitedMonaghanGingold, MonaghanGingold, Riemann, SignalVelocity};
+use crate::term::viscosity::{
+    Inviscid, LimitedMonaghanGingold, MonaghanGingold, Riemann, SignalVelocity,
+};
 use crate::term::{Fourtakas, RiemannDiffusion};
 
 /// What [`impact`] returns: a scheme with midpoint reconstruction of the pressure, to be changed further.
@@ -219,4 +225,38 @@ pub fn riemann_liquid() -> DiffusiveLiquid<Riemann, RiemannDiffusion> {
         .named("Riemann liquid")
         .with_viscosity(Riemann::STANDARD)
         .density_diffusion(RiemannDiffusion)
+}
+
+/// What [`total_lagrangian`] and [`total_lagrangian_impact`] return.
+pub type StructureBuilder<V> =
+    TotalLagrangianBuilder<WendlandC2, V, (((), TotalLagrangian), HourglassControl)>;
+
+/// Elastic structures: total Lagrangian with hourglass control α = 0.1, Wendland C2 at h/dx 0.9, no artificial viscosity,
+/// compatible energy. Add a stress: `.with(NeoHookean)`.
+///
+/// Neighbours that stay cannot pair, so h may be small, and bending asks for it: particles at a free surface see the
+/// strain of those behind them. Period of a free plate, ten thicknesses long, over that of Timoshenko:
+///
+/// | h/dx | 5 particles through it | 10 | 20 |
+/// |---|---|---|---|
+/// | 0.8 | 1.030 | 1.009 | 1.002 |
+/// | **0.9** | 1.061 | 1.017 | 1.003 |
+/// | 1.2 | 1.126 | 1.029 | 1.007 |
+/// | 1.5 | 1.194 | 1.045 | 1.011 |
+///
+/// At 0.8 a particle of a disordered body may lose its neighbours across a diagonal.
+#[must_use]
+pub fn total_lagrangian() -> StructureBuilder<Inviscid> {
+    SchemeBuilder::total_lagrangian(WendlandC2, Inviscid)
+        .named("total Lagrangian")
+        .h_over_dx(0.9)
+        .with(HourglassControl::default())
+}
+
+/// As [`total_lagrangian`], with the viscosity of Monaghan and Gingold, α = 1, β = 2, for shocks.
+#[must_use]
+pub fn total_lagrangian_impact() -> StructureBuilder<MonaghanGingold> {
+    total_lagrangian()
+        .named("total Lagrangian impact")
+        .with_viscosity(MonaghanGingold::STANDARD)
 }

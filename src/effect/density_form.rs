@@ -14,6 +14,7 @@ use core::str::FromStr;
 /// | `NumberDensity` | ρ = ρ₀ (1 + (S − S₀)/M), S = Σ V₀ W | V₀ | p (ρ₀/ρ)²/M |
 /// | `Continuity` | dρ/dt = ρ Σ V v·∇W / s | V | p/s |
 /// | `ContinuityByMass` | dρ/dt = Σ m v·∇W | m | p/ρ² |
+/// | `Deformation` | ρ = ρ₀/det F | V₀ | – |
 /// | `Lam` | ρ = Σ m W against its own first value, normalised at ends | m | p/ρ² |
 ///
 /// S₀, M and s are taken at rest: S₀ makes a body at rest free of stress at ends and joints, and the
@@ -50,10 +51,13 @@ pub enum DensityForm {
     /// Lam, Shen & Gong (2002): summation, first smoothed and then measured against the smoothed
     /// value, with the normalisation of equation 25 at end particles.
     Lam,
+    /// ρ = ρ₀/det F with the deformation gradient F of a total-Lagrangian body: of
+    /// [`SchemeBuilder::total_lagrangian`](crate::scheme::SchemeBuilder::total_lagrangian) alone.
+    Deformation,
 }
 
 impl DensityForm {
-    /// Every form.
+    /// Every form that a scheme may choose.
     pub const ALL: [Self; 6] = [
         Self::Summation,
         Self::Normalised,
@@ -73,6 +77,7 @@ impl DensityForm {
             Self::Continuity => "continuity",
             Self::ContinuityByMass => "continuity-by-mass",
             Self::Lam => "lam",
+            Self::Deformation => "deformation",
         }
     }
 
@@ -80,6 +85,12 @@ impl DensityForm {
     #[must_use]
     pub fn is_integrated(self) -> bool {
         matches!(self, Self::Continuity | Self::ContinuityByMass)
+    }
+
+    /// Whether neighbours are those of the reference configuration for ever.
+    #[must_use]
+    pub fn keeps_neighbors(self) -> bool {
+        self == Self::Deformation
     }
 
     /// Whether sums are taken relative to their values at rest.
@@ -93,7 +104,7 @@ impl DensityForm {
     pub(crate) fn weight<T: Real>(self, mass: T, density: T, rest_density: T) -> T {
         match self {
             Self::Summation | Self::Normalised | Self::ContinuityByMass | Self::Lam => mass,
-            Self::NumberDensity => mass / rest_density,
+            Self::NumberDensity | Self::Deformation => mass / rest_density,
             Self::Continuity => mass / density,
         }
     }
@@ -105,7 +116,7 @@ impl DensityForm {
             Self::Summation | Self::Normalised | Self::ContinuityByMass | Self::Lam => {
                 sum / density
             }
-            Self::NumberDensity => sum * (rest / density) / moment,
+            Self::NumberDensity | Self::Deformation => sum * (rest / density) / moment,
             Self::Continuity => sum / moment,
         }
     }
@@ -117,7 +128,9 @@ impl DensityForm {
             Self::Summation | Self::Normalised | Self::ContinuityByMass | Self::Lam => {
                 p / (density * density)
             }
-            Self::NumberDensity => p * (rest / density) * (rest / density) / moment,
+            Self::NumberDensity | Self::Deformation => {
+                p * (rest / density) * (rest / density) / moment
+            }
             Self::Continuity => p / moment,
         }
     }

@@ -66,7 +66,10 @@ impl<T: Real, const D: usize> Law<T, D> for CorrectedGradients {
 }
 
 /// The inverse of a particle's moment matrix.
-fn correction<T: Real, const D: usize>(sums: &Results<T, D>, slot: usize) -> Matrix<T, D> {
+pub(super) fn correction<T: Real, const D: usize>(
+    sums: &Results<T, D>,
+    slot: usize,
+) -> Matrix<T, D> {
     let moment = Matrix::<T, D>::from_fn(|a, b| sums.get(Output::MOMENT_MATRIX, a * D + b, slot));
     // A thin jet has no gradient across itself: leave the sum uncorrected there.
     inverse(&moment, SINGULAR).unwrap_or_else(Matrix::identity)

@@ -3,7 +3,8 @@
 
 use super::radial_return::{after, radial_return};
 use super::{
-    Chunk, Effect, Hypoelastic, Law, LedgerColumn, Setting, StepProgram, Tally, UniaxialStress,
+    Chunk, Effect, Hypoelastic, Law, LedgerColumn, SceneFacts, Setting, StepProgram, Tally,
+    UniaxialStress,
 };
 use crate::error::Problem;
 use crate::material::strength::{PlasticState, ROOM_TEMPERATURE};
@@ -92,34 +93,39 @@ impl<const D: usize> Effect<D> for Plasticity {
                 remedy: "add the elastic solid as well: .with(Hypoelastic)",
             })
         });
-        program.require(|scene| {
-            let mut bodies = scene.bodies.iter();
-            let weak = bodies.find(|(_, material)| material.strength().is_none());
-            weak.map(|(body, material)| Problem::Incompatible {
-                what: format!(
-                    "body `{body}`, of {}, has no strength, which Plasticity needs",
-                    material.name
-                ),
-                remedy: "give the material a law (Material::with_strength) or a constant yield stress \
-                         (Material::with_yield_stress)",
-            })
-        });
-        program.require(|scene| {
-            let mut bodies = scene.bodies.iter();
-            let cold = bodies.find_map(|(body, material)| {
-                let law = material.strength()?;
-                let lacks = law.uses_temperature() && material.plastic_heating().is_none();
-                lacks.then(|| (body, &material.name, law.name()))
-            });
-            cold.map(|(body, material, law)| Problem::Incompatible {
-                what: format!(
-                    "the strength of body `{body}`, of {material}, follows from temperature ({law}), which it does \
-                     not have"
-                ),
-                remedy: "give the material its specific heat (Material::with_plastic_heating)",
-            })
-        });
+        program.require(lacks_strength);
+        program.require(lacks_temperature);
     }
+}
+
+/// A body without a law of strength.
+pub(super) fn lacks_strength<T: Real>(scene: &SceneFacts<'_, T>) -> Option<Problem> {
+    let mut bodies = scene.bodies.iter();
+    let weak = bodies.find(|(_, material)| material.strength().is_none());
+    weak.map(|(body, material)| Problem::Incompatible {
+        what: format!(
+            "body `{body}`, of {}, has no strength, which plasticity needs",
+            material.name
+        ),
+        remedy: "give the material a law (Material::with_strength) or a constant yield stress \
+                 (Material::with_yield_stress)",
+    })
+}
+
+/// A body whose strength follows from a temperature that it does not have.
+pub(super) fn lacks_temperature<T: Real>(scene: &SceneFacts<'_, T>) -> Option<Problem> {
+    let mut bodies = scene.bodies.iter();
+    let cold = bodies.find_map(|(body, material)| {
+        let law = material.strength()?;
+        let lacks = law.uses_temperature() && material.plastic_heating().is_none();
+        lacks.then(|| (body, &material.name, law.name()))
+    });
+    cold.map(|(body, material, law)| Problem::Incompatible {
+        what: format!(
+            "the strength of body `{body}`, of {material}, follows from temperature ({law}), which it does not have"
+        ),
+        remedy: "give the material its specific heat (Material::with_plastic_heating)",
+    })
 }
 
 impl<T: Real, const D: usize> Law<T, D> for Plasticity {

@@ -60,6 +60,8 @@ pub struct SceneFacts<'a, T: Real> {
     pub lengths_vary: bool,
     /// The fields that the scheme integrates in time.
     pub integrated: Fields,
+    /// The fields that laws of the scheme write.
+    pub written: Fields,
 }
 
 /// What an effect asks of the scene that it is used in.
@@ -237,6 +239,12 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
     pub(crate) fn integrated(&self) -> Fields {
         let evolved = self.evolved.iter();
         evolved.fold(Fields::NONE, |all, own| all.union(Fields::of(&[own.field])))
+    }
+
+    /// The fields that laws write.
+    pub(crate) fn written(&self) -> Fields {
+        let laws = self.laws.iter().flatten();
+        laws.fold(Fields::NONE, |all, law| all.union(law.writes()))
     }
 
     /// Whether a field belongs to the state: an effect declares it, or it is integrated in time.

@@ -311,7 +311,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
 
     /// What every block does to every other: bodies, walls, images of bodies by boundary, and images of
     /// each wall by boundary.
-    fn interactions(&self) -> Vec<Interaction> {
+    pub fn interactions(&self) -> Vec<Interaction> {
         if self.scheme.meets_walls() {
             return self.liquid_interactions();
         }

@@ -1,10 +1,11 @@
 //! The builder of schemes: the choices, which `compile` turns into sweeps over pairs.
 //! What its type rules out leaves no loop behind.
 
-use super::force::{ENERGY, KICKED};
+use super::force::{ENERGY, KICKED, REFERENCE};
 use super::{EnergyForm, Scheme, Smoothing};
 use crate::effect::{
     Cavitation, DensityDiffusion, DensityForm, Effect, Effects, ExtrapolatedPressure, NoWalls,
+    TotalLagrangian,
 };
 use crate::kernel::Kernel;
 use crate::scalar::Real;
@@ -118,6 +119,33 @@ impl<K, V> LiquidBuilder<K, V> {
                 density: DensityForm::Continuity,
                 energy: EnergyForm::None,
                 consistency: Consistency::Lattice,
+                ..solid.settings
+            },
+        }
+    }
+}
+
+/// What [`SchemeBuilder::total_lagrangian`] returns, with more effects `E`.
+pub type TotalLagrangianBuilder<K, V, E = ((), TotalLagrangian)> =
+    SchemeBuilder<K, V, NoWalls, E, { SmoothingMode::Uniform.bit() }, { ENERGY | REFERENCE }>;
+
+impl<K, V> TotalLagrangianBuilder<K, V> {
+    /// A scheme of solids whose neighbours and kernels are those of the scene as built: [`TotalLagrangian`], to which
+    /// belongs an effect that gives a stress, as [`NeoHookean`](crate::effect::NeoHookean). Bodies do not feel each
+    /// other unless they are [bonded](Interaction::Bonded) or coupled.
+    #[must_use]
+    pub fn total_lagrangian(kernel: K, viscosity: V) -> Self {
+        let solid = SchemeBuilder::new(kernel, viscosity);
+        Self {
+            kernel: solid.kernel,
+            viscosity: solid.viscosity,
+            walls: NoWalls,
+            effects: ((), TotalLagrangian),
+            settings: Settings {
+                name: "total Lagrangian".into(),
+                density: DensityForm::Deformation,
+                consistency: Consistency::None,
+                between: Interaction::None,
                 ..solid.settings
             },
         }

@@ -2,7 +2,7 @@
 //! Loops are of those choices that the type of the builder allows, and of no others.
 
 use super::builder::{Consistency, SchemeBuilder};
-use super::force::{ENERGY, Gradients, KICKED, Needs, Pressure, Rate};
+use super::force::{ENERGY, Gradients, KICKED, Needs, Pressure, REFERENCE, Rate};
 use super::{EnergyForm, Scheme, Smoothing};
 use crate::effect::{
     BySum, Compression, ConsistentSmoothing, ContactActivity, CorrectedGradients, DensityForm,
@@ -69,6 +69,7 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
         let switch = self.viscosity.switch();
         let with_rates = integrated || follows_divergence || switch.is_some();
         let mut sweeps: [Option<Box<dyn PairSweep<T, D>>>; Stage::COUNT] = Default::default();
+        sweeps[Stage::Reference.number()] = compiled.at::<stage::Reference, T, D>();
         sweeps[Stage::Density.number()] = compiled.density(own.density);
         let walls = self.walls.terms(&setting).at::<stage::Walls>();
         let walls = walls.then(self.effects.at::<stage::Walls>(&setting));
@@ -113,6 +114,7 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
                          EnergyForm::None",
             })
         });
+        self.require_reference(&sweeps, &mut program);
         let of = |what: &str, (name, value, must_be)| (format!("{name}{what}"), value, must_be);
         let viscous = self.viscosity.problems().into_iter();
         let effects = self
@@ -122,7 +124,15 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
             .chain(self.effects.problems());
         Scheme {
             name: own.name.clone(),
-            kernel: KernelFacts::of(&self.kernel),
+            kernel: if FORCE & REFERENCE == 0 {
+                KernelFacts::of(&self.kernel)
+            } else {
+                // Neighbours that stay do not pair, and tension does not part them.
+                KernelFacts {
+                    range: REFERENCE_RANGE,
+                    ..KernelFacts::of(&self.kernel)
+                }
+            },
             density: own.density,
             pressure_form: setting.pressure_form,
             energy: own.energy,
@@ -136,7 +146,7 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
                 .map(|one| of(" of the artificial viscosity", one))
                 .chain(effects.map(|one| of("", one)))
                 .collect(),
-            reference: (FORCE & ENERGY != 0).then(|| compiled.reference()),
+            reference: (FORCE & (ENERGY | REFERENCE) == ENERGY).then(|| compiled.reference()),
             sweeps,
             lattice_consistency_factor: if own.consistency == Consistency::Lattice {
                 setting.lattice_consistency_factor
@@ -145,6 +155,40 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
             },
             program,
         }
+    }
+
+    /// Asks that all sums are over the reference configuration where one is, and none where none is.
+    fn require_reference<T: Real, const D: usize>(
+        &self,
+        sweeps: &[Option<Box<dyn PairSweep<T, D>>>],
+        program: &mut StepProgram<T, D>,
+    ) where
+        V: ArtificialViscosity<D>,
+    {
+        let total = FORCE & REFERENCE != 0;
+        let own = &self.settings;
+        let other_form = total != (own.density == DensityForm::Deformation);
+        program.require(move |_| {
+            other_form.then(|| Problem::Incompatible {
+                what: "the density of a total-Lagrangian body follows from its deformation, and that of no other does"
+                    .into(),
+                remedy: "start from SchemeBuilder::total_lagrangian, and leave its density form as it is",
+            })
+        });
+        let refers =
+            |sweep: &dyn PairSweep<T, D>| sweep.fields().contains(Field::REFERENCE_POSITION);
+        let mut all = sweeps.iter().flatten();
+        let varies = own.smoothing != Smoothing::Fixed || self.viscosity.switch().is_some();
+        let mixed = all.any(|sweep| refers(sweep.as_ref()) != total) || (total && varies);
+        program.require(move |_| {
+            mixed.then(|| Problem::Incompatible {
+                what: "an effect, a viscosity or a smoothing law sums over the present neighbours in a total-Lagrangian \
+                       scheme, which has those of the reference configuration alone, or the other way round"
+                    .into(),
+                remedy: "take a viscosity without gradients and switches (Inviscid, MonaghanGingold, SignalVelocity), a \
+                         fixed smoothing length, and effects of total-Lagrangian solids",
+            })
+        });
     }
 
     /// What the scheme itself integrates in time, and how density follows from sums.
@@ -175,11 +219,13 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
                 limits: [smallest, largest],
             };
             program.law(Stage::Density, law);
-        } else {
+        } else if FORCE & REFERENCE == 0 {
             program.law(Stage::Density, SummedDensity(own.density));
         }
         // Liquids have no contacts, and smoothing that follows density takes bodies as one.
-        if FORCE & ENERGY != 0 && !matches!(own.smoothing, Smoothing::Consistent { .. }) {
+        if FORCE & (ENERGY | REFERENCE) == ENERGY
+            && !matches!(own.smoothing, Smoothing::Consistent { .. })
+        {
             program.law(Stage::Density, ContactActivity);
         }
         if own.energy != EnergyForm::None {
@@ -190,6 +236,10 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
         }
     }
 }
+
+/// Ratios of smoothing length to spacing of total-Lagrangian schemes: from the least at which every kernel reaches the
+/// neighbours across a diagonal, to what bends half as well.
+const REFERENCE_RANGE: (f64, f64) = (0.8, 2.0);
 
 /// What the terms and laws of a scheme read beside those of force and viscosity.
 struct NeedsOf<W, E, const D: usize>(PhantomData<fn() -> (W, E)>);
@@ -253,7 +303,7 @@ impl<K, V, E, N: Needs, const MODES: u8, const FORCE: u8> Compiled<K, V, E, N, M
         E: Effects<D>,
     {
         // Liquids integrate their density.
-        if const { FORCE & ENERGY == 0 } || form.is_integrated() {
+        if const { FORCE & ENERGY == 0 || FORCE & REFERENCE != 0 } || form.is_integrated() {
             return self.at::<stage::Density, T, D>();
         }
         let own = self.effects.at::<stage::Density>(&self.setting);
@@ -301,6 +351,9 @@ impl<K, V, E, N: Needs, const MODES: u8, const FORCE: u8> Compiled<K, V, E, N, M
         };
         let viscosity = (Viscosity(self.viscosity.clone()),);
         let own = self.effects.at::<stage::Rates>(&self.setting);
+        if const { FORCE & REFERENCE != 0 } {
+            return self.sweep(viscosity.then(own).then((InternalEnergy,)));
+        }
         let forces = pressure.then(viscosity).then(own);
         if const { FORCE & KICKED != 0 } {
             let density = self.effects.at::<stage::Continuity>(&self.setting);

@@ -37,7 +37,7 @@ mod builder;
 mod compile;
 /// Bits that tell the forms of the pair force apart in the type of a builder.
 pub mod forms {
-    pub use super::force::{ENERGY, KICKED, MIDPOINT, RENORMALISED};
+    pub use super::force::{ENERGY, KICKED, MIDPOINT, REFERENCE, RENORMALISED};
 }
 
 mod force;
@@ -47,7 +47,10 @@ mod start;
 
 pub use crate::effect::{DensityForm, Shifting};
 pub use crate::kernel::KernelFacts;
-pub use builder::{DEFAULT_STEP_FACTOR, DENSITY_WITH_RATES_STEP, LiquidBuilder, SchemeBuilder};
+pub use builder::{
+    DEFAULT_STEP_FACTOR, DENSITY_WITH_RATES_STEP, LiquidBuilder, SchemeBuilder,
+    TotalLagrangianBuilder,
+};
 pub use start::Start;
 
 use crate::effect::{StepProgram, When};

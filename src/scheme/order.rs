@@ -29,8 +29,9 @@ const STATE: Fields = Fields::of(&[Field::PRESSURE, Field::SOUND_SPEED]);
 /// What the pressure form makes of it, once the pressures of walls are known.
 const COEFFICIENTS: Fields = Fields::of(&[Field::PRESSURE_COEFFICIENT]);
 const REFERENCE: Fields = Fields::of(&[Field::REFERENCE_SUM, Field::REFERENCE_DENSITY]);
-/// The stages of an evaluation, in their order; those of a drift come between two evaluations.
-const EVALUATION: [Stage; 6] = [
+/// The stages up to the end of an evaluation, in their order; those of a drift come between two evaluations.
+const EVALUATION: [Stage; 7] = [
+    Stage::Reference,
     Stage::Density,
     Stage::State,
     Stage::Walls,

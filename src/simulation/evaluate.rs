@@ -78,7 +78,10 @@ impl<T: Real, const D: usize> Group<T, D> {
         if self.scheme.pressure_form != self.scheme.density {
             self.set_weights(self.scheme.density);
         }
-        let moment = Moment::at(time);
+        let moment = Moment {
+            dt: elapsed,
+            ..Moment::at(time)
+        };
         self.find_density(moment);
         let start = Instant::now();
         self.evaluate_materials();

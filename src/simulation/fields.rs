@@ -35,6 +35,14 @@ impl<T: Real, const D: usize> ParticleView<'_, T, D> {
             numbers[k].to_f64()
         })))
     }
+    /// A matrix, row by row, or `None` if the particle does not carry it or it is none.
+    #[must_use]
+    pub fn matrix(&self, field: Field) -> Option<[[f64; D]; D]> {
+        let is_matrix = field.shape() == Shape::Matrix;
+        let numbers = self.numbers(field).filter(|_| is_matrix)?;
+        let at = |a: usize, b: usize| numbers[a * D + b].to_f64();
+        Some(core::array::from_fn(|a| core::array::from_fn(|b| at(a, b))))
+    }
     /// All components of the field with a name, that an effect has declared or the crate knows; `None` if the
     /// particle does not carry it.
     #[must_use]

@@ -213,9 +213,10 @@ impl<T: Real, const D: usize> Group<T, D> {
         let shift = self.carried(time);
         if self.neighborhood.lists.chunks().is_empty() {
             self.rebuild(time);
-        } else if self
-            .neighborhood
-            .outdated(&self.particles, &self.boundaries, shift, time)
+        } else if !self.scheme.density.keeps_neighbors()
+            && self
+                .neighborhood
+                .outdated(&self.particles, &self.boundaries, shift, time)
         {
             self.neighborhood.choose_skin();
             self.rebuild(time);

@@ -3,9 +3,11 @@
 
 use super::Simulation;
 use super::group::Group;
+use super::stages::Moment;
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::scheme::DensityForm;
+use crate::term::Stage;
 
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// Takes the reference configuration of all groups, with structures in their places.
@@ -65,6 +67,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         if self.particles.columns.fields().contains(Field::GRAD_H) {
             self.particles.columns.raw_mut(Field::GRAD_H).fill(T::one());
         }
+        self.run_stage(Stage::Reference, Moment::at(0.0));
     }
 
     /// Kernel sum across each contact from which on it is active: what a particle lacks to a full

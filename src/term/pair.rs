@@ -182,6 +182,18 @@ impl<L: Lane, const D: usize, P: Layout> Pair<'_, L, D, P> {
         }
         Symmetric::new(tensor)
     }
+    /// Separation Xᵢⱼ = Xᵢ − Xⱼ \[m\] in the reference configuration, of which kernel and gradient factor are where a term
+    /// reads [`Field::REFERENCE_POSITION`]: ∇₀W = F Xᵢⱼ.
+    #[inline(always)]
+    #[must_use]
+    pub fn reference(&self) -> [L; D] {
+        let mut apart = [L::zero(); D];
+        for d in 0..D {
+            apart[d] =
+                self.i_at(Field::REFERENCE_POSITION, d) - self.j_at(Field::REFERENCE_POSITION, d);
+        }
+        apart
+    }
     /// vᵢⱼ·vᵢⱼ \[m²/s²\].
     #[inline(always)]
     #[must_use]

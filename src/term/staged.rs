@@ -53,18 +53,20 @@ pub mod stage {
     use super::{Debug, Stage, Terms};
 
     markers! {
+        /// [`Stage::Reference`].
+        Reference IfReference if_reference [IfDensity if_density, IfWalls if_walls, IfGradients if_gradients, IfFlow if_flow, IfRates if_rates, IfContinuity if_continuity],
         /// [`Stage::Density`].
-        Density IfDensity if_density [IfWalls if_walls, IfGradients if_gradients, IfFlow if_flow, IfRates if_rates, IfContinuity if_continuity],
+        Density IfDensity if_density [IfReference if_reference, IfWalls if_walls, IfGradients if_gradients, IfFlow if_flow, IfRates if_rates, IfContinuity if_continuity],
         /// [`Stage::Walls`].
-        Walls IfWalls if_walls [IfDensity if_density, IfGradients if_gradients, IfFlow if_flow, IfRates if_rates, IfContinuity if_continuity],
+        Walls IfWalls if_walls [IfReference if_reference, IfDensity if_density, IfGradients if_gradients, IfFlow if_flow, IfRates if_rates, IfContinuity if_continuity],
         /// [`Stage::Gradients`].
-        Gradients IfGradients if_gradients [IfDensity if_density, IfWalls if_walls, IfFlow if_flow, IfRates if_rates, IfContinuity if_continuity],
+        Gradients IfGradients if_gradients [IfReference if_reference, IfDensity if_density, IfWalls if_walls, IfFlow if_flow, IfRates if_rates, IfContinuity if_continuity],
         /// [`Stage::Flow`].
-        Flow IfFlow if_flow [IfDensity if_density, IfWalls if_walls, IfGradients if_gradients, IfRates if_rates, IfContinuity if_continuity],
+        Flow IfFlow if_flow [IfReference if_reference, IfDensity if_density, IfWalls if_walls, IfGradients if_gradients, IfRates if_rates, IfContinuity if_continuity],
         /// [`Stage::Rates`].
-        Rates IfRates if_rates [IfDensity if_density, IfWalls if_walls, IfGradients if_gradients, IfFlow if_flow, IfContinuity if_continuity],
+        Rates IfRates if_rates [IfReference if_reference, IfDensity if_density, IfWalls if_walls, IfGradients if_gradients, IfFlow if_flow, IfContinuity if_continuity],
         /// [`Stage::Continuity`].
-        Continuity IfContinuity if_continuity [IfDensity if_density, IfWalls if_walls, IfGradients if_gradients, IfFlow if_flow, IfRates if_rates]
+        Continuity IfContinuity if_continuity [IfReference if_reference, IfDensity if_density, IfWalls if_walls, IfGradients if_gradients, IfFlow if_flow, IfRates if_rates]
     }
 }
 pub use stage::StageMarker;

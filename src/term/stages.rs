@@ -5,6 +5,7 @@
 ///
 /// | stage | when | sweep over |
 /// |---|---|---|
+/// | [`Reference`](Self::Reference) | once, when the scene is built | particles of bodies |
 /// | [`Density`](Self::Density) | positions are known and lists are good | particles of bodies |
 /// | [`State`](Self::State) | equations of state have given pressure and sound speed | – |
 /// | [`Walls`](Self::Walls) | before pair forces | particles of walls |
@@ -16,6 +17,8 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u8)]
 pub enum Stage {
+    /// What follows from the places of particles as built.
+    Reference,
     /// Sums that follow from positions alone, and the densities that follow from them.
     Density,
     /// What changes pressure or sound speed of a material: damping, strength, phase change.
@@ -38,7 +41,8 @@ impl Stage {
     /// How many there are.
     pub const COUNT: usize = Self::ALL.len();
     /// All, in the order of a step.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
+        Self::Reference,
         Self::Density,
         Self::State,
         Self::Walls,
@@ -53,6 +57,7 @@ impl Stage {
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
+            Self::Reference => "reference",
             Self::Density => "density",
             Self::State => "state",
             Self::Walls => "walls",

@@ -14,3 +14,4 @@ mod loads;
 mod misprints;
 mod rods;
 mod smoothing;
+mod total_lagrangian;

@@ -1,6 +1,7 @@
 //! What can be wrong with a scheme and with how it is stepped: what lies outside its range,
 //! and what does not go with the integrator, the bodies or the machine.
 
+use crate::boundary::Boundary;
 use crate::effect::SceneFacts;
 use crate::error::Problem;
 use crate::particles::{Field, Output, Shape};
@@ -8,8 +9,9 @@ use crate::scalar::Real;
 use crate::scene::Scene;
 use crate::scene::plan::Plan;
 use crate::scheme::EnergyForm;
-use crate::sweep::PairSweep;
+use crate::sweep::{Interaction, PairSweep};
 use crate::term::Stage;
+use std::sync::Arc;
 
 impl<T: Real, const D: usize> Plan<'_, T, D> {
     pub(super) fn check_scheme(&self, problems: &mut Vec<Problem>) {
@@ -41,6 +43,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             kicks: self.scene.integrator.kicks(),
             lengths_vary: scheme.fields().contains(Field::SMOOTHING_LENGTH),
             integrated: scheme.program.integrated(),
+            written: scheme.program.written(),
         };
         let asked = scheme.program.requirements.iter();
         problems.extend(asked.filter_map(|requirement| requirement(&facts)));
@@ -94,6 +97,23 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                     self.scene.integrator.name()
                 ),
                 "take SchemeBuilder::density_with_rates, or an integrator that kicks (kick-drift-kick)",
+            );
+        }
+        let boundaries = &self.scene.boundaries;
+        let leaves = |boundary: &Arc<dyn Boundary<T, D>>| {
+            boundary.moves() || boundary.interaction() == Interaction::Unilateral
+        };
+        let opens = self.interactions().contains(&Interaction::Unilateral);
+        let opens = opens || boundaries.iter().any(leaves) || !self.scene.outlets.is_empty();
+        if scheme.density.keeps_neighbors() && (opens || self.inlets().next().is_some()) {
+            incompatible(
+                format!(
+                    "the scheme {} keeps its neighbours, and the scene has a contact that opens, a boundary that moves, \
+                     an inlet or an outlet",
+                    scheme.name
+                ),
+                "bond the bodies or let them meet by a coupling, and take planes of symmetry (MirrorPlane::new) and \
+                 periods that rest",
             );
         }
         // Particles of inlets wait as walls do.

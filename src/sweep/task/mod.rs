@@ -302,7 +302,12 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
     {
         let reads = const { Composed::<T, P, D, HOW>::READS };
         let stride = const { Composed::<T, P, D, HOW>::READS.width(D) };
-        let position = reads.offset(Field::POSITION, D);
+        let listed = if reads.contains(Field::REFERENCE_POSITION) {
+            Field::REFERENCE_POSITION
+        } else {
+            Field::POSITION
+        };
+        let position = reads.offset(listed, D);
         let reach2 = L::splat(self.reach2);
         let (staying, leaving) = neighbors.split_at(staying);
         let mut count = staying.len();

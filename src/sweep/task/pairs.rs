@@ -26,7 +26,8 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         image.map_or(j, |image| image.source as usize)
     }
 
-    /// Where the row stands from a neighbour: rᵢⱼ, its square and its length.
+    /// Where the row stands from a neighbour: rᵢⱼ, its square, and the distance that kernels see, which is |Xᵢⱼ| in the
+    /// reference configuration where a term reads that.
     #[inline(always)]
     fn separation<L: Lane<Scalar = T, Broadcast = T>, const HOW: u8>(
         &self,
@@ -51,6 +52,15 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         let mut r2 = r[0] * r[0];
         for d in 1..D {
             r2 = r[d].mul_add(r[d], r2);
+        }
+        if const { Composed::<T, P, D, HOW>::READS.contains(Field::REFERENCE_POSITION) } {
+            let reference = reads.offset(Field::REFERENCE_POSITION, D);
+            let mut square = L::zero();
+            for d in 0..D {
+                let apart = own[reference + d] - L::splat(record[reference + d]);
+                square = apart.mul_add(apart, square);
+            }
+            return (r, r2, square.root());
         }
         (r, r2, r2.root())
     }

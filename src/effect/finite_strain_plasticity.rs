@@ -1,0 +1,260 @@
+//! Elastic–plastic solids under finite strain: a total-Lagrangian stress with the yield condition of von Mises.
+//! The multiplicative plasticity of Simo 1992 (Simo & Hughes 1998, box 9.1), with pressure by the equation of state.
+
+use super::radial_return::{after, radial_return};
+use super::total_lagrangian::{matrix, put, stretches};
+use super::{
+    Chunk, Effect, Law, LedgerColumn, Plasticity, Setting, StepProgram, Tally, TotalLagrangian,
+};
+use crate::error::Problem;
+use crate::material::strength::{PlasticState, ROOM_TEMPERATURE};
+use crate::particles::{Field, Fields};
+use crate::scalar::Real;
+use crate::tensor::{Matrix, determinant, inverse};
+use crate::term::{Stage, TermDoc};
+
+/// The stress of a [total-Lagrangian](TotalLagrangian) solid that yields. Of the deformation gradient F a part is plastic and
+/// keeps volume; with the elastic, volume-free b̄ = J^(−2/3) F Cₚ⁻¹ Fᵀ
+///
+/// s = G dev b̄,  √(3/2 s:s)/J ≤ Y(ε, ε̇, T, p, ρ),  P = (s − J p) F⁻ᵀ
+///
+/// with J = det F, the [shear modulus](crate::material::Material::with_shear_modulus) G, the yield stress Y of the material's
+/// [law of strength](crate::material::Material::with_strength), and p by its equation of state from density and internal
+/// energy. Where a step leaves the yield surface, s returns to it along itself, with hardening and rate at the end of the
+/// step, to rounding. Any [strength](crate::material::strength) goes, as with [`Plasticity`]; a body that never yields is a
+/// neo-Hookean one with this pressure.
+///
+/// | it adds | as |
+/// |---|---|
+/// | [`TotalLagrangian::PIOLA`] | P \[Pa\] |
+/// | [`INVERSE_PLASTIC`](Self::INVERSE_PLASTIC) | Cₚ⁻¹ − 1 |
+/// | [`Plasticity::STRAIN`], [`Plasticity::WORK`] | plastic strain, and its work, in the ledger as `plastic work` |
+/// | elastic energy | of distortion, ½ G (tr b̄ − 3)/ρ₀ \[J/kg\], in the ledger as `distortion` |
+///
+/// It needs an integrator that kicks: the state of flow changes once a step.
+///
+/// ```
+/// use meshfree::effect::FiniteStrainPlasticity;
+/// use meshfree::prelude::*;
+///
+/// // A copper bar strikes a plane of symmetry, which is a bar of its own kind that comes the other way.
+/// let scheme = schemes::total_lagrangian_impact().with(FiniteStrainPlasticity);
+/// let bar = Body::block("bar", catalogue::ofhc_copper(), [0.0; 2], [0.01, 0.004], 5e-4).velocity([-100.0, 0.0]);
+/// let mut bar = Scene::<f64, 2>::new(scheme)
+///     .body(bar)
+///     .boundary(MirrorPlane::new([0.0; 2], [-1.0, 0.0]))
+///     .build()?;
+/// bar.run_until(2e-6)?;
+/// assert!(bar.ledger().whole.total("plastic work").unwrap_or(0.0) > 0.0);
+/// # Ok::<(), Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FiniteStrainPlasticity;
+
+impl FiniteStrainPlasticity {
+    /// Cₚ⁻¹ − 1, with Cₚ = FₚᵀFₚ of the plastic part of the deformation.
+    pub const INVERSE_PLASTIC: Field = Field::tensor(14);
+}
+
+const CP: Field = FiniteStrainPlasticity::INVERSE_PLASTIC;
+const F: Field = TotalLagrangian::DEFORMATION;
+const PIOLA: Field = TotalLagrangian::PIOLA;
+const STRAIN: Field = Plasticity::STRAIN;
+const WORK: Field = Plasticity::WORK;
+const DISTORTION: Field = Field::scalar(11);
+
+impl<const D: usize> Effect<D> for FiniteStrainPlasticity {
+    type Terms = ();
+    fn terms(&self, _setting: &Setting) {}
+    fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
+        program.declare(PIOLA, "piola_stress", "Pa", 0.0);
+        program.declare(CP, "inverse_plastic_deformation", "1", 0.0);
+        program.declare(STRAIN, "plastic_strain", "1", 0.0);
+        program.declare(WORK, "plastic_work", "J/kg", 0.0);
+        program.declare(DISTORTION, "distortion", "J/kg", 0.0);
+        program.law(Stage::State, *self);
+        for (name, field) in [("plastic work", WORK), ("distortion", DISTORTION)] {
+            program.ledger(LedgerColumn {
+                name,
+                unit: "J",
+                field,
+                times_mass: true,
+                factor: 1.0,
+            });
+        }
+        program.document(TermDoc {
+            name: "plasticity under finite strain".into(),
+            equation: "s = G dev b̄, √(3/2 s:s)/J ≤ Y, P = (s − J p) F⁻ᵀ",
+            source: "Simo & Hughes 1998, box 9.1",
+        });
+        program.require(|scene| super::plasticity::lacks_strength(scene));
+        program.require(|scene| super::plasticity::lacks_temperature(scene));
+        program.require(|scene| {
+            (!scene.kicks).then(|| Problem::Incompatible {
+                what: format!(
+                    "plastic flow is counted once a step, and the integrator {} evaluates more often",
+                    scene.integrator
+                ),
+                remedy: "take an integrator that kicks (kick-drift-kick)",
+            })
+        });
+    }
+}
+
+impl<T: Real, const D: usize> Law<T, D> for FiniteStrainPlasticity {
+    fn name(&self) -> &'static str {
+        "plastic flow"
+    }
+    fn reads(&self) -> Fields {
+        Fields::of(&[
+            F,
+            CP,
+            STRAIN,
+            WORK,
+            Field::PRESSURE,
+            Field::SOUND_SPEED,
+            Field::DENSITY,
+            Field::REFERENCE_DENSITY,
+        ])
+    }
+    fn writes(&self) -> Fields {
+        Fields::of(&[PIOLA, CP, STRAIN, WORK, DISTORTION, Field::SOUND_SPEED])
+    }
+    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
+        let mut tally = Tally::default();
+        let (material, dt) = (chunk.around.material, chunk.around.dt);
+        let (Some(law), Some(shear)) = (material.strength(), material.shear_modulus) else {
+            return tally;
+        };
+        let heating = material.plastic_heating();
+        let (live, reference) = (chunk.live, material.reference_density());
+        let [
+            piola,
+            plastic,
+            strain,
+            work,
+            distortion,
+            c,
+            pressure,
+            density,
+            rest,
+            deformation,
+        ] = chunk.columns([
+            PIOLA,
+            CP,
+            STRAIN,
+            WORK,
+            DISTORTION,
+            Field::SOUND_SPEED,
+            Field::PRESSURE,
+            Field::DENSITY,
+            Field::REFERENCE_DENSITY,
+            F,
+        ]);
+        for (n, out) in piola.chunks_exact_mut(D * D).enumerate() {
+            let gradient = matrix::<T, D>(deformation, n);
+            let volume = determinant(&gradient).to_f64();
+            let p = pressure[n].to_f64();
+            let mut elastic = Elastic::of(&gradient, volume, &plastic[n * 6..]);
+            let trial = elastic.stress(shear);
+            let von_mises = (1.5 * squares(&trial)).sqrt() / volume;
+            let (flowed, worked) = (strain[n].to_f64(), work[n].to_f64());
+            let before = PlasticState {
+                strain: flowed,
+                rate: 0.0,
+                temperature: heating.map_or(ROOM_TEMPERATURE, |own| own.temperature(worked)),
+                pressure: p,
+                density_ratio: density[n].to_f64() / reference,
+            };
+            let mut stress = trial;
+            // √(3/2 s:s) falls by 3 G tr b̄/3 for each unit of plastic strain.
+            let stiffness = shear * elastic.trace() / volume;
+            let back = radial_return(von_mises, stiffness, |more| after(law, &before, more, dt));
+            if let Some([increment, yields]) = back {
+                stress *= yields / von_mises;
+                elastic.return_to(&stress, shear);
+                elastic.pull_back(&mut plastic[n * 6..(n + 1) * 6]);
+                strain[n] = T::from_f64(flowed + increment);
+                work[n] = T::from_f64(worked + yields * increment * volume / rest[n].to_f64());
+                tally.limited += u64::from(n < live);
+            }
+            // Of Kirchhoff's stress the part in the space of the body, pulled back on one side.
+            let kirchhoff = Matrix::<T, D>::from_fn(|a, b| {
+                let pressure = if a == b { volume * p } else { 0.0 };
+                T::from_f64(stress[(a, b)] - pressure)
+            });
+            let back = inverse(&gradient, 0.0).unwrap_or_else(Matrix::identity);
+            put(out, &(kirchhoff * back.transpose()));
+            let rest = rest[n].to_f64();
+            distortion[n] = T::from_f64(0.5 * shear * (elastic.trace() - 3.0) / rest);
+            // Along X: the speed of longitudinal waves over the smallest stretch.
+            let squared = c[n].to_f64().powi(2) + 4.0 / 3.0 * shear / (rest / volume);
+            let [_, over] = stretches(&gradient);
+            c[n] = T::from_f64((squared * over.to_f64()).sqrt());
+        }
+        tally
+    }
+}
+
+/// The elastic, volume-free deformation b̄ of a particle, in space.
+struct Elastic {
+    /// J^(−1/3) F, one out of the plane.
+    gradient: Matrix<f64, 3>,
+    deformation: Matrix<f64, 3>,
+}
+
+impl Elastic {
+    /// Of F and Cₚ⁻¹ − 1.
+    fn of<T: Real, const D: usize>(gradient: &Matrix<T, D>, volume: f64, plastic: &[T]) -> Self {
+        let shrunk = volume.powf(-1.0 / 3.0);
+        let gradient = Matrix::<f64, 3>::from_fn(|a, b| {
+            let own = if a < D && b < D {
+                gradient[(a, b)].to_f64()
+            } else {
+                f64::from(u8::from(a == b))
+            };
+            own * shrunk
+        });
+        let inverse = Matrix::<f64, 3>::from_fn(|a, b| {
+            f64::from(u8::from(a == b)) + plastic[place(a, b)].to_f64()
+        });
+        Self {
+            gradient,
+            deformation: gradient * inverse * gradient.transpose(),
+        }
+    }
+    fn trace(&self) -> f64 {
+        self.deformation.trace()
+    }
+    /// G dev b̄ \[Pa\].
+    fn stress(&self, shear: f64) -> Matrix<f64, 3> {
+        let mean = Matrix::<f64, 3>::identity() * (self.trace() / 3.0);
+        (self.deformation - mean) * shear
+    }
+    /// That of which the stress is this one, with the same trace.
+    fn return_to(&mut self, stress: &Matrix<f64, 3>, shear: f64) {
+        let mean = Matrix::<f64, 3>::identity() * (self.trace() / 3.0);
+        self.deformation = stress / shear + mean;
+    }
+    /// Cₚ⁻¹ − 1.
+    fn pull_back<T: Real>(&self, plastic: &mut [T]) {
+        let back = inverse(&self.gradient, 0.0).unwrap_or_else(Matrix::identity);
+        let inverse = back * self.deformation * back.transpose();
+        for a in 0..3 {
+            for b in a..3 {
+                let one = f64::from(u8::from(a == b));
+                plastic[place(a, b)] = T::from_f64(inverse[(a, b)] - one);
+            }
+        }
+    }
+}
+
+/// Where a component of a symmetric tensor stands: xx, yy, zz, yz, xz, xy.
+fn place(a: usize, b: usize) -> usize {
+    if a == b { a } else { 6 - a - b }
+}
+
+/// s:s.
+fn squares(stress: &Matrix<f64, 3>) -> f64 {
+    super::hyperelastic::square(stress)
+}

@@ -1,0 +1,200 @@
+//! Hyperelastic stresses of total-Lagrangian solids: what a law makes of the deformation gradient, and its energy.
+//! Laws are files of their own; this is what they share.
+
+use super::total_lagrangian::{matrix, put, stretches};
+use super::{Chunk, Law, LedgerColumn, StepProgram, Tally, TotalLagrangian};
+use crate::particles::{Field, Fields};
+use crate::scalar::Real;
+use crate::tensor::{Matrix, determinant};
+use crate::term::{Stage, TermDoc};
+use core::fmt::Debug;
+
+/// Energy that is stored in the deformation, over mass \[J/kg\].
+pub(super) const ELASTIC: Field = Field::scalar(11);
+const F: Field = TotalLagrangian::DEFORMATION;
+const PIOLA: Field = TotalLagrangian::PIOLA;
+
+/// What a law makes of a deformation.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Response<T: Real, const D: usize> {
+    /// First Piola–Kirchhoff stress P \[Pa\].
+    pub piola: Matrix<T, D>,
+    /// −tr σ/3, with what is out of the plane \[Pa\].
+    pub pressure: T,
+    /// Stored energy ψ over the volume as built \[J/m³\].
+    pub energy: T,
+    /// Upper bound of the stiffness ∂²ψ/∂F² along any direction \[Pa\], for the step.
+    pub stiffness: T,
+}
+
+/// A stored energy ψ(F) of Lamé's constants λ and μ \[Pa\].
+pub(super) trait StoredEnergy: Copy + Debug + Send + Sync + 'static {
+    const NAME: &'static str;
+    /// The response to F, whose determinant and bounds of the squared stretches and their inverses are given.
+    fn respond<T: Real, const D: usize>(
+        &self,
+        lame: [T; 2],
+        gradient: &Matrix<T, D>,
+        volume: T,
+        stretches: [T; 2],
+    ) -> Response<T, D>;
+}
+
+/// What all hyperelastic laws do in a step.
+pub(super) fn register<T: Real, const D: usize>(
+    program: &mut StepProgram<T, D>,
+    law: impl StoredEnergy,
+    document: TermDoc,
+) {
+    program.declare(PIOLA, "piola_stress", "Pa", 0.0);
+    program.declare(ELASTIC, "elastic_energy", "J/kg", 0.0);
+    program.law(Stage::State, Hyperelastic(law));
+    program.ledger(LedgerColumn {
+        name: "elastic energy",
+        unit: "J",
+        field: ELASTIC,
+        times_mass: true,
+        factor: 1.0,
+    });
+    program.document(document);
+}
+
+/// P, the pressure of it, and the speed of longitudinal waves along X.
+#[derive(Clone, Copy, Debug)]
+struct Hyperelastic<E>(E);
+
+impl<T: Real, const D: usize, E: StoredEnergy> Law<T, D> for Hyperelastic<E> {
+    fn name(&self) -> &'static str {
+        E::NAME
+    }
+    fn reads(&self) -> Fields {
+        Fields::of(&[F, Field::REFERENCE_DENSITY])
+    }
+    fn writes(&self) -> Fields {
+        Fields::of(&[PIOLA, ELASTIC, Field::PRESSURE, Field::SOUND_SPEED])
+    }
+    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
+        let material = chunk.around.material;
+        let shear = material.shear_modulus.unwrap_or(0.0);
+        let lame = [material.bulk_modulus() - 2.0 / 3.0 * shear, shear].map(T::from_f64);
+        let [piola, elastic, pressure, sound_speed, deformation, rest] = chunk.columns([
+            PIOLA,
+            ELASTIC,
+            Field::PRESSURE,
+            Field::SOUND_SPEED,
+            F,
+            Field::REFERENCE_DENSITY,
+        ]);
+        for (n, out) in piola.chunks_exact_mut(D * D).enumerate() {
+            let gradient = matrix::<T, D>(deformation, n);
+            let volume = determinant(&gradient);
+            let own = self
+                .0
+                .respond(lame, &gradient, volume, stretches(&gradient));
+            put(out, &own.piola);
+            elastic[n] = own.energy / rest[n];
+            pressure[n] = own.pressure;
+            sound_speed[n] = (own.stiffness / rest[n]).sqrt();
+        }
+        Tally::default()
+    }
+}
+
+/// Σ Aₐᵦ².
+pub(super) fn square<T: Real, const D: usize>(matrix: &Matrix<T, D>) -> T {
+    matrix.iter().fold(T::zero(), |sum, x| sum + *x * *x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effect::{NeoHookean, StVenantKirchhoff};
+    use crate::tensor::rotation;
+
+    fn respond<E: StoredEnergy, const D: usize>(
+        law: E,
+        gradient: &Matrix<f64, D>,
+    ) -> Response<f64, D> {
+        let volume = determinant(gradient);
+        law.respond([3.0, 2.0], gradient, volume, stretches(gradient))
+    }
+
+    /// A deformation that is neither small nor along axes.
+    fn deformed<const D: usize>() -> Matrix<f64, D> {
+        Matrix::from_fn(|a, b| {
+            f64::from(u8::from(a == b)) + 0.07 * (2.0 * a as f64 - 3.0 * b as f64 + 1.0).sin()
+        })
+    }
+
+    fn derives_from_its_energy_and_turns<E: StoredEnergy, const D: usize>(law: E) {
+        let gradient = deformed::<D>();
+        let own = respond(law, &gradient);
+        let small = 1e-5;
+        for a in 0..D {
+            for b in 0..D {
+                let energy = |by: f64| {
+                    let mut moved = gradient;
+                    moved[(a, b)] += by;
+                    respond(law, &moved).energy
+                };
+                let slope = (energy(small) - energy(-small)) / (2.0 * small);
+                assert!(
+                    (slope - own.piola[(a, b)]).abs() < 1e-8,
+                    "{slope} {}",
+                    own.piola[(a, b)]
+                );
+                // No direction is stiffer than the step is told.
+                let stress = |by: f64| {
+                    let mut moved = gradient;
+                    moved[(a, b)] += by;
+                    respond(law, &moved).piola[(a, b)]
+                };
+                let stiff = (stress(small) - stress(-small)) / (2.0 * small);
+                assert!(
+                    stiff < own.stiffness * (1.0 + 1e-6),
+                    "{stiff} {}",
+                    own.stiffness
+                );
+            }
+        }
+        // All the way round, a tenth at a time.
+        for tenth in 1..=10 {
+            let angle = 0.2 * std::f64::consts::PI * f64::from(tenth);
+            let spin = Matrix::<f64, D>::from_fn(|a, b| {
+                angle * (b as f64 - a as f64).signum() * f64::from(u8::from(a + b == 1))
+            });
+            let turn = rotation(&spin);
+            let turned = respond(law, &(turn * gradient));
+            assert!((turned.piola - turn * own.piola).norm() < 1e-13);
+            assert!(
+                (turned.energy - own.energy).abs() < 1e-13
+                    && (turned.pressure - own.pressure).abs() < 1e-13
+            );
+        }
+    }
+
+    #[test]
+    fn stresses_derive_from_energies_and_turn_with_the_body() {
+        derives_from_its_energy_and_turns::<_, 1>(NeoHookean);
+        derives_from_its_energy_and_turns::<_, 2>(NeoHookean);
+        derives_from_its_energy_and_turns::<_, 3>(NeoHookean);
+        derives_from_its_energy_and_turns::<_, 2>(StVenantKirchhoff);
+        derives_from_its_energy_and_turns::<_, 3>(StVenantKirchhoff);
+    }
+
+    /// Both are Hooke's law for small strains: σₓₓ of uniaxial strain is (λ + 2μ) ε.
+    #[test]
+    fn small_strains_obey_hooke() {
+        let strain = 1e-6;
+        let mut gradient = Matrix::<f64, 3>::identity();
+        gradient[(0, 0)] += strain;
+        for own in [
+            respond(NeoHookean, &gradient),
+            respond(StVenantKirchhoff, &gradient),
+        ] {
+            assert!((own.piola[(0, 0)] / strain / 7.0 - 1.0).abs() < 1e-5);
+            assert!((own.pressure / strain + 13.0 / 3.0).abs() < 1e-4);
+            assert!((own.energy / (3.5 * strain * strain) - 1.0).abs() < 1e-3);
+        }
+    }
+}

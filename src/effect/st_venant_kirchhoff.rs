@@ -1,0 +1,83 @@
+//! The law of St Venant and Kirchhoff: Hooke's law between Green's strain and its stress.
+//! As Ogden 1984 (Non-linear elastic deformations, section 4.4) has it.
+
+use super::hyperelastic::{self, Response, StoredEnergy, square};
+use super::{Effect, Setting, StepProgram};
+use crate::scalar::Real;
+use crate::tensor::Matrix;
+use crate::term::TermDoc;
+
+/// The stress of a [total-Lagrangian](super::TotalLagrangian) solid by Hooke's law in Green's strain E = ½ (FᵀF − 1),
+///
+/// P = F (λ tr E + 2 μ E),  ψ = ½ λ (tr E)² + μ E:E
+///
+/// with μ the [shear modulus](crate::material::Material::with_shear_modulus) and λ = K − 2μ/3 by the
+/// [bulk modulus](crate::material::Material::bulk_modulus) at rest. For large rotations and moderate strains: it softens
+/// in compression, and has no strength left at a stretch of 0.58. Rubber is [`NeoHookean`](super::NeoHookean). In two
+/// dimensions it is in plane strain, in one in uniaxial strain.
+///
+/// | it adds | as |
+/// |---|---|
+/// | [`TotalLagrangian::PIOLA`](super::TotalLagrangian::PIOLA) | P \[Pa\] |
+/// | elastic energy | ψ/ρ₀ \[J/kg\], in the ledger as `elastic energy` |
+/// | pressure | −tr σ/3, in place of that of the equation of state |
+///
+/// ```
+/// use meshfree::effect::StVenantKirchhoff;
+/// use meshfree::prelude::*;
+///
+/// // A soft bar that is thrown out of its shape rings, and keeps its energy.
+/// let soft = Material::new("soft", meshfree::material::eos::Linear::new(1000.0, 50.0)).with_shear_modulus(1e6);
+/// let thrown = |[x, _]: [f64; 2], start| meshfree::scheme::Start { velocity: [0.0, 5.0 * x], ..start };
+/// let mut bar = Scene::<f64, 2>::new(schemes::total_lagrangian().with(StVenantKirchhoff))
+///     .body(Body::block("bar", soft, [0.0; 2], [0.2, 0.04], 0.01).start(thrown))
+///     .build()?;
+/// bar.run_until(2e-3)?;
+/// let whole = bar.ledger().whole;
+/// assert!(whole.total("elastic energy").unwrap_or(0.0) > 0.0);
+/// # Ok::<(), Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default)]
+pub struct StVenantKirchhoff;
+
+impl<const D: usize> Effect<D> for StVenantKirchhoff {
+    type Terms = ();
+    fn terms(&self, _setting: &Setting) {}
+    fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
+        let document = TermDoc {
+            name: "St Venant–Kirchhoff".into(),
+            equation: "P = F (λ tr E + 2 μ E), E = ½ (FᵀF − 1)",
+            source: "Ogden 1984, section 4.4",
+        };
+        hyperelastic::register(program, *self, document);
+    }
+}
+
+impl StoredEnergy for StVenantKirchhoff {
+    const NAME: &'static str = "St Venant–Kirchhoff";
+    fn respond<T: Real, const D: usize>(
+        &self,
+        [lambda, mu]: [T; 2],
+        gradient: &Matrix<T, D>,
+        volume: T,
+        [squared, _]: [T; 2],
+    ) -> Response<T, D> {
+        let half = T::from_f64(0.5);
+        let green = (gradient.transpose() * *gradient - Matrix::identity()) * half;
+        let trace = green.trace();
+        let second = Matrix::identity() * (lambda * trace) + green * (mu + mu);
+        let piola = *gradient * second;
+        // Out of the plane, where nothing is stretched, σ is λ tr E/J.
+        let in_plane = (piola * gradient.transpose()).trace();
+        let outside = lambda * trace * T::from_f64((3 - D) as f64);
+        let three = T::from_f64(3.0);
+        // dP = dF S + F dS, of which the first counts where it pulls.
+        let pulls = (lambda * trace + mu * (squared - T::one())).max(T::zero());
+        Response {
+            piola,
+            pressure: -(in_plane + outside) / (three * volume),
+            energy: half * lambda * trace * trace + mu * square(&green),
+            stiffness: (lambda + mu + mu) * squared + pulls,
+        }
+    }
+}

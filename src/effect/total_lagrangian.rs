@@ -1,0 +1,334 @@
+//! Total-Lagrangian solids: deformation and forces by the neighbours and kernels of the body as built.
+//! Bonet & Kulasegaram 2001; Vignjevic, Reveles & Campbell 2006.
+
+use super::{Chunk, Effect, Law, Setting, StepProgram, Tally};
+use crate::error::Problem;
+use crate::particles::{Field, Fields, Output, Outputs};
+use crate::scalar::{Lane, Real};
+use crate::tensor::{Matrix, determinant, inverse};
+use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
+
+/// The kinematics and the force of a total-Lagrangian solid, in reference positions X,
+///
+/// Fᵢ = 1 + Σⱼ V₀ⱼ (uⱼ − uᵢ) ⊗ Lᵢ∇₀W,  ρ = ρ₀/det F,  mᵢ dvᵢ/dt = Σⱼ V₀ᵢ V₀ⱼ (Pᵢ Lᵢ + Pⱼ Lⱼ) ∇₀W(Xᵢⱼ)
+///
+/// with the displacement u = x − X, the first Piola–Kirchhoff stress P of an effect beside it, and the inverse L of the
+/// kernel's first moment matrix, taken once. Neighbours are never searched again. The kernel sees no motion, so the body
+/// has no tensile instability, a rigid rotation leaves no stress, and F is exact for a linear map on any arrangement
+/// of particles. Linear momentum is kept to rounding; angular momentum too, because P Fᵀ is symmetric (Bonet & Lok 1999).
+///
+/// | stress | effect |
+/// |---|---|
+/// | moderate strains, large rotations | [`StVenantKirchhoff`](super::StVenantKirchhoff) |
+/// | rubber | [`NeoHookean`](super::NeoHookean) |
+/// | metals and polymers that yield; pressure by the equation of state | [`FiniteStrainPlasticity`](super::FiniteStrainPlasticity) |
+///
+/// [`HourglassControl`](super::HourglassControl) suppresses the modes that F does not see. A scheme of these is
+/// [`schemes::total_lagrangian`](crate::schemes::total_lagrangian).
+///
+/// | it adds | as |
+/// |---|---|
+/// | [`DEFORMATION`](Self::DEFORMATION) | the deformation gradient F |
+/// | [`Field::REFERENCE_POSITION`] | X \[m\] |
+/// | limit of the step | none: sound speeds that stresses write are those along X, dX/dt |
+///
+/// It holds as long as neighbours stay neighbours. Particles whose det F is below 0.1 or above 10, or one of whose
+/// stretches is below 0.2 or above 2.5, are counted in [`limits`](crate::simulation::Simulation::limits) as
+/// `beyond the validity of total Lagrangian`; where det F is not positive the run stops.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct TotalLagrangian;
+
+impl TotalLagrangian {
+    /// Deformation gradient F = ∂x/∂X, row by row.
+    pub const DEFORMATION: Field = Field::matrix(15);
+    /// First Piola–Kirchhoff stress P \[Pa\], row by row, positive in tension: a law at [`Stage::State`] writes it.
+    pub const PIOLA: Field = Field::matrix(14);
+}
+
+const F: Field = TotalLagrangian::DEFORMATION;
+const PIOLA: Field = TotalLagrangian::PIOLA;
+/// P L \[Pa\].
+const CORRECTED: Field = Field::matrix(13);
+/// Σⱼ V₀ⱼ (uⱼ − uᵢ) ⊗ ∇₀W.
+const DISPLACEMENT_SUM: Output = Output::matrix(15);
+
+impl<const D: usize> Effect<D> for TotalLagrangian {
+    type Terms = (
+        In<stage::Reference, ReferenceMoment>,
+        In<stage::Density, DisplacementGradient>,
+        In<stage::Rates, StressForce>,
+    );
+    fn terms(&self, _setting: &Setting) -> Self::Terms {
+        (
+            In::new(ReferenceMoment),
+            In::new(DisplacementGradient),
+            In::new(StressForce),
+        )
+    }
+    fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
+        program.declare(F, "deformation_gradient", "1", 0.0);
+        program.declare(CORRECTED, "corrected_piola_stress", "Pa", 0.0);
+        program.declare_sum(DISPLACEMENT_SUM, "displacement_gradient", "1");
+        program.carry(Field::REFERENCE_POSITION);
+        program.carry(Field::REFERENCE_DENSITY);
+        program.carry(Field::CORRECTION);
+        program.law(Stage::Reference, ReferenceCorrection);
+        program.law(Stage::Density, DeformationGradient);
+        program.law(Stage::Flow, CorrectedStress);
+        program.require(|scene| {
+            (!scene.written.contains(PIOLA)).then(|| Problem::Incompatible {
+                what: "nothing in the total-Lagrangian scheme gives a stress".into(),
+                remedy: "add an effect that does: NeoHookean, StVenantKirchhoff or FiniteStrainPlasticity",
+            })
+        });
+        program.require(|scene| {
+            let soft = scene
+                .bodies
+                .iter()
+                .find(|(_, material)| material.shear_modulus.is_none_or(|modulus| modulus <= 0.0));
+            soft.map(|(body, material)| Problem::Parameter {
+                what: format!("shear modulus of body `{body}`, of {}", material.name),
+                value: material.shear_modulus.unwrap_or(0.0),
+                must_be: "a total-Lagrangian solid needs a positive one (Material::with_shear_modulus)",
+            })
+        });
+        program.require(|scene| {
+            let mut ratios = scene
+                .bodies
+                .iter()
+                .filter_map(|(body, material)| Some((body, material.poisson_ratio()?)));
+            let locked = ratios.find(|(_, ratio)| !(-1.0..LOCKED).contains(ratio));
+            locked.map(|(body, ratio)| Problem::Parameter {
+                what: format!("Poisson ratio of body `{body}`, by its bulk and shear moduli"),
+                value: ratio,
+                must_be: "it must be above -1 and below 0.495: at a half volumes lock, and no step is short enough",
+            })
+        });
+    }
+}
+
+/// The Poisson ratio from which a solid is taken for incompressible.
+const LOCKED: f64 = 0.495;
+
+/// −Σⱼ V₀ⱼ Xᵢⱼ ⊗ ∇₀W, whose inverse is L.
+#[derive(Clone, Copy, Debug)]
+pub struct ReferenceMoment;
+
+impl<const D: usize> Term<D> for ReferenceMoment {
+    const READS: Fields = Fields::of(&[Field::REFERENCE_POSITION, Field::WEIGHT]);
+    const WRITES: Outputs = Outputs::of(&[Output::MOMENT_MATRIX]);
+    #[inline(always)]
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+        let apart = pair.reference();
+        let factor = -pair.j(Field::WEIGHT) * pair.f;
+        for a in 0..D {
+            for b in 0..D {
+                let moment = factor * apart[a] * apart[b];
+                sums.add_at(Output::MOMENT_MATRIX, a * D + b, moment);
+            }
+        }
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: "correction of gradients as built".into(),
+            equation: "L = [−Σⱼ V₀ⱼ Xᵢⱼ ⊗ ∇₀W]⁻¹",
+            source: "Randles & Libersky 1996",
+        }
+    }
+}
+
+/// Σⱼ V₀ⱼ (uⱼ − uᵢ) ⊗ ∇₀W.
+#[derive(Clone, Copy, Debug)]
+pub struct DisplacementGradient;
+
+impl<const D: usize> Term<D> for DisplacementGradient {
+    const READS: Fields = Fields::of(&[
+        Field::POSITION_RESIDUAL,
+        Field::REFERENCE_POSITION,
+        Field::WEIGHT,
+    ]);
+    const WRITES: Outputs = Outputs::of(&[DISPLACEMENT_SUM]);
+    #[inline(always)]
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+        let apart = pair.reference();
+        let factor = -pair.j(Field::WEIGHT) * pair.f;
+        for a in 0..D {
+            // Of displacements, which are exactly zero at rest.
+            let displaced = factor * (pair.r[a] - apart[a]);
+            for b in 0..D {
+                sums.add_at(DISPLACEMENT_SUM, a * D + b, displaced * apart[b]);
+            }
+        }
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: "deformation gradient".into(),
+            equation: "Fᵢ = 1 + Σⱼ V₀ⱼ (uⱼ − uᵢ) ⊗ Lᵢ∇₀W",
+            source: "Bonet & Kulasegaram 2001",
+        }
+    }
+}
+
+/// Σⱼ V₀ᵢ V₀ⱼ (Pᵢ Lᵢ + Pⱼ Lⱼ) ∇₀W.
+#[derive(Clone, Copy, Debug)]
+pub struct StressForce;
+
+impl<const D: usize> Term<D> for StressForce {
+    const READS: Fields = Fields::of(&[
+        Field::POSITION_RESIDUAL,
+        Field::REFERENCE_POSITION,
+        Field::WEIGHT,
+        CORRECTED,
+    ]);
+    const WRITES: Outputs = Outputs::of(&[Output::FORCE]);
+    #[inline(always)]
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+        let apart = pair.reference();
+        let factor = pair.i(Field::WEIGHT) * pair.j(Field::WEIGHT) * pair.f;
+        for a in 0..D {
+            let mut traction = L::zero();
+            for b in 0..D {
+                let stress = pair.i_at(CORRECTED, a * D + b) + pair.j_at(CORRECTED, a * D + b);
+                traction = stress.mul_add(apart[b], traction);
+            }
+            sums.force.add(a, factor * traction);
+        }
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: "force of the Piola stress".into(),
+            equation: "mᵢ dvᵢ/dt = Σⱼ V₀ᵢ V₀ⱼ (Pᵢ Lᵢ + Pⱼ Lⱼ) ∇₀Wᵢⱼ",
+            source: "Bonet & Lok 1999; Vignjevic, Reveles & Campbell 2006",
+        }
+    }
+}
+
+/// L, once.
+#[derive(Clone, Copy, Debug)]
+struct ReferenceCorrection;
+
+impl<T: Real, const D: usize> Law<T, D> for ReferenceCorrection {
+    fn name(&self) -> &'static str {
+        "correction of gradients as built"
+    }
+    fn reads(&self) -> Fields {
+        Fields::NONE
+    }
+    fn sums(&self) -> Outputs {
+        Outputs::of(&[Output::MOMENT_MATRIX])
+    }
+    fn writes(&self) -> Fields {
+        Fields::of(&[Field::CORRECTION])
+    }
+    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
+        let (sums, first) = (chunk.around.sums, chunk.first);
+        let [correction] = chunk.columns([Field::CORRECTION]);
+        for (n, out) in correction.chunks_exact_mut(D * D).enumerate() {
+            put(out, &super::gradients::correction(sums, first + n));
+        }
+        Tally::default()
+    }
+}
+
+/// F and ρ, and whether neighbours can still be those of the body as built.
+#[derive(Clone, Copy, Debug)]
+struct DeformationGradient;
+
+/// det F, and the square of a stretch, beyond which neighbours as built say little of the body.
+const VOLUME_RATIOS: [f64; 2] = [0.1, 10.0];
+const SQUARED_STRETCHES: [f64; 2] = [0.04, 6.25];
+
+impl<T: Real, const D: usize> Law<T, D> for DeformationGradient {
+    fn name(&self) -> &'static str {
+        "beyond the validity of total Lagrangian"
+    }
+    fn reads(&self) -> Fields {
+        Fields::of(&[Field::CORRECTION, Field::REFERENCE_DENSITY])
+    }
+    fn sums(&self) -> Outputs {
+        Outputs::of(&[DISPLACEMENT_SUM])
+    }
+    fn writes(&self) -> Fields {
+        Fields::of(&[F, Field::DENSITY])
+    }
+    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
+        let (sums, first, live) = (chunk.around.sums, chunk.first, chunk.live);
+        let [deformation, density, correction, rest] = chunk.columns([
+            F,
+            Field::DENSITY,
+            Field::CORRECTION,
+            Field::REFERENCE_DENSITY,
+        ]);
+        let mut tally = Tally::default();
+        for (n, out) in deformation.chunks_exact_mut(D * D).enumerate() {
+            let sum =
+                Matrix::<T, D>::from_fn(|a, b| sums.get(DISPLACEMENT_SUM, a * D + b, first + n));
+            let gradient = Matrix::identity() + sum * matrix(correction, n);
+            let volume = determinant(&gradient);
+            density[n] = rest[n] / volume;
+            tally.limited += u64::from(n < live && is_far(&gradient, volume));
+            put(out, &gradient);
+        }
+        tally
+    }
+}
+
+/// Whether a deformation is beyond what neighbours as built can tell.
+fn is_far<T: Real, const D: usize>(gradient: &Matrix<T, D>, volume: T) -> bool {
+    let within = |[low, high]: [f64; 2], value: f64| low < value && value < high;
+    let [right, back] = stretches(gradient).map(Real::to_f64);
+    !within(VOLUME_RATIOS, volume.to_f64())
+        || right > SQUARED_STRETCHES[1]
+        || back * SQUARED_STRETCHES[0] > 1.0
+}
+
+/// Bounds of the largest squared stretch, and of the inverse of the smallest, by Gershgorin's circles of FᵀF and its
+/// inverse; exact where the axes are principal.
+pub(super) fn stretches<T: Real, const D: usize>(gradient: &Matrix<T, D>) -> [T; 2] {
+    let bound = |matrix: Matrix<T, D>| {
+        (0..D).fold(T::zero(), |most, row| {
+            let sum = (0..D).fold(T::zero(), |sum, column| sum + matrix[(row, column)].abs());
+            most.max(sum)
+        })
+    };
+    let back = inverse(gradient, 0.0).unwrap_or_else(Matrix::identity);
+    [
+        bound(gradient.transpose() * *gradient),
+        bound(back * back.transpose()),
+    ]
+}
+
+/// P L.
+#[derive(Clone, Copy, Debug)]
+struct CorrectedStress;
+
+impl<T: Real, const D: usize> Law<T, D> for CorrectedStress {
+    fn name(&self) -> &'static str {
+        "corrected Piola stress"
+    }
+    fn reads(&self) -> Fields {
+        Fields::of(&[PIOLA, Field::CORRECTION])
+    }
+    fn writes(&self) -> Fields {
+        Fields::of(&[CORRECTED])
+    }
+    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
+        let [out, piola, correction] = chunk.columns([CORRECTED, PIOLA, Field::CORRECTION]);
+        for (n, out) in out.chunks_exact_mut(D * D).enumerate() {
+            put(out, &(matrix::<T, D>(piola, n) * matrix(correction, n)));
+        }
+        Tally::default()
+    }
+}
+
+/// The n-th matrix of a column.
+pub(super) fn matrix<T: Real, const D: usize>(column: &[T], n: usize) -> Matrix<T, D> {
+    Matrix::from_fn(|a, b| column[n * D * D + a * D + b])
+}
+
+/// Writes a matrix row by row.
+pub(super) fn put<T: Real, const D: usize>(out: &mut [T], matrix: &Matrix<T, D>) {
+    for (k, value) in out.iter_mut().enumerate() {
+        *value = matrix[(k / D, k % D)];
+    }
+}
