@@ -113,6 +113,7 @@ mod advance;
 mod approach;
 #[cfg(feature = "checkpoint")]
 mod checkpoint;
+mod clamps;
 mod control;
 mod cost;
 mod couplings;
