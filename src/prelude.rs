@@ -9,7 +9,7 @@ pub use crate::boundary::{
     Wall,
 };
 #[doc(no_inline)]
-pub use crate::coupling::Coupling;
+pub use crate::coupling::{ContactDensity, Coupling, Penalty, Tied};
 #[doc(no_inline)]
 pub use crate::effect::{
     AcousticDamping, Cavitation, DensityDiffusion, Effect, ExpansionMemory, ExtrapolatedPressure,

@@ -1,21 +1,36 @@
-//! Couplings: how the bodies of two groups act on each other, one file each.
+//! Couplings: how two bodies act on each other, or one body on itself, one file each.
 //! Both sides keep schemes of their own; a coupling says what one is to the other.
 //!
 //! | coupling | what the second body is to the first | use it for |
 //! |---|---|---|
 //! | [`LiquidStructure`] | a wall that moves, and bears what the liquid feels | liquid and structure; the default between them |
-//! | a [`Coupling`] of one's own | a wall, or a pair force | penalty contact, springs, ties |
+//! | [`ContactDensity`] | what presses, by kernel sums across the contact | contact of solids, sliding, self-contact |
+//! | [`Penalty`] | what presses, by springs between near particles | contact of thin bodies, of single layers |
+//! | [`Tied`] | what it is tied to, by springs between what is near as built | bodies of unlike schemes that never part |
+//! | a [`Coupling`] of one's own | a wall, or a pair force | |
 //!
 //! A coupling acts in one of two ways, or in both:
 //!
 //! - **As a wall**: particles of the second body stand among those of the liquid that the first one is, with the mass
 //!   that [`Coupling::wall_mass`] gives. The liquid's own pair terms and wall law act on them, and the body gets each
 //!   pair force with the opposite sign.
-//! - **By a force**: [`Coupling::force`] between every two particles nearer than [`Coupling::reach`], opposite on both
-//!   sides to the bit.
+//! - **By a force**: [`Coupling::act`] between every two particles nearer than [`Coupling::reach`], opposite on both
+//!   sides to the bit, after sums of its own over the pairs ([`Coupling::gather`]) if it names any. It acts between
+//!   bodies of different groups, between two of one group, whose kernels then do not meet
+//!   ([`Scene::between`](crate::scene::Scene::between) ties them nevertheless), and within a body
+//!   ([`Scene::couple_self`](crate::scene::Scene::couple_self)).
 //!
 //! Either way momentum is kept to rounding, and the ledger knows what the two gave each other
 //! ([`Simulation::force_between`](crate::simulation::Simulation::force_between)).
+//!
+//! # Energy
+//!
+//! What forces of couplings work on a body in kicks is in its ledger as `work of couplings`: kinetic and internal energy
+//! less that work is constant to rounding. Of the work the coupling stores a part, which comes back, and the rest is
+//! gone to friction, to damping, and to the error of the steps. The whole ledger has the first two as
+//! `energy of couplings` and `heat of couplings`, and
+//! [`Simulation::contacts`](crate::simulation::Simulation::contacts) has them coupling by coupling, with forces and the
+//! penetration. That heat is in no body's internal energy. Integrators without kicks keep no work.
 //!
 //! # Sub-cycling
 //!
@@ -30,9 +45,17 @@
 //! Liquids give little of that, and artificial viscosity in the body damps it; where `work of couplings` grows without
 //! cause, ask for fewer steps.
 
+mod contact_density;
+mod friction;
 mod liquid_structure;
+mod penalty;
+mod tied;
 
+pub use contact_density::ContactDensity;
+pub use friction::{Coulomb, Touch};
 pub use liquid_structure::LiquidStructure;
+pub use penalty::Penalty;
+pub use tied::Tied;
 
 use crate::scalar::Real;
 use crate::term::TermDoc;
@@ -51,9 +74,72 @@ pub struct CoupledParticle<T, const D: usize> {
     pub density: T,
     /// Spacing of its body as built \[m\].
     pub spacing: T,
+    /// Stiffness \[Pa\] of what lies between the two bodies: the harmonic mean of the ρc² of both as built, which is
+    /// the same for particles of both.
+    pub stiffness: T,
+    /// What [`Coupling::gather`] has summed over the particles of the other side.
+    pub sum: T,
+    /// Its gradient \[1/m\].
+    pub gradient: [T; D],
+    /// What [`Coupling::pressure`] has made of these \[Pa\].
+    pub pressure: T,
 }
 
-/// How a body of one group and a body of another act on each other.
+/// Two particles within reach of each other, and what the coupling remembers of them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CoupledPair<T, const D: usize> {
+    /// Of the first body.
+    pub on: CoupledParticle<T, D>,
+    /// Of the second.
+    pub from: CoupledParticle<T, D>,
+    /// Their distance as built \[m\], where the coupling acts [as built](Coupling::as_built); else zero.
+    pub rest: T,
+    /// The anchor of the pair \[m\] that the last evaluation has left, if it has left one.
+    pub anchor: Option<[T; D]>,
+}
+
+impl<T: Real, const D: usize> CoupledPair<T, D> {
+    /// From the second to the first \[m\].
+    pub fn apart(&self) -> [T; D] {
+        core::array::from_fn(|d| self.on.position[d] - self.from.position[d])
+    }
+    /// Half the sum of both spacings \[m\].
+    pub fn spacing(&self) -> T {
+        T::from_f64(0.5) * (self.on.spacing + self.from.spacing)
+    }
+}
+
+/// What a pair does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PairForce<T, const D: usize> {
+    /// The force \[N\] on the first; that on the second is its opposite.
+    pub force: [T; D],
+    /// Energy that the pair stores \[J\].
+    pub stored: f64,
+    /// Heat \[J\] since the last evaluation.
+    pub heat: f64,
+    /// What the pair remembers for the next evaluation: a place that must not change when a state is evaluated twice.
+    pub anchor: Option<[T; D]>,
+}
+
+impl<T: Real, const D: usize> PairForce<T, D> {
+    /// A force that stores, heats and remembers nothing.
+    pub fn of(force: [T; D]) -> Self {
+        Self {
+            force,
+            stored: 0.0,
+            heat: 0.0,
+            anchor: None,
+        }
+    }
+}
+
+/// Stiffness M s^(D−2) \[N/m\] of what a particle stands for along an axis.
+fn link<T: Real, const D: usize>(stiffness: T, spacing: T) -> T {
+    stiffness * spacing.powi(D as u32) / (spacing * spacing)
+}
+
+/// How two bodies act on each other.
 ///
 /// A penalty force, as one's own coupling:
 ///
@@ -127,6 +213,27 @@ pub trait Coupling<T: Real, const D: usize>: Debug + Send + Sync {
     /// The force \[N\] on a particle of the first body by one of the second; that on the second is its opposite.
     fn force(&self, _on: &CoupledParticle<T, D>, _from: &CoupledParticle<T, D>) -> [T; D] {
         [T::zero(); D]
+    }
+    /// Whether it sums over pairs before forces, by [`gather`](Self::gather).
+    fn gathers(&self) -> bool {
+        false
+    }
+    /// What a particle adds to the sum of one of the other side, and to its gradient \[1/m\]; asked for both sides.
+    fn gather(&self, _on: &CoupledParticle<T, D>, _from: &CoupledParticle<T, D>) -> (T, [T; D]) {
+        (T::zero(), [T::zero(); D])
+    }
+    /// The pressure \[Pa\] of a particle by its sums, and the energy that it stores \[J\]; `spacing` \[m\] is the mean of both
+    /// bodies.
+    fn pressure(&self, _on: &CoupledParticle<T, D>, _spacing: T) -> (T, f64) {
+        (T::zero(), 0.0)
+    }
+    /// What a pair does: by default [`force`](Self::force), and no more.
+    fn act(&self, pair: &CoupledPair<T, D>) -> PairForce<T, D> {
+        PairForce::of(self.force(&pair.on, &pair.from))
+    }
+    /// Whether it acts on the pairs that are within reach as built, however far they move, and on no others.
+    fn as_built(&self) -> bool {
+        false
     }
     /// The largest step \[s\] that a pair within reach bears.
     fn step(&self, _on: &CoupledParticle<T, D>, _from: &CoupledParticle<T, D>) -> f64 {

@@ -1,10 +1,10 @@
-//! Which bodies of different groups act on each other, and how: what the scene says, or what follows from its schemes.
+//! Which bodies act on each other, or on themselves, and how: what the scene says, or what follows from its schemes.
 //! A liquid meets the solids of other groups as walls unless a coupling or [`Interaction::None`] says otherwise.
 
 use super::{Body, Coupled, Part, Scene};
 use crate::coupling::{Coupling, LiquidStructure};
 use crate::scalar::Real;
-use crate::simulation::{Couple, SubCycle};
+use crate::simulation::{Acting, Couple, PairList, SubCycle};
 use crate::sweep::Interaction;
 use std::sync::Arc;
 
@@ -62,14 +62,25 @@ impl<T: Real, const D: usize> Scene<T, D> {
                     .sum::<usize>()
                     + body
             };
+            let by_reference = own.exclusion > 0.0 || own.coupling.as_built();
+            let reference = |side| -> Vec<[f64; D]> {
+                if by_reference {
+                    body(side).points.clone()
+                } else {
+                    Vec::new()
+                }
+            };
             (reach > 0.0).then(|| Couple {
                 coupling: own.coupling.clone(),
                 sides,
                 indices: sides.map(before),
                 reach,
-                force: [0.0; D],
-                step: f64::INFINITY,
-                near: [Vec::new(), Vec::new()],
+                exclusion: own.exclusion,
+                reference: sides.map(reference),
+                stiffness: f64::NAN,
+                acting: Acting::default(),
+                work: [0.0; 2],
+                list: PairList::default(),
             })
         };
         self.couplings.iter().filter_map(couple).collect()

@@ -62,7 +62,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 of_texts(
                     couplings
                         .iter()
-                        .map(|own| debug((&own.first, &own.second, &own.coupling)))
+                        .map(|own| debug((&own.first, &own.second, &own.coupling, own.exclusion)))
                         .chain([debug(sub_cycled)]),
                 ),
             ),

@@ -48,7 +48,7 @@
 //! | liquid and liquid | one liquid | do not meet, which has to be said |
 //! | liquid and solid | no: a liquid needs a scheme of liquids | pressure, and friction with [`Body::no_slip`] |
 //!
-//! Any two bodies of different groups act on each other as a [coupling](crate::coupling) of one's own says
+//! Any two bodies act on each other as a [coupling](crate::coupling) says: contact, ties, or one's own
 //! ([`Scene::couple`]), and a stiff group takes steps of its own ([`Scene::sub_cycle`]).
 //!
 //! Solids do not see walls of particles; a [`MirrorPlane`](crate::boundary::MirrorPlane) holds solids and liquids.
@@ -116,11 +116,13 @@ pub struct Scene<T: Real, const D: usize> {
     memory: Option<u64>,
 }
 
-/// Two bodies of different groups, and how they act on each other.
+/// Two bodies, or a body twice, and how they act on each other.
 struct Coupled<T: Real, const D: usize> {
     first: String,
     second: String,
     coupling: Arc<dyn Coupling<T, D>>,
+    /// Pairs of a body with itself that are nearer than this as built \[m\] do not act.
+    exclusion: f64,
 }
 
 /// What of a body is held.
@@ -255,8 +257,12 @@ impl<T: Real, const D: usize> Scene<T, D> {
         self
     }
 
-    /// Says how a body and a body of another [group](Scene::group) act on each other. Where nothing is said a liquid
-    /// meets a solid by [`LiquidStructure`], and all others do not meet, which has to be said.
+    /// Says how two bodies act on each other. Where nothing is said a liquid meets a solid of another
+    /// [group](Scene::group) by [`LiquidStructure`], bodies of one group meet by their kernels
+    /// ([`between`](Self::between)), and all others do not meet, which has to be said. The kernels of two bodies of one
+    /// group do not meet where a coupling acts, unless `between` says that they do.
+    ///
+    /// Two bodies may have several couplings. They start apart: no nearer than 0.6 mean spacings.
     #[must_use]
     pub fn couple(
         mut self,
@@ -268,6 +274,30 @@ impl<T: Real, const D: usize> Scene<T, D> {
             first: first.into(),
             second: second.into(),
             coupling: Arc::new(coupling),
+            exclusion: 0.0,
+        });
+        self
+    }
+
+    /// Says how a body acts on itself where it folds: by a coupling between pairs of its particles that were at least
+    /// `exclusion` \[m\] apart as built. That must be no less than the [reach](Coupling::reach) of the coupling, which is
+    /// 2.6 spacings with [`ContactDensity`](crate::coupling::ContactDensity) and one with
+    /// [`Penalty`](crate::coupling::Penalty), or the body would press on itself from the start. With
+    /// [`Tied`](crate::coupling::Tied), which holds together what is near as built, it is zero.
+    ///
+    /// It is for solids. A scheme whose kernels follow the present neighbours feels what folds by them as well.
+    #[must_use]
+    pub fn couple_self(
+        mut self,
+        body: &str,
+        exclusion: f64,
+        coupling: impl Coupling<T, D> + 'static,
+    ) -> Self {
+        self.couplings.push(Coupled {
+            first: body.into(),
+            second: body.into(),
+            coupling: Arc::new(coupling),
+            exclusion,
         });
         self
     }

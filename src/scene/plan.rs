@@ -331,6 +331,14 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         for k in 0..blocks {
             all[k * blocks + k] = Interaction::Bonded;
         }
+        for own in &self.scene.couplings {
+            if let (Some(a), Some(b)) = (index(&own.first), index(&own.second))
+                && a != b
+            {
+                all[a * blocks + b] = Interaction::None;
+                all[b * blocks + a] = Interaction::None;
+            }
+        }
         for (first, second, interaction) in &self.scene.contacts {
             if let (Some(a), Some(b)) = (index(first), index(second)) {
                 all[a * blocks + b] = *interaction;
@@ -381,7 +389,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         let apart = contacts.filter(|own| own.2 == Interaction::None);
         let apart = apart.map(|(first, second, _)| (first, second));
         let couplings = self.scene.couplings.iter();
-        let by_force = couplings.filter(|own| !own.coupling.is_wall());
+        let by_force = couplings.filter(|own| !own.coupling.is_wall() && own.first != own.second);
         let by_force = by_force.map(|own| (&own.first, &own.second));
         for (first, second) in apart.chain(by_force) {
             for a in blocks_of(first) {

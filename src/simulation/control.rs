@@ -156,11 +156,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             }
         }
         for couple in &self.couples {
-            if couple.step < all.step {
+            if couple.acting.step < all.step {
                 let [(group, body), _] = couple.sides;
                 let group = &self.groups[group];
                 all = Vote {
-                    step: couple.step,
+                    step: couple.acting.step,
                     criterion: Criterion::Effect(couple.coupling.name()),
                     particle: group.particles.first_id + group.particles.bodies[body].ids.start,
                 };

@@ -28,24 +28,6 @@ pub(crate) struct Structure<T, const D: usize> {
     pub evaluated: f64,
 }
 
-/// Two bodies of different groups that act on each other by forces between their particles.
-#[derive(Debug)]
-pub(crate) struct Couple<T, const D: usize> {
-    pub coupling: Arc<dyn Coupling<T, D>>,
-    /// The group and the body there, of both sides.
-    pub sides: [(usize, usize); 2],
-    /// Their scene indices.
-    pub indices: [usize; 2],
-    /// How near particles act on each other \[m\].
-    pub reach: f64,
-    /// The force \[N\] on the first at the last evaluation.
-    pub force: [f64; D],
-    /// The largest step \[s\] that it bears since then.
-    pub step: f64,
-    /// Slots of particles of the two that may be near each other.
-    pub near: [Vec<u32>; 2],
-}
-
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// What its groups do to each other: every coupling that acts, with its equation and source, once.
     #[must_use]
@@ -87,12 +69,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 }
             }
         });
-        for couple in &mut self.couples {
-            let [first, second] = couple.sides.map(|(group, _)| group);
-            if let Ok([first, second]) = self.groups.get_disjoint_mut([first, second]) {
-                couple.act(first, second);
-            }
-        }
+        self.act_in_pairs();
     }
 
     fn for_each_structure(
@@ -126,8 +103,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let couples = self.couples.iter().filter(move |_| alone.is_none());
         own.chain(couples.flat_map(|couple| {
             let [first, second] = couple.indices;
-            let back = couple.force.map(|force| -force);
-            [(first, second, couple.force), (second, first, back)]
+            let force = couple.acting.force;
+            let back = force.map(|force| -force);
+            [(first, second, force), (second, first, back)]
         }))
     }
 
@@ -151,58 +129,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 }
 
-impl<T: Real, const D: usize> Couple<T, D> {
-    /// Forces between all pairs within reach, on both groups.
-    fn act(&mut self, first: &mut Group<T, D>, second: &mut Group<T, D>) {
-        self.force = [0.0; D];
-        self.step = f64::INFINITY;
-        let [(_, body), (_, other)] = self.sides;
-        let [mut near, mut others] = core::mem::take(&mut self.near);
-        second.slots_within(other, first.extent(body), self.reach, &mut others);
-        let extent = second.extent_of(others.iter().map(|&slot| slot as usize));
-        first.slots_within(body, extent, self.reach, &mut near);
-        // Along the first axis, so that what is within reach of a particle is a run.
-        let along = |slot: u32| {
-            second.particles.columns.vectors(Field::POSITION)[slot as usize][0].to_f64()
-        };
-        others.sort_unstable_by(|&a, &b| along(a).total_cmp(&along(b)).then(a.cmp(&b)));
-        let spacings = [first.spacing_of(body), second.spacing_of(other)].map(T::from_f64);
-        for &slot in &near {
-            let on = first.coupled_particle(slot as usize, spacings[0]);
-            let x = on.position[0].to_f64();
-            let start = others.partition_point(|&slot| second.at(slot)[0] < x - self.reach);
-            for &from in &others[start..] {
-                let place = second.at(from);
-                if place[0] > x + self.reach {
-                    break;
-                }
-                let square = (0..D).map(|d| (on.position[d].to_f64() - place[d]).powi(2));
-                if square.sum::<f64>() >= self.reach * self.reach {
-                    continue;
-                }
-                let by = second.coupled_particle(from as usize, spacings[1]);
-                let force = self.coupling.force(&on, &by);
-                let step = self.coupling.step(&on, &by);
-                // What is no number is no step at all.
-                self.step = if step >= 0.0 {
-                    self.step.min(step)
-                } else {
-                    0.0
-                };
-                first.push(slot as usize, force);
-                second.push(from as usize, force.map(|force| -force));
-                for d in 0..D {
-                    self.force[d] += force[d].to_f64();
-                }
-            }
-        }
-        self.near = [near, others];
-    }
-}
-
 impl<T: Real, const D: usize> Group<T, D> {
     /// Adds a force \[N\] of a coupling on a particle: to its rates, or apart from them where it sub-cycles.
-    fn push(&mut self, slot: usize, force: [T; D]) {
+    pub(super) fn push(&mut self, slot: usize, force: [T; D]) {
         match &mut self.sub_cycle {
             None => self.work.rates.add(Output::FORCE, slot, force),
             Some(apart) => {
@@ -213,48 +142,11 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
     }
 
-    fn at(&self, slot: u32) -> [f64; D] {
-        self.particles.columns.vectors(Field::POSITION)[slot as usize].map(Real::to_f64)
-    }
-
-    fn spacing_of(&self, body: usize) -> f64 {
+    pub(super) fn spacing_of(&self, body: usize) -> f64 {
         self.particles.bodies[body].spacing
     }
 
-    /// The box around a body \[m\].
-    fn extent(&self, body: usize) -> [[f64; D]; 2] {
-        self.extent_of(self.particles.bodies[body].slots.clone())
-    }
-
-    fn extent_of(&self, slots: impl Iterator<Item = usize>) -> [[f64; D]; 2] {
-        let start = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
-        slots.fold(start, |[low, high], slot| {
-            let x = self.at(slot as u32);
-            [
-                core::array::from_fn(|d| low[d].min(x[d])),
-                core::array::from_fn(|d| high[d].max(x[d])),
-            ]
-        })
-    }
-
-    /// Slots of a body within `reach` \[m\] of a box.
-    fn slots_within(
-        &self,
-        body: usize,
-        [low, high]: [[f64; D]; 2],
-        reach: f64,
-        slots: &mut Vec<u32>,
-    ) {
-        slots.clear();
-        let inside = |slot: &usize| {
-            let x = self.at(*slot as u32);
-            (0..D).all(|d| (low[d] - reach..=high[d] + reach).contains(&x[d]))
-        };
-        let own = self.particles.bodies[body].slots.clone();
-        slots.extend(own.filter(inside).map(|slot| slot as u32));
-    }
-
-    fn coupled_particle(&self, slot: usize, spacing: T) -> CoupledParticle<T, D> {
+    pub(super) fn coupled_particle(&self, slot: usize, spacing: T) -> CoupledParticle<T, D> {
         let columns = &self.particles.columns;
         CoupledParticle {
             position: columns.vectors(Field::POSITION)[slot],
@@ -262,6 +154,10 @@ impl<T: Real, const D: usize> Group<T, D> {
             mass: columns.raw(Field::MASS)[slot],
             density: columns.raw(Field::DENSITY)[slot],
             spacing,
+            stiffness: T::zero(),
+            sum: T::zero(),
+            gradient: [T::zero(); D],
+            pressure: T::zero(),
         }
     }
 

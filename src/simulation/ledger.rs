@@ -123,6 +123,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub(super) fn record_kick(&mut self, alone: Option<usize>, dt: f64) {
         self.record_impulses(alone, dt);
         self.record_work(alone, dt);
+        if alone.is_none() {
+            self.record_couples(dt);
+        }
     }
 
     fn record_impulses(&mut self, alone: Option<usize>, dt: f64) {
@@ -210,10 +213,26 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Mass, momentum and energy now, body by body and together.
     #[must_use]
     pub fn ledger(&self) -> Ledger {
-        let bodies: Vec<_> = self
+        let mut bodies: Vec<_> = self
             .all_bodies()
             .map(|(group, body)| (body.name.clone(), Self::budget(group, body)))
             .collect();
+        let of_couplings = |name, value| Total {
+            name,
+            unit: "J",
+            value,
+        };
+        for couple in &self.couples {
+            for ((group, _), (index, work)) in
+                (couple.sides.iter()).zip(couple.indices.into_iter().zip(couple.work))
+            {
+                // A group that sub-cycles has the work of all of its couplings.
+                if self.groups[*group].sub_cycle.is_none() {
+                    let total = of_couplings("work of couplings", work);
+                    bodies[index].1.add_total(&total);
+                }
+            }
+        }
         let mut whole = Budget {
             momentum: vec![0.0; D],
             ..Budget::default()
@@ -228,6 +247,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             for d in 0..D {
                 whole.momentum[d] += budget.momentum[d];
             }
+        }
+        for couple in &self.couples {
+            whole.add_total(&of_couplings("energy of couplings", couple.acting.stored));
+            whole.add_total(&of_couplings("heat of couplings", couple.acting.heat));
         }
         let count = bodies.len();
         let boundaries = count + self.wall_count()..self.blocks();

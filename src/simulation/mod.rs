@@ -27,6 +27,7 @@
 //! | smoothing lengths held at a limit | [`Simulation::limited_smoothing_lengths`] |
 //! | mass, momentum, kinetic and internal energy of every body, impulse of boundaries | [`Simulation::ledger`] |
 //! | force between two bodies, or a body and a boundary | [`Simulation::force_between`] |
+//! | work, stored energy, heat and penetration of couplings | [`Simulation::contacts`], [`Simulation::largest_penetration`] |
 //! | force and impulse on a wall | [`Simulation::wall_force`], [`Simulation::wall_impulse`] |
 //! | energy of a liquid, work on it, dissipation | [`Simulation::energy`] |
 //! | what left through outlets | [`Simulation::removed`] |
@@ -114,6 +115,7 @@ mod approach;
 #[cfg(feature = "checkpoint")]
 mod checkpoint;
 mod clamps;
+mod contact;
 mod control;
 mod cost;
 mod couplings;
@@ -142,6 +144,7 @@ mod walls;
 mod which;
 mod workspace;
 
+pub use contact::Contact;
 pub use control::{Criterion, StepControl, Vote};
 pub use cost::{Cost, CostLine};
 pub use energy::EnergyLedger;
@@ -152,7 +155,8 @@ pub use query::{ParticleView, ParticleViews};
 pub use which::Which;
 pub(crate) use which::find;
 
-pub(crate) use couplings::{Couple, Structure};
+pub(crate) use contact::{Acting, Couple, PairList};
+pub(crate) use couplings::Structure;
 pub(crate) use group::{Group, width};
 pub use population::Removed;
 pub(crate) use population::{BodyState, Particles};
@@ -175,8 +179,8 @@ pub(crate) type UniformLoad<const D: usize> = Box<dyn Fn(f64) -> [f64; D] + Send
 #[derive(Debug)]
 struct SetAside<T: Real, const D: usize> {
     groups: Vec<Aside<T, D>>,
-    /// Force and limit of the step of each coupling by forces.
-    acting: Vec<([f64; D], f64)>,
+    /// What each coupling by forces has left.
+    acting: Vec<Acting<T, D>>,
     /// The time \[s\] and the number of the last evaluation.
     evaluated: f64,
     evaluations: u64,
@@ -188,7 +192,7 @@ struct SetAside<T: Real, const D: usize> {
 pub struct Simulation<T: Real, const D: usize> {
     /// Bodies by the schemes that they share; there is one at least.
     pub(crate) groups: Vec<Group<T, D>>,
-    /// Bodies of different groups that act on each other by forces.
+    /// Bodies that act on each other, or on themselves, by forces between pairs.
     pub(crate) couples: Vec<Couple<T, D>>,
     /// The box around bodies and walls as built \[m\], where walls alone bound the scene.
     pub(crate) domain: Option<[[f64; D]; 2]>,
@@ -340,7 +344,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.check_failure()?;
         if self.rates_at_hand && self.aside.is_none() {
             let groups = self.groups.iter().map(Group::set_aside).collect();
-            let acting = self.couples.iter().map(|own| (own.force, own.step));
+            let acting = self.couples.iter().map(|own| own.acting.clone());
             self.aside = Some(SetAside {
                 groups,
                 acting: acting.collect(),
@@ -359,7 +363,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 group.take_up(aside);
             }
             for (couple, acting) in self.couples.iter_mut().zip(aside.acting) {
-                (couple.force, couple.step) = acting;
+                couple.acting = acting;
             }
             (self.evaluated, self.evaluations) = (aside.evaluated, aside.evaluations);
         }

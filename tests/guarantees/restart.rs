@@ -618,10 +618,10 @@ fn another_version_width_and_machine_are_named() {
         problem(rods::<f64>(), &copy)
     };
     assert_eq!(
-        with(r#""version":"1""#, r#""version":"9""#),
+        with(r#""version":"2""#, r#""version":"9""#),
         CheckpointProblem::Version {
             found: "9".into(),
-            known: "1"
+            known: "2"
         }
     );
     assert_eq!(

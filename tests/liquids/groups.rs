@@ -444,7 +444,7 @@ fn couplings_and_sub_cycles_that_cannot_be_are_refused() {
             "there is no body called `wall`",
         ),
         (
-            scene().couple("left", "right", Penalty(1.0)),
+            scene().couple("left", "right", LiquidStructure),
             "between bodies of one group",
         ),
         (

@@ -5,6 +5,7 @@
 mod common;
 
 mod conservation;
+mod contact;
 mod convergence;
 mod elastic_plastic_waves;
 mod gas;

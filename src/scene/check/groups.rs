@@ -1,7 +1,9 @@
 //! What can be wrong between groups: bodies of different schemes that nothing couples, couplings and sub-cycling.
 //! A liquid meets structures; all else is coupled by what the scene says, or has to be said not to meet.
 
+use super::TOO_CLOSE;
 use crate::error::Problem;
+use crate::neighbors::Cells;
 use crate::scalar::Real;
 use crate::scene::{Body, Part, Scene};
 use crate::sweep::Interaction;
@@ -86,7 +88,22 @@ impl<T: Real, const D: usize> Scene<T, D> {
                     remedy,
                 });
             };
-            if first.0 == second.0 {
+            let liquid = self.parts[first.0].scheme.meets_walls();
+            if first == second && own.exclusion.to_bits() == 0 && !coupling.as_built() {
+                incompatible(
+                    "names one body twice",
+                    "give the distance as built from which on a body meets itself, by Scene::couple_self",
+                );
+                continue;
+            }
+            if first == second && liquid {
+                incompatible(
+                    "is of a liquid with itself",
+                    "leave it out: the kernels of a liquid meet wherever it does",
+                );
+                continue;
+            }
+            if first.0 == second.0 && coupling.is_wall() {
                 incompatible(
                     "is between bodies of one group",
                     "say what they do to each other by Scene::between, or give one of them a group of its own",
@@ -114,6 +131,59 @@ impl<T: Real, const D: usize> Scene<T, D> {
                     "neither is a wall nor reaches",
                     "give it a reach (Coupling::reach), or say Interaction::None between the two",
                 );
+            }
+            let built = first == second && !coupling.as_built();
+            if built && !(own.exclusion.is_finite() && own.exclusion >= reach) {
+                problems.push(Problem::Parameter {
+                    what: format!(
+                        "distance as built from which on the coupling {name} lets body `{}` meet itself",
+                        own.first
+                    ),
+                    value: own.exclusion,
+                    must_be: "it must be finite, in metres, and no less than the reach of the coupling, or the \
+                              body presses on itself from the start",
+                });
+            }
+        }
+    }
+
+    /// Bodies of different groups that are coupled by forces and start in each other.
+    pub(super) fn check_coupled_places(&self, problems: &mut Vec<Problem>) {
+        for own in &self.couplings {
+            let sides = [&own.first, &own.second].map(|body| self.place_of(body));
+            let [Some(first), Some(second)] = sides else {
+                continue;
+            };
+            // Bodies of one group are looked at with it, and walls with their liquid.
+            if first.0 == second.0 || own.coupling.is_wall() {
+                continue;
+            }
+            let [first, second] =
+                [first, second].map(|(group, body)| &self.parts[group].bodies[body]);
+            let spacing = 0.5 * (first.spacing + second.spacing);
+            let reach = TOO_CLOSE * spacing;
+            let all: Vec<u32> = (0..second.points.len() as u32).collect();
+            let cells = Cells::build(&second.points, &all, reach);
+            let mut nearest = (reach * reach, None);
+            for x in &first.points {
+                cells.for_each_run(x.map(|x| x - reach), x.map(|x| x + reach), |run| {
+                    for &other in run {
+                        let y = &second.points[other as usize];
+                        let square = (0..D).map(|d| (x[d] - y[d]).powi(2)).sum::<f64>();
+                        if square < nearest.0 {
+                            nearest = (square, Some(*x));
+                        }
+                    }
+                });
+            }
+            if let (square, Some(position)) = nearest {
+                problems.push(Problem::Overlap {
+                    first: first.name.clone(),
+                    second: second.name.clone(),
+                    distance: square.sqrt(),
+                    spacing,
+                    position: position.to_vec(),
+                });
             }
         }
     }

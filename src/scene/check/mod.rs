@@ -71,6 +71,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 plan.check_overlap(&mut problems);
                 plan.check_wall_places(&mut problems);
             }
+            self.check_coupled_places(&mut problems);
         }
         problems
     }

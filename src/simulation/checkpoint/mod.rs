@@ -4,6 +4,7 @@
 //! Neighbour lists are not held: they follow from the positions that they were built from. Neither is what the scene
 //! supplies again.
 
+mod couple;
 mod group;
 mod particles;
 mod workspace;
@@ -18,7 +19,7 @@ use crate::sweep::InstructionSet;
 use std::path::Path;
 
 /// The version of what is held. It rises with every change of it.
-const VERSION: &str = "1";
+const VERSION: &str = "2";
 
 const FORMAT: &str = "meshfree checkpoint";
 
@@ -78,7 +79,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             failed: _,
         } = self;
         // The next step takes up what was set aside.
-        let now: Vec<_> = couples.iter().map(|own| (own.force, own.step)).collect();
+        let now: Vec<_> = couples.iter().map(|own| own.acting.clone()).collect();
         let (acting, evaluated, evaluations) = match aside {
             Some(aside) => (&aside.acting, &aside.evaluated, &aside.evaluations),
             None => (&now, evaluated, evaluations),
@@ -121,9 +122,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             file.put(format!("kept{k}/impulses"), 1, &kept.values);
             file.put_one(format!("kept{k}/time"), kept.time);
         }
-        for (k, (force, step)) in acting.iter().enumerate() {
-            file.put(format!("coupling{k}/force"), 1, force);
-            file.put_one(format!("coupling{k}/step"), *step);
+        for (k, (couple, acting)) in couples.iter().zip(acting).enumerate() {
+            couple.put(acting, &format!("coupling{k}"), &mut file);
         }
         for (k, group) in groups.iter().enumerate() {
             let aside = aside.as_ref().and_then(|aside| aside.groups.get(k));
@@ -189,8 +189,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             });
         }
         for (k, couple) in self.couples.iter_mut().enumerate() {
-            couple.force = file.get_array(&format!("coupling{k}/force"))?;
-            couple.step = file.get_one(&format!("coupling{k}/step"))?;
+            couple.take_state(&format!("coupling{k}"), file)?;
         }
         for (k, group) in self.groups.iter_mut().enumerate() {
             group.take_state(&format!("group{k}"), file)?;

@@ -1,0 +1,85 @@
+//! Friction of Coulomb between pairs that press: it holds below μ F_n, and slides at that.
+//! Sticking is a tangential spring that remembers where it was relaxed, after Cundall & Strack 1979.
+
+use super::PairForce;
+use crate::scalar::Real;
+
+/// Coulomb friction of a pair with sticking by a spring,
+///
+/// F_t = −k_t u,  |F_t| ≤ μ F_n
+///
+/// with F_n \[N\] the normal force of the pair, k_t \[N/m\] its tangential stiffness and u \[m\] its elastic slip, the
+/// tangential way since it last slid. What slips beyond slides, and μ F_n times that way is heat. The stiffness does not
+/// depend on the normal force: a sticking contact whose spring did would gain energy as it vibrates.
+///
+/// A pair remembers its anchor, the place in which the spring is relaxed (Cundall & Strack 1979, Géotechnique 29, 47).
+/// Static friction therefore holds without creep, and evaluating a state twice changes nothing. The anchor does not turn
+/// with bodies that roll. What presses no more forgets it.
+///
+/// The forces on both particles are opposite but not central: what they change of angular momentum is F_t times the
+/// distance of the particles, about a spacing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coulomb {
+    /// Coefficient of friction μ.
+    pub mu: f64,
+}
+
+/// A pair that presses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Touch<T, const D: usize> {
+    /// From the second particle to the first \[m\].
+    pub apart: [T; D],
+    /// The unit normal of the contact, towards the first.
+    pub normal: [T; D],
+    /// Normal force F_n \[N\], positive in compression.
+    pub pressing: T,
+    /// Tangential stiffness k_t \[N/m\].
+    pub stiffness: T,
+    /// The anchor that the last evaluation has left \[m\].
+    pub anchor: Option<[T; D]>,
+}
+
+impl Coulomb {
+    /// The friction of a pair that presses, with its anchor; heat is that of what has slid since the last evaluation.
+    pub fn act<T: Real, const D: usize>(&self, touch: &Touch<T, D>) -> PairForce<T, D> {
+        let (x, n) = (touch.apart, touch.normal);
+        let Some(before) = touch.anchor else {
+            return PairForce {
+                anchor: Some(x),
+                ..PairForce::of([T::zero(); D])
+            };
+        };
+        let along = (0..D).fold(T::zero(), |sum, d| sum + (x[d] - before[d]) * n[d]);
+        let slip: [T; D] = core::array::from_fn(|d| x[d] - before[d] - along * n[d]);
+        let size = slip.iter().fold(T::zero(), |sum, u| sum + *u * *u).sqrt();
+        let limit = T::from_f64(self.mu) * touch.pressing;
+        let slides = touch.stiffness * size > limit;
+        let kept = if slides {
+            limit / (touch.stiffness * size)
+        } else {
+            T::one()
+        };
+        let slip = slip.map(|u| u * kept);
+        let (before, size) = (size.to_f64(), (size * kept).to_f64());
+        PairForce {
+            force: slip.map(|u| -touch.stiffness * u),
+            stored: 0.5 * touch.stiffness.to_f64() * size * size,
+            heat: if slides {
+                limit.to_f64() * (before - size)
+            } else {
+                0.0
+            },
+            anchor: Some(core::array::from_fn(|d| x[d] - slip[d])),
+        }
+    }
+
+    /// What is wrong with it.
+    pub(super) fn problems(friction: Option<Self>) -> Vec<(&'static str, f64, &'static str)> {
+        let wrong = friction.filter(|own| !(own.mu.is_finite() && own.mu >= 0.0));
+        let wrong = wrong.map(|own| {
+            let must_be = "it must be finite and not negative";
+            ("coefficient of friction", own.mu, must_be)
+        });
+        wrong.into_iter().collect()
+    }
+}

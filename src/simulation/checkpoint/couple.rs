@@ -1,0 +1,79 @@
+//! What a checkpoint holds of couplings by forces: what acts, what it has worked, and where friction holds.
+//! The pairs follow from positions.
+
+use crate::output::checkpoint::{Checkpoint, Read};
+use crate::scalar::Real;
+use crate::simulation::contact::{Acting, Couple};
+
+impl<T: Real, const D: usize> Couple<T, D> {
+    pub(super) fn put(&self, acting: &Acting<T, D>, name: &str, file: &mut Checkpoint) {
+        let Self {
+            coupling: _,
+            sides: _,
+            indices: _,
+            reach: _,
+            exclusion: _,
+            reference: _,
+            stiffness,
+            acting: _,
+            work,
+            // It follows from positions.
+            list: _,
+        } = self;
+        let Acting {
+            force,
+            step,
+            forces,
+            anchors,
+            stored,
+            heat,
+            penetration: [now, most],
+            pairs,
+        } = acting;
+        file.put(format!("{name}/force"), 1, force);
+        let numbers = [
+            *step, *stiffness, work[0], work[1], *stored, *heat, *now, *most,
+        ];
+        file.put(format!("{name}/numbers"), 1, numbers);
+        file.put_one(format!("{name}/pairs"), *pairs as u64);
+        for (side, own) in forces.iter().enumerate() {
+            let (ids, forces): (Vec<u32>, Vec<[T; D]>) = own.iter().copied().unzip();
+            file.put(format!("{name}/particles{side}"), 1, ids);
+            file.put_reals(format!("{name}/forces{side}"), D, forces.as_flattened());
+        }
+        let (ids, places): (Vec<[u32; 2]>, Vec<[T; D]>) = anchors.iter().copied().unzip();
+        file.put(format!("{name}/anchored"), 2, ids.as_flattened());
+        file.put_reals(format!("{name}/anchors"), D, places.as_flattened());
+    }
+
+    pub(super) fn take_state(&mut self, name: &str, file: &Checkpoint) -> Read<()> {
+        let of = |what: &str| format!("{name}/{what}");
+        let vectors = |what: &str, count: usize| -> Read<Vec<[T; D]>> {
+            let numbers = file.get_all_reals::<T>(&of(what), count * D)?;
+            Ok(numbers.as_chunks::<D>().0.to_vec())
+        };
+        let [step, stiffness, first, second, stored, heat, now, most] =
+            file.get_array(&of("numbers"))?;
+        (self.stiffness, self.work) = (stiffness, [first, second]);
+        let mut forces = [Vec::new(), Vec::new()];
+        for (side, own) in forces.iter_mut().enumerate() {
+            let ids = file.get::<u32>(&of(&format!("particles{side}")))?;
+            let values = vectors(&format!("forces{side}"), ids.len())?;
+            own.extend(ids.into_iter().zip(values));
+        }
+        let ids = file.get::<u32>(&of("anchored"))?;
+        let ids: Vec<[u32; 2]> = ids.as_chunks::<2>().0.to_vec();
+        let anchors = vectors("anchors", ids.len())?;
+        self.acting = Acting {
+            force: file.get_array(&of("force"))?,
+            step,
+            forces,
+            anchors: ids.into_iter().zip(anchors).collect(),
+            stored,
+            heat,
+            penetration: [now, most],
+            pairs: file.get_one::<u64>(&of("pairs"))? as usize,
+        };
+        Ok(())
+    }
+}

@@ -1,0 +1,586 @@
+//! Couplings by forces between pairs: the search, sums of their own, forces, work, and what pairs remember.
+//! Pairs act in the order of the numbers of their particles, so results do not depend on threads or on lists.
+
+use super::Simulation;
+use super::group::Group;
+use crate::coupling::{CoupledPair, CoupledParticle, Coupling};
+use crate::error::{Error, Problem, Result};
+use crate::neighbors::Cells;
+use crate::particles::Field;
+use crate::scalar::Real;
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// Skin of the lists of pairs in mean spacings.
+const SKIN: f64 = 0.4;
+/// Distance in spacings that a pair has at least, as far as its approach is concerned.
+const NEAREST: f64 = 0.5;
+
+/// Two bodies, or a body and itself, that act on each other by forces between their particles.
+#[derive(Debug)]
+pub(crate) struct Couple<T: Real, const D: usize> {
+    pub coupling: Arc<dyn Coupling<T, D>>,
+    /// The group and the body there, of both sides.
+    pub sides: [(usize, usize); 2],
+    /// Their scene indices.
+    pub indices: [usize; 2],
+    /// How near particles act on each other \[m\].
+    pub reach: f64,
+    /// Pairs of a body with itself that are nearer than this as built \[m\] do not.
+    pub exclusion: f64,
+    /// Where particles are as built \[m\], where pairs are chosen by that.
+    pub reference: [Vec<[f64; D]>; 2],
+    /// The harmonic mean of ρc² of both bodies \[Pa\]; no number before the first evaluation.
+    pub stiffness: f64,
+    /// What the last evaluation has left.
+    pub acting: Acting<T, D>,
+    /// What its forces have worked on both sides since the start \[J\].
+    pub work: [f64; 2],
+    pub list: PairList<T, D>,
+}
+
+/// What an evaluation changes, and the next step needs as the last step has left it.
+#[derive(Clone, Debug)]
+pub(crate) struct Acting<T, const D: usize> {
+    /// The force \[N\] on the first side.
+    pub force: [f64; D],
+    /// The largest step \[s\] that it bears.
+    pub step: f64,
+    /// The force \[N\] on particles of both sides, by their numbers in the body.
+    pub forces: [Vec<(u32, [T; D])>; 2],
+    /// Anchors of pairs \[m\], in the order of the numbers of their particles.
+    pub anchors: Vec<([u32; 2], [T; D])>,
+    /// Energy that it stores \[J\].
+    pub stored: f64,
+    /// Heat since the start \[J\].
+    pub heat: f64,
+    /// Penetration in mean spacings: now, and the largest since the start.
+    pub penetration: [f64; 2],
+    /// Pairs that act.
+    pub pairs: usize,
+}
+
+impl<T, const D: usize> Default for Acting<T, D> {
+    fn default() -> Self {
+        Self {
+            force: [0.0; D],
+            step: f64::INFINITY,
+            forces: [Vec::new(), Vec::new()],
+            anchors: Vec::new(),
+            stored: 0.0,
+            heat: 0.0,
+            penetration: [0.0; 2],
+            pairs: 0,
+        }
+    }
+}
+
+/// Pairs that may be within reach, and the particles in them. It follows from positions.
+#[derive(Debug)]
+pub(crate) struct PairList<T: Real, const D: usize> {
+    /// Particles in pairs by their numbers in the body: of the first side up to `split`, then of the second.
+    rows: Vec<u32>,
+    split: usize,
+    /// Pairs of rows, in the order of the particles' numbers.
+    pairs: Vec<[u32; 2]>,
+    /// Where all particles of both bodies were \[m\], by number; empty before the first list.
+    listed: [Vec<[f64; D]>; 2],
+    /// How far both sides together may move before it is made anew \[m\].
+    skin: f64,
+    particles: Vec<CoupledParticle<T, D>>,
+    forces: Vec<[T; D]>,
+    anchors: Vec<([u32; 2], [T; D])>,
+    near: [Vec<u32>; 2],
+    found: Vec<[u32; 2]>,
+    row_of: Vec<u32>,
+}
+
+impl<T: Real, const D: usize> Default for PairList<T, D> {
+    fn default() -> Self {
+        Self {
+            rows: Vec::new(),
+            split: 0,
+            pairs: Vec::new(),
+            listed: [Vec::new(), Vec::new()],
+            skin: 0.0,
+            particles: Vec::new(),
+            forces: Vec::new(),
+            anchors: Vec::new(),
+            near: [Vec::new(), Vec::new()],
+            found: Vec::new(),
+            row_of: Vec::new(),
+        }
+    }
+}
+
+/// How a coupling by forces stands; see [couplings](crate::coupling#energy).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contact {
+    /// The name of the coupling.
+    pub name: &'static str,
+    /// The bodies; a body that meets itself is there twice.
+    pub bodies: [String; 2],
+    /// Pairs that act.
+    pub pairs: usize,
+    /// The force on the first body \[N\]; zero for a body that meets itself.
+    pub force: Vec<f64>,
+    /// Energy that it stores \[J\].
+    pub stored: f64,
+    /// Heat of friction since the start \[J\].
+    pub heat: f64,
+    /// What it has worked on both bodies since the start \[J\].
+    pub work: [f64; 2],
+    /// How much nearer than a mean spacing the nearest pair is, in spacings; zero if none is nearer.
+    pub penetration: f64,
+    /// The largest since the start.
+    pub largest_penetration: f64,
+}
+
+impl<T: Real, const D: usize> Simulation<T, D> {
+    /// How all couplings by forces stand, in the order of the scene.
+    #[must_use]
+    pub fn contacts(&self) -> Vec<Contact> {
+        let contact = |own: &Couple<T, D>| Contact {
+            name: own.coupling.name(),
+            bodies: own.sides.map(|(group, body)| {
+                let bodies = &self.groups[group].particles.bodies;
+                bodies[body].name.clone()
+            }),
+            pairs: own.acting.pairs,
+            force: own.acting.force.to_vec(),
+            stored: own.acting.stored,
+            heat: own.acting.heat,
+            work: own.work,
+            penetration: own.acting.penetration[0],
+            largest_penetration: own.acting.penetration[1],
+        };
+        self.couples.iter().map(contact).collect()
+    }
+
+    /// The largest penetration since the start, in mean spacings, of all couplings with a name.
+    ///
+    /// # Errors
+    /// If no coupling by forces has that name; the error lists those that there are.
+    pub fn largest_penetration(&self, coupling: &str) -> Result<f64> {
+        let own = (self.couples.iter()).filter(|own| own.coupling.name() == coupling);
+        let own = own.map(|own| own.acting.penetration[1]).reduce(f64::max);
+        own.ok_or_else(|| {
+            let known: Vec<_> = self.couples.iter().map(|own| own.coupling.name()).collect();
+            Error::Argument(Problem::UnknownName {
+                kind: "coupling by forces",
+                name: coupling.into(),
+                known: known.join(", "),
+            })
+        })
+    }
+
+    /// Gives bodies the forces of couplings between pairs, with the rates at hand.
+    pub(super) fn act_in_pairs(&mut self) {
+        for couple in &mut self.couples {
+            couple.act(&mut self.groups, self.control.approach);
+        }
+    }
+
+    /// Books what couplings by forces work in a kick over `dt` \[s\].
+    pub(super) fn record_couples(&mut self, dt: f64) {
+        for couple in &mut self.couples {
+            for side in 0..2 {
+                couple.work[side] += couple.work_in_kick(side, &self.groups, dt);
+            }
+        }
+    }
+}
+
+impl<T: Real, const D: usize> Couple<T, D> {
+    /// Whether it is of a body with itself.
+    pub fn is_self(&self) -> bool {
+        self.sides[0] == self.sides[1]
+    }
+
+    /// The number of particles that a body has had.
+    fn count(&self, side: usize, groups: &[Group<T, D>]) -> usize {
+        let (group, body) = self.sides[side];
+        groups[group].particles.bodies[body].ids.len()
+    }
+
+    /// The slot of a particle of a side, if it is there.
+    fn slot(&self, side: usize, id: u32, groups: &[Group<T, D>]) -> Option<usize> {
+        let (group, body) = self.sides[side];
+        let particles = &groups[group].particles;
+        let slot = particles.slot_of[particles.bodies[body].ids.start + id as usize];
+        (slot != u32::MAX).then_some(slot as usize)
+    }
+
+    fn spacing(&self, groups: &[Group<T, D>]) -> f64 {
+        let [first, second] = self
+            .sides
+            .map(|(group, body)| groups[group].spacing_of(body));
+        0.5 * (first + second)
+    }
+
+    fn work_in_kick(&self, side: usize, groups: &[Group<T, D>], dt: f64) -> f64 {
+        let group = &groups[self.sides[side].0];
+        let columns = &group.particles.columns;
+        let (mass, v) = (columns.raw(Field::MASS), columns.vectors(Field::VELOCITY));
+        let mut work = 0.0;
+        for &(id, force) in &self.acting.forces[side] {
+            let Some(slot) = self.slot(side, id, groups) else {
+                continue;
+            };
+            for d in 0..D {
+                // Where a group sub-cycles, the kick is that of couplings alone.
+                let a = group.sub_cycle.as_ref().map_or_else(
+                    || group.acceleration(slot * D + d),
+                    |apart| apart.forces[slot][d] / mass[slot],
+                );
+                work += force[d].to_f64() * (v[slot][d].to_f64() + 0.5 * dt * a.to_f64());
+            }
+        }
+        dt * work
+    }
+
+    /// Forces between all pairs within reach, on the groups of both sides.
+    fn act(&mut self, groups: &mut [Group<T, D>], approach: f64) {
+        if self.stiffness.is_nan() {
+            let [a, b] = self
+                .sides
+                .map(|(group, body)| groups[group].stiffness_of(body));
+            self.stiffness = 2.0 / (1.0 / a + 1.0 / b);
+        }
+        if !self.list_serves(groups) {
+            self.list(groups);
+        }
+        let spacing = self.spacing(groups);
+        let mut list = core::mem::take(&mut self.list);
+        self.see(&mut list, groups);
+        let as_built = self.coupling.as_built();
+        let reach = if as_built { f64::INFINITY } else { self.reach };
+        let gap = |x: &[T; D], y: &[T; D]| -> f64 {
+            let square = (0..D).map(|d| (x[d].to_f64() - y[d].to_f64()).powi(2));
+            square.sum::<f64>().sqrt()
+        };
+        let acting = &mut self.acting;
+        acting.stored = 0.0;
+        if self.coupling.gathers() {
+            for &[a, b] in &list.pairs {
+                let [on, from] = [a, b].map(|row| list.particles[row as usize]);
+                // What is not there is no number away.
+                if gap(&on.position, &from.position) < reach {
+                    for (row, seen) in [(a, (&on, &from)), (b, (&from, &on))] {
+                        let (sum, gradient) = self.coupling.gather(seen.0, seen.1);
+                        let own = &mut list.particles[row as usize];
+                        own.sum += sum;
+                        for d in 0..D {
+                            own.gradient[d] += gradient[d];
+                        }
+                    }
+                }
+            }
+            for own in &mut list.particles {
+                let (pressure, stored) = self.coupling.pressure(own, T::from_f64(spacing));
+                own.pressure = pressure;
+                acting.stored += stored;
+            }
+        }
+        acting.force = [0.0; D];
+        acting.step = f64::INFINITY;
+        acting.pairs = 0;
+        acting.penetration[0] = 0.0;
+        list.forces.clear();
+        list.forces.resize(list.rows.len(), [T::zero(); D]);
+        list.anchors.clear();
+        let mut before = acting.anchors.iter().peekable();
+        for &[a, b] in &list.pairs {
+            let [on, from] = [a, b].map(|row| list.particles[row as usize]);
+            let distance = gap(&on.position, &from.position);
+            if distance >= reach || distance.is_nan() {
+                continue;
+            }
+            let ids = [a, b].map(|row| list.rows[row as usize]);
+            while before.peek().is_some_and(|own| own.0 < ids) {
+                before.next();
+            }
+            let rest = if as_built {
+                let at = |side: usize| self.reference[side][ids[side] as usize];
+                (0..D)
+                    .map(|d| (at(0)[d] - at(1)[d]).powi(2))
+                    .sum::<f64>()
+                    .sqrt()
+            } else {
+                0.0
+            };
+            let own = self.coupling.act(&CoupledPair {
+                on,
+                from,
+                rest: T::from_f64(rest),
+                anchor: before.peek().filter(|own| own.0 == ids).map(|own| own.1),
+            });
+            acting.stored += own.stored;
+            acting.heat += own.heat;
+            if let Some(anchor) = own.anchor {
+                list.anchors.push((ids, anchor));
+            }
+            acting.penetration[0] = acting.penetration[0].max(1.0 - distance / spacing);
+            if own.force.iter().any(|force| *force != T::zero()) {
+                acting.pairs += 1;
+            }
+            for d in 0..D {
+                list.forces[a as usize][d] += own.force[d];
+                list.forces[b as usize][d] -= own.force[d];
+                acting.force[d] += own.force[d].to_f64();
+            }
+            let closing = (0..D).map(|d| {
+                let v = from.velocity[d] - on.velocity[d];
+                (v * (on.position[d] - from.position[d])).to_f64()
+            });
+            let closing = closing.sum::<f64>() / distance.max(f64::MIN_POSITIVE);
+            let mut step = self.coupling.step(&on, &from);
+            if closing > 0.0 && !as_built {
+                step = step.min(approach * distance.max(NEAREST * spacing) / closing);
+            }
+            // What is no number is no step at all.
+            acting.step = if step >= 0.0 {
+                acting.step.min(step)
+            } else {
+                0.0
+            };
+        }
+        core::mem::swap(&mut acting.anchors, &mut list.anchors);
+        acting.penetration[1] = acting.penetration[1].max(acting.penetration[0]);
+        if self.sides[0] == self.sides[1] {
+            acting.force = [0.0; D];
+        }
+        self.list = list;
+        self.hand_over(groups);
+    }
+
+    /// Gives particles their forces.
+    fn hand_over(&mut self, groups: &mut [Group<T, D>]) {
+        for side in 0..2 {
+            self.acting.forces[side].clear();
+        }
+        for (row, &id) in self.list.rows.iter().enumerate() {
+            let side = usize::from(row >= self.list.split);
+            let force = self.list.forces[row];
+            if force.iter().all(|force| *force == T::zero()) {
+                continue;
+            }
+            if let Some(slot) = self.slot(side, id, groups) {
+                groups[self.sides[side].0].push(slot, force);
+                self.acting.forces[side].push((id, force));
+            }
+        }
+    }
+
+    /// Reads the particles of all rows.
+    fn see(&self, list: &mut PairList<T, D>, groups: &[Group<T, D>]) {
+        let spacings = self
+            .sides
+            .map(|(group, body)| T::from_f64(groups[group].spacing_of(body)));
+        let stiffness = T::from_f64(self.stiffness);
+        list.particles.clear();
+        for (row, &id) in list.rows.iter().enumerate() {
+            let side = usize::from(row >= list.split);
+            let group = &groups[self.sides[side].0];
+            let mut particle = group.coupled_particle(0, spacings[side]);
+            match self.slot(side, id, groups) {
+                Some(slot) => particle = group.coupled_particle(slot, spacings[side]),
+                None => particle.position = [T::from_f64(f64::NAN); D],
+            }
+            particle.stiffness = stiffness;
+            list.particles.push(particle);
+        }
+    }
+
+    /// Whether no particle has moved so far that the list could miss a pair.
+    fn list_serves(&self, groups: &[Group<T, D>]) -> bool {
+        if self.list.listed[0].is_empty() {
+            return false;
+        }
+        if self.coupling.as_built() {
+            return true;
+        }
+        let moved = |side: usize| {
+            let (group, body) = self.sides[side];
+            let particles = &groups[group].particles;
+            let body = &particles.bodies[body];
+            let x = particles.columns.vectors(Field::POSITION);
+            let listed = &self.list.listed[side];
+            let far = |slot: usize| {
+                let before = &listed[particles.ids[slot] as usize - body.ids.start];
+                let square = (0..D).map(|d| (x[slot][d].to_f64() - before[d]).powi(2));
+                let square = square.sum::<f64>();
+                // One that was not there has come from anywhere.
+                if square.is_nan() {
+                    f64::INFINITY
+                } else {
+                    square
+                }
+            };
+            let far = body
+                .slots
+                .clone()
+                .into_par_iter()
+                .with_min_len(4096)
+                .map(far);
+            far.reduce(|| 0.0, f64::max).sqrt()
+        };
+        let first = moved(0);
+        let second = if self.is_self() { first } else { moved(1) };
+        first + second <= self.list.skin
+    }
+
+    /// Lists pairs that may be within reach before particles have moved by half the skin.
+    fn list(&mut self, groups: &[Group<T, D>]) {
+        let mut list = core::mem::take(&mut self.list);
+        let skin = SKIN * self.spacing(groups);
+        list.skin = skin;
+        let as_built = self.coupling.as_built();
+        for side in 0..if self.is_self() { 1 } else { 2 } {
+            let listed = &mut list.listed[side];
+            listed.clear();
+            if as_built {
+                listed.extend_from_slice(&self.reference[side]);
+                continue;
+            }
+            listed.resize(self.count(side, groups), [f64::NAN; D]);
+            let (group, body) = self.sides[side];
+            let particles = &groups[group].particles;
+            let body = &particles.bodies[body];
+            for slot in body.slots.clone() {
+                let id = particles.ids[slot] as usize - body.ids.start;
+                let x = particles.columns.vectors(Field::POSITION)[slot];
+                listed[id] = x.map(Real::to_f64);
+            }
+        }
+        let reach = self.reach + if as_built { 0.0 } else { skin };
+        list.find(self.is_self(), reach);
+        if self.is_self() && self.exclusion > 0.0 {
+            let (rest, least) = (&self.reference[0], self.exclusion);
+            list.found.retain(|&[a, b]| {
+                let apart = |d: usize| (rest[a as usize][d] - rest[b as usize][d]).powi(2);
+                (0..D).map(apart).sum::<f64>() >= least * least
+            });
+        }
+        list.number(self.is_self());
+        self.list = list;
+    }
+}
+
+/// The box around points, by number, that are there.
+fn extent<const D: usize>(points: &[[f64; D]], of: impl Iterator<Item = u32>) -> [[f64; D]; 2] {
+    let start = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
+    of.fold(start, |[low, high], id| {
+        let x = &points[id as usize];
+        [
+            core::array::from_fn(|d| low[d].min(x[d])),
+            core::array::from_fn(|d| high[d].max(x[d])),
+        ]
+    })
+}
+
+impl<T: Real, const D: usize> PairList<T, D> {
+    /// Finds pairs of particles nearer than `reach` \[m\] by where they are listed.
+    fn find(&mut self, is_self: bool, reach: f64) {
+        let Self {
+            listed,
+            near,
+            found,
+            skin,
+            ..
+        } = self;
+        found.clear();
+        let other = usize::from(!is_self);
+        let all = |side: usize| 0..listed[side].len() as u32;
+        if is_self {
+            near[0].clear();
+            let there = |id: &u32| !listed[0][*id as usize][0].is_nan();
+            near[0].extend(all(0).filter(there));
+        } else {
+            let boxes = [0, 1].map(|side| extent(&listed[side], all(side)));
+            // Bodies that are far from each other may come nearer by all of their gap.
+            let gap = (0..D)
+                .map(|d| (boxes[1][0][d] - boxes[0][1][d]).max(boxes[0][0][d] - boxes[1][1][d]));
+            let gap = gap.fold(f64::NEG_INFINITY, f64::max);
+            *skin = skin.max(gap - reach + *skin);
+            for side in 0..2 {
+                let [low, high] = boxes[1 - side];
+                near[side].clear();
+                let inside = |id: &u32| {
+                    let x = &listed[side][*id as usize];
+                    (0..D).all(|d| (low[d] - reach..=high[d] + reach).contains(&x[d]))
+                };
+                near[side].extend(all(side).filter(inside));
+            }
+        }
+        if near[0].is_empty() || near[other].is_empty() {
+            return;
+        }
+        let cells = Cells::build(&listed[other], &near[other], reach);
+        for &a in &near[0] {
+            let x = listed[0][a as usize];
+            cells.for_each_run(x.map(|x| x - reach), x.map(|x| x + reach), |run| {
+                for &b in run {
+                    let y = &listed[other][b as usize];
+                    let square = (0..D).map(|d| (x[d] - y[d]).powi(2)).sum::<f64>();
+                    if square < reach * reach && (!is_self || a < b) {
+                        found.push([a, b]);
+                    }
+                }
+            });
+        }
+        found.sort_unstable();
+    }
+
+    /// Numbers the particles in pairs.
+    fn number(&mut self, is_self: bool) {
+        let Self {
+            rows,
+            split,
+            pairs,
+            listed,
+            found,
+            row_of,
+            ..
+        } = self;
+        rows.clear();
+        pairs.clear();
+        pairs.extend_from_slice(found);
+        let sides: &[&[usize]] = if is_self { &[&[0, 1]] } else { &[&[0], &[1]] };
+        for (side, places) in sides.iter().enumerate() {
+            row_of.clear();
+            row_of.resize(listed[side].len(), u32::MAX);
+            for pair in &*found {
+                for &place in *places {
+                    row_of[pair[place] as usize] = 0;
+                }
+            }
+            for (id, row) in row_of.iter_mut().enumerate() {
+                if *row == 0 {
+                    *row = rows.len() as u32;
+                    rows.push(id as u32);
+                }
+            }
+            if side == 0 {
+                *split = rows.len();
+            }
+            for (pair, ids) in pairs.iter_mut().zip(&*found) {
+                for &place in *places {
+                    pair[place] = row_of[ids[place] as usize];
+                }
+            }
+        }
+    }
+}
+
+impl<T: Real, const D: usize> Group<T, D> {
+    /// The largest ρc² of a body \[Pa\].
+    fn stiffness_of(&self, body: usize) -> f64 {
+        let columns = &self.particles.columns;
+        let (rho, c) = (columns.raw(Field::DENSITY), columns.raw(Field::SOUND_SPEED));
+        let own = self.particles.bodies[body].slots.clone();
+        own.fold(0.0, |most: f64, slot| {
+            most.max(rho[slot].to_f64() * c[slot].to_f64().powi(2))
+        })
+    }
+}
