@@ -163,7 +163,10 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         );
         group.indices = self.indices();
         group.instructions = self.scene.instructions;
-        group.outlets.clone_from(&self.scene.outlets);
+        // What keeps its neighbours stays whole.
+        if !self.scheme.density.keeps_neighbors() {
+            group.outlets.clone_from(&self.scene.outlets);
+        }
         group.emitters = emitters;
         group.sub_cycle = self.scene.sub_cycle_of(self.number);
         group

@@ -3,7 +3,8 @@
 
 use crate::common::{self, Random};
 use meshfree::boundary::{Crush, Inlet, Outlet, Rotation, Wall};
-use meshfree::effect::Hypoelastic;
+use meshfree::coupling::ContactDensity;
+use meshfree::effect::{FiniteStrainPlasticity, Hypoelastic, NeoHookean};
 use meshfree::error::CheckpointProblem;
 use meshfree::integrator::Predictor;
 use meshfree::material::Material;
@@ -372,6 +373,42 @@ fn a_liquid_on_a_structure() {
     };
     stop_and_go_on("structure", scene, false, 0.02);
     stop_and_go_on("sub-cycled", || scene().sub_cycle("block", 16), true, 0.02);
+}
+
+/// Water on an elastic plate that is clamped, and a block that yields and touches it by a coupling, in one scene.
+#[test]
+fn liquid_wall_elastic_and_plastic_bodies_go_on() {
+    let scene = || {
+        let water = catalogue::water_at(meshfree::material::SoundSpeed::artificial(2.0));
+        let soft = |name: &str| {
+            Material::new(name, meshfree::material::eos::Linear::new(1100.0, 40.0))
+                .with_shear_modulus(5e5)
+                .with_yield_stress(2e3)
+        };
+        let plate = Body::block("plate", soft("plate"), [-0.03, -0.05], [0.13, 0.0], DX);
+        let block = Body::block("block", soft("block"), [0.02, -0.105], [0.08, -0.055], DX);
+        Scene::<f64, 2>::new(schemes::weakly_compressible())
+            .body(Body::block("water", water, [0.0; 2], [0.1, 0.08], DX))
+            .group(schemes::total_lagrangian().with(NeoHookean), [plate])
+            .group(
+                schemes::total_lagrangian().with(FiniteStrainPlasticity),
+                [block.velocity([0.0, 2.0])],
+            )
+            .wall(Wall::around(
+                "tank",
+                [0.0; 2],
+                [0.1; 2],
+                DX,
+                4,
+                [[true; 2], [false; 2]],
+            ))
+            .clamp("plate", |[x, _]| !(0.0..0.1).contains(&x))
+            .couple("plate", "block", ContactDensity::new())
+            .between("water", "block", Interaction::None)
+            .sub_cycle("plate", 8)
+            .acceleration(|_| [0.0, -9.81])
+    };
+    stop_and_go_on("mixed", scene, true, 0.01);
 }
 
 #[test]

@@ -19,3 +19,4 @@ mod riemann_walls;
 mod sampling;
 mod sloshing;
 mod sound_and_volume;
+mod structures;

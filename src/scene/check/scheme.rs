@@ -104,12 +104,12 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             boundary.moves() || boundary.interaction() == Interaction::Unilateral
         };
         let opens = self.interactions().contains(&Interaction::Unilateral);
-        let opens = opens || boundaries.iter().any(leaves) || !self.scene.outlets.is_empty();
+        let opens = opens || boundaries.iter().any(leaves);
         if scheme.density.keeps_neighbors() && (opens || self.inlets().next().is_some()) {
             incompatible(
                 format!(
-                    "the scheme {} keeps its neighbours, and the scene has a contact that opens, a boundary that moves, \
-                     an inlet or an outlet",
+                    "the scheme {} keeps its neighbours, and the scene has a contact that opens, a boundary that moves \
+                     or an inlet of it",
                     scheme.name
                 ),
                 "bond the bodies or let them meet by a coupling, and take planes of symmetry (MirrorPlane::new) and \
