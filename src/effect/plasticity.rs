@@ -3,8 +3,8 @@
 
 use super::radial_return::{after, radial_return};
 use super::{
-    Chunk, Effect, Hypoelastic, Law, LedgerColumn, SceneFacts, Setting, StepProgram, Tally,
-    UniaxialStress,
+    Chunk, Effect, Hypoelastic, Law, LedgerColumn, PlaneStress, SceneFacts, Setting, StepProgram,
+    Tally, UniaxialStress, plane_stress,
 };
 use crate::error::Problem;
 use crate::material::strength::{PlasticState, ROOM_TEMPERATURE};
@@ -29,7 +29,7 @@ use crate::term::{Stage, TermDoc};
 /// | [`STRAIN`](Self::STRAIN) | the equivalent plastic strain ε = ∫ √(2/3 Dᵖ:Dᵖ) dt |
 /// | [`WORK`](Self::WORK) | the plastic work w \[J/kg\], in the ledger as `plastic work` |
 ///
-/// In [`UniaxialStress`] Young's modulus stands for 3G.
+/// In [`UniaxialStress`] Young's modulus stands for 3G. In [`PlaneStress`] the strain across the sheet is solved with Δ.
 ///
 /// Internal energy has the work of S whether it is stored or dissipated, so total energy is kept as before. Particles
 /// that flowed are counted in [`limits`](crate::simulation::Simulation::limits). Every body needs a law of strength,
@@ -66,6 +66,8 @@ const STRAIN: Field = Plasticity::STRAIN;
 const WORK: Field = Plasticity::WORK;
 /// Carried by bars that are free to widen.
 const LATERAL_STRAIN: Field = UniaxialStress::LATERAL_STRAIN;
+/// Carried by sheets that are free to thin.
+const THICKNESS_STRAIN: Field = PlaneStress::THICKNESS_STRAIN;
 
 impl<const D: usize> Effect<D> for Plasticity {
     type Terms = ();
@@ -150,13 +152,14 @@ impl<T: Real, const D: usize> Law<T, D> for Plasticity {
         }
         let heating = material.plastic_heating();
         let (live, rest) = (chunk.live, material.reference_density());
-        let [stress, strain, work, pressure, density, lateral] = chunk.columns([
+        let [stress, strain, work, pressure, density, lateral, across] = chunk.columns([
             STRESS,
             STRAIN,
             WORK,
             Field::PRESSURE,
             Field::DENSITY,
             LATERAL_STRAIN,
+            THICKNESS_STRAIN,
         ]);
         let stiffness = if lateral.is_empty() {
             3.0 * modulus
@@ -164,8 +167,9 @@ impl<T: Real, const D: usize> Law<T, D> for Plasticity {
             material.youngs_modulus().unwrap_or(0.0)
         };
         let poisson = material.poisson_ratio().unwrap_or(0.0);
+        let bulk = material.bulk_modulus();
         for (n, stress) in stress.chunks_exact_mut(6).enumerate() {
-            let trial = von_mises(stress);
+            let mut trial = von_mises(stress);
             let (flowed, worked) = (strain[n].to_f64(), work[n].to_f64());
             let density = density[n].to_f64();
             let before = PlasticState {
@@ -175,11 +179,22 @@ impl<T: Real, const D: usize> Law<T, D> for Plasticity {
                 pressure: pressure[n].to_f64(),
                 density_ratio: density / rest,
             };
-            let Some([increment, yields]) =
-                radial_return(trial, stiffness, |more| after(law, &before, more, dt))
-            else {
+            let returned =
+                |trial: f64| radial_return(trial, stiffness, |more| after(law, &before, more, dt));
+            let Some([mut increment, mut yields]) = returned(trial) else {
                 continue;
             };
+            if let Some(across) = across.get_mut(n) {
+                let own = Symmetric::from_slice(stress);
+                let own = Symmetric::new(own.components().map(Real::to_f64));
+                let left = |trial: f64| returned(trial).map_or(1.0, |[_, yields]| yields / trial);
+                let more = plane_stress::strain_across(&own, [bulk, modulus], left);
+                let changed = plane_stress::with_strain_across(&own, modulus, more);
+                stress.copy_from_slice(&changed.components().map(T::from_f64));
+                *across += T::from_f64(more);
+                trial = von_mises(stress);
+                [increment, yields] = returned(trial).unwrap_or([0.0, trial]);
+            }
             if let Some(lateral) = lateral.get_mut(n) {
                 // Flow keeps volume, and takes back the widening of the elastic strain that it replaces.
                 let widening = (0.5 - poisson) * increment;

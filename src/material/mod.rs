@@ -14,7 +14,7 @@
 //!
 //! [`strength`] holds the yield stresses of solids. Shear and strength act under schemes with the effects
 //! [`Hypoelastic`](crate::effect::Hypoelastic) and [`Plasticity`](crate::effect::Plasticity); without them a solid is
-//! a fluid with its equation of state.
+//! a fluid with its equation of state. [`failure`] holds what ends them, under [`Damage`](crate::effect::Damage).
 //!
 //! ```
 //! use meshfree::material::{Material, catalogue, eos::{MieGruneisen, TensionCutOff}};
@@ -31,6 +31,7 @@
 pub mod catalogue;
 mod cold;
 pub mod eos;
+pub mod failure;
 mod liquid;
 pub mod rheology;
 mod solid;
@@ -41,6 +42,7 @@ pub use liquid::{Liquid, SoundSpeed};
 use crate::scalar::{Lane, Real};
 use core::fmt::Debug;
 use eos::{EosState, EquationOfState, GuardCounts};
+use failure::Failure;
 use rheology::{RheologyObject, ViscosityLaw};
 use std::sync::Arc;
 use strength::{PlasticHeating, Strength};
@@ -229,6 +231,7 @@ pub struct Material<T: Real> {
     rheology: Option<Arc<dyn RheologyObject<T>>>,
     strength: Option<Arc<dyn Strength>>,
     plastic_heating: Option<PlasticHeating>,
+    failure: Option<Arc<dyn Failure>>,
     sound_speed: SoundSpeed,
     eos: Arc<dyn EosObject<T>>,
 }
@@ -246,6 +249,7 @@ impl<T: Real> Material<T> {
             rheology: None,
             strength: None,
             plastic_heating: None,
+            failure: None,
             sound_speed: SoundSpeed::Physical,
             eos: Arc::new(Erased {
                 law: eos,
@@ -372,6 +376,9 @@ impl<T: Real> Material<T> {
             problems.extend(law.problems());
         }
         if let Some(law) = &self.strength {
+            problems.extend(law.problems());
+        }
+        if let Some(law) = &self.failure {
             problems.extend(law.problems());
         }
         if let Some(heating) = &self.plastic_heating {

@@ -1,7 +1,8 @@
-//! What makes a material a solid: elastic constants, strength, and the heat of plastic work.
+//! What makes a material a solid: elastic constants, strength, the heat of plastic work, and failure.
 //! They act under schemes with the effects that take them, and are known to reports without.
 
 use super::Material;
+use super::failure::Failure;
 use super::strength::{PlasticHeating, Strength};
 use crate::scalar::Real;
 use std::sync::Arc;
@@ -33,6 +34,19 @@ impl<T: Real> Material<T> {
         self
     }
 
+    /// What ends it, under schemes with [`Damage`](crate::effect::Damage).
+    ///
+    /// ```
+    /// use meshfree::material::{Material, catalogue, failure::PlasticStrainLimit};
+    /// let copper: Material<f64> = catalogue::copper().with_failure(PlasticStrainLimit::new(0.5));
+    /// assert_eq!(copper.failure().map(|law| law.name()), Some("limit of plastic strain"));
+    /// ```
+    #[must_use]
+    pub fn with_failure(mut self, law: impl Failure) -> Self {
+        self.failure = Some(Arc::new(law));
+        self
+    }
+
     /// The law of strength: the [one given](Self::with_strength), or perfect plasticity at the constant
     /// [`yield_stress`](Self::yield_stress); `None` for what has neither.
     #[must_use]
@@ -46,6 +60,11 @@ impl<T: Real> Material<T> {
     #[must_use]
     pub const fn plastic_heating(&self) -> Option<PlasticHeating> {
         self.plastic_heating
+    }
+    /// The law of failure, if it [has one](Self::with_failure).
+    #[must_use]
+    pub fn failure(&self) -> Option<&dyn Failure> {
+        self.failure.as_deref()
     }
     /// Poisson's ratio ν = (3K − 2G)/(6K + 2G) at rest, of what has a
     /// [shear modulus](Self::with_shear_modulus).

@@ -1,0 +1,251 @@
+//! Damage of solids: it grows as the material's law of failure says, and at one a particle bears no shear and no tension.
+//! Mass is never deleted: what has failed is counted, and stands in the ledger.
+
+use super::{
+    Chunk, Effect, Hypoelastic, Law, LedgerColumn, Plasticity, Setting, StepProgram, Tally,
+};
+use crate::error::Problem;
+use crate::material::failure::FailureState;
+use crate::material::strength::ROOM_TEMPERATURE;
+use crate::particles::{Field, Fields};
+use crate::scalar::Real;
+use crate::tensor::Symmetric;
+use crate::term::{Stage, TermDoc};
+
+/// Damage D of [`Hypoelastic`] solids by the [law of failure](crate::material::Material::with_failure) of their material:
+///
+/// D ← min(D + ΔD, 1),  at D = 1: S ← 0 and p ← max(p, 0)
+///
+/// for ever. Below one damage weakens nothing. The law sees each step's stress of the last evaluation's pressure and the
+/// deviatoric stress after plastic flow. What failed keeps mass, momentum and energy; particles that have failed
+/// are counted once each in [`limits`](crate::simulation::Simulation::limits), under `failure`, and their mass is in the
+/// ledger. The energy of distortion that a particle held when it failed stays in its internal energy.
+///
+/// | it adds | as |
+/// |---|---|
+/// | [`DAMAGE`](Self::DAMAGE) | D, from 0 to 1 |
+/// | [`FAILED`](Self::FAILED) | 1 where D is 1, else 0; in the ledger, times the mass, as `failed mass` |
+///
+/// Bodies without a law do not fail; a scene in which no body has one is refused. Put it behind
+/// [`Plasticity`](super::Plasticity) in the list, so that it sees the strain of the same step.
+///
+/// ```
+/// use meshfree::effect::{Damage, Hypoelastic};
+/// use meshfree::material::failure::SpallStrength;
+/// use meshfree::prelude::*;
+///
+/// // A copper bar whose halves fly apart fails in the middle.
+/// let copper = catalogue::copper().with_shear_modulus(46e9).with_failure(SpallStrength::new(1e9));
+/// let apart = |[x]: [f64; 1], start| meshfree::scheme::Start {
+///     velocity: [if x < 0.0 { -50.0 } else { 50.0 }],
+///     ..start
+/// };
+/// let scheme = schemes::impact_by_continuity().with(Hypoelastic).with(Damage);
+/// let mut bar = Scene::<f64, 1>::new(scheme)
+///     .body(Body::block("bar", copper, [-0.01], [0.01], 1e-4).start(apart))
+///     .build()?;
+/// bar.run_until(1e-6)?;
+/// let failed = bar.ledger().whole.total("failed mass").unwrap_or(0.0);
+/// assert!(failed > 0.0 && failed < 0.2 * bar.ledger().whole.mass);
+/// # Ok::<(), Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Damage;
+
+impl Damage {
+    /// Damage D, from 0 to 1.
+    pub const DAMAGE: Field = Field::scalar(10);
+    /// 1 where the particle has failed, else 0.
+    pub const FAILED: Field = Field::scalar(9);
+}
+
+const STRESS: Field = Hypoelastic::STRESS;
+const DAMAGE: Field = Damage::DAMAGE;
+const FAILED: Field = Damage::FAILED;
+/// The plastic strain at the last drift.
+const FLOWED: Field = Field::scalar(8);
+
+impl<const D: usize> Effect<D> for Damage {
+    type Terms = ();
+    fn terms(&self, _setting: &Setting) {}
+    fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
+        program.declare(DAMAGE, "damage", "1", 0.0);
+        program.declare(FAILED, "failed", "1", 0.0);
+        program.declare(FLOWED, "plastic_strain_of_damage", "1", 0.0);
+        program.law(Stage::Continuity, *self);
+        program.law(Stage::State, NoTension);
+        program.ledger(LedgerColumn {
+            name: "failed mass",
+            unit: "kg",
+            field: FAILED,
+            times_mass: true,
+            factor: 1.0,
+        });
+        program.document(TermDoc {
+            name: "damage".into(),
+            equation: "D ← min(D + ΔD, 1), at D = 1: S ← 0 and p ← max(p, 0)",
+            source: "Johnson & Cook 1985; the material's law of failure",
+        });
+        program.require(|scene| {
+            (!scene.integrated.contains(STRESS)).then(|| Problem::Incompatible {
+                what: "Damage takes the deviatoric stress away, which nothing in the scheme integrates"
+                    .into(),
+                remedy: "add the elastic solid as well: .with(Hypoelastic)",
+            })
+        });
+        program.require(|scene| {
+            let none = scene
+                .bodies
+                .iter()
+                .all(|(_, material)| material.failure().is_none());
+            none.then(|| Problem::Incompatible {
+                what: "no body has a law of failure, which Damage needs".into(),
+                remedy: "give a material a law (Material::with_failure), or leave out Damage",
+            })
+        });
+        // Plasticity names what it adds to the ledger, whatever else registers before it or after.
+        program.require(|scene| {
+            scene.bodies.iter().find_map(|(body, material)| {
+                let law = material.failure()?;
+                let lacks = law.uses_plastic_strain() && material.strength().is_none();
+                lacks.then(|| Problem::Incompatible {
+                    what: format!(
+                        "the failure of body `{body}`, of {}, follows from plastic strain ({}), and it has no strength",
+                        material.name,
+                        law.name()
+                    ),
+                    remedy: "give the material a law of strength (Material::with_strength), and the scheme Plasticity",
+                })
+            })
+        });
+        program.require(|scene| {
+            scene.bodies.iter().find_map(|(body, material)| {
+                let law = material.failure()?;
+                let lacks = law.uses_temperature() && material.plastic_heating().is_none();
+                lacks.then(|| Problem::Incompatible {
+                    what: format!(
+                        "the failure of body `{body}`, of {}, follows from temperature ({}), which it does not have",
+                        material.name,
+                        law.name()
+                    ),
+                    remedy: "give the material its specific heat (Material::with_plastic_heating)",
+                })
+            })
+        });
+        program.require(|scene| {
+            scene.bodies.iter().find_map(|(body, material)| {
+                let fails = material.failure()?.pressure_at_failure()?;
+                let least = material.eos().pressure_cut_off()?;
+                (least > fails).then(|| Problem::Incompatible {
+                    what: format!(
+                        "body `{body}`, of {}, fails at a pressure of {fails} Pa, which its cut-off at {least} Pa keeps \
+                         it from",
+                        material.name
+                    ),
+                    remedy: "leave out the cut-off (Material::with_pressure_cut_off), or lower it",
+                })
+            })
+        });
+    }
+}
+
+impl<T: Real, const D: usize> Law<T, D> for Damage {
+    fn name(&self) -> &'static str {
+        "failure"
+    }
+    fn reads(&self) -> Fields {
+        Fields::of(&[STRESS, DAMAGE, FLOWED, Field::PRESSURE])
+    }
+    fn writes(&self) -> Fields {
+        Fields::of(&[STRESS, DAMAGE, FAILED, FLOWED])
+    }
+    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
+        let mut tally = Tally::default();
+        let (material, dt) = (chunk.around.material, chunk.around.dt);
+        let Some(law) = material.failure() else {
+            return tally;
+        };
+        if !chunk.around.in_drift {
+            return tally;
+        }
+        let heating = material.plastic_heating();
+        let live = chunk.live;
+        let [damage, failed, flowed, stress, pressure, strain, work] = chunk.columns([
+            DAMAGE,
+            FAILED,
+            FLOWED,
+            STRESS,
+            Field::PRESSURE,
+            Plasticity::STRAIN,
+            Plasticity::WORK,
+        ]);
+        for (n, stress) in stress.chunks_exact_mut(6).enumerate() {
+            if damage[n] < T::one() {
+                let deviator = Symmetric::from_slice(stress);
+                let deviator = Symmetric::new(deviator.components().map(Real::to_f64));
+                let pressure = pressure[n].to_f64();
+                let [now, work] = [&*strain, &*work]
+                    .map(|column| column.get(n).map_or(0.0, |value| value.to_f64()));
+                let increment = now - flowed[n].to_f64();
+                flowed[n] = T::from_f64(now);
+                let state = FailureState {
+                    strain: now,
+                    increment,
+                    rate: if dt > 0.0 { increment / dt } else { 0.0 },
+                    temperature: heating.map_or(ROOM_TEMPERATURE, |own| own.temperature(work)),
+                    pressure,
+                    von_mises: (1.5 * deviator.contract(&deviator)).sqrt(),
+                    principal_stress: largest(&deviator) - pressure,
+                };
+                let more = damage[n].to_f64() + law.damage(&state);
+                damage[n] = T::from_f64(more.min(1.0));
+                if damage[n] >= T::one() {
+                    failed[n] = T::one();
+                    tally.limited += u64::from(n < live);
+                }
+            }
+            if damage[n] >= T::one() {
+                stress.fill(T::zero());
+            }
+        }
+        tally
+    }
+}
+
+/// The largest principal value of a tensor without trace, by the angle of Lode.
+fn largest(deviator: &Symmetric<f64>) -> f64 {
+    let second = 0.5 * deviator.contract(deviator);
+    if second <= 0.0 {
+        return 0.0;
+    }
+    let [xx, yy, zz, yz, xz, xy] = *deviator.components();
+    let third = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
+    let radius = (second / 3.0).sqrt();
+    let angle = (0.5 * third / radius.powi(3)).clamp(-1.0, 1.0).acos() / 3.0;
+    2.0 * radius * angle.cos()
+}
+
+/// Pressure without tension where a particle has failed.
+#[derive(Clone, Copy, Debug)]
+struct NoTension;
+
+impl<T: Real, const D: usize> Law<T, D> for NoTension {
+    fn name(&self) -> &'static str {
+        "tension of what has failed"
+    }
+    fn reads(&self) -> Fields {
+        Fields::of(&[DAMAGE, Field::PRESSURE])
+    }
+    fn writes(&self) -> Fields {
+        Fields::of(&[Field::PRESSURE])
+    }
+    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
+        let [damage, pressure] = chunk.columns([DAMAGE, Field::PRESSURE]);
+        for (damage, pressure) in damage.iter().zip(pressure) {
+            if *damage >= T::one() {
+                *pressure = pressure.max(T::zero());
+            }
+        }
+        Tally::default()
+    }
+}

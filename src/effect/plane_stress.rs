@@ -1,0 +1,205 @@
+//! Plane stress: sheets in two dimensions that are free to thin, the strain by which stress across them is zero.
+//! Without it a plane of particles is a slice of a long body, in plane strain.
+
+use super::{
+    Chunk, Effect, Evolved, Hypoelastic, Law, Rate, Setting, StepProgram, Tally, View, When,
+};
+use crate::error::Problem;
+use crate::particles::{Field, Fields, Output, Outputs};
+use crate::scalar::Real;
+use crate::tensor::Symmetric;
+use crate::term::{Stage, TermDoc};
+
+/// Plane stress, for [`Hypoelastic`] solids in two dimensions: thin sheets, whose longitudinal waves run at
+/// √(E/ρ(1 − ν²)).
+///
+/// ε̇_zz = −ν/(1 − ν) (ε̇_xx + ε̇_yy),  p = S_zz,  so that σ_zz = S_zz − p = 0
+///
+/// with Poisson's ratio ν of the material at rest. Where [`Plasticity`](super::Plasticity) lets a particle flow, what
+/// ε_zz changes beyond that follows from the return itself: δ solves
+///
+/// (S − G̃δ) Y/σ |_zz = p − K δ,  S(δ) = S + 2 G δ (e_z ⊗ e_z − 1/3)
+///
+/// with the stress σ of von Mises of S(δ), its yield stress Y after flow, and bulk modulus K (the condition of Simo &
+/// Taylor 1986, solved by the strain and not by their projection). The pressure of the equation of state does not act.
+/// Strains are small, as in [`UniaxialStress`](super::UniaxialStress): the force is that on the thickness at rest, and
+/// density is that of the plane. The step, and viscosity, take the speed of longitudinal waves in the bulk, which is
+/// above that of the sheet.
+///
+/// | it adds | as |
+/// |---|---|
+/// | [`THICKNESS_STRAIN`](Self::THICKNESS_STRAIN) | ε_zz, positive where the sheet is thicker |
+///
+/// ```
+/// use meshfree::effect::{Hypoelastic, PlaneStress};
+/// use meshfree::prelude::*;
+///
+/// // A steel sheet that is pulled gets thinner.
+/// let pulled = |[x, _]: [f64; 2], start| meshfree::scheme::Start { velocity: [200.0 * x, 0.0], ..start };
+/// let scheme = schemes::impact_by_continuity().with(Hypoelastic).with(PlaneStress);
+/// let mut sheet = Scene::<f64, 2>::new(scheme)
+///     .body(Body::block("sheet", catalogue::steel_4340(), [0.0; 2], [0.02, 0.01], 1e-3).start(pulled))
+///     .build()?;
+/// sheet.run_until(1e-6)?;
+/// let strains = sheet.all().filter_map(|p| p.scalar(PlaneStress::THICKNESS_STRAIN));
+/// assert!(strains.fold(0.0, f64::min) < -1e-5);
+/// # Ok::<(), Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default)]
+pub struct PlaneStress;
+
+impl PlaneStress {
+    /// Strain ε_zz of the thickness.
+    pub const THICKNESS_STRAIN: Field = Field::scalar(5);
+}
+
+const STRESS: Field = Hypoelastic::STRESS;
+const THICKNESS_STRAIN: Field = PlaneStress::THICKNESS_STRAIN;
+const GRADIENT: Outputs = Outputs::of(&[Output::VELOCITY_GRADIENT, Output::MOMENT_MATRIX]);
+
+impl Effect<2> for PlaneStress {
+    type Terms = ();
+    fn terms(&self, _setting: &Setting) {}
+    fn register<T: Real>(&self, program: &mut StepProgram<T, 2>) {
+        program.declare(THICKNESS_STRAIN, "thickness_strain", "1", 0.0);
+        let strain = Evolved::kicked(THICKNESS_STRAIN).at(When::Drift);
+        program.evolve(strain.by(*self));
+        program.contribute(STRESS, ThinningStress);
+        program.law(Stage::State, *self);
+        program.document(TermDoc {
+            name: "plane stress".into(),
+            equation: "D_zz = −ν/(1 − ν) (D_xx + D_yy), p = S_zz",
+            source: "Hooke's law with σ_zz = 0; Simo & Taylor 1986 where it flows",
+        });
+        program.require(|scene| {
+            (!scene.integrated.contains(STRESS)).then(|| Problem::Incompatible {
+                what:
+                    "PlaneStress needs a deviatoric stress, which nothing in the scheme integrates"
+                        .into(),
+                remedy: "add the elastic solid as well: .with(Hypoelastic)",
+            })
+        });
+    }
+}
+
+/// −ν/(1 − ν) ∇·v of each particle.
+fn thinning<T: Real>(at: &View<'_, T, 2>, slot: usize) -> T {
+    let poisson = at.around.material.poisson_ratio().unwrap_or(0.0);
+    at.velocity_gradient(slot).trace() * T::from_f64(-poisson / (1.0 - poisson))
+}
+
+impl<T: Real> Rate<T, 2> for PlaneStress {
+    fn reads(&self) -> Fields {
+        Fields::NONE
+    }
+    fn sums(&self) -> Outputs {
+        GRADIENT
+    }
+    fn source(&self, at: &View<'_, T, 2>, first: usize, source: &mut [T]) {
+        for (n, rate) in source.iter_mut().enumerate() {
+            *rate += thinning(at, first + n);
+        }
+    }
+}
+
+/// What thinning adds to the rate of S, 2 G (D − tr D/3) of its one component.
+#[derive(Clone, Copy, Debug)]
+struct ThinningStress;
+
+impl<T: Real> Rate<T, 2> for ThinningStress {
+    fn reads(&self) -> Fields {
+        Fields::NONE
+    }
+    fn sums(&self) -> Outputs {
+        GRADIENT
+    }
+    fn source(&self, at: &View<'_, T, 2>, first: usize, source: &mut [T]) {
+        let twice = T::from_f64(2.0 * at.around.material.shear_modulus.unwrap_or(0.0));
+        for (n, source) in source.chunks_exact_mut(6).enumerate() {
+            let strain = Symmetric::diagonal([T::zero(), T::zero(), thinning(at, first + n)]);
+            for (sum, rate) in source.iter_mut().zip(strain.deviator().components()) {
+                *sum += twice * *rate;
+            }
+        }
+    }
+}
+
+impl<T: Real> Law<T, 2> for PlaneStress {
+    fn name(&self) -> &'static str {
+        "pressure of plane stress"
+    }
+    fn reads(&self) -> Fields {
+        Fields::of(&[STRESS])
+    }
+    fn writes(&self) -> Fields {
+        Fields::of(&[Field::PRESSURE])
+    }
+    fn apply(&self, chunk: &mut Chunk<'_, T, 2>) -> Tally {
+        let [pressure, stress] = chunk.columns([Field::PRESSURE, STRESS]);
+        for (pressure, stress) in pressure.iter_mut().zip(stress.chunks_exact(6)) {
+            *pressure = stress[2];
+        }
+        Tally::default()
+    }
+}
+
+/// The strain δ across a sheet, beyond the elastic one, at which a return to the yield surface leaves no stress there.
+///
+/// `trial` is S \[Pa\] after the elastic change, its zz component the pressure; `left` gives Y/σ for a stress of von Mises
+/// \[Pa\], one where it does not yield.
+pub(super) fn strain_across(
+    trial: &Symmetric<f64>,
+    [bulk, shear]: [f64; 2],
+    left: impl Fn(f64) -> f64,
+) -> f64 {
+    let pressure = trial.at(2, 2);
+    let excess = |strain: f64| {
+        let changed = with_strain_across(trial, shear, strain);
+        let share = left(von_mises(&changed));
+        [
+            share.mul_add(changed.at(2, 2), bulk.mul_add(strain, -pressure)),
+            share,
+        ]
+    };
+    // The elastic slope K + 4G/3 is an upper bound for a law that hardens, and K a lower one for any share that falls
+    // while σ grows: Newton with what lies between, kept within its bracket by halving.
+    let (mut strain, mut low, mut high) = (0.0, f64::NEG_INFINITY, f64::INFINITY);
+    let size = von_mises(trial).max(f64::MIN_POSITIVE);
+    for _ in 0..MOST_TRIALS {
+        let [residual, share] = excess(strain);
+        if !(residual.abs() > 1e-14 * size) {
+            break;
+        }
+        if residual > 0.0 {
+            high = strain;
+        } else {
+            low = strain;
+        }
+        let mut next = strain - residual / (4.0 / 3.0 * shear).mul_add(share, bulk);
+        if next <= low || next >= high {
+            next = 0.5 * (low + high);
+        }
+        if next == strain || !next.is_finite() {
+            break;
+        }
+        strain = next;
+    }
+    strain
+}
+
+/// Most trials of a return; some ten are enough, because the slope is at most 1 + 4G/3K from the one taken.
+const MOST_TRIALS: usize = 100;
+
+/// S with the elastic change by a strain across the sheet.
+pub(super) fn with_strain_across(
+    stress: &Symmetric<f64>,
+    shear: f64,
+    strain: f64,
+) -> Symmetric<f64> {
+    let change = Symmetric::diagonal([-1.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0]);
+    stress.plus(2.0 * shear * strain, &change)
+}
+
+fn von_mises(stress: &Symmetric<f64>) -> f64 {
+    (1.5 * stress.contract(stress)).sqrt()
+}
