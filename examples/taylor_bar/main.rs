@@ -12,6 +12,7 @@ use meshfree::output::csv::CsvWriter;
 use meshfree::output::svg::{Axis, Cloud, Figure, Panel, Series};
 use meshfree::output::vtu::Pvd;
 use meshfree::prelude::*;
+use meshfree::term::viscosity::LimitedMonaghanGingold;
 use profile::Layers;
 use std::process::ExitCode;
 
@@ -50,6 +51,21 @@ const EXAMPLE: Example = Example {
             value: "NAME",
             help: "of updated: none (the default), hourglass-free",
         },
+        Own {
+            name: "--wall",
+            value: "NAME",
+            help: "mirror (the default), which the foot does not leave, or contact, which it may",
+        },
+        Own {
+            name: "--smoothing",
+            value: "RATIO",
+            help: "smoothing length over spacing; 1.7",
+        },
+        Own {
+            name: "--viscosity",
+            value: "ALPHA",
+            help: "linear coefficient of the artificial viscosity; 0.5",
+        },
     ],
 };
 
@@ -74,9 +90,17 @@ fn material(name: &str) -> Result<Material<f64>, Failure> {
     }
 }
 
-fn scheme(formulation: &str, cure: &str) -> Result<Scheme<f64, 3>, Failure> {
+fn scheme(
+    formulation: &str,
+    cure: &str,
+    [alpha, smoothing]: [f64; 2],
+) -> Result<Scheme<f64, 3>, Failure> {
     let updated = || {
-        schemes::impact_by_continuity()
+        let scheme = schemes::impact_by_continuity().with_kernel(WendlandC2);
+        let standard = *scheme.viscosity();
+        scheme
+            .with_viscosity(LimitedMonaghanGingold { alpha, ..standard })
+            .h_over_dx(smoothing)
             .with(Hypoelastic)
             .with(Plasticity)
     };
@@ -92,11 +116,14 @@ fn scheme(formulation: &str, cure: &str) -> Result<Scheme<f64, 3>, Failure> {
     }
 }
 
-/// A bar \[m, m/s\].
+/// A bar \[m, m/s\], at rest but for its speed.
 #[derive(Clone, Copy, Debug)]
 pub struct Bar {
+    /// Length \[m\].
     pub length: f64,
+    /// Diameter \[m\].
     pub diameter: f64,
+    /// Speed \[m/s\].
     pub speed: f64,
 }
 
@@ -148,12 +175,25 @@ fn perform(options: &Options) -> Result<(), Failure> {
     };
     let formulation = options.text("--formulation").unwrap_or("updated");
     let cure = options.text("--cure").unwrap_or("none");
+    let alpha = options.number("--viscosity", 0.5)?;
+    let smoothing = options.number("--smoothing", 1.7)?;
     let spacing = options.spacing_or(bar.diameter / 16.0, bar.diameter / 8.0);
     let until = options.until_or(80e-6, 40e-6);
     let metal = material(name)?;
-    let mut simulation = Scene::<f64, 3>::new(scheme(formulation, cure)?)
+    let down = [0.0, 0.0, -1.0];
+    let facing = options.text("--wall").unwrap_or("mirror");
+    let wall = match facing {
+        "mirror" => MirrorPlane::symmetry([0.0; 3], down),
+        "contact" => MirrorPlane::wall([0.0; 3], down),
+        other => {
+            return Err(
+                format!("--wall: `{other}` is not accepted; it takes mirror or contact").into(),
+            );
+        }
+    };
+    let mut simulation = Scene::<f64, 3>::new(scheme(formulation, cure, [alpha, smoothing])?)
         .body(quarter(bar, metal, spacing))
-        .boundary(MirrorPlane::wall([0.0; 3], [0.0, 0.0, -1.0]))
+        .boundary(wall)
         .boundary(MirrorPlane::symmetry([0.0; 3], [-1.0, 0.0, 0.0]))
         .boundary(MirrorPlane::symmetry([0.0; 3], [0.0, -1.0, 0.0]))
         .build()?;
@@ -236,7 +276,8 @@ fn perform(options: &Options) -> Result<(), Failure> {
 
     let last = simulation.ledger().whole;
     let mut report = format!(
-        "Taylor bar of {name}, {:.2} x {:.2} mm at {} m/s, spacing {:.3} mm, formulation {formulation}, cure {cure}\n\
+        "Taylor bar of {name}, {:.2} x {:.2} mm at {} m/s, spacing {:.3} mm, formulation {formulation}, cure {cure}, wall {facing}, \
+         viscosity {alpha}, smoothing {smoothing}\n\
          {summary}\n\
          length at the end         {:.3} mm ({:.4} of the first)\n\
          diameter of the foot      {:.3} mm (radius {:.3} mm)\n\
@@ -257,6 +298,6 @@ fn perform(options: &Options) -> Result<(), Failure> {
     );
     report += &shots::compared(name, bar, length, 2.0 * foot)?;
     std::fs::write(options.file("report.txt"), &report)?;
-    print!("{report}written to {}\n", options.folder().display());
+    println!("{report}written to {}", options.folder().display());
     Ok(())
 }

@@ -103,18 +103,18 @@ impl<const D: usize> Effect<D> for Damage {
                 remedy: "give a material a law (Material::with_failure), or leave out Damage",
             })
         });
-        // Plasticity names what it adds to the ledger, whatever else registers before it or after.
         program.require(|scene| {
             scene.bodies.iter().find_map(|(body, material)| {
                 let law = material.failure()?;
-                let lacks = law.uses_plastic_strain() && material.strength().is_none();
-                lacks.then(|| Problem::Incompatible {
+                let flows = scene.written.contains(Plasticity::STRAIN);
+                (law.uses_plastic_strain() && !flows).then(|| Problem::Incompatible {
                     what: format!(
-                        "the failure of body `{body}`, of {}, follows from plastic strain ({}), and it has no strength",
+                        "the failure of body `{body}`, of {}, follows from plastic strain ({}), and nothing flows under \
+                         the scheme",
                         material.name,
                         law.name()
                     ),
-                    remedy: "give the material a law of strength (Material::with_strength), and the scheme Plasticity",
+                    remedy: "add .with(Plasticity) before Damage, or take a law of stress",
                 })
             })
         });

@@ -18,7 +18,7 @@ use crate::term::{Stage, TermDoc};
 /// with Poisson's ratio ν of the material at rest. Where [`Plasticity`](super::Plasticity) lets a particle flow, what
 /// ε_zz changes beyond that follows from the return itself: δ solves
 ///
-/// (S − G̃δ) Y/σ |_zz = p − K δ,  S(δ) = S + 2 G δ (e_z ⊗ e_z − 1/3)
+/// S_zz(δ) Y/σ(δ) = p − K δ,  S(δ) = S + 2 G δ (e_z ⊗ e_z − 1/3)
 ///
 /// with the stress σ of von Mises of S(δ), its yield stress Y after flow, and bulk modulus K (the condition of Simo &
 /// Taylor 1986, solved by the strain and not by their projection). The pressure of the equation of state does not act.
@@ -167,7 +167,7 @@ pub(super) fn strain_across(
     let size = von_mises(trial).max(f64::MIN_POSITIVE);
     for _ in 0..MOST_TRIALS {
         let [residual, share] = excess(strain);
-        if !(residual.abs() > 1e-14 * size) {
+        if residual.abs() <= 1e-14 * size {
             break;
         }
         if residual > 0.0 {
