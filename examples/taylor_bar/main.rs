@@ -296,7 +296,9 @@ fn perform(options: &Options) -> Result<(), Failure> {
         last.total("plastic work").unwrap_or(0.0) / start.kinetic,
         last.total_energy() / start.total_energy() - 1.0,
     );
-    report += &shots::compared(name, bar, length, 2.0 * foot)?;
+    if last.kinetic < 0.01 * start.kinetic {
+        report += &shots::compared(name, bar, length, 2.0 * foot)?;
+    }
     std::fs::write(options.file("report.txt"), &report)?;
     println!("{report}written to {}", options.folder().display());
     Ok(())

@@ -8,7 +8,7 @@ const COUNT: usize = 20;
 const YOUNG: f64 = 1e6;
 const POISSON: f64 = 0.3;
 
-/// The least distance of neighbours after 100 times that a wave crosses a spacing, in spacings.
+/// The least distance of neighbours after 200 times that a wave crosses a spacing, in spacings.
 fn least_distance(cure: Cure, tension: f64) -> f64 {
     let body = Body::block(
         "square",
