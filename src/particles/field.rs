@@ -345,8 +345,6 @@ quantities! {
     LOAD_ACCELERATION, Vector, "load_acceleration", "m/s²";
     /// Rate of specific internal energy by heat sources.
     LOAD_HEATING, Scalar, "load_heating", "W/kg";
-    /// One where a [clamp](crate::scene::Scene::clamp) holds the particle, zero elsewhere.
-    CLAMPED, Scalar, "clamped", "1";
     /// Position X in the reference configuration, as built: where terms of a sweep read it, lists and kernels are those
     /// of the reference configuration.
     REFERENCE_POSITION, Point, "reference_position", "m";

@@ -20,7 +20,6 @@ impl<T: Real, const D: usize> Scene<T, D> {
             contacts,
             couplings,
             sub_cycled,
-            clamps,
             accelerations,
             loads,
             control,
@@ -67,10 +66,6 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 ),
             ),
             ("the loads", of_texts(all_loads)),
-            (
-                "clamps",
-                of_texts(clamps.iter().map(|clamp| clamp.body.clone())),
-            ),
             ("the choice of steps", of_texts([debug(control)])),
             ("the skin of neighbour lists", of_texts([debug(skin)])),
         ]

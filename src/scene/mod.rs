@@ -70,7 +70,7 @@ use crate::error::{BuildError, Error, Problem, Result};
 use crate::integrator::{Integrator, KickDriftKick};
 #[cfg(feature = "checkpoint")]
 use crate::output::checkpoint::Checkpoint;
-use crate::particles::{Field, Fields};
+use crate::particles::Fields;
 use crate::scalar::Real;
 use crate::scheme::Scheme;
 use crate::simulation::{Load, Simulation, StepControl, UniformLoad};
@@ -107,7 +107,6 @@ pub struct Scene<T: Real, const D: usize> {
     contacts: Vec<(String, String, Interaction)>,
     couplings: Vec<Coupled<T, D>>,
     sub_cycled: Vec<(String, u32)>,
-    clamps: Vec<Clamp<D>>,
     accelerations: Vec<UniformLoad<D>>,
     loads: Vec<Load<D>>,
     control: StepControl,
@@ -123,12 +122,6 @@ struct Coupled<T: Real, const D: usize> {
     coupling: Arc<dyn Coupling<T, D>>,
     /// Pairs of a body with itself that are nearer than this as built \[m\] do not act.
     exclusion: f64,
-}
-
-/// What of a body is held.
-struct Clamp<const D: usize> {
-    body: String,
-    region: Box<dyn Fn([f64; D]) -> bool + Send + Sync>,
 }
 
 /// Bodies that share a scheme.
@@ -159,7 +152,6 @@ impl<T: Real, const D: usize> Scene<T, D> {
             contacts: Vec::new(),
             couplings: Vec::new(),
             sub_cycled: Vec::new(),
-            clamps: Vec::new(),
             accelerations: Vec::new(),
             loads: Vec::new(),
             control,
@@ -339,41 +331,6 @@ impl<T: Real, const D: usize> Scene<T, D> {
         self
     }
 
-    /// Holds what of a body was built in a region: those particles keep the velocity that they start with, as the root of
-    /// a beam does at rest, or an end that a machine pulls at a steady speed. What that takes is in the
-    /// [ledger](crate::simulation::Ledger::boundary_impulse), and
-    /// [`force_between`](Simulation::force_between) the body and `"clamps"`.
-    ///
-    /// ```
-    /// use meshfree::effect::NeoHookean;
-    /// use meshfree::prelude::*;
-    ///
-    /// // A soft beam sags under its weight, and its clamp bears that.
-    /// let soft = Material::new("soft", meshfree::material::eos::Linear::new(1000.0, 30.0)).with_shear_modulus(5e5);
-    /// let mut beam = Scene::<f64, 2>::new(schemes::total_lagrangian().with(NeoHookean))
-    ///     .body(Body::block("beam", soft, [-0.02, 0.0], [0.1, 0.02], 0.004))
-    ///     .clamp("beam", |[x, _]| x < 0.0)
-    ///     .acceleration(|_| [0.0, -9.81])
-    ///     .build()?;
-    /// beam.run_until(5e-3)?;
-    /// let [_, lift] = beam.force_between("beam", "clamps")?;
-    /// assert!(lift > 0.0);
-    /// assert!(beam.all().filter(|p| p.position()[0] < 0.0).all(|p| p.velocity() == [0.0; 2]));
-    /// # Ok::<(), Error>(())
-    /// ```
-    #[must_use]
-    pub fn clamp(
-        mut self,
-        body: impl Into<String>,
-        region: impl Fn([f64; D]) -> bool + Send + Sync + 'static,
-    ) -> Self {
-        self.clamps.push(Clamp {
-            body: body.into(),
-            region: Box::new(region),
-        });
-        self
-    }
-
     /// Adds a load: an acceleration or a heat source that depends on place, velocity, density, body and time.
     #[must_use]
     pub fn load(mut self, load: Load<D>) -> Self {
@@ -488,9 +445,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
     fn fields_of(&self, scheme: &Scheme<T, D>, bodies: &[Body<T, D>]) -> Fields {
         let acts = |load: &&Load<D>| bodies.iter().any(|body| load.acts_on(&body.name));
         let own = self.loads.iter().filter(acts).map(Load::field);
-        let held = |clamp: &&Clamp<D>| bodies.iter().any(|body| body.name == clamp.body);
-        let clamps = self.clamps.iter().filter(held).map(|_| Field::CLAMPED);
-        own.chain(clamps).fold(scheme.fields(), |all, field| {
+        own.fold(scheme.fields(), |all, field| {
             all.union(Fields::of(&[field]))
         })
     }

@@ -111,11 +111,6 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                 let own = (&body.material, body.spacing);
                 self.scheme
                     .place(&mut columns, slot, own, body.points[k], &body.starts[k]);
-                let mut clamps = self.scene.clamps.iter();
-                let point = body.points[k];
-                if clamps.any(|clamp| clamp.body == body.name && (clamp.region)(point)) {
-                    columns.raw_mut(Field::CLAMPED)[slot] = T::one();
-                }
                 for start in &body.fields {
                     let width = start.components;
                     let values = start.values[k * width..(k + 1) * width].iter();

@@ -31,9 +31,6 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
             }
         }
         self.couple();
-        for group in &mut self.groups {
-            group.hold();
-        }
         self.evaluations += 1;
         self.rates_at_hand = true;
         Ok(())
@@ -45,13 +42,11 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
         }
         self.record_kick(None, dt);
         let time = self.time;
-        for k in 0..self.groups.len() {
-            if self.groups[k].sub_cycle.is_none() {
-                self.groups[k].kick_all(dt, time);
-                continue;
-            }
-            for (on, impulse) in self.groups[k].kick_apart(dt) {
-                self.record_clamps(on, impulse);
+        for group in &mut self.groups {
+            if group.sub_cycle.is_some() {
+                group.kick_apart(dt);
+            } else {
+                group.kick_all(dt, time);
             }
         }
     }

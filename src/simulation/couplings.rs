@@ -2,7 +2,7 @@
 //! What a coupling does is its own; the order, the search, the ledger and the opposite forces are here.
 
 use super::Simulation;
-use super::group::{ALL_CLAMPS, Group};
+use super::group::Group;
 use super::population::BodyState;
 use crate::coupling::{CoupledParticle, Coupling};
 use crate::particles::{Field, Output};
@@ -95,11 +95,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         &self,
         alone: Option<usize>,
     ) -> impl Iterator<Item = (usize, usize, [f64; D])> {
-        let last = self.blocks() - 1;
         let own = self.stepping(alone).flat_map(Group::reactions);
-        let own = own.map(move |(on, from, force)| {
-            (on, if from == ALL_CLAMPS { last } else { from }, *force)
-        });
+        let own = own.map(|(on, from, force)| (on, from, *force));
         let couples = self.couples.iter().filter(move |_| alone.is_none());
         own.chain(couples.flat_map(|couple| {
             let [first, second] = couple.indices;

@@ -65,11 +65,6 @@ pub(super) struct Aside<T: Real, const D: usize> {
     pub rebuilds: u64,
 }
 
-/// The scene index of all clamps together, which stand behind everything that a group knows.
-pub(super) const ALL_CLAMPS: usize = usize::MAX;
-/// The block that all clamps are.
-pub(super) const CLAMPS: u32 = u32::MAX;
-
 pub(crate) fn width<T: Real>() -> usize {
     <T::Wide<false> as Lane>::WIDTH
 }
@@ -181,9 +176,6 @@ impl<T: Real, const D: usize> Group<T, D> {
     /// The scene index of a block: images of a wall count as the wall, and a structure as the
     /// body that it is.
     pub fn index(&self, block: u32) -> usize {
-        if block == CLAMPS {
-            return ALL_CLAMPS;
-        }
         let (block, bodies, boundaries) = (
             block as usize,
             self.particles.bodies.len(),

@@ -68,7 +68,7 @@ pub struct Ledger {
     pub bodies: Vec<(String, Budget)>,
     /// All bodies together.
     pub whole: Budget,
-    /// Momentum that boundaries and clamps have given since the start \[kg m/s\].
+    /// Momentum that boundaries have given since the start \[kg m/s\].
     pub boundary_impulse: Vec<f64>,
 }
 
@@ -109,10 +109,9 @@ impl Impulses {
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
-    /// Bodies, walls and boundaries, and all clamps together.
-    pub(super) fn blocks(&self) -> usize {
-        let clamps = usize::from(self.has_clamps());
-        self.body_count() + self.wall_count() + self.groups[0].boundaries.len() + clamps
+    /// Bodies, walls and boundaries.
+    fn blocks(&self) -> usize {
+        self.body_count() + self.wall_count() + self.groups[0].boundaries.len()
     }
 
     pub(super) fn impulse_index(&self, on: usize, from: usize, d: usize) -> usize {
@@ -137,14 +136,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             }
         }
         self.impulses = impulses;
-    }
-
-    /// Momentum \[kg m/s\] that clamps give a body beside what they bear in evaluations.
-    pub(super) fn record_clamps(&mut self, on: usize, impulse: [f64; D]) {
-        for (d, value) in impulse.into_iter().enumerate() {
-            let index = self.impulse_index(on, self.blocks() - 1, d);
-            self.impulses.add(index, value);
-        }
     }
 
     pub(super) fn impulse_rates(&self) -> Impulses {
@@ -306,7 +297,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     /// The force \[N\] that body, wall or boundary `from` exerts on body `on` at the last evaluation. Indices count
-    /// bodies in the order of the scene, then walls, then boundaries, then all clamps together as `clamps`. A structure, which is a wall to the liquids of a
+    /// bodies in the order of the scene, then walls, then boundaries. A structure, which is a wall to the liquids of a
     /// scene, is the body that it is.
     ///
     /// ```
@@ -330,15 +321,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let named = self.bodies().chain(self.walls()).map(Cow::Borrowed);
         let boundaries = self.groups[0].boundaries.iter();
         let boundaries = boundaries.map(|boundary| Cow::Owned(boundary.name()));
-        let clamps = self
-            .has_clamps()
-            .then_some(Cow::Borrowed("clamps"))
-            .into_iter();
         let blocks = || {
             named
                 .clone()
                 .chain(boundaries.clone())
-                .chain(clamps.clone())
                 .map(|name| (name, ()))
         };
         let kind = "body, wall or boundary";

@@ -114,7 +114,6 @@ mod advance;
 mod approach;
 #[cfg(feature = "checkpoint")]
 mod checkpoint;
-mod clamps;
 mod contact;
 mod control;
 mod cost;

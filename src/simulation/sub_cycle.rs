@@ -84,28 +84,18 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 }
 
 impl<T: Real, const D: usize> Group<T, D> {
-    /// v ← v + dt F/m with what couplings do to it, and the work of that, F·(v + dt F/2m) dt; what its clamps take,
-    /// by body \[kg m/s\].
-    pub(super) fn kick_apart(&mut self, dt: f64) -> Vec<(usize, [f64; D])> {
-        let mut held = Vec::new();
+    /// v ← v + dt F/m with what couplings do to it, and the work of that, F·(v + dt F/2m) dt.
+    pub(super) fn kick_apart(&mut self, dt: f64) {
         let Some(apart) = &mut self.sub_cycle else {
-            return held;
+            return;
         };
         let step = T::from_f64(dt);
-        let [v, mass, clamped] =
-            self.particles
-                .columns
-                .many_mut([Field::VELOCITY, Field::MASS, Field::CLAMPED]);
-        let bodies = self.particles.bodies.iter().enumerate();
-        for ((block, body), work) in bodies.zip(&mut apart.work) {
-            let mut impulse = [0.0; D];
+        let [v, mass] = self
+            .particles
+            .columns
+            .many_mut([Field::VELOCITY, Field::MASS]);
+        for (body, work) in self.particles.bodies.iter().zip(&mut apart.work) {
             for slot in body.slots.clone() {
-                if clamped.get(slot).is_some_and(|held| *held > T::zero()) {
-                    for d in 0..D {
-                        impulse[d] -= dt * apart.forces[slot][d].to_f64();
-                    }
-                    continue;
-                }
                 for (d, force) in apart.forces[slot].into_iter().enumerate() {
                     let v = &mut v[slot * D + d];
                     let before = v.to_f64();
@@ -113,11 +103,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                     *work += 0.5 * mass[slot].to_f64() * (v.to_f64().powi(2) - before * before);
                 }
             }
-            if !clamped.is_empty() {
-                held.push((self.indices[block], impulse));
-            }
         }
-        held
     }
 }
 
@@ -147,9 +133,7 @@ impl<T: Real, const D: usize> System for Alone<'_, T, D> {
         group.evaluated_gravity = gravity.map(T::from_f64);
         group.evaluate(time, elapsed);
         self.simulation.follow_moves(self.group);
-        self.simulation.apply_loads(self.group, time)?;
-        self.own().hold();
-        Ok(())
+        self.simulation.apply_loads(self.group, time)
     }
 
     fn kick(&mut self, dt: f64) {

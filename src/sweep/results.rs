@@ -103,22 +103,6 @@ impl<T: Real, const D: usize> Results<T, D> {
         }
     }
 
-    /// Sets a vector sum of the particle in `slot`, where it was asked for.
-    pub(crate) fn put(&mut self, output: Output, slot: usize, vector: [T; D]) {
-        let present = self.vector(output, slot);
-        let zero = core::array::from_fn(|d| -present[d]);
-        self.add(output, slot, zero);
-        self.add(output, slot, vector);
-    }
-
-    /// Adds a force between blocks.
-    pub(crate) fn react(&mut self, reaction: Reaction<D>) {
-        match self.reactions.last_mut() {
-            Some(last) => last.push(reaction),
-            None => self.reactions.push(vec![reaction]),
-        }
-    }
-
     /// Adds the product of a weight and a value to a sum of every particle, where it was asked for; values stand slot by
     /// slot with all of their components.
     pub(crate) fn add_weighted(&mut self, output: Output, weights: &[T], values: &[T]) {

@@ -7,7 +7,7 @@ mod memory;
 mod scheme;
 mod walls;
 
-use super::{Body, Clamp, Part, Plan, SKINS, Scene};
+use super::{Body, Part, Plan, SKINS, Scene};
 use crate::error::Problem;
 use crate::neighbors::Cells;
 use crate::scalar::Real;
@@ -156,32 +156,6 @@ impl<T: Real, const D: usize> Scene<T, D> {
         }
         for load in &self.loads {
             self.check_load(load, problems);
-        }
-        for clamp in &self.clamps {
-            self.check_clamp(clamp, problems);
-        }
-    }
-
-    /// A clamp on something of a solid body that there is.
-    fn check_clamp(&self, clamp: &Clamp<D>, problems: &mut Vec<Problem>) {
-        let name = &clamp.body;
-        let owner = |part: &&Part<T, D>| part.bodies.iter().any(|body| body.name == *name);
-        let Some(part) = self.parts.iter().find(owner) else {
-            problems.push(self.unknown_body(name));
-            return;
-        };
-        if part.scheme.meets_walls() {
-            problems.push(Problem::Incompatible {
-                what: format!("a clamp holds body `{name}`, which is a liquid"),
-                remedy: "clamp solids; what holds a liquid is a wall (Scene::wall)",
-            });
-        }
-        let mut points = part.bodies.iter().filter(|body| body.name == *name);
-        if !points.any(|body| body.points.iter().any(|x| (clamp.region)(*x))) {
-            problems.push(Problem::Incompatible {
-                what: format!("a clamp holds nothing of body `{name}`"),
-                remedy: "let its region contain places of particles as built",
-            });
         }
     }
 
