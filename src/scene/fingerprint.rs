@@ -20,6 +20,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
             contacts,
             couplings,
             sub_cycled,
+            clamps,
+            rigid,
             accelerations,
             loads,
             control,
@@ -63,6 +65,20 @@ impl<T: Real, const D: usize> Scene<T, D> {
                         .iter()
                         .map(|own| debug((&own.first, &own.second, &own.coupling, own.exclusion)))
                         .chain([debug(sub_cycled)]),
+                ),
+            ),
+            (
+                "clamps and rigid bodies",
+                of_texts(
+                    clamps
+                        .iter()
+                        .map(|own| {
+                            let points = self.bodies().find(|body| body.name == own.body);
+                            let points = points.map_or(&[][..], |body| &body.points);
+                            let motion = own.motion.as_ref().map(|motion| motion.name());
+                            debug((&own.body, own.particles(points), motion))
+                        })
+                        .chain([debug(rigid)]),
                 ),
             ),
             ("the loads", of_texts(all_loads)),

@@ -51,6 +51,9 @@
 //! Any two bodies act on each other as a [coupling](crate::coupling) says: contact, ties, or one's own
 //! ([`Scene::couple`]), and a stiff group takes steps of its own ([`Scene::sub_cycle`]).
 //!
+//! Parts of a body are clamped by [`Scene::fix`] and [`Scene::clamp`], and a body moves as a rigid one by
+//! [`Scene::rigid`].
+//!
 //! Solids do not see walls of particles; a [`MirrorPlane`](crate::boundary::MirrorPlane) holds solids and liquids.
 
 mod body;
@@ -58,6 +61,7 @@ mod check;
 mod coupled;
 #[cfg(feature = "checkpoint")]
 mod fingerprint;
+mod held;
 mod plan;
 
 pub use body::{Body, Start};
@@ -75,6 +79,7 @@ use crate::scalar::Real;
 use crate::scheme::Scheme;
 use crate::simulation::{Load, Simulation, StepControl, UniformLoad};
 use crate::sweep::{InstructionSet, Interaction};
+use held::ClampOf;
 use plan::Plan;
 #[cfg(feature = "checkpoint")]
 use std::path::Path;
@@ -107,6 +112,8 @@ pub struct Scene<T: Real, const D: usize> {
     contacts: Vec<(String, String, Interaction)>,
     couplings: Vec<Coupled<T, D>>,
     sub_cycled: Vec<(String, u32)>,
+    clamps: Vec<ClampOf<D>>,
+    rigid: Vec<String>,
     accelerations: Vec<UniformLoad<D>>,
     loads: Vec<Load<D>>,
     control: StepControl,
@@ -152,6 +159,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
             contacts: Vec::new(),
             couplings: Vec::new(),
             sub_cycled: Vec::new(),
+            clamps: Vec::new(),
+            rigid: Vec::new(),
             accelerations: Vec::new(),
             loads: Vec::new(),
             control,
@@ -381,6 +390,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
     pub fn build(self) -> Result<Simulation<T, D>> {
         let fixed = self.control.fixed;
         let mut simulation = self.lay_out()?;
+        simulation.hold_velocities();
         simulation.take_references();
         let problems = simulation.isolated();
         if !problems.is_empty() {

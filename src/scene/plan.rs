@@ -164,6 +164,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         }
         group.emitters = emitters;
         group.sub_cycle = self.scene.sub_cycle_of(self.number);
+        self.scene.hold(self.number, &mut group);
         group
     }
 

@@ -28,9 +28,13 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
                 self.groups[k].evaluate(time, elapsed);
                 self.follow_moves(k);
                 self.apply_loads(k, time)?;
+                if self.groups[k].sub_cycle.is_some() {
+                    self.groups[k].hold(time, false);
+                }
             }
         }
         self.couple();
+        self.hold(time);
         self.evaluations += 1;
         self.rates_at_hand = true;
         Ok(())

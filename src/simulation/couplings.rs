@@ -129,11 +129,20 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 impl<T: Real, const D: usize> Group<T, D> {
     /// Adds a force \[N\] of a coupling on a particle: to its rates, or apart from them where it sub-cycles.
     pub(super) fn push(&mut self, slot: usize, force: [T; D]) {
-        match &mut self.sub_cycle {
-            None => self.work.rates.add(Output::FORCE, slot, force),
-            Some(apart) => {
-                for d in 0..D {
-                    apart.forces[slot][d] += force[d];
+        // What repeats the last particle goes where that goes.
+        let body = &self.particles.bodies[self.particles.body_of(slot)];
+        let end = if slot + 1 == body.slots.end {
+            body.end
+        } else {
+            slot + 1
+        };
+        for slot in slot..end {
+            match &mut self.sub_cycle {
+                None => self.work.rates.add(Output::FORCE, slot, force),
+                Some(apart) => {
+                    for d in 0..D {
+                        apart.forces[slot][d] += force[d];
+                    }
                 }
             }
         }

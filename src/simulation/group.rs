@@ -1,6 +1,7 @@
 //! A group: the bodies that share a scheme, with their particles, neighbourhood and workspace.
 //! Physics happens in `stages`, by the laws of the scheme.
 
+use super::held::Held;
 use super::neighborhood::Neighborhood;
 use super::population::Particles;
 use super::sub_cycle::SubCycle;
@@ -39,6 +40,8 @@ pub(crate) struct Group<T: Real, const D: usize> {
     pub is_met: bool,
     /// What it has beside others if it takes several steps in one of theirs.
     pub sub_cycle: Option<SubCycle<T, D>>,
+    /// Clamped particles and rigid bodies.
+    pub held: Held<D>,
     pub smoothing_length: f64,
     pub instructions: InstructionSet,
     pub guards: GuardCounts,
@@ -54,6 +57,7 @@ pub(super) struct Aside<T: Real, const D: usize> {
     pub coupling: Results<T, D>,
     /// What couplings do to a group that sub-cycles.
     pub apart: Vec<[T; D]>,
+    pub held: Held<D>,
     pub records: Records<T>,
     pub work_records: Records<T>,
     pub records_of_rates: bool,
@@ -95,6 +99,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             indices: Vec::new(),
             is_met: false,
             sub_cycle: None,
+            held: Held::default(),
             smoothing_length,
             instructions: InstructionSet::detect(),
             guards: GuardCounts::default(),
@@ -109,6 +114,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             rates: self.work.rates.clone(),
             coupling: self.work.coupling.clone(),
             apart: (self.sub_cycle.as_ref()).map_or(Vec::new(), |apart| apart.forces.clone()),
+            held: self.held.clone(),
             records: self.work.records.clone(),
             work_records: self.work.work_records.clone(),
             records_of_rates: self.work.records_of_rates,
@@ -133,6 +139,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         if let Some(apart) = &mut self.sub_cycle {
             apart.forces = aside.apart;
         }
+        self.held = aside.held;
         self.work.records = aside.records;
         self.work.work_records = aside.work_records;
         self.work.records_of_rates = aside.records_of_rates;

@@ -122,6 +122,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub(super) fn record_kick(&mut self, alone: Option<usize>, dt: f64) {
         self.record_impulses(alone, dt);
         self.record_work(alone, dt);
+        self.record_clamps(alone, dt);
         if alone.is_none() {
             self.record_couples(dt);
         }

@@ -27,6 +27,7 @@
 //! | smoothing lengths held at a limit | [`Simulation::limited_smoothing_lengths`] |
 //! | mass, momentum, kinetic and internal energy of every body, impulse of boundaries | [`Simulation::ledger`] |
 //! | force between two bodies, or a body and a boundary | [`Simulation::force_between`] |
+//! | force, impulse and work of clamps | [`Simulation::clamps`] |
 //! | work, stored energy, heat and penetration of couplings | [`Simulation::contacts`], [`Simulation::largest_penetration`] |
 //! | force and impulse on a wall | [`Simulation::wall_force`], [`Simulation::wall_impulse`] |
 //! | energy of a liquid, work on it, dissipation | [`Simulation::energy`] |
@@ -123,6 +124,7 @@ mod evaluate;
 mod evolve;
 mod fields;
 mod group;
+mod held;
 mod images;
 mod ledger;
 mod limits;
@@ -147,6 +149,7 @@ pub use contact::Contact;
 pub use control::{Criterion, StepControl, Vote};
 pub use cost::{Cost, CostLine};
 pub use energy::EnergyLedger;
+pub use held::Clamped;
 pub use ledger::{Budget, Ledger, Total};
 pub use load::{Load, LoadPoint};
 pub use phases::Phases;
@@ -157,6 +160,7 @@ pub(crate) use which::find;
 pub(crate) use contact::{Acting, Couple, PairList};
 pub(crate) use couplings::Structure;
 pub(crate) use group::{Group, width};
+pub(crate) use held::{Clamp, Rigid};
 pub use population::Removed;
 pub(crate) use population::{BodyState, Particles};
 pub(crate) use sub_cycle::SubCycle;

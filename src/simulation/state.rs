@@ -32,6 +32,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         ]);
         let residual = residual.get_mut(..mobile).unwrap_or_default();
         add_scaled(&mut x[..mobile], residual, v, dt);
+        self.move_rigid(dt.to_f64());
     }
 
     /// x ← x + da a with the accelerations of the last evaluation.

@@ -133,7 +133,9 @@ impl<T: Real, const D: usize> System for Alone<'_, T, D> {
         group.evaluated_gravity = gravity.map(T::from_f64);
         group.evaluate(time, elapsed);
         self.simulation.follow_moves(self.group);
-        self.simulation.apply_loads(self.group, time)
+        self.simulation.apply_loads(self.group, time)?;
+        self.own().hold(time, false);
+        Ok(())
     }
 
     fn kick(&mut self, dt: f64) {

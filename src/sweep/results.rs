@@ -103,6 +103,20 @@ impl<T: Real, const D: usize> Results<T, D> {
         }
     }
 
+    /// Sets a vector sum of the particle in `slot`, where it was asked for.
+    pub(crate) fn set(&mut self, output: Output, slot: usize, vector: [T; D]) {
+        let offset = self.offsets[output.place()];
+        if offset == ABSENT || slot < self.first {
+            return;
+        }
+        for (d, value) in vector.into_iter().enumerate() {
+            let at = self.at(slot - self.first, offset as usize + d);
+            if let Some(sum) = self.data.get_mut(at) {
+                *sum = value;
+            }
+        }
+    }
+
     /// Adds the product of a weight and a value to a sum of every particle, where it was asked for; values stand slot by
     /// slot with all of their components.
     pub(crate) fn add_weighted(&mut self, output: Output, weights: &[T], values: &[T]) {

@@ -6,6 +6,7 @@ mod common;
 mod tank;
 
 mod dam_break;
+mod floating;
 mod gauges;
 mod gentle_flows;
 mod groups;

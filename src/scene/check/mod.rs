@@ -2,6 +2,7 @@
 //! A message names the field, the value, and what to do.
 
 mod groups;
+mod held;
 mod limits;
 mod memory;
 mod scheme;
@@ -53,6 +54,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         self.check_groups(&mut problems);
         self.check_couplings(&mut problems);
         self.check_sub_cycles(&mut problems);
+        self.check_held(&mut problems);
         let before = problems.len();
         self.check_boundaries(&mut problems);
         if problems.len() == before {

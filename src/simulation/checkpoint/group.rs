@@ -1,6 +1,7 @@
 //! What a checkpoint holds of a group: what it is made of, what couplings have done to it, and what is counted.
 //! What an evaluation between steps has set aside is put in place of what that has left.
 
+use super::held::{put_held, take_held};
 use super::particles::{check_run, put_particles, take_particles};
 use super::workspace::{put_neighborhood, put_workspace};
 use crate::material::eos::GuardCounts;
@@ -10,6 +11,7 @@ use crate::scalar::Real;
 use crate::scheme::Scheme;
 use crate::simulation::couplings::Structure;
 use crate::simulation::group::{Aside, Group};
+use crate::simulation::held::Held;
 use crate::simulation::soundness::NEGATIVE_ENERGY;
 use crate::simulation::sub_cycle::SubCycle;
 use crate::sweep::{Records, Results};
@@ -33,6 +35,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             indices: _,
             is_met: _,
             sub_cycle,
+            held,
             smoothing_length: _,
             instructions: _,
             guards,
@@ -45,6 +48,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             rates: &work.rates,
             coupling: &work.coupling,
             apart: sub_cycle.as_ref().map_or(&[], |apart| &apart.forces),
+            held,
             records: &work.records,
             work_records: &work.work_records,
             records_of_rates: work.records_of_rates,
@@ -89,6 +93,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             file.put(format!("{name}/apart/work"), 1, work);
             file.put_one(format!("{name}/apart/steps"), *steps);
         }
+        put_held(own.held, name, file);
         let layers: Vec<u64> = emitters.iter().map(|(_, own)| own.handed_over()).collect();
         file.put(format!("{name}/handed_over"), 1, layers);
         let [gravity, evaluated_gravity] = own.gravity;
@@ -139,6 +144,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             apart.work = file.get_all(&format!("{name}/apart/work"), bodies)?;
             apart.steps = file.get_one(&format!("{name}/apart/steps"))?;
         }
+        take_held(&mut self.held, name, file)?;
         self.gravity = file.get_array(&format!("{name}/gravity"))?;
         let evaluated: [f64; D] = file.get_array(&format!("{name}/evaluated_gravity"))?;
         self.evaluated_gravity = evaluated.map(T::from_f64);
@@ -168,6 +174,7 @@ pub(super) struct Put<'a, T: Real, const D: usize> {
     pub rates: &'a Results<T, D>,
     pub coupling: &'a Results<T, D>,
     pub apart: &'a [[T; D]],
+    pub held: &'a Held<D>,
     pub records: &'a Records<T>,
     pub work_records: &'a Records<T>,
     pub records_of_rates: bool,
@@ -185,6 +192,7 @@ impl<'a, T: Real, const D: usize> Put<'a, T, D> {
             rates,
             coupling,
             apart,
+            held,
             records,
             work_records,
             records_of_rates,
@@ -200,6 +208,7 @@ impl<'a, T: Real, const D: usize> Put<'a, T, D> {
             rates,
             coupling,
             apart,
+            held,
             records,
             work_records,
             records_of_rates: *records_of_rates,

@@ -6,6 +6,7 @@
 
 mod couple;
 mod group;
+mod held;
 mod particles;
 mod workspace;
 

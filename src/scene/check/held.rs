@@ -1,0 +1,73 @@
+//! What can be wrong with clamps and rigid bodies.
+//! They are of bodies that there are, hold something, and are solids.
+
+use crate::error::Problem;
+use crate::scalar::Real;
+use crate::scene::Scene;
+
+impl<T: Real, const D: usize> Scene<T, D> {
+    pub(super) fn check_held(&self, problems: &mut Vec<Problem>) {
+        let mut incompatible = |what: String, remedy| {
+            problems.push(Problem::Incompatible { what, remedy });
+        };
+        for own in &self.clamps {
+            let Some((group, body)) = self.place_of(&own.body) else {
+                continue;
+            };
+            let part = &self.parts[group];
+            if part.scheme.meets_walls() {
+                incompatible(
+                    format!("particles of body `{}`, a liquid, are clamped", own.body),
+                    "make a wall of what does not flow (Scene::wall)",
+                );
+            }
+            if own.particles(&part.bodies[body].points).is_empty() {
+                incompatible(
+                    format!("a clamp of body `{}` holds none of its particles", own.body),
+                    "choose a region that holds some: it is asked for places as built, in metres",
+                );
+            }
+            if self.rigid.contains(&own.body) {
+                incompatible(
+                    format!(
+                        "body `{}` is rigid, and particles of it are clamped",
+                        own.body
+                    ),
+                    "clamp all of a body that is not rigid to give it a motion, or leave the clamp out",
+                );
+            }
+        }
+        for body in &self.rigid {
+            let Some((group, _)) = self.place_of(body) else {
+                continue;
+            };
+            if self.parts[group].scheme.meets_walls() {
+                incompatible(
+                    format!("body `{body}`, a liquid, is rigid"),
+                    "give it a group of a scheme of solids",
+                );
+            }
+            if !self.integrator.kicks() || !self.integrator.drifts() {
+                incompatible(
+                    format!(
+                        "the integrator {} does not step by kicks and drifts, in which body `{body}` turns",
+                        self.integrator.name()
+                    ),
+                    "take KickDriftKick",
+                );
+            }
+            if !self.boundaries.is_empty() || !self.outlets.is_empty() {
+                incompatible(
+                    format!(
+                        "body `{body}` is rigid in a scene with boundaries or outlets, which it cannot cross"
+                    ),
+                    "bound the scene by walls of particles",
+                );
+            }
+        }
+        let named = self.clamps.iter().map(|own| &own.body).chain(&self.rigid);
+        for body in named.filter(|body| self.place_of(body).is_none()) {
+            problems.push(self.unknown_body(body));
+        }
+    }
+}

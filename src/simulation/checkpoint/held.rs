@@ -1,0 +1,60 @@
+//! What a checkpoint holds of clamps and rigid bodies: what holds them, what that has given, and how they stand.
+//! Which particles they are follows from the scene.
+
+use crate::output::checkpoint::{Checkpoint, Read};
+use crate::simulation::held::{Clamp, Held, Rigid};
+use nalgebra::{Quaternion, UnitQuaternion};
+
+pub(super) fn put_held<const D: usize>(held: &Held<D>, name: &str, file: &mut Checkpoint) {
+    let Held { clamps, rigid } = held;
+    for (k, own) in clamps.iter().enumerate() {
+        let Clamp {
+            body: _,
+            particles: _,
+            motion: _,
+            forces,
+            impulse,
+            work,
+        } = own;
+        for (n, forces) in forces.iter().enumerate() {
+            let column = format!("{name}/clamp{k}/forces{n}");
+            file.put(column, D, forces.as_flattened());
+        }
+        file.put(format!("{name}/clamp{k}/impulse"), 1, impulse);
+        file.put_one(format!("{name}/clamp{k}/work"), *work);
+    }
+    for (k, own) in rigid.iter().enumerate() {
+        let Rigid {
+            body: _,
+            mass: _,
+            places: _,
+            inertia: _,
+            centre,
+            turn,
+        } = own;
+        file.put(format!("{name}/rigid{k}/centre"), 1, centre);
+        file.put(format!("{name}/rigid{k}/turn"), 1, turn.coords.as_slice());
+    }
+}
+
+pub(super) fn take_held<const D: usize>(
+    held: &mut Held<D>,
+    name: &str,
+    file: &Checkpoint,
+) -> Read<()> {
+    for (k, own) in held.clamps.iter_mut().enumerate() {
+        for (n, forces) in own.forces.iter_mut().enumerate() {
+            let numbers = file.get::<f64>(&format!("{name}/clamp{k}/forces{n}"))?;
+            forces.clear();
+            forces.extend_from_slice(numbers.as_chunks::<D>().0);
+        }
+        own.impulse = file.get_array(&format!("{name}/clamp{k}/impulse"))?;
+        own.work = file.get_one(&format!("{name}/clamp{k}/work"))?;
+    }
+    for (k, own) in held.rigid.iter_mut().enumerate() {
+        own.centre = file.get_array(&format!("{name}/rigid{k}/centre"))?;
+        let turn: [f64; 4] = file.get_array(&format!("{name}/rigid{k}/turn"))?;
+        own.turn = UnitQuaternion::new_unchecked(Quaternion::from_vector(turn.into()));
+    }
+    Ok(())
+}

@@ -1,0 +1,410 @@
+//! What does not follow forces particle by particle: clamped particles, and bodies that move as rigid ones.
+//! Forces are replaced after they are summed, so kicks, work and ledgers need not know.
+
+use super::Simulation;
+use super::group::Group;
+use crate::boundary::Motion;
+use crate::particles::{Field, Output};
+use crate::scalar::Real;
+use nalgebra::{Matrix3, SymmetricEigen, UnitQuaternion, Vector3};
+use std::sync::Arc;
+
+/// Clamped particles and rigid bodies of a group.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Held<const D: usize> {
+    pub clamps: Vec<Clamp<D>>,
+    pub rigid: Vec<Rigid<D>>,
+}
+
+/// Particles of a body whose motion is prescribed.
+#[derive(Clone, Debug)]
+pub(crate) struct Clamp<const D: usize> {
+    /// The body in its group.
+    pub body: usize,
+    /// The numbers of its particles there, and where they are as built \[m\].
+    pub particles: Vec<(u32, [f64; D])>,
+    /// How they move; not at all if not given.
+    pub motion: Option<Arc<dyn Motion<D>>>,
+    /// What holds each of them \[N\] against forces of its group, and against those of couplings where it sub-cycles.
+    pub forces: [Vec<[f64; D]>; 2],
+    /// Momentum \[kg m/s\] and work \[J\] that these have given since the start.
+    pub impulse: [f64; D],
+    pub work: f64,
+}
+
+/// A body that moves as a rigid one.
+#[derive(Clone, Debug)]
+pub(crate) struct Rigid<const D: usize> {
+    /// The body in its group.
+    pub body: usize,
+    /// Mass \[kg\].
+    pub mass: f64,
+    /// Where its particles are from the centre of mass \[m\], along principal axes, by number.
+    pub places: Vec<Vector3<f64>>,
+    /// Principal moments of inertia \[kg m²\].
+    pub inertia: Vector3<f64>,
+    /// The centre of mass \[m\].
+    pub centre: [f64; D],
+    /// From principal axes to space.
+    pub turn: UnitQuaternion<f64>,
+}
+
+/// How a clamp stands.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Clamped {
+    /// The body.
+    pub body: String,
+    /// How many of its particles it holds.
+    pub particles: usize,
+    /// The force \[N\] that it exerts on them at the last evaluation.
+    pub force: Vec<f64>,
+    /// The momentum \[kg m/s\] that it has given since the start.
+    pub impulse: Vec<f64>,
+    /// The work \[J\] that it has done since the start.
+    pub work: f64,
+}
+
+/// A vector in three dimensions; rotation in a plane is about the third.
+pub(crate) fn raised<const D: usize>(vector: &[f64; D]) -> Vector3<f64> {
+    Vector3::from_fn(|d, _| vector.get(d).copied().unwrap_or(0.0))
+}
+
+fn lowered<const D: usize>(vector: &Vector3<f64>) -> [f64; D] {
+    core::array::from_fn(|d| vector[d])
+}
+
+impl<const D: usize> Clamp<D> {
+    pub fn new(
+        body: usize,
+        particles: Vec<(u32, [f64; D])>,
+        motion: Option<Arc<dyn Motion<D>>>,
+    ) -> Self {
+        Self {
+            body,
+            particles,
+            motion,
+            forces: [Vec::new(), Vec::new()],
+            impulse: [0.0; D],
+            work: 0.0,
+        }
+    }
+}
+
+impl<const D: usize> Rigid<D> {
+    /// Of points \[m\] of equal volume with their masses \[kg\].
+    pub fn new(body: usize, points: &[[f64; D]], masses: &[f64]) -> Self {
+        let mass: f64 = masses.iter().sum();
+        let centre: [f64; D] = core::array::from_fn(|d| {
+            points
+                .iter()
+                .zip(masses)
+                .map(|(x, m)| m * x[d])
+                .sum::<f64>()
+                / mass
+        });
+        let about: Vec<_> = points.iter().map(|x| raised(x) - raised(&centre)).collect();
+        let inertia = about
+            .iter()
+            .zip(masses)
+            .fold(Matrix3::zeros(), |sum, (r, m)| {
+                sum + *m * (Matrix3::identity() * r.norm_squared() - r * r.transpose())
+            });
+        // In a plane the third axis is principal, and any two in the plane serve.
+        let (moments, turn) = if D == 3 {
+            let axes = SymmetricEigen::new(inertia);
+            let mut turn = axes.eigenvectors;
+            if turn.determinant() < 0.0 {
+                turn.column_mut(2).neg_mut();
+            }
+            let turn = nalgebra::Rotation3::from_matrix_unchecked(turn);
+            (
+                axes.eigenvalues,
+                UnitQuaternion::from_rotation_matrix(&turn),
+            )
+        } else {
+            (inertia.diagonal(), UnitQuaternion::identity())
+        };
+        let back = turn.inverse();
+        Self {
+            body,
+            mass,
+            places: about.iter().map(|r| back * r).collect(),
+            inertia: moments,
+            centre,
+            turn,
+        }
+    }
+
+    /// What a moment along principal axes does to the rotation: I⁻¹ of it, and nothing about what has no inertia.
+    fn answer(&self, moment: &Vector3<f64>) -> Vector3<f64> {
+        let least = 1e-12 * self.inertia.max();
+        Vector3::from_fn(|d, _| {
+            let turns = D == 3 || (D == 2 && d == 2);
+            if turns && self.inertia[d] > least {
+                moment[d] / self.inertia[d]
+            } else {
+                0.0
+            }
+        })
+    }
+
+    /// The same of a moment in space.
+    pub fn answer_in_space(&self, moment: &Vector3<f64>) -> Vector3<f64> {
+        self.turn * self.answer(&(self.turn.inverse() * moment))
+    }
+
+    /// Turns freely over `dt` \[s\] with an angular momentum \[kg m²/s\] that stays: rotations about the principal axes,
+    /// one after the other and back (Dullweber, Leimkuhler & McLachlan 1997, J. Chem. Phys. 107, 5840).
+    fn rotate(&mut self, momentum: &Vector3<f64>, dt: f64) {
+        let axes = [Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis()];
+        for (axis, share) in [(0, 0.5), (1, 0.5), (2, 1.0), (1, 0.5), (0, 0.5)] {
+            let own = self.turn.inverse() * momentum;
+            let angle = share * dt * self.answer(&own)[axis];
+            if angle != 0.0 {
+                self.turn *= UnitQuaternion::from_axis_angle(&axes[axis], angle);
+            }
+        }
+        self.turn.renormalize();
+    }
+}
+
+impl<T: Real, const D: usize> Simulation<T, D> {
+    /// How all clamps stand, group by group in the order of the scene.
+    #[must_use]
+    pub fn clamps(&self) -> Vec<Clamped> {
+        let of = |group: &Group<T, D>, own: &Clamp<D>| {
+            let forces = own.forces.iter().flatten();
+            let force = forces.fold([0.0; D], |sum, f| core::array::from_fn(|d| sum[d] + f[d]));
+            Clamped {
+                body: group.particles.bodies[own.body].name.clone(),
+                particles: own.particles.len(),
+                force: force.to_vec(),
+                impulse: own.impulse.to_vec(),
+                work: own.work,
+            }
+        };
+        let groups = self.groups.iter();
+        groups
+            .flat_map(|group| group.held.clamps.iter().map(move |own| of(group, own)))
+            .collect()
+    }
+
+    /// Replaces forces on what is held at `time` \[s\], after all of them are summed; of groups that sub-cycle those of
+    /// couplings alone.
+    pub(super) fn hold(&mut self, time: f64) {
+        for group in &mut self.groups {
+            group.hold(time, group.sub_cycle.is_some());
+        }
+    }
+
+    /// Books what clamps give in a kick over `dt` \[s\]: of a group that sub-cycles alone, or of all others and of
+    /// couplings on those that do.
+    pub(super) fn record_clamps(&mut self, alone: Option<usize>, dt: f64) {
+        for (k, group) in self.groups.iter_mut().enumerate() {
+            if alone.is_none_or(|alone| alone == k) {
+                group.record_clamps(alone.is_none() && group.sub_cycle.is_some(), dt);
+            }
+        }
+    }
+
+    /// Gives clamped particles and rigid bodies velocities that they can have.
+    pub(crate) fn hold_velocities(&mut self) {
+        let time = self.time;
+        for group in &mut self.groups {
+            group.hold_velocities(time);
+        }
+    }
+}
+
+impl<T: Real, const D: usize> Group<T, D> {
+    /// The slots of a particle of a body: its own, and those that repeat it.
+    fn slots_of(&self, body: usize, id: u32) -> std::ops::Range<usize> {
+        let body = &self.particles.bodies[body];
+        let slot = self.particles.slot_of[body.ids.start + id as usize];
+        if slot == u32::MAX {
+            return 0..0;
+        }
+        let slot = slot as usize;
+        let end = if slot + 1 == body.slots.end {
+            body.end
+        } else {
+            slot + 1
+        };
+        slot..end
+    }
+
+    fn force_on(&self, slot: usize, coupled: bool) -> [T; D] {
+        match &self.sub_cycle {
+            Some(apart) if coupled => apart.forces[slot],
+            _ => self.work.rates.vector(Output::FORCE, slot),
+        }
+    }
+
+    fn set_force(&mut self, slot: usize, coupled: bool, force: [T; D]) {
+        match &mut self.sub_cycle {
+            Some(apart) if coupled => apart.forces[slot] = force,
+            _ => self.work.rates.set(Output::FORCE, slot, force),
+        }
+    }
+
+    /// Replaces forces on what is held: of its group, or of couplings where it sub-cycles.
+    pub(super) fn hold(&mut self, time: f64, coupled: bool) {
+        if self.held.clamps.is_empty() && self.held.rigid.is_empty() {
+            return;
+        }
+        let mut held = core::mem::take(&mut self.held);
+        let gravity = self.evaluated_gravity.map(Real::to_f64);
+        for own in &mut held.clamps {
+            let pose = own
+                .motion
+                .as_ref()
+                .filter(|_| !coupled)
+                .map(|motion| motion.pose(time));
+            let forces = &mut own.forces[usize::from(coupled)];
+            forces.clear();
+            for (id, rest) in &own.particles {
+                let mut given = [0.0; D];
+                for slot in self.slots_of(own.body, *id).rev() {
+                    let mass = self.particles.columns.raw(Field::MASS)[slot].to_f64();
+                    let before = self.force_on(slot, coupled);
+                    let a = pose.as_ref().map_or([0.0; D], |pose| pose.of(2, rest));
+                    let after = core::array::from_fn(|d| {
+                        let g = if coupled { 0.0 } else { gravity[d] };
+                        T::from_f64(mass * (a[d] - g))
+                    });
+                    given = core::array::from_fn(|d| (after[d] - before[d]).to_f64());
+                    self.set_force(slot, coupled, after);
+                }
+                forces.push(given);
+            }
+        }
+        for own in &held.rigid {
+            self.share_forces(own, coupled);
+        }
+        self.held = held;
+    }
+
+    /// Gives the particles of a rigid body the forces that accelerate it as one, with the same sum and the same moment.
+    fn share_forces(&mut self, own: &Rigid<D>, coupled: bool) {
+        let (mut sum, mut moment) = (Vector3::zeros(), Vector3::zeros());
+        for (id, place) in own.places.iter().enumerate() {
+            let slots = self.slots_of(own.body, id as u32);
+            if slots.is_empty() {
+                continue;
+            }
+            let force = raised(&self.force_on(slots.start, coupled).map(Real::to_f64));
+            sum += force;
+            moment += (own.turn * place).cross(&force);
+        }
+        let (a, turning) = (sum / own.mass, own.answer_in_space(&moment));
+        for (id, place) in own.places.iter().enumerate() {
+            let all = a + turning.cross(&(own.turn * place));
+            for slot in self.slots_of(own.body, id as u32) {
+                let mass = self.particles.columns.raw(Field::MASS)[slot].to_f64();
+                self.set_force(slot, coupled, lowered(&(mass * all)).map(T::from_f64));
+            }
+        }
+    }
+
+    fn record_clamps(&mut self, coupled: bool, dt: f64) {
+        let mut clamps = core::mem::take(&mut self.held.clamps);
+        for own in &mut clamps {
+            for ((id, _), force) in own.particles.iter().zip(&own.forces[usize::from(coupled)]) {
+                let slots = self.slots_of(own.body, *id);
+                if slots.is_empty() {
+                    continue;
+                }
+                let v = self.particles.columns.vectors(Field::VELOCITY)[slots.start];
+                for d in 0..D {
+                    // Couplings alone do not accelerate what is clamped.
+                    let a = if coupled {
+                        T::zero()
+                    } else {
+                        self.acceleration(slots.start * D + d)
+                    };
+                    own.impulse[d] += dt * force[d];
+                    own.work += dt * force[d] * (v[d].to_f64() + 0.5 * dt * a.to_f64());
+                }
+            }
+        }
+        self.held.clamps = clamps;
+    }
+
+    /// Momentum \[kg m/s\] of a rigid body, and angular momentum \[kg m²/s\] about its centre.
+    fn momenta(&self, own: &Rigid<D>) -> [Vector3<f64>; 2] {
+        let columns = &self.particles.columns;
+        let (mass, v) = (columns.raw(Field::MASS), columns.vectors(Field::VELOCITY));
+        let (mut momentum, mut spin) = (Vector3::zeros(), Vector3::zeros());
+        for (id, place) in own.places.iter().enumerate() {
+            let slots = self.slots_of(own.body, id as u32);
+            if slots.is_empty() {
+                continue;
+            }
+            let own_momentum =
+                mass[slots.start].to_f64() * raised(&v[slots.start].map(Real::to_f64));
+            momentum += own_momentum;
+            spin += (own.turn * place).cross(&own_momentum);
+        }
+        [momentum, spin]
+    }
+
+    /// Moves rigid bodies over `dt` \[s\] as such.
+    pub(super) fn move_rigid(&mut self, dt: f64) {
+        if self.held.rigid.is_empty() {
+            return;
+        }
+        let mut held = core::mem::take(&mut self.held);
+        for own in &mut held.rigid {
+            let [momentum, spin] = self.momenta(own);
+            for d in 0..D {
+                own.centre[d] += dt * momentum[d] / own.mass;
+            }
+            own.rotate(&spin, dt);
+            self.place_rigid(own, [momentum, spin]);
+        }
+        self.held = held;
+    }
+
+    /// Brings the particles of a rigid body to where it is, with the velocities that it has.
+    fn place_rigid(&mut self, own: &Rigid<D>, [momentum, spin]: [Vector3<f64>; 2]) {
+        let (v, turning) = (momentum / own.mass, own.answer_in_space(&spin));
+        for (id, place) in own.places.iter().enumerate() {
+            let place = own.turn * place;
+            let (at, speed) = (raised(&own.centre) + place, v + turning.cross(&place));
+            for slot in self.slots_of(own.body, id as u32) {
+                let [x, residual, velocity] = self.particles.columns.many_mut([
+                    Field::POSITION,
+                    Field::POSITION_RESIDUAL,
+                    Field::VELOCITY,
+                ]);
+                for d in 0..D {
+                    let k = slot * D + d;
+                    x[k] = T::from_f64(at[d]);
+                    if let Some(residual) = residual.get_mut(k) {
+                        *residual = T::from_f64(at[d] - x[k].to_f64());
+                    }
+                    velocity[k] = T::from_f64(speed[d]);
+                }
+            }
+        }
+    }
+
+    fn hold_velocities(&mut self, time: f64) {
+        let held = core::mem::take(&mut self.held);
+        for own in &held.clamps {
+            let pose = own.motion.as_ref().map(|motion| motion.pose(time));
+            for (id, rest) in &own.particles {
+                let v = pose.as_ref().map_or([0.0; D], |pose| pose.of(1, rest));
+                for slot in self.slots_of(own.body, *id) {
+                    let all = self.particles.columns.vectors_mut(Field::VELOCITY);
+                    all[slot] = v.map(T::from_f64);
+                }
+            }
+        }
+        for own in &held.rigid {
+            let momenta = self.momenta(own);
+            self.place_rigid(own, momenta);
+        }
+        self.held = held;
+    }
+}
