@@ -101,7 +101,7 @@ impl Case {
             .group(schemes::total_lagrangian().with(NeoHookean), [gate])
             .wall(Wall::of("tank", walls, dx))
             .outlet(Outlet::plane([far as f64 * dx, 0.0], [1.0, 0.0]))
-            .clamp("gate", move |[_, y]| y > root)
+            .fix("gate", move |[_, y]| *y > root)
             .sub_cycle("gate", 64)
             .acceleration(|_| [0.0, -GRAVITY])
     }

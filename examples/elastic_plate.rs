@@ -160,7 +160,7 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
     let gravity = case.gravity;
     let mut simulation = Scene::new(scheme::<T>(options)?)
         .body(plate)
-        .clamp("plate", move |[x, _]| x < 0.25 * spacing)
+        .fix("plate", move |[x, _]| *x < 0.25 * spacing)
         .acceleration(move |_| [0.0, -gravity])
         .build()?;
     let tip = tip_of(&simulation);

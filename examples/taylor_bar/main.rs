@@ -7,12 +7,12 @@ mod profile;
 mod shots;
 
 use common::{Example, Failure, Options, Own, evenly, watch};
-use meshfree::effect::{HourglassFree, Hypoelastic, Plasticity};
+use meshfree::effect::{FiniteStrainPlasticity, HourglassFree, Hypoelastic, Plasticity};
 use meshfree::output::csv::CsvWriter;
 use meshfree::output::svg::{Axis, Cloud, Figure, Panel, Series};
 use meshfree::output::vtu::Pvd;
 use meshfree::prelude::*;
-use meshfree::term::viscosity::LimitedMonaghanGingold;
+use meshfree::term::viscosity::{LimitedMonaghanGingold, MonaghanGingold};
 use profile::Layers;
 use std::process::ExitCode;
 
@@ -59,12 +59,12 @@ const EXAMPLE: Example = Example {
         Own {
             name: "--smoothing",
             value: "RATIO",
-            help: "smoothing length over spacing; 1.7",
+            help: "of updated: smoothing length over spacing; 1.7",
         },
         Own {
             name: "--viscosity",
             value: "ALPHA",
-            help: "linear coefficient of the artificial viscosity; 0.5",
+            help: "linear coefficient of the artificial viscosity; 0.5, 0.1 with total",
         },
     ],
 };
@@ -107,7 +107,13 @@ fn scheme(
     match (formulation, cure) {
         ("updated", "none") => Ok(updated().compose()),
         ("updated", "hourglass-free") => Ok(updated().with(HourglassFree::default()).compose()),
-        ("total", _) => Err("--formulation: `total` is not built".into()),
+        ("total", "none") => Ok(schemes::total_lagrangian_impact()
+            .with_viscosity(MonaghanGingold {
+                alpha,
+                ..MonaghanGingold::STANDARD
+            })
+            .with(FiniteStrainPlasticity)
+            .compose()),
         _ => Err(format!(
             "--formulation: `{formulation}` with --cure `{cure}` is not accepted; they take updated or total, and none \
              or hourglass-free"
@@ -175,7 +181,8 @@ fn perform(options: &Options) -> Result<(), Failure> {
     };
     let formulation = options.text("--formulation").unwrap_or("updated");
     let cure = options.text("--cure").unwrap_or("none");
-    let alpha = options.number("--viscosity", 0.5)?;
+    let usual = if formulation == "total" { 0.1 } else { 0.5 };
+    let alpha = options.number("--viscosity", usual)?;
     let smoothing = options.number("--smoothing", 1.7)?;
     let spacing = options.spacing_or(bar.diameter / 16.0, bar.diameter / 8.0);
     let until = options.until_or(80e-6, 40e-6);

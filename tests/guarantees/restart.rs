@@ -402,7 +402,7 @@ fn liquid_wall_elastic_and_plastic_bodies_go_on() {
                 4,
                 [[true; 2], [false; 2]],
             ))
-            .clamp("plate", |[x, _]| !(0.0..0.1).contains(&x))
+            .fix("plate", |[x, _]| !(0.0..0.1).contains(x))
             .couple("plate", "block", ContactDensity::new())
             .between("water", "block", Interaction::None)
             .sub_cycle("plate", 8)
