@@ -150,7 +150,7 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
         let elastic = gate.total("elastic energy").unwrap_or(0.0);
         csv.row(&[now.time(), moved[0], moved[1], gate.kinetic, elastic])?;
         let count = samples[0].len();
-        if count % 10 == 0 {
+        if count.is_multiple_of(10) {
             movie.frame(now)?;
         }
         if [times.len() / 5, times.len() / 2, times.len() - 1].contains(&count) {
