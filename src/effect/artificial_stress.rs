@@ -71,9 +71,10 @@ const STRESS: Field = Hypoelastic::STRESS;
 /// The force of the artificial stress.
 #[derive(Clone, Copy, Debug)]
 pub struct Repulsion {
-    exponent: u32,
+    /// Power n of the kernel's ratio.
+    pub exponent: u32,
     /// One over hᴰ W of the spacing.
-    over_kernel_at_spacing: f64,
+    pub over_kernel_at_spacing: f64,
 }
 
 impl<const D: usize> Effect<D> for ArtificialStress {

@@ -82,10 +82,18 @@ pub fn probe<L: Lane, const D: usize, K: Kernel<D>, A: Term<D>>(
     let v: [L; D] = core::array::from_fn(|d| between(Field::VELOCITY, d));
     let r2 = (1..D).fold(r[0] * r[0], |sum, d| r[d].mul_add(r[d], sum));
     let v_dot_r = (1..D).fold(v[0] * r[0], |sum, d| v[d].mul_add(r[d], sum));
+    let distance2 = if const { A::READS.contains(Field::REFERENCE_POSITION) } {
+        let apart: [L; D] = core::array::from_fn(|d| between(Field::REFERENCE_POSITION, d));
+        (1..D).fold(apart[0] * apart[0], |sum, d| {
+            apart[d].mul_add(apart[d], sum)
+        })
+    } else {
+        r2
+    };
     let h_i = i(Field::SMOOTHING_LENGTH, 0);
     let h = (h_i + L::broadcast(j(Field::SMOOTHING_LENGTH, 0))) * L::of(0.5);
     let inverse = h.recip();
-    let q = r2.sqrt() * inverse;
+    let q = distance2.sqrt() * inverse;
     let norm = L::of(kernel.normalisation()) * inverse.powi(D as u32);
     let f = norm * inverse * inverse * kernel.slope_over_q(q);
     let pair = Pair::<L, D, Alone<A, D>> {

@@ -82,7 +82,7 @@ impl Particle {
         let fields = (0..PLACES).map(|place| {
             let field = Field::ALL.get(place).copied();
             let mut value = || match field {
-                Some(Field::POSITION) => apart * random.sign(),
+                Some(Field::POSITION | Field::REFERENCE_POSITION) => apart * random.sign(),
                 Some(Field::POSITION_RESIDUAL) => 0.0,
                 Some(Field::SMOOTHING_LENGTH) => 1.0 + 0.1 * random.sign(),
                 Some(
@@ -230,7 +230,9 @@ where
         // The particle itself, and another one in its place.
         let mut j = Particle::random(&mut random, 1.0);
         for k in 0..3 {
-            j.set(Field::POSITION, k, i.get(Field::POSITION, k));
+            for field in [Field::POSITION, Field::REFERENCE_POSITION] {
+                j.set(field, k, i.get(field, k));
+            }
         }
         for j in [&i, &j] {
             let result = scalar(&term, common::kernel(round), &i, j);
@@ -257,11 +259,14 @@ where
             let mut j = Particle::random(&mut random, 1.0);
             let h = 0.5 * (i.get(Field::SMOOTHING_LENGTH, 0) + j.get(Field::SMOOTHING_LENGTH, 0));
             for k in 0..3 {
-                i.set(Field::POSITION, k, 0.0);
-                j.set(Field::POSITION, k, 0.0);
+                for field in [Field::POSITION, Field::REFERENCE_POSITION] {
+                    i.set(field, k, 0.0);
+                    j.set(field, k, 0.0);
+                }
             }
             let away = Kernel::<D>::support(&kernel) * h * stretch;
             j.set(Field::POSITION, D - 1, away);
+            j.set(Field::REFERENCE_POSITION, D - 1, away);
             let result = scalar(&term, kernel, &i, &j);
             let silent = numbers(&term, &result).iter().all(|&x| x == 0.0);
             assert!(
