@@ -3,9 +3,9 @@
 
 use super::Simulation;
 use super::group::Group;
-use crate::coupling::{CoupledPair, CoupledParticle, Coupling};
+use super::pair_list::PairList;
+use crate::coupling::{CoupledPair, Coupling};
 use crate::error::{Error, Problem, Result};
-use crate::neighbors::Cells;
 use crate::particles::Field;
 use crate::scalar::Real;
 use rayon::prelude::*;
@@ -71,44 +71,6 @@ impl<T, const D: usize> Default for Acting<T, D> {
             heat: 0.0,
             penetration: [0.0; 2],
             pairs: 0,
-        }
-    }
-}
-
-/// Pairs that may be within reach, and the particles in them. It follows from positions.
-#[derive(Debug)]
-pub(crate) struct PairList<T: Real, const D: usize> {
-    /// Particles in pairs by their numbers in the body: of the first side up to `split`, then of the second.
-    rows: Vec<u32>,
-    split: usize,
-    /// Pairs of rows, in the order of the particles' numbers.
-    pairs: Vec<[u32; 2]>,
-    /// Where all particles of both bodies were \[m\], by number; empty before the first list.
-    listed: [Vec<[f64; D]>; 2],
-    /// How far both sides together may move before it is made anew \[m\].
-    skin: f64,
-    particles: Vec<CoupledParticle<T, D>>,
-    forces: Vec<[T; D]>,
-    anchors: Vec<([u32; 2], [T; D])>,
-    near: [Vec<u32>; 2],
-    found: Vec<[u32; 2]>,
-    row_of: Vec<u32>,
-}
-
-impl<T: Real, const D: usize> Default for PairList<T, D> {
-    fn default() -> Self {
-        Self {
-            rows: Vec::new(),
-            split: 0,
-            pairs: Vec::new(),
-            listed: [Vec::new(), Vec::new()],
-            skin: 0.0,
-            particles: Vec::new(),
-            forces: Vec::new(),
-            anchors: Vec::new(),
-            near: [Vec::new(), Vec::new()],
-            found: Vec::new(),
-            row_of: Vec::new(),
         }
     }
 }
@@ -464,112 +426,6 @@ impl<T: Real, const D: usize> Couple<T, D> {
         }
         list.number(self.is_self());
         self.list = list;
-    }
-}
-
-/// The box around points, by number, that are there.
-fn extent<const D: usize>(points: &[[f64; D]], of: impl Iterator<Item = u32>) -> [[f64; D]; 2] {
-    let start = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
-    of.fold(start, |[low, high], id| {
-        let x = &points[id as usize];
-        [
-            core::array::from_fn(|d| low[d].min(x[d])),
-            core::array::from_fn(|d| high[d].max(x[d])),
-        ]
-    })
-}
-
-impl<T: Real, const D: usize> PairList<T, D> {
-    /// Finds pairs of particles nearer than `reach` \[m\] by where they are listed.
-    fn find(&mut self, is_self: bool, reach: f64) {
-        let Self {
-            listed,
-            near,
-            found,
-            skin,
-            ..
-        } = self;
-        found.clear();
-        let other = usize::from(!is_self);
-        let all = |side: usize| 0..listed[side].len() as u32;
-        if is_self {
-            near[0].clear();
-            let there = |id: &u32| !listed[0][*id as usize][0].is_nan();
-            near[0].extend(all(0).filter(there));
-        } else {
-            let boxes = [0, 1].map(|side| extent(&listed[side], all(side)));
-            // Bodies that are far from each other may come nearer by all of their gap.
-            let gap = (0..D)
-                .map(|d| (boxes[1][0][d] - boxes[0][1][d]).max(boxes[0][0][d] - boxes[1][1][d]));
-            let gap = gap.fold(f64::NEG_INFINITY, f64::max);
-            *skin = skin.max(gap - reach + *skin);
-            for side in 0..2 {
-                let [low, high] = boxes[1 - side];
-                near[side].clear();
-                let inside = |id: &u32| {
-                    let x = &listed[side][*id as usize];
-                    (0..D).all(|d| (low[d] - reach..=high[d] + reach).contains(&x[d]))
-                };
-                near[side].extend(all(side).filter(inside));
-            }
-        }
-        if near[0].is_empty() || near[other].is_empty() {
-            return;
-        }
-        let cells = Cells::build(&listed[other], &near[other], reach);
-        for &a in &near[0] {
-            let x = listed[0][a as usize];
-            cells.for_each_run(x.map(|x| x - reach), x.map(|x| x + reach), |run| {
-                for &b in run {
-                    let y = &listed[other][b as usize];
-                    let square = (0..D).map(|d| (x[d] - y[d]).powi(2)).sum::<f64>();
-                    if square < reach * reach && (!is_self || a < b) {
-                        found.push([a, b]);
-                    }
-                }
-            });
-        }
-        found.sort_unstable();
-    }
-
-    /// Numbers the particles in pairs.
-    fn number(&mut self, is_self: bool) {
-        let Self {
-            rows,
-            split,
-            pairs,
-            listed,
-            found,
-            row_of,
-            ..
-        } = self;
-        rows.clear();
-        pairs.clear();
-        pairs.extend_from_slice(found);
-        let sides: &[&[usize]] = if is_self { &[&[0, 1]] } else { &[&[0], &[1]] };
-        for (side, places) in sides.iter().enumerate() {
-            row_of.clear();
-            row_of.resize(listed[side].len(), u32::MAX);
-            for pair in &*found {
-                for &place in *places {
-                    row_of[pair[place] as usize] = 0;
-                }
-            }
-            for (id, row) in row_of.iter_mut().enumerate() {
-                if *row == 0 {
-                    *row = rows.len() as u32;
-                    rows.push(id as u32);
-                }
-            }
-            if side == 0 {
-                *split = rows.len();
-            }
-            for (pair, ids) in pairs.iter_mut().zip(&*found) {
-                for &place in *places {
-                    pair[place] = row_of[ids[place] as usize];
-                }
-            }
-        }
     }
 }
 

@@ -1,4 +1,4 @@
-//! What holds whatever is simulated: bad input is refused by name, every term keeps its contract, lists miss no pair,
+//! What holds whatever is simulated: bad input is refused by name, lists miss no pair,
 //! results do not depend on threads, instruction sets or precision, and a run resumes to the same bits. One program, so
 //! that loops are compiled once.
 
@@ -8,7 +8,6 @@ mod common;
 mod allocations;
 mod approach;
 mod bad_input;
-mod contract;
 mod filling;
 mod invariance;
 mod neighbours;
