@@ -12,7 +12,7 @@ use crate::material::eos::GuardCounts;
 use crate::particles::Columns;
 use crate::scalar::{Lane, Real};
 use crate::scheme::Scheme;
-use crate::sweep::{InstructionSet, Interaction, Records, Results, SweepInput};
+use crate::sweep::{InstructionSet, Interaction, Records, Results, SweepInput, Transform};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -67,6 +67,9 @@ pub(super) struct Aside<T: Real, const D: usize> {
     pub limited: Vec<(&'static str, u64)>,
     pub served: u32,
     pub rebuilds: u64,
+    /// Where images of moving boundaries are, and the time \[s\] of that.
+    pub transforms: Vec<Transform<T, D>>,
+    pub placed_time: f64,
 }
 
 pub(crate) fn width<T: Real>() -> usize {
@@ -124,6 +127,8 @@ impl<T: Real, const D: usize> Group<T, D> {
             limited: self.limited.clone(),
             served: self.neighborhood.served,
             rebuilds: self.neighborhood.rebuilds,
+            transforms: self.neighborhood.transforms.clone(),
+            placed_time: self.neighborhood.placed_time,
         }
     }
 
@@ -149,6 +154,8 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.guards = aside.guards;
         self.limited = aside.limited;
         self.neighborhood.served = aside.served;
+        self.neighborhood.transforms = aside.transforms;
+        self.neighborhood.placed_time = aside.placed_time;
     }
 
     /// Whether nobody looks at it on its way through a drift.

@@ -57,12 +57,13 @@ impl<T: Real, const D: usize> Group<T, D> {
             guards: *guards,
             limited,
             served: neighborhood.served,
+            placed_time: neighborhood.placed_time,
         };
         if let Some(aside) = aside {
             own = Put::of(aside);
         }
         put_particles(particles, own.columns, scheme, name, file);
-        put_neighborhood(neighborhood, slots, name, file);
+        put_neighborhood(neighborhood, (slots, own.placed_time), name, file);
         file.put_one(format!("{name}/served"), own.served);
         put_workspace(work, &own, (scheme, !walls.is_empty()), name, file);
         for (k, wall) in walls.iter().enumerate() {
@@ -183,6 +184,7 @@ pub(super) struct Put<'a, T: Real, const D: usize> {
     pub guards: GuardCounts,
     pub limited: &'a [(&'static str, u64)],
     pub served: u32,
+    pub placed_time: f64,
 }
 
 impl<'a, T: Real, const D: usize> Put<'a, T, D> {
@@ -202,6 +204,9 @@ impl<'a, T: Real, const D: usize> Put<'a, T, D> {
             limited,
             served,
             rebuilds: _,
+            // They follow from the time at which they are.
+            transforms: _,
+            placed_time,
         } = aside;
         Self {
             columns,
@@ -217,6 +222,7 @@ impl<'a, T: Real, const D: usize> Put<'a, T, D> {
             guards: *guards,
             limited,
             served: *served,
+            placed_time: *placed_time,
         }
     }
 }

@@ -96,7 +96,7 @@ impl<T: Real, const D: usize> Group<T, D> {
 
 pub(super) fn put_neighborhood<T: Real, const D: usize>(
     neighborhood: &Neighborhood<T, D>,
-    slots: usize,
+    (slots, placed_time): (usize, f64),
     name: &str,
     file: &mut Checkpoint,
 ) {
@@ -111,7 +111,7 @@ pub(super) fn put_neighborhood<T: Real, const D: usize>(
         listed_h,
         listed_time,
         listed_reach,
-        placed_time,
+        placed_time: _,
         skin,
         skins: _,
         served: _,
@@ -127,7 +127,7 @@ pub(super) fn put_neighborhood<T: Real, const D: usize>(
     file.put_reals(format!("{name}/listed_smoothing_length"), 1, lengths);
     file.put_one(format!("{name}/listed_time"), *listed_time);
     file.put_one(format!("{name}/listed_reach"), *listed_reach);
-    file.put_one(format!("{name}/placed_time"), *placed_time);
+    file.put_one(format!("{name}/placed_time"), placed_time);
     file.put_one(format!("{name}/skin"), *skin);
     file.put_one(format!("{name}/rebuilds"), *rebuilds);
     file.put_one(format!("{name}/sorted_entries"), *sorted_entries as u64);
