@@ -1,6 +1,7 @@
 //! Total-Lagrangian solids against theory: patch test, waves, bending, flow under shear, and what is conserved.
 //! Two dimensions are plane strain.
 
+use meshfree::coupling::{CoupledParticle, Coupling};
 use meshfree::effect::{
     FiniteStrainPlasticity, HourglassControl, NeoHookean, Plasticity, StVenantKirchhoff,
     TotalLagrangian,
@@ -11,6 +12,7 @@ use meshfree::particles::Field;
 use meshfree::prelude::*;
 use meshfree::scheme::Start;
 use meshfree::simulation::ParticleView;
+use meshfree::term::TermDoc;
 use std::f64::consts::TAU;
 
 const RHO: f64 = 1000.0;
@@ -269,6 +271,53 @@ fn simple_shear_flows_by_theory() {
         seen += 1;
     }
     assert!(seen > 40 && block.limited("plastic flow") > 0);
+}
+
+/// Pushes every particle of the first body away from every one of the second, along x.
+#[derive(Clone, Copy, Debug)]
+struct Push;
+
+impl<T: Real, const D: usize> Coupling<T, D> for Push {
+    fn name(&self) -> &'static str {
+        "push"
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: "push".into(),
+            equation: "F = 1e-3 x",
+            source: "this test",
+        }
+    }
+    fn reach(&self, spacings: [f64; 2]) -> f64 {
+        100.0 * spacings[0]
+    }
+    fn force(&self, _on: &CoupledParticle<T, D>, _from: &CoupledParticle<T, D>) -> [T; D] {
+        core::array::from_fn(|d| T::from_f64(if d == 0 { 1e-3 } else { 0.0 }))
+    }
+}
+
+/// Fifteen particles do not fill the rows of lanes, whose last slot repeats one of them: it must feel what that one does.
+#[test]
+fn a_coupling_pushes_what_rows_repeat() {
+    let block = |name: &str, low: f64| {
+        Body::<f64, 2>::block(name, elastic(), [low, 0.0], [low + 0.05, 0.03], 0.01)
+    };
+    let mut pushed = Scene::new(scheme())
+        .body(block("block", 0.2))
+        .group(scheme(), [block("source", 0.0)])
+        .couple("block", "source", Push)
+        .build()
+        .unwrap();
+    pushed.run_until(0.01).unwrap();
+    // 225 pairs push 1.5 kg, all of it alike.
+    let speed = 225.0 * 1e-3 * 0.01 / 15e-4 / RHO;
+    for p in pushed.body("block").unwrap() {
+        let [u, v] = p.velocity();
+        assert!(
+            (u / speed - 1.0).abs() < 1e-9 && v.abs() < 1e-9 * speed,
+            "{u} {v} {speed}"
+        );
+    }
 }
 
 #[test]
