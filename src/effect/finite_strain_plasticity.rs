@@ -231,10 +231,21 @@ impl Elastic {
         let mean = Matrix::<f64, 3>::identity() * (self.trace() / 3.0);
         (self.deformation - mean) * shear
     }
-    /// That of which the stress is this one, with the same trace.
+    /// That of which the stress is this one, with a determinant of one: kept at that of the trial, as box 9.1 has it, the
+    /// trace would gather all plastic work as elastic energy.
     fn return_to(&mut self, stress: &Matrix<f64, 3>, shear: f64) {
-        let mean = Matrix::<f64, 3>::identity() * (self.trace() / 3.0);
-        self.deformation = stress / shear + mean;
+        let deviator = stress / shear;
+        // det(a + m 1) = m³ − ½ (a:a) m + det a, which rises beyond its root.
+        let (half, third) = (0.5 * squares(&deviator), determinant(&deviator));
+        let mut mean = (self.trace() / 3.0).max(1.0);
+        for _ in 0..MOST_MEANS {
+            let change = ((mean * mean - half) * mean + third - 1.0) / (3.0 * mean * mean - half);
+            mean -= change;
+            if change.abs() <= f64::EPSILON * mean {
+                break;
+            }
+        }
+        self.deformation = deviator + Matrix::<f64, 3>::identity() * mean;
     }
     /// Cₚ⁻¹ − 1.
     fn pull_back<T: Real>(&self, plastic: &mut [T]) {
@@ -248,6 +259,9 @@ impl Elastic {
         }
     }
 }
+
+/// More than Newton's method takes for the mean of b̄, which is three to five.
+const MOST_MEANS: usize = 20;
 
 /// Where a component of a symmetric tensor stands: xx, yy, zz, yz, xz, xy.
 fn place(a: usize, b: usize) -> usize {

@@ -268,6 +268,9 @@ fn simple_shear_flows_by_theory() {
         // P₁₂ is τ where nothing is stretched along x, and J is one.
         let tau = piola[0][1] * 3_f64.sqrt() / yields;
         assert!((tau - 1.0).abs() < 2e-3, "{tau}");
+        // Of all that has been worked, Y²/6G is stored in distortion.
+        let stored = p.named("distortion").unwrap()[0] * RHO * 6.0 * shear / yields.powi(2);
+        assert!((stored - 1.0).abs() < 2e-3, "{stored}");
         seen += 1;
     }
     assert!(seen > 40 && block.limited("plastic flow") > 0);
