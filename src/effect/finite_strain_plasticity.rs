@@ -42,7 +42,7 @@ use crate::term::{Stage, TermDoc};
 /// let bar = Body::block("bar", catalogue::ofhc_copper(), [0.0; 2], [0.01, 0.004], 5e-4).velocity([-100.0, 0.0]);
 /// let mut bar = Scene::<f64, 2>::new(scheme)
 ///     .body(bar)
-///     .boundary(MirrorPlane::new([0.0; 2], [-1.0, 0.0]))
+///     .boundary(MirrorPlane::symmetry([0.0; 2], [-1.0, 0.0]))
 ///     .build()?;
 /// bar.run_until(2e-6)?;
 /// assert!(bar.ledger().whole.total("plastic work").unwrap_or(0.0) > 0.0);

@@ -112,7 +112,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                      or an inlet of it",
                     scheme.name
                 ),
-                "bond the bodies or let them meet by a coupling, and take planes of symmetry (MirrorPlane::new) and \
+                "bond the bodies or let them meet by a coupling, and take planes of symmetry (MirrorPlane::symmetry) and \
                  periods that rest",
             );
         }
