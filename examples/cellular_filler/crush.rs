@@ -2,6 +2,7 @@
 //! x is the way out, z the direction of the crush; half of the depth y of a cell stands between planes of symmetry.
 
 use crate::filler::{HOLE, LAYERS, RATE, SOUND, water_scheme};
+use meshfree::boundary::Translation;
 use meshfree::effect::FiniteStrainPlasticity;
 use meshfree::geometry::{Cuboid, OpenCell, Shape, fill};
 use meshfree::material::eos::Linear;
@@ -200,8 +201,8 @@ impl Crushed {
         scene
             .group(polymer_scheme(), [bottom])
             .group(polymer_scheme(), [top])
-            .clamp("bottom", |_| true)
-            .clamp("top", |_| true)
+            .fix("bottom", |_| true)
+            .clamp("top", |_| true, Translation::steady([0.0, 0.0, -speed]))
             .between("bottom", "top", Interaction::None)
             .couple("structure", "bottom", Penalty::new())
             .couple("structure", "top", Penalty::new())

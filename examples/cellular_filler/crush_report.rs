@@ -104,7 +104,7 @@ pub fn table(runs: &Runs) -> Table {
             continue;
         };
         let share = |energy: f64| format!("{:.1} %", 1e2 * energy / last.work);
-        let ratio = ratio(runs, case, record).map_or("".into(), |ratio| format!("{ratio:.3}"));
+        let ratio = ratio(runs, case, record).map_or(String::new(), |ratio| format!("{ratio:.3}"));
         let wet = case.viscosity.is_some();
         let of_water = |text: String| if wet { text } else { String::new() };
         table.row([

@@ -70,9 +70,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             }
         });
         self.act_in_pairs();
-        for group in &mut self.groups {
-            group.repeat_forces();
-        }
     }
 
     fn for_each_structure(
@@ -146,25 +143,6 @@ impl<T: Real, const D: usize> Group<T, D> {
                     for d in 0..D {
                         apart.forces[slot][d] += force[d];
                     }
-                }
-            }
-        }
-    }
-
-    /// Gives slots that repeat the last particle of a body the force on it, or they would part from it where nothing sorts
-    /// particles anew.
-    fn repeat_forces(&mut self) {
-        for body in &self.particles.bodies {
-            let Some(last) = body.slots.clone().last() else {
-                continue;
-            };
-            for slot in body.slots.end..body.end {
-                match &mut self.sub_cycle {
-                    None => {
-                        let force = self.work.rates.vector(Output::FORCE, last);
-                        self.work.rates.put(Output::FORCE, slot, force);
-                    }
-                    Some(apart) => apart.forces[slot] = apart.forces[last],
                 }
             }
         }

@@ -103,6 +103,12 @@ impl<T: Real, const D: usize> Group<T, D> {
                     *work += 0.5 * mass[slot].to_f64() * (v.to_f64().powi(2) - before * before);
                 }
             }
+            // Slots behind the last particle repeat it, and nothing sorts anew what keeps its neighbours.
+            if let Some(last) = body.slots.clone().last() {
+                for slot in body.slots.end..body.end {
+                    v.copy_within(last * D..(last + 1) * D, slot * D);
+                }
+            }
         }
     }
 }
