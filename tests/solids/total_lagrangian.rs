@@ -125,8 +125,8 @@ fn waves_run_at_their_speeds() {
         assert!((whole.total_energy() / first - 1.0).abs() < 1e-13);
         let stored = whole.total("elastic energy").unwrap() / first;
         let control = whole.total("hourglass energy").unwrap() / first;
-        // A leapfrog's own energy differs from this by (ω dt)²/8, 5e-4.
-        assert!((stored + control - 1.0).abs() < 5e-4, "{stored} {control}");
+        // A kick-drift-kick keeps v² + ω² x² (1 − (ω dt)²/4), so the crest is higher by 8e-4 at ω dt = 0.055.
+        assert!((stored + control - 1.0).abs() < 1e-3, "{stored} {control}");
         assert!(control.abs() < 1e-4, "{control}");
     }
 }
