@@ -271,7 +271,7 @@ fn frames<T: Real>(artificial: &Case, spacing: f64) -> Result<Table, Failure> {
         moving.step()?;
         resting.step()?;
     }
-    let places = in_tank(&moving)?.zip(in_tank(&resting)?);
+    let places = in_tank(&fixed, &moving)?.zip(in_tank(&fixed, &resting)?);
     let apart = places
         .map(|((x, _), (y, _))| (0..3).map(|d| (x[d] - y[d]).abs()).fold(0.0, f64::max))
         .fold(0.0, f64::max);

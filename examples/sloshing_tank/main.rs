@@ -4,6 +4,7 @@
 mod bars;
 #[path = "../common/mod.rs"]
 mod common;
+mod elastic;
 mod pulse;
 mod report;
 mod run;
@@ -61,6 +62,8 @@ const EXAMPLE: Example = Example {
             "",
             "the tank rests and its frame is accelerated",
         ),
+        own("--walls", "NAME", "rigid, elastic (PMMA of 30 mm); rigid"),
+        own("--youngs-modulus", "PA", "of elastic walls; 3e9"),
         own("--compare", "", "all schemes side by side"),
         own("--bars", "", "measures what must hold"),
     ],
@@ -80,6 +83,14 @@ fn main() -> ExitCode {
 fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
     let case = case(options)?;
     println!("{}", case.choices());
+    if let Some(youngs) = case.youngs {
+        println!("{}", elastic::choices(&case, youngs));
+        if options.has("--bars") || options.has("--compare") {
+            return Err(
+                "--bars and --compare are of rigid walls; leave out --walls elastic".into(),
+            );
+        }
+    }
     if options.has("--bars") {
         return bars::measure::<T>(&case, options);
     }
@@ -116,8 +127,12 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
     )?;
     for (name, record) in &runs {
         let far = record.far_wall;
+        let balance = match case.youngs {
+            Some(_) => "water and walls against loads and clamps",
+            None => "the water against pair reactions",
+        };
         println!(
-            "{name}: {} particles, leaked {}, momentum of the water against pair reactions {:.1e}, far wall at \
+            "{name}: {} particles, leaked {}, momentum of {balance} {:.1e}, far wall at \
              38 ms: lowest pressure {:.0} Pa, cut {} times",
             record.particles, record.leaked, record.imbalance, far.lowest, far.cuts
         );
@@ -129,6 +144,14 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
                 1e2 * record.sensed_over(case.until, |ends| ends.tank),
             );
         }
+    }
+    if let (Some(youngs), Some((_, record))) = (case.youngs, runs.first()) {
+        let walls = elastic::report(&case, youngs, record, options.folder())?;
+        println!("{walls}");
+        let path = options.file("report.md");
+        let text = std::fs::read_to_string(&path)?;
+        let choices = elastic::choices(&case, youngs);
+        std::fs::write(path, format!("{text}\n{choices}\n{walls}\n"))?;
     }
     println!("written to {}", options.folder().display());
     Ok(())
@@ -165,6 +188,20 @@ fn case(options: &Options) -> Result<Case, Failure> {
             speed,
         },
     };
+    let youngs = match options.text("--walls") {
+        None | Some("rigid") => None,
+        Some("elastic") => Some(options.number("--youngs-modulus", elastic::YOUNGS)?),
+        Some(other) => {
+            return Err(
+                format!("--walls: `{other}` is not accepted; it takes rigid or elastic").into(),
+            );
+        }
+    };
+    // Elastic walls want three layers in 30 mm, and are slow.
+    let (spacings, quick_end) = match youngs {
+        None => ([0.02, 0.03], 0.08),
+        Some(_) => ([0.01, 0.015], 5e-4),
+    };
     Ok(Case {
         size,
         fill: match options.text("--fill") {
@@ -174,7 +211,7 @@ fn case(options: &Options) -> Result<Case, Failure> {
                 None => number("--fill", text)?,
             },
         },
-        spacing: options.spacing_or(0.02, 0.03),
+        spacing: options.spacing_or(spacings[0], spacings[1]),
         pulse: Pulse::named(options.text("--pulse").unwrap_or("half-sine")),
         peak_g,
         cut_off: options
@@ -183,8 +220,9 @@ fn case(options: &Options) -> Result<Case, Failure> {
         sound_speed,
         scheme: options.scheme.clone(),
         probes,
+        youngs,
         in_frame: options.has("--in-frame"),
-        until: options.until_or(0.08, 0.08),
+        until: options.until_or(0.08, quick_end),
         step: None,
     })
 }

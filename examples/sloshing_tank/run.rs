@@ -2,6 +2,7 @@
 //! All coordinates are the tank's own: metres, origin at the inner corner, x towards the struck wall.
 
 use crate::common::Failure;
+use crate::elastic::{self, Stand, Watch};
 use crate::surface::{Occupancy, Space};
 use crate::tank::{Case, GRAVITY, WATER};
 use meshfree::observe::PressureProbe;
@@ -11,6 +12,7 @@ use meshfree::output::progress::Progress;
 use meshfree::output::svg::Axis;
 use meshfree::output::vtu::{Pvd, Vtu};
 use meshfree::prelude::*;
+use meshfree::simulation::ParticleView;
 use std::path::Path;
 use std::time::Instant;
 
@@ -72,9 +74,10 @@ pub struct Record {
     pub far_wall: FarWall,
     /// Impulse of the water on the tank \[N s\].
     pub impulse: [f64; 3],
-    /// Momentum of the water, the tank's frame being at rest or not \[N s\].
+    /// Momentum of the water and of elastic walls, the tank's frame being at rest or not \[N s\].
     pub momentum: [f64; 3],
-    /// Difference of the momentum of water and what walls and gravity gave, over the impulse on the tank.
+    /// Difference of the momentum of water and what walls and gravity gave, over the impulse on the tank; with elastic
+    /// walls that of both and what loads and clamps gave, over the loads'.
     pub imbalance: f64,
     /// What sensors all over the ends of the tank read, every millisecond, if that was asked for.
     pub ends: Vec<Ends>,
@@ -85,7 +88,12 @@ pub struct Record {
     /// Deepest that a particle was behind the surface of the walls \[m\]: drops that strike them alone
     /// dive before they bounce.
     pub deepest: f64,
+    /// Particles of the water.
     pub particles: usize,
+    /// Of elastic walls: how they stood, their particles and steps.
+    pub walls: Vec<Stand>,
+    pub wall_particles: usize,
+    pub wall_steps: u64,
     pub steps: u64,
     pub seconds: f64,
 }
@@ -127,12 +135,14 @@ pub fn run<T: Real>(case: &Case, folder: Option<&Path>, ends: bool) -> Result<Re
     let mut simulation = case.build::<T>()?;
     let sensors = case.sensors(&simulation)?;
     let cover = ends.then(|| cover(case, &simulation)).transpose()?;
+    let elastic = case.youngs.map(|_| Watch::new(case, &simulation));
+    let elastic = elastic.transpose()?;
     let mut files = folder
         .map(|folder| Files::create(case, folder))
         .transpose()?;
     let started = Instant::now();
     let mut record = Record {
-        particles: simulation.particles(),
+        particles: simulation.body("water")?.count(),
         ..Record::default()
     };
     let water = case.mass() / WATER;
@@ -150,16 +160,19 @@ pub fn run<T: Real>(case: &Case, folder: Option<&Path>, ends: bool) -> Result<Re
             }
             if time >= next || time >= case.until {
                 next = time + SAMPLING;
-                let sample = sample(now, &sensors)?;
+                let sample = sample(case, now, &sensors)?;
+                let stand = elastic.as_ref().map(|watch| watch.stand(case, now));
+                let stand = stand.transpose()?;
                 if let Some(files) = &mut files {
-                    files.sample(&sample)?;
+                    files.sample(&sample, stand.as_ref())?;
                     if time >= next_frame {
                         next_frame += FRAMES;
-                        files.frame(now)?;
+                        files.frame(case, elastic.as_ref(), now)?;
                     }
                 }
                 record.samples.push(sample);
-                let places = in_tank(now)?.map(|(x, _)| outside(case, &x));
+                record.walls.extend(stand);
+                let places = in_tank(case, now)?.map(|(x, _)| outside(case, &x));
                 record.deepest = places.fold(record.deepest, f64::max);
                 progress.update(
                     time / case.until,
@@ -181,6 +194,9 @@ pub fn run<T: Real>(case: &Case, folder: Option<&Path>, ends: bool) -> Result<Re
             record.far_wall = far_wall(case, &simulation)?;
             if let Some(folder) = folder {
                 snapshot(case, &simulation, &record.surface, folder)?;
+                if let Some(watch) = &elastic {
+                    watch.snapshot(case, &simulation, folder)?;
+                }
             }
         }
     }
@@ -188,29 +204,40 @@ pub fn run<T: Real>(case: &Case, folder: Option<&Path>, ends: bool) -> Result<Re
     record.space[1] = Occupancy::of(case, &simulation)?.space(water);
     record.seconds = started.elapsed().as_secs_f64();
     record.steps = simulation.steps();
-    record.impulse = simulation.wall_impulse("tank")?;
+    if elastic.is_some() {
+        record.impulse = elastic::impulse(case, &simulation)?;
+        record.imbalance = elastic::imbalance(case, &simulation)?;
+        record.wall_particles = simulation.body("tank")?.count();
+        record.wall_steps = simulation.sub_steps();
+    } else {
+        record.impulse = simulation.wall_impulse("tank")?;
+    }
     let whole = simulation.ledger().whole;
     record.momentum = core::array::from_fn(|d| whole.momentum[d]);
     let gravity = [0.0, 0.0, -whole.mass * GRAVITY * simulation.time()];
-    if !case.in_frame {
+    if !case.in_frame && elastic.is_none() {
         let size = |v: [f64; 3]| v.iter().map(|v| v * v).sum::<f64>().sqrt();
         let lack = core::array::from_fn(|d| record.momentum[d] + record.impulse[d] - gravity[d]);
         record.imbalance = size(lack) / size(record.impulse);
     }
-    record.leaked = in_tank(&simulation)?
+    record.leaked = in_tank(case, &simulation)?
         .filter(|(x, _)| outside(case, x) > case.spacing)
         .count();
     Ok(record)
 }
 
-fn sample<T: Real>(now: &Simulation<T, 3>, sensors: &[PressureProbe<3>]) -> Result<Sample, Error> {
+fn sample<T: Real>(
+    case: &Case,
+    now: &Simulation<T, 3>,
+    sensors: &[PressureProbe<3>],
+) -> Result<Sample, Error> {
     Ok(Sample {
         time: now.time(),
         pressures: PressureProbe::pressures(sensors, now),
         contact: sensors
             .first()
             .map_or(0.0, |sensor| sensor.contact_pressure(now)),
-        force: now.wall_force("tank")?,
+        force: force(case, now)?,
     })
 }
 
@@ -220,12 +247,40 @@ fn outside(case: &Case, x: &[f64; 3]) -> f64 {
     beyond.fold(f64::NEG_INFINITY, f64::max)
 }
 
+/// Force of the water on the tank \[N\].
+fn force<T: Real>(case: &Case, now: &Simulation<T, 3>) -> Result<[f64; 3], Error> {
+    match case.youngs {
+        Some(_) => now.force_between("tank", "water"),
+        None => now.wall_force("tank"),
+    }
+}
+
+/// Where the tank is, its velocity and its acceleration; at rest in its frame with elastic walls.
+pub fn shift<T: Real>(case: &Case, now: &Simulation<T, 3>) -> Result<[[f64; 3]; 3], Error> {
+    match case.youngs {
+        Some(_) => Ok([[0.0; 3]; 3]),
+        None => Ok(now.wall_pose("tank")?.shift.map(Into::into)),
+    }
+}
+
+/// Particles of the tank.
+pub fn walls<'a, T: Real>(
+    case: &Case,
+    now: &'a Simulation<T, 3>,
+) -> Result<impl Iterator<Item = ParticleView<'a, T, 3>> + 'a, Error> {
+    match case.youngs {
+        Some(_) => now.body("tank"),
+        None => now.wall("tank"),
+    }
+}
+
 /// Places in the tank \[m\] and pressures \[Pa\] of the water.
-pub fn in_tank<T: Real>(
-    now: &Simulation<T, 3>,
-) -> Result<impl Iterator<Item = ([f64; 3], f64)> + '_, Error> {
-    let shift = now.wall_pose("tank")?.shift[0];
-    Ok(now.all().map(move |particle| {
+pub fn in_tank<'a, T: Real>(
+    case: &Case,
+    now: &'a Simulation<T, 3>,
+) -> Result<impl Iterator<Item = ([f64; 3], f64)> + 'a, Error> {
+    let shift = shift(case, now)?[0];
+    Ok(now.body("water")?.map(move |particle| {
         let x = particle.position();
         (
             core::array::from_fn(|d| x[d] - shift[d]),
@@ -250,7 +305,10 @@ fn cover<T: Real>(
         for (x, sign) in [(0.0, -1.0), (length, 1.0)] {
             let normal = [-sign, 0.0, 0.0];
             let sensor = PressureProbe::disc(now, "end", [x, y, z], normal, case.spacing)?;
-            sensors.push(sensor.on_wall("tank")?);
+            sensors.push(match case.youngs {
+                Some(_) => sensor,
+                None => sensor.on_wall("tank")?,
+            });
             outwards.push(sign * area);
         }
     }
@@ -264,7 +322,7 @@ fn ends_of<T: Real>(
     now: &Simulation<T, 3>,
 ) -> Result<Ends, Error> {
     let pressures = PressureProbe::pressures(sensors, now);
-    let shift = now.wall_pose("tank")?.shift[0][0];
+    let shift = shift(case, now)?[0][0];
     let forces = now.wall_particle_forces();
     let at_ends = forces
         .iter()
@@ -273,19 +331,19 @@ fn ends_of<T: Real>(
         time: now.time(),
         sensed: pressures.iter().zip(outwards).map(|(p, a)| p * a).sum(),
         felt: at_ends.map(|(_, force)| force[0]).sum(),
-        tank: now.wall_force("tank")?[0],
+        tank: force(case, now)?[0],
     })
 }
 
 fn far_wall<T: Real>(case: &Case, now: &Simulation<T, 3>) -> Result<FarWall, Error> {
     let h = now.smoothing_length();
-    let mass = case.mass() / now.particles() as f64;
+    let mass = case.mass() / now.body("water")?.count() as f64;
     let mut found = FarWall {
         cuts: now.guard_counts().cut_off + now.limited("cavitation"),
         lowest: f64::INFINITY,
         ..FarWall::default()
     };
-    for (x, pressure) in in_tank(now)? {
+    for (x, pressure) in in_tank(case, now)? {
         if x[0] < h {
             found.wetted = found.wetted.max(x[2]);
             found.lowest = found.lowest.min(pressure);
@@ -294,7 +352,11 @@ fn far_wall<T: Real>(case: &Case, now: &Simulation<T, 3>) -> Result<FarWall, Err
             found.film += mass;
         }
     }
-    let shift = now.wall_pose("tank")?.shift[0][0];
+    if case.youngs.is_some() {
+        // A body shows its own pressure, not the water's.
+        return Ok(found);
+    }
+    let shift = shift(case, now)?[0][0];
     let walls = now
         .wall("tank")?
         .filter(|particle| particle.position()[0] - shift < 0.0);
@@ -315,12 +377,15 @@ fn snapshot<T: Real>(
     file.rows(surface)?;
     let top = 1e-3 * 1000.0 * case.peak() * case.size[0] * case.fill;
     let picture = Picture::new(1200, 800)
-        .title(&format!("{comment}, {} particles", now.particles()))
+        .title(&format!(
+            "{comment}, {} particles",
+            now.body("water")?.count()
+        ))
         .view(-70.0, 15.0)
         .particles(
             Axis::linear("pressure", "kPa").range(0.0, top.max(1.0)),
             case.spacing,
-            in_tank(now)?.map(|(x, p)| (x, 1e-3 * p)),
+            in_tank(case, now)?.map(|(x, p)| (x, 1e-3 * p)),
         )
         .edges([0.0; 3], case.size);
     picture.save(folder.join("particles_38ms.svg"))?;
@@ -332,6 +397,7 @@ struct Files {
     probes: CsvWriter,
     contact: CsvWriter,
     movie: Pvd,
+    walls: Option<elastic::Files>,
 }
 
 impl Files {
@@ -351,10 +417,17 @@ impl Files {
             probes: CsvWriter::create(folder.join("probes.csv"), &columns)?,
             contact: CsvWriter::create(folder.join("contact.csv"), &contact)?,
             movie: Pvd::create(folder.join("water.pvd"))?,
+            walls: case
+                .youngs
+                .map(|_| elastic::Files::create(folder))
+                .transpose()?,
         })
     }
 
-    fn sample(&mut self, sample: &Sample) -> Result<(), Error> {
+    fn sample(&mut self, sample: &Sample, stand: Option<&Stand>) -> Result<(), Error> {
+        if let (Some(walls), Some(stand)) = (&mut self.walls, stand) {
+            walls.sample(stand)?;
+        }
         let row: Vec<f64> = core::iter::once(sample.time)
             .chain(sample.pressures.iter().copied())
             .chain(sample.force)
@@ -363,14 +436,22 @@ impl Files {
         self.contact.row(&[sample.time, sample.contact])
     }
 
-    fn frame<T: Real>(&mut self, now: &Simulation<T, 3>) -> Result<(), Error> {
-        let velocity = now.wall_pose("tank")?.shift[1];
-        let relative = now.all().map(|particle| {
+    fn frame<T: Real>(
+        &mut self,
+        case: &Case,
+        watch: Option<&Watch>,
+        now: &Simulation<T, 3>,
+    ) -> Result<(), Error> {
+        if let (Some(walls), Some(watch)) = (&mut self.walls, watch) {
+            walls.frame(watch, now)?;
+        }
+        let velocity = shift(case, now)?[1];
+        let relative = now.body("water")?.map(|particle| {
             let v = particle.velocity();
             core::array::from_fn::<f32, 3, _>(|d| (v[d] - velocity[d]) as f32)
         });
-        let vtu = Vtu::new(in_tank(now)?.map(|(x, _)| x.map(|x| x as f32)))
-            .scalar("pressure_pa", in_tank(now)?.map(|(_, p)| p as f32))
+        let vtu = Vtu::new(in_tank(case, now)?.map(|(x, _)| x.map(|x| x as f32)))
+            .scalar("pressure_pa", in_tank(case, now)?.map(|(_, p)| p as f32))
             .vector("velocity_in_tank_m_s", relative)
             .time(now.time());
         self.movie.frame(now.time(), &vtu).map(|_| ())

@@ -1,6 +1,7 @@
 //! Where the water is: the share of the kernel that it fills, on a grid of half the spacing.
 //! Walls take a share of the kernel away, and the rest is what water is counted against.
 
+use crate::run::{shift, walls};
 use crate::tank::Case;
 use meshfree::kernel::{Kernel, WendlandC2};
 use meshfree::prelude::*;
@@ -27,9 +28,9 @@ pub struct Space {
 
 impl Occupancy {
     pub fn of<T: Real>(case: &Case, now: &Simulation<T, 3>) -> Result<Self, Error> {
-        let shift = now.wall_pose("tank")?.shift[0];
-        let water = now.all().map(|particle| (particle, false));
-        let walls = now.wall("tank")?.map(|particle| (particle, true));
+        let shift = shift(case, now)?[0];
+        let water = now.body("water")?.map(|particle| (particle, false));
+        let walls = walls(case, now)?.map(|particle| (particle, true));
         let particles = water.chain(walls).map(|(particle, wall)| {
             let x = particle.position();
             let place = core::array::from_fn(|d| x[d] - shift[d]);

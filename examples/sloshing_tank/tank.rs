@@ -1,6 +1,7 @@
 //! The case: a closed tank, part full of water, that is accelerated along its length.
 //! What Vesenjak & Ren (2007) do not state is chosen here, and the console says so.
 
+use crate::elastic;
 use crate::pulse::{Pulse, STANDARD_GRAVITY};
 use meshfree::error::{BuildError, Error, Problem};
 use meshfree::material::{Liquid, SoundSpeed};
@@ -55,6 +56,8 @@ pub struct Case {
     pub scheme: String,
     /// Sensors on the walls \[m\], in the tank's coordinates.
     pub probes: Vec<[f64; 3]>,
+    /// Young's modulus \[Pa\] of elastic walls, which are in the frame of the tank; rigid without.
+    pub youngs: Option<f64>,
     /// Whether the tank rests and the frame is accelerated.
     pub in_frame: bool,
     pub until: f64,
@@ -127,6 +130,9 @@ impl Case {
                 }
             }
         }
+        if let Some(youngs) = self.youngs {
+            problems.extend(elastic::problems(self, youngs));
+        }
         problems
     }
 
@@ -157,7 +163,11 @@ impl Case {
             let normal = self.normal(probe)?;
             let name = format!("{},{},{}", probe[0], probe[1], probe[2]);
             let sensor = PressureProbe::disc(simulation, &name, *probe, normal, SENSOR);
-            Some(sensor.and_then(|sensor| sensor.on_wall("tank")))
+            // Elastic walls move by a hundredth of a spacing, which a sensor need not follow.
+            Some(match self.youngs {
+                Some(_) => sensor,
+                None => sensor.and_then(|sensor| sensor.on_wall("tank")),
+            })
         };
         self.probes.iter().filter_map(sensor).collect()
     }
@@ -186,13 +196,12 @@ impl Case {
             fixed: step,
             ..steps
         });
-        if self.in_frame {
-            // What the tank does not do the frame does.
-            let load = move |t: f64| {
-                let a = motion.pose(t).shift[2];
-                [-a[0], -a[1], -a[2] - GRAVITY]
-            };
-            scene.wall(tank).acceleration(load).build()
+        // What the tank does not do the frame does.
+        if let Some(youngs) = self.youngs {
+            let scene = elastic::add(scene, self, youngs);
+            scene.acceleration(in_frame(motion)).build()
+        } else if self.in_frame {
+            scene.wall(tank).acceleration(in_frame(motion)).build()
         } else {
             let scene = scene.wall(tank.motion(motion));
             scene.acceleration(move |_| gravity).build()
@@ -257,14 +266,27 @@ impl Case {
             "Vesenjak & Ren (2007): closed tank, 60 % water, about 30 g for 80 ms, surface at 38 ms.\n\
              Our choice, which the paper does not state: inner size {length} x {width} x {height} m, depth \
              {depth:.4} m ({mass:.2} kg), pulse {pulse} of {peak} g, Point 1 at 50 mm above the bottom of the \
-             wall x = L at mid width, sensors of {sensor} mm. Walls are rigid; pressures are above that of \
+             wall x = L at mid width, sensors of {sensor} mm. {walls}; pressures are above that of \
              the air.\nGreatest speed expected: sqrt(2 a L) = {speed:.1} m/s. {price}\n",
             depth = self.depth(),
             mass = self.mass(),
             pulse = self.pulse.name(),
             peak = self.peak_g,
             sensor = 1e3 * SENSOR,
+            walls = if self.youngs.is_some() {
+                "Walls are elastic"
+            } else {
+                "Walls are rigid"
+            },
             price = Liquid::water().price(self.sound_speed, self.spacing, H_OVER_DX),
         )
+    }
+}
+
+/// What acts on what is in the frame of a tank \[m/s²\].
+fn in_frame(motion: Translation<3>) -> impl Fn(f64) -> [f64; 3] + Send + Sync + 'static {
+    move |t| {
+        let a = motion.pose(t).shift[2];
+        [-a[0], -a[1], -a[2] - GRAVITY]
     }
 }

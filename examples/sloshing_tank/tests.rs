@@ -17,6 +17,7 @@ fn case() -> Case {
         sound_speed: SoundSpeed::artificial(17.2),
         scheme: "standard".into(),
         probes: vec![[0.5, 0.15, 0.05]],
+        youngs: None,
         in_frame: false,
         until: 0.08,
         step: None,
@@ -102,6 +103,20 @@ fn wrong_tanks_are_refused_with_the_field() {
             text.contains(field) && text.contains(remedy),
             "{field}: {text}"
         );
+    }
+    let elastic = |spacing: f64, youngs: f64| {
+        message(&Case {
+            spacing,
+            youngs: Some(youngs),
+            ..case()
+        })
+    };
+    for (text, field) in [
+        (elastic(0.02, 3e9), "half the thickness"),
+        (elastic(0.0075, 3e9), "length of the tank over the spacing"),
+        (elastic(0.015, -3e9), "Young's modulus of the walls is -3"),
+    ] {
+        assert!(text.contains(field), "{field}: {text}");
     }
     let slow = Case {
         sound_speed: SoundSpeed::Artificial {
