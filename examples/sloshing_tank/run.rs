@@ -33,7 +33,8 @@ pub struct Sample {
     pub time: f64,
     /// Pressure at each probe \[Pa\].
     pub pressures: Vec<f64>,
-    /// Force on the wall behind the first probe over its area \[Pa\].
+    /// Force on the wall behind the first probe over its area \[Pa\]; not a number where walls are finer than water,
+    /// whose columns a sensor cannot count.
     pub contact: f64,
     /// Force of the water on the tank \[N\].
     pub force: [f64; 3],
@@ -234,9 +235,12 @@ fn sample<T: Real>(
     Ok(Sample {
         time: now.time(),
         pressures: PressureProbe::pressures(sensors, now),
-        contact: sensors
-            .first()
-            .map_or(0.0, |sensor| sensor.contact_pressure(now)),
+        contact: if elastic::shares_spacing(case) {
+            let first = sensors.first();
+            first.map_or(0.0, |sensor| sensor.contact_pressure(now))
+        } else {
+            f64::NAN
+        },
         force: force(case, now)?,
     })
 }
