@@ -374,18 +374,18 @@ pub fn report(case: &Case, youngs: f64, record: &Record, folder: &Path) -> Resul
     }
     for [time, _, q] in &means {
         for (line, moved) in plates.iter_mut().zip(plate(case, youngs, *q)) {
-            line.push((1e3 * time, 1e3 * moved));
+            line.push((1e3 * time, 1e6 * moved));
         }
     }
     let lines = [0, 1].map(|k| {
         let all = record.walls.iter();
-        all.map(move |stand| (1e3 * stand.time, 1e3 * stand.middle[k]))
+        all.map(move |stand| (1e3 * stand.time, 1e6 * stand.middle[k]))
     });
     let [struck, far] = lines;
     let [bent, sheared] = plates;
     let axis = Axis::linear("time", "ms");
-    let mut panel = Panel::new(axis.clone(), Axis::linear("deflection along x", "mm"))
-        .title("middles of the end walls; clamped plates under means of 1 ms")
+    let mut panel = Panel::new(axis.clone(), Axis::linear("deflection along x", "µm"))
+        .title("middles of the end walls")
         .series(Series::line("struck wall", struck))
         .series(Series::line("far wall", far));
     panel = panel
@@ -395,12 +395,15 @@ pub fn report(case: &Case, youngs: f64, record: &Record, folder: &Path) -> Resul
                 .dashed()
                 .color(Color(120, 120, 120)),
         );
-    let mut energy = Panel::new(axis, Axis::linear("energy of the walls", "J"));
+    let mut energy = Panel::new(axis, Axis::linear("energy of the walls", "mJ"));
     for (k, name) in ["kinetic", "elastic", "hourglass", "work of the water"]
         .into_iter()
         .enumerate()
     {
-        let line = record.walls.iter().map(|s| (1e3 * s.time, s.energies[k]));
+        let line = record
+            .walls
+            .iter()
+            .map(|s| (1e3 * s.time, 1e3 * s.energies[k]));
         energy = energy.series(Series::line(name, line));
     }
     let figure = Figure::new().columns(2).panel(panel).panel(energy);
