@@ -14,6 +14,7 @@ use meshfree::output::vtu::Pvd;
 use meshfree::prelude::*;
 use meshfree::term::viscosity::{LimitedMonaghanGingold, MonaghanGingold};
 use profile::Layers;
+use std::collections::HashSet;
 use std::process::ExitCode;
 
 const EXAMPLE: Example = Example {
@@ -152,9 +153,15 @@ fn quarter(bar: Bar, material: Material<f64>, spacing: f64) -> Body<f64, 3> {
     Body::points_of("bar", material, points, spacing).velocity([0.0, 0.0, -bar.speed])
 }
 
+/// The particles next to the middle plane, which leave it as the bar widens.
+fn cut(now: &Simulation<f64, 3>, spacing: f64) -> HashSet<usize> {
+    let near = now.all().filter(|p| p.position()[1] < 0.75 * spacing);
+    near.map(|p| p.id()).collect()
+}
+
 /// The bar as cut in its middle plane, coloured by plastic strain.
-fn picture(now: &Simulation<f64, 3>, bar: Bar, spacing: f64) -> Panel {
-    let cut = now.all().filter(|p| p.position()[1] < 0.75 * spacing);
+fn picture(now: &Simulation<f64, 3>, bar: Bar, spacing: f64, cut: &HashSet<usize>) -> Panel {
+    let cut = now.all().filter(|p| cut.contains(&p.id()));
     let points = cut.flat_map(|p| {
         let [x, _, z] = p.position();
         let strain = p.scalar(Plasticity::STRAIN).unwrap_or(0.0);
@@ -205,7 +212,7 @@ fn perform(options: &Options) -> Result<(), Failure> {
         .boundary(MirrorPlane::symmetry([0.0; 3], [0.0, -1.0, 0.0]))
         .build()?;
     let layers = Layers::of(&simulation, bar.diameter, spacing);
-    let start = simulation.ledger().whole;
+    let (start, plane) = (simulation.ledger().whole, cut(&simulation, spacing));
 
     let columns = [
         "time_s",
@@ -243,7 +250,7 @@ fn perform(options: &Options) -> Result<(), Failure> {
             movie.frame(now.time(), &now.vtu())?;
         }
         if [20, 80].contains(&frame) {
-            panels.push(picture(now, bar, spacing));
+            panels.push(picture(now, bar, spacing, &plane));
         }
         frame += 1;
         Ok(())
