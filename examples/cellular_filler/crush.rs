@@ -39,6 +39,7 @@ Our choice, which the paper does not state:
 - contact without friction by springs between particles (they see no images in planes of symmetry);
 - artificial viscosity: alpha 0.2 in the polymer, none in the water beside its density diffusion;
 - no outlet: water that has left flies on;
+- water sticks to structure and plates;
 - physical sound speed of water, which bears no tension.";
 
 /// Total Lagrangian with J2 flow.
@@ -169,17 +170,19 @@ impl Crushed {
         let (dx, speed) = (self.fitted(), self.speed());
         let [length, depth, height] = self.size();
         let [structure, void] = self.parts()?;
-        let structure = Body::points_of("structure", Self::polymer(), structure, dx).start(
-            |x: [f64; 3], own: Start<3>| Start {
+        let structure = Body::points_of("structure", Self::polymer(), structure, dx);
+        let structure = structure
+            .no_slip()
+            .start(|x: [f64; 3], own: Start<3>| Start {
                 velocity: [0.0, 0.0, -RATE * x[2]],
                 ..own
-            },
-        );
+            });
         let thick = LAYERS as f64 * dx;
         let plate = |name: &str, low: f64, speed: f64| -> Result<Body<f64, 3>, Error> {
             let shape = Cuboid::new([0.0, 0.0, low], [(1.0 + RIM) * length, depth, low + thick]);
             let places = fill(&shape, dx, shape.bounds().0)?;
-            Ok(Body::points_of(name, Self::polymer(), places, dx).velocity([0.0, 0.0, -speed]))
+            let plate = Body::points_of(name, Self::polymer(), places, dx);
+            Ok(plate.no_slip().velocity([0.0, 0.0, -speed]))
         };
         // The plates are groups of their own: within one, a body sees the images of others in planes of symmetry even where
         // the two do not meet.
