@@ -57,6 +57,7 @@ fn rods(form: Form, count: usize, v: f64) -> Scene<f64, 1> {
 }
 
 /// All places and velocities.
+#[cfg(feature = "checkpoint")]
 fn state<const D: usize>(now: &Simulation<f64, D>) -> Vec<u64> {
     let numbers = now.all().flat_map(|p| [p.position(), p.velocity()]);
     numbers.flatten().map(f64::to_bits).collect()

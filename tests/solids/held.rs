@@ -20,6 +20,7 @@ fn solid() -> Scheme<f64, 2> {
     schemes::impact_by_continuity().with(Hypoelastic).into()
 }
 
+#[cfg(feature = "checkpoint")]
 fn bits<const D: usize>(now: &Simulation<f64, D>) -> Vec<u64> {
     let numbers = now.all().flat_map(|p| [p.position(), p.velocity()]);
     numbers.flatten().map(f64::to_bits).collect()
