@@ -4,7 +4,7 @@
 mod common;
 
 use common::{Example, Failure, Movie, Options, Own, Shade, evenly, picture, watch};
-use meshfree::effect::{Hypoelastic, NeoHookean, StVenantKirchhoff};
+use meshfree::effect::{HourglassFree, Hypoelastic, NeoHookean, StVenantKirchhoff};
 use meshfree::material::eos::Linear;
 use meshfree::output::csv::CsvWriter;
 use meshfree::output::svg::{Axis, Figure, Panel, Series};
@@ -128,8 +128,8 @@ fn scheme<T: Real>(options: &Options) -> Result<Scheme<T, 2>, Failure> {
         "total" if options.scheme == "neo-hookean" => Ok(total.with(NeoHookean).compose()),
         "total" => Ok(total.with(StVenantKirchhoff).compose()),
         "updated" => Ok(schemes::impact_by_continuity()
-            .with_viscosity(meshfree::term::viscosity::Inviscid)
             .with(Hypoelastic)
+            .with(HourglassFree::default())
             .compose()),
         other => {
             Err(format!("--formulation: `{other}` is not accepted; it takes total, updated").into())
