@@ -1,4 +1,4 @@
-//! A clamped elastic plate in plane strain: free oscillation (Gray, Monaghan & Swift 2001), and under gravity (Turek & Hron 2006, CSM3).
+//! A clamped elastic plate in plane strain, that swings freely (Gray, Monaghan & Swift 2001) or falls (Turek & Hron 2006).
 //! `cargo run --release --example elastic_plate -- --help` lists the options.
 
 mod common;

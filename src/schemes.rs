@@ -253,7 +253,8 @@ pub fn total_lagrangian() -> StructureBuilder<Inviscid> {
         .with(HourglassControl::default())
 }
 
-/// As [`total_lagrangian`], with the viscosity of Monaghan and Gingold, α = 1, β = 2, for shocks.
+/// As [`total_lagrangian`], with the viscosity of Monaghan and Gingold, α = 1, β = 2, for shocks. It bears a load of its own,
+/// in proportion to the spacing: where shocks are weak, as in a Taylor bar (`docs/solids.md`), α = 0.1 is nearer.
 #[must_use]
 pub fn total_lagrangian_impact() -> StructureBuilder<MonaghanGingold> {
     total_lagrangian()

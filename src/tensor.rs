@@ -83,6 +83,19 @@ impl<L: Lane> Symmetric<L> {
         let shear = product(3) + product(4) + product(5);
         normal + shear + shear
     }
+    /// The stress of von Mises of a deviatoric stress, √(3/2 S:S).
+    ///
+    /// ```
+    /// use meshfree::tensor::Symmetric;
+    /// // Simple tension.
+    /// let stress = Symmetric::<f64>::diagonal([3.0, 0.0, 0.0]);
+    /// assert!((stress.deviator().von_mises() - 3.0).abs() < 1e-15);
+    /// ```
+    #[must_use]
+    #[inline(always)]
+    pub fn von_mises(&self) -> L {
+        (L::of(1.5) * self.contract(self)).sqrt()
+    }
     /// The product with a vector of the first `D` axes, as pair terms have it: σ·n is the traction of a
     /// stress on a face.
     ///
@@ -191,6 +204,11 @@ impl<T: Real> Symmetric<T> {
         Self(core::array::from_fn(|k| {
             values.get(k).copied().unwrap_or(T::zero())
         }))
+    }
+    /// The same in `f64`, in which laws of materials are evaluated.
+    #[must_use]
+    pub fn to_f64(&self) -> Symmetric<f64> {
+        Symmetric::new(self.0.map(Real::to_f64))
     }
     /// The symmetric part of a matrix, zero out of its plane.
     #[must_use]

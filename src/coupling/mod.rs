@@ -49,6 +49,7 @@ mod contact_density;
 mod friction;
 mod liquid_structure;
 mod penalty;
+mod spring;
 mod tied;
 
 pub use contact_density::ContactDensity;

@@ -2,7 +2,8 @@
 //! The node form of what LS-DYNA does between surfaces (Hallquist, Goudreau & Benson 1985).
 
 use super::friction::{Coulomb, Touch};
-use super::{CoupledPair, CoupledParticle, Coupling, PairForce, link};
+use super::spring::Spring;
+use super::{CoupledPair, CoupledParticle, Coupling, PairForce};
 use crate::scalar::Real;
 use crate::term::TermDoc;
 
@@ -37,7 +38,7 @@ use crate::term::TermDoc;
 /// K A²/V of a segment.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Penalty {
-    stiffness: Option<f64>,
+    stiffness: Spring,
     damping: f64,
     friction: Option<Coulomb>,
 }
@@ -51,7 +52,7 @@ impl Penalty {
     /// The stiffness k \[N/m\] (N/m per metre in 2D, per m² in 1D) of a pair; by default that of the bodies.
     #[must_use]
     pub fn stiffness(self, stiffness: f64) -> Self {
-        let stiffness = Some(stiffness);
+        let stiffness = Spring(Some(stiffness));
         Self { stiffness, ..self }
     }
     /// Damping ζ as a share of the critical; zero if not given.
@@ -64,11 +65,6 @@ impl Penalty {
     pub fn friction(self, mu: f64) -> Self {
         let friction = Some(Coulomb { mu });
         Self { friction, ..self }
-    }
-
-    fn spring<T: Real, const D: usize>(&self, stiffness: T, spacing: T) -> T {
-        let own = || link::<T, D>(stiffness, spacing);
-        self.stiffness.map_or_else(own, T::from_f64)
     }
 }
 
@@ -94,7 +90,7 @@ impl<T: Real, const D: usize> Coupling<T, D> for Penalty {
         }
         let normal = apart.map(|x| x / distance);
         let (k, depth) = (
-            self.spring::<T, D>(pair.on.stiffness, spacing),
+            self.stiffness.of::<T, D>(1.0, pair.on.stiffness, spacing),
             spacing - distance,
         );
         let mut pressing = k * depth;
@@ -124,16 +120,13 @@ impl<T: Real, const D: usize> Coupling<T, D> for Penalty {
     fn step(&self, on: &CoupledParticle<T, D>, from: &CoupledParticle<T, D>) -> f64 {
         let spacing = T::from_f64(0.5) * (on.spacing + from.spacing);
         let mass = on.mass.min(from.mass);
-        0.5 * (mass / self.spring::<T, D>(on.stiffness, spacing))
+        0.5 * (mass / self.stiffness.of::<T, D>(1.0, on.stiffness, spacing))
             .sqrt()
             .to_f64()
     }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         let mut problems = Coulomb::problems(self.friction);
-        if let Some(k) = self.stiffness.filter(|k| !(k.is_finite() && *k > 0.0)) {
-            let must_be = "it must be finite and positive, in N/m";
-            problems.push(("stiffness", k, must_be));
-        }
+        problems.extend(self.stiffness.problems());
         if !(self.damping.is_finite() && self.damping >= 0.0) {
             let must_be = "it must be a share of critical damping, not negative";
             problems.push(("damping", self.damping, must_be));

@@ -1,7 +1,8 @@
 //! Tied bodies: springs between the particles of two bodies that are near each other as built, without a limit.
 //! The simplest of tied contacts (LS-DYNA, tied interfaces, in the form of springs).
 
-use super::{CoupledPair, CoupledParticle, Coupling, PairForce, link};
+use super::spring::Spring;
+use super::{CoupledPair, CoupledParticle, Coupling, PairForce};
 use crate::scalar::Real;
 use crate::term::TermDoc;
 
@@ -20,7 +21,7 @@ use crate::term::TermDoc;
 /// Source: central-force lattices, as Hrennikoff 1941 (J. Appl. Mech. 8, A169) has them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tied {
-    stiffness: Option<f64>,
+    stiffness: Spring,
 }
 
 /// Reach in spacings: beyond √2, and short of √3.
@@ -35,13 +36,13 @@ impl Tied {
     /// The stiffness k \[N/m\] (N/m per metre in 2D, per m² in 1D) of a pair; by default that of the bodies.
     #[must_use]
     pub fn stiffness(self, stiffness: f64) -> Self {
-        let stiffness = Some(stiffness);
+        let stiffness = Spring(Some(stiffness));
         Self { stiffness }
     }
 
-    fn spring<T: Real, const D: usize>(&self, stiffness: T, spacing: T) -> T {
-        let own = || link::<T, D>(stiffness, spacing) / T::from_f64(D as f64);
-        self.stiffness.map_or_else(own, T::from_f64)
+    fn spring<T: Real, const D: usize>(self, stiffness: T, spacing: T) -> T {
+        self.stiffness
+            .of::<T, D>(1.0 / D as f64, stiffness, spacing)
     }
 }
 
@@ -82,11 +83,6 @@ impl<T: Real, const D: usize> Coupling<T, D> for Tied {
         0.5 * (on.mass.min(from.mass) / k).sqrt().to_f64()
     }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
-        let wrong = self.stiffness.filter(|k| !(k.is_finite() && *k > 0.0));
-        let must_be = "it must be finite and positive, in N/m";
-        wrong
-            .map(|k| ("stiffness", k, must_be))
-            .into_iter()
-            .collect()
+        self.stiffness.problems()
     }
 }

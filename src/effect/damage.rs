@@ -1,6 +1,7 @@
 //! Damage of solids: it grows as the material's law of failure says, and at one a particle bears no shear and no tension.
 //! Mass is never deleted: what has failed is counted, and stands in the ledger.
 
+use super::plasticity::cold;
 use super::{
     Chunk, Effect, Hypoelastic, Law, LedgerColumn, Plasticity, Setting, StepProgram, Tally,
 };
@@ -119,17 +120,9 @@ impl<const D: usize> Effect<D> for Damage {
             })
         });
         program.require(|scene| {
-            scene.bodies.iter().find_map(|(body, material)| {
+            cold(scene, "failure", |material| {
                 let law = material.failure()?;
-                let lacks = law.uses_temperature() && material.plastic_heating().is_none();
-                lacks.then(|| Problem::Incompatible {
-                    what: format!(
-                        "the failure of body `{body}`, of {}, follows from temperature ({}), which it does not have",
-                        material.name,
-                        law.name()
-                    ),
-                    remedy: "give the material its specific heat (Material::with_plastic_heating)",
-                })
+                law.uses_temperature().then(|| law.name())
             })
         });
         program.require(|scene| {
@@ -181,8 +174,7 @@ impl<T: Real, const D: usize> Law<T, D> for Damage {
         ]);
         for (n, stress) in stress.chunks_exact_mut(6).enumerate() {
             if damage[n] < T::one() {
-                let deviator = Symmetric::from_slice(stress);
-                let deviator = Symmetric::new(deviator.components().map(Real::to_f64));
+                let deviator = Symmetric::from_slice(stress).to_f64();
                 let pressure = pressure[n].to_f64();
                 let [now, work] = [&*strain, &*work]
                     .map(|column| column.get(n).map_or(0.0, |value| value.to_f64()));
@@ -194,7 +186,7 @@ impl<T: Real, const D: usize> Law<T, D> for Damage {
                     rate: if dt > 0.0 { increment / dt } else { 0.0 },
                     temperature: heating.map_or(ROOM_TEMPERATURE, |own| own.temperature(work)),
                     pressure,
-                    von_mises: (1.5 * deviator.contract(&deviator)).sqrt(),
+                    von_mises: deviator.von_mises(),
                     principal_stress: largest(&deviator) - pressure,
                 };
                 let more = damage[n].to_f64() + law.damage(&state);

@@ -1,6 +1,7 @@
 //! Elastic–plastic solids under finite strain: a total-Lagrangian stress with the yield condition of von Mises.
 //! The multiplicative plasticity of Simo 1992 (Simo & Hughes 1998, box 9.1), with pressure by the equation of state.
 
+use super::hyperelastic::square;
 use super::radial_return::{after, radial_return};
 use super::total_lagrangian::{matrix, put, stretches};
 use super::{
@@ -10,7 +11,7 @@ use crate::error::Problem;
 use crate::material::strength::{PlasticState, ROOM_TEMPERATURE};
 use crate::particles::{Field, Fields};
 use crate::scalar::Real;
-use crate::tensor::{Matrix, determinant, inverse};
+use crate::tensor::{Matrix, Symmetric, determinant, inverse};
 use crate::term::{Stage, TermDoc};
 
 /// The stress of a [total-Lagrangian](TotalLagrangian) solid that yields. Of the deformation gradient F a part is plastic and
@@ -157,7 +158,7 @@ impl<T: Real, const D: usize> Law<T, D> for FiniteStrainPlasticity {
             let p = pressure[n].to_f64();
             let mut elastic = Elastic::of(&gradient, volume, &plastic[n * 6..]);
             let trial = elastic.stress(shear);
-            let von_mises = (1.5 * squares(&trial)).sqrt() / volume;
+            let von_mises = (1.5 * square(&trial)).sqrt() / volume;
             let (flowed, worked) = (strain[n].to_f64(), work[n].to_f64());
             let before = PlasticState {
                 strain: flowed,
@@ -215,9 +216,9 @@ impl Elastic {
             };
             own * shrunk
         });
-        let inverse = Matrix::<f64, 3>::from_fn(|a, b| {
-            f64::from(u8::from(a == b)) + plastic[place(a, b)].to_f64()
-        });
+        let plastic = Symmetric::from_slice(plastic).to_f64();
+        let inverse =
+            Matrix::<f64, 3>::from_fn(|a, b| f64::from(u8::from(a == b)) + plastic.at(a, b));
         Self {
             gradient,
             deformation: gradient * inverse * gradient.transpose(),
@@ -236,7 +237,7 @@ impl Elastic {
     fn return_to(&mut self, stress: &Matrix<f64, 3>, shear: f64) {
         let deviator = stress / shear;
         // det(a + m 1) = m³ − ½ (a:a) m + det a, which rises beyond its root.
-        let (half, third) = (0.5 * squares(&deviator), determinant(&deviator));
+        let (half, third) = (0.5 * square(&deviator), determinant(&deviator));
         let mut mean = (self.trace() / 3.0).max(1.0);
         for _ in 0..MOST_MEANS {
             let change = ((mean * mean - half) * mean + third - 1.0) / (3.0 * mean * mean - half);
@@ -250,25 +251,11 @@ impl Elastic {
     /// Cₚ⁻¹ − 1.
     fn pull_back<T: Real>(&self, plastic: &mut [T]) {
         let back = inverse(&self.gradient, 0.0).unwrap_or_else(Matrix::identity);
-        let inverse = back * self.deformation * back.transpose();
-        for a in 0..3 {
-            for b in a..3 {
-                let one = f64::from(u8::from(a == b));
-                plastic[place(a, b)] = T::from_f64(inverse[(a, b)] - one);
-            }
-        }
+        let inverse = back * self.deformation * back.transpose() - Matrix::identity();
+        let own = Symmetric::symmetric_part(&inverse);
+        plastic.copy_from_slice(&own.components().map(T::from_f64));
     }
 }
 
 /// More than Newton's method takes for the mean of b̄, which is three to five.
 const MOST_MEANS: usize = 20;
-
-/// Where a component of a symmetric tensor stands: xx, yy, zz, yz, xz, xy.
-fn place(a: usize, b: usize) -> usize {
-    if a == b { a } else { 6 - a - b }
-}
-
-/// s:s.
-fn squares(stress: &Matrix<f64, 3>) -> f64 {
-    super::hyperelastic::square(stress)
-}

@@ -181,8 +181,7 @@ impl<T: Real, const D: usize> Law<T, D> for HourglassFree {
             if let Some(strain) = strain.get(n) {
                 let more = (*strain - flowed[n]).to_f64();
                 flowed[n] = *strain;
-                let stress = Symmetric::from_slice(&stress[6 * n..]);
-                let yields = (1.5 * stress.contract(&stress).to_f64()).sqrt();
+                let yields = Symmetric::from_slice(&stress[6 * n..]).to_f64().von_mises();
                 if more > 0.0 {
                     left = T::from_f64(yields / (yields + 3.0 * modulus * more));
                 }

@@ -1,5 +1,5 @@
 //! The compressible neo-Hookean law: rubber, and any elastic solid under large strain.
-//! As Bonet & Wood 2008 (Nonlinear continuum mechanics for finite element analysis, eq. 6.28) have it.
+//! As Bonet & Wood 2008 (Nonlinear Continuum Mechanics for Finite Element Analysis, chapter 6) have it.
 
 use super::hyperelastic::{self, Response, StoredEnergy, square};
 use super::{Effect, Setting, StepProgram};
@@ -41,7 +41,7 @@ impl<const D: usize> Effect<D> for NeoHookean {
         let document = TermDoc {
             name: "neo-Hookean".into(),
             equation: "P = μ (F − F⁻ᵀ) + λ ln J F⁻ᵀ",
-            source: "Bonet & Wood 2008, eq. 6.28",
+            source: "Bonet & Wood 2008, chapter 6",
         };
         hyperelastic::register(program, *self, document);
     }

@@ -155,7 +155,7 @@ pub(super) fn strain_across(
     let pressure = trial.at(2, 2);
     let excess = |strain: f64| {
         let changed = with_strain_across(trial, shear, strain);
-        let share = left(von_mises(&changed));
+        let share = left(changed.von_mises());
         [
             share.mul_add(changed.at(2, 2), bulk.mul_add(strain, -pressure)),
             share,
@@ -164,7 +164,7 @@ pub(super) fn strain_across(
     // The elastic slope K + 4G/3 is an upper bound for a law that hardens, and K a lower one for any share that falls
     // while σ grows: Newton with what lies between, kept within its bracket by halving.
     let (mut strain, mut low, mut high) = (0.0, f64::NEG_INFINITY, f64::INFINITY);
-    let size = von_mises(trial).max(f64::MIN_POSITIVE);
+    let size = trial.von_mises().max(f64::MIN_POSITIVE);
     for _ in 0..MOST_TRIALS {
         let [residual, share] = excess(strain);
         if residual.abs() <= 1e-14 * size {
@@ -198,8 +198,4 @@ pub(super) fn with_strain_across(
 ) -> Symmetric<f64> {
     let change = Symmetric::diagonal([-1.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0]);
     stress.plus(2.0 * shear * strain, &change)
-}
-
-fn von_mises(stress: &Symmetric<f64>) -> f64 {
-    (1.5 * stress.contract(stress)).sqrt()
 }

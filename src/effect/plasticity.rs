@@ -7,6 +7,7 @@ use super::{
     Tally, UniaxialStress, plane_stress,
 };
 use crate::error::Problem;
+use crate::material::Material;
 use crate::material::strength::{PlasticState, ROOM_TEMPERATURE};
 use crate::particles::{Field, Fields};
 use crate::scalar::Real;
@@ -116,15 +117,26 @@ pub(super) fn lacks_strength<T: Real>(scene: &SceneFacts<'_, T>) -> Option<Probl
 
 /// A body whose strength follows from a temperature that it does not have.
 pub(super) fn lacks_temperature<T: Real>(scene: &SceneFacts<'_, T>) -> Option<Problem> {
+    cold(scene, "strength", |material| {
+        let law = material.strength()?;
+        law.uses_temperature().then(|| law.name())
+    })
+}
+
+/// A body that has no temperature, of which `asks` names a law that follows from it.
+pub(super) fn cold<T: Real>(
+    scene: &SceneFacts<'_, T>,
+    what: &str,
+    asks: impl Fn(&Material<T>) -> Option<&'static str>,
+) -> Option<Problem> {
     let mut bodies = scene.bodies.iter();
     let cold = bodies.find_map(|(body, material)| {
-        let law = material.strength()?;
-        let lacks = law.uses_temperature() && material.plastic_heating().is_none();
-        lacks.then(|| (body, &material.name, law.name()))
+        let law = asks(material).filter(|_| material.plastic_heating().is_none())?;
+        Some((body, &material.name, law))
     });
     cold.map(|(body, material, law)| Problem::Incompatible {
         what: format!(
-            "the strength of body `{body}`, of {material}, follows from temperature ({law}), which it does not have"
+            "the {what} of body `{body}`, of {material}, follows from temperature ({law}), which it does not have"
         ),
         remedy: "give the material its specific heat (Material::with_plastic_heating)",
     })
@@ -169,7 +181,8 @@ impl<T: Real, const D: usize> Law<T, D> for Plasticity {
         let poisson = material.poisson_ratio().unwrap_or(0.0);
         let bulk = material.bulk_modulus();
         for (n, stress) in stress.chunks_exact_mut(6).enumerate() {
-            let mut trial = von_mises(stress);
+            let own = Symmetric::from_slice(stress).to_f64();
+            let mut trial = own.von_mises();
             let (flowed, worked) = (strain[n].to_f64(), work[n].to_f64());
             let density = density[n].to_f64();
             let before = PlasticState {
@@ -185,14 +198,12 @@ impl<T: Real, const D: usize> Law<T, D> for Plasticity {
                 continue;
             };
             if let Some(across) = across.get_mut(n) {
-                let own = Symmetric::from_slice(stress);
-                let own = Symmetric::new(own.components().map(Real::to_f64));
                 let left = |trial: f64| returned(trial).map_or(1.0, |[_, yields]| yields / trial);
                 let more = plane_stress::strain_across(&own, [bulk, modulus], left);
                 let changed = plane_stress::with_strain_across(&own, modulus, more);
                 stress.copy_from_slice(&changed.components().map(T::from_f64));
                 *across += T::from_f64(more);
-                trial = von_mises(stress);
+                trial = changed.von_mises();
                 [increment, yields] = returned(trial).unwrap_or([0.0, trial]);
             }
             if let Some(lateral) = lateral.get_mut(n) {
@@ -210,13 +221,6 @@ impl<T: Real, const D: usize> Law<T, D> for Plasticity {
         }
         tally
     }
-}
-
-/// √(3/2 S:S) \[Pa\].
-fn von_mises<T: Real>(stress: &[T]) -> f64 {
-    let stress = Symmetric::from_slice(stress);
-    let stress = Symmetric::new(stress.components().map(Real::to_f64));
-    (1.5 * stress.contract(&stress)).sqrt()
 }
 
 #[cfg(test)]

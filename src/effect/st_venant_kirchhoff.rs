@@ -1,5 +1,5 @@
 //! The law of St Venant and Kirchhoff: Hooke's law between Green's strain and its stress.
-//! As Ogden 1984 (Non-linear elastic deformations, section 4.4) has it.
+//! As Bonet & Wood 2008 (Nonlinear Continuum Mechanics for Finite Element Analysis, chapter 6) have it.
 
 use super::hyperelastic::{self, Response, StoredEnergy, square};
 use super::{Effect, Setting, StepProgram};
@@ -47,7 +47,7 @@ impl<const D: usize> Effect<D> for StVenantKirchhoff {
         let document = TermDoc {
             name: "St Venant–Kirchhoff".into(),
             equation: "P = F (λ tr E + 2 μ E), E = ½ (FᵀF − 1)",
-            source: "Ogden 1984, section 4.4",
+            source: "Bonet & Wood 2008, chapter 6",
         };
         hyperelastic::register(program, *self, document);
     }

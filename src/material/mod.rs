@@ -375,15 +375,7 @@ impl<T: Real> Material<T> {
         if let Some(law) = &self.rheology {
             problems.extend(law.problems());
         }
-        if let Some(law) = &self.strength {
-            problems.extend(law.problems());
-        }
-        if let Some(law) = &self.failure {
-            problems.extend(law.problems());
-        }
-        if let Some(heating) = &self.plastic_heating {
-            problems.extend(heating.problems());
-        }
+        problems.extend(self.problems_of_solids());
         problems.extend(self.sound_speed.problems());
         problems
     }

@@ -82,4 +82,12 @@ impl<T: Real> Material<T> {
         self.shear_modulus
             .map(|shear| 9.0 * bulk * shear / (3.0 * bulk + shear))
     }
+
+    /// What is wrong with its strength, its failure and the heat of plastic work.
+    pub(super) fn problems_of_solids(&self) -> Vec<(&'static str, f64, &'static str)> {
+        let strength = self.strength.iter().flat_map(|law| law.problems());
+        let heating = self.plastic_heating.iter().flat_map(|own| own.problems());
+        let failure = self.failure.iter().flat_map(|law| law.problems());
+        strength.chain(heating).chain(failure).collect()
+    }
 }

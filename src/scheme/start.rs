@@ -58,11 +58,10 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         if columns.fields().contains(Field::REFERENCE_POSITION) {
             columns.vectors_mut(Field::REFERENCE_POSITION)[slot] = rounded;
             // The body is free of stress where its rounded positions are.
-            columns.raw_mut(Field::POSITION_RESIDUAL)[..]
-                .chunks_exact_mut(D)
-                .skip(slot)
-                .take(1)
-                .for_each(|residual| residual.fill(T::zero()));
+            let residuals = columns.vectors_mut(Field::POSITION_RESIDUAL);
+            if let Some(residual) = residuals.get_mut(slot) {
+                *residual = [T::zero(); D];
+            }
         }
     }
 }

@@ -91,28 +91,23 @@ impl<T: Real, const D: usize> Results<T, D> {
 
     /// Adds to a vector sum of the particle in `slot`, where it was asked for.
     pub(crate) fn add(&mut self, output: Output, slot: usize, vector: [T; D]) {
-        let offset = self.offsets[output.place()];
-        if offset == ABSENT || slot < self.first {
-            return;
-        }
-        for (d, value) in vector.into_iter().enumerate() {
-            let at = self.at(slot - self.first, offset as usize + d);
-            if let Some(sum) = self.data.get_mut(at) {
-                *sum += value;
-            }
-        }
+        self.change(output, slot, |sum, d| *sum += vector[d]);
     }
 
     /// Sets a vector sum of the particle in `slot`, where it was asked for.
     pub(crate) fn set(&mut self, output: Output, slot: usize, vector: [T; D]) {
+        self.change(output, slot, |sum, d| *sum = vector[d]);
+    }
+
+    fn change(&mut self, output: Output, slot: usize, with: impl Fn(&mut T, usize)) {
         let offset = self.offsets[output.place()];
         if offset == ABSENT || slot < self.first {
             return;
         }
-        for (d, value) in vector.into_iter().enumerate() {
+        for d in 0..D {
             let at = self.at(slot - self.first, offset as usize + d);
             if let Some(sum) = self.data.get_mut(at) {
-                *sum = value;
+                with(sum, d);
             }
         }
     }
