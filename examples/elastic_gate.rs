@@ -73,10 +73,9 @@ impl Case {
         (length / self.dx).round() as i64
     }
     fn rubber<T: Real>(&self) -> Material<T> {
-        let bulk = self.youngs / (3.0 * (1.0 - 2.0 * POISSON));
+        let law = Linear::from_elastic_constants(RUBBER, self.youngs, POISSON);
         let shear = self.youngs / (2.0 * (1.0 + POISSON));
-        Material::new("rubber", Linear::new(RUBBER, (bulk / RUBBER).sqrt()))
-            .with_shear_modulus(shear)
+        Material::new("rubber", law).with_shear_modulus(shear)
     }
     fn scene<T: Real>(&self) -> Scene<T, 2> {
         let dx = self.dx;

@@ -91,7 +91,7 @@ impl Case {
     }
     fn material<T: Real>(&self) -> Material<T> {
         let shear = self.youngs / (2.0 * (1.0 + self.poisson));
-        let law = Linear::new(DENSITY, (self.bulk_modulus() / DENSITY).sqrt());
+        let law = Linear::from_elastic_constants(DENSITY, self.youngs, self.poisson);
         Material::new("elastic", law).with_shear_modulus(shear)
     }
     /// The plate, whose column at x = 0 and those behind it are the clamp: what is held is places of particles, so the length

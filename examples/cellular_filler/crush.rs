@@ -105,12 +105,11 @@ impl Crushed {
 
     pub fn polymer() -> Material<f64> {
         let [density, youngs, poisson, tension, compression] = POLYMER;
-        let bulk = youngs / (3.0 * (1.0 - 2.0 * poisson));
         let slow = TensionCompression::new(tension, compression);
         let [doubling, exponent] = RATES;
         Material::new(
             "FullCure M730",
-            Linear::new(density, (bulk / density).sqrt()),
+            Linear::from_elastic_constants(density, youngs, poisson),
         )
         .with_shear_modulus(youngs / (2.0 * (1.0 + poisson)))
         .with_strength(CowperSymonds::new(slow, doubling, exponent))

@@ -30,10 +30,9 @@ fn deflection() -> f64 {
 
 fn scene() -> Scene<f64, 2> {
     let water = catalogue::water_at(SoundSpeed::artificial(2.0));
-    let bulk = YOUNGS / (3.0 * (1.0 - 2.0 * POISSON));
+    let law = Linear::from_elastic_constants(DENSITY, YOUNGS, POISSON);
     let shear = YOUNGS / (2.0 * (1.0 + POISSON));
-    let rubber = Material::new("rubber", Linear::new(DENSITY, (bulk / DENSITY).sqrt()))
-        .with_shear_modulus(shear);
+    let rubber = Material::new("rubber", law).with_shear_modulus(shear);
     let held = 3.0 * DX;
     let plate = Body::block("plate", rubber, [-held, -HEIGHT], [LENGTH + held, 0.0], DX);
     let sides = [[true; 2], [false; 2]];

@@ -20,9 +20,9 @@ const YOUNGS: f64 = 2e6;
 const POISSON: f64 = 0.3975;
 
 fn elastic<T: Real>() -> Material<T> {
-    let bulk = YOUNGS / (3.0 * (1.0 - 2.0 * POISSON));
+    let law = Linear::from_elastic_constants(RHO, YOUNGS, POISSON);
     let shear = YOUNGS / (2.0 * (1.0 + POISSON));
-    Material::new("elastic", Linear::new(RHO, (bulk / RHO).sqrt())).with_shear_modulus(shear)
+    Material::new("elastic", law).with_shear_modulus(shear)
 }
 
 fn scheme() -> Scheme<f64, 2> {
