@@ -188,6 +188,7 @@ pub mod material;
 pub mod neighbors;
 pub mod observe;
 pub mod output;
+mod parallel;
 pub mod particles;
 pub mod prelude;
 pub mod scalar;

@@ -2,8 +2,8 @@
 //! A row of W particles shares one list, so the pair loop broadcasts each neighbour to full lanes.
 
 use super::cells::Cells;
+use crate::parallel::{GRAIN, collect, cut, for_each};
 use crate::scalar::{InstructionSet, Lane, Mask, Real};
-use rayon::prelude::*;
 use std::ops::Range;
 
 /// Clusters that one thread takes at a time; fixed, so sums never depend on the number of threads.
@@ -124,16 +124,16 @@ impl ClusterLists {
     pub fn rebuild<T: Real, const D: usize>(&mut self, input: &SearchInput<'_, T, D>) {
         let instructions = input.instructions.or_baseline();
         // Blocks at once: liquid by one thread and walls by another.
-        let sources: Vec<Source<T, D>> = (0..input.blocks.len())
-            .into_par_iter()
-            .map(|block| Source::new(input, block))
-            .collect();
+        let sources = collect(input.blocks.len(), |block| Source::new(input, block));
         let clusters = input.slots / input.width;
         self.chunks
             .resize_with(clusters.div_ceil(CHUNK), ChunkList::default);
-        self.chunks.par_iter_mut().enumerate().for_each_init(
-            Scratch::default,
-            |scratch, (c, chunk)| {
+        // So few that threads share them evenly, and so many that scratch memory is not asked for with each.
+        const AT_ONCE: usize = 4;
+        for_each(cut(&mut self.chunks, AT_ONCE), |piece, chunks| {
+            let mut scratch = Scratch::default();
+            for (n, chunk) in chunks.iter_mut().enumerate() {
+                let c = piece * AT_ONCE + n;
                 chunk.neighbors.clear();
                 chunk.segments.clear();
                 chunk.starts.clear();
@@ -155,14 +155,14 @@ impl ClusterLists {
                             block,
                             members,
                             instructions,
-                            scratch,
+                            &mut scratch,
                             chunk,
                         );
                     }
                 }
                 chunk.starts.push(chunk.segments.len() as u32);
-            },
-        );
+            }
+        });
     }
 }
 
@@ -195,11 +195,12 @@ impl<T: Real, const D: usize> Source<T, D> {
         // Cells of half the reach fit the boxes of clusters better than cells of the full reach.
         let size = if D == 1 { reach } else { 0.5 * reach };
         let cells = Cells::build(input.positions, &points, size);
-        let positions = cells
-            .points()
-            .par_iter()
-            .map(|&j| input.positions[j as usize])
-            .collect();
+        let mut positions = vec![[T::zero(); D]; cells.points().len()];
+        for_each(cut(&mut positions, GRAIN), |piece, own| {
+            for (x, &j) in own.iter_mut().zip(&cells.points()[piece * GRAIN..]) {
+                *x = input.positions[j as usize];
+            }
+        });
         Self {
             cells,
             positions,

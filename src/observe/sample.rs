@@ -5,11 +5,11 @@ use super::grid::SampleGrid;
 use super::{normalisation, weight};
 use crate::error::{Error, Problem, Result};
 use crate::neighbors::Cells;
+use crate::parallel::{cut, for_each};
 use crate::particles::{Field, Shape};
 use crate::scalar::Real;
 use crate::simulation::Simulation;
 use crate::tensor::Symmetric;
-use rayon::prelude::*;
 
 /// A field at points, as [`Simulation::sample`] reads it.
 #[derive(Clone, Debug, PartialEq)]
@@ -154,11 +154,16 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let cells = Cells::build(&positions, &all, (0.5 * reach).max(f64::MIN_POSITIVE));
         let mut values = vec![0.0; components * points.len()];
         let mut filling = vec![0.0; points.len()];
-        values
-            .par_chunks_mut(components)
-            .zip(filling.par_iter_mut())
-            .zip(points)
-            .for_each(|((sums, filling), point)| {
+        // So few that points in the midst of a body, which have neighbours, are shared out as well.
+        const POINTS: usize = 64;
+        let pieces = (
+            cut(&mut values, POINTS * components),
+            cut(&mut filling, POINTS),
+        );
+        for_each(pieces, |piece, (sums, filling)| {
+            let sums = sums.chunks_exact_mut(components);
+            let points = &points[piece * POINTS..];
+            for ((sums, filling), point) in sums.zip(filling).zip(points) {
                 let [from, to] = [-reach, reach].map(|r| point.map(|x| x + r));
                 cells.for_each_run(from, to, |run| {
                     for source in run.iter().map(|&k| k as usize) {
@@ -177,7 +182,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 for sum in sums {
                     *sum /= *filling;
                 }
-            });
+            }
+        });
         Ok(Sample {
             name,
             shape: field.shape(),

@@ -5,11 +5,12 @@ use super::control::{Criterion, NO_VOTE, Vote, least};
 use super::group::Group;
 use crate::boundary::Slip;
 use crate::neighbors::{CHUNK, ChunkList};
+use crate::parallel::{GRAIN, largest, reduce, runs};
 use crate::particles::Field;
 use crate::scalar::{Lane, Real};
 use crate::sweep::Interaction;
 use crate::tensor::{Vector, length};
-use rayon::prelude::*;
+use std::ops::Range;
 
 /// Distance in spacings that a pair has at least, as far as its step is concerned: spray and gas behind a shock have
 /// pairs that are nearer, which kernels do not resolve and which would stop the run.
@@ -91,13 +92,10 @@ impl<T: Real, const D: usize> Group<T, D> {
         if harmless(spread.sqrt()) {
             return NOTHING;
         }
-        self.neighborhood
-            .lists
-            .chunks()
-            .par_iter()
-            .enumerate()
-            .map(|(chunk, list)| self.approach_in(chunk, list, share, least_h, range))
-            .reduce(|| NOTHING, Approach::and)
+        let chunks = self.neighborhood.lists.chunks();
+        let in_chunk =
+            |chunk: usize, _| self.approach_in(chunk, &chunks[chunk], share, least_h, range);
+        reduce(runs(0..chunks.len(), 1), NOTHING, in_chunk, Approach::and)
     }
 
     /// The largest speed \[m/s\] of bodies and walls.
@@ -105,13 +103,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         let velocities = self.particles.columns.vectors(Field::VELOCITY);
         let square = |v: &[T; D]| v.iter().map(|v| v.to_f64().powi(2)).sum::<f64>();
         let slots = self.particles.bodies.iter().map(|body| body.slots.clone());
-        let fastest = |slots: std::ops::Range<usize>| {
-            velocities[slots]
-                .par_iter()
-                .with_min_len(4096)
-                .map(square)
-                .reduce(|| 0.0, f64::max)
-        };
+        let fastest = |slots: Range<usize>| largest(slots, |slot| square(&velocities[slot]));
         slots
             .chain(self.walls.iter().map(|wall| wall.slots.clone()))
             .map(fastest)
@@ -129,28 +121,25 @@ impl<T: Real, const D: usize> Group<T, D> {
             ]
         };
         let velocities = self.particles.columns.vectors(Field::VELOCITY);
-        let own = |slots: std::ops::Range<usize>| {
-            velocities[slots]
-                .par_iter()
-                .with_min_len(4096)
-                .map(|v| [v.map(Real::to_f64); 2])
-                .reduce(empty, both)
+        let range = |run: Range<usize>, of: &dyn Fn(usize) -> [T; D]| {
+            let all = run.map(|k| [of(k).map(Real::to_f64); 2]);
+            all.fold(empty(), both)
+        };
+        let own = |slots: Range<usize>| {
+            let of = |_, run| range(run, &|slot| velocities[slot]);
+            reduce(runs(slots, GRAIN), empty(), of, both)
         };
         let bodies = self.particles.bodies.iter().map(|body| body.slots.clone());
         let walls = self.walls.iter().map(|wall| wall.slots.clone());
         let direct = bodies.chain(walls).map(own).fold(empty(), both);
-        let images = self
-            .neighborhood
-            .images
-            .par_iter()
-            .with_min_len(4096)
-            .map(|image| {
-                let by = &self.neighborhood.transforms[image.transform as usize];
-                let v = Vector::from(velocities[image.source as usize]);
-                let turned: [T; D] = (by.rotation * v + by.velocity).into();
-                [turned.map(Real::to_f64); 2]
-            });
-        both(direct, images.reduce(empty, both))
+        let images = &self.neighborhood.images;
+        let turned = |k: usize| {
+            let by = &self.neighborhood.transforms[images[k].transform as usize];
+            let v = Vector::from(velocities[images[k].source as usize]);
+            (by.rotation * v + by.velocity).into()
+        };
+        let of = |_, run| range(run, &turned);
+        reduce(runs(0..images.len(), GRAIN), direct, of, both)
     }
 
     /// Whether particles of a block wear the mirrored velocity by which a liquid sticks to them, which differs from

@@ -6,9 +6,9 @@ use super::group::Group;
 use super::pair_list::PairList;
 use crate::coupling::{CoupledPair, Coupling};
 use crate::error::{Error, Problem, Result};
+use crate::parallel::largest;
 use crate::particles::Field;
 use crate::scalar::Real;
-use rayon::prelude::*;
 use std::sync::Arc;
 
 /// Skin of the lists of pairs in mean spacings.
@@ -379,13 +379,7 @@ impl<T: Real, const D: usize> Couple<T, D> {
                     square
                 }
             };
-            let far = body
-                .slots
-                .clone()
-                .into_par_iter()
-                .with_min_len(4096)
-                .map(far);
-            far.reduce(|| 0.0, f64::max).sqrt()
+            largest(body.slots.clone(), far).sqrt()
         };
         let first = moved(0);
         let second = if self.is_self() { first } else { moved(1) };

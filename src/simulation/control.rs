@@ -4,10 +4,11 @@
 use super::Simulation;
 use super::group::Group;
 use crate::error::{Error, Result};
+use crate::parallel::{GRAIN, reduce, runs};
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::tensor::{Vector, length};
-use rayon::prelude::*;
+use std::ops::Range;
 
 /// How the time step is chosen.
 ///
@@ -317,20 +318,17 @@ impl<T: Real, const D: usize> Group<T, D> {
         };
         let shortest = |slot: usize| (limits(slot).into_iter().fold(f64::INFINITY, f64::min), slot);
         // The lower slot wins a tie, whatever the order of reduction.
-        let (step, particle) = (0..self.particles.mobile)
-            .into_par_iter()
-            .with_min_len(4096)
-            .map(shortest)
-            .reduce(
-                || (NO_VOTE.step, NO_VOTE.particle),
-                |a, b| {
-                    if b.0 < a.0 || (b.0 == a.0 && b.1 < a.1) {
-                        b
-                    } else {
-                        a
-                    }
-                },
-            );
+        let least = |a: (f64, usize), b: (f64, usize)| {
+            if b.0 < a.0 || (b.0 == a.0 && b.1 < a.1) {
+                b
+            } else {
+                a
+            }
+        };
+        let none = (NO_VOTE.step, NO_VOTE.particle);
+        let in_run = |_, run: Range<usize>| run.map(shortest).fold(none, least);
+        let all = runs(0..self.particles.mobile, GRAIN);
+        let (step, particle) = reduce(all, none, in_run, least);
         if particle == NO_VOTE.particle {
             return NO_VOTE;
         }

@@ -2,15 +2,15 @@
 //! Everything is done in place; nothing is allocated between two builds of the neighbour lists.
 
 use super::group::Group;
-use super::stages::{GRAIN, Moment};
+use super::stages::Moment;
 use crate::effect::DensityForm;
 use crate::material::eos::GuardCounts;
+use crate::parallel::{GRAIN, cut, for_each, reduce};
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::scheme::EnergyForm;
 use crate::sweep::Pass;
 use crate::term::Stage;
-use rayon::prelude::*;
 use std::time::Instant;
 
 impl<T: Real, const D: usize> Group<T, D> {
@@ -23,14 +23,13 @@ impl<T: Real, const D: usize> Group<T, D> {
             Field::REFERENCE_DENSITY,
         ]);
         let (mass, density, rest) = (&*mass, &*density, &*rest);
-        weight
-            .par_iter_mut()
-            .enumerate()
-            .with_min_len(GRAIN)
-            .for_each(|(slot, weight)| {
+        for_each(cut(weight, GRAIN), |piece, weight| {
+            for (n, weight) in weight.iter_mut().enumerate() {
+                let slot = piece * GRAIN + n;
                 let rest = rest.get(slot).copied().unwrap_or(density[slot]);
                 *weight = form.weight(mass[slot], density[slot], rest);
-            });
+            }
+        });
     }
 
     /// Volumes `dt` \[s\] ahead with the last rates of compression, for sums at the middle of a drift.
@@ -60,15 +59,14 @@ impl<T: Real, const D: usize> Group<T, D> {
         ]);
         let (mass, density) = (&*mass, &*density);
         let (rest, moment) = (&*rest, &*moment);
-        weight
-            .par_iter_mut()
-            .enumerate()
-            .with_min_len(GRAIN)
-            .for_each(|(slot, weight)| {
+        for_each(cut(weight, GRAIN), |piece, weight| {
+            for (n, weight) in weight.iter_mut().enumerate() {
+                let slot = piece * GRAIN + n;
                 let sum = rates.get(Output::COMPRESSION, 0, slot);
                 let rate = form.compression(sum, density[slot], rest[slot], moment[slot]);
                 *weight = mass[slot] / (density[slot] * (T::one() + dt * rate));
-            });
+            }
+        });
     }
 
     /// Evaluates all rates at the present positions, velocities, densities and energies. `elapsed` \[s\] is the
@@ -144,13 +142,16 @@ impl<T: Real, const D: usize> Group<T, D> {
             } else {
                 &[]
             };
-            guards += density[own.clone()]
-                .par_chunks(GRAIN)
-                .zip(pressure[own.clone()].par_chunks_mut(GRAIN))
-                .zip(sound_speed[own.clone()].par_chunks_mut(GRAIN))
-                .enumerate()
-                .map(|(chunk, ((density, pressure), sound_speed))| {
+            let pieces = (
+                cut(&mut pressure[own.clone()], GRAIN),
+                cut(&mut sound_speed[own.clone()], GRAIN),
+            );
+            guards = reduce(
+                pieces,
+                guards,
+                |chunk, (pressure, sound_speed)| {
                     let first = chunk * GRAIN;
+                    let density = &density[own.start + first..][..pressure.len()];
                     let energy = carries_energy.then(|| &energy[first..first + density.len()]);
                     if !scaled {
                         return material.evaluate(density, energy, pressure, sound_speed);
@@ -169,11 +170,12 @@ impl<T: Real, const D: usize> Group<T, D> {
                         );
                     }
                     counts
-                })
-                .reduce(GuardCounts::default, |mut a, b| {
+                },
+                |mut a, b| {
                     a += b;
                     a
-                });
+                },
+            );
         }
         self.guards += guards;
     }
@@ -198,15 +200,14 @@ impl<T: Real, const D: usize> Group<T, D> {
         let (rest, moment, omega) = (&*rest, &*moment, &*omega);
         let one = |column: &[T], slot: usize| column.get(slot).copied().unwrap_or(T::one());
         let lattice = T::from_f64(self.scheme.lattice_consistency_factor);
-        coefficient
-            .par_iter_mut()
-            .enumerate()
-            .with_min_len(GRAIN)
-            .for_each(|(slot, x)| {
+        for_each(cut(coefficient, GRAIN), |piece, coefficient| {
+            for (n, x) in coefficient.iter_mut().enumerate() {
+                let slot = piece * GRAIN + n;
                 let p = pressure[slot] / one(omega, slot);
                 let moment = moment.get(slot).copied().unwrap_or(lattice);
                 *x = form.coefficient(p, density[slot], one(rest, slot), moment);
-            });
+            }
+        });
     }
 
     fn sum_rates(&mut self) {

@@ -1,12 +1,11 @@
 //! How numbers of the state change: by rates, as their declarations say, and with what rounding loses.
 //! On slices of columns; which of these change when is in `state`.
 
-use super::stages::GRAIN;
 use crate::effect::{Evolved, Update, View};
+use crate::parallel::{GRAIN, cut, for_each};
 use crate::scalar::Real;
 use crate::sweep::two_sum;
 use crate::tensor::{Symmetric, rotation};
-use rayon::prelude::*;
 
 /// Numbers whose rates are on the stack at a time; a whole number of particles of any shape.
 pub(super) const RATES: usize = 360;
@@ -139,19 +138,19 @@ pub(super) fn add<T: Real>(y: &mut T, residual: Option<&mut T>, change: T) {
 /// x ← x + dt v, with the rounding error kept where there is a column for it.
 pub(super) fn add_scaled<T: Real>(x: &mut [T], residual: &mut [T], v: &[T], dt: T) {
     if residual.is_empty() {
-        x.par_iter_mut()
-            .zip(v)
-            .with_min_len(GRAIN)
-            .for_each(|(x, v)| *x += dt * *v);
+        for_each(cut(x, GRAIN), |piece, x| {
+            for (x, v) in x.iter_mut().zip(&v[piece * GRAIN..]) {
+                *x += dt * *v;
+            }
+        });
         return;
     }
-    x.par_iter_mut()
-        .zip(residual.par_iter_mut())
-        .zip(v)
-        .with_min_len(GRAIN)
-        .for_each(|((x, residual), v)| {
+    for_each((cut(x, GRAIN), cut(residual, GRAIN)), |piece, (x, lost)| {
+        let v = &v[piece * GRAIN..];
+        for ((x, residual), v) in x.iter_mut().zip(lost).zip(v) {
             (*x, *residual) = two_sum(*x, *residual + dt * *v);
-        });
+        }
+    });
 }
 
 /// eˣ − 1 for the small x of a time step, without cancellation.

@@ -3,9 +3,9 @@
 
 use super::control::{Criterion, NO_VOTE, Vote, least};
 use super::group::Group;
-use super::stages::{GRAIN, Moment};
+use super::stages::Moment;
+use crate::parallel::{GRAIN, reduce, runs};
 use crate::scalar::Real;
-use rayon::prelude::*;
 use std::ops::Range;
 
 impl<T: Real, const D: usize> Group<T, D> {
@@ -17,16 +17,16 @@ impl<T: Real, const D: usize> Group<T, D> {
         for (body, state) in self.particles.bodies.iter().enumerate() {
             let view = self.view(body, Moment::of_rates());
             for limit in &self.scheme.program.limits {
-                let own = state.slots.clone().into_par_iter().with_min_len(GRAIN);
-                let own = own.map(|slot| {
+                let own = |slot| {
                     let step = limit.step(&view, slot);
                     Vote {
                         step: if step >= 0.0 { step } else { -1.0 },
                         criterion: Criterion::Effect(limit.name()),
                         particle: slot,
                     }
-                });
-                vote = least(vote, own.reduce(|| NO_VOTE, least));
+                };
+                let in_run = |_, run: Range<usize>| run.map(own).fold(NO_VOTE, least);
+                vote = reduce(runs(state.slots.clone(), GRAIN), vote, in_run, least);
             }
         }
         vote

@@ -5,11 +5,10 @@ use super::Simulation;
 use super::group::Group;
 use super::load::{Load, LoadPoint};
 use super::query::ParticleView;
-use super::stages::GRAIN;
 use crate::error::{Error, Result};
+use crate::parallel::{GRAIN, cut, reduce};
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
-use rayon::prelude::*;
 
 /// A value of a load that is no number to go on with.
 struct Wrong<'a, const D: usize> {
@@ -99,9 +98,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             let run = body.run();
             let live = body.slots.len() * width;
             let (own, repeats) = values[run.start * width..run.end * width].split_at_mut(live);
-            let numbers = own.par_chunks_mut(width).enumerate();
-            let wrong = numbers.with_min_len(GRAIN).find_map_first(|(k, sum)| {
-                let slot = run.start + k;
+            let add = |(slot, sum): (usize, &mut [T])| {
                 let particle = ParticleView { group: self, slot };
                 let at = LoadPoint {
                     position: particle.position(),
@@ -110,11 +107,17 @@ impl<T: Real, const D: usize> Group<T, D> {
                     time,
                     body: &body.name,
                 };
-                let value = load.add(&at, sum)?;
-                Some(Wrong { load, value, slot })
-            });
-            if wrong.is_some() {
-                return wrong;
+                load.add(&at, sum).map(|value| (slot, value))
+            };
+            let none = (usize::MAX, 0.0);
+            let first_wrong = |piece: usize, sums: &mut [T]| {
+                let mut sums = (run.start + piece * GRAIN..).zip(sums.chunks_exact_mut(width));
+                sums.find_map(add).unwrap_or(none)
+            };
+            let lower = |a: (usize, f64), b: (usize, f64)| if b.0 < a.0 { b } else { a };
+            let (slot, value) = reduce(cut(own, GRAIN * width), none, first_wrong, lower);
+            if slot < usize::MAX {
+                return Some(Wrong { load, value, slot });
             }
             // What repeats the last particle goes where that goes.
             for repeat in repeats.chunks_mut(width) {

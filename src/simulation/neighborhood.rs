@@ -6,11 +6,11 @@ use super::images::Chain;
 use super::population::Particles;
 use crate::boundary::Boundary;
 use crate::neighbors::{Block, ClusterLists, Radii, SearchInput};
+use crate::parallel::largest;
 use crate::particles::Field;
 use crate::scalar::Real;
 use crate::sweep::{Image, InstructionSet, Interaction, Transform};
 use crate::tensor::{Vector, length};
-use rayon::prelude::*;
 use std::sync::Arc;
 
 /// Neighbour lists of a group and the images in them.
@@ -122,17 +122,13 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         time: f64,
     ) -> bool {
         let positions = particles.columns.vectors(Field::POSITION);
-        let farthest = positions
-            .par_iter()
-            .zip(&self.listed)
-            .with_min_len(4096)
-            .map(|(now, then)| {
-                (0..D)
-                    .map(|d| ((now[d] - then[d]).to_f64() - shift[d]).powi(2))
-                    .sum::<f64>()
-            })
-            .reduce(|| 0.0, f64::max)
-            .sqrt();
+        let farthest = largest(0..positions.len(), |slot| {
+            let (now, then) = (&positions[slot], &self.listed[slot]);
+            (0..D)
+                .map(|d| ((now[d] - then[d]).to_f64() - shift[d]).powi(2))
+                .sum::<f64>()
+        });
+        let farthest = farthest.sqrt();
         let h = particles.columns.raw(Field::SMOOTHING_LENGTH);
         let grown = h
             .iter()

@@ -5,12 +5,12 @@ use super::group::Group;
 use crate::error::{Error, Problem, Result};
 use crate::material::Material;
 use crate::neighbors::Grid;
+use crate::parallel::{GRAIN, cut, for_each, sort_by_key};
 use crate::particles::{Columns, Field};
 use crate::scalar::Real;
 use crate::scheme::Start;
 use crate::sweep::Transform;
 use crate::tensor::Vector;
-use rayon::prelude::*;
 use std::ops::Range;
 
 /// A body in a simulation.
@@ -245,12 +245,14 @@ impl<T: Real, const D: usize> Group<T, D> {
             .iter()
             .map(|body| (&body.slots, body.end));
         for (slots, end) in bodies.chain(walls) {
-            let keys: Vec<u64> = positions[slots.clone()]
-                .par_iter()
-                .map(|x| grid.order(x))
-                .collect();
-            let own = &mut order[slots.clone()];
-            own.par_sort_by_key(|&slot| keys[slot as usize - slots.start]);
+            let own = &positions[slots.clone()];
+            let mut keys = vec![0; own.len()];
+            for_each(cut(&mut keys, GRAIN), |piece, keys| {
+                for (key, x) in keys.iter_mut().zip(&own[piece * GRAIN..]) {
+                    *key = grid.order(x);
+                }
+            });
+            sort_by_key(&mut order[slots.clone()], slots.start, &keys);
             if let Some(&last) = order[slots.clone()].last() {
                 order[slots.end..end].fill(last);
             }

@@ -3,11 +3,10 @@
 
 use super::Simulation;
 use super::group::Group;
-use super::stages::GRAIN;
 use crate::error::{Error, Problem, Result};
+use crate::parallel::{GRAIN, reduce, runs};
 use crate::particles::Field;
 use crate::scalar::Real;
-use rayon::prelude::*;
 use std::ops::Range;
 
 /// Share of a full neighbourhood below which a particle has no neighbours to be measured by.
@@ -126,8 +125,12 @@ impl<T: Real, const D: usize> Group<T, D> {
         for body in &self.particles.bodies {
             let own = energy.get(body.slots.clone()).unwrap_or_default();
             if !own.is_empty() && body.material.is_gas() {
-                let own = own.par_iter().with_min_len(GRAIN);
-                negative += own.filter(|energy| **energy < T::zero()).count() as u64;
+                let below = |_, run: Range<usize>| {
+                    let energies = own[run].iter();
+                    energies.filter(|energy| **energy < T::zero()).count() as u64
+                };
+                let all = runs(0..own.len(), GRAIN);
+                negative = reduce(all, negative, below, |a, b| a + b);
             }
         }
         self.count(NEGATIVE_ENERGY, negative);
@@ -136,15 +139,18 @@ impl<T: Real, const D: usize> Group<T, D> {
     /// The first slot whose state is not finite, or whose density is not positive.
     fn unsound(&self) -> Option<usize> {
         self.particles.bodies.iter().find_map(|body| {
-            let chunks = body.slots.clone().into_par_iter().step_by(GRAIN);
-            chunks.find_map_first(|first| {
-                let run = first..(first + GRAIN).min(body.slots.end);
+            let unsound = |_, run: Range<usize>| {
                 // Nearly always all are sound, and nobody asks which is not.
                 if self.is_sound(run.clone()) {
-                    return None;
+                    return usize::MAX;
                 }
-                run.into_iter().find(|&slot| !self.is_sound(slot..slot + 1))
-            })
+                let mut slots = run.into_iter();
+                let first = slots.find(|&slot| !self.is_sound(slot..slot + 1));
+                first.unwrap_or(usize::MAX)
+            };
+            let chunks = runs(body.slots.clone(), GRAIN);
+            let first = reduce(chunks, usize::MAX, unsound, usize::min);
+            (first < usize::MAX).then_some(first)
         })
     }
 

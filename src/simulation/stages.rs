@@ -4,6 +4,7 @@
 use super::group::Group;
 use crate::boundary::WallSurface;
 use crate::effect::{Around, Chunk, Law, MOST_LAWS, Slices, Tally};
+use crate::parallel::GRAIN;
 use crate::particles::Field;
 use crate::scalar::Real;
 use crate::scheme::Scheme;
@@ -11,9 +12,6 @@ use crate::sweep::{PairSweep, Pass, SweepInput};
 use crate::term::Stage;
 use std::ops::Range;
 use std::time::{Duration, Instant};
-
-/// Particles that a thread takes at a time in loops over particles.
-pub(crate) const GRAIN: usize = 4096;
 
 /// Where and when a stage runs.
 #[derive(Clone, Copy, Debug)]

@@ -3,15 +3,15 @@
 
 use super::evolve::{RATES, add, add_scaled, rates, update};
 use super::group::Group;
-use super::stages::{GRAIN, Moment};
+use super::stages::Moment;
 use super::workspace::Saved;
 use crate::effect::{Around, Evolved, View, When};
+use crate::parallel::{GRAIN, cut, for_each};
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::scheme::EnergyForm;
 use crate::sweep::two_sum;
 use crate::tensor::Vector;
-use rayon::prelude::*;
 
 /// Positions, and what their rounding has lost.
 const POSITIONS: [Field; 2] = [Field::POSITION, Field::POSITION_RESIDUAL];
@@ -73,15 +73,15 @@ impl<T: Real, const D: usize> Group<T, D> {
                 .columns
                 .many_mut([Field::MEAN_VELOCITY, Field::VELOCITY, Field::MASS]);
         let (v, mass) = (&*v, &*mass);
-        mean.par_chunks_mut(D)
-            .enumerate()
-            .with_min_len(GRAIN)
-            .for_each(|(slot, mean)| {
+        for_each(cut(mean, GRAIN * D), |piece, mean| {
+            for (n, mean) in mean.chunks_exact_mut(D).enumerate() {
+                let slot = piece * GRAIN + n;
                 for d in 0..D {
                     let a = rates.get(Output::FORCE, d, slot) / mass[slot] + gravity[d];
                     mean[d] = v[slot * D + d] + half * a;
                 }
-            });
+            }
+        });
         self.sum_work();
         self.heat(dt, true);
         self.heat_by_loads(dt);
@@ -97,15 +97,14 @@ impl<T: Real, const D: usize> Group<T, D> {
             .columns
             .many_mut([Field::VELOCITY, Field::MASS]);
         let mass = &*mass;
-        v[..mobile * D]
-            .par_chunks_mut(D)
-            .enumerate()
-            .with_min_len(GRAIN)
-            .for_each(|(slot, v)| {
+        for_each(cut(&mut v[..mobile * D], GRAIN * D), |piece, v| {
+            for (n, v) in v.chunks_exact_mut(D).enumerate() {
+                let slot = piece * GRAIN + n;
                 for (d, v) in v.iter_mut().enumerate() {
                     *v += step * (rates.get(Output::FORCE, d, slot) / mass[slot] + gravity[d]);
                 }
-            });
+            }
+        });
         self.advance(When::Kick, dt);
     }
 
@@ -186,13 +185,12 @@ impl<T: Real, const D: usize> Group<T, D> {
             .columns
             .many_mut([Field::ENERGY, Field::MASS]);
         let mass = &*mass;
-        energy
-            .par_iter_mut()
-            .enumerate()
-            .with_min_len(GRAIN)
-            .for_each(|(slot, energy)| {
+        for_each(cut(energy, GRAIN), |piece, energy| {
+            for (n, energy) in energy.iter_mut().enumerate() {
+                let slot = piece * GRAIN + n;
                 *energy += dt * sums.get(Output::POWER, 0, slot) / mass[slot];
-            });
+            }
+        });
     }
 
     fn carries_energy(&self) -> bool {
@@ -226,10 +224,10 @@ impl<T: Real, const D: usize> Group<T, D> {
         for (field, saved) in &mut predicted {
             let column = self.particles.columns.raw(*field);
             saved.resize(column.len(), T::zero());
-            saved
-                .par_chunks_mut(GRAIN)
-                .zip(column.par_chunks(GRAIN))
-                .for_each(|(saved, now)| saved.copy_from_slice(now));
+            for_each(cut(saved, GRAIN), |piece, saved| {
+                let now = &column[piece * GRAIN..][..saved.len()];
+                saved.copy_from_slice(now);
+            });
         }
         self.work.predicted = predicted;
         self.work.is_predicted = true;
@@ -284,13 +282,12 @@ impl<T: Real, const D: usize> Group<T, D> {
         let (a_t, b_t, dt_t) = (T::from_f64(a), T::from_f64(b), T::from_f64(dt));
         let before = of(Field::VELOCITY).unwrap_or_default();
         let mut v = self.take(Field::VELOCITY);
-        v.par_iter_mut()
-            .zip(before)
-            .enumerate()
-            .with_min_len(GRAIN)
-            .for_each(|(k, (v, before))| {
-                *v = a_t * *before + b_t * *v + dt_t * self.acceleration(k);
-            });
+        for_each(cut(&mut v, GRAIN), |piece, v| {
+            for (n, v) in v.iter_mut().enumerate() {
+                let k = piece * GRAIN + n;
+                *v = a_t * before[k] + b_t * *v + dt_t * self.acceleration(k);
+            }
+        });
         *self.particles.columns.column_mut(Field::VELOCITY) = v;
         let scheme = self.scheme.clone();
         for own in &scheme.program.evolved {
@@ -332,11 +329,11 @@ impl<T: Real, const D: usize> Group<T, D> {
         };
         let v = self.particles.columns.raw(Field::VELOCITY);
         add_scaled(position, residual, v, dt_t);
-        velocity
-            .par_iter_mut()
-            .enumerate()
-            .with_min_len(GRAIN)
-            .for_each(|(k, saved)| *saved += dt_t * self.acceleration(k));
+        for_each(cut(velocity, GRAIN), |piece, saved| {
+            for (n, saved) in saved.iter_mut().enumerate() {
+                *saved += dt_t * self.acceleration(piece * GRAIN + n);
+            }
+        });
         let scheme = self.scheme.clone();
         let mut others = others.iter_mut();
         for own in &scheme.program.evolved {
@@ -460,24 +457,24 @@ impl<T: Real, const D: usize> Group<T, D> {
         let v = &*v;
         if residual.is_empty() {
             let (a, b, dt) = (T::from_f64(a), T::from_f64(b), T::from_f64(dt));
-            x.par_iter_mut()
-                .enumerate()
-                .with_min_len(GRAIN)
-                .for_each(|(k, x)| {
+            for_each(cut(x, GRAIN), |piece, x| {
+                for (n, x) in x.iter_mut().enumerate() {
+                    let k = piece * GRAIN + n;
                     *x = a * before[k] + b * *x + dt * v[k];
-                });
+                }
+            });
             return;
         }
-        x.par_iter_mut()
-            .zip(residual.par_iter_mut())
-            .enumerate()
-            .with_min_len(GRAIN)
-            .for_each(|(k, (x, residual))| {
+        for_each((cut(x, GRAIN), cut(residual, GRAIN)), |piece, own| {
+            let own = own.0.iter_mut().zip(own.1);
+            for (n, (x, residual)) in own.enumerate() {
+                let k = piece * GRAIN + n;
                 let sum = a * (before[k].to_f64() + lost[k].to_f64())
                     + b * (x.to_f64() + residual.to_f64())
                     + dt * v[k].to_f64();
                 *x = T::from_f64(sum);
                 *residual = T::from_f64(sum - x.to_f64());
-            });
+            }
+        });
     }
 }

@@ -7,11 +7,11 @@ use super::task::{BEYOND, Composed, MEAN, OWN, Task, UNIFORM, WORK, reads};
 use super::{InstructionSet, Interaction, SmoothingMode};
 use crate::kernel::Kernel;
 use crate::neighbors::{Block, CHUNK, ChunkList, ClusterLists};
+use crate::parallel::{cut, for_each};
 use crate::particles::{Columns, Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
 use crate::term::{Layout, TermDoc, TermUse, Terms, assert_room};
 use core::fmt::Debug;
-use rayon::prelude::*;
 use std::ops::Range;
 
 /// What a sweep is run for.
@@ -278,9 +278,7 @@ fn over_chunks<T: Real, const D: usize>(
     lists: &[ChunkList],
     work: &OneChunk<'_, T, D>,
 ) {
-    rows.par_chunks_mut(row)
-        .zip(reactions.par_iter_mut())
-        .zip(lists.par_iter())
-        .enumerate()
-        .for_each(|(chunk, ((out, reactions), list))| work(chunk, list, out, reactions));
+    for_each((cut(rows, row), cut(reactions, 1)), |chunk, (out, own)| {
+        work(chunk, &lists[chunk], out, &mut own[0]);
+    });
 }

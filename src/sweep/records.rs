@@ -1,10 +1,10 @@
 //! Packed records: what the pair loop reads of a particle, side by side in memory.
 //! Images (mirrored, shifted) are records made from their source by a transform.
 
+use crate::parallel::{cut, for_each};
 use crate::particles::{Columns, Field, Fields, Shape};
 use crate::scalar::Real;
 use crate::tensor::{Matrix, Symmetric, Vector};
-use rayon::prelude::*;
 
 /// How an image follows from its source.
 ///
@@ -158,48 +158,44 @@ impl<T: Real> Records<T> {
         self.stride = stride;
         self.data.resize(stride * (slots + images.len()), T::zero());
         let (own, mirrored) = self.data.split_at_mut(stride * slots);
-        // So few that their records stay in the first cache from field to field.
-        const GRAIN: usize = 256;
-        own.par_chunks_mut(GRAIN * stride.max(1))
-            .enumerate()
-            .for_each(|(chunk, records)| {
-                let first = chunk * GRAIN;
-                let count = records.len() / stride.max(1);
-                let mut offset = 0;
-                for field in reads.iter() {
-                    let width = field.components(D);
-                    let column = &columns.raw(field)[first * width..(first + count) * width];
-                    let records = records.chunks_exact_mut(stride);
-                    // Widths that the compiler knows: a copy of three numbers is not worth a call.
-                    match field.shape() {
-                        Shape::Scalar => {
-                            for (record, &value) in records.zip(column) {
-                                record[offset] = value;
-                            }
-                        }
-                        Shape::Matrix | Shape::Tensor => {
-                            for (record, values) in records.zip(column.chunks_exact(width)) {
-                                record[offset..offset + width].copy_from_slice(values);
-                            }
-                        }
-                        _ => {
-                            for (record, values) in records.zip(column.as_chunks::<D>().0) {
-                                record[offset..offset + D].copy_from_slice(values);
-                            }
+        for_each(cut(own, GRAIN * stride), |chunk, records| {
+            let first = chunk * GRAIN;
+            let count = records.len() / stride.max(1);
+            let mut offset = 0;
+            for field in reads.iter() {
+                let width = field.components(D);
+                let column = &columns.raw(field)[first * width..(first + count) * width];
+                let records = records.chunks_exact_mut(stride);
+                // Widths that the compiler knows: a copy of three numbers is not worth a call.
+                match field.shape() {
+                    Shape::Scalar => {
+                        for (record, &value) in records.zip(column) {
+                            record[offset] = value;
                         }
                     }
-                    offset += width;
+                    Shape::Matrix | Shape::Tensor => {
+                        for (record, values) in records.zip(column.chunks_exact(width)) {
+                            record[offset..offset + width].copy_from_slice(values);
+                        }
+                    }
+                    _ => {
+                        for (record, values) in records.zip(column.as_chunks::<D>().0) {
+                            record[offset..offset + D].copy_from_slice(values);
+                        }
+                    }
                 }
-            });
+                offset += width;
+            }
+        });
         let own: &[T] = own;
-        mirrored
-            .par_chunks_mut(stride.max(1))
-            .zip(images.par_iter())
-            .for_each(|(record, image)| {
+        for_each(cut(mirrored, GRAIN * stride), |chunk, records| {
+            let records = records.chunks_exact_mut(stride.max(1));
+            for (record, image) in records.zip(&images[chunk * GRAIN..]) {
                 let source = image.source as usize * stride;
                 record.copy_from_slice(&own[source..source + stride]);
                 reflect(record, reads, &transforms[image.transform as usize]);
-            });
+            }
+        });
     }
 }
 
@@ -216,10 +212,13 @@ impl<T: Real> Records<T> {
         let (offset, slots) = (reads.offset(field, D), columns.slots());
         let values = columns.vectors(field);
         let (own, mirrored) = self.data.split_at_mut(self.stride * slots);
-        own.par_chunks_mut(self.stride)
-            .zip(values.par_iter())
-            .with_min_len(1024)
-            .for_each(|(record, value)| record[offset..offset + D].copy_from_slice(value));
+        let stride = self.stride;
+        for_each(cut(own, GRAIN * stride), |chunk, records| {
+            let records = records.chunks_exact_mut(stride);
+            for (record, value) in records.zip(&values[chunk * GRAIN..]) {
+                record[offset..offset + D].copy_from_slice(value);
+            }
+        });
         for (record, image) in mirrored.chunks_mut(self.stride).zip(images) {
             let by = &transforms[image.transform as usize];
             let value = by.rotation * Vector::from(values[image.source as usize]) + by.velocity;
@@ -256,6 +255,9 @@ fn reflect<T: Real, const D: usize>(record: &mut [T], reads: Fields, by: &Transf
         offset += field.components(D);
     }
 }
+
+/// Particles whose records are packed at once: so few that these stay in the first cache from field to field.
+const GRAIN: usize = 256;
 
 /// The rounded sum and its exact rounding error (Knuth 1969).
 #[inline(always)]

@@ -1,9 +1,9 @@
 //! What a sweep leaves behind: the sums of every row, and the forces between blocks.
 //! Sums are stored row by row (component, then lane), so each store is a full vector.
 
+use crate::parallel::{cut, for_each};
 use crate::particles::{Output, Outputs, PLACES};
 use crate::scalar::{Lane, Real};
-use rayon::prelude::*;
 
 /// The force that the particles of one cluster felt from another block.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -120,14 +120,15 @@ impl<T: Real, const D: usize> Results<T, D> {
             return;
         }
         let (width, offset) = (output.components(D), offset as usize);
-        let clusters = self.data.par_chunks_mut(self.stride * Self::WIDTH);
-        let clusters = clusters.enumerate().with_min_len(CLUSTERS);
-        clusters.for_each(|(cluster, sums)| {
-            for lane in 0..Self::WIDTH {
-                let slot = self.first + cluster * Self::WIDTH + lane;
-                for d in 0..width {
-                    let value = weights[slot] * values[slot * width + d];
-                    sums[(offset + d) * Self::WIDTH + lane] += value;
+        let (first, cluster) = (self.first, self.stride * Self::WIDTH);
+        for_each(cut(&mut self.data, CLUSTERS * cluster), |piece, sums| {
+            for (n, sums) in sums.chunks_exact_mut(cluster).enumerate() {
+                for lane in 0..Self::WIDTH {
+                    let slot = first + (piece * CLUSTERS + n) * Self::WIDTH + lane;
+                    for d in 0..width {
+                        let value = weights[slot] * values[slot * width + d];
+                        sums[(offset + d) * Self::WIDTH + lane] += value;
+                    }
                 }
             }
         });
