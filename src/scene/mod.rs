@@ -62,6 +62,7 @@ mod coupled;
 #[cfg(feature = "checkpoint")]
 mod fingerprint;
 mod held;
+mod held_once;
 mod plan;
 
 pub use body::{Body, Start};
@@ -80,6 +81,7 @@ use crate::scheme::Scheme;
 use crate::simulation::{Load, Simulation, StepControl, UniformLoad};
 use crate::sweep::{InstructionSet, Interaction};
 use held::ClampOf;
+use held_once::Building;
 use plan::Plan;
 #[cfg(feature = "checkpoint")]
 use std::path::Path;
@@ -388,6 +390,10 @@ impl<T: Real, const D: usize> Scene<T, D> {
     /// # Errors
     /// [`Error::Build`] with every problem that was found.
     pub fn build(self) -> Result<Simulation<T, D>> {
+        (Building::get().build)(self)
+    }
+
+    fn start(self) -> Result<Simulation<T, D>> {
         let fixed = self.control.fixed;
         let mut simulation = self.lay_out()?;
         simulation.hold_velocities();
@@ -421,7 +427,11 @@ impl<T: Real, const D: usize> Scene<T, D> {
     /// [`Error::Build`] as [`build`](Self::build).
     #[cfg(feature = "checkpoint")]
     pub fn resume(self, path: impl AsRef<Path>) -> Result<Simulation<T, D>> {
-        let path = path.as_ref();
+        (Building::get().resume)(self, path.as_ref())
+    }
+
+    #[cfg(feature = "checkpoint")]
+    fn go_on(self, path: &Path) -> Result<Simulation<T, D>> {
         let file = Checkpoint::read(path)?;
         self.lay_out()?.resumed(path, &file)
     }

@@ -2,6 +2,7 @@
 //! Two looks at the clock for each sweep and for each law of a chunk.
 
 use super::Simulation;
+use super::held_once::Driver;
 use crate::effect::MOST_LAWS;
 use crate::scalar::Real;
 use crate::term::Stage;
@@ -79,6 +80,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// ```
     #[must_use]
     pub fn cost(&self) -> Cost {
+        (Driver::get().cost)(self)
+    }
+
+    pub(super) fn cost_by_effect(&self) -> Cost {
         let phases = self.phases();
         let total = phases.total().as_secs_f64().max(f64::MIN_POSITIVE);
         let mut lines = Vec::new();

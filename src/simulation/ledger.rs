@@ -3,6 +3,7 @@
 
 use super::Simulation;
 use super::group::Group;
+use super::held_once::Driver;
 use super::population::BodyState;
 use super::which::{Which, find};
 use crate::error::Result;
@@ -205,6 +206,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Mass, momentum and energy now, body by body and together.
     #[must_use]
     pub fn ledger(&self) -> Ledger {
+        (Driver::get().ledger)(self)
+    }
+
+    pub(super) fn balance(&self) -> Ledger {
         let mut bodies: Vec<_> = self
             .all_bodies()
             .map(|(group, body)| (body.name.clone(), Self::budget(group, body)))

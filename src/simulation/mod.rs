@@ -125,6 +125,7 @@ mod evolve;
 mod fields;
 mod group;
 mod held;
+mod held_once;
 mod images;
 mod ledger;
 mod limits;
@@ -174,6 +175,7 @@ use crate::integrator::Integrator;
 use crate::output::checkpoint::Hashes;
 use crate::scalar::Real;
 use group::Aside;
+use held_once::Driver;
 use ledger::Impulses;
 use std::sync::Arc;
 
@@ -346,6 +348,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Between steps it changes nothing of what comes: the next step starts from the rates that the step before has
     /// left, which belong to predicted velocities (where the evaluation had to build neighbour lists, from its own).
     pub fn evaluate(&mut self) -> Result<()> {
+        (Driver::get().evaluate)(self)
+    }
+
+    fn evaluate_rates(&mut self) -> Result<()> {
         self.check_failure()?;
         if self.rates_at_hand && self.aside.is_none() {
             let groups = self.groups.iter().map(Group::set_aside).collect();
