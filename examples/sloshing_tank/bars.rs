@@ -202,7 +202,7 @@ fn balances(runs: &[(Case, Record)]) -> Table {
             significant(1e-3 * case.cut_off, 3),
             significant(1e3 * case.spacing, 3),
             significant(record.integral(case.until, point), 4),
-            significant(record.integral(case.until, |s| s.contact), 4),
+            record.contact_impulse(case.until),
             format!("{:.1e}", record.imbalance),
             ends.map(percent).join(", "),
             percent(tank),

@@ -132,16 +132,16 @@ pub fn table(case: &Case, runs: &[(String, &Record)]) -> Table {
         let peak = record.samples.iter().map(point).fold(0.0, f64::max);
         let window = [SNAPSHOT - 5e-4, SNAPSHOT + 5e-4];
         let at_snapshot = if case.until >= window[1] {
-            record.mean(window, point)
+            significant(1e-3 * record.mean(window, point), 3)
         } else {
-            f64::NAN
+            "not reached".into()
         };
         table.row([
             name.clone(),
             significant(record.integral(case.until, point), 4),
-            significant(record.integral(case.until, |s| s.contact), 4),
+            record.contact_impulse(case.until),
             significant(1e-3 * peak, 3),
-            significant(1e-3 * at_snapshot, 3),
+            at_snapshot,
             significant(record.impulse[0], 4),
             significant(1e3 * record.far_wall.wetted, 3),
             significant(record.far_wall.film, 2),

@@ -10,6 +10,7 @@ use meshfree::output::csv::CsvWriter;
 use meshfree::output::picture::Picture;
 use meshfree::output::progress::Progress;
 use meshfree::output::svg::Axis;
+use meshfree::output::table::significant;
 use meshfree::output::vtu::{Pvd, Vtu};
 use meshfree::prelude::*;
 use meshfree::simulation::ParticleView;
@@ -33,9 +34,9 @@ pub struct Sample {
     pub time: f64,
     /// Pressure at each probe \[Pa\].
     pub pressures: Vec<f64>,
-    /// Force on the wall behind the first probe over its area \[Pa\]; not a number where walls are finer than water,
-    /// whose columns a sensor cannot count.
-    pub contact: f64,
+    /// Force on the wall behind the first probe over its area \[Pa\]; none where walls are finer than water, whose
+    /// columns a sensor cannot count.
+    pub contact: Option<f64>,
     /// Force of the water on the tank \[N\].
     pub force: [f64; 3],
 }
@@ -110,6 +111,15 @@ impl Record {
             .map(|pair| 0.5 * (pair[1].time - pair[0].time) * (of(&pair[0]) + of(&pair[1])))
             .sum()
     }
+
+    /// Impulse of the force behind the first probe over its area until `end` \[s\], where that was measured.
+    pub fn contact_impulse(&self, end: f64) -> String {
+        if self.samples.iter().any(|sample| sample.contact.is_none()) {
+            return "not measured".into();
+        }
+        significant(self.integral(end, |s| s.contact.unwrap_or(0.0)), 4)
+    }
+
     /// Impulse that the ends' sensors read until `end` \[s\] over another measure of it, less one.
     pub fn sensed_over(&self, end: f64, of: impl Fn(&Ends) -> f64) -> f64 {
         let until = || self.ends.iter().filter(|ends| ends.time <= end);
@@ -235,12 +245,10 @@ fn sample<T: Real>(
     Ok(Sample {
         time: now.time(),
         pressures: PressureProbe::pressures(sensors, now),
-        contact: if elastic::shares_spacing(case) {
-            let first = sensors.first();
-            first.map_or(0.0, |sensor| sensor.contact_pressure(now))
-        } else {
-            f64::NAN
-        },
+        contact: sensors
+            .first()
+            .filter(|_| elastic::shares_spacing(case))
+            .map(|sensor| sensor.contact_pressure(now)),
         force: force(case, now)?,
     })
 }
@@ -399,7 +407,7 @@ fn snapshot<T: Real>(
 /// The files that grow while a case runs.
 struct Files {
     probes: CsvWriter,
-    contact: CsvWriter,
+    contact: Option<CsvWriter>,
     movie: Pvd,
     walls: Option<elastic::Files>,
 }
@@ -419,7 +427,9 @@ impl Files {
         ];
         Ok(Self {
             probes: CsvWriter::create(folder.join("probes.csv"), &columns)?,
-            contact: CsvWriter::create(folder.join("contact.csv"), &contact)?,
+            contact: elastic::shares_spacing(case)
+                .then(|| CsvWriter::create(folder.join("contact.csv"), &contact))
+                .transpose()?,
             movie: Pvd::create(folder.join("water.pvd"))?,
             walls: case
                 .youngs
@@ -437,7 +447,10 @@ impl Files {
             .chain(sample.force)
             .collect();
         self.probes.row(&row)?;
-        self.contact.row(&[sample.time, sample.contact])
+        match (&mut self.contact, sample.contact) {
+            (Some(file), Some(contact)) => file.row(&[sample.time, contact]),
+            _ => Ok(()),
+        }
     }
 
     fn frame<T: Real>(
