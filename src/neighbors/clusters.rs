@@ -110,6 +110,26 @@ impl ClusterLists {
         self.chunks.iter().map(|chunk| chunk.neighbors.len()).sum()
     }
 
+    /// Number of list entries of the clusters that hold these slots, `width` slots a cluster.
+    #[must_use]
+    pub fn entries_of(&self, slots: Range<usize>, width: usize) -> usize {
+        let wanted = slots.start / width..slots.end.div_ceil(width);
+        let of = |(c, chunk): (usize, &ChunkList)| {
+            let inside = chunk.starts.len().saturating_sub(1);
+            let from = wanted.start.saturating_sub(c * CHUNK).min(inside);
+            let to = wanted.end.saturating_sub(c * CHUNK).min(inside);
+            if from == 0 && to == inside {
+                return chunk.neighbors.len();
+            }
+            let own = chunk.starts[from] as usize..chunk.starts[to.max(from)] as usize;
+            let lengths = chunk.segments[own]
+                .iter()
+                .map(|s| (s.end - s.start) as usize);
+            lengths.sum()
+        };
+        self.chunks.iter().enumerate().map(of).sum()
+    }
+
     /// Bytes held by the lists.
     #[must_use]
     pub fn bytes(&self) -> usize {

@@ -40,7 +40,7 @@ fn make_folder(path: &Path) -> Result<()> {
 }
 
 /// Writes a whole file at once: a reader sees the old one or the new one, never a part.
-fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
+pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
     make_folder(path)?;
     let mut part: OsString = path.as_os_str().to_owned();
     part.push(".part");

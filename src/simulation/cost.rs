@@ -15,6 +15,8 @@ pub(crate) struct Spent {
     pub sweeps: [Duration; Stage::COUNT],
     /// Time of each law, summed over threads.
     pub laws: [[Duration; MOST_LAWS]; Stage::COUNT],
+    /// Pairs of all sweeps, those that the lists hold beyond the support among them.
+    pub pairs: u64,
 }
 
 /// What one sweep or law has cost.

@@ -247,6 +247,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             return;
         }
         let mut rows = core::mem::take(&mut self.work.coupling);
+        self.work.spent.pairs += self.pairs_of(targets.clone());
         self.sum_on_walls(targets, &mut rows);
         self.work.coupling = rows;
     }

@@ -223,9 +223,11 @@ impl<T: Real, const D: usize> Group<T, D> {
         sweep.pack(Pass::Rates, &input, &mut records);
         let packed = Instant::now();
         sweep.run(Pass::Rates, &input, &records, &mut rates);
+        let pairs = self.pairs_of(input.targets);
         self.work.phases.packing += packed - start;
         self.work.phases.pairs += packed.elapsed();
         self.work.spent.sweeps[Stage::Rates.number()] += start.elapsed();
+        self.work.spent.pairs += pairs;
         self.work.records = records;
         self.work.rates = rates;
         if self.scheme.energy == EnergyForm::Compatible {
@@ -245,6 +247,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         let mut sums = core::mem::take(&mut self.work.sums);
         sweep.renew_mean_velocity(&self.input(), &mut records);
         sweep.run(Pass::Work, &self.input(), &records, &mut sums);
+        self.work.spent.pairs += self.pairs_of(self.input().targets);
         self.work.work_records = records;
         self.work.sums = sums;
     }

@@ -33,6 +33,7 @@
 //! | energy of a liquid, work on it, dissipation | [`Simulation::energy`] |
 //! | what left through outlets | [`Simulation::removed`] |
 //! | memory | [`Simulation::bytes`] |
+//! | all of these as counts that no machine changes | [`Simulation::work`] |
 //! | time, by phase of a step, and by effect with bytes and criteria | [`Simulation::phases`], [`Simulation::cost`] |
 //!
 //! # Questions about particles
@@ -145,6 +146,7 @@ mod state;
 mod sub_cycle;
 mod walls;
 mod which;
+mod work;
 mod workspace;
 
 pub use contact::Contact;
@@ -158,6 +160,7 @@ pub use phases::Phases;
 pub use query::{ParticleView, ParticleViews};
 pub use which::Which;
 pub(crate) use which::find;
+pub use work::Work;
 
 pub(crate) use contact::{Acting, Couple};
 pub(crate) use couplings::Structure;

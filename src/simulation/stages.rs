@@ -70,8 +70,10 @@ impl<T: Real, const D: usize> Group<T, D> {
             sweep.pack(Pass::Rates, &input, &mut records);
             let packed = Instant::now();
             sweep.run(Pass::Rates, &input, &records, &mut sums);
+            let pairs = self.pairs_of(input.targets);
             self.work.phases.packing += packed - start;
             self.work.phases.pairs += packed.elapsed();
+            self.work.spent.pairs += pairs;
         }
         self.work.records = records;
         self.work.sums = sums;

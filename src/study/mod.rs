@@ -1,5 +1,5 @@
 //! Exact and reference solutions, and the norms that measure a result against them.
-//! None of it uses particles; all of it is `f64` in SI units (or in any consistent set of units).
+//! None of it uses particles but [`work_precision`], which counts what runs cost; all of it is `f64` in SI units (or in any consistent set of units).
 //!
 //! To judge a result, take the simplest solution that covers it: [`hugoniot`] for the height of a first
 //! plateau, [`acoustic_rods`] for when and where waves arrive in the limit of weak impact,
@@ -21,6 +21,7 @@
 //! | [`dam_break`] | units of dam-break experiments, Ritter's flow on a dry bed |
 //! | [`ghia`] | centre-line velocities of the lid-driven cavity |
 //! | [`records`] | files of measured and published curves |
+//! | [`work_precision`] | what accuracy costs in time: sweeps, fits of error and cost, and the questions that they answer |
 //! | [`norms`] | differences of profiles, plateau, rise time, overshoot, arrival, observed order |
 //!
 //! ```
@@ -49,6 +50,7 @@ pub mod sedov;
 pub mod sod;
 pub mod standing_wave;
 pub mod taylor_green;
+pub mod work_precision;
 
 /// What a reference solution could not do, and what to change.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
