@@ -1,5 +1,6 @@
 //! Exact and reference solutions, and the norms that measure a result against them.
-//! None of it uses particles but [`work_precision`], which counts what runs cost; all of it is `f64` in SI units (or in any consistent set of units).
+//! None of it uses particles but [`work_precision`] and [`cost_model`], which count what runs cost; all of it is `f64` in
+//! SI units (or in any consistent set of units).
 //!
 //! To judge a result, take the simplest solution that covers it: [`hugoniot`] for the height of a first
 //! plateau, [`acoustic_rods`] for when and where waves arrive in the limit of weak impact,
@@ -22,6 +23,7 @@
 //! | [`ghia`] | centre-line velocities of the lid-driven cavity |
 //! | [`records`] | files of measured and published curves |
 //! | [`work_precision`] | what accuracy costs in time: sweeps, fits of error and cost, and the questions that they answer |
+//! | [`cost_model`] | what a run will cost, from its first steps |
 //! | [`norms`] | differences of profiles, plateau, rise time, overshoot, arrival, observed order |
 //!
 //! ```
@@ -36,6 +38,7 @@ pub mod acoustic_rods;
 pub mod channel;
 #[cfg(test)]
 mod check;
+pub mod cost_model;
 pub mod dam_break;
 pub mod ghia;
 pub mod godunov_rods;

@@ -13,7 +13,7 @@ use std::time::Duration;
 pub enum Basis {
     /// The laws of error and time through all runs of the method.
     Fitted,
-    /// One run that was measured, because a law was refused.
+    /// One run that was measured, because a law was refused; its error is the largest of it and the finer ones.
     Measured,
 }
 
@@ -131,7 +131,13 @@ impl View<'_> {
                 },
                 Err(why) => why,
             };
-            let pilots = self.pilots(method);
+            // An error counts as the largest from its spacing on: where it passes through zero it is small by luck.
+            let mut pilots = self.pilots(method);
+            let mut largest = 0.0_f64;
+            for (_, error) in pilots.iter_mut().rev() {
+                largest = largest.max(*error);
+                *error = largest;
+            }
             let good = pilots.iter().filter(|(row, error)| measured(row, *error));
             let recipes = good.map(|(row, error)| as_measured(row, *error));
             match recipes.min_by(|a, b| rank(a).total_cmp(&rank(b))) {

@@ -177,3 +177,25 @@ fn budgets_and_bad_studies_are_said() {
         matches!(&without.rows()[0].status, Status::Failed(why) if why.contains("no choice called `kernel`"))
     );
 }
+
+#[test]
+fn an_error_that_passes_through_zero_is_no_answer() {
+    let report = WorkPrecision::new("luck", |case| {
+        let dx = case.spacing();
+        let work = Work {
+            time: Duration::from_secs_f64(1e-4 / dx),
+            ..Work::default()
+        };
+        Ok(Outcome::from_work(work).value("error", (dx - 0.21).abs()))
+    })
+    .quantity(Quantity::measured("error"))
+    .spacings([0.8, 0.4, 0.2, 0.1])
+    .run()
+    .unwrap();
+    // 0.59, 0.19, 0.01, 0.11
+    assert!(report.first().fit("as it is").is_err());
+    let found = report.for_error(0.15).unwrap();
+    assert_eq!((found.basis, found.spacing), (Basis::Measured, 0.2));
+    assert!((found.error.value - 0.11).abs() < 1e-12, "{found}");
+    assert!(report.for_error(0.05).is_err());
+}
