@@ -1,0 +1,127 @@
+//! A standing sound wave in a weakly compressible liquid, in one and in two dimensions.
+//! After one period it should be what it was.
+
+use crate::problem::{Problem, Text, method, sweep};
+use meshfree::material::{Liquid, SoundSpeed};
+use meshfree::prelude::*;
+use meshfree::scene::Start;
+use meshfree::study::work_precision::{Case, Failure, Method, Outcome, Quantity, relative_l2};
+use meshfree::term::viscosity::MonaghanGingold;
+use meshfree::term::{Antuono, Fourtakas};
+
+const LINE: Text = Text {
+    key: "sound_1d",
+    title: "Sound in a liquid, one dimension",
+    setting: "A standing wave of 1 m, amplitude 10⁻⁴ c, in a period of its length, after one period of time: root mean square \
+              error of velocity over that of the wave.",
+    words: include_str!("words/sound_1d.md"),
+    errors: &[0.1, 0.03, 0.01],
+    seconds: &[0.1, 10.0],
+};
+const PLANE: Text = Text {
+    key: "sound_2d",
+    title: "Sound in a liquid, two dimensions",
+    setting: "The same wave in a periodic strip, 16 spacings high.",
+    words: include_str!("words/sound_2d.md"),
+    errors: &[0.1, 0.03, 0.01],
+    seconds: &[1.0, 10.0],
+};
+const SOUND: f64 = 10.0;
+const QUANTITY: &str = "velocity of a sound wave";
+
+fn methods() -> Vec<Method> {
+    let own = |name: &str, ratio: f64, alpha: f64, delta: f64| {
+        method(
+            name,
+            &[],
+            &[("h/dx", ratio), ("alpha", alpha), ("delta", delta)],
+        )
+    };
+    vec![
+        own("h/dx 1.5, α 0.02, δ 0.1 (default)", 1.5, 0.02, 0.1),
+        own("h/dx 2.0, α 0.02, δ 0.1", 2.0, 0.02, 0.1),
+        own("h/dx 1.2, α 0.02, δ 0.1", 1.2, 0.02, 0.1),
+        own("h/dx 1.5, α 0, δ 0.1", 1.5, 0.0, 0.1),
+        own("h/dx 1.5, α 0.02, δ 0", 1.5, 0.02, 0.0),
+        // By its name: its diffusion is another term.
+        own("h/dx 1.5, α 0.02, Antuono δ 0.1", 1.5, 0.02, 0.1),
+        own("h/dx 1.5, α 0, δ 0", 1.5, 0.0, 0.0),
+        own("h/dx 2.0, α 0, δ 0", 2.0, 0.0, 0.0),
+    ]
+}
+
+/// The dimensions in which both schemes can be composed.
+trait Composed: Sized {
+    fn composed(case: &Case<'_>) -> Result<Self, Failure>;
+}
+
+macro_rules! composed {
+    ($($D:literal)*) => {$(
+        impl Composed for Scheme<f64, $D> {
+            fn composed(case: &Case<'_>) -> Result<Self, Failure> {
+                let viscosity = MonaghanGingold {
+                    alpha: case.number("alpha")?,
+                    beta: 0.0,
+                };
+                let delta = case.number("delta")?;
+                let scheme = schemes::weakly_compressible()
+                    .with_viscosity(viscosity)
+                    .h_over_dx(case.number("h/dx")?);
+                Ok(if case.method().contains("Antuono") {
+                    scheme.density_diffusion(Antuono { delta }).compose()
+                } else {
+                    scheme.density_diffusion(Fourtakas { delta }).compose()
+                })
+            }
+        }
+    )*};
+}
+composed! { 1 2 }
+
+fn ring<const D: usize>(case: &Case<'_>) -> Result<Outcome, Failure>
+where
+    Scheme<f64, D>: Composed,
+{
+    let dx = case.spacing();
+    let mut size = [16.0 * dx; D];
+    size[0] = 1.0;
+    let wavenumber = core::f64::consts::TAU;
+    let liquid = Liquid::new(1000.0, 1480.0, 0.0).linear();
+    let liquid = liquid.material("liquid", SoundSpeed::Chosen(SOUND));
+    let amplitude = 1e-4 * SOUND;
+    let body = Body::block("liquid", liquid, [0.0; D], size, dx).start(|x, start| {
+        let mut velocity = [0.0; D];
+        velocity[0] = amplitude * (wavenumber * x[0]).sin();
+        Start { velocity, ..start }
+    });
+    let scene = Scene::new(Scheme::<f64, D>::composed(case)?).body(body);
+    let scene = (0..D).fold(scene, |scene, d| {
+        scene.boundary(Periodic::along(d, 0.0, size[d]))
+    });
+    let mut wave = scene.build()?;
+    wave.run_until(1.0 / SOUND)?;
+    let error = relative_l2(wave.all().map(|particle| {
+        let exact = amplitude * (wavenumber * particle.position()[0]).sin();
+        (particle.velocity()[0], exact, 1.0)
+    }));
+    Ok(Outcome::of(&wave).value(QUANTITY, error))
+}
+
+pub fn problem(plane: bool, quick: bool) -> Problem {
+    let counts: &[u32] = if plane {
+        &[16, 24, 32, 48, 64, 96]
+    } else {
+        &[16, 32, 64, 128, 256, 512]
+    };
+    type Run = fn(&Case<'_>) -> Result<Outcome, Failure>;
+    let (text, run): (_, Run) = if plane {
+        (PLANE, ring::<2>)
+    } else {
+        (LINE, ring::<1>)
+    };
+    let study = sweep(text, counts, quick, methods(), run);
+    Problem {
+        text,
+        study: study.quantity(Quantity::measured(QUANTITY)),
+    }
+}
