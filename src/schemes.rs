@@ -104,8 +104,8 @@ pub fn lam2002() -> SchemeBuilder<CubicSpline, MonaghanGingold> {
 /// density diffusion off the hydrostatic state (Fourtakas, δ = 0.1), artificial viscosity α = 0.02,
 /// Wendland C2 at h/dx 1.5, walls that do not hold what separates.
 ///
-/// Sound pays for the density diffusion: a wave of 64 particles is 4.7 % off after a period, and 0.3 % without it. What
-/// h/dx, α and δ buy and cost in tanks, waves and vortices is in `docs/accuracy_and_cost.md`.
+/// Sound pays for the density diffusion: a wave of 64 particles is 4.7 % off after a period, and 0.3 % with that of
+/// [`Antuono`](crate::term::Antuono). What h/dx, α and δ buy and cost in tanks, waves and vortices is in `docs/accuracy_and_cost.md`.
 ///
 /// A column of 50 particles at rest for 20 √(H/g) keeps its pressure within 0.55 % of ρgH at h/dx 1.5 and
 /// 2, and within 1.2 % at 1.3 (root mean square).

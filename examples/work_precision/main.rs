@@ -84,6 +84,7 @@ fn main() -> Result<(), Failure> {
         let begin = Instant::now();
         let Problem { text, study } = make(quick)?;
         let report = study
+            .repeats(if quick { 1 } else { 3 })
             .clock(Clock::Processor)
             .repeat_up_to(Duration::from_millis(500))
             .run()?;
