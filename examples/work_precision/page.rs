@@ -1,4 +1,4 @@
-//! The page of a study: for every problem its plot, the runs on the front, the laws, answers, and the words about them.
+//! The page of a study: for every problem its plot, errors by spacing, the runs on the front, the laws, answers, and the words about them.
 //! All numbers are from the run that writes it.
 
 use crate::problem::Text;
@@ -88,12 +88,13 @@ impl Page {
             without += &format!("- no error: {method}, spacing {spacing} m: {status:?}\n");
         }
         self.body += &format!(
-            "\n## {}\n\n{}\n\n![{}](accuracy_{}.svg)\n\n{}\n{}\n{}\n{}",
+            "\n## {}\n\n{}\n\n![{}](accuracy_{}.svg)\n\n{}\n{}\n{}\n{}\n{}",
             text.title,
             text.setting,
             text.title,
             text.key,
             text.words,
+            spacings_table(report, &view).markdown(),
             front.markdown(),
             view.fits().markdown(),
             answers,
