@@ -21,6 +21,7 @@
 //! [`Stage::Walls`]: crate::term::Stage::Walls
 
 mod acoustic_damping;
+mod artificial_pressure;
 mod artificial_stress;
 mod cavitation;
 mod chunk;
@@ -41,6 +42,7 @@ mod law;
 mod limit;
 mod list;
 mod neo_hookean;
+mod pairing_control;
 mod plane_stress;
 mod plasticity;
 mod program;
@@ -55,6 +57,7 @@ mod volume_consistency;
 mod walls;
 
 pub use acoustic_damping::AcousticDamping;
+pub use artificial_pressure::{ArtificialPressure, TensionRepulsion};
 pub use artificial_stress::{ArtificialStress, Repulsion};
 pub use cavitation::{Cavitation, ExpansionMemory};
 pub(crate) use chunk::Slices;
@@ -75,6 +78,7 @@ pub use law::{Law, MOST_LAWS, Tally};
 pub use limit::Limit;
 pub use list::{Effect, Effects};
 pub use neo_hookean::NeoHookean;
+pub use pairing_control::{NearPairs, PairingControl};
 pub use plane_stress::PlaneStress;
 pub use plasticity::Plasticity;
 pub use program::{Declared, DeclaredSum, LedgerColumn, Requirement, SceneFacts, StepProgram};
