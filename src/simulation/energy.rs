@@ -61,7 +61,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     /// Kinetic energy, and energy stored in compression.
-    fn stored(&self) -> (f64, f64) {
+    pub(super) fn stored(&self) -> (f64, f64) {
         let (mut kinetic, mut compression) = (0.0, 0.0);
         for (group, body) in self.all_bodies() {
             let columns = &group.particles.columns;

@@ -34,6 +34,7 @@
 //! | what left through outlets | [`Simulation::removed`] |
 //! | memory | [`Simulation::bytes`] |
 //! | all of these as counts that no machine changes | [`Simulation::work`] |
+//! | whether the run is sound: bounds, limits, residuals, arrangement, steps, with a verdict | [`Simulation::keep_stability`], [`Simulation::stability`] |
 //! | time, by phase of a step, and by effect with bytes and criteria | [`Simulation::phases`], [`Simulation::cost`] |
 //!
 //! # Questions about particles
@@ -141,6 +142,7 @@ mod reference;
 mod run;
 mod snapshot;
 mod soundness;
+mod stability;
 mod stages;
 mod state;
 mod sub_cycle;
@@ -158,6 +160,9 @@ pub use ledger::{Budget, Ledger, Total};
 pub use load::{Load, LoadPoint};
 pub use phases::Phases;
 pub use query::{ParticleView, ParticleViews};
+pub use stability::{
+    Arrangement, Breach, Extreme, StabilityReport, StepHistory, Thresholds, Verdict,
+};
 pub use which::Which;
 pub(crate) use which::find;
 pub use work::Work;
@@ -235,6 +240,8 @@ pub struct Simulation<T: Real, const D: usize> {
     due: f64,
     /// What ended it, in words.
     failed: Option<String>,
+    /// What a watched run keeps.
+    watch: Option<Box<stability::Watch<D>>>,
 }
 
 impl<T: Real, const D: usize> core::fmt::Debug for Simulation<T, D> {
@@ -293,6 +300,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             aside: None,
             due: 0.0,
             failed: None,
+            watch: None,
         }
     }
 

@@ -131,6 +131,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             None => self.votes.push((name, 1)),
         }
         self.check_state()?;
+        self.watch_step();
         self.book_step(start, before);
         Ok(vote.step)
     }

@@ -83,6 +83,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             aside,
             due,
             failed: _,
+            watch: _,
         } = self;
         // The next step takes up what was set aside.
         let now: Vec<_> = couples.iter().map(|own| own.acting.clone()).collect();

@@ -1,0 +1,279 @@
+//! How particles are arranged: nearest neighbours, clumping, anisotropy, those without neighbours, and noise.
+//! Read from the neighbour lists at hand, chunk by chunk, with sums in a fixed order.
+
+use super::super::group::Group;
+use crate::neighbors::{CHUNK, ChunkList};
+use crate::particles::Field;
+use crate::scalar::{Lane, Real};
+use crate::sweep::Transform;
+use crate::tensor::Vector;
+use rayon::prelude::*;
+
+/// Bins of the distances of nearest neighbours, which reach to two spacings.
+const BINS: usize = 128;
+/// Farthest neighbours that count, in local spacings: between the second and the third of a square lattice.
+const NEAR: f64 = 1.6;
+/// Offset of the centre of the near neighbours, in units of their distance, from which on a particle is at a surface.
+const SURFACE: f64 = 0.25;
+
+/// The arrangement of particles at one time. Distances are in units of the local spacing (m/ρ)^(1/D), so that gas that a
+/// shock compresses counts as well arranged, and images behind planes of symmetry do not count as neighbours to be near
+/// to. A nearest neighbour farther than two spacings counts as two.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arrangement {
+    /// Smallest distance of two particles.
+    pub nearest: f64,
+    /// The distance of nearest neighbours below which one in a thousand particles is.
+    pub quantile: f64,
+    /// Mean distance of nearest neighbours.
+    pub mean: f64,
+    /// Share of particles whose nearest neighbour is within half a spacing.
+    pub close: f64,
+    /// Mean over particles inside of |A − tr A/D|/|A| √(D/(D−1)), A = Σ w r rᵀ/r²: 0 of a lattice, 1 of a line; 0 in 1D.
+    pub anisotropy: f64,
+    /// Share of particles with fewer than 2 D neighbours within 1.6 spacings.
+    pub sparse: f64,
+    /// Particles without any neighbour within two spacings.
+    pub alone: u64,
+    /// Root mean square of v − v̄ over that of v, with the mean v̄ of near neighbours.
+    pub noise: f64,
+    /// The slot of the one with the smallest distance, and its group.
+    pub(super) at: (usize, usize),
+}
+
+/// Sums over some particles.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sums {
+    nearest: f64,
+    at: (usize, usize),
+    bins: [u32; BINS + 1],
+    mean: f64,
+    anisotropy: f64,
+    inside: u64,
+    sparse: u64,
+    alone: u64,
+    count: u64,
+    noise: f64,
+    speed: f64,
+}
+
+impl Sums {
+    pub(super) const NONE: Self = Self {
+        nearest: f64::INFINITY,
+        at: (usize::MAX, 0),
+        bins: [0; BINS + 1],
+        mean: 0.0,
+        anisotropy: 0.0,
+        inside: 0,
+        sparse: 0,
+        alone: 0,
+        count: 0,
+        noise: 0.0,
+        speed: 0.0,
+    };
+
+    fn add(&mut self, other: &Self) {
+        if other.nearest < self.nearest {
+            (self.nearest, self.at) = (other.nearest, other.at);
+        }
+        for (own, other) in self.bins.iter_mut().zip(&other.bins) {
+            *own += other;
+        }
+        self.mean += other.mean;
+        self.anisotropy += other.anisotropy;
+        self.inside += other.inside;
+        self.sparse += other.sparse;
+        self.alone += other.alone;
+        self.count += other.count;
+        self.noise += other.noise;
+        self.speed += other.speed;
+    }
+
+    /// What they say; nothing of no particles.
+    fn arrangement(&self) -> Option<Arrangement> {
+        let count = self.count.max(1) as f64;
+        let rank = self.count / 1000;
+        let mut below = 0;
+        let bin = self.bins.iter().position(|own| {
+            below += u64::from(*own);
+            below > rank
+        });
+        let of_bin = |bin: usize| 2.0 * bin as f64 / BINS as f64;
+        let half: u32 = self.bins[..BINS / 4].iter().sum();
+        (self.count > 0).then(|| Arrangement {
+            nearest: self.nearest.min(2.0),
+            quantile: bin.map_or(2.0, of_bin).max(self.nearest.min(2.0)),
+            mean: self.mean / count,
+            close: f64::from(half) / count,
+            anisotropy: self.anisotropy / self.inside.max(1) as f64,
+            sparse: self.sparse as f64 / count,
+            alone: self.alone,
+            noise: (self.noise / self.speed.max(f64::MIN_POSITIVE)).sqrt(),
+            at: self.at,
+        })
+    }
+}
+
+/// The arrangement of all groups; `partial` is memory that is used again, and grows with the lists.
+pub(super) fn arrangement<T: Real, const D: usize>(
+    groups: &[Group<T, D>],
+    partial: &mut Vec<Sums>,
+) -> Option<Arrangement> {
+    let mut all = Sums::NONE;
+    for (index, group) in groups.iter().enumerate() {
+        let chunks = group.neighborhood.lists.chunks();
+        // Room for lists that grow, so that nothing is allocated between two builds.
+        if partial.capacity() < chunks.len() {
+            partial.reserve(2 * chunks.len() - partial.len());
+        }
+        partial.clear();
+        partial.resize(chunks.len(), Sums::NONE);
+        let own = chunks.par_iter().zip(partial.par_iter_mut()).enumerate();
+        own.for_each(|(chunk, (list, sums))| group.arrangement_of(chunk, list, index, sums));
+        partial.iter().for_each(|sums| all.add(sums));
+    }
+    all.arrangement()
+}
+
+/// Whether a transform shifts alone, as that of a period does.
+fn shifts<T: Real, const D: usize>(by: &Transform<T, D>) -> bool {
+    by.rotation == Transform::<T, D>::identity().rotation
+}
+
+impl<T: Real, const D: usize> Group<T, D> {
+    /// The local spacing \[m\] of a slot.
+    fn local_spacing(&self, slot: usize) -> f64 {
+        let columns = &self.particles.columns;
+        let [mass, density] = [Field::MASS, Field::DENSITY].map(|f| columns.raw(f)[slot].to_f64());
+        let volume = mass / density;
+        match D {
+            1 => volume,
+            2 => volume.sqrt(),
+            _ => volume.cbrt(),
+        }
+    }
+
+    /// Adds the particles of one chunk of lists.
+    fn arrangement_of(&self, chunk: usize, list: &ChunkList, group: usize, sums: &mut Sums) {
+        let width = <T::Wide<false> as Lane>::WIDTH;
+        let columns = &self.particles.columns;
+        let positions = columns.vectors(Field::POSITION);
+        let velocities = columns.vectors(Field::VELOCITY);
+        let slots = columns.slots();
+        for (c, bounds) in list.starts.windows(2).enumerate() {
+            let first = (chunk * CHUNK + c) * width;
+            if first >= self.particles.mobile {
+                break;
+            }
+            let body = &self.particles.bodies[self.particles.body_of(first)];
+            for slot in first..(first + width).min(body.slots.end) {
+                let x = positions[slot].map(Real::to_f64);
+                let v = velocities[slot].map(Real::to_f64);
+                let own = self.local_spacing(slot);
+                let mut nearest = f64::INFINITY;
+                let (mut count, mut weights) = (0_u32, 0.0);
+                let (mut offset, mut mean) = ([0.0; D], [0.0; D]);
+                let mut moment = [[0.0; D]; D];
+                for segment in &list.segments[bounds[0] as usize..bounds[1] as usize] {
+                    for &j in &list.neighbors[segment.start as usize..segment.end as usize] {
+                        let j = j as usize;
+                        let image = j
+                            .checked_sub(slots)
+                            .and_then(|k| self.neighborhood.images.get(k));
+                        let source = image.map_or(j, |image| image.source as usize);
+                        if j == slot {
+                            continue;
+                        }
+                        let by =
+                            image.map(|own| &self.neighborhood.transforms[own.transform as usize]);
+                        let place = positions[source];
+                        let place = by.map_or(place, |by| by.point(&place));
+                        let r: [f64; D] = core::array::from_fn(|d| place[d].to_f64() - x[d]);
+                        let r2: f64 = r.iter().map(|r| r * r).sum();
+                        let mobile = source < self.particles.mobile;
+                        let spacing = if mobile {
+                            0.5 * (own + self.local_spacing(source))
+                        } else {
+                            own
+                        };
+                        // Far ones first, which are most.
+                        if r2 > (2.0 * spacing).powi(2) {
+                            continue;
+                        }
+                        let q = r2.sqrt() / spacing;
+                        if mobile && by.is_none_or(shifts) {
+                            nearest = nearest.min(q);
+                        }
+                        if q < NEAR {
+                            count += 1;
+                            let weight = 1.0 - q / NEAR;
+                            weights += weight;
+                            let moved = by.map_or(velocities[source], |by| {
+                                (by.rotation * Vector::from(velocities[source]) + by.velocity)
+                                    .into()
+                            });
+                            let unit = r.map(|r| r / r2.sqrt().max(f64::MIN_POSITIVE));
+                            for a in 0..D {
+                                mean[a] += weight * moved[a].to_f64();
+                                offset[a] += weight * unit[a];
+                                for b in 0..D {
+                                    moment[a][b] += weight * unit[a] * unit[b];
+                                }
+                            }
+                        }
+                    }
+                }
+                sums.count += 1;
+                sums.alone += u64::from(nearest.is_infinite());
+                sums.sparse += u64::from(count < 2 * D as u32);
+                if nearest < sums.nearest {
+                    (sums.nearest, sums.at) = (nearest, (slot, group));
+                }
+                let nearest = nearest.min(2.0);
+                sums.mean += nearest;
+                sums.bins[(0.5 * nearest * BINS as f64) as usize] += 1;
+                sums.speed += v.iter().map(|v| v * v).sum::<f64>();
+                if weights == 0.0 {
+                    continue;
+                }
+                let aside = offset.iter().map(|o| o * o).sum::<f64>().sqrt() / weights;
+                if aside < SURFACE && count >= 2 * D as u32 {
+                    sums.inside += 1;
+                    sums.anisotropy += departure(&moment);
+                    let differs = |d: usize| (v[d] - mean[d] / weights).powi(2);
+                    sums.noise += (0..D).map(differs).sum::<f64>();
+                }
+            }
+        }
+    }
+}
+
+/// |A − tr A/D|/tr A √(D/(D − 1)): zero of a multiple of the unit tensor, one of a single direction.
+fn departure<const D: usize>(moment: &[[f64; D]; D]) -> f64 {
+    if D == 1 {
+        return 0.0;
+    }
+    let trace: f64 = (0..D).map(|d| moment[d][d]).sum();
+    let mut square = 0.0;
+    for a in 0..D {
+        for b in 0..D {
+            let even = if a == b { trace / D as f64 } else { 0.0 };
+            square += (moment[a][b] - even).powi(2);
+        }
+    }
+    (square * D as f64 / (D as f64 - 1.0)).sqrt() / trace.max(f64::MIN_POSITIVE)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn departure_is_zero_of_a_lattice_and_one_of_a_line() {
+        assert!(departure(&[[3.0, 0.0], [0.0, 3.0]]).abs() < 1e-15);
+        assert!((departure(&[[2.0, 0.0], [0.0, 0.0]]) - 1.0).abs() < 1e-15);
+        let slanted = [[1.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0; 3]];
+        assert!((departure(&slanted) - 1.0).abs() < 1e-15);
+        assert_eq!(departure(&[[1.0]]), 0.0);
+    }
+}

@@ -1,0 +1,57 @@
+//! Whether a run has stayed sound: bounds, limits, residuals, arrangement, steps and noise, held against thresholds.
+//! Kept on request, since a look at every particle in every step is not free; off, it costs one question a step.
+
+mod arrangement;
+mod report;
+mod voids;
+mod watch;
+
+pub use arrangement::Arrangement;
+pub use report::{Breach, Extreme, StabilityReport, StepHistory, Thresholds, Verdict};
+pub(super) use watch::Watch;
+
+use super::Simulation;
+use crate::scalar::Real;
+
+impl<T: Real, const D: usize> Simulation<T, D> {
+    /// Starts to watch the run from the present state on: [`stability`](Self::stability) then tells of all of it, with
+    /// what first left the thresholds, where and when. Off by default. Observing changes no bit of the run.
+    ///
+    /// Densities, smoothing lengths and the step are looked at after every step, and the arrangement of the particles every
+    /// [`Thresholds::every`] steps; the share of the run's time is in [`StabilityReport::price`]. A checkpoint does not keep
+    /// the watch.
+    pub fn keep_stability(&mut self, thresholds: Thresholds) {
+        self.watch = Some(Box::new(Watch::new(self, thresholds)));
+    }
+
+    /// How sound the run is: of all steps since [`keep_stability`](Self::keep_stability), or of the present state alone. Voids,
+    /// momentum and energy are summed when asked for. Printed it is a short table.
+    ///
+    /// ```
+    /// use meshfree::prelude::*;
+    /// use meshfree::simulation::Thresholds;
+    /// let water = catalogue::weakly_compressible_water(1.0);
+    /// let spin = |[x, y]: [f64; 2], start| meshfree::scheme::Start { velocity: [y, -x], ..start };
+    /// let mut patch = Scene::<f64, 2>::new(schemes::weakly_compressible())
+    ///     .body(Body::block("patch", water, [-0.5; 2], [0.5; 2], 0.05).start(spin))
+    ///     .build()?;
+    /// patch.keep_stability(Thresholds::default());
+    /// patch.run_until(0.1)?;
+    /// let report = patch.stability();
+    /// println!("{report}");
+    /// assert!(report.verdict.is_stable(), "{report}");
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[must_use]
+    pub fn stability(&self) -> StabilityReport {
+        report::of(self)
+    }
+
+    /// Looks at the state after a step, if it is watched.
+    pub(super) fn watch_step(&mut self) {
+        if let Some(mut watch) = self.watch.take() {
+            watch.look(self);
+            self.watch = Some(watch);
+        }
+    }
+}

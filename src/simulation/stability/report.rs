@@ -1,0 +1,551 @@
+//! The report on a run: what it measured, and what of it left the thresholds, where and when.
+//! Thresholds are those of the crate's hard cases, for a case to override.
+
+use super::super::Simulation;
+use super::arrangement::{self, Arrangement};
+use super::voids;
+use super::watch::{Measure, Seen};
+use crate::output::table::significant;
+use crate::scalar::Real;
+use core::fmt;
+
+/// What a run must keep to be called stable. A threshold at infinity (or zero, where the least counts) asks for nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Thresholds {
+    /// Least and largest density over that at rest of the material; 0 and infinity. One over it is the Jacobian.
+    pub density: [f64; 2],
+    /// Largest share of particle steps in which a limit or a guard of an equation of state acted; 10⁻⁴.
+    pub limited: f64,
+    /// Largest residual of momentum over Σ m |v|; 10⁻¹⁰, or a thousand roundings of the scalar. Forces that are no pair
+    /// forces (renormalised gradients) need more.
+    pub momentum: f64,
+    /// Largest gain of energy from nowhere over the energy; 10⁻³.
+    pub energy_gain: f64,
+    /// Largest change of the energy of a closed scene whose bodies carry internal energy, over it; 1 %. 10⁻¹⁰ can be asked of
+    /// compatible energy.
+    pub energy_closure: f64,
+    /// Least distance of two particles in local spacings; 0.2.
+    pub nearest: f64,
+    /// Least distance of nearest neighbours that one in a thousand particles may be below; 0.5.
+    pub quantile: f64,
+    /// Largest 1 − mean distance of nearest neighbours; 0.2. An even liquid has 0.05, one that flows 0.1, pairs 0.3 to 0.7.
+    pub clumping: f64,
+    /// Radius of the largest enclosed void in spacings; 1.5. Of gas, which expands, it says nothing.
+    pub voids: f64,
+    /// Least step over the median step; 0.05.
+    pub step: f64,
+    /// Largest λ T of the growth of noise; infinity. It means something where a flow should come to rest: 1 then.
+    pub growth: f64,
+    /// Particles that may be outside of the walls; 0.
+    pub leaked: u64,
+    /// Particles that may be without neighbours; no limit, since spray is liquid too.
+    pub ejected: u64,
+    /// Steps between two looks at the arrangement; 50. One look costs about two to three steps' worth of one thread's time.
+    pub every: u64,
+}
+
+impl Default for Thresholds {
+    fn default() -> Self {
+        Self {
+            density: [0.0, f64::INFINITY],
+            limited: 1e-4,
+            momentum: 1e-10,
+            energy_gain: 1e-3,
+            energy_closure: 0.01,
+            nearest: 0.2,
+            quantile: 0.5,
+            clumping: 0.2,
+            voids: 1.5,
+            step: 0.05,
+            growth: f64::INFINITY,
+            leaked: 0,
+            ejected: u64::MAX,
+            every: 50,
+        }
+    }
+}
+
+/// A value with where and when it was met.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Extreme {
+    /// The value.
+    pub value: f64,
+    /// The time \[s\].
+    pub time: f64,
+    /// The body.
+    pub body: String,
+    /// The number of the particle in it.
+    pub particle: usize,
+    /// Where it was \[m\].
+    pub position: Vec<f64>,
+}
+
+/// Steps of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StepHistory {
+    /// The shortest \[s\], with the particle that set it.
+    pub least: Extreme,
+    /// The criterion that set it.
+    pub criterion: &'static str,
+    /// The median \[s\], to a tenth.
+    pub median: f64,
+    /// Steps by the criterion that set them, since the scene was built.
+    pub set_by: Vec<(&'static str, u64)>,
+}
+
+/// A threshold that was left.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Breach {
+    /// What was measured.
+    pub measure: &'static str,
+    /// The value that first was beyond.
+    pub value: f64,
+    /// The threshold.
+    pub limit: f64,
+    /// When, where and at which particle; `None` of what is a sum over all.
+    pub at: Option<Extreme>,
+}
+
+/// Whether a run was stable.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Verdict {
+    /// What was left, the first in time before others, then sums.
+    pub breaches: Vec<Breach>,
+    /// The error that ended the run, if one did.
+    pub failed: Option<String>,
+}
+
+impl Verdict {
+    /// Whether nothing was left, and no error ended the run.
+    #[must_use]
+    pub fn is_stable(&self) -> bool {
+        self.breaches.is_empty() && self.failed.is_none()
+    }
+    /// Whether a measure was left.
+    #[must_use]
+    pub fn breaks(&self, measure: &str) -> bool {
+        self.breaches.iter().any(|own| own.measure == measure)
+    }
+}
+
+/// How sound a run is. What could not be measured is `None`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StabilityReport {
+    /// Now \[s\].
+    pub time: f64,
+    /// Steps that were watched.
+    pub steps: u64,
+    /// Particles now.
+    pub particles: usize,
+    /// Least and largest density over that at rest.
+    pub density: Option<[Extreme; 2]>,
+    /// Least and largest smoothing length over the first, where it varies.
+    pub smoothing: Option<[Extreme; 2]>,
+    /// Limits that were applied, by name, and evaluations in which an equation of state left its range.
+    pub limits: Vec<(&'static str, u64)>,
+    /// All of these over particle steps.
+    pub limited: f64,
+    /// Residual of momentum over Σ m |v| or what has acted from outside, the larger; where that is known.
+    pub momentum: Option<f64>,
+    /// Energy gained from nowhere, over the energy: of the [energy ledger](Simulation::keep_energy), or of a closed scene.
+    pub energy_gain: Option<f64>,
+    /// Change of the energy of a closed scene whose bodies carry internal energy.
+    pub energy_closure: Option<f64>,
+    /// The smallest distance of two particles that was seen, in local spacings.
+    pub nearest: Option<Extreme>,
+    /// The least quantile of nearest neighbours that was seen.
+    pub quantile: Option<f64>,
+    /// The largest share of particles with a neighbour within half a spacing that was seen.
+    pub close: f64,
+    /// The arrangement now.
+    pub arrangement: Option<Arrangement>,
+    /// Radius in spacings of the largest void that particles enclose now, and its centre \[m\].
+    pub void: Option<(f64, Vec<f64>)>,
+    /// The steps.
+    pub step: Option<StepHistory>,
+    /// λ T: by how many powers of e noise grew at the pace of the last third of the run.
+    pub growth: Option<f64>,
+    /// Particles outside of the walls now.
+    pub leaked: u64,
+    /// Particles that left through outlets.
+    pub left: u64,
+    /// Particles without neighbours now.
+    pub ejected: u64,
+    /// Time that watching took over that of all steps.
+    pub price: f64,
+    /// Whether the run was stable.
+    pub verdict: Verdict,
+}
+
+/// Sums and looks at the present state, and what was watched.
+pub(super) fn of<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> StabilityReport {
+    let fresh;
+    let watch = if let Some(watch) = &simulation.watch {
+        &**watch
+    } else {
+        fresh = super::Watch::new(simulation, Thresholds::default());
+        &fresh
+    };
+    let named = |seen: Seen<D>| {
+        let (body, particle) = simulation.locate(seen.id);
+        Extreme {
+            value: seen.value,
+            time: seen.time,
+            body,
+            particle,
+            position: seen.position.to_vec(),
+        }
+    };
+    let both = |own: [Option<Seen<D>>; 2]| Some([named(own[0]?), named(own[1]?)]);
+    let now = arrangement::arrangement(&simulation.groups, &mut Vec::new());
+    let limits: Vec<_> = simulation
+        .limits()
+        .into_iter()
+        .map(|(name, count)| {
+            let before = watch.limits.iter().find(|own| own.0 == name);
+            (name, count - before.map_or(0, |own| own.1))
+        })
+        .chain([(
+            "equation of state out of its range",
+            simulation.guard_counts().total() - watch.guards,
+        )])
+        .filter(|(_, count)| *count > 0)
+        .collect();
+    let applied: u64 = limits.iter().map(|own| own.1).sum();
+    let (momentum, energy_gain, energy_closure) = residuals(simulation, watch);
+    let points: Vec<[f64; D]> = simulation.all().map(|own| own.position()).collect();
+    let walls = (simulation.groups.iter()).flat_map(|group| {
+        let x = group
+            .particles
+            .columns
+            .vectors(crate::particles::Field::POSITION);
+        let own = group.walls.iter().filter(|wall| wall.structure.is_none());
+        own.flat_map(|wall| x[wall.slots.clone()].iter().map(|x| x.map(Real::to_f64)))
+    });
+    let occupied: Vec<_> = points.into_iter().chain(walls).collect();
+    let widest = simulation.all_bodies().map(|(_, body)| body.spacing);
+    let void = voids::largest(&occupied, widest.fold(0.0, f64::max));
+    let mut nearest = watch.nearest.map(named);
+    let mut quantile = watch.quantile.map(|own| own.value);
+    if let Some(now) = &now {
+        quantile = Some(quantile.map_or(now.quantile, |own| own.min(now.quantile)));
+        if nearest.as_ref().is_none_or(|own| now.nearest < own.value) {
+            let (slot, group) = now.at;
+            nearest = (slot != usize::MAX).then(|| {
+                let group = &simulation.groups[group];
+                let id = group.particles.first_id + group.particles.ids[slot] as usize;
+                let (body, particle) = simulation.locate(id);
+                Extreme {
+                    value: now.nearest,
+                    time: simulation.time,
+                    body,
+                    particle,
+                    position: group.position(slot),
+                }
+            });
+        }
+    }
+    let step = watch.least_step.map(|(seen, criterion)| StepHistory {
+        least: named(seen),
+        criterion,
+        median: watch.median_step(),
+        set_by: simulation.votes.clone(),
+    });
+    let total = simulation.phases().total().as_secs_f64() + watch.spent.as_secs_f64();
+    let mut report = StabilityReport {
+        time: simulation.time,
+        steps: watch.steps,
+        particles: simulation.particles(),
+        density: both(watch.density),
+        smoothing: both(watch.smoothing),
+        limits,
+        limited: applied as f64 / watch.particle_steps.max(1.0),
+        momentum,
+        energy_gain,
+        energy_closure,
+        nearest,
+        quantile,
+        close: watch.worst_close.max(now.map_or(0.0, |now| now.close)),
+        arrangement: now,
+        void: void.map(|(radius, centre)| (radius, centre.to_vec())),
+        step,
+        growth: watch.growth(),
+        leaked: simulation.leaked().0,
+        left: simulation.removed().particles - watch.removed,
+        ejected: now.map_or(0, |now| now.alone),
+        price: watch.spent.as_secs_f64() / total.max(f64::MIN_POSITIVE),
+        verdict: Verdict::default(),
+    };
+    let first: Vec<_> = (Measure::ALL.iter().zip(watch.first))
+        .filter_map(|(measure, seen)| Some((*measure, named(seen?))))
+        .collect();
+    report.verdict = judge(&report, &watch.thresholds, first, rounding::<T>());
+    report.verdict.failed.clone_from(&simulation.failed);
+    report
+}
+
+/// The relative rounding of a scalar.
+fn rounding<T: Real>() -> f64 {
+    if size_of::<T>() == 4 {
+        f64::from(f32::EPSILON)
+    } else {
+        f64::EPSILON
+    }
+}
+
+/// Residual of momentum, gain and closure of energy.
+fn residuals<T: Real, const D: usize>(
+    simulation: &Simulation<T, D>,
+    watch: &super::Watch<D>,
+) -> (Option<f64>, Option<f64>, Option<f64>) {
+    let (momentum, _, energy) = simulation.state_sums();
+    let residual = simulation.books_momentum().then(|| {
+        let outer = simulation.outer_impulse();
+        let mut scale: f64 = simulation
+            .all()
+            .map(|own| own.mass() * own.velocity().iter().map(|v| v.abs()).sum::<f64>())
+            .sum();
+        let (mut off, mut given) = (0.0_f64, 0.0_f64);
+        for d in 0..D {
+            let by = outer[d] - watch.impulse[d];
+            off = off.max((momentum[d] - watch.momentum[d] - by - watch.load[d]).abs());
+            given = given.max(by.abs()).max(watch.load[d].abs());
+        }
+        scale = scale.max(given);
+        if off == 0.0 {
+            0.0
+        } else {
+            off / scale.max(f64::MIN_POSITIVE)
+        }
+    });
+    let scale = energy.abs().max(watch.energy.abs()).max(f64::MIN_POSITIVE);
+    let change = (energy - watch.energy) / scale;
+    let closed = simulation.is_closed();
+    let gain = match simulation.energy() {
+        Some(own) => Some((watch.dissipated - own.dissipated) / scale),
+        None => closed.then_some(change),
+    };
+    let closure = (closed && simulation.carries_energy()).then_some(change.abs());
+    (residual, gain.map(|gain| gain.max(0.0)), closure)
+}
+
+/// What of a report is beyond the thresholds; what was so first while the run went on is given.
+fn judge(
+    report: &StabilityReport,
+    limits: &Thresholds,
+    mut first: Vec<(Measure, Extreme)>,
+    epsilon: f64,
+) -> Verdict {
+    first.sort_by(|a, b| a.1.time.total_cmp(&b.1.time));
+    let median = report.step.as_ref().map_or(0.0, |step| step.median);
+    let mut breaches: Vec<Breach> = Vec::new();
+    for (measure, at) in first {
+        let (measure, limit) = match measure {
+            Measure::Thin => ("density", limits.density[0]),
+            Measure::Dense => ("density", limits.density[1]),
+            Measure::Nearest => ("nearest", limits.nearest),
+            Measure::Quantile => ("quantile", limits.quantile),
+            Measure::Step => ("step", limits.step * median),
+            Measure::Leaked => ("leaked", limits.leaked as f64),
+        };
+        let value = at.value;
+        breaches.push(Breach {
+            measure,
+            value,
+            limit,
+            at: Some(at),
+        });
+    }
+    let rounding = 1e3 * epsilon;
+    let now = report.arrangement;
+    let void = report.void.as_ref().map(|own| own.0);
+    for (measure, value, limit) in [
+        ("limited", Some(report.limited), limits.limited),
+        ("momentum", report.momentum, limits.momentum.max(rounding)),
+        (
+            "energy gain",
+            report.energy_gain,
+            limits.energy_gain.max(rounding),
+        ),
+        (
+            "energy",
+            report.energy_closure,
+            limits.energy_closure.max(rounding),
+        ),
+        ("clumping", now.map(|now| 1.0 - now.mean), limits.clumping),
+        ("void", void, limits.voids),
+        ("growth of noise", report.growth, limits.growth),
+        ("leaked", Some(report.leaked as f64), limits.leaked as f64),
+        (
+            "ejected",
+            Some(report.ejected as f64),
+            limits.ejected as f64,
+        ),
+    ] {
+        // What is no number is beyond.
+        let beyond = |value: &f64| !(*value <= limit);
+        let known = breaches.iter().any(|own| own.measure == measure);
+        if let Some(value) = value.filter(beyond).filter(|_| !known) {
+            breaches.push(Breach {
+                measure,
+                value,
+                limit,
+                at: None,
+            });
+        }
+    }
+    for (measure, value, limit) in [
+        (
+            "nearest",
+            report.nearest.as_ref().map(|own| own.value),
+            limits.nearest,
+        ),
+        ("quantile", report.quantile, limits.quantile),
+    ] {
+        let known = breaches.iter().any(|own| own.measure == measure);
+        if let Some(value) = value.filter(|value| *value < limit && !known) {
+            let at = report.nearest.clone().filter(|_| measure == "nearest");
+            breaches.push(Breach {
+                measure,
+                value,
+                limit,
+                at,
+            });
+        }
+    }
+    Verdict {
+        breaches,
+        failed: None,
+    }
+}
+
+impl fmt::Display for Extreme {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            time,
+            body,
+            particle,
+            position,
+            ..
+        } = self;
+        let place: Vec<_> = position.iter().map(|x| significant(*x, 3)).collect();
+        let (time, place) = (significant(*time, 4), place.join(", "));
+        write!(
+            f,
+            "t = {time} s, particle {particle} of `{body}` at ({place}) m"
+        )
+    }
+}
+
+impl fmt::Display for StabilityReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let number = |value: Option<f64>| value.map_or("not known".into(), |v| significant(v, 3));
+        let Self {
+            time,
+            steps,
+            particles,
+            ..
+        } = self;
+        let time = significant(*time, 4);
+        writeln!(
+            f,
+            "stability at {time} s, {steps} steps watched, {particles} particles"
+        )?;
+        for (what, range) in [
+            ("density over rest", &self.density),
+            ("h over the first", &self.smoothing),
+        ] {
+            if let Some([low, high]) = range {
+                let [low, high] = [low, high].map(|own| significant(own.value, 4));
+                writeln!(f, "  {what:<26} {low} to {high}")?;
+            }
+        }
+        for (name, count) in &self.limits {
+            writeln!(f, "  limit: {name:<19} {count} times")?;
+        }
+        writeln!(
+            f,
+            "  {:<26} {}",
+            "limited particle steps",
+            significant(self.limited, 3)
+        )?;
+        writeln!(
+            f,
+            "  {:<26} {}",
+            "residual of momentum",
+            number(self.momentum)
+        )?;
+        writeln!(f, "  {:<26} {}", "gain of energy", number(self.energy_gain))?;
+        if let Some(closure) = self.energy_closure {
+            writeln!(
+                f,
+                "  {:<26} {}",
+                "change of energy",
+                significant(closure, 3)
+            )?;
+        }
+        if let Some(nearest) = &self.nearest {
+            let value = significant(nearest.value, 3);
+            writeln!(f, "  {:<26} {value} spacings, {nearest}", "nearest pair")?;
+        }
+        let (quantile, close) = (number(self.quantile), significant(100.0 * self.close, 3));
+        writeln!(
+            f,
+            "  {:<26} {quantile} spacings; within half of one: {close} %",
+            "nearest of 0.1 %"
+        )?;
+        if let Some(now) = self.arrangement {
+            let [mean, uneven, sparse] = [1.0 - now.mean, now.anisotropy, 100.0 * now.sparse];
+            let [mean, uneven, sparse] = [mean, uneven, sparse].map(|own| significant(own, 3));
+            writeln!(
+                f,
+                "  {:<26} {mean}; anisotropy {uneven}; sparse {sparse} %",
+                "clumping now"
+            )?;
+        }
+        let void = self.void.as_ref().map(|own| own.0);
+        writeln!(f, "  {:<26} {} spacings", "largest void now", number(void))?;
+        if let Some(step) = &self.step {
+            let [least, median] = [step.least.value, step.median].map(|own| significant(own, 3));
+            let criterion = step.criterion;
+            writeln!(
+                f,
+                "  {:<26} {least} s of median {median} s, by {criterion}",
+                "shortest step"
+            )?;
+        }
+        writeln!(f, "  {:<26} {}", "growth of noise", number(self.growth))?;
+        let Self {
+            leaked,
+            ejected,
+            left,
+            ..
+        } = self;
+        writeln!(
+            f,
+            "  {:<26} {leaked} leaked, {ejected} alone, {left} left",
+            "particles"
+        )?;
+        writeln!(
+            f,
+            "  {:<26} {} %",
+            "price of watching",
+            significant(100.0 * self.price, 2)
+        )?;
+        if let Some(cause) = &self.verdict.failed {
+            writeln!(f, "verdict: ended by an error: {cause}")?;
+        }
+        if self.verdict.is_stable() {
+            return writeln!(f, "verdict: stable");
+        }
+        for own in &self.verdict.breaches {
+            let [value, limit] = [own.value, own.limit].map(|own| significant(own, 3));
+            write!(f, "verdict: {} is {value}, limit {limit}", own.measure)?;
+            match &own.at {
+                Some(at) => writeln!(f, ", first {at}")?,
+                None => writeln!(f)?,
+            }
+        }
+        Ok(())
+    }
+}

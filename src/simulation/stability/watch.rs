@@ -1,0 +1,432 @@
+//! What a watched run keeps from step to step: extremes with their times, a histogram of steps, samples of noise.
+//! Of fixed size, so that a step allocates nothing.
+
+use super::super::Simulation;
+use super::super::group::Group;
+use super::super::stages::GRAIN;
+use super::arrangement::{self, Sums};
+use super::report::Thresholds;
+use crate::particles::Field;
+use crate::scalar::Real;
+use rayon::prelude::*;
+use std::time::{Duration, Instant};
+
+/// Bins of steps, eight an octave about the first.
+const BINS: usize = 512;
+const OCTAVE: f64 = 8.0;
+/// Samples of noise; when they are full every other one goes, and they are taken half as often.
+const SAMPLES: usize = 128;
+/// Steps after which a step can be called short.
+const SETTLED: u64 = 100;
+
+/// A value, with where and when it was.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in super::super) struct Seen<const D: usize> {
+    pub value: f64,
+    pub time: f64,
+    /// Number of the particle in the whole simulation.
+    pub id: usize,
+    pub position: [f64; D],
+}
+
+/// What is held against thresholds while the run goes on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in super::super) enum Measure {
+    Thin,
+    Dense,
+    Nearest,
+    Quantile,
+    Step,
+    Leaked,
+}
+
+impl Measure {
+    pub const ALL: [Self; 6] = [
+        Self::Thin,
+        Self::Dense,
+        Self::Nearest,
+        Self::Quantile,
+        Self::Step,
+        Self::Leaked,
+    ];
+}
+
+/// A run that is watched.
+#[derive(Debug)]
+pub(in super::super) struct Watch<const D: usize> {
+    pub thresholds: Thresholds,
+    pub begun: f64,
+    pub steps: u64,
+    /// Particle steps.
+    pub particle_steps: f64,
+    /// Limits and guards at the start.
+    pub limits: Vec<(&'static str, u64)>,
+    pub guards: u64,
+    pub removed: u64,
+    /// The least and the largest density over that at rest, and smoothing length over the first.
+    pub density: [Option<Seen<D>>; 2],
+    pub smoothing: [Option<Seen<D>>; 2],
+    pub nearest: Option<Seen<D>>,
+    pub quantile: Option<Seen<D>>,
+    pub worst_close: f64,
+    pub least_step: Option<(Seen<D>, &'static str)>,
+    bins: [u32; BINS],
+    first_step: f64,
+    /// Times \[s\] and logarithms of noise.
+    noise: [(f64, f64); SAMPLES],
+    noises: usize,
+    stride: u64,
+    taken: u64,
+    pub first: [Option<Seen<D>>; Measure::ALL.len()],
+    /// Momentum, impulses of walls and boundaries, and energy at the start, and the impulse of loads since.
+    pub momentum: Vec<f64>,
+    pub impulse: Vec<f64>,
+    pub energy: f64,
+    pub dissipated: f64,
+    pub load: [f64; D],
+    pub mass: f64,
+    before: [f64; D],
+    last: f64,
+    partial: Vec<Sums>,
+    pub spent: Duration,
+}
+
+/// The lower value and, of equal ones, the lower slot.
+type Low = (f64, usize);
+fn lower(a: Low, b: Low) -> Low {
+    if b.0 < a.0 || (b.0 == a.0 && b.1 < a.1) {
+        b
+    } else {
+        a
+    }
+}
+const NOWHERE: Low = (f64::INFINITY, usize::MAX);
+
+impl<T: Real, const D: usize> Group<T, D> {
+    /// The least and the largest (with the opposite sign) of a column over what it is at rest in each body.
+    fn extremes(&self, field: Field, rest: impl Fn(usize) -> f64 + Sync) -> [Low; 2] {
+        let column = self.particles.columns.raw(field);
+        let mut all = [NOWHERE; 2];
+        for (k, body) in self.particles.bodies.iter().enumerate() {
+            let Some(own) = column.get(body.slots.clone()) else {
+                continue;
+            };
+            let (first, over) = (body.slots.start, 1.0 / rest(k));
+            let found = own
+                .par_iter()
+                .with_min_len(GRAIN)
+                .enumerate()
+                .map(|(n, value)| {
+                    let value = value.to_f64() * over;
+                    [(value, first + n), (-value, first + n)]
+                })
+                .reduce(
+                    || [NOWHERE; 2],
+                    |a, b| [lower(a[0], b[0]), lower(a[1], b[1])],
+                );
+            all = [lower(all[0], found[0]), lower(all[1], found[1])];
+        }
+        all
+    }
+}
+
+impl<const D: usize> Watch<D> {
+    pub fn new<T: Real>(simulation: &Simulation<T, D>, thresholds: Thresholds) -> Self {
+        let (momentum, mass, energy) = simulation.state_sums();
+        let mut watch = Self {
+            thresholds,
+            begun: simulation.time,
+            steps: 0,
+            particle_steps: 0.0,
+            limits: simulation.limits(),
+            guards: simulation.guard_counts().total(),
+            removed: simulation.removed().particles,
+            density: [None; 2],
+            smoothing: [None; 2],
+            nearest: None,
+            quantile: None,
+            worst_close: 0.0,
+            least_step: None,
+            bins: [0; BINS],
+            first_step: 0.0,
+            noise: [(0.0, 0.0); SAMPLES],
+            noises: 0,
+            stride: 1,
+            taken: 0,
+            first: [None; Measure::ALL.len()],
+            momentum,
+            impulse: simulation.outer_impulse(),
+            energy,
+            dissipated: simulation.energy().map_or(0.0, |own| own.dissipated),
+            load: [0.0; D],
+            mass,
+            before: simulation.body_acceleration(simulation.time),
+            last: simulation.time,
+            partial: Vec::new(),
+            spent: Duration::ZERO,
+        };
+        watch.look_at_bounds(simulation);
+        watch
+    }
+
+    /// Looks at the state after a step.
+    pub fn look<T: Real>(&mut self, simulation: &Simulation<T, D>) {
+        let start = Instant::now();
+        self.steps += 1;
+        self.particle_steps += simulation.particles() as f64;
+        self.look_at_bounds(simulation);
+        self.look_at_step(simulation);
+        let now = simulation.body_acceleration(simulation.time);
+        let half = 0.5 * (simulation.time - self.last);
+        for d in 0..D {
+            self.load[d] += half * self.mass * (self.before[d] + now[d]);
+        }
+        (self.before, self.last) = (now, simulation.time);
+        if self.steps % self.thresholds.every.max(1) == 0 {
+            self.look_at_arrangement(simulation);
+        }
+        self.spent += start.elapsed();
+    }
+
+    fn look_at_bounds<T: Real>(&mut self, simulation: &Simulation<T, D>) {
+        for group in &simulation.groups {
+            let rest = |body: usize| group.particles.bodies[body].material.reference_density();
+            let density = group.extremes(Field::DENSITY, rest);
+            let lengths = group.extremes(Field::SMOOTHING_LENGTH, |_| group.smoothing_length);
+            for (all, found) in [(&mut self.density, density), (&mut self.smoothing, lengths)] {
+                for (side, (value, slot)) in found.into_iter().enumerate() {
+                    let sign = if side == 0 { 1.0 } else { -1.0 };
+                    let beyond = all[side].is_none_or(|own| value < sign * own.value);
+                    if slot != usize::MAX && beyond {
+                        all[side] = Some(simulation.seen(group, slot, sign * value));
+                    }
+                }
+            }
+        }
+        let [thin, dense] = self.density;
+        let [least, most] = self.thresholds.density;
+        self.hold(Measure::Thin, thin, |value| value < least);
+        self.hold(Measure::Dense, dense, |value| value > most);
+    }
+
+    fn look_at_step<T: Real>(&mut self, simulation: &Simulation<T, D>) {
+        let Some(vote) = simulation.last_vote else {
+            return;
+        };
+        if vote.criterion == super::super::Criterion::End {
+            return;
+        }
+        if self.first_step == 0.0 {
+            self.first_step = vote.step;
+        }
+        let bin = (OCTAVE * (vote.step / self.first_step).log2()).round() as i64;
+        self.bins[(bin + BINS as i64 / 2).clamp(0, BINS as i64 - 1) as usize] += 1;
+        if self.least_step.is_none_or(|(own, _)| vote.step < own.value) {
+            let position = simulation.position_of(vote.particle);
+            let seen = Seen {
+                value: vote.step,
+                time: simulation.time,
+                id: vote.particle,
+                position,
+            };
+            self.least_step = Some((seen, vote.criterion.name()));
+            let median = self.median_step();
+            if self.steps > SETTLED {
+                let least = self.thresholds.step * median;
+                self.hold(Measure::Step, Some(seen), |value| value < least);
+            }
+        }
+    }
+
+    fn look_at_arrangement<T: Real>(&mut self, simulation: &Simulation<T, D>) {
+        let mut partial = core::mem::take(&mut self.partial);
+        let found = arrangement::arrangement(&simulation.groups, &mut partial);
+        self.partial = partial;
+        if let Some(now) = found {
+            let (slot, group) = now.at;
+            if slot != usize::MAX {
+                let at = |value| Some(simulation.seen(&simulation.groups[group], slot, value));
+                let least = |own: Option<Seen<D>>, value| {
+                    if own.is_none_or(|own| value < own.value) {
+                        at(value)
+                    } else {
+                        own
+                    }
+                };
+                self.nearest = least(self.nearest, now.nearest);
+                self.quantile = least(self.quantile, now.quantile);
+            }
+            self.worst_close = self.worst_close.max(now.close);
+            self.take_noise(simulation.time, now.noise);
+            let (nearest, quantile) = (self.thresholds.nearest, self.thresholds.quantile);
+            self.hold(Measure::Nearest, self.nearest, |value| value < nearest);
+            self.hold(Measure::Quantile, self.quantile, |value| value < quantile);
+        }
+        let (leaked, seen) = simulation.leaked();
+        if leaked > self.thresholds.leaked {
+            self.hold(Measure::Leaked, seen, |_| true);
+        }
+    }
+
+    /// Remembers what is the first of its kind beyond a threshold.
+    fn hold(&mut self, of: Measure, seen: Option<Seen<D>>, beyond: impl Fn(f64) -> bool) {
+        let first = &mut self.first[of as usize];
+        if first.is_none() {
+            *first = seen.filter(|seen| beyond(seen.value));
+        }
+    }
+
+    fn take_noise(&mut self, time: f64, noise: f64) {
+        self.taken += 1;
+        if self.taken % self.stride != 0 {
+            return;
+        }
+        if self.noises == SAMPLES {
+            for k in 0..SAMPLES / 2 {
+                self.noise[k] = self.noise[2 * k + 1];
+            }
+            self.noises = SAMPLES / 2;
+            self.stride *= 2;
+            if self.taken % self.stride != 0 {
+                return;
+            }
+        }
+        self.noise[self.noises] = (time, noise.max(f64::MIN_POSITIVE).ln());
+        self.noises += 1;
+    }
+
+    /// The step below which half of all steps are \[s\], to a tenth.
+    pub fn median_step(&self) -> f64 {
+        let all: u64 = self.bins.iter().map(|own| u64::from(*own)).sum();
+        let mut below = 0;
+        let bin = self.bins.iter().position(|own| {
+            below += u64::from(*own);
+            2 * below >= all.max(1)
+        });
+        let octaves = (bin.unwrap_or(BINS / 2) as f64 - BINS as f64 / 2.0) / OCTAVE;
+        self.first_step * octaves.exp2()
+    }
+
+    /// λ T: the exponent at which noise grew over the last third of the samples, times the time watched; `None` of less
+    /// than eight samples.
+    pub fn growth(&self) -> Option<f64> {
+        let samples = &self.noise[..self.noises];
+        let last = &samples[2 * self.noises / 3..];
+        if last.len() < 8 {
+            return None;
+        }
+        let n = last.len() as f64;
+        let mean = |of: fn(&(f64, f64)) -> f64| last.iter().map(of).sum::<f64>() / n;
+        let (t, y) = (mean(|s| s.0), mean(|s| s.1));
+        let above: f64 = last.iter().map(|s| (s.0 - t) * (s.1 - y)).sum();
+        let below: f64 = last.iter().map(|s| (s.0 - t).powi(2)).sum();
+        (below > 0.0).then(|| above / below * (self.last - self.begun))
+    }
+}
+
+impl<T: Real, const D: usize> Simulation<T, D> {
+    /// A value of the particle in a slot, now.
+    fn seen(&self, group: &Group<T, D>, slot: usize, value: f64) -> Seen<D> {
+        Seen {
+            value,
+            time: self.time,
+            id: group.particles.first_id + group.particles.ids[slot] as usize,
+            position: group.particles.columns.vectors(Field::POSITION)[slot].map(Real::to_f64),
+        }
+    }
+
+    /// Where a particle is, by its number; zero of none.
+    fn position_of(&self, id: usize) -> [f64; D] {
+        let place = |group: &Group<T, D>| {
+            let own = id.checked_sub(group.particles.first_id)?;
+            let slot = *group.particles.slot_of.get(own)? as usize;
+            let x = group.particles.columns.vectors(Field::POSITION).get(slot)?;
+            Some(x.map(Real::to_f64))
+        };
+        self.groups.iter().rev().find_map(place).unwrap_or([0.0; D])
+    }
+
+    /// Particles farther than a spacing outside of the box of the walls, where walls alone bound the scene, and the first.
+    pub(super) fn leaked(&self) -> (u64, Option<Seen<D>>) {
+        let Some([low, high]) = self.domain else {
+            return (0, None);
+        };
+        if self
+            .groups
+            .iter()
+            .any(|group| group.walls.iter().any(|wall| wall.motion.is_some()))
+        {
+            return (0, None);
+        }
+        let (mut count, mut first) = (0, None);
+        for group in &self.groups {
+            for body in &group.particles.bodies {
+                let x = &group.particles.columns.vectors(Field::POSITION)[body.slots.clone()];
+                for (n, x) in x.iter().enumerate() {
+                    let outside = |d: usize| {
+                        let x = x[d].to_f64();
+                        x < low[d] - body.spacing || x > high[d] + body.spacing
+                    };
+                    if (0..D).any(outside) {
+                        count += 1;
+                        let slot = body.slots.start + n;
+                        first = first.or_else(|| Some(self.seen(group, slot, 1.0)));
+                    }
+                }
+            }
+        }
+        (count, first)
+    }
+
+    /// Momentum, mass and the energy at hand: kinetic, internal and of couplings, or kinetic and of compression.
+    pub(super) fn state_sums(&self) -> (Vec<f64>, f64, f64) {
+        let whole = self.ledger().whole;
+        let energy = if self.carries_energy() {
+            let of = |name| whole.total(name).unwrap_or(0.0);
+            whole.total_energy() + of("energy of couplings") + of("heat of couplings")
+        } else {
+            let stored = self.stored();
+            stored.0 + stored.1
+        };
+        (whole.momentum, whole.mass, energy)
+    }
+
+    /// Whether all bodies carry an internal energy.
+    pub(super) fn carries_energy(&self) -> bool {
+        let has = |group: &Group<T, D>| !group.particles.columns.raw(Field::ENERGY).is_empty();
+        self.groups.iter().all(has)
+    }
+
+    /// Momentum \[kg m/s\] that walls and boundaries have given bodies since the start.
+    pub(super) fn outer_impulse(&self) -> Vec<f64> {
+        let mut sum = self.ledger().boundary_impulse;
+        for wall in 0..self.wall_count() {
+            if let Ok(given) = self.wall_impulse(wall) {
+                for d in 0..D {
+                    sum[d] -= given[d];
+                }
+            }
+        }
+        sum
+    }
+
+    /// Whether what acts from outside is known to the momentum residual: uniform loads, walls and boundaries.
+    pub(super) fn books_momentum(&self) -> bool {
+        let own = |group: &Group<T, D>| {
+            group.emitters.is_empty() && group.held.clamps.is_empty() && group.held.rigid.is_empty()
+        };
+        self.loads.is_empty() && self.groups.iter().all(own) && self.removed().particles == 0
+    }
+
+    /// Whether nothing does work on the bodies.
+    pub(super) fn is_closed(&self) -> bool {
+        let still = |group: &Group<T, D>| {
+            group
+                .walls
+                .iter()
+                .all(|w| w.motion.is_none() || w.structure.is_some())
+                && group.boundaries.iter().all(|boundary| !boundary.moves())
+        };
+        self.books_momentum() && self.accelerations.is_empty() && self.groups.iter().all(still)
+    }
+}
