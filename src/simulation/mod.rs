@@ -98,7 +98,7 @@
 //!
 //! | in the file | supplied by the scene, which must be the same | not kept |
 //! |---|---|---|
-//! | time, counts, ledgers, what left through outlets | bodies, materials, schemes, walls and their motions, boundaries | [`phases`](Simulation::phases) |
+//! | time, counts, ledgers, what left through outlets | bodies, materials, schemes, walls and their motions, boundaries | [`phases`](Simulation::phases), [`keep_stability`](Simulation::keep_stability) |
 //! | every column of every particle, of walls too; fields that effects declare by their names | loads and other closures | what observers have gathered, and files that they write |
 //! | rates at hand, what integrators keep, the state of inlets | the integrator, and how steps are chosen | what an integrator or an effect of your own keeps outside of fields |
 //! | the positions that neighbour lists were built from, not the lists | | |

@@ -8,7 +8,7 @@ use meshfree::scalar::Lane;
 use meshfree::scene::{Body, Scene, Start};
 use meshfree::scheme::SchemeBuilder;
 use meshfree::schemes;
-use meshfree::simulation::Simulation;
+use meshfree::simulation::{Simulation, Thresholds};
 use meshfree::term::viscosity::{ArtificialViscosity, Viscous};
 use meshfree::term::{Layout as TermLayout, Pair, TermDoc};
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -130,6 +130,11 @@ fn a_step_between_list_builds_allocates_nothing() {
                 .boundary(MirrorPlane::wall([0.1], [1.0]))
                 .build()
                 .unwrap();
+            // Watching allocates as little.
+            rods.keep_stability(Thresholds {
+                every: 1,
+                ..Thresholds::default()
+            });
             let (allocations, steps) = counted(&mut rods);
             println!(
                 "{}: {allocations} allocations in {steps} steps",

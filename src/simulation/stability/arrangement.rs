@@ -114,7 +114,7 @@ impl Sums {
     }
 }
 
-/// The arrangement of all groups; `partial` is memory that is used again, and grows with the lists.
+/// The arrangement of all groups; `partial` is memory that is used again.
 pub(super) fn arrangement<T: Real, const D: usize>(
     groups: &[Group<T, D>],
     partial: &mut Vec<Sums>,
@@ -122,10 +122,6 @@ pub(super) fn arrangement<T: Real, const D: usize>(
     let mut all = Sums::NONE;
     for (index, group) in groups.iter().enumerate() {
         let chunks = group.neighborhood.lists.chunks();
-        // Room for lists that grow, so that nothing is allocated between two builds.
-        if partial.capacity() < chunks.len() {
-            partial.reserve(2 * chunks.len() - partial.len());
-        }
         partial.clear();
         partial.resize(chunks.len(), Sums::NONE);
         let own = chunks.par_iter().zip(partial.par_iter_mut()).enumerate();

@@ -40,7 +40,8 @@ pub struct Thresholds {
     pub leaked: u64,
     /// Particles that may be without neighbours; no limit, since spray is liquid too.
     pub ejected: u64,
-    /// Steps between two looks at the arrangement; 50. One look costs about two to three steps' worth of one thread's time.
+    /// Steps between two looks at the arrangement; 250. One look takes about two steps: at 250 the watch costs a
+    /// per cent of a run, at 25 eight.
     pub every: u64,
 }
 
@@ -60,7 +61,7 @@ impl Default for Thresholds {
             growth: f64::INFINITY,
             leaked: 0,
             ejected: u64::MAX,
-            every: 50,
+            every: 250,
         }
     }
 }
@@ -298,7 +299,7 @@ fn residuals<T: Real, const D: usize>(
     simulation: &Simulation<T, D>,
     watch: &super::Watch<D>,
 ) -> (Option<f64>, Option<f64>, Option<f64>) {
-    let (momentum, _, energy) = simulation.state_sums();
+    let (momentum, _, [energy, scale]) = simulation.state_sums();
     let residual = simulation.books_momentum().then(|| {
         let outer = simulation.outer_impulse();
         let mut scale: f64 = simulation
@@ -318,7 +319,7 @@ fn residuals<T: Real, const D: usize>(
             off / scale.max(f64::MIN_POSITIVE)
         }
     });
-    let scale = energy.abs().max(watch.energy.abs()).max(f64::MIN_POSITIVE);
+    let scale = scale.max(watch.energy_scale).max(f64::MIN_POSITIVE);
     let change = (energy - watch.energy) / scale;
     let closed = simulation.is_closed();
     let gain = match simulation.energy() {

@@ -82,6 +82,8 @@ pub(in super::super) struct Watch<const D: usize> {
     pub momentum: Vec<f64>,
     pub impulse: Vec<f64>,
     pub energy: f64,
+    /// What energies are compared with: kinetic and internal ones, whatever their signs.
+    pub energy_scale: f64,
     pub dissipated: f64,
     pub load: [f64; D],
     pub mass: f64,
@@ -132,7 +134,7 @@ impl<T: Real, const D: usize> Group<T, D> {
 
 impl<const D: usize> Watch<D> {
     pub fn new<T: Real>(simulation: &Simulation<T, D>, thresholds: Thresholds) -> Self {
-        let (momentum, mass, energy) = simulation.state_sums();
+        let (momentum, mass, [energy, energy_scale]) = simulation.state_sums();
         let mut watch = Self {
             thresholds,
             begun: simulation.time,
@@ -157,6 +159,7 @@ impl<const D: usize> Watch<D> {
             momentum,
             impulse: simulation.outer_impulse(),
             energy,
+            energy_scale,
             dissipated: simulation.energy().map_or(0.0, |own| own.dissipated),
             load: [0.0; D],
             mass,
@@ -165,6 +168,7 @@ impl<const D: usize> Watch<D> {
             partial: Vec::new(),
             spent: Duration::ZERO,
         };
+        watch.make_room(simulation);
         watch.look_at_bounds(simulation);
         watch
     }
@@ -174,6 +178,7 @@ impl<const D: usize> Watch<D> {
         let start = Instant::now();
         self.steps += 1;
         self.particle_steps += simulation.particles() as f64;
+        self.make_room(simulation);
         self.look_at_bounds(simulation);
         self.look_at_step(simulation);
         let now = simulation.body_acceleration(simulation.time);
@@ -186,6 +191,15 @@ impl<const D: usize> Watch<D> {
             self.look_at_arrangement(simulation);
         }
         self.spent += start.elapsed();
+    }
+
+    /// Makes room for a look at all lists, in the step that has built them.
+    fn make_room<T: Real>(&mut self, simulation: &Simulation<T, D>) {
+        let chunks = |group: &Group<T, D>| group.neighborhood.lists.chunks().len();
+        let most = simulation.groups.iter().map(chunks).max().unwrap_or(0);
+        if self.partial.capacity() < most {
+            self.partial.reserve(2 * most - self.partial.len());
+        }
     }
 
     fn look_at_bounds<T: Real>(&mut self, simulation: &Simulation<T, D>) {
@@ -378,17 +392,24 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         (count, first)
     }
 
-    /// Momentum, mass and the energy at hand: kinetic, internal and of couplings, or kinetic and of compression.
-    pub(super) fn state_sums(&self) -> (Vec<f64>, f64, f64) {
+    /// Momentum, mass, and the energy at hand with its scale: kinetic, internal and of couplings, or kinetic and of
+    /// compression.
+    pub(super) fn state_sums(&self) -> (Vec<f64>, f64, [f64; 2]) {
         let whole = self.ledger().whole;
-        let energy = if self.carries_energy() {
+        let energies = if self.carries_energy() {
             let of = |name| whole.total(name).unwrap_or(0.0);
-            whole.total_energy() + of("energy of couplings") + of("heat of couplings")
+            let inside = whole.internal + of("energy of couplings") + of("heat of couplings");
+            [whole.kinetic, inside]
         } else {
             let stored = self.stored();
-            stored.0 + stored.1
+            [stored.0, stored.1]
         };
-        (whole.momentum, whole.mass, energy)
+        let scale = energies[0] + energies[1].abs();
+        (
+            whole.momentum,
+            whole.mass,
+            [energies[0] + energies[1], scale],
+        )
     }
 
     /// Whether all bodies carry an internal energy.

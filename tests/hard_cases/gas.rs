@@ -1,0 +1,295 @@
+//! Gases in one dimension: expansion into near vacuum, Sod, a pressure ratio of 10⁶, two blasts, Noh's implosion.
+//! Others invert the order of particles or lose energy; the cure is signal-velocity viscosity with compatible energy.
+
+use super::harness::{Row, same_bits};
+use meshfree::material::eos::IdealGas;
+use meshfree::prelude::*;
+use meshfree::scene::Start;
+use meshfree::simulation::{StabilityReport, Thresholds};
+use meshfree::study::noh::Noh;
+use meshfree::study::riemann::{Gas, GasState, RiemannProblem};
+use meshfree::term::viscosity::SignalVelocity;
+
+const GAMMA: f64 = 1.4;
+
+/// The ready gas with so much viscosity; 1 is the default, and with none nothing holds particles apart in a shock.
+fn scheme(alpha: f64) -> Scheme<f64, 1> {
+    let viscosity = SignalVelocity {
+        alpha,
+        ..SignalVelocity::STANDARD
+    };
+    schemes::gas()
+        .with_viscosity(viscosity)
+        .smoothing(Smoothing::Consistent {
+            smallest: 0.02,
+            largest: 50.0,
+        })
+        .compose()
+}
+
+/// Gas between planes of symmetry, of equal masses: on both sides of x = 0 so many particles a unit of mass, density ρ and
+/// pressure p, and a velocity.
+fn tube(
+    alpha: f64,
+    gamma: f64,
+    range: [f64; 2],
+    spacing: f64,
+    start: impl Fn(f64) -> (f64, f64),
+) -> Simulation<f64, 1> {
+    let law = IdealGas::new(gamma, 1.0);
+    let body = Body::block(
+        "gas",
+        Material::new("gas", law),
+        [range[0]],
+        [range[1]],
+        spacing,
+    )
+    .jitter(0.01, 11)
+    .start(|[x]: [f64; 1], own| {
+        let (pressure, velocity) = start(x);
+        Start {
+            velocity: [velocity],
+            energy: law.energy(pressure, 1.0),
+            ..own
+        }
+    });
+    let mut tube = Scene::new(scheme(alpha))
+        .body(body)
+        .boundary(MirrorPlane::symmetry([range[0]], [-1.0]))
+        .boundary(MirrorPlane::symmetry([range[1]], [1.0]))
+        .build()
+        .expect("a tube");
+    tube.keep_stability(Thresholds {
+        energy_closure: 1e-10,
+        // What a plane of symmetry gives is booked; rounding of what blasts give is larger than that of what moves.
+        momentum: 1e-9,
+        voids: f64::INFINITY,
+        ..Thresholds::default()
+    });
+    tube
+}
+
+/// Pairs of neighbours in the scene that have changed sides, over all.
+fn inverted(tube: &Simulation<f64, 1>) -> f64 {
+    let x: Vec<f64> = tube.all().map(|p| p.position()[0]).collect();
+    let wrong = x.windows(2).filter(|pair| pair[1] <= pair[0]).count();
+    wrong as f64 / x.len() as f64
+}
+
+/// L1 error of the density against a Riemann problem, over the mean density, and the report.
+fn riemann(alpha: f64, sides: [f64; 2], end: f64, count: usize) -> (f64, f64, StabilityReport) {
+    let mut own = tube(alpha, GAMMA, [-0.5, 0.5], 1.0 / count as f64, |x| {
+        (if x < 0.0 { sides[0] } else { sides[1] }, 0.0)
+    });
+    let ended = own.run_until(end);
+    let state = |pressure| GasState {
+        density: 1.0,
+        velocity: 0.0,
+        pressure,
+    };
+    let gas = Gas::ideal(GAMMA);
+    let exact = RiemannProblem::new(gas, state(sides[0]), gas, state(sides[1])).expect("a problem");
+    let error = own.all().map(|p| {
+        let rho = exact.sample(p.position()[0] / own.time()).density;
+        p.mass() / p.density() * (p.density() - rho).abs()
+    });
+    let error: f64 = error.sum();
+    let report = own.stability();
+    println!(
+        "α {alpha}: {ended:?} L1 {error} inverted {}\n{report}",
+        inverted(&own)
+    );
+    (error, inverted(&own), report)
+}
+
+fn shocks(case: &'static str, sides: [f64; 2], end: f64, [bound, inverted]: [f64; 2]) {
+    let (error, order, report) = riemann(1.0, sides, end, 400);
+    let (noisy, lost, broken) = riemann(0.0, sides, end, 400);
+    assert!(report.verdict.is_stable(), "{report}");
+    assert!(broken.verdict.breaks("nearest"), "{broken}");
+    let row = |criterion, value, control| Row {
+        case,
+        criterion,
+        value,
+        control,
+    };
+    row("L1 error of density", error, noisy).at_most(bound);
+    row("share of inverted neighbours", order, lost).at_most(inverted);
+}
+
+#[test]
+fn a_shock_tube_keeps_its_waves() {
+    shocks("shock tube 10:1, 400", [1.0, 0.1], 0.15, [0.02, 0.0]);
+}
+
+#[test]
+fn a_strong_blast_keeps_its_waves() {
+    // One pair of 399 changes sides at the start, between gas of 1000 and of 0.001 Pa: none should.
+    shocks("blast 10⁶:1, 400", [1e3, 1e-3], 0.01, [0.03, 0.003]);
+}
+
+/// Gas into near vacuum: the front of the exact rarefaction runs at 2c/(γ − 1).
+#[test]
+fn gas_expands_into_near_vacuum() {
+    let run = |alpha: f64, largest: f64| {
+        let law = IdealGas::new(GAMMA, 1.0);
+        let body = Body::block("gas", Material::<f64>::new("gas", law), [0.0], [1.0], 0.005).start(
+            |_, own| Start {
+                energy: law.energy(1.0, 1.0),
+                ..own
+            },
+        );
+        let viscosity = SignalVelocity {
+            alpha,
+            ..SignalVelocity::STANDARD
+        };
+        let follow = Smoothing::Consistent {
+            smallest: 0.02,
+            largest,
+        };
+        let mut own = Scene::new(
+            schemes::gas()
+                .with_viscosity(viscosity)
+                .smoothing(follow)
+                .compose(),
+        )
+        .body(body)
+        .boundary(MirrorPlane::symmetry([0.0], [-1.0]))
+        .build()
+        .expect("gas");
+        own.keep_stability(Thresholds {
+            limited: 1.0,
+            nearest: 0.0,
+            quantile: 0.0,
+            voids: f64::INFINITY,
+            clumping: f64::INFINITY,
+            ..Thresholds::default()
+        });
+        own.run_until(0.3).expect("a run");
+        println!("{}", own.stability());
+        // The density at a tenth of the way from the head to the front says how the rarefaction is resolved.
+        let sound = GAMMA.sqrt();
+        let exact = |x: f64| {
+            let xi = ((x - 1.0) / 0.3).clamp(-sound, 5.0 * sound);
+            (5.0 / 6.0 * (1.0 - xi / (5.0 * sound)))
+                .clamp(0.0, 1.0)
+                .powi(5)
+        };
+        let error = own
+            .all()
+            .map(|p| p.mass() / p.density() * (p.density() - exact(p.position()[0])).abs());
+        let error: f64 = error.sum();
+        let negative = own
+            .all()
+            .filter(|p| p.energy() < 0.0 || p.density() <= 1e-12)
+            .count();
+        // The last particle holds the last two-hundredth of the mass: its place is where half of that is beyond in the exact
+        // rarefaction, of which ρ = (5/6 (1 − ξ/5c))⁵ leaves t 5c (5/6)⁵ s⁶/6 beyond s = 1 − ξ/5c.
+        let beyond = 6.0 * 0.0025 / (0.3 * 5.0 * sound * (5.0_f64 / 6.0).powi(5));
+        let exact = 1.0 + (1.0 - beyond.powf(1.0 / 6.0)) * 5.0 * sound * 0.3;
+        let last = own.all().map(|p| p.position()[0]).fold(0.0, f64::max);
+        let front = ((last - 1.0) / (exact - 1.0) - 1.0).abs();
+        println!("largest h {largest}: L1 {error}, negative {negative}, front {front}");
+        (error, negative, front)
+    };
+    let (error, negative, front) = run(1.0, 50.0);
+    let (held, _, slow) = run(1.0, 1.0);
+    assert_eq!(negative, 0);
+    let row = |criterion, value, control| Row {
+        case: "expansion into near vacuum, 200",
+        criterion,
+        value,
+        control,
+    };
+    row("L1 error of density; control: h fixed", error, held).at_most(0.02);
+    row("error of the last particle's path", front, slow).at_most(0.05);
+}
+
+#[test]
+fn noh_implodes_to_a_plateau() {
+    let run = |alpha: f64| {
+        let gamma = 5.0 / 3.0;
+        let mut own = tube(alpha, gamma, [-1.0, 1.0], 0.005, |x| (1e-6, -x.signum()));
+        let ended = own.run_until(0.6);
+        let exact = Noh::new(1).expect("a case");
+        let radius = exact.shock_radius(0.6);
+        let plateau = own.all().filter(|p| {
+            let r = p.position()[0].abs();
+            r > 0.3 * radius && r < 0.8 * radius
+        });
+        let off: Vec<f64> = plateau
+            .map(|p| (p.density() / exact.density_behind() - 1.0).abs())
+            .collect();
+        let error = off.iter().sum::<f64>() / off.len().max(1) as f64;
+        println!(
+            "{ended:?} plateau error {error}, inverted {}\n{}",
+            inverted(&own),
+            own.stability()
+        );
+        if off.is_empty() { f64::NAN } else { error }
+    };
+    Row {
+        case: "Noh's implosion 1D, 400",
+        criterion: "mean error of the plateau",
+        value: run(1.0),
+        control: run(0.0),
+    }
+    .at_most(0.05);
+}
+
+/// Two blasts in a closed tube (Woodward & Colella 1984), to 0.038: there is no closed form, so order and energy are held. The
+/// control is stopped after twice the steps of the case, since pairs that pass each other shorten
+/// them. Two pairs pass each other with the cure as well, where gas of 10⁵ times the pressure starts beside the other.
+#[test]
+fn two_blasts_meet() {
+    let run = |alpha: f64, most: u64| {
+        let pressure = |x: f64| {
+            if x < 0.1 {
+                1000.0
+            } else if x < 0.9 {
+                0.01
+            } else {
+                100.0
+            }
+        };
+        let start = |x| (pressure(x), 0.0);
+        let mut own = tube(alpha, GAMMA, [0.0, 1.0], 1.0 / 400.0, start);
+        while own.time() < 0.038 && own.steps() < most {
+            let left = 0.038 - own.time();
+            own.step_at_most(left).expect("a step");
+        }
+        let peak = own.all().map(|p| p.density()).fold(0.0, f64::max);
+        let report = own.stability();
+        println!(
+            "t {} peak {peak} inverted {}\n{report}",
+            own.time(),
+            inverted(&own)
+        );
+        (inverted(&own), report)
+    };
+    let (order, report) = run(1.0, u64::MAX);
+    let (lost, broken) = run(0.0, 2 * report.steps);
+    let closure = report.energy_closure.unwrap_or(f64::NAN);
+    assert!(
+        closure < 1e-10 && broken.verdict.breaks("nearest"),
+        "{report}\n{broken}"
+    );
+    Row {
+        case: "two blasts, 400",
+        criterion: "share of inverted neighbours",
+        value: order,
+        control: lost,
+    }
+    .at_most(0.006);
+}
+
+#[test]
+fn threads_do_not_change_a_bit() {
+    same_bits(|| {
+        let mut own = tube(1.0, GAMMA, [-0.5, 0.5], 0.005, |x| {
+            (if x < 0.0 { 1e3 } else { 1e-3 }, 0.0)
+        });
+        own.run_until(0.003).expect("a run");
+        own
+    });
+}

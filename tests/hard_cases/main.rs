@@ -1,0 +1,12 @@
+//! Hard cases: where others fail, the cure, a criterion in numbers, and a control without the cure that must fail it.
+//! `cargo test --release --test hard_cases -- --nocapture` prints the rows of `docs/hard-cases.md`.
+
+mod at_rest;
+mod corner_impact;
+mod elliptic_drop;
+mod gas;
+mod harness;
+mod rods;
+mod square_patch;
+mod swegle;
+mod vortices;
