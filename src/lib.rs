@@ -102,6 +102,7 @@
 //! | a liquid with a free surface, still or violent | [`schemes::weakly_compressible`] |
 //! | the same, without a coefficient to choose | [`schemes::riemann_liquid`] |
 //! | a liquid that fills what encloses it | [`schemes::weakly_compressible`] with [`Shifting::CLOSED`](scheme::Shifting::CLOSED) and [walls](effect::ExtrapolatedPressure) with a floor of −∞ |
+//! | a liquid in tension, as one that spins or is drawn out | [`schemes::weakly_compressible`] with [`Shifting::STANDARD`](scheme::Shifting::STANDARD), [`ArtificialPressure`](effect::ArtificialPressure) and [`PairingControl`](effect::PairingControl) |
 //! | a result of LS-DYNA to repeat | [`schemes::ls_dyna_default`], [`schemes::ls_dyna_fluid`] and their renormalised forms |
 //! | a gas | [`schemes::gas`] |
 //!

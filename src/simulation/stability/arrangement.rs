@@ -126,7 +126,9 @@ pub(super) fn arrangement<T: Real, const D: usize>(
         partial.resize(chunks.len(), Sums::NONE);
         let own = chunks.par_iter().zip(partial.par_iter_mut()).enumerate();
         own.for_each(|(chunk, (list, sums))| group.arrangement_of(chunk, list, index, sums));
-        partial.iter().for_each(|sums| all.add(sums));
+        for sums in partial.iter() {
+            all.add(sums);
+        }
     }
     all.arrangement()
 }

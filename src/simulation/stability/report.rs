@@ -384,7 +384,7 @@ fn judge(
         ),
     ] {
         // What is no number is beyond.
-        let beyond = |value: &f64| !(*value <= limit);
+        let beyond = |value: &f64| value.is_nan() || *value > limit;
         let known = breaches.iter().any(|own| own.measure == measure);
         if let Some(value) = value.filter(beyond).filter(|_| !known) {
             breaches.push(Breach {

@@ -23,7 +23,7 @@ pub(super) fn largest<const D: usize>(
     // A layer of empty cells all around.
     let counts: [f64; D] = core::array::from_fn(|d| ((high[d] - low[d]) / edge).floor() + 3.0);
     let total: f64 = counts.iter().product();
-    if points.is_empty() || !(total <= MOST) {
+    if points.is_empty() || total.is_nan() || total > MOST {
         return None;
     }
     let counts = counts.map(|count| count as usize);

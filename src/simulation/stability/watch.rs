@@ -187,7 +187,7 @@ impl<const D: usize> Watch<D> {
             self.load[d] += half * self.mass * (self.before[d] + now[d]);
         }
         (self.before, self.last) = (now, simulation.time);
-        if self.steps % self.thresholds.every.max(1) == 0 {
+        if self.steps.is_multiple_of(self.thresholds.every.max(1)) {
             self.look_at_arrangement(simulation);
         }
         self.spent += start.elapsed();
@@ -292,7 +292,7 @@ impl<const D: usize> Watch<D> {
 
     fn take_noise(&mut self, time: f64, noise: f64) {
         self.taken += 1;
-        if self.taken % self.stride != 0 {
+        if !self.taken.is_multiple_of(self.stride) {
             return;
         }
         if self.noises == SAMPLES {
@@ -301,7 +301,7 @@ impl<const D: usize> Watch<D> {
             }
             self.noises = SAMPLES / 2;
             self.stride *= 2;
-            if self.taken % self.stride != 0 {
+            if !self.taken.is_multiple_of(self.stride) {
                 return;
             }
         }
