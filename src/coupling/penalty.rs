@@ -36,11 +36,23 @@ use crate::term::TermDoc;
 ///
 /// Source: Hallquist, Goudreau & Benson 1985 (Comput. Methods Appl. Mech. Eng. 51, 107), whose stiffness is a share of
 /// K A²/V of a segment.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Penalty {
     stiffness: Spring,
+    scale: f64,
     damping: f64,
     friction: Option<Coulomb>,
+}
+
+impl Default for Penalty {
+    fn default() -> Self {
+        Self {
+            stiffness: Spring::default(),
+            scale: 1.0,
+            damping: 0.0,
+            friction: None,
+        }
+    }
 }
 
 impl Penalty {
@@ -54,6 +66,12 @@ impl Penalty {
     pub fn stiffness(self, stiffness: f64) -> Self {
         let stiffness = Spring(Some(stiffness));
         Self { stiffness, ..self }
+    }
+    /// Takes a share of the bodies' stiffness, k = f M s^(D−2), as the scale factor of a segment's stiffness in LS-DYNA, which is
+    /// 0.1 there and one here if not given. What is softer sinks in deeper, by p/(f M) spacings under the pressure p.
+    #[must_use]
+    pub fn scale(self, scale: f64) -> Self {
+        Self { scale, ..self }
     }
     /// Damping ζ as a share of the critical; zero if not given.
     #[must_use]
@@ -90,7 +108,8 @@ impl<T: Real, const D: usize> Coupling<T, D> for Penalty {
         }
         let normal = apart.map(|x| x / distance);
         let (k, depth) = (
-            self.stiffness.of::<T, D>(1.0, pair.on.stiffness, spacing),
+            self.stiffness
+                .of::<T, D>(self.scale, pair.on.stiffness, spacing),
             spacing - distance,
         );
         let mut pressing = k * depth;
@@ -120,13 +139,20 @@ impl<T: Real, const D: usize> Coupling<T, D> for Penalty {
     fn step(&self, on: &CoupledParticle<T, D>, from: &CoupledParticle<T, D>) -> f64 {
         let spacing = T::from_f64(0.5) * (on.spacing + from.spacing);
         let mass = on.mass.min(from.mass);
-        0.5 * (mass / self.stiffness.of::<T, D>(1.0, on.stiffness, spacing))
+        0.5 * (mass / self.stiffness.of::<T, D>(self.scale, on.stiffness, spacing))
             .sqrt()
             .to_f64()
     }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         let mut problems = Coulomb::problems(self.friction);
         problems.extend(self.stiffness.problems());
+        if !(self.scale.is_finite() && self.scale > 0.0) {
+            problems.push((
+                "scale of the stiffness",
+                self.scale,
+                "it must be finite and positive",
+            ));
+        }
         if !(self.damping.is_finite() && self.damping >= 0.0) {
             let must_be = "it must be a share of critical damping, not negative";
             problems.push(("damping", self.damping, must_be));

@@ -3,12 +3,15 @@
 
 use super::Simulation;
 use super::group::Group;
+use super::pair_images::velocity;
 use super::pair_list::PairList;
+use crate::boundary::Boundary;
 use crate::coupling::{CoupledPair, Coupling};
 use crate::error::{Error, Problem, Result};
 use crate::parallel::largest;
 use crate::particles::Field;
 use crate::scalar::Real;
+use crate::tensor::Vector;
 use std::sync::Arc;
 
 /// Skin of the lists of pairs in mean spacings.
@@ -58,6 +61,8 @@ pub(crate) struct Acting<T, const D: usize> {
     pub penetration: [f64; 2],
     /// Pairs that act.
     pub pairs: usize,
+    /// The force \[N\] of images on both sides, boundary by boundary.
+    pub images: [Vec<[f64; D]>; 2],
 }
 
 impl<T, const D: usize> Default for Acting<T, D> {
@@ -71,6 +76,7 @@ impl<T, const D: usize> Default for Acting<T, D> {
             heat: 0.0,
             penetration: [0.0; 2],
             pairs: 0,
+            images: [Vec::new(), Vec::new()],
         }
     }
 }
@@ -139,7 +145,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Gives bodies the forces of couplings between pairs, with the rates at hand.
     pub(super) fn act_in_pairs(&mut self) {
         for couple in &mut self.couples {
-            couple.act(&mut self.groups, self.control.approach);
+            couple.act(&mut self.groups, self.control.approach, self.evaluated);
         }
     }
 
@@ -202,16 +208,19 @@ impl<T: Real, const D: usize> Couple<T, D> {
     }
 
     /// Forces between all pairs within reach, on the groups of both sides.
-    fn act(&mut self, groups: &mut [Group<T, D>], approach: f64) {
+    fn act(&mut self, groups: &mut [Group<T, D>], approach: f64, time: f64) {
         if self.stiffness.is_nan() {
             let [a, b] = self
                 .sides
                 .map(|(group, body)| groups[group].stiffness_of(body));
             self.stiffness = 2.0 / (1.0 / a + 1.0 / b);
         }
-        if !self.list_serves(groups) {
-            self.list(groups);
+        if !self.list_serves(groups, time) {
+            self.list(groups, time);
         }
+        let boundaries = &groups[self.sides[0].0].boundaries;
+        let boundary_count = boundaries.len();
+        self.list.images.place(boundaries, time);
         let spacing = self.spacing(groups);
         let mut list = core::mem::take(&mut self.list);
         self.see(&mut list, groups);
@@ -229,6 +238,9 @@ impl<T: Real, const D: usize> Couple<T, D> {
                 // What is not there is no number away.
                 if gap(&on.position, &from.position) < reach {
                     for (row, seen) in [(a, (&on, &from)), (b, (&from, &on))] {
+                        if list.image_rows[row as usize].is_some() {
+                            continue;
+                        }
                         let (sum, gradient) = self.coupling.gather(seen.0, seen.1);
                         let own = &mut list.particles[row as usize];
                         own.sum += sum;
@@ -238,16 +250,34 @@ impl<T: Real, const D: usize> Couple<T, D> {
                     }
                 }
             }
-            for own in &mut list.particles {
-                let (pressure, stored) = self.coupling.pressure(own, T::from_f64(spacing));
-                own.pressure = pressure;
-                acting.stored += stored;
+            for (own, image) in list.particles.iter_mut().zip(&list.image_rows) {
+                if image.is_none() {
+                    let (pressure, stored) = self.coupling.pressure(own, T::from_f64(spacing));
+                    own.pressure = pressure;
+                    acting.stored += stored;
+                }
+            }
+            for row in 0..list.particles.len() {
+                let Some([source, chain]) = list.image_rows[row] else {
+                    continue;
+                };
+                let Some(source) = list.particles.get(source as usize).copied() else {
+                    continue;
+                };
+                let turn = &list.images.transforms[chain as usize].rotation;
+                let own = &mut list.particles[row];
+                (own.sum, own.pressure) = (source.sum, source.pressure);
+                own.gradient = (turn * Vector::from(source.gradient)).into();
             }
         }
         acting.force = [0.0; D];
         acting.step = f64::INFINITY;
         acting.pairs = 0;
         acting.penetration[0] = 0.0;
+        for images in &mut acting.images {
+            images.clear();
+            images.resize(boundary_count, [0.0; D]);
+        }
         list.forces.clear();
         list.forces.resize(list.rows.len(), [T::zero(); D]);
         list.anchors.clear();
@@ -258,12 +288,18 @@ impl<T: Real, const D: usize> Couple<T, D> {
             if distance >= reach || distance.is_nan() {
                 continue;
             }
-            let ids = [a, b].map(|row| list.rows[row as usize]);
+            let numbers = [a, b].map(|row| list.rows[row as usize]);
+            let second = usize::from(self.sides[0] != self.sides[1]);
+            let ids =
+                [(0, numbers[0]), (second, numbers[1])].map(|(side, id)| list.images.key(side, id));
+            let chains = [a, b].map(|row| list.image_rows[row as usize].map(|own| own[1] as usize));
+            // With an image it is half of a pair, whose other half is listed too.
+            let share = if chains == [None; 2] { 1.0 } else { 0.5 };
             while before.peek().is_some_and(|own| own.0 < ids) {
                 before.next();
             }
             let rest = if as_built {
-                let at = |side: usize| self.reference[side][ids[side] as usize];
+                let at = |side: usize| list.listed[side.min(second)][numbers[side] as usize];
                 (0..D)
                     .map(|d| (at(0)[d] - at(1)[d]).powi(2))
                     .sum::<f64>()
@@ -277,8 +313,8 @@ impl<T: Real, const D: usize> Couple<T, D> {
                 rest: T::from_f64(rest),
                 anchor: before.peek().filter(|own| own.0 == ids).map(|own| own.1),
             });
-            acting.stored += own.stored;
-            acting.heat += own.heat;
+            acting.stored += share * own.stored;
+            acting.heat += share * own.heat;
             if let Some(anchor) = own.anchor {
                 list.anchors.push((ids, anchor));
             }
@@ -287,9 +323,18 @@ impl<T: Real, const D: usize> Couple<T, D> {
                 acting.pairs += 1;
             }
             for d in 0..D {
+                let force = own.force[d].to_f64();
+                match chains {
+                    [None, None] => acting.force[d] += force,
+                    [None, Some(chain)] => {
+                        acting.images[0][list.images.boundary(chain)][d] += force;
+                    }
+                    [Some(chain), _] => {
+                        acting.images[second][list.images.boundary(chain)][d] -= force;
+                    }
+                }
                 list.forces[a as usize][d] += own.force[d];
                 list.forces[b as usize][d] -= own.force[d];
-                acting.force[d] += own.force[d].to_f64();
             }
             let closing = (0..D).map(|d| {
                 let v = from.velocity[d] - on.velocity[d];
@@ -324,7 +369,8 @@ impl<T: Real, const D: usize> Couple<T, D> {
         for (row, &id) in self.list.rows.iter().enumerate() {
             let side = usize::from(row >= self.list.split);
             let force = self.list.forces[row];
-            if force.iter().all(|force| *force == T::zero()) {
+            let image = self.list.image_rows[row].is_some();
+            if image || force.iter().all(|force| *force == T::zero()) {
                 continue;
             }
             if let Some(slot) = self.slot(side, id, groups) {
@@ -345,9 +391,15 @@ impl<T: Real, const D: usize> Couple<T, D> {
             let side = usize::from(row >= list.split);
             let group = &groups[self.sides[side].0];
             let mut particle = group.coupled_particle(0, spacings[side]);
+            let (id, chain) = list.images.source(side, id);
             match self.slot(side, id, groups) {
                 Some(slot) => particle = group.coupled_particle(slot, spacings[side]),
                 None => particle.position = [T::from_f64(f64::NAN); D],
+            }
+            if let Some(chain) = chain {
+                let own = &list.images.transforms[chain];
+                particle.position = own.point(&particle.position);
+                particle.velocity = velocity(own, &particle.velocity);
             }
             particle.stiffness = stiffness;
             list.particles.push(particle);
@@ -355,7 +407,7 @@ impl<T: Real, const D: usize> Couple<T, D> {
     }
 
     /// Whether no particle has moved so far that the list could miss a pair.
-    fn list_serves(&self, groups: &[Group<T, D>]) -> bool {
+    fn list_serves(&self, groups: &[Group<T, D>], time: f64) -> bool {
         if self.list.listed[0].is_empty() {
             return false;
         }
@@ -383,20 +435,28 @@ impl<T: Real, const D: usize> Couple<T, D> {
         };
         let first = moved(0);
         let second = if self.is_self() { first } else { moved(1) };
-        first + second <= self.list.skin
+        let boundaries: &[Arc<dyn Boundary<T, D>>] = &groups[self.sides[0].0].boundaries;
+        let carried = self.list.images.carried(boundaries, [self.list.time, time]);
+        first + second + carried <= self.list.skin
     }
 
     /// Lists pairs that may be within reach before particles have moved by half the skin.
-    fn list(&mut self, groups: &[Group<T, D>]) {
+    fn list(&mut self, groups: &[Group<T, D>], time: f64) {
         let mut list = core::mem::take(&mut self.list);
         let skin = SKIN * self.spacing(groups);
         list.skin = skin;
         let as_built = self.coupling.as_built();
+        let reach = self.reach + if as_built { 0.0 } else { skin };
+        // Images of places as built are those of the scene as built.
+        list.time = if as_built { 0.0 } else { time };
+        let boundaries = &groups[self.sides[0].0].boundaries;
+        list.images.clear();
         for side in 0..if self.is_self() { 1 } else { 2 } {
             let listed = &mut list.listed[side];
             listed.clear();
             if as_built {
                 listed.extend_from_slice(&self.reference[side]);
+                list.images.add(side, listed, boundaries, reach, list.time);
                 continue;
             }
             listed.resize(self.count(side, groups), [f64::NAN; D]);
@@ -408,13 +468,23 @@ impl<T: Real, const D: usize> Couple<T, D> {
                 let x = particles.columns.vectors(Field::POSITION)[slot];
                 listed[id] = x.map(Real::to_f64);
             }
+            list.images.add(side, listed, boundaries, reach, time);
         }
-        let reach = self.reach + if as_built { 0.0 } else { skin };
         list.find(self.is_self(), reach);
         if self.is_self() && self.exclusion > 0.0 {
             let (rest, least) = (&self.reference[0], self.exclusion);
+            list.images.place(boundaries, 0.0);
+            let images = &list.images;
+            let built = |id: u32| match images.source(0, id) {
+                (id, None) => rest[id as usize],
+                (id, Some(chain)) => {
+                    let image = images.transforms[chain].point(&rest[id as usize].map(T::from_f64));
+                    image.map(Real::to_f64)
+                }
+            };
             list.found.retain(|&[a, b]| {
-                let apart = |d: usize| (rest[a as usize][d] - rest[b as usize][d]).powi(2);
+                let (x, y) = (built(a), built(b));
+                let apart = |d: usize| (x[d] - y[d]).powi(2);
                 (0..D).map(apart).sum::<f64>() >= least * least
             });
         }

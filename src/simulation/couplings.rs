@@ -98,11 +98,19 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let own = self.stepping(alone).flat_map(Group::reactions);
         let own = own.map(|(on, from, force)| (on, from, *force));
         let couples = self.couples.iter().filter(move |_| alone.is_none());
-        own.chain(couples.flat_map(|couple| {
+        let first_boundary = self.body_count() + self.wall_count();
+        own.chain(couples.flat_map(move |couple| {
             let [first, second] = couple.indices;
             let force = couple.acting.force;
             let back = force.map(|force| -force);
+            let images = couple.acting.images.iter().zip(couple.indices);
+            let images = images.flat_map(move |(forces, on)| {
+                let forces = forces.iter().enumerate();
+                forces.map(move |(b, force)| (on, first_boundary + b, *force))
+            });
             [(first, second, force), (second, first, back)]
+                .into_iter()
+                .chain(images)
         }))
     }
 

@@ -134,6 +134,7 @@ mod limits;
 mod load;
 mod loads;
 mod neighborhood;
+mod pair_images;
 mod pair_list;
 mod phases;
 mod population;

@@ -1,6 +1,7 @@
 //! The pairs of a coupling that may be within reach: found in cells of the one side, and numbered by their particles.
 //! A list serves until both sides together have moved by its skin.
 
+use super::pair_images::PairImages;
 use crate::coupling::CoupledParticle;
 use crate::neighbors::Cells;
 use crate::scalar::Real;
@@ -23,6 +24,12 @@ pub(crate) struct PairList<T: Real, const D: usize> {
     pub near: [Vec<u32>; 2],
     pub found: Vec<[u32; 2]>,
     pub row_of: Vec<u32>,
+    /// Images that are listed behind the particles.
+    pub images: PairImages<T, D>,
+    /// Of rows that are images: the row of the particle (`u32::MAX` if it is in no pair), and the chain.
+    pub image_rows: Vec<Option<[u32; 2]>>,
+    /// When it was made \[s\].
+    pub time: f64,
 }
 
 impl<T: Real, const D: usize> Default for PairList<T, D> {
@@ -39,6 +46,9 @@ impl<T: Real, const D: usize> Default for PairList<T, D> {
             near: [Vec::new(), Vec::new()],
             found: Vec::new(),
             row_of: Vec::new(),
+            images: PairImages::default(),
+            image_rows: Vec::new(),
+            time: 0.0,
         }
     }
 }
@@ -63,9 +73,11 @@ impl<T: Real, const D: usize> PairList<T, D> {
             near,
             found,
             skin,
+            images,
             ..
         } = self;
         found.clear();
+        let [first, second] = [0, usize::from(!is_self)].map(|side| images.counts[side] as u32);
         let other = usize::from(!is_self);
         let all = |side: usize| 0..listed[side].len() as u32;
         if is_self {
@@ -99,7 +111,9 @@ impl<T: Real, const D: usize> PairList<T, D> {
                 for &b in run {
                     let y = &listed[other][b as usize];
                     let square = (0..D).map(|d| (x[d] - y[d]).powi(2)).sum::<f64>();
-                    if square < reach * reach && (!is_self || a < b) {
+                    // Two images are the image of two particles.
+                    let there = a < first || b < second;
+                    if square < reach * reach && (!is_self || a < b) && there {
                         found.push([a, b]);
                     }
                 }
@@ -117,9 +131,12 @@ impl<T: Real, const D: usize> PairList<T, D> {
             listed,
             found,
             row_of,
+            images,
+            image_rows,
             ..
         } = self;
         rows.clear();
+        image_rows.clear();
         pairs.clear();
         pairs.extend_from_slice(found);
         let sides: &[&[usize]] = if is_self { &[&[0, 1]] } else { &[&[0], &[1]] };
@@ -136,6 +153,10 @@ impl<T: Real, const D: usize> PairList<T, D> {
                     *row = rows.len() as u32;
                     rows.push(id as u32);
                 }
+            }
+            for &id in &rows[image_rows.len()..] {
+                let (source, chain) = images.source(side, id);
+                image_rows.push(chain.map(|chain| [row_of[source as usize], chain as u32]));
             }
             if side == 0 {
                 *split = rows.len();

@@ -16,6 +16,7 @@ mod liquid_conservation;
 mod mirror_planes;
 mod off_lattice;
 mod one_evaluation;
+mod penalty_structure;
 mod riemann_walls;
 mod sampling;
 mod sloshing;

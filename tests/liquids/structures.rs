@@ -8,18 +8,18 @@ use meshfree::material::eos::Linear;
 use meshfree::particles::Field;
 use meshfree::prelude::*;
 
-const LENGTH: f64 = 0.2;
+pub(super) const LENGTH: f64 = 0.2;
 const HEIGHT: f64 = 0.02;
-const DEPTH: f64 = 0.1;
-const DENSITY: f64 = 1100.0;
+pub(super) const DEPTH: f64 = 0.1;
+pub(super) const DENSITY: f64 = 1100.0;
 const YOUNGS: f64 = 4e6;
 const POISSON: f64 = 0.3;
-const GRAVITY: f64 = 9.81;
-const DX: f64 = HEIGHT / 5.0;
+pub(super) const GRAVITY: f64 = 9.81;
+pub(super) const DX: f64 = HEIGHT / 5.0;
 
 /// The deflection \[m\] of the middle of a plate that is clamped at both ends, under the water's weight and its own
 /// (Timoshenko 1921, with a shear coefficient of 5/6), in plane strain.
-fn deflection() -> f64 {
+pub(super) fn deflection() -> f64 {
     let load = GRAVITY * (1000.0 * DEPTH + DENSITY * HEIGHT);
     let stiffness = YOUNGS * HEIGHT.powi(3) / (12.0 * (1.0 - POISSON * POISSON));
     let shear = 5.0 / 6.0 * HEIGHT * YOUNGS / (2.0 * (1.0 + POISSON));
@@ -28,7 +28,7 @@ fn deflection() -> f64 {
     load * span.powi(4) / (384.0 * stiffness) + load * span * span / (8.0 * shear)
 }
 
-fn scene() -> Scene<f64, 2> {
+pub(super) fn scene() -> Scene<f64, 2> {
     let water = catalogue::water_at(SoundSpeed::artificial(2.0));
     let law = Linear::from_elastic_constants(DENSITY, YOUNGS, POISSON);
     let shear = YOUNGS / (2.0 * (1.0 + POISSON));
@@ -49,21 +49,23 @@ fn scene() -> Scene<f64, 2> {
         .acceleration(|_| [0.0, -GRAVITY])
 }
 
+/// How far the middle of the plate has sunk \[m\].
+pub(super) fn middle(now: &Simulation<f64, 2>) -> f64 {
+    let near = now.body("plate").unwrap().filter(|p| {
+        let [x, _] = p.vector(Field::REFERENCE_POSITION).unwrap();
+        (x - 0.5 * LENGTH).abs() < DX
+    });
+    let (sum, count) = near.fold((0.0, 0), |(sum, count), p| {
+        (sum + p.position()[1], count + 1)
+    });
+    -0.5 * HEIGHT - sum / f64::from(count)
+}
+
 /// It swings about its static deflection, which two periods give to a few per cent.
 #[test]
 fn a_plate_bears_a_column_of_water() {
     let mut simulation = scene().build().unwrap();
     let theory = deflection();
-    let middle = |now: &Simulation<f64, 2>| {
-        let near = now.body("plate").unwrap().filter(|p| {
-            let [x, _] = p.vector(Field::REFERENCE_POSITION).unwrap();
-            (x - 0.5 * LENGTH).abs() < DX
-        });
-        let (sum, count) = near.fold((0.0, 0), |(sum, count), p| {
-            (sum + p.position()[1], count + 1)
-        });
-        -0.5 * HEIGHT - sum / f64::from(count)
-    };
     let mut samples = Vec::new();
     while simulation.time() < 0.4 {
         simulation.step().unwrap();

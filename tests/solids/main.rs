@@ -9,6 +9,7 @@ mod contact;
 mod convergence;
 mod elastic_plastic_waves;
 mod gas;
+mod halved_contact;
 mod held;
 mod integrators;
 mod kernels_on_lattices;

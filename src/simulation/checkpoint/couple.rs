@@ -29,6 +29,7 @@ impl<T: Real, const D: usize> Couple<T, D> {
             heat,
             penetration: [now, most],
             pairs,
+            images,
         } = acting;
         file.put(format!("{name}/force"), 1, force);
         let numbers = [
@@ -36,6 +37,9 @@ impl<T: Real, const D: usize> Couple<T, D> {
         ];
         file.put(format!("{name}/numbers"), 1, numbers);
         file.put_one(format!("{name}/pairs"), *pairs as u64);
+        for (side, own) in images.iter().enumerate() {
+            file.put(format!("{name}/images{side}"), D, own.as_flattened());
+        }
         for (side, own) in forces.iter().enumerate() {
             let (ids, forces): (Vec<u32>, Vec<[T; D]>) = own.iter().copied().unzip();
             file.put(format!("{name}/particles{side}"), 1, ids);
@@ -61,6 +65,11 @@ impl<T: Real, const D: usize> Couple<T, D> {
             let values = vectors(&format!("forces{side}"), ids.len())?;
             own.extend(ids.into_iter().zip(values));
         }
+        let mut images = [Vec::new(), Vec::new()];
+        for (side, own) in images.iter_mut().enumerate() {
+            let forces = file.get::<f64>(&of(&format!("images{side}")))?;
+            *own = forces.as_chunks::<D>().0.to_vec();
+        }
         let ids = file.get::<u32>(&of("anchored"))?;
         let ids: Vec<[u32; 2]> = ids.as_chunks::<2>().0.to_vec();
         let anchors = vectors("anchors", ids.len())?;
@@ -73,6 +82,7 @@ impl<T: Real, const D: usize> Couple<T, D> {
             heat,
             penetration: [now, most],
             pairs: file.get_one::<u64>(&of("pairs"))? as usize,
+            images,
         };
         Ok(())
     }
