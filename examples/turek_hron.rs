@@ -228,6 +228,8 @@ impl Case {
             })
         };
         let clear = 0.25 * dx;
+        // Half a spacing from the beam, less rounding: where the lattice does not fit, water is missing and not too close.
+        let apart = 0.49 * dx;
         let wet = |[x, y]: &[f64; 2]| {
             let [dx, dy] = [x - CENTRE[0], y - CENTRE[1]];
             let beam =

@@ -7,6 +7,7 @@
 //! | [`Ball`] | any | exact |
 //! | [`HalfSpace`] | any | exact |
 //! | [`Cylinder`] | 3 | exact |
+//! | `Mesh`, of triangles in an STL file, with the feature `meshes` | 3 | exact |
 //! | [`OpenCell`], solid and void | 3 | exact inside the solid, else a bound |
 //! | [`union`](Shape::union) | any | exact outside, a bound inside |
 //! | [`intersection`](Shape::intersection), [`minus`](Shape::minus) | any | exact inside, a bound outside |
@@ -31,6 +32,8 @@ mod cuboid;
 mod cylinder;
 mod half_space;
 mod lattice;
+#[cfg(feature = "meshes")]
+mod mesh;
 mod moved;
 mod open_cell;
 #[cfg(test)]
@@ -46,6 +49,8 @@ pub use cylinder::Cylinder;
 pub use half_space::HalfSpace;
 pub(crate) use lattice::{FEWER, MOST_PARTICLES, POSITIVE, filled};
 pub use lattice::{fill, layers};
+#[cfg(feature = "meshes")]
+pub use mesh::Mesh;
 pub use moved::Moved;
 pub use open_cell::{OpenCell, OpenCellPart};
 

@@ -14,6 +14,8 @@ mod held;
 mod integrators;
 mod kernels_on_lattices;
 mod loads;
+#[cfg(feature = "meshes")]
+mod meshes;
 mod misprints;
 mod rods;
 mod smoothing;
