@@ -20,6 +20,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             contacts,
             couplings,
             sub_cycled,
+            spread,
             clamps,
             rigid,
             accelerations,
@@ -64,7 +65,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
                     couplings
                         .iter()
                         .map(|own| debug((&own.first, &own.second, &own.coupling, own.exclusion)))
-                        .chain([debug(sub_cycled)]),
+                        .chain([debug(sub_cycled), debug(spread)]),
                 ),
             ),
             (

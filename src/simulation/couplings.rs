@@ -24,6 +24,9 @@ pub(crate) struct Structure<T, const D: usize> {
     pub accelerations: Vec<[f64; D]>,
     /// Velocities \[m/s\] at that evaluation where the body sub-cycles; else none.
     pub before: Vec<[f64; D]>,
+    /// Where the last drift has begun \[m\] and the mean velocity in it \[m/s\], where the body has its
+    /// impulses spread; else none.
+    pub drift: Vec<[[f64; D]; 2]>,
     /// The time \[s\] of that evaluation; no number before the first.
     pub evaluated: f64,
 }
@@ -49,6 +52,21 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub(super) fn place_structures(&mut self, time: f64, evaluated: bool) {
         self.for_each_structure(|liquid, wall, group, body| {
             liquid.follow(wall, (group, body), time, evaluated);
+        });
+    }
+
+    /// Keeps where structures that have their impulses spread begin a drift.
+    pub(super) fn begin_drift_of_structures(&mut self) {
+        self.for_each_structure(|liquid, wall, group, body| {
+            liquid.keep_drift(wall, (group, body), None);
+        });
+    }
+
+    /// Gives the walls that these are the mean velocity of a drift over `dt` \[s\] that has come to its end: what they have moved by is
+    /// what the liquid is to be compressed by, and their velocity at one instant is that of a swing.
+    pub(super) fn end_drift_of_structures(&mut self, dt: f64) {
+        self.for_each_structure(|liquid, wall, group, body| {
+            liquid.keep_drift(wall, (group, body), Some(dt));
         });
     }
 
@@ -201,6 +219,40 @@ impl<T: Real, const D: usize> Group<T, D> {
         (own != u32::MAX).then_some(own as usize)
     }
 
+    /// The begin of a drift of a structure that has its impulses spread, or its end after `dt` \[s\].
+    fn keep_drift(&mut self, wall: usize, (group, body): (&Self, usize), dt: Option<f64>) {
+        let spreads = |own: &Structure<T, D>| !own.drift.is_empty();
+        if !self.walls[wall].structure.as_ref().is_some_and(spreads) {
+            return;
+        }
+        let columns = &group.particles.columns;
+        let [x, lost] = [Field::POSITION, Field::POSITION_RESIDUAL].map(|own| columns.vectors(own));
+        for slot in self.walls[wall].slots.start..self.walls[wall].end {
+            let at = self.rest_of(wall, slot);
+            let Some(own) = self.slot_of_structure(wall, slot, group, body) else {
+                continue;
+            };
+            let lost = lost.get(own).copied().unwrap_or([T::zero(); D]);
+            let now: [f64; D] = core::array::from_fn(|d| x[own][d].to_f64() + lost[d].to_f64());
+            let Some(structure) = &mut self.walls[wall].structure else {
+                continue;
+            };
+            let [begun, mean] = &mut structure.drift[at];
+            let Some(dt) = dt else {
+                *begun = now;
+                continue;
+            };
+            let moved: [f64; D] = core::array::from_fn(|d| now[d] - begun[d]);
+            // What has come back across a period has not moved by it.
+            let far = 0.5 * group.spacing_of(body);
+            if moved.iter().all(|x| x.abs() < far) {
+                *mean = moved.map(|x| x / dt);
+            }
+            let mean = mean.map(T::from_f64);
+            self.particles.columns.vectors_mut(Field::VELOCITY)[slot] = mean;
+        }
+    }
+
     /// Moves a wall to the particles of the body that it is, as they are at `time` \[s\].
     fn follow(&mut self, wall: usize, (group, body): (&Self, usize), time: f64, evaluated: bool) {
         let run = self.walls[wall].slots.start..self.walls[wall].end;
@@ -229,6 +281,13 @@ impl<T: Real, const D: usize> Group<T, D> {
                 if let (Some(from), Some(to)) = (from, to) {
                     *to = *from;
                 }
+            }
+            if let Some(structure) = self.walls[wall].structure.as_ref().filter(|_| evaluated)
+                && let Some([_, mean]) = structure.drift.get(at)
+                && !structure.evaluated.is_nan()
+            {
+                let mean = mean.map(T::from_f64);
+                self.particles.columns.vectors_mut(Field::VELOCITY)[slot] = mean;
             }
             let [x, residual, v] = self.particles.columns.many_mut([
                 Field::POSITION,

@@ -22,6 +22,12 @@ pub(crate) struct SubCycle<T, const D: usize> {
     pub work: Vec<f64>,
     /// Steps taken since the start.
     pub steps: u64,
+    /// Whether impulses of the others are spread over the drift that follows them.
+    pub spreads: bool,
+    /// Impulses \[N s\] that particles have been given since the last drift, by their numbers.
+    pub pending: Vec<[T; D]>,
+    /// Forces \[N\] by which they are given in this drift instead; else none.
+    pub spread: Vec<[T; D]>,
 }
 
 impl<T: Real, const D: usize> SubCycle<T, D> {
@@ -31,11 +37,29 @@ impl<T: Real, const D: usize> SubCycle<T, D> {
             forces: Vec::new(),
             work: vec![0.0; bodies],
             steps: 0,
+            spreads: false,
+            pending: Vec::new(),
+            spread: Vec::new(),
         }
     }
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
+    /// Spreads what kicks have given groups that sub-cycle over a drift of `dt` \[s\] that begins; see [`SubCycle::spreads`].
+    pub(super) fn spread_impulses(&mut self, dt: f64) {
+        for group in &mut self.groups {
+            group.spread_impulses(dt);
+        }
+    }
+
+    /// Ends that.
+    pub(super) fn end_spreading(&mut self) {
+        let apart = self.groups.iter_mut();
+        for apart in apart.filter_map(|group| group.sub_cycle.as_mut()) {
+            apart.spread.clear();
+        }
+    }
+
     /// Steps of all groups that sub-cycle since the start; see [`Scene::sub_cycle`](crate::scene::Scene::sub_cycle).
     #[must_use]
     pub fn sub_steps(&self) -> u64 {
@@ -84,22 +108,80 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 }
 
 impl<T: Real, const D: usize> Group<T, D> {
-    /// v ← v + dt F/m with what couplings do to it, and the work of that, F·(v + dt F/2m) dt.
+    /// v ← v + dt F/m with what couplings do to it.
     pub(super) fn kick_apart(&mut self, dt: f64) {
-        let Some(apart) = &mut self.sub_cycle else {
+        let Some(mut apart) = self.sub_cycle.take() else {
             return;
         };
         let step = T::from_f64(dt);
+        let forces = core::mem::take(&mut apart.forces);
+        self.push_on(&mut apart, |slot, _| forces[slot].map(|force| step * force));
+        if apart.spreads {
+            let ids = &self.particles.ids;
+            apart
+                .pending
+                .resize(self.particles.slot_of.len(), [T::zero(); D]);
+            for body in &self.particles.bodies {
+                for slot in body.slots.clone() {
+                    for d in 0..D {
+                        apart.pending[ids[slot] as usize][d] += step * forces[slot][d];
+                    }
+                }
+            }
+        }
+        apart.forces = forces;
+        self.sub_cycle = Some(apart);
+    }
+
+    /// Takes back what kicks have given since the last drift, to give it evenly in one over `dt` \[s\].
+    fn spread_impulses(&mut self, dt: f64) {
+        let Some(mut apart) = self.sub_cycle.take() else {
+            return;
+        };
+        if apart.spreads && !apart.pending.is_empty() {
+            let mut pending = core::mem::take(&mut apart.pending);
+            self.push_on(&mut apart, |_, id| pending[id].map(|impulse| -impulse));
+            let step = T::from_f64(dt);
+            apart.spread.clear();
+            apart
+                .spread
+                .extend(pending.iter().map(|own| own.map(|impulse| impulse / step)));
+            pending.fill([T::zero(); D]);
+            apart.pending = pending;
+        }
+        self.sub_cycle = Some(apart);
+    }
+
+    /// Gives a part of what is spread, that of `dt` \[s\].
+    fn push_spread(&mut self, dt: f64) {
+        let Some(mut apart) = self.sub_cycle.take() else {
+            return;
+        };
+        if !apart.spread.is_empty() {
+            let step = T::from_f64(dt);
+            let spread = core::mem::take(&mut apart.spread);
+            let none = [T::zero(); D];
+            self.push_on(&mut apart, |_, id| {
+                spread.get(id).unwrap_or(&none).map(|force| step * force)
+            });
+            apart.spread = spread;
+        }
+        self.sub_cycle = Some(apart);
+    }
+
+    /// Gives each particle an impulse \[N s\] by its slot and number, with the work of that: the change of kinetic energy.
+    fn push_on(&mut self, apart: &mut SubCycle<T, D>, impulse: impl Fn(usize, usize) -> [T; D]) {
+        let ids = &self.particles.ids;
         let [v, mass] = self
             .particles
             .columns
             .many_mut([Field::VELOCITY, Field::MASS]);
         for (body, work) in self.particles.bodies.iter().zip(&mut apart.work) {
             for slot in body.slots.clone() {
-                for (d, force) in apart.forces[slot].into_iter().enumerate() {
+                for (d, impulse) in impulse(slot, ids[slot] as usize).into_iter().enumerate() {
                     let v = &mut v[slot * D + d];
                     let before = v.to_f64();
-                    *v += step * force / mass[slot];
+                    *v += impulse / mass[slot];
                     *work += 0.5 * mass[slot].to_f64() * (v.to_f64().powi(2) - before * before);
                 }
             }
@@ -145,10 +227,13 @@ impl<T: Real, const D: usize> System for Alone<'_, T, D> {
     }
 
     fn kick(&mut self, dt: f64) {
+        // Half before and half after the group's own forces, so that both work with the mean velocity of the kick.
+        self.own().push_spread(0.5 * dt);
         self.own().heat_in_kick(dt);
         self.simulation.record_kick(Some(self.group), dt);
         let time = self.start;
         self.own().kick_all(dt, time);
+        self.own().push_spread(0.5 * dt);
     }
 
     fn drift(&mut self, dt: f64, offset: f64) -> Result<()> {

@@ -112,3 +112,78 @@ fn each_group_carries_its_own_fields() {
             .is_some()
     );
 }
+
+/// Kinetic energy \[J/m\] of an aluminium plate and its deflection \[m\] after the water has stood on it for a while: a fifth of
+/// `examples/water_on_plate.rs`, with some sixty steps of the plate in one of the water.
+fn stiff(spread: bool) -> (f64, f64) {
+    const THIN: f64 = 0.01;
+    let [plate, wet] = [THIN / 5.0, LENGTH / 66.0];
+    let law = Linear::from_elastic_constants(2700.0, 67.5e9, 0.34);
+    let metal = Material::<f64>::new("aluminium", law).with_shear_modulus(67.5e9 / 2.68);
+    let held = 4.0 * plate;
+    let body = Body::block("plate", metal, [-held, -THIN], [LENGTH + held, 0.0], plate);
+    let depth = 80.0 * wet;
+    let sides = [[true; 2], [false; 2]];
+    let tank = Wall::around("tank", [0.0; 2], [LENGTH, depth + 4.0 * wet], wet, 3, sides);
+    let water = catalogue::water_at(SoundSpeed::artificial(20.0));
+    let gravity = 5.0 * GRAVITY;
+    let scene = Scene::new(schemes::weakly_compressible())
+        .body(
+            Body::block("water", water, [0.0; 2], [LENGTH, depth], wet)
+                .hydrostatic([0.0, -gravity], [0.0, depth]),
+        )
+        .group(schemes::total_lagrangian().with(NeoHookean), [body])
+        .wall(tank)
+        .fix("plate", |[x, _]| !(0.0..LENGTH).contains(x))
+        .sub_cycle("plate", 128)
+        .acceleration(move |_| [0.0, -gravity]);
+    let scene = if spread {
+        scene.spread_impulses("plate")
+    } else {
+        scene
+    };
+    let mut simulation = scene.build().unwrap();
+    simulation.run_until(1.4e-3).unwrap();
+    let ledger = simulation.ledger();
+    let weight = gravity * simulation.time() * ledger.whole.mass;
+    let [_, walls] = simulation.wall_impulse("tank").unwrap();
+    let held = simulation.clamps()[0].impulse[1];
+    let lacks = (ledger.whole.momentum[1] - (held - walls - weight)) / weight;
+    let own = &ledger.bodies[1].1;
+    let [elastic, hourglass, work] = ["elastic energy", "hourglass energy", "work of couplings"]
+        .map(|name| own.total(name).unwrap_or(0.0));
+    let height = simulation.body("plate").unwrap().map(|p| {
+        let y = p.vector(Field::REFERENCE_POSITION).unwrap()[1];
+        p.mass() * gravity * (p.position()[1] - y)
+    });
+    let closes = own.kinetic + elastic + hourglass + height.sum::<f64>() - work;
+    println!(
+        "spread {spread}: kinetic {:.3e} J/m, elastic {elastic:.3e}, work {work:.3e}, energy that is nobody's {closes:.1e}, \
+         momentum {lacks:.1e}, {} steps, {} of the plate",
+        own.kinetic,
+        simulation.steps(),
+        simulation.sub_steps()
+    );
+    assert!(lacks.abs() < 1e-10, "{lacks:e}");
+    (own.kinetic, closes / work)
+}
+
+/// What comes in impulses drives modes that swing a whole number of times between them; what is spread does not.
+#[test]
+fn spread_impulses_do_not_shake_a_stiff_plate() {
+    let (shaken, _) = stiff(false);
+    let (still, closes) = stiff(true);
+    assert!(still < 0.2 * shaken, "{still:e} {shaken:e}");
+    assert!(closes.abs() < 2e-3, "{closes:e}");
+    let refused = scene()
+        .spread_impulses("plate")
+        .rigid("plate")
+        .build()
+        .unwrap_err();
+    assert!(refused.to_string().contains("rigid body"), "{refused}");
+    let refused = scene().spread_impulses("water").build().unwrap_err();
+    assert!(
+        refused.to_string().contains("does not sub-cycle"),
+        "{refused}"
+    );
+}

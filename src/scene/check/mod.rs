@@ -54,6 +54,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         self.check_groups(&mut problems);
         self.check_couplings(&mut problems);
         self.check_sub_cycles(&mut problems);
+        self.check_spreading(&mut problems);
         self.check_held(&mut problems);
         let before = problems.len();
         self.check_boundaries(&mut problems);
