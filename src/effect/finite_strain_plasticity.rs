@@ -90,6 +90,7 @@ impl<const D: usize> Effect<D> for FiniteStrainPlasticity {
         });
         program.require(|scene| super::plasticity::lacks_strength(scene));
         program.require(|scene| super::plasticity::lacks_temperature(scene));
+        program.require(super::tension_limit::yields_beyond_tension);
         program.require(|scene| {
             (!scene.kicks).then(|| Problem::Incompatible {
                 what: format!(

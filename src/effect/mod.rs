@@ -50,6 +50,7 @@ mod radial_return;
 mod setting;
 mod shifting;
 mod st_venant_kirchhoff;
+mod tension_limit;
 mod total_lagrangian;
 mod uniaxial_stress;
 mod viscosity_switch;

@@ -98,6 +98,7 @@ impl<const D: usize> Effect<D> for Plasticity {
         });
         program.require(lacks_strength);
         program.require(lacks_temperature);
+        program.require(super::tension_limit::yields_beyond_tension);
     }
 }
 

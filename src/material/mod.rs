@@ -369,7 +369,12 @@ impl<T: Real> Material<T> {
         ];
         for (field, value) in constants {
             if let Some(value) = value.filter(|value| !(value.is_finite() && *value >= 0.0)) {
-                problems.push((field, value, "finite and not negative"));
+                let must_be = if field == "shear_modulus" {
+                    "finite and not negative; of elastic constants: a positive modulus and a Poisson ratio above -1"
+                } else {
+                    "finite and not negative"
+                };
+                problems.push((field, value, must_be));
             }
         }
         if let Some(law) = &self.rheology {

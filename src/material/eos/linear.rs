@@ -71,7 +71,12 @@ impl EquationOfState for Linear {
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         Problems::default()
             .positive("reference_density", self.reference_density)
-            .positive("sound_speed", self.sound_speed)
+            .must(
+                self.sound_speed.is_finite() && self.sound_speed > 0.0,
+                "sound_speed",
+                self.sound_speed,
+                "finite and positive; of elastic constants: moduli above 0, and a Poisson ratio above -1 and below 0.5",
+            )
             .list()
     }
 }

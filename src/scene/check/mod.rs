@@ -6,6 +6,7 @@ mod held;
 mod limits;
 mod memory;
 mod scheme;
+mod thin;
 mod walls;
 
 use super::{Body, Part, Plan, SKINS, Scene};
@@ -75,6 +76,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 plan.check_wall_places(&mut problems);
             }
             self.check_coupled_places(&mut problems);
+            self.check_thickness(&mut problems);
         }
         problems
     }
