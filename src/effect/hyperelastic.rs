@@ -46,9 +46,14 @@ pub(super) fn register<T: Real, const D: usize>(
     law: impl StoredEnergy,
     document: TermDoc,
 ) {
+    declare(program, document);
+    program.law(Stage::State, Hyperelastic(law));
+}
+
+/// The fields and the column of the ledger that all of them have.
+pub(super) fn declare<T: Real, const D: usize>(program: &mut StepProgram<T, D>, document: TermDoc) {
     program.declare(PIOLA, "piola_stress", "Pa", 0.0);
     program.declare(ELASTIC, "elastic_energy", "J/kg", 0.0);
-    program.law(Stage::State, Hyperelastic(law));
     program.ledger(LedgerColumn {
         name: "elastic energy",
         unit: "J",

@@ -13,7 +13,7 @@ use crate::term::TermDoc;
 ///
 /// with J = det F, μ the [shear modulus](crate::material::Material::with_shear_modulus) and λ = K − 2μ/3 by the
 /// [bulk modulus](crate::material::Material::bulk_modulus) at rest. It stiffens without bound as a volume vanishes. In two
-/// dimensions it is in plane strain, in one in uniaxial strain. Energy and pressure are as for
+/// dimensions it is in plane strain, and [in plane stress](Self::plane_stress) on demand; in one in uniaxial strain. Energy and pressure are as for
 /// [`StVenantKirchhoff`](super::StVenantKirchhoff).
 ///
 /// ```

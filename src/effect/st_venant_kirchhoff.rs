@@ -14,7 +14,7 @@ use crate::term::TermDoc;
 /// with μ the [shear modulus](crate::material::Material::with_shear_modulus) and λ = K − 2μ/3 by the
 /// [bulk modulus](crate::material::Material::bulk_modulus) at rest. For large rotations and moderate strains: it softens
 /// in compression, and has no strength left at a stretch of 0.58. Rubber is [`NeoHookean`](super::NeoHookean). In two
-/// dimensions it is in plane strain, in one in uniaxial strain.
+/// dimensions it is in plane strain, and [in plane stress](Self::plane_stress) on demand; in one in uniaxial strain.
 ///
 /// | it adds | as |
 /// |---|---|

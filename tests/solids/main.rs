@@ -19,5 +19,6 @@ mod loads;
 mod meshes;
 mod misprints;
 mod rods;
+mod sheets;
 mod smoothing;
 mod total_lagrangian;
