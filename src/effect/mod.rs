@@ -90,6 +90,7 @@ pub use program::{Declared, DeclaredSum, LedgerColumn, Requirement, SceneFacts, 
 pub use setting::Setting;
 pub use shifting::Shifting;
 pub use st_venant_kirchhoff::StVenantKirchhoff;
+pub(crate) use total_lagrangian::stretches;
 pub use total_lagrangian::{DisplacementGradient, ReferenceMoment, StressForce, TotalLagrangian};
 pub use uniaxial_stress::UniaxialStress;
 pub(crate) use viscosity_switch::ViscositySwitch;

@@ -284,7 +284,7 @@ fn is_far<T: Real, const D: usize>(gradient: &Matrix<T, D>, volume: T) -> bool {
 
 /// Bounds of the largest squared stretch, and of the inverse of the smallest, by Gershgorin's circles of FᵀF and its
 /// inverse; exact where the axes are principal.
-pub(super) fn stretches<T: Real, const D: usize>(gradient: &Matrix<T, D>) -> [T; 2] {
+pub(crate) fn stretches<T: Real, const D: usize>(gradient: &Matrix<T, D>) -> [T; 2] {
     let bound = |matrix: Matrix<T, D>| {
         (0..D).fold(T::zero(), |most, row| {
             let sum = (0..D).fold(T::zero(), |sum, column| sum + matrix[(row, column)].abs());

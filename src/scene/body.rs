@@ -28,6 +28,8 @@ pub struct Body<T: Real, const D: usize> {
     pub(crate) shape: Result<(), Flaw>,
     /// Fields that start with values of their own.
     pub(crate) fields: Vec<StartField>,
+    /// Masses \[kg\] of their own; without them density times the spacing to the power D.
+    pub(crate) masses: Vec<f64>,
 }
 
 /// A field with the numbers that the particles of a body start with, one particle after the other.
@@ -141,6 +143,7 @@ impl<T: Real, const D: usize> Body<T, D> {
             slip: Slip::Free,
             shape: Ok(()),
             fields: Vec::new(),
+            masses: Vec::new(),
         }
     }
 
@@ -246,6 +249,16 @@ impl<T: Real, const D: usize> Body<T, D> {
             field,
             components: N,
             values,
+        });
+        self
+    }
+
+    /// Starts a field with numbers that are listed particle by particle.
+    pub(crate) fn listed<const N: usize>(mut self, field: Field, values: &[[f64; N]]) -> Self {
+        self.fields.push(StartField {
+            field,
+            components: N,
+            values: values.as_flattened().to_vec(),
         });
         self
     }

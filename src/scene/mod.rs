@@ -58,6 +58,7 @@
 
 mod body;
 mod check;
+mod conversion;
 mod coupled;
 #[cfg(feature = "checkpoint")]
 mod fingerprint;
@@ -66,6 +67,7 @@ mod held_once;
 mod plan;
 
 pub use body::{Body, Start};
+pub use conversion::Conversion;
 
 use crate::boundary::{Boundary, Inlet, Outlet, Wall};
 use crate::coupling::Coupling;

@@ -111,6 +111,9 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                 let own = (&body.material, body.spacing);
                 self.scheme
                     .place(&mut columns, slot, own, body.points[k], &body.starts[k]);
+                if let Some(mass) = body.masses.get(k) {
+                    columns.raw_mut(Field::MASS)[slot] = T::from_f64(*mass);
+                }
                 for start in &body.fields {
                     let width = start.components;
                     let values = start.values[k * width..(k + 1) * width].iter();

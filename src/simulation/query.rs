@@ -8,6 +8,7 @@ use super::walls::WallState;
 use super::which::{Which, find};
 use crate::boundary::Pose;
 use crate::error::Result;
+use crate::material::Material;
 use crate::material::eos::GuardCounts;
 use crate::particles::{Field, Output, Shape};
 use crate::scalar::Real;
@@ -173,6 +174,13 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let all = self.all_bodies().map(|own| (&own.1.name, own));
         let (_, found) = find(&body, "body", all)?;
         Ok(ParticleViews::of_body(found))
+    }
+
+    /// The material of a body, and its spacing as built \[m\].
+    pub(crate) fn material_and_spacing(&self, body: impl Which) -> Result<(&Material<T>, f64)> {
+        let all = self.all_bodies().map(|own| (&own.1.name, own));
+        let (_, (_, own)) = find(&body, "body", all)?;
+        Ok((&own.material, own.spacing))
     }
 
     /// Sets every velocity \[m/s\] as a function of position \[m\] and present velocity, between steps.

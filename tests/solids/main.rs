@@ -7,6 +7,7 @@ mod common;
 mod bad_solids;
 mod conservation;
 mod contact;
+mod conversion;
 mod convergence;
 mod elastic_plastic_waves;
 mod gas;

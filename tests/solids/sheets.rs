@@ -49,7 +49,10 @@ fn a_sheet_bears_the_stress_of_hooke() {
         let piola = p.matrix(TotalLagrangian::PIOLA).unwrap();
         for (r, c) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
             let exact: f64 = (0..2).map(|k| f[r][k] * second(k, c)).sum();
-            assert!((piola[r][c] - exact).abs() < 1e-9 * YOUNGS * trace.abs(), "{exact}");
+            assert!(
+                (piola[r][c] - exact).abs() < 1e-9 * YOUNGS * trace.abs(),
+                "{exact}"
+            );
         }
         let across = (1.0 - 2.0 * POISSON / (1.0 - POISSON) * trace).sqrt();
         assert!((p.scalar(THICKNESS).unwrap() - across).abs() < 1e-14);
@@ -94,7 +97,10 @@ fn waves_in_sheets_run_at_their_speeds() {
             }
             before = now;
         };
-        println!("axis {axis}: speed {:+.3} %", 100.0 * (quarter / zero - 1.0));
+        println!(
+            "axis {axis}: speed {:+.3} %",
+            100.0 * (quarter / zero - 1.0)
+        );
         assert!((quarter / zero - 1.0).abs() < 0.005, "{}", quarter / zero);
         let whole = strip.ledger().whole;
         assert!((whole.total_energy() / first - 1.0).abs() < 1e-13);
@@ -113,8 +119,14 @@ fn bent(through: f64) -> f64 {
     // Particles are held and loaded where they are: three columns up to x = 0, and the last one at the end.
     let (held, free) = (3.0, (LENGTH / dx).round());
     let end = free * dx;
-    let beam = Body::block("beam", elastic(), [0.0; 2], [(held + free) * dx, HEIGHT], dx)
-        .displace(move |[x, y]| [x - (held - 0.5) * dx, y]);
+    let beam = Body::block(
+        "beam",
+        elastic(),
+        [0.0; 2],
+        [(held + free) * dx, HEIGHT],
+        dx,
+    )
+    .displace(move |[x, y]| [x - (held - 0.5) * dx, y]);
     let inertia = HEIGHT.powi(3) / 12.0;
     let omega = (1.875_104_f64 / end).powi(2) * (YOUNGS * inertia / (RHO * HEIGHT)).sqrt();
     let pull = LOAD / (RHO * HEIGHT * dx);
@@ -122,8 +134,15 @@ fn bent(through: f64) -> f64 {
         .body(beam)
         .fix("beam", move |[x, _]| *x < 0.25 * dx)
         .load(Load::acceleration(move |at| {
-            let pulled = if at.position[0] > end - 0.5 * dx { pull } else { 0.0 };
-            [-2.0 * omega * at.velocity[0], -pulled - 2.0 * omega * at.velocity[1]]
+            let pulled = if at.position[0] > end - 0.5 * dx {
+                pull
+            } else {
+                0.0
+            };
+            [
+                -2.0 * omega * at.velocity[0],
+                -pulled - 2.0 * omega * at.velocity[1],
+            ]
         }))
         .build()
         .unwrap();
@@ -148,6 +167,12 @@ fn bent(through: f64) -> f64 {
 fn a_cantilever_bends_as_beams_do() {
     let ratios = [5.0, 10.0].map(bent);
     println!("{ratios:?}");
-    assert!((ratios[0] - 1.0).abs() < 0.1 && (ratios[1] - 1.0).abs() < 0.03, "{ratios:?}");
-    assert!((ratios[1] - 1.0).abs() < 0.5 * (ratios[0] - 1.0).abs(), "{ratios:?}");
+    assert!(
+        (ratios[0] - 1.0).abs() < 0.1 && (ratios[1] - 1.0).abs() < 0.03,
+        "{ratios:?}"
+    );
+    assert!(
+        (ratios[1] - 1.0).abs() < 0.5 * (ratios[0] - 1.0).abs(),
+        "{ratios:?}"
+    );
 }
