@@ -128,7 +128,8 @@ impl Sheet for NeoHookean {
             let change = excess / (2.0 * mu).mul_add(squared, lambda);
             s -= change;
             // What is no number stays one, and ends the run.
-            if !(change.abs() > f64::EPSILON * s.abs().max(f64::MIN_POSITIVE)) {
+            let least = f64::EPSILON * s.abs().max(f64::MIN_POSITIVE);
+            if change.is_nan() || change.abs() <= least {
                 break;
             }
         }

@@ -136,6 +136,7 @@ fn hash_body<T: Real, const D: usize>(body: &Body<T, D>, hash: &mut Hash) {
         starts,
         slip,
         fields,
+        masses,
         // A scene with an error is not built.
         shape: _,
     } = body;
@@ -149,6 +150,7 @@ fn hash_body<T: Real, const D: usize>(body: &Body<T, D>, hash: &mut Hash) {
         text(hash, (own.field, own.components));
         hash.numbers(&own.values);
     }
+    hash.numbers(masses);
 }
 
 fn hash_wall<const D: usize>(wall: &Wall<D>, facing: bool, hash: &mut Hash) {

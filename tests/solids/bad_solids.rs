@@ -11,7 +11,8 @@ use meshfree::prelude::*;
 /// All that is wrong with a scene, as a user reads it; nothing if it can be built.
 fn wrong<const D: usize>(scene: Scene<f64, D>) -> String {
     let problems = scene.problems();
-    problems.iter().map(|own| format!("{own}\n")).collect()
+    let texts: Vec<_> = problems.iter().map(ToString::to_string).collect();
+    texts.join("\n")
 }
 
 /// A material by Young's modulus \[Pa\] and Poisson's ratio.

@@ -156,19 +156,22 @@ fn bent(through: f64) -> f64 {
         own.map(|p| p.position()[1]).sum::<f64>() / tip.len() as f64
     };
     let first = height(&beam);
-    // (1 + ωt) e^(−ωt) is 3e-5 there.
-    beam.run_until(13.0 / omega).unwrap();
+    // (1 + ωt) e^(−ωt) is 5e-4 there.
+    beam.run_until(10.0 / omega).unwrap();
     (first - height(&beam)) / (LOAD * end.powi(3) / (3.0 * YOUNGS * inertia))
 }
 
-/// Particles through the height, and what is measured beyond the thin beam; with shear it bends 0.25 % farther.
+/// With shear a beam bends 0.25 % farther than the thin one; particles are too soft by what they see of those behind them.
 #[test]
-#[ignore = "two minutes in release"]
+#[ignore = "a minute in release"]
 fn a_cantilever_bends_as_beams_do() {
-    let ratios = [5.0, 10.0].map(bent);
-    println!("{ratios:?}");
+    let ratios = [4.0, 8.0].map(|through| {
+        let ratio = bent(through);
+        println!("{through} through: {ratio}");
+        ratio
+    });
     assert!(
-        (ratios[0] - 1.0).abs() < 0.1 && (ratios[1] - 1.0).abs() < 0.03,
+        (ratios[0] - 1.0).abs() < 0.15 && (ratios[1] - 1.0).abs() < 0.05,
         "{ratios:?}"
     );
     assert!(

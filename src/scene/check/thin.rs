@@ -69,7 +69,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             });
             let round = determinant(&sum) / (sum.trace() / D as f64).powi(D as i32);
             // One without neighbours has no number here.
-            !(round > FLAT) && !continued(x)
+            (round.is_nan() || round <= FLAT) && !continued(x)
         };
         body.points.iter().filter(is_flat).count()
     }
