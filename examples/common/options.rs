@@ -62,8 +62,16 @@ impl Example {
             let usage = format!("{} {}", option.name, option.value);
             own += &format!("  {usage:<22}  {}\n", option.help);
         }
+        // What an example reads in a unit of its own stands in place of the common option.
+        let common: String = COMMON
+            .split_inclusive('\n')
+            .filter(|line| {
+                let name = line.split_whitespace().next();
+                !self.own.iter().any(|own| Some(own.name) == name)
+            })
+            .collect();
         format!(
-            "{}\n\n{own}{COMMON}  --scheme NAME           {}\n",
+            "{}\n\n{own}{common}  --scheme NAME           {}\n",
             self.about,
             self.schemes.join(", ")
         )
@@ -120,7 +128,7 @@ impl Example {
                 return Err(format!("{name} needs a value: see --help"));
             };
             match name.as_str() {
-                "--spacing" => options.spacing = Some(positive(&name, &value)?),
+                "--spacing" if own.is_none() => options.spacing = Some(positive(&name, &value)?),
                 "--until" => options.until = Some(positive(&name, &value)?),
                 "--precision" => {
                     options.single = match value.as_str() {
