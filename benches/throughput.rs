@@ -1,10 +1,13 @@
 //! Speed and memory of liquids in a breaking dam: interactions a second, time by phase, bytes a particle,
-//! what each term costs, the composed pair loop against one that is written out by hand, and kernels and
-//! viscosities of a user's own against those of the crate.
+//! what each term costs, the composed pair loop against one that is written out by hand, kernels and
+//! viscosities of a user's own against those of the crate, and solids beside the liquid.
 //!
-//! `cargo bench --bench throughput [-- --quick]`. An interaction is an ordered pair of particles inside
+//! `cargo bench --bench throughput [-- --quick | --solids]`. An interaction is an ordered pair of particles inside
 //! of the support, the first of them liquid. Times are medians over steps, ratios medians over pairs of
 //! runs that take turns.
+
+#[path = "throughput/solids.rs"]
+mod solids;
 
 use meshfree::boundary::Wall;
 use meshfree::kernel::{Kernel, WendlandC2, WendlandC4};
@@ -661,6 +664,11 @@ fn main() {
     let (fall, steps) = if full { (0.05, 30) } else { (0.0, 3) };
     let (side, turns) = if full { (32, 60) } else { (12, 5) };
     composed_against_fused(side, turns);
+    solids::composed_against_fused(side, turns);
+    solids::table(if full { 32 } else { 10 }, steps);
+    if given("--solids") {
+        return;
+    }
     own_against_built_in::<f64>(side, turns);
     own_against_built_in::<f32>(side, turns);
     println!();
