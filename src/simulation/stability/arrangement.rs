@@ -3,11 +3,11 @@
 
 use super::super::group::Group;
 use crate::neighbors::{CHUNK, ChunkList};
+use crate::parallel::{cut, for_each};
 use crate::particles::Field;
 use crate::scalar::{Lane, Real};
 use crate::sweep::Transform;
 use crate::tensor::Vector;
-use rayon::prelude::*;
 
 /// Bins of the distances of nearest neighbours, which reach to two spacings.
 const BINS: usize = 128;
@@ -124,8 +124,9 @@ pub(super) fn arrangement<T: Real, const D: usize>(
         let chunks = group.neighborhood.lists.chunks();
         partial.clear();
         partial.resize(chunks.len(), Sums::NONE);
-        let own = chunks.par_iter().zip(partial.par_iter_mut()).enumerate();
-        own.for_each(|(chunk, (list, sums))| group.arrangement_of(chunk, list, index, sums));
+        for_each(cut(partial, 1), |chunk, sums| {
+            group.arrangement_of(chunk, &chunks[chunk], index, &mut sums[0]);
+        });
         for sums in partial.iter() {
             all.add(sums);
         }

@@ -3,12 +3,12 @@
 
 use super::super::Simulation;
 use super::super::group::Group;
-use super::super::stages::GRAIN;
 use super::arrangement::{self, Sums};
 use super::report::Thresholds;
+use crate::parallel::{GRAIN, reduce, runs};
 use crate::particles::Field;
 use crate::scalar::Real;
-use rayon::prelude::*;
+use std::ops::Range;
 use std::time::{Duration, Instant};
 
 /// Bins of steps, eight an octave about the first.
@@ -114,19 +114,15 @@ impl<T: Real, const D: usize> Group<T, D> {
                 continue;
             };
             let (first, over) = (body.slots.start, 1.0 / rest(k));
-            let found = own
-                .par_iter()
-                .with_min_len(GRAIN)
-                .enumerate()
-                .map(|(n, value)| {
-                    let value = value.to_f64() * over;
+            let both = |a: [_; 2], b: [_; 2]| [lower(a[0], b[0]), lower(a[1], b[1])];
+            let in_run = |_, run: Range<usize>| {
+                let found = run.map(|n| {
+                    let value = own[n].to_f64() * over;
                     [(value, first + n), (-value, first + n)]
-                })
-                .reduce(
-                    || [NOWHERE; 2],
-                    |a, b| [lower(a[0], b[0]), lower(a[1], b[1])],
-                );
-            all = [lower(all[0], found[0]), lower(all[1], found[1])];
+                });
+                found.fold([NOWHERE; 2], both)
+            };
+            all = reduce(runs(0..own.len(), GRAIN), all, in_run, both);
         }
         all
     }
