@@ -233,7 +233,7 @@ impl Case {
         let wet = |[x, y]: &[f64; 2]| {
             let [dx, dy] = [x - CENTRE[0], y - CENTRE[1]];
             let beam =
-                *x > CENTRE[0] && *x < ROOT + LENGTH + clear && dy.abs() < 0.5 * THICKNESS + clear;
+                *x > CENTRE[0] && *x < ROOT + LENGTH + apart && dy.abs() < 0.5 * THICKNESS + apart;
             dx.hypot(dy) > RADIUS + clear && !beam
         };
         let liquid = Liquid::new(DENSITY, 1480.0, VISCOSITY);
@@ -395,7 +395,7 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
         let force: [f64; 2] = core::array::from_fn(|d| beam[d] + (impulse[d] - before.1[d]) / span);
         before = (now.time(), impulse);
         csv.row(&[now.time(), moved[0], moved[1], force[0], force[1]])?;
-        if samples[0].len() % 20 == 0 {
+        if samples[0].len().is_multiple_of(20) {
             movie.frame(now)?;
         }
         for (line, value) in samples.iter_mut().zip([moved[0], moved[1], force[0]]) {

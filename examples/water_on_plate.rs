@@ -12,6 +12,7 @@ use meshfree::output::csv::CsvWriter;
 use meshfree::output::svg::{Axis, Cloud, Figure, Panel, Series};
 use meshfree::particles::Field;
 use meshfree::prelude::*;
+use std::collections::BTreeMap;
 use std::process::ExitCode;
 
 const EXAMPLE: Example = Example {
@@ -180,7 +181,7 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
             plate.kinetic,
             elastic,
         ])?;
-        if samples.len() % 20 == 0 {
+        if samples.len().is_multiple_of(20) {
             movie.frame(now)?;
         }
         samples.push((now.time(), at));
@@ -207,7 +208,7 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
     .series(Series::line("plate theory with shear", level(expected)).reference())
     .series(Series::line("thin plate", level(bending)).dashed());
     // Deflection along the plate, through all rows.
-    let mut along: std::collections::BTreeMap<i64, (f64, f64, f64)> = Default::default();
+    let mut along: BTreeMap<i64, (f64, f64, f64)> = BTreeMap::new();
     for p in simulation.body("plate")? {
         let Some(at) = p.vector(Field::REFERENCE_POSITION) else {
             continue;
