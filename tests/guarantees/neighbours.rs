@@ -325,3 +325,32 @@ fn lists_that_do_not_last_get_a_thicker_skin_and_lose_it_again() {
     // Lists that last keep the thin skin.
     assert_eq!(flight(None, 1000.0), flight(Some(0.1), 1000.0));
 }
+
+/// Counted work is entries of lists: those of two parts are those of the whole, wherever it is cut.
+#[test]
+fn entries_of_parts_add_up() {
+    let places = (0..3000).map(|k| {
+        [
+            0.013 * f64::from(k * 37 % 101),
+            0.017 * f64::from(k * 53 % 97),
+        ]
+    });
+    let places: Vec<[f64; 2]> = places.collect();
+    let blocks = [(0..2000, false), (2000..3000, true)].map(|(slots, wall)| Block { slots, wall });
+    let mut lists = ClusterLists::default();
+    lists.rebuild(&SearchInput {
+        positions: &places,
+        radii: Radii::Uniform(0.1),
+        blocks: &blocks,
+        listed: &[],
+        width: 4,
+        slots: 3000,
+        skin: 0.01,
+        instructions: InstructionSet::detect(),
+    });
+    for cut in [0, 4, 128, 400, 1996, 2000, 2996, 3000] {
+        let parts = [0..cut, cut..3000].map(|slots| lists.entries_of(slots, 4));
+        assert_eq!(parts.iter().sum::<usize>(), lists.entries(), "{cut}");
+    }
+    assert!(lists.entries_of(0..4, 4) > 0 && lists.entries() > 10_000);
+}
