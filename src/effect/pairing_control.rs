@@ -24,8 +24,8 @@ use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 /// tension opens into a net of threads. Use it with [`ArtificialPressure`](super::ArtificialPressure), where there is an example.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PairingControl {
-    /// Strength a; 0.005, which keeps the spinning square patch above 0.65 spacings. Ten times as much keeps 0.85, and
-    /// swells a liquid that is stretched: 2 % of its angular momentum.
+    /// Strength a; 0.005, which keeps a spinning square patch with a perturbed start above 0.59 spacings. Twenty times as much
+    /// keeps 0.9, and swells a liquid that is stretched: 2.7 % of its angular momentum.
     pub strength: f64,
 }
 

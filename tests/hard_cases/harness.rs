@@ -73,7 +73,7 @@ impl Cures {
     /// With what keeps a liquid in tension even.
     pub const EVEN: Self = Self {
         shifting: Shifting::STANDARD,
-        pressure: 0.2,
+        pressure: 0.3,
         pairing: 0.005,
         ..Self::NONE
     };
