@@ -24,7 +24,7 @@ use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 /// tension opens into a net of threads. Use it with [`ArtificialPressure`](super::ArtificialPressure), where there is an example.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PairingControl {
-    /// Strength a; 0.005, which keeps a spinning square patch with a perturbed start above 0.59 spacings. Twenty times as much
+    /// Strength a; 0.005, which keeps a spinning square patch with a perturbed start above 0.58 spacings. Twenty times as much
     /// keeps 0.9, and swells a liquid that is stretched: 2.7 % of its angular momentum.
     pub strength: f64,
 }
