@@ -119,16 +119,16 @@ pub fn table(side: usize, steps: usize) {
 /// P L, as the effect of total-Lagrangian solids has it.
 const CORRECTED: Field = Field::matrix(13);
 
-/// The force of the Piola stress, written out. Records are x, what rounding left of it, V, X and P L.
+/// The force of the Piola stress, written out. Records are x, V, X and P L.
 struct Fused<'a> {
     records: &'a [f64],
     lists: &'a ClusterLists,
     gradient: f64,
 }
 
-const STRIDE: usize = 19;
+const STRIDE: usize = 16;
 /// Where the weight, the reference position and the corrected stress begin in a record.
-const AT: [usize; 3] = [6, 7, 10];
+const AT: [usize; 3] = [3, 4, 7];
 
 impl Fused<'_> {
     #[cfg(target_arch = "x86_64")]
@@ -226,7 +226,7 @@ pub fn composed_against_fused(side: usize, turns: usize) {
         let x = lattice.columns.vectors(Field::POSITION)[slot];
         lattice.columns.vectors_mut(Field::REFERENCE_POSITION)[slot] = x;
         for k in 0..9_usize {
-            let value: f64 = 0.1 * x[k % 3] + k as f64;
+            let value: f64 = 0.1 * x[k % 3] + k as f64 + 1.0;
             lattice.columns.raw_mut(CORRECTED)[slot * 9 + k] = 1e6 * value.sin();
         }
     }

@@ -20,6 +20,7 @@ use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 /// of the elastic energy.
 ///
 /// It is an elastic spring of the body as built: across plastic folds it resists what is meant to stay.
+/// [`YieldingHourglass`](super::YieldingHourglass) cuts it there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HourglassControl {
     /// Strength α; 0.1 by default. A plate that bends, ten particles thick at h/dx 0.8, swings 0.02 % faster with it than
@@ -41,7 +42,7 @@ impl HourglassControl {
 const F: Field = TotalLagrangian::DEFORMATION;
 const ENERGY: Field = HourglassControl::ENERGY;
 /// Young's modulus \[Pa\].
-const STIFFNESS: Field = Field::scalar(9);
+pub(super) const STIFFNESS: Field = Field::scalar(9);
 /// −½ Σⱼ fᵢⱼ·vᵢⱼ \[W\].
 const POWER: Output = Output::scalar(15);
 

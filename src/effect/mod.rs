@@ -58,6 +58,7 @@ mod uniaxial_stress;
 mod viscosity_switch;
 mod volume_consistency;
 mod walls;
+mod yielding_hourglass;
 
 pub use acoustic_damping::AcousticDamping;
 pub use artificial_pressure::{ArtificialPressure, TensionRepulsion};
@@ -96,6 +97,7 @@ pub use uniaxial_stress::UniaxialStress;
 pub(crate) use viscosity_switch::ViscositySwitch;
 pub use volume_consistency::VolumeConsistency;
 pub use walls::{ExtrapolatedPressure, NoWalls, RiemannWalls, VelocityBeforeWall};
+pub use yielding_hourglass::YieldingHourglass;
 
 /// The parameters that are negative or not finite.
 fn not_negative(parameters: &[(&'static str, f64)]) -> Vec<(&'static str, f64, &'static str)> {

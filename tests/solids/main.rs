@@ -13,6 +13,7 @@ mod elastic_plastic_waves;
 mod gas;
 mod halved_contact;
 mod held;
+mod hourglass;
 mod integrators;
 mod kernels_on_lattices;
 mod loads;

@@ -1,0 +1,99 @@
+//! Hourglass control that yields with the metal: its stiffness falls to the secant of the stress that is left.
+//! After the idea that a control must not bear what the solid does not (Ganzenmüller 2015); the measure is of this crate.
+
+use super::hourglass_control::STIFFNESS;
+use super::{Chunk, Effect, Law, Plasticity, Setting, StepProgram, Tally};
+use crate::error::Problem;
+use crate::material::strength::{PlasticState, ROOM_TEMPERATURE};
+use crate::particles::{Field, Fields};
+use crate::scalar::Real;
+use crate::term::{Stage, TermDoc};
+
+/// Cuts the stiffness of [`HourglassControl`](super::HourglassControl) where a [`FiniteStrainPlasticity`](super::FiniteStrainPlasticity) solid has flowed,
+///
+/// E ← E Y/(Y + 3 G ε)
+///
+/// with the plastic strain ε, the yield stress Y there at rest, and the shear modulus G: the secant of the stress that is borne over
+/// that of the same strain without flow. A control of full stiffness is an elastic spring of the body as built, and resists
+/// folds that are meant to stay. What its springs hold when they are cut is not told apart from what they have worked: the
+/// ledger's `hourglass energy` stays the work of the control, and total energy is kept as before. Put it behind the plasticity in the
+/// list.
+///
+/// ```
+/// use meshfree::effect::{FiniteStrainPlasticity, YieldingHourglass};
+/// use meshfree::prelude::*;
+///
+/// let scheme = schemes::total_lagrangian_impact().with(FiniteStrainPlasticity).with(YieldingHourglass);
+/// let bar = Body::block("bar", catalogue::ofhc_copper(), [0.0; 2], [0.01, 0.004], 5e-4).velocity([-100.0, 0.0]);
+/// let mut bar = Scene::<f64, 2>::new(scheme)
+///     .body(bar)
+///     .boundary(MirrorPlane::symmetry([0.0; 2], [-1.0, 0.0]))
+///     .build()?;
+/// bar.run_until(2e-6)?;
+/// # Ok::<(), Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default)]
+pub struct YieldingHourglass;
+
+const STRAIN: Field = Plasticity::STRAIN;
+const WORK: Field = Plasticity::WORK;
+
+impl<const D: usize> Effect<D> for YieldingHourglass {
+    type Terms = ();
+    fn terms(&self, _setting: &Setting) {}
+    fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
+        program.law(Stage::State, *self);
+        program.document(TermDoc {
+            name: "yielding hourglass control".into(),
+            equation: "E ← E Y/(Y + 3 G ε)",
+            source: "of this crate, after Ganzenmüller 2015",
+        });
+        program.require(|scene| {
+            let both = scene.written.contains(STRAIN)
+                && scene.written.contains(super::TotalLagrangian::PIOLA);
+            (!both).then(|| Problem::Incompatible {
+                what: "YieldingHourglass cuts a control by plastic strain, which nothing in the scheme makes".into(),
+                remedy: "put it behind FiniteStrainPlasticity, or leave it out",
+            })
+        });
+    }
+}
+
+impl<T: Real, const D: usize> Law<T, D> for YieldingHourglass {
+    fn name(&self) -> &'static str {
+        "yielding of the hourglass control"
+    }
+    fn reads(&self) -> Fields {
+        Fields::of(&[STRAIN, WORK, Field::PRESSURE, Field::DENSITY])
+    }
+    fn writes(&self) -> Fields {
+        Fields::of(&[STIFFNESS])
+    }
+    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
+        let material = chunk.around.material;
+        let (Some(law), Some(shear)) = (material.strength(), material.shear_modulus) else {
+            return Tally::default();
+        };
+        let (heating, rest) = (material.plastic_heating(), material.reference_density());
+        let modulus = material.youngs_modulus().unwrap_or(0.0);
+        let [stiffness, strain, work, pressure, density] =
+            chunk.columns([STIFFNESS, STRAIN, WORK, Field::PRESSURE, Field::DENSITY]);
+        for (n, stiffness) in stiffness.iter_mut().enumerate() {
+            let flowed = strain[n].to_f64();
+            if flowed <= 0.0 {
+                continue;
+            }
+            let worked = work[n].to_f64();
+            let yields = law.yield_stress(&PlasticState {
+                strain: flowed,
+                rate: 0.0,
+                temperature: heating.map_or(ROOM_TEMPERATURE, |own| own.temperature(worked)),
+                pressure: pressure[n].to_f64(),
+                density_ratio: density[n].to_f64() / rest,
+            });
+            let left = yields / (3.0 * shear).mul_add(flowed, yields);
+            *stiffness = T::from_f64(modulus * left);
+        }
+        Tally::default()
+    }
+}
