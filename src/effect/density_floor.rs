@@ -28,12 +28,12 @@ use crate::term::{Stage, TermDoc};
 /// let scheme = schemes::impact_by_continuity()
 ///     .with(Hypoelastic)
 ///     .with(Damage)
-///     .with(DensityFloor::default());
+///     .with(DensityFloor { share: 0.6 });
 /// let mut bar = Scene::<f64, 1>::new(scheme)
 ///     .body(Body::block("bar", copper, [-0.01], [0.01], 1e-3).start(apart))
 ///     .build()?;
 /// bar.run_until(2e-5)?;
-/// assert!(bar.all().all(|particle| particle.density() >= 893.0));
+/// assert!(bar.all().all(|particle| particle.density() >= 0.599 * 8930.0));
 /// assert!(bar.limited("density floor") > 0);
 /// # Ok::<(), Error>(())
 /// ```
