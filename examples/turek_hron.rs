@@ -435,7 +435,11 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
     let forces = Panel::new(Axis::linear("time", "s"), Axis::linear("drag", "N/m"))
         .series(Series::line("meshfree", drag[1..].to_vec()))
         .series(Series::line("mean of Turek & Hron 2006", level(case.drag)).reference());
-    let mut figure = Figure::new().columns(2).panel(heights).panel(forces);
+    let mut figure = Figure::new()
+        .columns(2)
+        .shared_legend()
+        .panel(heights)
+        .panel(forces);
     if let Some((_, panel)) = highest {
         figure = figure.panel(panel);
     }
