@@ -4,31 +4,32 @@
 use core::any::Any;
 
 /// Whether this crate holds the functions of a scalar and a dimension.
-pub(crate) const fn is_held<T, const D: usize>() -> bool {
+pub(crate) const fn is_compiled_here<T, const D: usize>() -> bool {
     // Of the two scalars, the other has half the size.
     size_of::<T>() == size_of::<f64>() && D >= 1 && D <= 3
 }
 
 /// The table of one's own type, of those that this crate holds.
-pub(crate) fn own<V: 'static>(held: [&'static (dyn Any + Sync); 3]) -> Option<&'static V> {
-    held.into_iter()
+pub(crate) fn own<V: 'static>(tables: [&'static (dyn Any + Sync); 3]) -> Option<&'static V> {
+    tables
+        .into_iter()
         .find_map(|table| (table as &dyn Any).downcast_ref())
 }
 
 /// Gives a table of functions of a scalar `T` and a dimension `D`, each a `const OWN` of its type, a way to itself that
-/// compiles none of them outside of this crate where this crate holds it.
-macro_rules! held_once {
+/// compiles none of them in a program for which this crate has compiled them.
+macro_rules! compiled_once {
     ($Table:ident) => {
         impl<T: crate::scalar::Real, const D: usize> $Table<T, D> {
             /// The functions for one's own scalar and dimension.
             pub(crate) fn get() -> &'static Self {
-                static HELD: [&(dyn core::any::Any + Sync); 3] = [
+                static TABLES: [&(dyn core::any::Any + Sync); 3] = [
                     const { &$Table::<f64, 1>::OWN },
                     const { &$Table::<f64, 2>::OWN },
                     const { &$Table::<f64, 3>::OWN },
                 ];
-                if const { crate::once::is_held::<T, D>() } {
-                    crate::once::own(HELD).expect("tables of all dimensions are held")
+                if const { crate::once::is_compiled_here::<T, D>() } {
+                    crate::once::own(TABLES).expect("there is a table for each dimension")
                 } else {
                     const { &Self::OWN }
                 }
@@ -37,4 +38,4 @@ macro_rules! held_once {
     };
 }
 
-pub(crate) use held_once;
+pub(crate) use compiled_once;

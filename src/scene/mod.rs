@@ -58,12 +58,12 @@
 
 mod body;
 mod check;
+mod compiled;
 mod conversion;
 mod coupled;
 #[cfg(feature = "checkpoint")]
 mod fingerprint;
 mod held;
-mod held_once;
 mod plan;
 
 pub use body::{Body, Start};
@@ -82,8 +82,8 @@ use crate::scalar::Real;
 use crate::scheme::Scheme;
 use crate::simulation::{Load, Simulation, StepControl, UniformLoad};
 use crate::sweep::{InstructionSet, Interaction};
+use compiled::Building;
 use held::ClampOf;
-use held_once::Building;
 use plan::Plan;
 #[cfg(feature = "checkpoint")]
 use std::path::Path;

@@ -2,7 +2,7 @@
 //! Two looks at the clock for each sweep and for each law of a chunk.
 
 use super::Simulation;
-use super::held_once::Driver;
+use super::compiled::Driver;
 use crate::effect::MOST_LAWS;
 use crate::scalar::Real;
 use crate::term::Stage;

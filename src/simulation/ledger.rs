@@ -2,8 +2,8 @@
 //! Sums run in the order of the particles, in `f64` whatever the scalar.
 
 use super::Simulation;
+use super::compiled::Driver;
 use super::group::Group;
-use super::held_once::Driver;
 use super::population::BodyState;
 use super::which::{Which, find};
 use crate::error::Result;

@@ -117,6 +117,7 @@ mod advance;
 mod approach;
 #[cfg(feature = "checkpoint")]
 mod checkpoint;
+mod compiled;
 mod contact;
 mod control;
 mod cost;
@@ -127,7 +128,6 @@ mod evolve;
 mod fields;
 mod group;
 mod held;
-mod held_once;
 mod images;
 mod ledger;
 mod limits;
@@ -183,8 +183,8 @@ use crate::integrator::Integrator;
 #[cfg(feature = "checkpoint")]
 use crate::output::checkpoint::Hashes;
 use crate::scalar::Real;
+use compiled::Driver;
 use group::Aside;
-use held_once::Driver;
 use ledger::Impulses;
 use std::sync::Arc;
 

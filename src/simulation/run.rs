@@ -2,8 +2,8 @@
 //! A step that fails is the last one.
 
 use super::Simulation;
+use super::compiled::Driver;
 use super::control::{self, Criterion, Vote};
-use super::held_once::Driver;
 use crate::error::{Error, Problem, Result};
 use crate::scalar::Real;
 

@@ -1,7 +1,7 @@
 //! Particles as they are now, for files: positions and whatever the scene carries as its state.
 //! Fields that effects declare are there under their names.
 
-use super::held_once::Driver;
+use super::compiled::Driver;
 use super::{ParticleView, ParticleViews, Simulation};
 use crate::output::vtu::Vtu;
 use crate::particles::Field;

@@ -10,8 +10,8 @@ mod held;
 mod particles;
 mod workspace;
 
+use super::compiled::Driver;
 use super::energy::Work;
-use super::held_once::Driver;
 use super::ledger::Impulses;
 use super::{Criterion, Simulation, Vote, width};
 use crate::error::{CheckpointProblem, Error, Result};

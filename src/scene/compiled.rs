@@ -3,7 +3,7 @@
 
 use super::Scene;
 use crate::error::Result;
-use crate::once::held_once;
+use crate::once::compiled_once;
 use crate::scalar::Real;
 use crate::simulation::Simulation;
 #[cfg(feature = "checkpoint")]
@@ -24,4 +24,4 @@ impl<T: Real, const D: usize> Building<T, D> {
     };
 }
 
-held_once!(Building);
+compiled_once!(Building);

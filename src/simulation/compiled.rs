@@ -3,7 +3,7 @@
 
 use super::{Cost, Ledger, Simulation};
 use crate::error::Result;
-use crate::once::held_once;
+use crate::once::compiled_once;
 use crate::output::vtu::Vtu;
 use crate::scalar::Real;
 #[cfg(feature = "checkpoint")]
@@ -32,4 +32,4 @@ impl<T: Real, const D: usize> Driver<T, D> {
     };
 }
 
-held_once!(Driver);
+compiled_once!(Driver);
