@@ -188,7 +188,6 @@ pub mod kernel;
 pub mod material;
 pub mod neighbors;
 pub mod observe;
-mod once;
 pub mod output;
 mod parallel;
 pub mod particles;

@@ -58,7 +58,6 @@
 
 mod body;
 mod check;
-mod compiled;
 mod conversion;
 mod coupled;
 #[cfg(feature = "checkpoint")]
@@ -82,7 +81,6 @@ use crate::scalar::Real;
 use crate::scheme::Scheme;
 use crate::simulation::{Load, Simulation, StepControl, UniformLoad};
 use crate::sweep::{InstructionSet, Interaction};
-use compiled::Building;
 use held::ClampOf;
 use plan::Plan;
 #[cfg(feature = "checkpoint")]
@@ -408,10 +406,6 @@ impl<T: Real, const D: usize> Scene<T, D> {
     /// # Errors
     /// [`Error::Build`] with every problem that was found.
     pub fn build(self) -> Result<Simulation<T, D>> {
-        (Building::get().build)(self)
-    }
-
-    fn start(self) -> Result<Simulation<T, D>> {
         let fixed = self.control.fixed;
         let mut simulation = self.lay_out()?;
         simulation.hold_velocities();
@@ -445,11 +439,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
     /// [`Error::Build`] as [`build`](Self::build).
     #[cfg(feature = "checkpoint")]
     pub fn resume(self, path: impl AsRef<Path>) -> Result<Simulation<T, D>> {
-        (Building::get().resume)(self, path.as_ref())
-    }
-
-    #[cfg(feature = "checkpoint")]
-    fn go_on(self, path: &Path) -> Result<Simulation<T, D>> {
+        let path = path.as_ref();
         let file = Checkpoint::read(path)?;
         self.lay_out()?.resumed(path, &file)
     }

@@ -2,7 +2,6 @@
 //! Two looks at the clock for each sweep and for each law of a chunk.
 
 use super::Simulation;
-use super::compiled::Driver;
 use crate::effect::MOST_LAWS;
 use crate::scalar::Real;
 use crate::term::Stage;
@@ -82,10 +81,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// ```
     #[must_use]
     pub fn cost(&self) -> Cost {
-        (Driver::get().cost)(self)
-    }
-
-    pub(super) fn cost_by_effect(&self) -> Cost {
         let phases = self.phases();
         let total = phases.total().as_secs_f64().max(f64::MIN_POSITIVE);
         let mut lines = Vec::new();

@@ -2,7 +2,6 @@
 //! Sums run in the order of the particles, in `f64` whatever the scalar.
 
 use super::Simulation;
-use super::compiled::Driver;
 use super::group::Group;
 use super::population::BodyState;
 use super::which::{Which, find};
@@ -206,10 +205,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Mass, momentum and energy now, body by body and together.
     #[must_use]
     pub fn ledger(&self) -> Ledger {
-        (Driver::get().ledger)(self)
-    }
-
-    pub(super) fn balance(&self) -> Ledger {
         let mut bodies: Vec<_> = self
             .all_bodies()
             .map(|(group, body)| (body.name.clone(), Self::budget(group, body)))

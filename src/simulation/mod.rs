@@ -117,7 +117,6 @@ mod advance;
 mod approach;
 #[cfg(feature = "checkpoint")]
 mod checkpoint;
-mod compiled;
 mod contact;
 mod control;
 mod cost;
@@ -183,7 +182,6 @@ use crate::integrator::Integrator;
 #[cfg(feature = "checkpoint")]
 use crate::output::checkpoint::Hashes;
 use crate::scalar::Real;
-use compiled::Driver;
 use group::Aside;
 use ledger::Impulses;
 use std::sync::Arc;
@@ -360,10 +358,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Between steps it changes nothing of what comes: the next step starts from the rates that the step before has
     /// left, which belong to predicted velocities (where the evaluation had to build neighbour lists, from its own).
     pub fn evaluate(&mut self) -> Result<()> {
-        (Driver::get().evaluate)(self)
-    }
-
-    fn evaluate_rates(&mut self) -> Result<()> {
         self.check_failure()?;
         if self.rates_at_hand && self.aside.is_none() {
             let groups = self.groups.iter().map(Group::set_aside).collect();

@@ -2,7 +2,6 @@
 //! A step that fails is the last one.
 
 use super::Simulation;
-use super::compiled::Driver;
 use super::control::{self, Criterion, Vote};
 use crate::error::{Error, Problem, Result};
 use crate::scalar::Real;
@@ -21,10 +20,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// # Errors
     /// As [`run_until`](Simulation::run_until), and [`Error::Argument`] if the limit is not positive.
     pub fn step_at_most(&mut self, limit: f64) -> Result<f64> {
-        (Driver::get().step)(self, limit)
-    }
-
-    pub(super) fn advance(&mut self, limit: f64) -> Result<f64> {
         self.check_failure()?;
         if limit.is_nan() || limit <= 0.0 {
             return Err(Error::Argument(Problem::Parameter {

@@ -1,7 +1,6 @@
 //! Particles as they are now, for files: positions and whatever the scene carries as its state.
 //! Fields that effects declare are there under their names.
 
-use super::compiled::Driver;
 use super::{ParticleView, ParticleViews, Simulation};
 use crate::output::vtu::Vtu;
 use crate::particles::Field;
@@ -24,10 +23,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// ```
     #[must_use]
     pub fn vtu(&self) -> Vtu {
-        (Driver::get().vtu)(self)
-    }
-
-    pub(super) fn as_vtu(&self) -> Vtu {
         let bodies = self.all_bodies().map(ParticleViews::of_body).enumerate();
         let owners = bodies.flat_map(|(k, own)| own.map(move |_| k as i32));
         let mut vtu = Vtu::new(self.all().map(|particle| particle.position()))

@@ -10,7 +10,6 @@ mod held;
 mod particles;
 mod workspace;
 
-use super::compiled::Driver;
 use super::energy::Work;
 use super::ledger::Impulses;
 use super::{Criterion, Simulation, Vote, width};
@@ -36,12 +35,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// [`Error::File`] if the file cannot be written, and [`Error::Failed`] after a step that has failed: its state is
     /// none to go on from.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
-        (Driver::get().save)(self, path.as_ref())
-    }
-
-    pub(in crate::simulation) fn write(&self, path: &Path) -> Result<()> {
         self.check_failure()?;
-        self.put().write(path)
+        self.put().write(path.as_ref())
     }
 
     /// The same, as of a scene.
