@@ -63,9 +63,10 @@ impl Default for ArtificialPressure {
 /// The force of the artificial pressure.
 #[derive(Clone, Copy, Debug)]
 pub struct TensionRepulsion {
-    of: ArtificialPressure,
+    /// Share and exponent.
+    pub of: ArtificialPressure,
     /// One over hᴰ W of the spacing.
-    over_kernel_at_spacing: f64,
+    pub over_kernel_at_spacing: f64,
 }
 
 impl<const D: usize> Effect<D> for ArtificialPressure {

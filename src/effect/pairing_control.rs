@@ -44,7 +44,7 @@ const LONGEST: f64 = 0.1;
 #[derive(Clone, Copy, Debug)]
 pub struct NearPairs {
     /// One over hᴰ W of the spacing.
-    over_kernel_at_spacing: f64,
+    pub over_kernel_at_spacing: f64,
 }
 
 impl<const D: usize> Effect<D> for PairingControl {

@@ -247,6 +247,11 @@ macro_rules! for_each_term {
             $crate::effect::VelocityBeforeWall,
             $crate::effect::Hypoelastic,
             $crate::effect::Repulsion { exponent: 4, over_kernel_at_spacing: 1.0 },
+            $crate::effect::TensionRepulsion {
+                of: $crate::effect::ArtificialPressure { share: 0.3, exponent: 4 },
+                over_kernel_at_spacing: 1.0
+            },
+            $crate::effect::NearPairs { over_kernel_at_spacing: 20.0 },
             $crate::effect::HourglassFree::default(),
             $crate::effect::VelocityMismatch,
             $crate::effect::ReferenceMoment,
