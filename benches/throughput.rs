@@ -509,19 +509,27 @@ fn composed_against_fused(side: usize, turns: usize) {
             }
         },
     );
-    // Both make the same sums, or the comparison says nothing.
+    assert_same(slots, &rows, &out, |slot, d| {
+        (slot / 8 * 4 + d) * 8 + slot % 8
+    });
+    print!("\ncomposed against written out, {slots} particles, ");
+    print_ratio(&ratios);
+}
+
+/// Both loops make the same forces, or their comparison says nothing; `place` is where the one written out has them.
+fn assert_same(
+    slots: usize,
+    rows: &Results<f64, 3>,
+    out: &[f64],
+    place: impl Fn(usize, usize) -> usize,
+) {
     let largest = out.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     for slot in 0..slots {
         for d in 0..3 {
-            let (a, b) = (
-                rows.get(Output::FORCE, d, slot),
-                out[(slot / 8 * 4 + d) * 8 + slot % 8],
-            );
+            let (a, b) = (rows.get(Output::FORCE, d, slot), out[place(slot, d)]);
             assert!((a - b).abs() < 1e-9 * largest, "slot {slot}: {a} and {b}");
         }
     }
-    print!("\ncomposed against written out, {slots} particles, ");
-    print_ratio(&ratios);
 }
 
 /// Pressure and an artificial viscosity under a kernel, in one loop.

@@ -1,12 +1,12 @@
 //! Solids beside the liquid: what a step of each scheme costs a particle and a neighbour, and how many bytes.
 //! The total-Lagrangian force, composed, against one that is written out by hand.
 
-use super::{H, Lattice, Row, print_ratio, ratios};
+use super::{H, Lattice, Row, assert_same, print_ratio, ratios};
 use meshfree::effect::{FiniteStrainPlasticity, Hypoelastic, NeoHookean, Plasticity, StressForce};
 use meshfree::kernel::{Kernel, WendlandC2};
 use meshfree::material::catalogue;
 use meshfree::neighbors::{CHUNK, Cells, ClusterLists};
-use meshfree::particles::{Field, Fields, Output};
+use meshfree::particles::{Field, Fields};
 use meshfree::prelude::*;
 use meshfree::scalar::{Lane, Mask};
 use meshfree::scene::Start;
@@ -264,16 +264,9 @@ pub fn composed_against_fused(side: usize, turns: usize) {
             }
         },
     );
-    let largest = out.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-    for slot in 0..slots {
-        for d in 0..3 {
-            let (a, b) = (
-                rows.get(Output::FORCE, d, slot),
-                out[slot / 8 * 24 + d * 8 + slot % 8],
-            );
-            assert!((a - b).abs() < 1e-9 * largest, "slot {slot}: {a} and {b}");
-        }
-    }
+    assert_same(slots, &rows, &out, |slot, d| {
+        slot / 8 * 24 + d * 8 + slot % 8
+    });
     print!("\ntotal-Lagrangian force, composed against written out, {slots} particles, ");
     print_ratio(&ratios);
 }

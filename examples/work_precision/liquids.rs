@@ -1,7 +1,7 @@
 //! Water under gravity in a tank, in two dimensions: at rest, and in a standing wave.
 //! Both have exact answers: the hydrostatic pressure, and the period of theory at finite amplitude.
 
-use crate::problem::{Problem, Text, method, sweep};
+use crate::problem::{Problem, Text, liquid, sweep};
 use meshfree::boundary::Wall;
 use meshfree::material::{Material, SoundSpeed, catalogue};
 use meshfree::prelude::*;
@@ -35,19 +35,12 @@ const PERIOD: &str = "period";
 const CREST: &str = "lost height of the crest in one period";
 
 fn methods() -> Vec<Method> {
-    let own = |name: &str, ratio: f64, alpha: f64, delta: f64| {
-        method(
-            name,
-            &[],
-            &[("h/dx", ratio), ("alpha", alpha), ("delta", delta)],
-        )
-    };
     vec![
-        own("h/dx 1.5, α 0.02, δ 0.1 (default)", 1.5, 0.02, 0.1),
-        own("h/dx 1.3, α 0.02, δ 0.1", 1.3, 0.02, 0.1),
-        own("h/dx 2.0, α 0.02, δ 0.1", 2.0, 0.02, 0.1),
-        own("h/dx 2.0, α 0.005, δ 0.1", 2.0, 0.005, 0.1),
-        own("h/dx 2.0, α 0.02, δ 0.02", 2.0, 0.02, 0.02),
+        liquid("h/dx 1.5, α 0.02, δ 0.1 (default)", 1.5, 0.02, 0.1),
+        liquid("h/dx 1.3, α 0.02, δ 0.1", 1.3, 0.02, 0.1),
+        liquid("h/dx 2.0, α 0.02, δ 0.1", 2.0, 0.02, 0.1),
+        liquid("h/dx 2.0, α 0.005, δ 0.1", 2.0, 0.005, 0.1),
+        liquid("h/dx 2.0, α 0.02, δ 0.02", 2.0, 0.02, 0.02),
     ]
 }
 

@@ -38,6 +38,12 @@ pub fn method(name: &str, texts: &[(&str, &str)], numbers: &[(&str, f64)]) -> Me
     }
 }
 
+/// A weakly compressible liquid: h/dx, artificial viscosity and density diffusion.
+pub fn liquid(name: &str, ratio: f64, alpha: f64, delta: f64) -> Method {
+    let numbers = [("h/dx", ratio), ("alpha", alpha), ("delta", delta)];
+    method(name, &[], &numbers)
+}
+
 /// A study of these methods on so many particles a metre; of a quick one the three coarsest.
 pub fn sweep(
     text: Text,

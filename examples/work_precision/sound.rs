@@ -1,7 +1,7 @@
 //! A standing sound wave in a weakly compressible liquid, in one and in two dimensions.
 //! After one period it should be what it was.
 
-use crate::problem::{Problem, Text, method, sweep};
+use crate::problem::{Problem, Text, liquid, sweep};
 use meshfree::material::{Liquid, SoundSpeed};
 use meshfree::prelude::*;
 use meshfree::scene::Start;
@@ -30,23 +30,16 @@ const SOUND: f64 = 10.0;
 const QUANTITY: &str = "velocity of a sound wave";
 
 fn methods() -> Vec<Method> {
-    let own = |name: &str, ratio: f64, alpha: f64, delta: f64| {
-        method(
-            name,
-            &[],
-            &[("h/dx", ratio), ("alpha", alpha), ("delta", delta)],
-        )
-    };
     vec![
-        own("h/dx 1.5, α 0.02, δ 0.1 (default)", 1.5, 0.02, 0.1),
-        own("h/dx 2.0, α 0.02, δ 0.1", 2.0, 0.02, 0.1),
-        own("h/dx 1.2, α 0.02, δ 0.1", 1.2, 0.02, 0.1),
-        own("h/dx 1.5, α 0, δ 0.1", 1.5, 0.0, 0.1),
-        own("h/dx 1.5, α 0.02, δ 0", 1.5, 0.02, 0.0),
+        liquid("h/dx 1.5, α 0.02, δ 0.1 (default)", 1.5, 0.02, 0.1),
+        liquid("h/dx 2.0, α 0.02, δ 0.1", 2.0, 0.02, 0.1),
+        liquid("h/dx 1.2, α 0.02, δ 0.1", 1.2, 0.02, 0.1),
+        liquid("h/dx 1.5, α 0, δ 0.1", 1.5, 0.0, 0.1),
+        liquid("h/dx 1.5, α 0.02, δ 0", 1.5, 0.02, 0.0),
         // By its name: its diffusion is another term.
-        own("h/dx 1.5, α 0.02, Antuono δ 0.1", 1.5, 0.02, 0.1),
-        own("h/dx 1.5, α 0, δ 0", 1.5, 0.0, 0.0),
-        own("h/dx 2.0, α 0, δ 0", 2.0, 0.0, 0.0),
+        liquid("h/dx 1.5, α 0.02, Antuono δ 0.1", 1.5, 0.02, 0.1),
+        liquid("h/dx 1.5, α 0, δ 0", 1.5, 0.0, 0.0),
+        liquid("h/dx 2.0, α 0, δ 0", 2.0, 0.0, 0.0),
     ]
 }
 

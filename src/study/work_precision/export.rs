@@ -178,7 +178,7 @@ impl fmt::Display for Report {
 }
 
 impl Report {
-    /// Writes all rows as comma-separated values: one column a quantity, empty where a run has no error.
+    /// Writes all rows as comma-separated values: one column a quantity, empty where a run has no error or no time.
     ///
     /// # Errors
     /// When the file cannot be written.
@@ -210,10 +210,11 @@ impl Report {
                 row.method.as_str().into(),
                 row.spacing.into(),
                 status.as_str().into(),
-                row.seconds.into(),
-                row.spread[0].into(),
-                row.spread[1].into(),
             ];
+            // A run that ended early has no time.
+            let times = [row.seconds, row.spread[0], row.spread[1]];
+            let known = |time: f64| time.is_finite().then(|| Cell::from(time));
+            cells.extend(times.map(|time| known(time).unwrap_or(Cell::from(""))));
             cells.extend(counts(row).map(|count| Cell::from(count as f64)));
             cells.extend(row.errors.iter().map(|error| match error {
                 Ok(error) => Cell::from(*error),

@@ -145,6 +145,8 @@ fn nothing_is_dropped() {
     );
     let path = std::env::temp_dir().join(format!("meshfree-study-{}.csv", std::process::id()));
     report.csv(&path).unwrap();
+    let written = std::fs::read_to_string(&path).unwrap();
+    assert!(!written.contains("NaN"), "{written}");
     let table = crate::output::csv::Csv::read(&path).unwrap();
     assert_eq!(table.column("steps").unwrap().len(), 12);
     std::fs::remove_file(path).unwrap();
