@@ -3,7 +3,7 @@
 //!
 //! With logarithms yᵢ of n measured values, the best floor F ≥ 0, factor C > 0 and order p in \[0.1, 6\] make
 //! S = Σ (yᵢ − ln(F + C xᵢᵖ))² least. A parameter, or a prediction, lies within 90 % in the range that it takes over all
-//! laws with S ≤ S₀ + t² s² (profile likelihood), where S₀ is the least sum, ν = n − 3 + 2, t Student's quantile for ν
+//! laws with S ≤ S₀ + t² s² (profile likelihood; Venzon & Moolgavkar 1988), where S₀ is the least sum, ν = n − 3 + 2, t Student's quantile for ν
 //! degrees of freedom, and
 //!
 //! ```text

@@ -99,6 +99,7 @@ impl History {
     }
 
     /// Values at these times \[s\], linear between samples and constant beyond them: two runs compare at the same times.
+    /// Without samples no number, which a quantity takes as an error.
     #[must_use]
     pub fn at(&self, times: &[f64]) -> Vec<f64> {
         let one = |time: f64| {
