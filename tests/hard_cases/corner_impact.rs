@@ -30,14 +30,15 @@ fn strike(cures: Cures) -> [f64; 2] {
         ..Thresholds::default()
     });
     let (mut most, mut deep) = (0.0_f64, 0.0_f64);
-    let end = scene.run_with(0.1, |now| {
+    let ended = scene.run_with(0.1, |now| {
         for p in now.all() {
             let [x, y] = p.position();
             most = most.max(p.pressure());
             deep = deep.max(-x).max(-y);
         }
     });
-    println!("{end:?}\n{}", scene.stability());
+    assert!(ended.is_ok(), "{ended:?}");
+    println!("{}", scene.stability());
     [most / (1000.0 * SOUND * SPEED), deep / spacing]
 }
 
