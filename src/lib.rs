@@ -179,6 +179,7 @@
 #![warn(missing_docs)]
 
 pub mod boundary;
+mod clock;
 pub mod coupling;
 pub mod effect;
 pub mod error;

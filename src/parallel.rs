@@ -1,5 +1,6 @@
 //! Work shared out over threads: what shares it out is compiled once, and not once for each loop.
-//! A loop is one indirect call a piece, so pieces are of some thousand numbers.
+//! A loop is one indirect call a piece, so pieces are of some thousand numbers. The one file that knows the pool:
+//! without the feature `parallel` the same pieces are done one after another, to the same bits.
 
 use std::marker::PhantomData;
 use std::ops::Range;
@@ -135,8 +136,65 @@ pub(crate) fn collect<V: Send>(count: usize, of: impl Fn(usize) -> V + Sync) -> 
 
 /// Sorts numbers from `first` on by their keys; those of one key keep their order.
 pub(crate) fn sort_by_key(numbers: &mut [u32], first: usize, keys: &[u64]) {
-    use rayon::slice::ParallelSliceMut;
-    numbers.par_sort_by_key(|&number| keys[number as usize - first]);
+    let key = |&number: &u32| keys[number as usize - first];
+    #[cfg(feature = "parallel")]
+    rayon::slice::ParallelSliceMut::par_sort_by_key(numbers, key);
+    #[cfg(not(feature = "parallel"))]
+    numbers.sort_by_key(key);
+}
+
+/// Does both, at once if a thread is free.
+pub(crate) fn join<A: Send, B: Send>(
+    a: impl FnOnce() -> A + Send,
+    b: impl FnOnce() -> B + Send,
+) -> (A, B) {
+    #[cfg(feature = "parallel")]
+    return rayon::join(a, b);
+    #[cfg(not(feature = "parallel"))]
+    (a(), b())
+}
+
+/// Does `work` inside the pool, so that its many short loops start without waking a thread for each.
+pub(crate) fn inside<V: Send>(work: impl FnOnce() -> V + Send) -> V {
+    #[cfg(feature = "parallel")]
+    return rayon::scope(|_| work());
+    #[cfg(not(feature = "parallel"))]
+    work()
+}
+
+/// How many threads there are.
+pub(crate) fn threads() -> usize {
+    #[cfg(feature = "parallel")]
+    return rayon::current_num_threads();
+    #[cfg(not(feature = "parallel"))]
+    1
+}
+
+/// Threads of their own, where there are any.
+pub(crate) struct Pool(#[cfg(feature = "parallel")] rayon::ThreadPool);
+
+impl Pool {
+    /// A pool of so many threads, or why there is none.
+    pub(crate) fn new(threads: usize) -> Result<Self, String> {
+        #[cfg(feature = "parallel")]
+        return match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
+            Ok(pool) => Ok(Self(pool)),
+            Err(why) => Err(why.to_string()),
+        };
+        #[cfg(not(feature = "parallel"))]
+        match threads {
+            1 => Ok(Self()),
+            _ => Err("more than one thread needs the feature `parallel`".into()),
+        }
+    }
+
+    /// Does `work` in this pool.
+    pub(crate) fn install<V: Send>(&self, work: impl FnOnce() -> V + Send) -> V {
+        #[cfg(feature = "parallel")]
+        return self.0.install(work);
+        #[cfg(not(feature = "parallel"))]
+        work()
+    }
 }
 
 /// Halves of a range of numbers by two threads, until each has one.
@@ -146,7 +204,7 @@ fn share(numbers: Range<usize>, work: &(dyn Fn(usize) + Sync)) {
         1 => work(numbers.start),
         count => {
             let middle = numbers.start + count.div_ceil(2);
-            rayon::join(
+            join(
                 || share(numbers.start..middle, work),
                 || share(middle..numbers.end, work),
             );

@@ -276,6 +276,5 @@ fn picture<T: Real>(
             dx,
             front.filter(|x| x[1] > 0.5 * size[1]),
         );
-    picture.save(folder.join("water.svg"))?;
-    picture.save_png(folder.join("water.png"))
+    crate::common::save_picture(&picture, folder.join("water"))
 }

@@ -20,7 +20,7 @@ mod options;
 mod watch;
 
 pub use options::{Example, Options, Own};
-pub use watch::{Movie, Shade, Summary, evenly, picture, watch};
+pub use watch::{Movie, Shade, Summary, evenly, picture, save_picture, watch};
 
 use std::process::ExitCode;
 
@@ -35,20 +35,10 @@ pub fn main(
     in_f32: fn(&Options) -> Result<(), Failure>,
     in_f64: fn(&Options) -> Result<(), Failure>,
 ) -> ExitCode {
-    let options = match example.parse(std::env::args().skip(1)) {
-        Ok(Some(options)) => options,
-        Ok(None) => {
-            print!("{}", example.help());
-            return ExitCode::SUCCESS;
-        }
-        Err(bad) => {
-            eprintln!("{bad}");
-            return ExitCode::from(2);
-        }
-    };
+    let options = example.parse();
     if let Some(threads) = options.threads
         && let Err(failure) = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
+            .num_threads(threads.into())
             .build_global()
     {
         eprintln!("--threads: {failure}");

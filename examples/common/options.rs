@@ -1,6 +1,8 @@
 //! The command line of an example: what all of them accept, and what one adds.
 //! A bad option names itself, the value it was given, and what it takes.
 
+use clap::builder::PossibleValuesParser;
+use clap::{Arg, ArgAction, Args, Command, FromArgMatches};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -12,7 +14,7 @@ pub struct Example {
     pub own: &'static [Own],
 }
 
-/// An option that one example adds. Without a value it is a switch.
+/// An option that one example adds, or a common one that it reads in a unit of its own. Without a value it is a switch.
 #[derive(Clone, Copy)]
 pub struct Own {
     /// As it is typed, `--reynolds`.
@@ -23,147 +25,103 @@ pub struct Own {
 }
 
 /// The command line.
-#[derive(Clone, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct Options {
-    /// Particle spacing \[m\].
+    /// Distance of particles [m]
+    #[arg(long, value_name = "M", value_parser = positive)]
     pub spacing: Option<f64>,
-    /// Whether in `f32`.
+    /// Scalar of the run: f64 or f32
+    #[arg(long = "precision", value_name = "NAME", value_parser = is_single, action = ArgAction::Set,
+          default_value = "f64")]
     pub single: bool,
-    pub threads: Option<usize>,
+    /// Threads; all cores if not given
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    #[arg(long, value_name = "NAME")]
     pub scheme: String,
-    /// End \[s\].
+    /// End of the run [s]
+    #[arg(long, value_name = "S", value_parser = positive)]
     pub until: Option<f64>,
+    /// Coarse and short, to see that it runs
+    #[arg(long)]
     pub quick: bool,
+    /// Where files go
+    #[arg(long, value_name = "DIR")]
     out: PathBuf,
+    #[arg(skip)]
     own: BTreeMap<String, String>,
 }
-
-const COMMON: &str = "  --spacing M             distance of particles
-  --precision NAME        f64, f32
-  --threads N             all cores
-  --until S               end of the run
-  --out DIR               where files go
-  --quick                 coarse and short, to see that it runs
-  --help
-";
 
 /// An option that cannot be followed.
 pub type BadOption = String;
 
-fn bad(option: &str, value: &str, accepted: &str) -> BadOption {
-    format!("{option}: `{value}` is not accepted; it takes {accepted}")
-}
-
 impl Example {
-    /// What `--help` prints.
-    pub fn help(&self) -> String {
-        let mut own = String::new();
-        for option in self.own {
-            let usage = format!("{} {}", option.name, option.value);
-            own += &format!("  {usage:<22}  {}\n", option.help);
-        }
-        // What an example reads in a unit of its own stands in place of the common option.
-        let common: String = COMMON
-            .split_inclusive('\n')
-            .filter(|line| {
-                let name = line.split_whitespace().next();
-                !self.own.iter().any(|own| Some(own.name) == name)
+    fn command(&self) -> Command {
+        let command = Options::augment_args(Command::new(self.name).about(self.about))
+            .mut_arg("scheme", |arg| {
+                arg.value_parser(PossibleValuesParser::new(self.schemes))
+                    .default_value(self.schemes.first().copied().unwrap_or_default())
             })
-            .collect();
-        format!(
-            "{}\n\n{own}{common}  --scheme NAME           {}\n",
-            self.about,
-            self.schemes.join(", ")
-        )
+            .mut_arg("out", |arg| arg.default_value(format!("out/{}", self.name)));
+        self.own.iter().fold(command, |command, own| {
+            let id = own.name.trim_start_matches('-');
+            let taken = command.get_arguments().any(|arg| arg.get_id() == id);
+            let describe = |arg: Arg| match own.value {
+                "" => arg.action(ArgAction::SetTrue),
+                value => arg
+                    .action(ArgAction::Append)
+                    .value_parser(clap::value_parser!(String))
+                    .value_name(value)
+                    .allow_hyphen_values(true),
+            };
+            if taken {
+                // The same option in a unit of its own: checked alike, read by its text.
+                command.mut_arg(id, |arg| arg.help(own.help).value_name(own.value))
+            } else {
+                command.arg(describe(Arg::new(id).long(id)).help(own.help))
+            }
+        })
     }
 
-    /// Reads arguments without the program's name; `None` if help was asked for.
-    pub fn parse(
-        &self,
-        arguments: impl IntoIterator<Item = String>,
-    ) -> Result<Option<Options>, BadOption> {
-        let mut options = Options {
-            spacing: None,
-            single: false,
-            threads: None,
-            scheme: self.schemes.first().copied().unwrap_or_default().into(),
-            until: None,
-            quick: false,
-            out: Path::new("out").join(self.name),
-            own: BTreeMap::new(),
-        };
-        let mut arguments = arguments.into_iter();
-        while let Some(argument) = arguments.next() {
-            let (name, inline) = match argument.split_once('=') {
-                Some((name, value)) => (name.to_string(), Some(value.to_string())),
-                None => (argument.clone(), None),
-            };
-            let own = self.own.iter().find(|own| own.name == name);
-            let switch = own.is_some_and(|own| own.value.is_empty());
-            if switch || matches!(name.as_str(), "--quick" | "--help" | "-h") {
-                if let Some(value) = inline {
-                    return Err(bad(&name, &value, "no value"));
-                }
-                match name.as_str() {
-                    "--quick" => options.quick = true,
-                    "--help" | "-h" => return Ok(None),
-                    _ => {
-                        options.own.insert(name, String::new());
-                    }
-                }
-                continue;
-            }
-            let known = [
-                "--spacing",
-                "--precision",
-                "--threads",
-                "--scheme",
-                "--until",
-                "--out",
-            ];
-            if own.is_none() && !known.contains(&name.as_str()) {
-                return Err(format!("`{argument}` is not an option\n\n{}", self.help()));
-            }
-            let Some(value) = inline.or_else(|| arguments.next()) else {
-                return Err(format!("{name} needs a value: see --help"));
-            };
-            match name.as_str() {
-                "--spacing" if own.is_none() => options.spacing = Some(positive(&name, &value)?),
-                "--until" => options.until = Some(positive(&name, &value)?),
-                "--precision" => {
-                    options.single = match value.as_str() {
-                        "f32" => true,
-                        "f64" => false,
-                        _ => return Err(bad(&name, &value, "f64 or f32")),
-                    }
-                }
-                "--threads" => {
-                    let count = value.parse().ok().filter(|n| (1..=1024).contains(n));
-                    let accepted = "a whole number, 1 to 1024";
-                    options.threads = Some(count.ok_or_else(|| bad(&name, &value, accepted))?);
-                }
-                "--scheme" if self.schemes.contains(&value.as_str()) => options.scheme = value,
-                "--scheme" => return Err(bad(&name, &value, &self.schemes.join(", "))),
-                "--out" => options.out = PathBuf::from(value),
+    /// Reads the program's arguments. Help, and a line that cannot be followed, end the program with status 0 and 2.
+    pub fn parse(&self) -> Options {
+        let matches = self.command().get_matches();
+        let mut options = Options::from_arg_matches(&matches).unwrap_or_else(|bad| bad.exit());
+        for own in self.own {
+            let id = own.name.trim_start_matches('-');
+            let given = if own.value.is_empty() {
+                matches.get_flag(id).then(String::new)
+            } else {
                 // What is given several times is a list, with spaces between.
-                _ => {
-                    let all = options.own.entry(name).or_default();
-                    if !all.is_empty() {
-                        all.push(' ');
-                    }
-                    all.push_str(&value);
-                }
+                matches.get_raw(id).map(|all| {
+                    let all: Vec<_> = all.map(|text| text.to_string_lossy()).collect();
+                    all.join(" ")
+                })
+            };
+            options
+                .own
+                .extend(given.map(|text| (own.name.into(), text)));
+            if id == "spacing" {
+                options.spacing = None;
             }
         }
-        Ok(Some(options))
+        options
     }
 }
 
-fn positive(option: &str, value: &str) -> Result<f64, BadOption> {
+fn positive(value: &str) -> Result<f64, &'static str> {
     let number = value.trim().parse().ok();
     number
         .filter(|x: &f64| x.is_finite() && *x > 0.0)
-        .ok_or_else(|| bad(option, value, "a number above 0, in SI units"))
+        .ok_or("it takes a number above 0")
+}
+
+fn is_single(value: &str) -> Result<bool, &'static str> {
+    match value {
+        "f32" => Ok(true),
+        "f64" => Ok(false),
+        _ => Err("it takes f64 or f32"),
+    }
 }
 
 impl Options {
@@ -197,7 +155,8 @@ impl Options {
     }
     /// The number of an option of the example's own, above 0; `default` if it was not given.
     pub fn number(&self, name: &str, default: f64) -> Result<f64, BadOption> {
-        self.text(name)
-            .map_or(Ok(default), |value| positive(name, value))
+        self.text(name).map_or(Ok(default), |value| {
+            positive(value).map_err(|takes| format!("{name}: `{value}` is not accepted; {takes}"))
+        })
     }
 }

@@ -3,6 +3,7 @@
 
 use super::Failure;
 use meshfree::error::Error;
+use meshfree::output::picture::Picture;
 use meshfree::output::progress::Progress;
 use meshfree::output::svg::{Axis, Cloud, Panel};
 use meshfree::output::vtu::{Pvd, Vtu};
@@ -97,6 +98,23 @@ impl Movie {
             )
             .time(simulation.time());
         self.0.frame(simulation.time(), &vtu).map(|_| ())
+    }
+}
+
+/// Writes a picture as `.svg`, with title and bar, and as `.png`: with the feature `pictures`, and else not.
+pub fn save_picture(picture: &Picture, path: impl AsRef<Path>) -> Result<(), Error> {
+    #[cfg(feature = "pictures")]
+    {
+        let path = path.as_ref();
+        picture.save(path.with_extension("svg"))?;
+        picture.save_png(path.with_extension("png"))
+    }
+    #[cfg(not(feature = "pictures"))]
+    {
+        static SAID: std::sync::Once = std::sync::Once::new();
+        SAID.call_once(|| println!("no pictures: run with --features pictures"));
+        let _ = (picture, path.as_ref());
+        Ok(())
     }
 }
 

@@ -121,7 +121,7 @@ pub fn plane<T: Real>(case: &Flat, now: &Simulation<T, 2>, path: &Path) -> Resul
     let walls = now.walls().map(|name| now.wall(name));
     let walls = walls.collect::<Result<Vec<_>, _>>()?.into_iter().flatten();
     let water = now.all().map(|p| (p.position(), 1e-3 * p.pressure()));
-    Picture::new(1600, (1600.0 * top / case.tank[0]) as usize)
+    let picture = Picture::new(1600, (1600.0 * top / case.tank[0]) as usize)
         .bounds([0.0, 0.0], [case.tank[0], top])
         .particles(value.clone(), case.spacing, water)
         .plain(
@@ -129,8 +129,8 @@ pub fn plane<T: Real>(case: &Flat, now: &Simulation<T, 2>, path: &Path) -> Resul
             1.0,
             case.spacing,
             walls.map(|p| p.position()),
-        )
-        .save_png(path.with_extension("png"))?;
+        );
+    crate::common::save_picture(&picture, path)?;
     let points = now.all().map(|particle| {
         let [x, y] = particle.position();
         (x, y, 1e-3 * particle.pressure())
@@ -244,8 +244,7 @@ pub fn space<T: Real>(now: &Simulation<T, 3>, path: &Path) -> Result<(), Failure
         .plain(Color(120, 120, 120), 1.0, now.spacing(), obstacle)
         .edges([0.0; 3], TANK)
         .edges(low, high);
-    picture.save(path.with_extension("svg"))?;
-    Ok(picture.save_png(path.with_extension("png"))?)
+    Ok(crate::common::save_picture(&picture, path)?)
 }
 
 /// Heights and pressures of SPHERIC 2.

@@ -1,7 +1,8 @@
 //! What can be chosen by name on the command line: scheme, integrator, contact, precision.
-//! Each list is written once; parsing, help and error messages follow from it.
+//! Each list is written once; parsing, help and messages follow from it.
 
-use crate::options::BadOption;
+use clap::ValueEnum;
+use clap::builder::PossibleValue;
 use meshfree::integrator::{
     DriftKickDrift, Integrator, KickDriftKick, LamLeapfrog, Midpoint, PositionVerlet, Predictor,
     RungeKutta4, StrongStabilityPreserving3,
@@ -10,25 +11,24 @@ use meshfree::study;
 use meshfree::sweep::Interaction;
 
 macro_rules! choices {
-    ($(#[$text:meta])* $Name:ident, $option:literal: $($Variant:ident $key:literal),* $(,)?) => {
+    ($(#[$text:meta])* $Name:ident: $($Variant:ident $key:literal),* $(,)?) => {
         $(#[$text])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum $Name { $($Variant),* }
 
         impl $Name {
-            /// The names on the command line.
-            pub const KEYS: &'static [&'static str] = &[$($key),*];
-
             /// The name on the command line.
             pub const fn key(self) -> &'static str {
                 match self { $(Self::$Variant => $key),* }
             }
+        }
 
-            pub fn parse(text: &str) -> Result<Self, BadOption> {
-                match text.trim().to_ascii_lowercase().as_str() {
-                    $($key => Ok(Self::$Variant),)*
-                    _ => Err(BadOption::value($option, text, format!("one of {}", Self::KEYS.join(", ")))),
-                }
+        impl ValueEnum for $Name {
+            fn value_variants<'a>() -> &'a [Self] {
+                &[$(Self::$Variant),*]
+            }
+            fn to_possible_value(&self) -> Option<PossibleValue> {
+                Some(PossibleValue::new(self.key()))
             }
         }
     };
@@ -36,13 +36,13 @@ macro_rules! choices {
 
 choices! {
     /// The scheme.
-    SchemeChoice, "--scheme":
+    SchemeChoice:
     Impact "impact", Continuity "continuity", Lam2002 "lam2002",
 }
 
 choices! {
     /// The integrator.
-    IntegratorChoice, "--integrator":
+    IntegratorChoice:
     KickDriftKick "kick-drift-kick", DriftKickDrift "drift-kick-drift",
     PositionVerlet "position-verlet", Midpoint "midpoint", SspRk3 "ssp-rk3", RungeKutta4 "rk4",
     LamFresh "lam-fresh", LamLagged "lam-lagged",
@@ -50,25 +50,25 @@ choices! {
 
 choices! {
     /// What the striker (or its pad) and the target do to each other.
-    ContactChoice, "--contact":
+    ContactChoice:
     Unilateral "unilateral", Bonded "bonded",
 }
 
 choices! {
     /// What stress a rod bears: pressure alone, or that of a layer of a plate, or that of a slender bar.
-    StateChoice, "--state":
+    StateChoice:
     Hydrodynamic "hydrodynamic", UniaxialStrain "uniaxial-strain", UniaxialStress "uniaxial-stress",
 }
 
 choices! {
     /// Whether rods yield.
-    StrengthChoice, "--strength":
+    StrengthChoice:
     On "on", Off "off",
 }
 
 choices! {
     /// The scalar of the particles.
-    Precision, "--precision":
+    Precision:
     F32 "f32", F64 "f64",
 }
 

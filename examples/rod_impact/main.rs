@@ -28,13 +28,7 @@ use std::time::Instant;
 type Failure = Box<dyn Error + Send + Sync>;
 
 fn main() -> ExitCode {
-    let options = match options::parse(std::env::args().skip(1)) {
-        Ok(options) => options,
-        Err(bad) => {
-            eprintln!("{bad}");
-            return ExitCode::from(2);
-        }
-    };
+    let options = options::parse(std::env::args_os()).unwrap_or_else(|bad| bad.exit());
     match perform(&options) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
@@ -50,10 +44,6 @@ fn main() -> ExitCode {
 fn perform(options: &Options) -> Result<(), Failure> {
     let folder = |default: &'static str| options.out.as_deref().unwrap_or(Path::new(default));
     match options.task {
-        Task::Help => {
-            print!("{}", options::HELP);
-            Ok(())
-        }
         Task::Case => report::run(options, folder("out/rod_impact")),
         Task::Figures => figures_and_claims(options, folder("out/rod_impact")),
         Task::Bars => bars::measure(options, folder("out/rod_impact")),

@@ -5,82 +5,110 @@ use crate::cases::{Case, material};
 use crate::choices::{
     ContactChoice, IntegratorChoice, Precision, SchemeChoice, StateChoice, StrengthChoice,
 };
+use clap::error::ErrorKind;
+use clap::parser::ValueSource;
+use clap::{CommandFactory, FromArgMatches, Parser};
 use core::fmt;
 use meshfree::kernel::{Kernel, KernelKind};
 use meshfree::material::catalogue;
 use meshfree::term::ArtificialViscosity;
 use meshfree::term::viscosity::ViscosityKind;
+use std::ffi::OsString;
 use std::path::PathBuf;
 
-pub const HELP: &str = "\
-Axial impact of rods (Lam, Shen & Gong 2002).
-
-Without options: figures 1 to 7 of the paper, and a table of its claims, into out/rod_impact.
---quick, --out and --threads apply to that too; any other option runs one case.
-
-The case
-  --striker MATERIAL        copper
-  --target MATERIAL|wall    copper
-  --pad MATERIAL:MM         a pad on the striker's head, moving with it
-  --speed M/S               20
-  --striker-length MM       10
-  --target-length MM        40
-  --state NAME              hydrodynamic, uniaxial-strain, uniaxial-stress
-  --strength on|off         whether rods of the last two yield; on
-The method
-  --spacing MM              0.05 (--quick: 0.2)
-  --scheme NAME             impact, continuity, lam2002; rods that bear shear take continuity
-  --kernel NAME             cubic, quartic, quintic, wendland-c2, wendland-c4, wendland-c6, gaussian
-  --h-over-dx RATIO         as the kernel recommends
-  --integrator NAME         kick-drift-kick, drift-kick-drift, position-verlet, midpoint, ssp-rk3,
-                            rk4, lam-fresh, lam-lagged
-  --viscosity NAME          mg, limited, signal, balsara, ... or none; mg:0.5 or mg:0.5,1 sets alpha, beta
-  --contact NAME            unilateral, bonded
-  --precision NAME          f64, f32
-  --threads N               all cores
-What is written
-  --until US                one passage of the waves through the chain
-  --probe MM                a material point, by its first distance from the striker's free end
-                            (repeatable)
-  --snapshot US             (repeatable; the end if none is given)
-  --out DIR                 out/rod_impact
-Studies
-  --bars                    measures every quantity that the method must meet, for all schemes
-  --convergence             error of figure 1 against spacing, into docs/ (or --out)
-";
-
-/// An option that cannot be followed.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct BadOption(String);
-
-impl BadOption {
-    pub fn value(option: &str, value: &str, accepted: impl fmt::Display) -> Self {
-        Self(format!(
-            "{option}: `{value}` is not accepted; it takes {accepted}"
-        ))
-    }
-    pub fn conflict(text: String) -> Self {
-        Self(text)
-    }
+/// The command line as it is typed, in its units.
+#[derive(Parser)]
+#[command(allow_negative_numbers = true)]
+#[command(about = "Axial impact of rods (Lam, Shen & Gong 2002).\n\n\
+    Without options: figures 1 to 7 of the paper, and a table of its claims, into out/rod_impact.\n\
+    --quick, --out and --threads apply to that too; any other option runs one case.")]
+struct Line {
+    /// Material of the rod that moves
+    #[arg(long, value_name = "MATERIAL", value_parser = solid, default_value = "copper", help_heading = CASE)]
+    striker: String,
+    /// Material of the rod at rest, or wall
+    #[arg(long, value_name = "MATERIAL|wall", value_parser = solid_or_wall, default_value = "copper", help_heading = CASE)]
+    target: String,
+    /// A pad on the striker's head, moving with it
+    #[arg(long, value_name = "MATERIAL:MM", value_parser = pad, help_heading = CASE)]
+    pad: Option<(String, f64)>,
+    #[arg(long, value_name = "M/S", value_parser = positive, default_value = "20", help_heading = CASE)]
+    speed: f64,
+    #[arg(long, value_name = "MM", value_parser = positive, default_value = "10", help_heading = CASE)]
+    striker_length: f64,
+    #[arg(long, value_name = "MM", value_parser = positive, default_value = "40", help_heading = CASE)]
+    target_length: f64,
+    #[arg(long, value_name = "NAME", default_value = "hydrodynamic", help_heading = CASE)]
+    state: StateChoice,
+    /// Whether rods that bear shear yield [default: on]
+    #[arg(long, value_name = "NAME", help_heading = CASE)]
+    strength: Option<StrengthChoice>,
+    /// 0.05, with --quick 0.2
+    #[arg(long, value_name = "MM", value_parser = positive, help_heading = METHOD)]
+    spacing: Option<f64>,
+    /// [default: impact; continuity for rods that bear shear]
+    #[arg(long, value_name = "NAME", help_heading = METHOD)]
+    scheme: Option<SchemeChoice>,
+    /// cubic, quartic, quintic, wendland-c2, wendland-c4, wendland-c6, gaussian
+    #[arg(long, value_name = "NAME", value_parser = kernel, help_heading = METHOD)]
+    kernel: Option<KernelKind>,
+    /// Smoothing length over spacing; as the kernel recommends
+    #[arg(long, value_name = "RATIO", value_parser = positive, help_heading = METHOD)]
+    h_over_dx: Option<f64>,
+    #[arg(long, value_name = "NAME", help_heading = METHOD)]
+    integrator: Option<IntegratorChoice>,
+    /// mg, limited, signal, balsara, ... or none; mg:0.5 or mg:0.5,1 sets alpha, beta
+    #[arg(long, value_name = "NAME", value_parser = viscosity, help_heading = METHOD)]
+    viscosity: Option<ViscosityKind>,
+    #[arg(long, value_name = "NAME", help_heading = METHOD)]
+    contact: Option<ContactChoice>,
+    #[arg(long, value_name = "NAME", default_value = "f64", help_heading = METHOD)]
+    precision: Precision,
+    /// All cores if not given
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), help_heading = METHOD)]
+    threads: Option<u16>,
+    /// One passage of the waves through the chain if not given
+    #[arg(long, value_name = "US", value_parser = positive, help_heading = WRITTEN)]
+    until: Option<f64>,
+    /// A material point, by its first distance from the striker's free end (repeatable)
+    #[arg(long, value_name = "MM", value_parser = not_negative, help_heading = WRITTEN)]
+    probe: Vec<f64>,
+    /// A time for a profile (repeatable; the end if none is given)
+    #[arg(long, value_name = "US", value_parser = not_negative, help_heading = WRITTEN)]
+    snapshot: Vec<f64>,
+    /// out/rod_impact, of --convergence docs
+    #[arg(long, value_name = "DIR", help_heading = WRITTEN)]
+    out: Option<PathBuf>,
+    /// Coarse, to see that it runs
+    #[arg(long)]
+    quick: bool,
+    /// Measures every quantity that the method must meet, for all schemes
+    #[arg(long)]
+    bars: bool,
+    /// Error of figure 1 against spacing
+    #[arg(long)]
+    convergence: bool,
 }
 
-impl fmt::Display for BadOption {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
-    }
+const CASE: &str = "The case";
+const METHOD: &str = "The method";
+const WRITTEN: &str = "What is written";
+
+/// An option that cannot be followed: what it is, what it was given, what it takes.
+fn bad(option: &str, value: &str, accepted: impl fmt::Display) -> String {
+    format!("{option}: `{value}` is not accepted; it takes {accepted}")
 }
 
 /// What to do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Task {
-    Help,
     Figures,
     Case,
     Bars,
     Convergence,
 }
 
-/// The command line.
+/// The command line, in SI units.
 #[derive(Clone, Debug)]
 pub struct Options {
     pub task: Task,
@@ -90,134 +118,88 @@ pub struct Options {
     pub out: Option<PathBuf>,
 }
 
-const TAKES_VALUE: [&str; 20] = [
-    "--striker",
-    "--target",
-    "--pad",
-    "--speed",
-    "--striker-length",
-    "--target-length",
-    "--state",
-    "--strength",
-    "--spacing",
-    "--scheme",
-    "--kernel",
-    "--h-over-dx",
-    "--integrator",
-    "--viscosity",
-    "--contact",
-    "--until",
-    "--probe",
-    "--snapshot",
-    "--precision",
-    "--threads",
-];
-const FLAGS: [&str; 4] = ["--quick", "--bars", "--convergence", "--help"];
-
 /// Most particles that a case may have.
 const MOST_PARTICLES: f64 = 2e7;
 
-/// Reads the command line, without the program's name.
-pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, BadOption> {
-    let mut options = Options {
-        task: Task::Figures,
-        case: Case::default(),
-        quick: false,
-        threads: None,
-        out: None,
+/// Reads the command line, the program's name first.
+pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Options, clap::Error> {
+    let matches = Line::command().try_get_matches_from(arguments)?;
+    let line = Line::from_arg_matches(&matches)?;
+    // What says something of the case asks for it.
+    let given = |id: &str| matches.value_source(id) == Some(ValueSource::CommandLine);
+    let of_case = Line::command()
+        .get_arguments()
+        .map(|arg| arg.get_id().to_string())
+        .any(|id| !matches!(id.as_str(), "quick" | "threads" | "out") && given(&id));
+    let task = match (line.bars, line.convergence, of_case) {
+        (true, ..) => Task::Bars,
+        (_, true, _) => Task::Convergence,
+        (.., true) => Task::Case,
+        _ => Task::Figures,
     };
-    let (mut spacing, mut until, mut scheme) = (None, None, None);
-    let mut arguments = arguments.into_iter();
-    while let Some(argument) = arguments.next() {
-        let (name, inline) = match argument.split_once('=') {
-            Some((name, value)) => (name.to_string(), Some(value.to_string())),
-            None => (argument.clone(), None),
+    let (quick, threads, out) = (line.quick, line.threads.map(usize::from), line.out.clone());
+    let case = line
+        .case()
+        .map_err(|text| Line::command().error(ErrorKind::ValueValidation, text))?;
+    Ok(Options {
+        task,
+        case,
+        quick,
+        threads,
+        out,
+    })
+}
+
+impl Line {
+    fn case(self) -> Result<Case, String> {
+        let all = |values: Vec<f64>, unit: f64| values.into_iter().map(|x| unit * x).collect();
+        let mut case = Case {
+            striker: self.striker,
+            target: Some(self.target).filter(|name| name != "wall"),
+            pad: self.pad,
+            speed: self.speed,
+            striker_length: 1e-3 * self.striker_length,
+            target_length: 1e-3 * self.target_length,
+            state: self.state,
+            strength: self.strength,
+            spacing: 1e-3 * self.spacing.unwrap_or(if self.quick { 0.2 } else { 0.05 }),
+            scheme: self.scheme.unwrap_or(match self.state {
+                StateChoice::Hydrodynamic => SchemeChoice::Impact,
+                _ => SchemeChoice::Continuity,
+            }),
+            kernel: self.kernel,
+            h_over_dx: self.h_over_dx,
+            integrator: self.integrator,
+            viscosity: self.viscosity,
+            contact: self.contact,
+            until: 0.0,
+            probes: all(self.probe, 1e-3),
+            snapshots: all(self.snapshot, 1e-6),
+            precision: self.precision,
         };
-        let name = if name == "-h" { "--help".into() } else { name };
-        if FLAGS.contains(&name.as_str()) {
-            match (name.as_str(), inline) {
-                (_, Some(value)) => return Err(BadOption::value(&name, &value, "no value")),
-                ("--quick", None) => options.quick = true,
-                ("--bars", None) => options.task = Task::Bars,
-                ("--convergence", None) => options.task = Task::Convergence,
-                _ => options.task = Task::Help,
-            }
-            if options.task == Task::Help {
-                return Ok(options);
-            }
-            continue;
-        }
-        if name != "--out" && !TAKES_VALUE.contains(&name.as_str()) {
-            let known = [&TAKES_VALUE[..], &["--out"], &FLAGS[..]]
-                .concat()
-                .join(", ");
-            return Err(BadOption(format!(
-                "`{argument}` is not an option; there are {known}"
-            )));
-        }
-        let Some(value) = inline.or_else(|| arguments.next()) else {
-            return Err(BadOption(format!("{name} needs a value: see --help")));
-        };
-        if !matches!(name.as_str(), "--out" | "--threads") && options.task == Task::Figures {
-            options.task = Task::Case;
-        }
-        let case = &mut options.case;
-        let positive = |unit: &str| number(&name, &value, unit);
-        match name.as_str() {
-            "--striker" => case.striker = solid(&name, &value)?,
-            "--target" if value == "wall" => case.target = None,
-            "--target" => case.target = Some(solid(&name, &value)?),
-            "--pad" => case.pad = Some(pad(&value)?),
-            "--speed" => case.speed = positive("m/s")?,
-            "--striker-length" => case.striker_length = 1e-3 * positive("mm")?,
-            "--target-length" => case.target_length = 1e-3 * positive("mm")?,
-            "--spacing" => spacing = Some(1e-3 * positive("mm")?),
-            "--state" => case.state = StateChoice::parse(&value)?,
-            "--strength" => case.strength = Some(StrengthChoice::parse(&value)?),
-            "--scheme" => scheme = Some(SchemeChoice::parse(&value)?),
-            "--kernel" => case.kernel = Some(kernel(&value)?),
-            "--h-over-dx" => case.h_over_dx = Some(positive("times the spacing")?),
-            "--integrator" => case.integrator = Some(IntegratorChoice::parse(&value)?),
-            "--viscosity" => case.viscosity = Some(viscosity(&value)?),
-            "--contact" => case.contact = Some(ContactChoice::parse(&value)?),
-            "--until" => until = Some(1e-6 * positive("µs")?),
-            "--probe" => case.probes.push(1e-3 * not_negative(&name, &value, "mm")?),
-            "--snapshot" => case
-                .snapshots
-                .push(1e-6 * not_negative(&name, &value, "µs")?),
-            "--precision" => case.precision = Precision::parse(&value)?,
-            "--threads" => options.threads = Some(threads(&value)?),
-            _ => options.out = Some(PathBuf::from(value)),
-        }
+        shear(&case)?;
+        complete(&mut case, self.until.map(|end| 1e-6 * end))?;
+        Ok(case)
     }
-    options.case.spacing = spacing.unwrap_or(if options.quick { 2e-4 } else { 5e-5 });
-    options.case.scheme = match (scheme, options.case.bears_shear()) {
-        (Some(scheme), _) => scheme,
-        (None, true) => SchemeChoice::Continuity,
-        (None, false) => SchemeChoice::Impact,
-    };
-    shear(&options.case)?;
-    complete(&mut options.case, until)?;
-    Ok(options)
 }
 
 /// What does not go with rods that bear shear, and with those that do not.
-fn shear(case: &Case) -> Result<(), BadOption> {
+fn shear(case: &Case) -> Result<(), String> {
     let state = case.state.key();
     if !case.bears_shear() {
         return match case.strength {
-            Some(StrengthChoice::On) => Err(BadOption::conflict(format!(
+            Some(StrengthChoice::On) => Err(format!(
                 "--strength: `on` needs shear, which --state {state} has not; take --state uniaxial-strain or \
                  uniaxial-stress"
-            ))),
+            )),
             _ => Ok(()),
         };
     }
     let refuse = |option: &str, value: &str| {
-        Err(BadOption::conflict(format!(
+        Err(format!(
             "{option}: `{value}` does not go with --state {state}, which has --scheme continuity with its own kernel \
              and viscosity, and an integrator that kicks; leave it out"
-        )))
+        ))
     };
     if case.scheme != SchemeChoice::Continuity {
         return refuse("--scheme", case.scheme.key());
@@ -236,7 +218,7 @@ fn shear(case: &Case) -> Result<(), BadOption> {
 }
 
 /// Fills in what follows from the rest, and checks what options mean together.
-fn complete(case: &mut Case, until: Option<f64>) -> Result<(), BadOption> {
+fn complete(case: &mut Case, until: Option<f64>) -> Result<(), String> {
     let transit = |rod: &crate::cases::Rod| {
         material::<f64>(&rod.material).map_or(0.0, |material| {
             rod.length() * material.reference_density() / material.impedance()
@@ -267,7 +249,7 @@ fn complete(case: &mut Case, until: Option<f64>) -> Result<(), BadOption> {
     let length = case.length();
     for &probe in &case.probes {
         if probe > length * (1.0 + 1e-12) {
-            return Err(BadOption::value(
+            return Err(bad(
                 "--probe",
                 &crate::cases::short(1e3 * probe),
                 format!(
@@ -279,7 +261,7 @@ fn complete(case: &mut Case, until: Option<f64>) -> Result<(), BadOption> {
     }
     for &time in &case.snapshots {
         if time > case.until * (1.0 + 1e-12) {
-            return Err(BadOption::value(
+            return Err(bad(
                 "--snapshot",
                 &crate::cases::short(1e6 * time),
                 format!(
@@ -292,7 +274,7 @@ fn complete(case: &mut Case, until: Option<f64>) -> Result<(), BadOption> {
     let spacing = crate::cases::short(1e3 * case.spacing);
     if length / case.spacing > MOST_PARTICLES {
         let least = crate::cases::short(1e3 * length / MOST_PARTICLES);
-        return Err(BadOption::value(
+        return Err(bad(
             "--spacing",
             &spacing,
             format!("at least {least} mm for this chain (2e7 particles)"),
@@ -300,7 +282,7 @@ fn complete(case: &mut Case, until: Option<f64>) -> Result<(), BadOption> {
     }
     if let Some(rod) = rods.iter().find(|rod| rod.count(case.spacing) < 5.0) {
         let most = crate::cases::short(1e3 * rod.length() / 5.0);
-        return Err(BadOption::value(
+        return Err(bad(
             "--spacing",
             &spacing,
             format!(
@@ -312,7 +294,7 @@ fn complete(case: &mut Case, until: Option<f64>) -> Result<(), BadOption> {
     let kernel = case.kernel.unwrap_or(KernelKind::CubicSpline);
     let (low, high) = Kernel::<1>::h_over_dx_range(&kernel);
     if let Some(ratio) = case.h_over_dx.filter(|ratio| !(low..=high).contains(ratio)) {
-        return Err(BadOption::value(
+        return Err(bad(
             "--h-over-dx",
             &ratio.to_string(),
             format!("{low} to {high} for the kernel {kernel}"),
@@ -320,70 +302,44 @@ fn complete(case: &mut Case, until: Option<f64>) -> Result<(), BadOption> {
     }
     let integrator = case.integrator();
     if case.scheme == SchemeChoice::Continuity && !integrator.make().integrates_density() {
-        return Err(BadOption::conflict(format!(
+        return Err(format!(
             "--integrator: `{}` does not integrate a density, which --scheme continuity has; take \
              another integrator, or --scheme impact or lam2002",
             integrator.key()
-        )));
+        ));
     }
     Ok(())
 }
 
-fn finite(option: &str, value: &str, accepted: &str) -> Result<f64, BadOption> {
-    let number = value
-        .trim()
-        .parse::<f64>()
-        .ok()
-        .filter(|number| number.is_finite());
-    number.ok_or_else(|| BadOption::value(option, value, accepted))
+fn finite(value: &str) -> Option<f64> {
+    let number = value.trim().parse::<f64>().ok();
+    number.filter(|number| number.is_finite())
 }
 
-fn number(option: &str, value: &str, unit: &str) -> Result<f64, BadOption> {
-    let accepted = format!("a number above 0, in {unit}");
-    let number = finite(option, value, &accepted)?;
-    if number > 0.0 {
-        Ok(number)
-    } else {
-        Err(BadOption::value(option, value, accepted))
-    }
+fn positive(value: &str) -> Result<f64, &'static str> {
+    let number = finite(value).filter(|number| *number > 0.0);
+    number.ok_or("it takes a number above 0")
 }
 
-fn not_negative(option: &str, value: &str, unit: &str) -> Result<f64, BadOption> {
-    let accepted = format!("a number, 0 or more, in {unit}");
-    let number = finite(option, value, &accepted)?;
-    if number >= 0.0 {
-        Ok(number)
-    } else {
-        Err(BadOption::value(option, value, accepted))
-    }
+fn not_negative(value: &str) -> Result<f64, &'static str> {
+    let number = finite(value).filter(|number| *number >= 0.0);
+    number.ok_or("it takes a number, 0 or more")
 }
 
-fn threads(value: &str) -> Result<usize, BadOption> {
-    let accepted = "a whole number of threads, 1 to 1024";
-    let count = value
-        .trim()
-        .parse()
-        .ok()
-        .filter(|count| (1..=1024).contains(count));
-    count.ok_or_else(|| BadOption::value("--threads", value, accepted))
-}
-
-fn kernel(value: &str) -> Result<KernelKind, BadOption> {
+fn kernel(value: &str) -> Result<KernelKind, String> {
     value.parse().map_err(|_| {
         let names: Vec<_> = KernelKind::ALL.iter().map(|kind| kind.key()).collect();
-        BadOption::value("--kernel", value, format!("one of {}", names.join(", ")))
+        format!("it takes one of {}", names.join(", "))
     })
 }
 
-fn viscosity(value: &str) -> Result<ViscosityKind, BadOption> {
+fn viscosity(value: &str) -> Result<ViscosityKind, String> {
     let sound = |kind: &ViscosityKind| ArtificialViscosity::<1>::problems(kind).is_empty();
     value.parse().ok().filter(sound).ok_or_else(|| {
         let names: Vec<_> = ViscosityKind::ALL.iter().map(ViscosityKind::key).collect();
-        let form = "as name, name:alpha or name:alpha,beta with numbers, 0 or more";
-        BadOption::value(
-            "--viscosity",
-            value,
-            format!("one of {}, {form}", names.join(", ")),
+        format!(
+            "it takes one of {}, as name, name:alpha or name:alpha,beta with numbers, 0 or more",
+            names.join(", ")
         )
     })
 }
@@ -396,30 +352,25 @@ fn is_stiff(name: &str) -> bool {
         .is_ok_and(|c| c.is_finite() && c > 1.0)
 }
 
-fn solid(option: &str, value: &str) -> Result<String, BadOption> {
+fn solid(value: &str) -> Result<String, String> {
     let found = material::<f64>(value).ok().filter(|_| is_stiff(value));
     found.map(|material| material.name).ok_or_else(|| {
-        let names: Vec<_> = catalogue::NAMES
-            .iter()
-            .copied()
-            .filter(|name| is_stiff(name))
-            .collect();
-        let wall = if option == "--target" {
-            "wall, or "
-        } else {
-            ""
-        };
-        BadOption::value(option, value, format!("{wall}one of {}", names.join(", ")))
+        let names = catalogue::NAMES.iter().copied();
+        let names: Vec<_> = names.filter(|name| is_stiff(name)).collect();
+        format!("it takes one of {}", names.join(", "))
     })
 }
 
-fn pad(value: &str) -> Result<(String, f64), BadOption> {
-    let Some((name, length)) = value.split_once(':') else {
-        return Err(BadOption::value(
-            "--pad",
-            value,
-            "MATERIAL:MM, such as pmma:20",
-        ));
-    };
-    Ok((solid("--pad", name)?, 1e-3 * number("--pad", length, "mm")?))
+fn solid_or_wall(value: &str) -> Result<String, String> {
+    if value == "wall" {
+        return Ok(value.into());
+    }
+    solid(value).map_err(|takes| takes.replacen("one of", "wall, or one of", 1))
+}
+
+fn pad(value: &str) -> Result<(String, f64), String> {
+    let (name, length) = value
+        .split_once(':')
+        .ok_or("it takes MATERIAL:MM, such as pmma:20")?;
+    Ok((solid(name)?, 1e-3 * positive(length)?))
 }

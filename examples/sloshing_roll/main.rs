@@ -192,8 +192,7 @@ fn picture<T: Real, const D: usize>(
         .bounds([-half - 0.05, -0.06], [half + 0.05, 0.45])
         .particles(value, dx, water)
         .plain(Color(150, 150, 150), 1.0, dx, walls);
-    picture.save(path.with_extension("svg"))?;
-    Ok(picture.save_png(path.with_extension("png"))?)
+    Ok(common::save_picture(&picture, path)?)
 }
 
 /// Pressure at the sensor with the measured one in the same axes.

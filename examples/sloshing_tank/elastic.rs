@@ -242,8 +242,7 @@ impl Watch {
                 core::array::from_fn(|d| outer(-1.0, d)),
                 core::array::from_fn(|d| outer(1.0, d)),
             );
-        picture.save(folder.join("walls_38ms.svg"))?;
-        picture.save_png(folder.join("walls_38ms.png"))
+        crate::common::save_picture(&picture, folder.join("walls_38ms"))
     }
 }
 

@@ -400,8 +400,7 @@ fn snapshot<T: Real>(
             in_tank(case, now)?.map(|(x, p)| (x, 1e-3 * p)),
         )
         .edges([0.0; 3], case.size);
-    picture.save(folder.join("particles_38ms.svg"))?;
-    picture.save_png(folder.join("particles_38ms.png"))
+    crate::common::save_picture(&picture, folder.join("particles_38ms"))
 }
 
 /// The files that grow while a case runs.

@@ -4,8 +4,8 @@
 #[cfg(feature = "checkpoint")]
 pub(crate) mod checkpoint;
 pub mod csv;
-mod deflate;
 pub mod picture;
+#[cfg(feature = "pictures")]
 pub mod png;
 pub mod progress;
 pub mod svg;

@@ -1,92 +1,21 @@
-//! A line on the terminal that says how far a run is and when it should end.
-//! It writes nothing where no person looks, and leaves nothing when it is done.
+//! A line on the terminal that says how far a run is and when it should end, with the feature `progress`.
+//! It writes nothing where no person looks, and leaves nothing when it is done; without the feature it is silent.
 
 use core::fmt;
-use core::time::Duration;
-use std::io::{self, IsTerminal, Write};
-use std::time::Instant;
+
+#[cfg(feature = "progress")]
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+#[cfg(feature = "progress")]
+use std::time::{Duration, Instant};
 
 /// Shortest time between two redraws.
+#[cfg(feature = "progress")]
 const INTERVAL: Duration = Duration::from_millis(100);
-/// Time before a first estimate can be trusted.
-const WARM_UP: Duration = Duration::from_millis(500);
-/// Longest line, so that it does not wrap on a common terminal.
-const COLUMNS: usize = 79;
-const BAR: usize = 24;
-
-/// The time that is left when `done` of the work, beyond what was done at the start, took
-/// `elapsed`; nothing when that cannot be known.
-///
-/// ```
-/// use meshfree::output::progress::remaining;
-/// use std::time::Duration;
-/// let left = remaining(0.25, 0.0, Duration::from_secs(10));
-/// assert_eq!(left, Some(Duration::from_secs(30)));
-/// assert_eq!(remaining(0.0, 0.0, Duration::from_secs(10)), None);
-/// ```
-#[must_use]
-pub fn remaining(done: f64, at_start: f64, elapsed: Duration) -> Option<Duration> {
-    let gained = done - at_start;
-    if gained.is_nan() || gained <= 0.0 {
-        return None;
-    }
-    let (done, gained) = (done.min(1.0), gained.min(1.0 - at_start));
-    // A start at the very end gives 0 / 0, which is no duration either.
-    Duration::try_from_secs_f64(elapsed.as_secs_f64() * (1.0 - done) / gained).ok()
-}
-
-/// A duration for people, two units at most.
-///
-/// ```
-/// use meshfree::output::progress::duration_text;
-/// use std::time::Duration;
-/// assert_eq!(duration_text(Duration::from_secs(42)), "42 s");
-/// assert_eq!(duration_text(Duration::from_secs(3_725)), "1 h 02 min");
-/// ```
-#[must_use]
-pub fn duration_text(duration: Duration) -> String {
-    let seconds = duration.as_secs_f64().round() as u64;
-    let (minutes, hours, days) = (seconds / 60, seconds / 3_600, seconds / 86_400);
-    match (days, hours, minutes) {
-        (0, 0, 0) => format!("{seconds} s"),
-        (0, 0, _) => format!("{minutes} min {:02} s", seconds % 60),
-        (0, _, _) => format!("{hours} h {:02} min", minutes % 60),
-        _ => format!("{days} d {:02} h", hours % 24),
-    }
-}
-
-/// The line itself: label, bar, per cent, time left, detail.
-///
-/// ```
-/// use meshfree::output::progress::line;
-/// use std::time::Duration;
-/// let text = line("jet", 0.5, 0.0, Duration::from_secs(60), "t = 1 ms");
-/// assert!(text.contains("50 %") && text.contains("1 min 00 s left"));
-/// ```
-#[must_use]
-pub fn line(label: &str, done: f64, at_start: f64, elapsed: Duration, detail: &str) -> String {
-    let done = if done.is_nan() {
-        0.0
-    } else {
-        done.clamp(0.0, 1.0)
-    };
-    let full = (done * BAR as f64) as usize;
-    let bar = "█".repeat(full) + &"░".repeat(BAR - full);
-    let left = remaining(done, at_start, elapsed)
-        .filter(|_| elapsed >= WARM_UP)
-        .map_or_else(String::new, |left| {
-            format!("  {} left", duration_text(left))
-        });
-    let gap = if detail.is_empty() { "" } else { "  " };
-    format!(
-        "{label} {bar} {:3.0} %{left}{gap}{detail}",
-        (done * 100.0).floor()
-    )
-    .chars()
-    .map(|c| if c.is_control() { ' ' } else { c })
-    .take(COLUMNS)
-    .collect()
-}
+/// The whole of a run, in steps of the bar.
+#[cfg(feature = "progress")]
+const WHOLE: f64 = 1000.0;
+#[cfg(feature = "progress")]
+const LINE: &str = "{prefix} {bar:24} {percent:>3} %  {eta} left  {msg}";
 
 /// Shows how far a run is, on standard error if that is a terminal and not at all otherwise.
 /// The line is redrawn at most ten times a second, and erased at the end.
@@ -99,25 +28,16 @@ pub fn line(label: &str, done: f64, at_start: f64, elapsed: Duration, detail: &s
 /// }
 /// progress.finish();
 /// ```
+#[derive(Debug)]
 pub struct Progress {
-    label: String,
-    screen: Option<Box<dyn Write + Send>>,
-    started: Instant,
-    at_start: f64,
-    shown: Option<Duration>,
-}
-
-impl fmt::Debug for Progress {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Progress")
-            .field("label", &self.label)
-            .field("visible", &self.screen.is_some())
-            .finish_non_exhaustive()
-    }
+    #[cfg(feature = "progress")]
+    bar: ProgressBar,
+    #[cfg(feature = "progress")]
+    shown: Option<Instant>,
 }
 
 impl Progress {
-    /// Starts the clock.
+    /// Starts the clock of a line that begins with `label`.
     ///
     /// ```
     /// # use meshfree::output::progress::Progress;
@@ -126,18 +46,12 @@ impl Progress {
     /// ```
     #[must_use]
     pub fn new(label: impl Into<String>) -> Self {
-        let stderr = io::stderr();
-        let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
-        let screen: Option<Box<dyn Write + Send>> = if stderr.is_terminal() && !dumb {
-            Some(Box::new(stderr))
-        } else {
-            None
-        };
+        #[cfg(not(feature = "progress"))]
+        let _ = label.into();
         Self {
-            label: label.into(),
-            screen,
-            started: Instant::now(),
-            at_start: 0.0,
+            #[cfg(feature = "progress")]
+            bar: bar(label.into()),
+            #[cfg(feature = "progress")]
             shown: None,
         }
     }
@@ -150,8 +64,14 @@ impl Progress {
     /// # let _ = progress;
     /// ```
     #[must_use]
-    pub fn resumed_at(mut self, done: f64) -> Self {
-        self.at_start = done;
+    pub fn resumed_at(self, done: f64) -> Self {
+        #[cfg(feature = "progress")]
+        {
+            self.bar.set_position(steps(done));
+            self.bar.reset_eta();
+        }
+        #[cfg(not(feature = "progress"))]
+        let _ = done;
         self
     }
 
@@ -164,9 +84,16 @@ impl Progress {
     /// progress.update(0.1, format_args!("t = {:.3} s", 0.2));
     /// ```
     pub fn update(&mut self, done: f64, detail: impl fmt::Display) {
-        if self.screen.is_some() {
-            self.update_at(self.started.elapsed(), done, detail);
+        #[cfg(feature = "progress")]
+        if self.shown.is_none_or(|shown| shown.elapsed() >= INTERVAL) {
+            self.shown = Some(Instant::now());
+            self.bar.set_position(steps(done));
+            if !self.bar.is_hidden() {
+                self.bar.set_message(detail.to_string());
+            }
         }
+        #[cfg(not(feature = "progress"))]
+        let _ = (done, detail);
     }
 
     /// Erases the line. Dropping does the same.
@@ -176,95 +103,55 @@ impl Progress {
     /// Progress::new("dam break").finish();
     /// ```
     pub fn finish(self) {}
-
-    fn update_at(&mut self, elapsed: Duration, done: f64, detail: impl fmt::Display) {
-        let Some(screen) = &mut self.screen else {
-            return;
-        };
-        if self.shown.is_some_and(|shown| elapsed < shown + INTERVAL) {
-            return;
-        }
-        self.shown = Some(elapsed);
-        let text = line(
-            &self.label,
-            done,
-            self.at_start,
-            elapsed,
-            &detail.to_string(),
-        );
-        // A terminal that went away is no reason to stop the run.
-        let _ = write!(screen, "\r{text}\x1b[K");
-        let _ = screen.flush();
-    }
 }
 
+#[cfg(feature = "progress")]
 impl Drop for Progress {
     fn drop(&mut self) {
-        if let (Some(screen), Some(_)) = (&mut self.screen, self.shown) {
-            let _ = write!(screen, "\r\x1b[2K");
-            let _ = screen.flush();
-        }
+        self.bar.finish_and_clear();
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "progress")]
+fn bar(label: String) -> ProgressBar {
+    let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
+    let target = if dumb {
+        ProgressDrawTarget::hidden()
+    } else {
+        ProgressDrawTarget::stderr_with_hz(10)
+    };
+    let style = ProgressStyle::with_template(LINE).unwrap_or_else(|_| ProgressStyle::default_bar());
+    let bar = ProgressBar::with_draw_target(Some(WHOLE as u64), target);
+    bar.with_style(style.progress_chars("█░"))
+        .with_prefix(label)
+}
+
+/// A fraction in steps of the bar; what is no number is nothing done.
+#[cfg(feature = "progress")]
+fn steps(done: f64) -> u64 {
+    (WHOLE * done.clamp(0.0, 1.0)) as u64
+}
+
+#[cfg(all(test, feature = "progress"))]
 mod tests {
     use super::*;
-    use std::sync::{Arc, Mutex};
 
-    const SECOND: Duration = Duration::from_secs(1);
-
-    #[derive(Clone, Default)]
-    struct Screen(Arc<Mutex<Vec<u8>>>);
-
-    impl Write for Screen {
-        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-            self.0.lock().unwrap().extend_from_slice(bytes);
-            Ok(bytes.len())
-        }
-        fn flush(&mut self) -> io::Result<()> {
-            Ok(())
+    #[test]
+    fn the_bar_follows_what_is_done_and_bears_what_is_no_fraction() {
+        assert!(ProgressStyle::with_template(LINE).is_ok());
+        for (done, position) in [(0.25, 250), (2.0, 1000), (-1.0, 0), (f64::NAN, 0)] {
+            let mut progress = Progress::new("run").resumed_at(0.1);
+            assert_eq!(progress.bar.position(), 100);
+            progress.update(done, "");
+            assert_eq!(progress.bar.position(), position, "{done}");
         }
     }
 
     #[test]
-    fn what_is_left_follows_from_what_was_gained() {
-        assert_eq!(remaining(0.5, 0.0, SECOND), Some(SECOND));
-        assert_eq!(remaining(0.5, 0.25, SECOND), Some(2 * SECOND));
-        assert_eq!(remaining(1.5, 0.0, SECOND), Some(Duration::ZERO));
-        for done in [0.0, -1.0, f64::NAN, 1e-300] {
-            assert_eq!(remaining(done, 0.0, SECOND), None, "{done}");
-        }
-    }
-
-    #[test]
-    fn durations_carry_into_the_next_unit() {
-        let text = |seconds| duration_text(Duration::from_secs_f64(seconds));
-        assert_eq!(text(0.2), "0 s");
-        assert_eq!(text(59.6), "1 min 00 s");
-        assert_eq!(text(3_599.9), "1 h 00 min");
-        assert_eq!(text(90_000.0), "1 d 01 h");
-    }
-
-    #[test]
-    fn the_line_stays_on_one_row() {
-        let text = line("a\nb", f64::NAN, 0.0, SECOND, &"long ".repeat(40));
-        assert_eq!(text.chars().count(), COLUMNS);
-        assert!(!text.contains('\n'));
-        assert!(line("a", 0.999, 0.0, SECOND, "").contains(" 99 %"));
-    }
-
-    #[test]
-    fn redraws_are_rare_and_the_end_erases() {
-        let screen = Screen::default();
+    fn redraws_are_rare() {
         let mut progress = Progress::new("run");
-        progress.screen = Some(Box::new(screen.clone()));
-        for millisecond in 0..1000 {
-            progress.update_at(Duration::from_millis(millisecond), 0.5, "");
-        }
-        progress.finish();
-        let text = String::from_utf8(screen.0.lock().unwrap().clone()).unwrap();
-        assert_eq!(text.matches("50 %").count(), 10);
-        assert!(text.ends_with("\r\x1b[2K"));
+        progress.update(0.5, "");
+        progress.update(0.6, "");
+        assert_eq!(progress.bar.position(), 500);
     }
 }

@@ -3,6 +3,7 @@
 
 use super::group::Group;
 use super::stages::Moment;
+use crate::clock::Instant;
 use crate::effect::DensityForm;
 use crate::material::eos::GuardCounts;
 use crate::parallel::{GRAIN, cut, for_each, reduce};
@@ -11,7 +12,6 @@ use crate::scalar::Real;
 use crate::scheme::EnergyForm;
 use crate::sweep::Pass;
 use crate::term::Stage;
-use std::time::Instant;
 
 impl<T: Real, const D: usize> Group<T, D> {
     /// Weights of pair sums by a density form.

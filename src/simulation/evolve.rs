@@ -76,7 +76,7 @@ pub(super) fn update<T: Real, const D: usize>(
         let kept = residual.len().min(half * width);
         let (low, high) = column.split_at_mut(half * width);
         let (low_residual, high_residual) = residual.split_at_mut(kept);
-        let (a, b) = rayon::join(
+        let (a, b) = crate::parallel::join(
             || update(own, view, first, (low, low_residual), dt),
             || update(own, view, first + half, (high, high_residual), dt),
         );

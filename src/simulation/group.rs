@@ -8,13 +8,13 @@ use super::sub_cycle::SubCycle;
 use super::walls::WallState;
 use super::workspace::Workspace;
 use crate::boundary::{Boundary, Emitter, Outlet};
+use crate::clock::Instant;
 use crate::material::eos::GuardCounts;
 use crate::particles::Columns;
 use crate::scalar::{Lane, Real};
 use crate::scheme::Scheme;
 use crate::sweep::{InstructionSet, Interaction, Records, Results, SweepInput, Transform};
 use std::sync::Arc;
-use std::time::Instant;
 
 #[derive(Debug)]
 pub(crate) struct Group<T: Real, const D: usize> {

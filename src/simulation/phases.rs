@@ -2,8 +2,9 @@
 //! What no phase of its own counts is integration.
 
 use super::Simulation;
+use crate::clock::Instant;
 use crate::scalar::Real;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Time spent in steps since the scene was built, by phase.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

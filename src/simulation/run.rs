@@ -73,7 +73,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     fn take_step(&mut self, limit: f64) -> Result<f64> {
-        let (start, before) = (std::time::Instant::now(), self.phases());
+        let (start, before) = (crate::clock::Instant::now(), self.phases());
         if !self.rates_at_hand {
             crate::integrator::System::evaluate(self, 0.0)?;
         }
@@ -115,8 +115,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.impulses.time = self.time;
         // The integrator sees the simulation as a system, and is shared with it while it steps.
         let integrator = self.integrator.clone();
-        // Inside the pool the many short loops of a step start without waking a thread for each.
-        let stepped = rayon::scope(|_| integrator.step(self, vote.step));
+        let stepped = crate::parallel::inside(|| integrator.step(self, vote.step));
         self.keep_failure(stepped)?;
         self.time += vote.step;
         self.steps += 1;

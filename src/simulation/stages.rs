@@ -3,6 +3,7 @@
 
 use super::group::Group;
 use crate::boundary::WallSurface;
+use crate::clock::Instant;
 use crate::effect::{Around, Chunk, Law, MOST_LAWS, Slices, Tally};
 use crate::parallel::GRAIN;
 use crate::particles::Field;
@@ -11,7 +12,7 @@ use crate::scheme::Scheme;
 use crate::sweep::{PairSweep, Pass, SweepInput};
 use crate::term::Stage;
 use std::ops::Range;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Where and when a stage runs.
 #[derive(Clone, Copy, Debug)]
@@ -254,7 +255,7 @@ fn run_chunks<T: Real, const D: usize>(
         let half = (slots.len() / GRAIN).div_ceil(2) * GRAIN;
         let (low, high) = columns.split(half);
         let middle = slots.start + half;
-        let (mut outcomes, others) = rayon::join(
+        let (mut outcomes, others) = crate::parallel::join(
             || run_chunks(laws, low, slots.start..middle, live, around),
             || run_chunks(laws, high, middle..slots.end, live, around),
         );

@@ -12,10 +12,11 @@
 //! does later, when a front has formed or a dam has broken, is not in them: [`CostModel::watch`] again from time to time.
 //! `cargo run --release --example work_precision -- --forecast` holds it against whole runs.
 
+use crate::clock::Instant;
 use crate::error::{Error, Problem, Result};
 use crate::scalar::Real;
 use crate::simulation::{Simulation, Work};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Steps that are taken at least, of which the first, which fills memory, does not count.
 const LEAST: usize = 9;

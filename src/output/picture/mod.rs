@@ -20,6 +20,7 @@
 //!     .particles(Axis::linear("pressure", "kPa").range(0.0, 2.0), spacing, water)
 //!     .plain(Color(130, 130, 130), 0.3, spacing, wall)
 //!     .edges([0.0, 0.0, 0.0], [1.02, 0.2, 0.5]);
+//! # #[cfg(feature = "pictures")]
 //! # let _ = || -> meshfree::error::Result<()> {
 //! picture.save("out/frame_00000.svg")?;
 //! picture.save_png("out/frame_00000.png")?;
@@ -31,7 +32,7 @@
 //!
 //! [`Picture::save`] writes title and bar as text around the picture, in one SVG file that browsers
 //! show; [`Picture::save_png`] writes the picture alone, as programs that make films want it. Both
-//! are the same to the bit for the same particles. For the frames of a film fix what they have in
+//! are the same to the bit for the same particles, and need the feature `pictures`; [`Picture::pixels`] does not. For the frames of a film fix what they have in
 //! common: [`Picture::bounds`] and the range of the axis.
 //!
 //! Particles in a plane may be drawn here too. As a panel among others, with axes, they are a
@@ -40,15 +41,24 @@
 mod camera;
 mod canvas;
 
-use super::svg::{Axis, Bar, Color, level_color, page, px};
-use super::{png, write_whole};
+use super::svg::{Axis, Bar, Color, level_color};
+#[cfg(feature = "pictures")]
+use super::svg::{page, px};
+#[cfg(feature = "pictures")]
+use super::{file_error, png, write_whole};
 use crate::error::{Problem, Result};
 use camera::{Camera, Point};
 use canvas::Canvas;
+#[cfg(feature = "pictures")]
 use std::path::Path;
 
+/// The most pixels along a side, which keeps a typing error from filling the memory.
+pub const LARGEST: usize = 16_384;
+
 /// The width at which a picture stands on its page, unless it has fewer pixels.
+#[cfg(feature = "pictures")]
 const SHOWN: f64 = 720.0;
+#[cfg(feature = "pictures")]
 const MARGIN: f64 = 10.0;
 
 /// Spheres of one size.
@@ -239,8 +249,13 @@ impl Picture {
     ///
     /// # Errors
     /// Those of [`Picture::pixels`], and when the file cannot be written.
+    #[cfg(feature = "pictures")]
     pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
-        write_whole(path.as_ref(), self.svg()?.as_bytes())
+        let path = path.as_ref();
+        let pixels = self.pixels()?;
+        let file = png::encode(self.width, self.height, &pixels).map_err(std::io::Error::from);
+        let file = file.map_err(file_error("write", path))?;
+        write_whole(path, self.svg(&file).as_bytes())
     }
 
     /// Writes the picture alone, without title and bar, as a PNG file, with its folder. A file of
@@ -254,6 +269,7 @@ impl Picture {
     ///
     /// # Errors
     /// Those of [`Picture::pixels`], and when the file cannot be written.
+    #[cfg(feature = "pictures")]
     pub fn save_png(&self, path: impl AsRef<Path>) -> Result<()> {
         png::write(path, self.width, self.height, &self.pixels()?)
     }
@@ -271,11 +287,11 @@ impl Picture {
     /// ```
     ///
     /// # Errors
-    /// When a side is not between 1 and [`LARGEST`](png::LARGEST) pixels; a diameter or opacity is
+    /// When a side is not between 1 and [`LARGEST`] pixels; a diameter or opacity is
     /// not positive, or an opacity above 1; view, bounds or edges are not finite; or there is nothing
     /// to fit the picture to.
     pub fn pixels(&self) -> Result<Vec<u8>> {
-        png::check_size(self.width, self.height)?;
+        check_size(self.width, self.height)?;
         self.check()?;
         let bar = self.bar(1.0);
         let camera = self.camera()?;
@@ -373,15 +389,15 @@ impl Picture {
     }
 
     /// The page: the picture as a PNG inside, text and bar around it.
-    fn svg(&self) -> Result<String> {
-        let file = png::encode(self.width, self.height, &self.pixels()?);
+    #[cfg(feature = "pictures")]
+    fn svg(&self, file: &[u8]) -> String {
         let width = SHOWN.min(self.width as f64);
         let height = px(width * self.height as f64 / self.width as f64);
         let top = if self.title.is_empty() { MARGIN } else { 34.0 };
         let mut body = format!(
             "<image x=\"{MARGIN}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" \
              href=\"data:image/png;base64,{}\"/>\n",
-            base64(&file)
+            base64(file)
         );
         let tall = (0.8 * height).max(20.0);
         let mut room = 2.0 * MARGIN;
@@ -393,16 +409,27 @@ impl Picture {
             room += bar.room();
         }
         let bottom = top + height + MARGIN;
-        Ok(page(
-            (width + room).ceil(),
-            bottom.ceil(),
-            &self.title,
-            &body,
-        ))
+        page((width + room).ceil(), bottom.ceil(), &self.title, &body)
     }
 }
 
+/// Refuses a picture without pixels, or with too many.
+pub(super) fn check_size(width: usize, height: usize) -> Result<()> {
+    for (what, value) in [("width", width), ("height", height)] {
+        if !(1..=LARGEST).contains(&value) {
+            let problem = Problem::Parameter {
+                what: format!("the {what} of the picture"),
+                value: value as f64,
+                must_be: "it must be from 1 to 16384 pixels",
+            };
+            return Err(problem.into());
+        }
+    }
+    Ok(())
+}
+
 /// Bytes as text (RFC 4648): three bytes are four digits of base 64.
+#[cfg(feature = "pictures")]
 fn base64(bytes: &[u8]) -> String {
     const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);

@@ -46,10 +46,12 @@ pub use axis::Axis;
 pub(super) use bar::{Bar, level_color};
 pub use color::{Color, PALETTE, viridis};
 pub use figure::Figure;
+#[cfg(feature = "pictures")]
 pub(super) use figure::page;
 pub use fit::{PowerLaw, power_law};
 pub use legend::Legend;
 pub use panel::Panel;
+#[cfg(feature = "pictures")]
 pub(super) use path::px;
 pub use series::{Cloud, Marker, Series};
 

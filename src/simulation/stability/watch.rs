@@ -5,11 +5,12 @@ use super::super::Simulation;
 use super::super::group::Group;
 use super::arrangement::{self, Sums};
 use super::report::Thresholds;
+use crate::clock::Instant;
 use crate::parallel::{GRAIN, reduce, runs};
 use crate::particles::Field;
 use crate::scalar::Real;
 use std::ops::Range;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Bins of steps, eight an octave about the first.
 const BINS: usize = 512;

@@ -1,7 +1,8 @@
 //! The clock of a study: time on the wall, or time that the process had processors for.
 //! The latter is what a machine takes that does other things as well.
 
-use std::time::{Duration, Instant};
+use crate::clock::Instant;
+use std::time::Duration;
 
 /// What the time of a run is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -232,7 +232,7 @@ impl Report {
             "{{\"architecture\": {}, \"processor\": {}, \"threads\": {}, \"version\": {}}}",
             json_text(std::env::consts::ARCH),
             json_text(&processor()),
-            rayon::current_num_threads(),
+            crate::parallel::threads(),
             json_text(env!("CARGO_PKG_VERSION"))
         );
         let quantities: Vec<_> = self

@@ -74,10 +74,12 @@ pub use quantity::{Norm, Quantity, Reference};
 pub use refusal::Refusal;
 pub use report::{Report, Row, Status, View};
 
+use crate::clock::Instant;
 use crate::error::{Error, Problem, Result};
+use crate::parallel::Pool;
 use clock::Begin;
 use report::Measured;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// What can end a run early: any error.
 pub type Failure = Box<dyn std::error::Error + Send + Sync>;
@@ -308,14 +310,10 @@ impl<'a> WorkPrecision<'a> {
     fn measure(&self, case: &Case<'_>) -> Measured {
         let run = &self.run;
         let threads = case.number("threads").ok().filter(|n| *n >= 1.0);
-        let pool = threads.map(|n| {
-            rayon::ThreadPoolBuilder::new()
-                .num_threads(n as usize)
-                .build()
-        });
+        let pool = threads.map(|n| Pool::new(n as usize));
         let pool = match pool.transpose() {
             Ok(pool) => pool,
-            Err(why) => return Measured::without(case.spacing, Status::Failed(why.to_string())),
+            Err(why) => return Measured::without(case.spacing, Status::Failed(why)),
         };
         let start = Instant::now();
         let mut times: Vec<f64> = Vec::new();
