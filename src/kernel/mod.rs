@@ -66,6 +66,7 @@ mod check;
 mod cubic;
 mod gaussian;
 pub(crate) mod lattice;
+mod profile;
 mod quartic;
 mod quintic;
 #[cfg(test)]
@@ -77,6 +78,7 @@ mod wendland_c6;
 pub(crate) use check::problems_of;
 pub use cubic::CubicSpline;
 pub use gaussian::Gaussian;
+pub(crate) use profile::Profile;
 pub use quartic::QuarticSpline;
 pub use quintic::QuinticSpline;
 pub use wendland_c2::WendlandC2;

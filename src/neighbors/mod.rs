@@ -29,3 +29,14 @@ mod hilbert;
 pub use cells::{Cells, Grid};
 pub use clusters::{Block, CHUNK, ChunkList, ClusterLists, Radii, SearchInput, Segment};
 pub use hilbert::hilbert_index;
+
+/// Entries of the list of a row of `lanes` particles at unit spacing, inside of a body: a ball as wide as the reach and the
+/// row.
+pub(crate) fn listed_around(dimensions: usize, reach: f64, lanes: usize) -> f64 {
+    let row = (lanes as f64).powf(1.0 / dimensions as f64);
+    match dimensions {
+        1 => 2.0 * reach + row,
+        2 => core::f64::consts::PI * (reach + 0.5 * row).powi(2),
+        _ => 4.0 / 3.0 * core::f64::consts::PI * (reach + 0.5 * row).powi(3),
+    }
+}

@@ -10,7 +10,7 @@ use crate::effect::{
     ViscositySwitch, When,
 };
 use crate::error::Problem;
-use crate::kernel::{Kernel, KernelFacts};
+use crate::kernel::{Kernel, KernelFacts, Profile};
 use crate::particles::{Field, Fields, Output};
 use crate::scalar::Real;
 use crate::sweep::{FusedKernel, PairSweep, SmoothingMode};
@@ -133,6 +133,7 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
                     ..KernelFacts::of(&self.kernel)
                 }
             },
+            profile: Profile::of::<K, D>(self.kernel),
             density: own.density,
             pressure_form: setting.pressure_form,
             energy: own.energy,

@@ -54,6 +54,7 @@ pub use builder::{
 pub use start::Start;
 
 use crate::effect::{StepProgram, When};
+use crate::kernel::Profile;
 use crate::particles::{Field, Fields};
 use crate::scalar::Real;
 use crate::sweep::{Interaction, PairSweep};
@@ -111,6 +112,8 @@ pub enum Smoothing {
 pub struct Scheme<T: Real, const D: usize> {
     pub(crate) name: String,
     pub(crate) kernel: KernelFacts,
+    /// The kernel itself, for looks at few pairs.
+    pub(crate) profile: Profile,
     pub(crate) density: DensityForm,
     pub(crate) pressure_form: DensityForm,
     pub(crate) energy: EnergyForm,

@@ -35,6 +35,7 @@
 //! | memory | [`Simulation::bytes`] |
 //! | all of these as counts that no machine changes | [`Simulation::work`] |
 //! | whether the run is sound: bounds, limits, residuals, arrangement, steps, with a verdict | [`Simulation::keep_stability`], [`Simulation::stability`] |
+//! | how far sums are from a continuum, fronts and films are resolved, and what limits accuracy most | [`Simulation::indicators`] |
 //! | time, by phase of a step, and by effect with bytes and criteria | [`Simulation::phases`], [`Simulation::cost`] |
 //!
 //! # Questions about particles
@@ -128,6 +129,7 @@ mod fields;
 mod group;
 mod held;
 mod images;
+mod indicators;
 mod ledger;
 mod limits;
 mod load;
@@ -156,6 +158,7 @@ pub use control::{Criterion, StepControl, Vote};
 pub use cost::{Cost, CostLine};
 pub use energy::EnergyLedger;
 pub use held::Clamped;
+pub use indicators::{Indicators, Limit, LimitedBy, Spread};
 pub use ledger::{Budget, Ledger, Total};
 pub use load::{Load, LoadPoint};
 pub use phases::Phases;

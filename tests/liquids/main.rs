@@ -10,6 +10,7 @@ mod floating;
 mod gauges;
 mod gentle_flows;
 mod groups;
+mod indicators;
 mod jet_on_step;
 mod lees_edwards;
 mod liquid_conservation;

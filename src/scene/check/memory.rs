@@ -3,6 +3,7 @@
 
 use crate::effect::When;
 use crate::error::Problem;
+use crate::neighbors::listed_around;
 use crate::particles::{Field, Fields};
 use crate::scalar::{Lane, Real};
 use crate::scene::{Part, SKINS, Scene};
@@ -76,16 +77,11 @@ fn bytes_a_particle<T: Real, const D: usize>(
     let all = 3 * D + width(&mut evolved().map(|own| own.field));
     let kicked = evolved().filter(|own| own.when == When::Kick);
     let states = integrator.slots() * all + D + width(&mut kicked.map(|own| own.field));
-    // A row of W particles lists what any of them reaches: a ball as wide as the support and the row.
-    let lanes = <T::Wide<false> as Lane>::WIDTH as f64;
-    let row = lanes.powf(1.0 / D as f64);
+    // A row of W particles lists what any of them reaches.
+    let lanes = <T::Wide<false> as Lane>::WIDTH;
     let reach = scheme.kernel.support * scheme.h_over_dx * (1.0 + skin);
-    let ball = match D {
-        1 => 2.0 * reach + row,
-        2 => core::f64::consts::PI * (reach + 0.5 * row).powi(2),
-        _ => 4.0 / 3.0 * core::f64::consts::PI * (reach + 0.5 * row).powi(3),
-    };
-    let lists = 4.0 * ball / lanes;
+    let ball = listed_around(D, reach, lanes);
+    let lists = 4.0 * ball / lanes as f64;
     let numbers = columns + (packed * records.min(MOST_READS) + 2 * sums) as f64;
     let places = (2 * D + states) as f64;
     MARGIN * (number * (numbers + places) + lists + WHILE_BUILT)

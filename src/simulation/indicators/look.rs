@@ -1,0 +1,309 @@
+//! What one particle says of the sums over its neighbours: how far they are from those of a continuum.
+//! Read from the neighbour lists at hand; a particle whose support a free surface cuts says nothing.
+
+use super::super::group::{Group, width};
+use crate::neighbors::CHUNK;
+use crate::particles::Field;
+use crate::scalar::Real;
+use crate::scheme::{DensityForm, Smoothing};
+use crate::sweep::Transform;
+use crate::tensor::{Matrix, Vector, inverse};
+use core::sync::atomic::{AtomicU8, Ordering};
+
+/// How far a particle looks for others in front of it, in local spacings.
+const NEAR: f64 = 2.0;
+/// Cosine of the half angle of the cone in front of a particle: 45°, in which every lattice has a neighbour.
+const CONE: f64 = core::f64::consts::FRAC_1_SQRT_2;
+
+/// A neighbour of a particle.
+pub(super) struct Neighbor<const D: usize> {
+    /// Its slot, or that of the particle that it is an image of.
+    pub slot: usize,
+    /// From the particle to it \[m\].
+    pub r: [f64; D],
+    pub distance: f64,
+    /// The transform that makes the image.
+    pub transform: Option<u32>,
+}
+
+/// What one particle says.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Look {
+    pub slot: usize,
+    /// |1 − Σ V W|.
+    pub unity: f64,
+    /// ‖Σ V r⊗∇W − 1‖/√D.
+    pub gradient: f64,
+    /// The same with the factor of the scheme divided out.
+    pub left: f64,
+    /// h |Σ V ∇W|.
+    pub disorder: f64,
+    /// ρ₀ Σ V₀ W over the sum of the lattice and ρ, less one; no number where no density is carried.
+    pub density: f64,
+    /// dx |∇p| \[Pa\] and p \[Pa\].
+    pub steepness: f64,
+    pub pressure: f64,
+    /// dx ‖∇v‖ \[m/s\].
+    pub shear: f64,
+    /// h over the spacing.
+    pub smoothing: f64,
+}
+
+/// A group with what is known of its particles.
+pub(super) struct Looker<'a, T: Real, const D: usize> {
+    pub group: &'a Group<T, D>,
+    /// Whether each particle is at a free surface: not yet known, no, yes.
+    free: Vec<AtomicU8>,
+    /// Whether sums are over the reference configuration.
+    total: bool,
+}
+
+impl<'a, T: Real, const D: usize> Looker<'a, T, D> {
+    pub fn new(group: &'a Group<T, D>) -> Self {
+        let mut free = Vec::new();
+        free.resize_with(group.particles.mobile, AtomicU8::default);
+        let total = group.scheme.density == DensityForm::Deformation;
+        Self { group, free, total }
+    }
+
+    /// The field in which the sums of the scheme measure distances.
+    fn places(&self) -> Field {
+        if self.total {
+            Field::REFERENCE_POSITION
+        } else {
+            Field::POSITION
+        }
+    }
+
+    /// The volume \[mᴰ\] of a slot in the configuration of the sums.
+    fn volume(&self, slot: usize) -> f64 {
+        let columns = &self.group.particles.columns;
+        let mass = columns.raw(Field::MASS)[slot].to_f64();
+        if self.total && slot < self.group.particles.mobile {
+            return mass / self.rest(slot);
+        }
+        mass / columns.raw(Field::DENSITY)[slot].to_f64()
+    }
+
+    /// The density \[kg/m³\] of a slot's material at rest; that of the body before it for walls.
+    fn rest(&self, slot: usize) -> f64 {
+        let particles = &self.group.particles;
+        let material = &particles.bodies[particles.body_of(slot)].material;
+        material.reference_density()
+    }
+
+    /// The local spacing \[m\].
+    pub fn spacing(&self, slot: usize) -> f64 {
+        let volume = self.volume(slot);
+        match D {
+            1 => volume,
+            2 => volume.sqrt(),
+            _ => volume.cbrt(),
+        }
+    }
+
+    fn smoothing_length(&self, slot: usize) -> f64 {
+        let own = self.group.particles.columns.raw(Field::SMOOTHING_LENGTH);
+        own.get(slot)
+            .map_or(self.group.smoothing_length, |h| h.to_f64())
+    }
+
+    /// Visits what the list of a slot holds, itself excepted.
+    pub fn visit(&self, slot: usize, mut see: impl FnMut(Neighbor<D>)) {
+        let lanes = width::<T>();
+        let chunks = self.group.neighborhood.lists.chunks();
+        let (row, places) = (slot / lanes, self.places());
+        let Some(list) = chunks.get(row / CHUNK) else {
+            return;
+        };
+        let columns = &self.group.particles.columns;
+        let positions = columns.vectors(places);
+        let slots = columns.slots();
+        let near = &self.group.neighborhood;
+        let x = positions[slot];
+        let Some([from, to]) = list
+            .starts
+            .get(row % CHUNK..row % CHUNK + 2)
+            .map(|s| [s[0], s[1]])
+        else {
+            return;
+        };
+        for segment in &list.segments[from as usize..to as usize] {
+            for &j in &list.neighbors[segment.start as usize..segment.end as usize] {
+                let j = j as usize;
+                if j == slot {
+                    continue;
+                }
+                let image = j.checked_sub(slots).and_then(|k| near.images.get(k));
+                let source = image.map_or(j, |image| image.source as usize);
+                let by = image.map(|own| &near.transforms[own.transform as usize]);
+                let place = by.map_or(positions[source], |by| by.point(&positions[source]));
+                let r: [f64; D] = core::array::from_fn(|d| (place[d] - x[d]).to_f64());
+                let distance = r.iter().map(|r| r * r).sum::<f64>().sqrt();
+                see(Neighbor {
+                    slot: source,
+                    r,
+                    distance,
+                    transform: image.map(|image| image.transform),
+                });
+            }
+        }
+    }
+
+    /// The direction in which nothing is before a particle, if it is at a face: of all that it sees, or of its own body. Zero of
+    /// one that is alone.
+    pub fn face(&self, slot: usize, of_body: bool) -> Option<[f64; D]> {
+        let particles = &self.group.particles;
+        let own = particles.body_of(slot);
+        let spacing = self.spacing(slot);
+        let counts = |other: &Neighbor<D>| {
+            let mobile = other.slot < particles.mobile;
+            if of_body && !(mobile && particles.body_of(other.slot) == own) {
+                return None;
+            }
+            let mean = if mobile {
+                0.5 * (spacing + self.spacing(other.slot))
+            } else {
+                spacing
+            };
+            (other.distance < NEAR * mean).then_some(other.distance / mean)
+        };
+        let (mut lacks, mut weights) = ([0.0; D], 0.0);
+        self.visit(slot, |other| {
+            if let Some(q) = counts(&other) {
+                let weight = 1.0 - q / NEAR;
+                weights += weight;
+                for d in 0..D {
+                    lacks[d] -= weight * other.r[d] / other.distance.max(f64::MIN_POSITIVE);
+                }
+            }
+        });
+        let length = lacks.iter().map(|n| n * n).sum::<f64>().sqrt();
+        if weights == 0.0 {
+            return Some([0.0; D]);
+        }
+        // A lattice lacks nothing, but for rounding.
+        if length < 1e-6 * weights {
+            return None;
+        }
+        let normal = lacks.map(|n| n / length);
+        let mut empty = true;
+        self.visit(slot, |other| {
+            let along: f64 = (0..D).map(|d| other.r[d] * normal[d]).sum();
+            if along > CONE * other.distance && counts(&other).is_some() {
+                empty = false;
+            }
+        });
+        empty.then_some(normal)
+    }
+
+    /// Whether a particle is at a free surface; found once.
+    fn is_free(&self, slot: usize) -> bool {
+        let Some(known) = self.free.get(slot) else {
+            return false;
+        };
+        match known.load(Ordering::Relaxed) {
+            0 => {
+                let free = self.face(slot, false).is_some();
+                known.store(1 + u8::from(free), Ordering::Relaxed);
+                free
+            }
+            known => known == 2,
+        }
+    }
+
+    /// What a particle says, unless a free surface cuts its support.
+    pub fn look(&self, slot: usize) -> Option<Look> {
+        if self.is_free(slot) {
+            return None;
+        }
+        let (scheme, columns) = (&self.group.scheme, &self.group.particles.columns);
+        let own_lengths = matches!(scheme.smoothing, Smoothing::Consistent { .. });
+        let (support, setting) = (scheme.kernel.support, scheme.program.setting());
+        let pressures = columns.raw(Field::PRESSURE);
+        let velocities = columns.vectors(Field::VELOCITY);
+        let (h, spacing, rest) = (
+            self.smoothing_length(slot),
+            self.spacing(slot),
+            self.rest(slot),
+        );
+        let itself = scheme.profile.at(0.0)[0] / h.powi(D as i32);
+        let (mut unity, mut sum) = (self.volume(slot) * itself, {
+            let mass = columns.raw(Field::MASS)[slot].to_f64();
+            mass / rest * itself
+        });
+        let mut first = Vector::<f64, D>::from_element(0.0);
+        let mut moment = Matrix::<f64, D>::from_element(0.0);
+        let mut of_pressure = Vector::<f64, D>::from_element(0.0);
+        let mut of_velocity = Matrix::<f64, D>::from_element(0.0);
+        let (p, v) = (pressures[slot].to_f64(), velocities[slot]);
+        let mut whole = true;
+        self.visit(slot, |other| {
+            let h = if own_lengths {
+                h
+            } else {
+                0.5 * (h + self.smoothing_length(other.slot))
+            };
+            let q = other.distance / h;
+            if q >= support || !whole {
+                return;
+            }
+            whole = !self.is_free(other.slot);
+            let [shape, slope] = scheme.profile.at(q);
+            let scale = h.powi(D as i32);
+            let volume = self.volume(other.slot);
+            let (w, f) = (shape / scale, -slope / (scale * h * h));
+            unity += volume * w;
+            let mass = columns.raw(Field::MASS)[other.slot].to_f64();
+            sum += mass / self.rest(other.slot) * w;
+            let r = Vector::<f64, D>::from(other.r);
+            let weighted = r * (volume * f);
+            first += weighted;
+            moment += weighted * r.transpose();
+            of_pressure += weighted * (pressures[other.slot].to_f64() - p);
+            let by = other
+                .transform
+                .map(|k| &self.group.neighborhood.transforms[k as usize]);
+            let there = velocity(by, velocities[other.slot]);
+            let jump = Vector::<f64, D>::from_fn(|d, _| (there[d] - v[d]).to_f64());
+            of_velocity += jump * weighted.transpose();
+        });
+        if !whole {
+            return None;
+        }
+        let consistency = columns.raw(Field::CONSISTENCY_FACTOR);
+        let factor = if scheme.consistent_at_rest {
+            consistency.get(slot).map_or(1.0, |own| own.to_f64())
+        } else {
+            scheme.lattice_consistency_factor
+        };
+        let departs = |from: f64| {
+            let one = Matrix::<f64, D>::identity() * from;
+            ((moment - one) / from).norm() / (D as f64).sqrt()
+        };
+        let corrected = inverse(&moment, 1e-6)?;
+        let density = columns.raw(Field::DENSITY)[slot].to_f64();
+        Some(Look {
+            slot,
+            unity: (1.0 - unity).abs(),
+            gradient: departs(1.0),
+            // Gradients of the reference configuration are corrected by their own matrix.
+            left: if self.total { 0.0 } else { departs(factor) },
+            disorder: h * first.norm(),
+            density: if self.total {
+                f64::NAN
+            } else {
+                rest * sum / (setting.lattice_unity * density) - 1.0
+            },
+            steepness: spacing * (corrected * of_pressure).norm(),
+            pressure: p,
+            shear: spacing * (of_velocity * corrected.transpose()).norm(),
+            smoothing: h / spacing,
+        })
+    }
+}
+
+/// A velocity \[m/s\] as an image has it.
+fn velocity<T: Real, const D: usize>(by: Option<&Transform<T, D>>, v: [T; D]) -> [T; D] {
+    by.map_or(v, |by| (by.rotation * Vector::from(v) + by.velocity).into())
+}

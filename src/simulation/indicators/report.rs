@@ -1,0 +1,225 @@
+//! The indicators of a state: median, worst and where, of all particles whose support is whole.
+//! Each is a number without unit, zero of a continuum.
+
+use super::super::stability::Extreme;
+use super::super::{Group, Simulation, width};
+use super::limit::{self, Estimates, Limit};
+use super::look::{Look, Looker};
+use super::thickness::thicknesses;
+use crate::neighbors::CHUNK;
+use crate::parallel::{cut, for_each};
+use crate::particles::Field;
+use crate::scalar::Real;
+
+/// Particles that are looked at in a scene, about.
+const SAMPLE: usize = 1 << 15;
+/// A range of pressures or velocities below this share of ρc² or c is rounding and not a field.
+const FIELD: f64 = 1e-9;
+
+/// The values of an indicator over particles.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spread {
+    /// Half of the particles have less.
+    pub median: f64,
+    /// The worst, and where.
+    pub worst: Extreme,
+}
+
+/// How far the sums of a state are from those of a continuum, and how well it resolves what is in it. What could not be
+/// measured is `None`.
+///
+/// V = m/ρ is the volume of a particle, W the kernel that the scheme sums with, r = xⱼ − xᵢ and dx the local spacing
+/// V^(1/D). In total-Lagrangian bodies the sums are those of the reference configuration.
+///
+/// The measures of consistency are those of Quinlan, Basa & Lastiwka (2006, 10.1002/nme.1617); the cone that finds surfaces is
+/// after Marrone, Colagrossi, Le Touzé & Graziani (2010, 10.1016/j.jcp.2010.01.019).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Indicators {
+    /// The time \[s\].
+    pub time: f64,
+    /// Particles that were looked at.
+    pub particles: usize,
+    /// Those whose support no free surface cuts: what all but `thickness` is of.
+    pub inside: usize,
+    /// Unity defect |1 − Σ V W|: by how much the volumes of neighbours fail to fill space. On a square lattice 0.5 % of
+    /// Wendland's C2 at h/dx 1.5.
+    pub unity: Option<Spread>,
+    /// Gradient defect ‖Σ V r⊗∇W − 1‖/√D: the relative error of the gradient of a linear field, before what the scheme
+    /// corrects.
+    pub gradient: Option<Spread>,
+    /// The same with the scheme's own consistency factor divided out: what it leaves of it.
+    pub left: Option<Spread>,
+    /// Disorder h |Σ V ∇W|: the gradient that a constant field shows, in units of that field over h. Zero on lattices.
+    pub disorder: Option<Spread>,
+    /// |ρ₀ Σ V₀ W/(ρ U) − 1|: density by the sum, with that of the lattice U divided out, against the density carried.
+    pub density: Option<Spread>,
+    /// The mean of the same with its sign: what volume has drifted by, where the noise of an arrangement cancels.
+    pub drift: Option<f64>,
+    /// dx |∇p|/Δp with the range Δp of pressure in the group: the spacing over the width of a front of pressure. The worst is
+    /// the steepest front; one over it is how many particles it is wide.
+    pub fronts: Option<Spread>,
+    /// dx ‖∇v‖/Δv, the same of velocity: shear layers and boundary layers.
+    pub layers: Option<Spread>,
+    /// Particles across each body, from its faces inwards, 32 at most: walls and films. The worst is the thinnest place. A
+    /// liquid between walls counts as what is between them; what images continue does not count.
+    pub thickness: Vec<Spread>,
+    /// What limits accuracy, the most limiting first.
+    pub limits: Vec<Limit>,
+}
+
+impl Indicators {
+    /// What limits accuracy most here; `None` if nothing that is measured does, as in a lattice at rest.
+    #[must_use]
+    pub fn limit(&self) -> Option<&Limit> {
+        self.limits.first()
+    }
+}
+
+/// Largest and least of some numbers, apart.
+fn range(values: impl Iterator<Item = f64>) -> f64 {
+    let ends = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], own| {
+        [low.min(own), high.max(own)]
+    });
+    (ends[1] - ends[0]).max(0.0)
+}
+
+/// The median of some numbers.
+pub(super) fn median(values: &mut [f64]) -> f64 {
+    let middle = values.len() / 2;
+    *values.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+impl<T: Real, const D: usize> Group<T, D> {
+    /// What some of its particles say: those of every `stride`-th chunk of lists.
+    fn looks(&self, looker: &Looker<'_, T, D>, stride: usize) -> (usize, Vec<Look>) {
+        let each = CHUNK * width::<T>();
+        let chunks = self.particles.mobile.div_ceil(each);
+        let listed = self.neighborhood.lists.chunks().len();
+        let wanted: Vec<usize> = (0..chunks.min(listed)).step_by(stride).collect();
+        let mut all: Vec<(usize, Vec<Look>)> = vec![(0, Vec::new()); wanted.len()];
+        for_each(cut(&mut all, 1), |k, own| {
+            let first = wanted[k] * each;
+            for slot in first..(first + each).min(self.particles.mobile) {
+                // The rest of a body's run repeats the last of it.
+                let body = &self.particles.bodies[self.particles.body_of(slot)];
+                if body.slots.contains(&slot) {
+                    own[0].0 += 1;
+                    own[0].1.extend(looker.look(slot));
+                }
+            }
+        });
+        let count = all.iter().map(|own| own.0).sum();
+        (count, all.into_iter().flat_map(|own| own.1).collect())
+    }
+}
+
+/// Where a value was.
+struct At {
+    value: f64,
+    group: usize,
+    slot: usize,
+}
+
+/// Looks at the present state.
+pub(super) fn of<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Indicators {
+    let extreme = |at: &At| {
+        let group = &simulation.groups[at.group];
+        let id = group.particles.first_id + group.particles.ids[at.slot] as usize;
+        let (body, particle) = simulation.locate(id);
+        let x = group.particles.columns.vectors(Field::POSITION)[at.slot];
+        Extreme {
+            value: at.value,
+            time: simulation.time(),
+            body,
+            particle,
+            position: x.iter().map(|x| x.to_f64()).collect(),
+        }
+    };
+    let spread = |values: Vec<At>, least: bool| {
+        let sign = if least { -1.0 } else { 1.0 };
+        let worst = values
+            .iter()
+            .max_by(|a, b| (sign * a.value).total_cmp(&(sign * b.value)))?;
+        let mut numbers: Vec<f64> = values.iter().map(|own| own.value).collect();
+        Some(Spread {
+            median: median(&mut numbers),
+            worst: extreme(worst),
+        })
+    };
+    let mobile: usize = simulation
+        .groups
+        .iter()
+        .map(|own| own.particles.mobile)
+        .sum();
+    let stride = mobile.div_ceil(SAMPLE).max(1);
+    let mut particles = 0;
+    let mut looks: Vec<(usize, Look)> = Vec::new();
+    let mut ranges = Vec::new();
+    let mut thickness = Vec::new();
+    for (index, group) in simulation.groups.iter().enumerate() {
+        let looker = Looker::new(group);
+        let (count, own) = group.looks(&looker, stride);
+        particles += count;
+        let columns = &group.particles.columns;
+        let sound = |look: &Look| {
+            let [c, rho] = [Field::SOUND_SPEED, Field::DENSITY]
+                .map(|field| columns.raw(field)[look.slot].to_f64());
+            [rho * c * c, c]
+        };
+        let floor = own.iter().map(sound).fold([0.0_f64; 2], |most, own| {
+            [most[0].max(own[0]), most[1].max(own[1])]
+        });
+        let velocities = columns.vectors(Field::VELOCITY);
+        let pressures = range(own.iter().map(|look| look.pressure));
+        let speeds = (0..D).map(|d| range(own.iter().map(|k| velocities[k.slot][d].to_f64())));
+        let speeds = speeds.fold(0.0, f64::max);
+        ranges.push([
+            Some(pressures).filter(|own| *own > FIELD * floor[0]),
+            Some(speeds).filter(|own| *own > FIELD * floor[1]),
+        ]);
+        looks.extend(own.into_iter().map(|look| (index, look)));
+        if group.neighborhood.lists.chunks().is_empty() {
+            continue;
+        }
+        for body in 0..group.particles.bodies.len() {
+            let across = thicknesses(&looker, body);
+            let at = across.into_iter().map(|(slot, value)| At {
+                value,
+                group: index,
+                slot,
+            });
+            thickness.extend(spread(at.collect(), true));
+        }
+    }
+    let of = |value: &dyn Fn(usize, &Look) -> f64| {
+        let all = looks.iter().map(|(group, look)| At {
+            value: value(*group, look),
+            group: *group,
+            slot: look.slot,
+        });
+        spread(all.filter(|own| own.value.is_finite()).collect(), false)
+    };
+    let mut indicators = Indicators {
+        time: simulation.time(),
+        particles,
+        inside: looks.len(),
+        unity: of(&|_, look| look.unity),
+        gradient: of(&|_, look| look.gradient),
+        left: of(&|_, look| look.left),
+        disorder: of(&|_, look| look.disorder),
+        density: of(&|_, look| look.density.abs()),
+        drift: None,
+        fronts: of(&|group, look| ranges[group][0].map_or(f64::NAN, |own| look.steepness / own)),
+        layers: of(&|group, look| ranges[group][1].map_or(f64::NAN, |own| look.shear / own)),
+        thickness,
+        limits: Vec::new(),
+    };
+    let signed = looks.iter().map(|(_, look)| look.density);
+    let signed: Vec<f64> = signed.filter(|own| own.is_finite()).collect();
+    if !signed.is_empty() {
+        indicators.drift = Some(signed.iter().sum::<f64>() / signed.len() as f64);
+    }
+    let estimates = Estimates::of(&looks, &ranges);
+    indicators.limits = limit::limits(simulation, &indicators, &estimates);
+    indicators
+}
