@@ -56,6 +56,7 @@
 //!
 //! Solids do not see walls of particles; a [`MirrorPlane`](crate::boundary::MirrorPlane) holds solids and liquids.
 
+pub mod advice;
 mod body;
 mod check;
 mod conversion;

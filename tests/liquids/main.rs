@@ -5,6 +5,7 @@
 mod common;
 mod tank;
 
+mod advice;
 mod dam_break;
 mod floating;
 mod gauges;
