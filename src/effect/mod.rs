@@ -21,6 +21,7 @@
 //! [`Stage::Walls`]: crate::term::Stage::Walls
 
 mod acoustic_damping;
+mod artificial_conduction;
 mod artificial_pressure;
 mod artificial_stress;
 mod cavitation;
@@ -61,6 +62,7 @@ mod walls;
 mod yielding_hourglass;
 
 pub use acoustic_damping::AcousticDamping;
+pub use artificial_conduction::{ArtificialConduction, ConductionSignal};
 pub use artificial_pressure::{ArtificialPressure, TensionRepulsion};
 pub use artificial_stress::{ArtificialStress, Repulsion};
 pub use cavitation::{Cavitation, ExpansionMemory};

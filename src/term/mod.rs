@@ -245,6 +245,7 @@ macro_rules! for_each_term {
             $crate::term::VelocityAtWall,
             $crate::term::ViscosityAtWall,
             $crate::effect::VelocityBeforeWall,
+            $crate::effect::ArtificialConduction::default(),
             $crate::effect::Hypoelastic,
             $crate::effect::Repulsion { exponent: 4, over_kernel_at_spacing: 1.0 },
             $crate::effect::TensionRepulsion {
