@@ -45,6 +45,7 @@
 //! |---|---|
 //! | what does an error of so much cost? | [`Report::for_error`] |
 //! | how good is the best run of so many seconds? | [`Report::within`] |
+//! | what did an error take, in pairs that no machine changes? | [`View::work_at`] |
 //! | which runs are beaten by no other? | [`View::front`] |
 //! | does the law foretell the finest run from the others? | [`View::foretold`] |
 //! | all of it to look at | [`Report`] as text, [`Report::csv`], [`Report::json`], [`View::figure`] |
@@ -52,6 +53,7 @@
 mod answer;
 mod case;
 mod clock;
+mod counted;
 mod export;
 mod fit;
 mod history;

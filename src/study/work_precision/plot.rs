@@ -4,7 +4,7 @@
 use super::report::{Row, Status, View};
 use crate::output::svg::{Axis, Color, Figure, Legend, Marker, PALETTE, Panel, Series};
 
-/// What a plot shows along an axis.
+/// What a plot shows along an axis, and what [`View::work_at`] counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Column {
     /// The error in the quantity of the view.
@@ -52,7 +52,7 @@ const MARKERS: [Marker; 5] = [
 const GREY: Color = Color(0xc8, 0xc8, 0xc8);
 
 impl View<'_> {
-    fn read(&self, row: &Row, column: Column) -> Option<f64> {
+    pub(super) fn read(&self, row: &Row, column: Column) -> Option<f64> {
         let work = &row.work;
         let value = match column {
             Column::Error => self.error(row)?,

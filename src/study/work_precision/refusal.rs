@@ -66,6 +66,19 @@ pub enum Refusal {
         /// The largest.
         to: f64,
     },
+    /// No measured runs on both sides of it.
+    #[error(
+        "no two runs lie around an error of {}: they have {} to {}; run coarser or finer ones",
+        significant(*.wanted, 3), significant(*.least, 3), significant(*.largest, 3)
+    )]
+    NotAround {
+        /// The error that is wanted.
+        wanted: f64,
+        /// The least of the runs.
+        least: f64,
+        /// The largest.
+        largest: f64,
+    },
     /// There is no time for any run.
     #[error("the cheapest run takes {} s, and {} s are given", significant(*.least, 3), significant(*.given, 3))]
     NoTime {

@@ -97,6 +97,23 @@ fn answers_are_those_of_the_laws() {
 }
 
 #[test]
+fn work_between_runs_is_that_of_the_straight_line() {
+    let report = report();
+    let view = report.first();
+    let steps = |method, error| view.work_at(method, Column::Steps, error);
+    // 0.4 dx² between 0.2 and 0.1, where steps are 10/dx: a straight line in logarithms, so exact.
+    let found = steps("wide", 0.4 * 0.15 * 0.15).unwrap();
+    assert!((found * 0.15 / 10.0 - 1.0).abs() < 1e-12, "{found}");
+    // Neither beyond the finest run nor before the coarsest, nor without a count.
+    for error in [1e-4, 0.5] {
+        let why = steps("wide", error).unwrap_err().to_string();
+        assert!(why.contains("no two runs lie around"), "{why}");
+    }
+    assert!(view.work_at("wide", Column::Pairs, 0.01).is_err());
+    assert!(steps("nothing", 0.01).is_err());
+}
+
+#[test]
 fn laws_foretell_the_finest_run() {
     let view = report();
     let foretold = view.first().foretold();
@@ -200,4 +217,9 @@ fn an_error_that_passes_through_zero_is_no_answer() {
     assert_eq!((found.basis, found.spacing), (Basis::Measured, 0.2));
     assert!((found.error.value - 0.11).abs() < 1e-12, "{found}");
     assert!(report.for_error(0.05).is_err());
+    // Between 0.4 and 0.2, and not where the error of 0.01 has passed.
+    let view = report.first();
+    let time = view.work_at("as it is", Column::Seconds, 0.15).unwrap();
+    assert!((1e-4 / 0.4..1e-4 / 0.2).contains(&time), "{time}");
+    assert!(view.work_at("as it is", Column::Seconds, 0.05).is_err());
 }
