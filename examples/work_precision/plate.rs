@@ -2,11 +2,12 @@
 //! Against Timoshenko's beam, and against the limit of its own refinement, which tells one from the other.
 
 use crate::problem::{Problem, Text, method, sweep};
-use core::f64::consts::TAU;
 use meshfree::effect::NeoHookean;
 use meshfree::material::eos::Linear;
 use meshfree::prelude::*;
 use meshfree::scene::Start;
+use meshfree::study::StudyError;
+use meshfree::study::free_beam::FreeBeam;
 use meshfree::study::work_precision::{Case, Failure, History, Method, Outcome, Quantity};
 
 const TEXT: Text = Text {
@@ -23,8 +24,6 @@ const HEIGHT: f64 = 0.02;
 const DENSITY: f64 = 1000.0;
 const YOUNGS: f64 = 2e6;
 const POISSON: f64 = 0.3975;
-/// Of Euler's free beam: cosh(k) cos(k) = 1.
-const ROOT: f64 = 4.730_040_744_862_704;
 const PERIOD: &str = "period of bending";
 const LIMIT: &str = "period of bending against its own limit";
 
@@ -39,46 +38,15 @@ fn methods() -> Vec<Method> {
     ]
 }
 
-/// Period \[s\] of the first bending of a free beam by Timoshenko (Huang 1961, J. Appl. Mech. 28, 579, case of free ends),
-/// with a shear coefficient of 5/6, in plane strain.
-fn timoshenko() -> f64 {
-    let stiffness = YOUNGS / (1.0 - POISSON * POISSON) * HEIGHT.powi(3) / 12.0;
-    let shear = 5.0 / 6.0 * HEIGHT * YOUNGS / (2.0 * (1.0 + POISSON));
-    let square = LENGTH * LENGTH;
-    let [rotary, sheared] = [
-        HEIGHT * HEIGHT / 12.0 / square,
-        stiffness / (shear * square),
-    ];
-    let unbalance = |omega: f64| {
-        let b = omega * square * (DENSITY * HEIGHT / stiffness).sqrt();
-        let root = ((rotary - sheared).powi(2) + 4.0 / (b * b)).sqrt();
-        let [low, high] =
-            [-1.0, 1.0].map(|sign| b * (0.5 * (sign * (rotary + sheared) + root)).sqrt());
-        let third = b * b * rotary * (rotary - sheared).powi(2) + 3.0 * rotary - sheared;
-        2.0 - 2.0 * low.cosh() * high.cos()
-            + b / (1.0 - b * b * rotary * sheared).sqrt() * third * low.sinh() * high.sin()
-    };
-    let euler = (ROOT / LENGTH).powi(2) * (stiffness / (DENSITY * HEIGHT)).sqrt();
-    let [mut low, mut high] = [0.8 * euler, 1.05 * euler];
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if unbalance(low) * unbalance(middle) <= 0.0 {
-            high = middle;
-        } else {
-            low = middle;
-        }
-    }
-    TAU / low
+fn beam() -> Result<FreeBeam, StudyError> {
+    FreeBeam::new(LENGTH, HEIGHT, DENSITY, YOUNGS, POISSON)
 }
 
 fn run(case: &Case<'_>) -> Result<Outcome, Failure> {
     let shear = YOUNGS / (2.0 * (1.0 + POISSON));
     let law = Linear::from_elastic_constants(DENSITY, YOUNGS, POISSON);
     let elastic = Material::new("elastic", law).with_shear_modulus(shear);
-    let shape = |x: f64| {
-        let (share, k) = (0.982_502_214_576_238, ROOT / LENGTH);
-        (k * x).cosh() + (k * x).cos() - share * ((k * x).sinh() + (k * x).sin())
-    };
+    let beam = beam()?;
     let scheme: Scheme<f64, 2> = schemes::total_lagrangian()
         .with(NeoHookean)
         .h_over_dx(case.number("h/dx")?)
@@ -86,16 +54,15 @@ fn run(case: &Case<'_>) -> Result<Outcome, Failure> {
         .compose();
     let plate = Body::block("plate", elastic, [0.0; 2], [LENGTH, HEIGHT], case.spacing());
     let plate = plate.start(|[x, _], own| Start {
-        velocity: [0.0, 0.01 * shape(x)],
+        velocity: [0.0, 0.01 * beam.shape(x)],
         ..own
     });
     let mut plate = Scene::new(scheme).body(plate).build()?;
     let mut swing = History::new();
-    let theory = timoshenko();
-    plate.run_with(1.1 * theory, |now| {
+    plate.run_with(1.1 * beam.period(), |now| {
         let part = |p: meshfree::simulation::ParticleView<'_, f64, 2>| {
             let [x, _] = p.vector(Field::REFERENCE_POSITION).unwrap_or_default();
-            p.velocity()[1] * shape(x)
+            p.velocity()[1] * beam.shape(x)
         };
         swing.push(now.time(), now.all().map(part).sum());
     })?;
@@ -116,12 +83,12 @@ fn run(case: &Case<'_>) -> Result<Outcome, Failure> {
         .value(LIMIT, period))
 }
 
-pub fn problem(quick: bool) -> Problem {
+pub fn problem(quick: bool) -> Result<Problem, Failure> {
     let through: &[u32] = &[4, 6, 8, 10, 14];
     // Particles through the thickness, as particles a metre.
     let counts: Vec<u32> = through.iter().map(|n| n * 50).collect();
     let study = sweep(TEXT, &counts, quick, methods(), run)
-        .quantity(Quantity::exact(PERIOD, timoshenko()))
+        .quantity(Quantity::exact(PERIOD, beam()?.period()))
         .quantity(Quantity::richardson(LIMIT));
-    Problem { text: TEXT, study }
+    Ok(Problem { text: TEXT, study })
 }

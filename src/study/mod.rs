@@ -20,6 +20,7 @@
 //! | [`impulsive_tank`] | pressure in a tank that is accelerated suddenly |
 //! | [`jet_on_step`] | pressures of a jet along a floor that strikes a step |
 //! | [`dam_break`] | units of dam-break experiments, Ritter's flow on a dry bed |
+//! | [`free_beam`] | period of a free beam that bends |
 //! | [`ghia`] | centre-line velocities of the lid-driven cavity |
 //! | [`records`] | files of measured and published curves |
 //! | [`work_precision`] | what accuracy costs in time: sweeps, fits of error and cost, and the questions that they answer |
@@ -40,6 +41,7 @@ pub mod channel;
 mod check;
 pub mod cost_model;
 pub mod dam_break;
+pub mod free_beam;
 pub mod ghia;
 pub mod godunov_rods;
 pub mod hugoniot;

@@ -17,16 +17,12 @@ pub fn tank(
 ) -> Scene<f64, 2> {
     let spacing = 0.05;
     let water: Material<f64> = catalogue::water_at(SoundSpeed::Chosen(10.0 * GRAVITY.sqrt()));
-    let law = water.clone();
-    let body = Body::block("water", water, [0.0; 2], [length, 1.0], spacing);
-    let body = body.start(|x, start| Start {
-        velocity: flow(x),
-        density: law
-            .eos()
-            .density_at(1000.0 * GRAVITY * (1.0 - x[1]), 0.0)
-            .unwrap_or(start.density),
-        ..start
-    });
+    let body = Body::block("water", water, [0.0; 2], [length, 1.0], spacing)
+        .hydrostatic([0.0, -GRAVITY], [0.0, 1.0])
+        .start(|x, start| Start {
+            velocity: flow(x),
+            ..start
+        });
     let sides = [[true; 2], [true, false]];
     Scene::new(scheme)
         .body(body)

@@ -12,6 +12,7 @@ use meshfree::particles::Field;
 use meshfree::prelude::*;
 use meshfree::scheme::Start;
 use meshfree::simulation::ParticleView;
+use meshfree::study::free_beam::FreeBeam;
 use meshfree::term::TermDoc;
 use std::f64::consts::TAU;
 
@@ -154,10 +155,8 @@ fn first_zero<const D: usize>(
 #[test]
 fn a_free_plate_bends_at_its_period() {
     let [length, height] = [0.2, 0.02];
-    // Of Euler's free beam: cosh(k) cos(k) = 1.
-    let [k, share] = [4.730_040_744_862_704 / length, 0.982_502_214_576_238];
-    let shape =
-        move |x: f64| (k * x).cosh() + (k * x).cos() - share * ((k * x).sinh() + (k * x).sin());
+    let beam = FreeBeam::new(length, height, RHO, YOUNGS, POISSON).unwrap();
+    let shape = move |x: f64| beam.shape(x);
     let start = move |[x, _]: [f64; 2], own: Start<2>| Start {
         velocity: [0.0, 0.01 * shape(x)],
         ..own
@@ -188,7 +187,7 @@ fn a_free_plate_bends_at_its_period() {
         plate.all().map(part).sum()
     };
     let before = (plate.ledger().whole, spin(&plate));
-    let theory = timoshenko(length, height);
+    let theory = beam.period();
     let quarter = first_zero(&mut plate, 0.2 * theory, amplitude);
     let three = first_zero(&mut plate, 0.7 * theory, amplitude);
     let period = 2.0 * (three - quarter) / theory;
@@ -205,37 +204,6 @@ fn a_free_plate_bends_at_its_period() {
     assert!(gain.abs() < 1e-13, "{gain:e}");
     let control = whole.total("hourglass energy").unwrap() / before.0.total_energy();
     assert!(control.abs() < 0.02, "{control}");
-}
-
-/// Period \[s\] of the first bending of a free beam by Timoshenko (Huang 1961, J. Appl. Mech. 28, 579, case of free ends),
-/// with a shear coefficient of 5/6, in plane strain.
-fn timoshenko(length: f64, height: f64) -> f64 {
-    let stiffness = YOUNGS / (1.0 - POISSON * POISSON) * height.powi(3) / 12.0;
-    let shear = 5.0 / 6.0 * height * YOUNGS / (2.0 * (1.0 + POISSON));
-    let [rotary, sheared] = [
-        height * height / 12.0 / (length * length),
-        stiffness / (shear * length * length),
-    ];
-    let unbalance = |omega: f64| {
-        let b = omega * length * length * (RHO * height / stiffness).sqrt();
-        let root = ((rotary - sheared).powi(2) + 4.0 / (b * b)).sqrt();
-        let [low, high] =
-            [-1.0, 1.0].map(|sign| b * (0.5 * (sign * (rotary + sheared) + root)).sqrt());
-        let third = b * b * rotary * (rotary - sheared).powi(2) + 3.0 * rotary - sheared;
-        2.0 - 2.0 * low.cosh() * high.cos()
-            + b / (1.0 - b * b * rotary * sheared).sqrt() * third * low.sinh() * high.sin()
-    };
-    let euler = (4.730_040_744_862_704_f64 / length).powi(2) * (stiffness / (RHO * height)).sqrt();
-    let [mut low, mut high] = [0.8 * euler, 1.05 * euler];
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if unbalance(low) * unbalance(middle) <= 0.0 {
-            high = middle;
-        } else {
-            low = middle;
-        }
-    }
-    TAU / low
 }
 
 /// In the middle of a block that shears by inertia, before its edges are heard of: √3 τ = Y, and γ less its elastic part
