@@ -8,6 +8,7 @@ mod common;
 mod allocations;
 mod approach;
 mod bad_input;
+mod counted_work;
 mod filling;
 mod invariance;
 mod neighbours;
