@@ -1,15 +1,20 @@
-//! Water under gravity in a tank, in two dimensions: at rest, and in a standing wave.
-//! Both have exact answers: the hydrostatic pressure, and the period of theory at finite amplitude.
+//! Water under gravity in a tank, in two dimensions: at rest, in a standing wave, and as a column that falls.
+//! The first two have exact answers, the hydrostatic pressure and the period of theory; the third has its own finest run.
 
-use crate::problem::{Problem, Text, liquid, sweep};
+use crate::problem::{Problem, Text, method, sweep, with};
 use meshfree::boundary::Wall;
+use meshfree::integrator::DriftKickDrift;
+use meshfree::kernel::CubicSpline;
 use meshfree::material::{Material, SoundSpeed, catalogue};
 use meshfree::prelude::*;
 use meshfree::scene::Start;
+use meshfree::study::dam_break::Column;
 use meshfree::study::standing_wave::StandingWave;
-use meshfree::study::work_precision::{Case, Failure, History, Method, Outcome, Quantity};
-use meshfree::term::Fourtakas;
+use meshfree::study::work_precision::{
+    Case, Failure, History, Method, Outcome, Quantity, WorkPrecision,
+};
 use meshfree::term::viscosity::MonaghanGingold;
+use meshfree::term::{Antuono, Fourtakas};
 
 const TANK: Text = Text {
     key: "tank",
@@ -29,87 +34,130 @@ const WAVE: Text = Text {
     errors: &[0.01, 0.003],
     seconds: &[1.0, 60.0],
 };
+const DAM: Text = Text {
+    key: "dam",
+    title: "The front of a dam break",
+    setting: "A column of water twice as high as wide, the one of Martin & Moyce (1952, 57 mm wide), falls onto a dry bed without friction; the place \
+              of its front at t √(2g/a) = 2.5, against that of 112 particles over the width with h/dx 2.0. Two dimensions.",
+    words: include_str!("words/dam.md"),
+    errors: &[0.03, 0.01],
+    seconds: &[1.0, 60.0],
+};
 const GRAVITY: f64 = 9.81;
 const PRESSURE: &str = "pressure of water at rest";
 const PERIOD: &str = "period";
 const CREST: &str = "lost height of the crest in one period";
 
+const FRONT: &str = "place of the front";
+const REAR: &str = "height at the rear wall";
+
+/// A scheme of liquids as it stands but for these.
+fn own(name: &str, what: &str, ratio: f64, alpha: f64, delta: f64) -> Method {
+    let numbers = [("h/dx", ratio), ("alpha", alpha), ("delta", delta)];
+    method(name, &[("scheme", what)], &numbers)
+}
+
 fn methods() -> Vec<Method> {
     vec![
-        liquid("h/dx 1.5, α 0.02, δ 0.1 (default)", 1.5, 0.02, 0.1),
-        liquid("h/dx 1.3, α 0.02, δ 0.1", 1.3, 0.02, 0.1),
-        liquid("h/dx 2.0, α 0.02, δ 0.1", 2.0, 0.02, 0.1),
-        liquid("h/dx 2.0, α 0.005, δ 0.1", 2.0, 0.005, 0.1),
-        liquid("h/dx 2.0, α 0.02, δ 0.02", 2.0, 0.02, 0.02),
+        own("h/dx 1.5, α 0.02, δ 0.1 (default)", "C2", 1.5, 0.02, 0.1),
+        own("h/dx 1.3, α 0.02, δ 0.1", "C2", 1.3, 0.02, 0.1),
+        own("h/dx 2.0, α 0.02, δ 0.1", "C2", 2.0, 0.02, 0.1),
+        own("h/dx 2.0, α 0.005, δ 0.1", "C2", 2.0, 0.005, 0.1),
+        own("h/dx 2.0, α 0.02, δ 0.02", "C2", 2.0, 0.02, 0.02),
+        own("h/dx 1.5, Antuono δ 0.1", "Antuono", 1.5, 0.02, 0.1),
     ]
 }
 
-fn of_case(
-    case: &Case<'_>,
-    length: f64,
-    flow: impl Fn([f64; 2]) -> [f64; 2],
-) -> Result<Simulation<f64, 2>, Failure> {
-    let scheme = schemes::weakly_compressible()
-        .with_viscosity(MonaghanGingold {
-            alpha: case.number("alpha")?,
-            beta: 0.0,
-        })
-        .density_diffusion(Fourtakas {
-            delta: case.number("delta")?,
-        })
-        .h_over_dx(case.number("h/dx")?);
-    tank(scheme.compose(), case.spacing(), length, flow)
+/// What is tried on water at rest alone, where it is cheap: another kernel, integrator, step and precision.
+fn more_methods() -> Vec<Method> {
+    let more = [
+        own("cubic spline, h/dx 1.2", "cubic", 1.2, 0.02, 0.1),
+        own("h/dx 1.5, half the step", "half", 1.5, 0.02, 0.1),
+        own("h/dx 1.5, drift–kick–drift", "dkd", 1.5, 0.02, 0.1),
+        own("h/dx 1.5, f32", "f32", 1.5, 0.02, 0.1),
+    ];
+    methods().into_iter().chain(more).collect()
+}
+
+fn scheme<T: Real>(case: &Case<'_>) -> Result<Scheme<T, 2>, Failure> {
+    let viscosity = MonaghanGingold {
+        alpha: case.number("alpha")?,
+        beta: 0.0,
+    };
+    let (ratio, delta) = (case.number("h/dx")?, case.number("delta")?);
+    let plain = || {
+        schemes::weakly_compressible()
+            .with_viscosity(viscosity)
+            .h_over_dx(ratio)
+    };
+    let usual = || plain().density_diffusion(Fourtakas { delta });
+    Ok(match case.text("scheme")? {
+        "cubic" => SchemeBuilder::liquid(CubicSpline, viscosity)
+            .with(DensityDiffusion(Fourtakas { delta }))
+            .h_over_dx(ratio)
+            .compose(),
+        "Antuono" => plain().density_diffusion(Antuono { delta }).compose(),
+        "half" => usual().step_factor(0.275).compose(),
+        _ => usual().compose(),
+    })
 }
 
 /// Water at rest by the scheme as it stands.
 pub fn plain(dx: f64, length: f64) -> Result<Simulation<f64, 2>, Failure> {
-    tank(schemes::weakly_compressible().compose(), dx, length, |_| {
-        [0.0; 2]
-    })
+    let scheme = schemes::weakly_compressible().compose();
+    Ok(tank(scheme, dx, length, |_| [0.0; 2]).build()?)
 }
 
-fn tank(
-    scheme: Scheme<f64, 2>,
+fn tank<T: Real>(
+    scheme: Scheme<T, 2>,
     dx: f64,
     length: f64,
     flow: impl Fn([f64; 2]) -> [f64; 2],
-) -> Result<Simulation<f64, 2>, Failure> {
-    let water: Material<f64> = catalogue::water_at(SoundSpeed::Chosen(10.0 * GRAVITY.sqrt()));
-    let law = water.clone();
-    let body = Body::block("water", water, [0.0; 2], [length, 1.0], dx);
-    let body = body.start(|x, start| Start {
-        velocity: flow(x),
-        density: law
-            .eos()
-            .density_at(1000.0 * GRAVITY * (1.0 - x[1]), 0.0)
-            .unwrap_or(start.density),
-        ..start
-    });
+) -> Scene<T, 2> {
+    let water: Material<T> = catalogue::water_at(SoundSpeed::Chosen(10.0 * GRAVITY.sqrt()));
+    let body = Body::block("water", water, [0.0; 2], [length, 1.0], dx)
+        .hydrostatic([0.0, -GRAVITY], [0.0, 1.0])
+        .start(|x, start| Start {
+            velocity: flow(x),
+            ..start
+        });
     // The sides go on above the surface, which swings, by a whole number of spacings.
     let top = 1.0 + (0.3 / dx).round() * dx;
     let sides = [[true; 2], [true, false]];
-    Ok(Scene::new(scheme)
+    Scene::new(scheme)
         .body(body)
         .wall(Wall::around("tank", [0.0; 2], [length, top], dx, 5, sides))
         .acceleration(|_| [0.0, -GRAVITY])
-        .build()?)
 }
 
 fn rest(case: &Case<'_>) -> Result<Outcome, Failure> {
-    let mut water = of_case(case, 0.5, |_| [0.0; 2])?;
-    water.run_until(1.6)?;
-    let squares = water.all().map(|particle| {
-        let exact = 1.0 - particle.position()[1];
-        (particle.pressure() / (1000.0 * GRAVITY) - exact).powi(2)
-    });
-    let error = (squares.sum::<f64>() / water.particles() as f64).sqrt();
-    Ok(Outcome::of(&water).value(PRESSURE, error))
+    fn of<T: Real>(case: &Case<'_>) -> Result<Outcome, Failure> {
+        let scene = tank::<T>(scheme(case)?, case.spacing(), 0.5, |_| [0.0; 2]);
+        let mut water = match case.text("scheme")? {
+            "dkd" => scene.integrator(DriftKickDrift).build()?,
+            _ => scene.build()?,
+        };
+        water.run_until(1.6)?;
+        let squares = water.all().map(|particle| {
+            let exact = 1.0 - particle.position()[1];
+            (particle.pressure() / (1000.0 * GRAVITY) - exact).powi(2)
+        });
+        let error = (squares.sum::<f64>() / water.particles() as f64).sqrt();
+        Ok(Outcome::of(&water).value(PRESSURE, error))
+    }
+    match case.text("scheme")? {
+        "f32" => of::<f32>(case),
+        _ => of::<f64>(case),
+    }
 }
 
 fn swing(case: &Case<'_>) -> Result<Outcome, Failure> {
     let wave = StandingWave::new(2.0, 1.0, 0.05)?.with_gravity(GRAVITY)?;
     let flat = -0.25 * wave.period();
-    let mut water = of_case(case, 1.0, |x| wave.velocity(x, flat))?;
+    let mut water = tank::<f64>(scheme(case)?, case.spacing(), 1.0, |x| {
+        wave.velocity(x, flat)
+    })
+    .build()?;
     let height = |now: &Simulation<f64, 2>| -> f64 {
         let share = |x: f64| (wave.wavenumber() * x).cos();
         let own = now
@@ -144,10 +192,22 @@ fn swing(case: &Case<'_>) -> Result<Outcome, Failure> {
 }
 
 pub fn rest_problem(quick: bool) -> Problem {
-    let study = sweep(TANK, &[10, 16, 24, 32, 48], quick, methods(), rest);
+    let study = sweep(TANK, &[10, 16, 24, 32, 48, 64], quick, more_methods(), rest);
     Problem {
         text: TANK,
         study: study.quantity(Quantity::measured(PRESSURE)),
+    }
+}
+
+/// One run of one method on any spacing.
+pub fn rest_again(name: &str, spacing: f64) -> Problem {
+    let methods = more_methods().into_iter().filter(|own| own.name == name);
+    let study = with(WorkPrecision::new(TANK.title, rest), methods.collect());
+    Problem {
+        text: TANK,
+        study: study
+            .spacings([spacing])
+            .quantity(Quantity::measured(PRESSURE)),
     }
 }
 
@@ -157,4 +217,59 @@ pub fn wave_problem(quick: bool) -> Result<Problem, Failure> {
         .quantity(Quantity::exact(PERIOD, wave.finite_amplitude_period()?))
         .quantity(Quantity::measured(CREST));
     Ok(Problem { text: WAVE, study })
+}
+
+/// Width of the column \[m\], and how long it falls in units of its front, √(a/2g).
+const WIDTH: f64 = 0.057;
+const FALL: f64 = 2.5;
+
+/// Front and height at the rear wall of a column that has fallen, in its width and height; and the work.
+fn fall(scheme: Scheme<f64, 2>, across: f64) -> Result<(f64, f64, Outcome), Failure> {
+    let (dx, high) = (WIDTH / across, 2.0 * WIDTH);
+    let column = Column::new(WIDTH, high)?;
+    // Ten times the speed of free fall over its height.
+    let sound = SoundSpeed::Chosen(10.0 * (2.0 * GRAVITY * high).sqrt());
+    let water: Material<f64> = catalogue::water_at(sound).with_pressure_cut_off(0.0);
+    let body = Body::block("water", water, [0.0; 2], [WIDTH, high], dx)
+        .hydrostatic([0.0, -GRAVITY], [0.0, high]);
+    let sides = [[true; 2], [true, false]];
+    let mut water = Scene::new(scheme)
+        .body(body)
+        .wall(Wall::around(
+            "tank",
+            [0.0; 2],
+            [5.0 * WIDTH, 1.25 * high],
+            dx,
+            5,
+            sides,
+        ))
+        .acceleration(|_| [0.0, -GRAVITY])
+        .build()?;
+    water.run_until(FALL * column.front_time_unit())?;
+    let most = |own: fn([f64; 2]) -> f64, within: f64| {
+        let all = water.all().map(|particle| particle.position());
+        let all = all.filter(|x| x[0] < within).map(own);
+        all.fold(0.0, f64::max) + 0.5 * dx
+    };
+    let front = most(|x| x[0], f64::INFINITY) / WIDTH;
+    let rear = most(|x| x[1], 0.1 * WIDTH) / high;
+    Ok((front, rear, Outcome::of(&water)))
+}
+
+pub fn dam_problem(quick: bool) -> Result<Problem, Failure> {
+    let finest = schemes::weakly_compressible().h_over_dx(2.0).compose();
+    let (front, rear, _) = fall(finest, if quick { 28.0 } else { 112.0 })?;
+    // Particles over the width, as particles a metre.
+    let counts = [8.0, 12.0, 16.0, 24.0, 36.0].map(|n| n / WIDTH);
+    let counts = &counts[..if quick { 3 } else { counts.len() }];
+    let study = WorkPrecision::new(DAM.title, |case| {
+        let across = (WIDTH / case.spacing()).round();
+        let (front, rear, outcome) = fall(scheme(case)?, across)?;
+        Ok(outcome.value(FRONT, front).value(REAR, rear))
+    });
+    let study = study.spacings(counts.iter().map(|n| 1.0 / n));
+    let study = with(study, methods())
+        .quantity(Quantity::exact(FRONT, front))
+        .quantity(Quantity::exact(REAR, rear));
+    Ok(Problem { text: DAM, study })
 }

@@ -1,6 +1,7 @@
 //! The page of a study: for every problem its plot, errors by spacing, the runs on the front, the laws, answers, and the words about them.
 //! All numbers are from the run that writes it.
 
+use crate::choices;
 use crate::problem::Text;
 use meshfree::error::Error;
 use meshfree::output::table::{Table, significant};
@@ -9,10 +10,13 @@ use std::path::Path;
 use std::time::Duration;
 
 const HEAD: &str = include_str!("words/head.md");
+const CHOSEN: &str = include_str!("words/choices.md");
 
-#[derive(Default)]
 pub struct Page {
     body: String,
+    choices: Table,
+    /// Problems that failed.
+    failed: usize,
     /// Finest runs that others could foretell; errors within a quarter, times within 15 %, and the same refused.
     foretold: [usize; 5],
     /// Time of all runs \[s\].
@@ -34,9 +38,26 @@ fn shortly(why: &Refusal) -> String {
 }
 
 impl Page {
+    pub fn new() -> Self {
+        Self {
+            body: String::new(),
+            choices: choices::table(),
+            failed: 0,
+            foretold: [0; 5],
+            seconds: 0.0,
+        }
+    }
+
+    /// A problem that gave no report.
+    pub fn fail(&mut self, key: &str, why: &str) {
+        self.failed += 1;
+        self.body += &format!("\n## {key}\n\nFailed: {why}\n");
+    }
+
     pub fn add(&mut self, text: &Text, report: &Report) {
         let view = report.first();
         self.count(&view);
+        choices::add(&mut self.choices, text.key, text.title, report);
         let times = report
             .rows()
             .iter()
@@ -127,11 +148,17 @@ impl Page {
 
     pub fn save(&self, path: &Path) -> Result<(), Error> {
         let [all, errors, times, no_errors, no_times] = self.foretold;
+        let failed = match self.failed {
+            0 => String::new(),
+            some => format!(" {some} problems failed, as their sections say."),
+        };
         let text = format!(
             "{HEAD}\nThe runs took {:.0} s. Of {all} finest runs the laws through the coarser ones foretold the \
              error of {errors} within 25 % and refused that of {no_errors}, and the time of {times} within 15 % and refused \
-             that of {no_times}.\n{}",
-            self.seconds, self.body
+             that of {no_times}.{failed}\n\n{CHOSEN}\n{}{}",
+            self.seconds,
+            self.choices.markdown(),
+            self.body
         );
         let fail = |source| Error::File {
             action: "write",

@@ -1,4 +1,4 @@
-//! A standing sound wave in a weakly compressible liquid, in one and in two dimensions.
+//! A standing sound wave in a weakly compressible liquid, in one, two and three dimensions.
 //! After one period it should be what it was.
 
 use crate::problem::{Problem, Text, liquid, sweep};
@@ -23,6 +23,14 @@ const PLANE: Text = Text {
     title: "Sound in a liquid, two dimensions",
     setting: "The same wave in a periodic strip, 16 spacings high.",
     words: include_str!("words/sound_2d.md"),
+    errors: &[0.1, 0.03, 0.01],
+    seconds: &[1.0, 10.0],
+};
+const SPACE: Text = Text {
+    key: "sound_3d",
+    title: "Sound in a liquid, three dimensions",
+    setting: "The same wave in a periodic bar, 12 spacings wide and high.",
+    words: include_str!("words/sound_3d.md"),
     errors: &[0.1, 0.03, 0.01],
     seconds: &[1.0, 10.0],
 };
@@ -69,14 +77,14 @@ macro_rules! composed {
         }
     )*};
 }
-composed! { 1 2 }
+composed! { 1 2 3 }
 
 fn ring<const D: usize>(case: &Case<'_>) -> Result<Outcome, Failure>
 where
     Scheme<f64, D>: Composed,
 {
     let dx = case.spacing();
-    let mut size = [16.0 * dx; D];
+    let mut size = [if D == 3 { 12.0 } else { 16.0 } * dx; D];
     size[0] = 1.0;
     let wavenumber = core::f64::consts::TAU;
     let liquid = Liquid::new(1000.0, 1480.0, 0.0).linear();
@@ -100,17 +108,12 @@ where
     Ok(Outcome::of(&wave).value(QUANTITY, error))
 }
 
-pub fn problem(plane: bool, quick: bool) -> Problem {
-    let counts: &[u32] = if plane {
-        &[16, 24, 32, 48, 64, 96]
-    } else {
-        &[16, 32, 64, 128, 256, 512]
-    };
+pub fn problem(dimensions: usize, quick: bool) -> Problem {
     type Run = fn(&Case<'_>) -> Result<Outcome, Failure>;
-    let (text, run): (_, Run) = if plane {
-        (PLANE, ring::<2>)
-    } else {
-        (LINE, ring::<1>)
+    let (text, run, counts): (_, Run, &[u32]) = match dimensions {
+        1 => (LINE, ring::<1>, &[16, 32, 64, 128, 256, 512]),
+        2 => (PLANE, ring::<2>, &[16, 24, 32, 48, 64, 96]),
+        _ => (SPACE, ring::<3>, &[12, 16, 24, 32, 48]),
     };
     let study = sweep(text, counts, quick, methods(), run);
     Problem {
