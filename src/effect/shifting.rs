@@ -18,6 +18,9 @@ use crate::term::{ConcentrationGradient, In, Stage, stage};
 /// |---|---|---|
 /// | −77 % | −0.4 % | −3.6 % |
 ///
+/// That speed is by the energy, whose error passes through zero near 64² particles. The velocity itself levels off at about 0.3 % with this
+/// kernel; Wendland C4 at h/dx 2.2 goes on converging (`docs/accuracy_and_cost.md`).
+///
 /// Densities do not follow the shifts, and drift where viscosity is too weak to keep order:
 /// [`VolumeConsistency`](super::VolumeConsistency) holds them.
 #[derive(Clone, Copy, Debug, PartialEq)]
