@@ -39,7 +39,7 @@ const FORCE: f64 = 1e-4;
 const INDEX: f64 = 0.5;
 
 fn main() -> ExitCode {
-    common::main(&EXAMPLE, perform::<f32>, perform::<f64>)
+    common::main(&EXAMPLE, perform::<f64>, None)
 }
 
 #[derive(Clone, Copy, PartialEq)]

@@ -50,7 +50,7 @@ const CHANNEL: f64 = 0.15;
 const LAYERS: i64 = 3;
 
 fn main() -> ExitCode {
-    common::main(&EXAMPLE, perform::<f32>, perform::<f64>)
+    common::main(&EXAMPLE, perform::<f64>, None)
 }
 
 /// Places of a lattice from the origin, of those columns and rows.

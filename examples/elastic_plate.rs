@@ -41,7 +41,7 @@ const EXAMPLE: Example = Example {
 };
 
 fn main() -> ExitCode {
-    common::main(&EXAMPLE, perform::<f32>, perform::<f64>)
+    common::main(&EXAMPLE, perform::<f64>, None)
 }
 
 /// A plate, and what is known of its motion.

@@ -36,7 +36,7 @@ const PLACES: usize = 257;
 const LAYERS: usize = 4;
 
 fn main() -> ExitCode {
-    common::main(&EXAMPLE, perform::<f32>, perform::<f64>)
+    common::main(&EXAMPLE, perform::<f64>, None)
 }
 
 fn scene<T: Real>(options: &Options, reynolds: f64, spacing: f64) -> Scene<T, 2> {

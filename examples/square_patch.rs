@@ -32,7 +32,7 @@ const RHO: f64 = 1000.0;
 const SOUND: f64 = 10.0;
 
 fn main() -> ExitCode {
-    common::main(&EXAMPLE, perform::<f32>, perform::<f64>)
+    common::main(&EXAMPLE, perform::<f64>, None)
 }
 
 /// One composition, whose cures act with strengths that may be zero.

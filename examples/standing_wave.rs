@@ -30,7 +30,7 @@ const DEPTH: f64 = 1.0;
 const GRAVITY: f64 = 9.81;
 
 fn main() -> ExitCode {
-    common::main(&EXAMPLE, perform::<f32>, perform::<f64>)
+    common::main(&EXAMPLE, perform::<f64>, None)
 }
 
 fn scene<T: Real>(options: &Options, wave: StandingWave, spacing: f64) -> Scene<T, 2> {

@@ -30,7 +30,7 @@ const EXAMPLE: Example = Example {
 const SOUND: f64 = 10.0;
 
 fn main() -> ExitCode {
-    common::main(&EXAMPLE, perform::<f32>, perform::<f64>)
+    common::main(&EXAMPLE, perform::<f64>, None)
 }
 
 fn scene<T: Real>(options: &Options, flow: TaylorGreen, spacing: f64) -> Scene<T, 2> {

@@ -82,7 +82,7 @@ const HELD: i64 = 5;
 const LAYERS: i64 = 3;
 
 fn main() -> ExitCode {
-    common::main(&EXAMPLE, perform::<f32>, perform::<f64>)
+    common::main(&EXAMPLE, perform::<f64>, Some(perform::<f32>))
 }
 
 /// A benchmark, and what is known of it: mean and amplitude of the tip's height \[m\], its frequency \[Hz\], and the mean

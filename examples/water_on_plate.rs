@@ -59,7 +59,7 @@ const POISSON: f64 = 0.34;
 const HELD: i64 = 4;
 
 fn main() -> ExitCode {
-    common::main(&EXAMPLE, perform::<f32>, perform::<f64>)
+    common::main(&EXAMPLE, perform::<f64>, None)
 }
 
 /// Deflection \[m\] of the middle of a clamped thin plate in plane strain under water and its own weight, and what shear

@@ -63,7 +63,7 @@ const fn own(name: &'static str, value: &'static str, help: &'static str) -> Own
 }
 
 fn main() -> ExitCode {
-    common::main(&EXAMPLE, perform::<f32>, perform::<f64>)
+    common::main(&EXAMPLE, perform::<f64>, None)
 }
 
 fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
@@ -137,11 +137,8 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The crush of structures that deform, in `f64`.
+/// The crush of structures that deform.
 fn deform(options: &Options) -> Result<(), Failure> {
-    if options.single {
-        return Err("--precision: deforming walls run in f64".into());
-    }
     let thick: &[f64] = options.pick(&[1.5, 1.0, 0.5], &[1.5]);
     let thick = match options.text("--cell") {
         Some(_) => vec![options.number("--cell", 1.5)?],

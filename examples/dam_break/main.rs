@@ -33,7 +33,7 @@ each choice gains.",
 };
 
 fn main() -> ExitCode {
-    common::main(&EXAMPLE, perform::<f32>, perform::<f64>)
+    common::main(&EXAMPLE, perform::<f64>, Some(perform::<f32>))
 }
 
 fn perform<T: Real>(options: &Options) -> Result<(), Failure> {

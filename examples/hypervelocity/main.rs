@@ -53,12 +53,12 @@ const EXAMPLE: Example = Example {
 fn main() -> ExitCode {
     common::main(
         &EXAMPLE,
-        |_| Err("--precision: this example runs in f64 alone".into()),
         |options| match options.text("--dimension").unwrap_or("2") {
             "2" => perform::<2>(options),
             "3" => perform::<3>(options),
             other => Err(format!("--dimension: `{other}` is not accepted; it takes 2 or 3").into()),
         },
+        None,
     )
 }
 

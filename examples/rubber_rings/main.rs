@@ -36,7 +36,7 @@ const POISSON: f64 = 0.3975;
 const MACH: f64 = 0.059;
 
 fn main() -> ExitCode {
-    common::main(&EXAMPLE, perform::<f32>, perform::<f64>)
+    common::main(&EXAMPLE, perform::<f64>, None)
 }
 
 fn bulk_modulus() -> f64 {

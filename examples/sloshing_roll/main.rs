@@ -45,7 +45,7 @@ const WATER: [f64; 2] = [998.0, 8.94e-4];
 const PRESSURE: &str = "spheric10_lateral_water/pressure_sensor1.csv";
 
 fn main() -> ExitCode {
-    common::main(&EXAMPLE, perform::<f32>, perform::<f64>)
+    common::main(&EXAMPLE, perform::<f64>, Some(perform::<f32>))
 }
 
 fn perform<T: Real>(options: &Options) -> Result<(), Failure> {

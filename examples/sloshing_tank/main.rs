@@ -77,7 +77,7 @@ const fn own(name: &'static str, value: &'static str, help: &'static str) -> Own
 const HEIGHTS: [f64; 6] = [0.05, 0.01, 0.10, 0.15, 0.20, 0.25];
 
 fn main() -> ExitCode {
-    common::main(&EXAMPLE, perform::<f32>, perform::<f64>)
+    common::main(&EXAMPLE, perform::<f64>, Some(perform::<f32>))
 }
 
 fn perform<T: Real>(options: &Options) -> Result<(), Failure> {

@@ -71,11 +71,7 @@ const EXAMPLE: Example = Example {
 };
 
 fn main() -> ExitCode {
-    common::main(
-        &EXAMPLE,
-        |_| Err("--precision: this example runs in f64 alone".into()),
-        perform,
-    )
+    common::main(&EXAMPLE, perform, None)
 }
 
 fn material(name: &str) -> Result<Material<f64>, Failure> {
