@@ -47,6 +47,54 @@
 //! [`study::hugoniot::impact`] gives in one line. The same program in another dimension changes the
 //! type parameter and the corners of the boxes, nothing else.
 //!
+//! # A second program
+//!
+//! A column of water is let go in a tank; a sensor on the far wall is read after every step, and a picture is drawn.
+//!
+//! ```
+//! use meshfree::observe::PressureProbe;
+//! use meshfree::output::csv::CsvWriter;
+//! use meshfree::output::svg::{Axis, Cloud, Figure, Panel};
+//! use meshfree::prelude::*;
+//!
+//! fn main() -> Result<(), Error> {
+//! #   std::env::set_current_dir(std::env::temp_dir()).map_err(|source| Error::File {
+//! #       action: "enter", path: std::env::temp_dir(), source })?;
+//!     // Water at rest, 0.6 m long and 0.3 m high; its sound speed is ten times the speed that is expected.
+//!     let (spacing, gravity) = (0.03, [0.0, -9.81]);
+//!     let water = catalogue::weakly_compressible_water(3.5);
+//!     let column = Body::block("water", water, [0.0; 2], [0.6, 0.3], spacing);
+//!     // Walls at both ends of x and at the lower end of y, three layers of particles thick.
+//!     let sides = [[true, true], [true, false]];
+//!     let tank = Wall::around("tank", [0.0; 2], [1.2, 0.6], spacing, 3, sides);
+//!     let mut simulation = Scene::<f64, 2>::new(schemes::weakly_compressible())
+//!         .body(column.hydrostatic(gravity, [0.0, 0.3]))
+//!         .wall(tank)
+//!         .acceleration(move |_| gravity)
+//!         .build()?;
+//!
+//!     let probe = PressureProbe::disc(&simulation, "P", [1.2, 0.03], [-1.0, 0.0], 0.03)?;
+//!     let mut history = Vec::new();
+//!     simulation.run_with(0.4, |now| history.push([now.time(), probe.pressure(now)]))?;
+//!     CsvWriter::create("pressure.csv", &["time_s", "pressure_pa"])?.rows(&history)?;
+//! #   let most = history.iter().fold(0.0_f64, |most, row| most.max(row[1]));
+//! #   assert!(history[0][1] == 0.0 && most > 500.0, "{most} Pa");
+//!
+//!     let pressure = Axis::linear("pressure", "kPa").range(0.0, 3.0);
+//!     let points = simulation.all().map(|particle| {
+//!         let [x, y] = particle.position();
+//!         (x, y, 1e-3 * particle.pressure())
+//!     });
+//!     let panel = Panel::new(Axis::linear("x", "m"), Axis::linear("y", "m"))
+//!         .cloud(Cloud::new(pressure, points).diameter(spacing))
+//!         .equal_aspect();
+//!     Figure::new().panel(panel).save("water.svg")
+//! }
+//! ```
+//!
+//! A spacing of 5 mm looks like water. `docs/tutorials.md` goes on from here to solids with strength and to a liquid
+//! that bends a plate.
+//!
 //! # Map
 //!
 //! In the order in which a user meets them:
@@ -58,6 +106,7 @@
 //! | [`geometry`] | shapes by signed distance, and the lattices that fill and surround them |
 //! | [`material`] | equations of state, viscosity laws and named materials with their sources |
 //! | [`schemes`] | ready schemes |
+//! | [`coupling`] | how bodies of different schemes act on each other: liquid and structure, contact, ties |
 //! | [`simulation`] | steps, criteria of the time step, ledgers, questions about particles |
 //! | [`observe`] | pressure probes, wave gauges, flow through planes, fields at points and on grids |
 //! | [`output`] | tables, plots, pictures, particle files, progress |
@@ -75,21 +124,6 @@
 //!
 //! No module depends on itself through others; `docs/architecture.md` in the repository draws the
 //! layers, follows the data of a step, and gives the reasons of what was decided.
-//!
-//! # Conventions
-//!
-//! - **Units are SI** everywhere: metres, kilograms, seconds, pascals, joules per kilogram. A mass is
-//!   in kg in 3D, per metre of depth (kg/m) in 2D, and per area of the cross-section (kg/m²) in 1D;
-//!   force and energy likewise.
-//! - **Pressure is positive in compression.** Stress is positive in tension, so in a fluid σ = −p.
-//! - **i is the particle that receives, j its neighbour.** rᵢⱼ = xᵢ − xⱼ, vᵢⱼ = vᵢ − vⱼ, and a pair
-//!   that approaches has vᵢⱼ·rᵢⱼ < 0. Sums over j include i unless the summand vanishes there.
-//! - **W is the kernel, F its gradient factor:** ∇ᵢWᵢⱼ = F rᵢⱼ with F ≤ 0.
-#![doc = include_str!("../docs/equations/kernel.html")]
-//!
-//! - **D, T, h, dx:** dimension, scalar, smoothing length, spacing. V = m/ρ is a volume. B and X are
-//!   the weight and the pressure coefficient of a [density form](scheme::DensityForm).
-//! - **Numbers come out as `f64`** whatever the scalar of the simulation.
 //!
 //! # Choosing a scheme
 //!
@@ -111,41 +145,43 @@
 //! evaluation a step and, with [`EnergyForm::Compatible`](scheme::EnergyForm), conserves total energy
 //! to rounding.
 //!
+//! # Units and signs
+//!
+//! - **Units are SI** everywhere: metres, kilograms, seconds, pascals, joules per kilogram. A mass is
+//!   in kg in 3D, per metre of depth (kg/m) in 2D, and per area of the cross-section (kg/m²) in 1D;
+//!   force and energy likewise.
+//! - **Pressure is positive in compression.** Stress is positive in tension, so in a fluid σ = −p.
+//! - **i is the particle that receives, j its neighbour.** rᵢⱼ = xᵢ − xⱼ, vᵢⱼ = vᵢ − vⱼ, and a pair
+//!   that approaches has vᵢⱼ·rᵢⱼ < 0. Sums over j include i unless the summand vanishes there.
+//! - **W is the kernel, F its gradient factor:** ∇ᵢWᵢⱼ = F rᵢⱼ with F ≤ 0.
+#![doc = include_str!("../docs/equations/kernel.html")]
+//!
+//! - **D, T, h, dx:** dimension, scalar, smoothing length, spacing. V = m/ρ is a volume. B and X are
+//!   the weight and the pressure coefficient of a [density form](scheme::DensityForm).
+//! - **Numbers come out as `f64`** whatever the scalar of the simulation.
+//!
 //! # Accuracy and cost
 //!
-//! Of [`schemes::impact`] at a spacing of 0.05 mm, 20 m/s copper on copper and on PMMA, 10 mm on 40 mm,
-//! at the middle of the striker:
+//! What an error costs is measured on ten problems with known answers in `docs/accuracy_and_cost.md`, for each scheme that
+//! suits them, and on a problem of one's own by [`study::work_precision`]. In short:
 //!
-//! | | copper | PMMA |
-//! |---|---|---|
-//! | plateau, computed / exact | 353.10 / 353.17 MPa | 57.40 / 57.44 MPa |
-//! | overshoot | 0.01 % | 0.15 % |
-//! | rise from 10 to 90 % | 0.090 µs | 0.101 µs |
-//! | drift of total energy over the run | 3·10⁻¹⁵ | 4·10⁻¹⁵ |
-//!
-//! In `f32` the plateau on copper is the same to 10⁻⁵, and no point of it is farther from the exact
-//! solution than 4.1·10⁻⁴ in either.
-//!
-//! A step sums over pairs five times: for density, for gradients, for rates, and for the work of its
-//! two kicks. Processor time of one thread (x86-64 server with AVX-512, shared with other work, so
-//! rather too much than too little), and memory with lists and records:
-//!
-//! | | particles | a particle and step | a particle |
-//! |---|---|---|---|
-//! | 1D, `f64` | 100 000 | 0.46 µs | 441 bytes |
-//! | 1D, `f32` | 100 000 | 0.36 µs | 214 bytes |
-//! | 3D, `f64` | 54 000 | 2.6 µs | 1116 bytes |
-//! | 3D, `f32` | 54 000 | 1.9 µs | 575 bytes |
-//!
-//! [`EnergyForm::Symmetric`](scheme::EnergyForm) spares the last two sums, a scheme without curvature
-//! and with a plain viscosity the second.
+//! - Errors fall with the power 0.8 to 1 of the spacing where fronts, contacts or free surfaces are, at first order in smooth flow
+//!   with an artificial viscosity, and at second in total-Lagrangian bending.
+//! - A step costs about 0.5 µs a particle and core in one dimension, 1 µs for a liquid and 2 to 3 µs for a solid with shocks
+//!   in three (x86-64 with AVX-512; `docs/speed.md` has the machine and the command); `f32` takes about three fifths of
+//!   that, in time and in memory.
+//! - Halving the spacing costs 2ᴰ⁺¹ times as much.
+//! - Momentum is kept to rounding by every scheme, and with
+//!   [`EnergyForm::Compatible`](scheme::EnergyForm) total energy too. Results have the same bits on any number of threads.
 //!
 //! Neither is a promise for another problem: repeat a run at half the spacing, and take
-//! [`study::norms`] to see at what order it converges.
+//! [`study::norms`] to see at what order it converges. A run that is in doubt says why by
+//! [`Simulation::stability`](simulation::Simulation::stability).
 //!
 //! # Extending
 //!
-//! Seven traits are meant to be implemented in a crate of your own. Each has an example that compiles:
+//! Eight traits are meant to be implemented in a crate of your own. Each has an example that compiles, and `docs/extending.md` has
+//! them one after another:
 //!
 //! | trait | example | what it asks for |
 //! |---|---|---|
@@ -176,6 +212,18 @@
 //!
 //! In a release build leave `lto` at its default or above: with `lto = "off"` what the loop calls is not inlined across
 //! units of code, and steps take two to six times as long.
+//!
+//! # Features
+//!
+//! | feature | default | what it adds | by |
+//! |---|---|---|---|
+//! | `parallel` | yes | threads; without it a run takes one, to the same bits | `rayon` |
+//! | `pictures` | no | [`output::picture`] as PNG and SVG files | `png` |
+//! | `progress` | no | the drawing of [`output::progress`] | `indicatif` |
+//! | `checkpoint` | no | `Simulation::save` and `Scene::resume` | `safetensors` |
+//! | `meshes` | no | shapes from STL files | `stl_io` |
+//!
+//! Without default features the crate builds for `wasm32-unknown-unknown`, where the clock stands still.
 #![warn(missing_docs)]
 
 pub mod boundary;
@@ -203,7 +251,13 @@ pub mod sweep;
 pub mod tensor;
 pub mod term;
 
-/// The first program of the README, kept compiling.
-#[doc = include_str!("../README.md")]
+/// The programs of README and docs, kept compiling.
 #[cfg(doctest)]
-pub struct Readme;
+mod pages {
+    #[doc = include_str!("../README.md")]
+    pub struct Readme;
+    #[doc = include_str!("../docs/tutorials.md")]
+    pub struct Tutorials;
+    #[doc = include_str!("../docs/extending.md")]
+    pub struct Extending;
+}

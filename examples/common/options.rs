@@ -4,6 +4,7 @@
 use clap::builder::PossibleValuesParser;
 use clap::{Arg, ArgAction, Args, Command, FromArgMatches};
 use std::collections::BTreeMap;
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 /// An example: its name, what it computes, its schemes (the first is the default), and its own options.
@@ -57,12 +58,20 @@ pub type BadOption = String;
 
 impl Example {
     fn command(&self) -> Command {
-        let command = Options::augment_args(Command::new(self.name).about(self.about))
-            .mut_arg("scheme", |arg| {
-                arg.value_parser(PossibleValuesParser::new(self.schemes))
-                    .default_value(self.schemes.first().copied().unwrap_or_default())
-            })
-            .mut_arg("out", |arg| arg.default_value(format!("out/{}", self.name)));
+        let command = Options::augment_args(
+            Command::new(self.name)
+                .about(self.about)
+                .allow_negative_numbers(true),
+        )
+        .mut_arg("scheme", |arg| {
+            arg.required(false)
+                .value_parser(PossibleValuesParser::new(self.schemes))
+                .default_value(self.schemes.first().copied().unwrap_or_default())
+        })
+        .mut_arg("out", |arg| {
+            arg.required(false)
+                .default_value(format!("out/{}", self.name))
+        });
         self.own.iter().fold(command, |command, own| {
             let id = own.name.trim_start_matches('-');
             let taken = command.get_arguments().any(|arg| arg.get_id() == id);
@@ -85,8 +94,17 @@ impl Example {
 
     /// Reads the program's arguments. Help, and a line that cannot be followed, end the program with status 0 and 2.
     pub fn parse(&self) -> Options {
-        let matches = self.command().get_matches();
-        let mut options = Options::from_arg_matches(&matches).unwrap_or_else(|bad| bad.exit());
+        let options = self.read(std::env::args_os());
+        options.unwrap_or_else(|bad| bad.exit())
+    }
+
+    /// Reads arguments, the program's name first.
+    pub fn read(
+        &self,
+        arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>,
+    ) -> Result<Options, clap::Error> {
+        let matches = self.command().try_get_matches_from(arguments)?;
+        let mut options = Options::from_arg_matches(&matches)?;
         for own in self.own {
             let id = own.name.trim_start_matches('-');
             let given = if own.value.is_empty() {
@@ -105,7 +123,7 @@ impl Example {
                 options.spacing = None;
             }
         }
-        options
+        Ok(options)
     }
 }
 

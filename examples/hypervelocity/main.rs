@@ -181,3 +181,41 @@ where
     println!("{report}written to {}", options.folder().display());
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::EXAMPLE;
+
+    fn read(line: &str) -> Result<super::Options, String> {
+        let line = format!("hypervelocity {line}");
+        let read = EXAMPLE.read(line.split_whitespace());
+        read.map_err(|bad| bad.to_string())
+    }
+
+    #[test]
+    fn lines_are_read_with_what_an_example_adds_and_what_it_changes() {
+        let plain = read("").unwrap();
+        assert!(!plain.quick && !plain.single && plain.scheme == EXAMPLE.schemes[0]);
+        assert!(plain.file("a.csv").ends_with("out/hypervelocity/a.csv"));
+        let options = read("--quick --precision=f32 --out x --spacing 0.5 --viscosity 2").unwrap();
+        assert!(options.quick && options.single && options.file("a").ends_with("x/a"));
+        // The spacing is in millimetres here, and so it is not the common one.
+        assert_eq!(options.spacing_or(1.0, 7.0), 7.0);
+        assert_eq!(options.number("--spacing", 1.0), Ok(0.5));
+        assert_eq!(options.number("--viscosity", 1.0), Ok(2.0));
+    }
+
+    #[test]
+    fn bad_options_name_themselves_and_what_they_take() {
+        for (line, says) in [
+            ("--until -1", ["--until", "above 0"]),
+            ("--threads 0", ["--threads", "1..=1024"]),
+            ("--precision f16", ["--precision", "f64 or f32"]),
+            ("--scheme best", ["'best'", "possible values"]),
+            ("--sped 3", ["'--sped'", "unexpected"]),
+        ] {
+            let message = read(line).map(|_| ()).unwrap_err();
+            assert!(says.iter().all(|part| message.contains(part)), "{message}");
+        }
+    }
+}

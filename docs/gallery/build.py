@@ -1,0 +1,108 @@
+"""Makes the pictures of docs/gallery.md: runs the examples, and turns the plots they leave into small PNG files.
+
+python3 docs/gallery/build.py [NAME ...]    all, or those named; needs cargo and rsvg-convert
+python3 docs/gallery/build.py NAME=FILE     a plot that is there already
+"""
+
+import collections
+import struct
+import subprocess
+import sys
+import zlib
+from pathlib import Path
+
+HERE = Path(__file__).parent
+ROOT = HERE.parent.parent
+WIDTH = 640
+COLOURS = 100
+
+# Example: the plot that it leaves, and the options that suit a gallery.
+PICTURES = {
+    "cellular_filler": ("filler.svg", ["--quick"]),
+    "channel": ("poiseuille.svg", ["--quick"]),
+    "dam_break": ("frame_00010.svg", ["--quick"]),
+    "elastic_gate": ("gate.svg", ["--quick"]),
+    "elastic_plate": ("plate.svg", ["--quick"]),
+    "falling_drop": ("splash.svg", []),
+    "hydrostatic": ("column.svg", ["--quick"]),
+    "hypervelocity": ("cloud.svg", ["--quick"]),
+    "lid_driven_cavity": ("lid_driven_cavity.svg", ["--quick"]),
+    "rod_impact": ("figure1.svg", ["--quick"]),
+    "rubber_rings": ("rings.svg", ["--quick"]),
+    "sloshing_roll": ("pressure.svg", ["--quick"]),
+    "sloshing_tank": ("particles_38ms.svg", ["--sound-speed", "artificial"]),
+    "square_patch": ("patch.svg", ["--quick"]),
+    "standing_wave": ("wave.svg", ["--quick"]),
+    "taylor_bar": ("taylor_bar.svg", ["--quick"]),
+    "taylor_green": ("vortices.svg", ["--quick"]),
+    "turek_hron": ("flow.svg", ["--quick"]),
+    "viscosity_frontier": ("viscosity_frontier.svg", ["--quick"]),
+    "water_on_plate": ("plate.svg", ["--quick"]),
+}
+
+
+def pixels(png):
+    """Rows of (red, green, blue) of a PNG file of 8 bits without interlacing."""
+    data, at, packed = png, 8, b""
+    while at < len(data):
+        (size,) = struct.unpack(">I", data[at : at + 4])
+        kind, content = data[at + 4 : at + 8], data[at + 8 : at + 8 + size]
+        at += 12 + size
+        if kind == b"IHDR":
+            width, height, _, colour = struct.unpack(">IIBB", content[:10])
+        elif kind == b"IDAT":
+            packed += content
+    step = {2: 3, 6: 4}[colour]
+    raw, line = zlib.decompress(packed), width * step
+    above, rows = bytearray(line), []
+    for y in range(height):
+        start = y * (line + 1)
+        how, row = raw[start], bytearray(raw[start + 1 : start + 1 + line])
+        for x in range(line):
+            left = row[x - step] if x >= step else 0
+            corner = above[x - step] if x >= step else 0
+            guess = left + above[x] - corner
+            near = min((left, above[x], corner), key=lambda value: abs(guess - value))
+            row[x] = (row[x] + [0, left, above[x], (left + above[x]) // 2, near][how]) & 255
+        rows.append([tuple(row[x : x + 3]) for x in range(0, line, step)])
+        above = row
+    return rows
+
+
+def with_palette(rows):
+    """A PNG file of few colours: rounded ones, the most frequent kept, and the nearest taken for others."""
+    rows = [[tuple(min(255, (v + 8) // 17 * 17) for v in p) for p in row] for row in rows]
+    counts = collections.Counter(p for row in rows for p in row)
+    palette = [colour for colour, _ in counts.most_common(COLOURS)]
+    index = {
+        colour: min(range(len(palette)), key=lambda k: sum((a - b) ** 2 for a, b in zip(palette[k], colour)))
+        for colour in counts
+    }
+    lines = b"".join(b"\0" + bytes(index[p] for p in row) for row in rows)
+
+    def chunk(kind, content):
+        return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
+
+    header = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 3, 0, 0, 0)
+    colours = b"".join(bytes(colour) for colour in palette)
+    body = [(b"IHDR", header), (b"PLTE", colours), (b"IDAT", zlib.compress(lines, 9)), (b"IEND", b"")]
+    return b"\x89PNG\r\n\x1a\n" + b"".join(chunk(kind, content) for kind, content in body)
+
+
+def main(names):
+    for name in names or PICTURES:
+        name, _, plot = name.partition("=")
+        if not plot:
+            file, options = PICTURES[name]
+            out = ROOT / "out" / "gallery" / name
+            cargo = ["cargo", "run", "--release", "--all-features", "--example", name, "--"]
+            subprocess.run([*cargo, *options, "--out", out], cwd=ROOT, check=True)
+            plot = out / file
+        convert = ["rsvg-convert", "--width", str(WIDTH), "--background-color", "white", plot]
+        png = subprocess.run(convert, capture_output=True, check=True).stdout
+        small = with_palette(pixels(png))
+        (HERE / f"{name}.png").write_bytes(small)
+        print(name, len(small), "bytes")
+
+
+main(sys.argv[1:])
