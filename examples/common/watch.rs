@@ -9,9 +9,10 @@ use meshfree::output::svg::{Axis, Cloud, Panel};
 use meshfree::output::vtu::{Pvd, Vtu};
 use meshfree::scalar::Real;
 use meshfree::simulation::Simulation;
+use meshfree::study::cost_model::CostModel;
 use std::fmt;
 use std::path::Path;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// What a run cost.
 #[derive(Clone, Copy, Debug)]
@@ -49,12 +50,22 @@ pub fn watch<T: Real, const D: usize>(
 ) -> Result<Summary, Failure> {
     let started = Instant::now();
     let mut progress = Progress::new(label);
+    let mut model = CostModel::new();
+    let end = times.last().copied().unwrap_or(0.0);
     let (from, steps) = (simulation.time(), simulation.steps());
     let span = times.last().map_or(1.0, |end| end - from);
     for &time in times {
         if time > simulation.time() {
             simulation.run_with(time, |now| {
                 let done = (now.time() - from) / span;
+                if progress.is_due() {
+                    model.see(now);
+                    let forecast = model.forecast(end);
+                    let left = forecast.map(|left| Duration::try_from_secs_f64(left.seconds));
+                    if let Ok(Ok(left)) = left {
+                        progress.expect(left);
+                    }
+                }
                 progress.update(done, format_args!("t = {:.4} s", now.time()));
             })?;
         }

@@ -3,10 +3,11 @@
 
 use core::fmt;
 
+use core::time::Duration;
 #[cfg(feature = "progress")]
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
 #[cfg(feature = "progress")]
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// Shortest time between two redraws.
 #[cfg(feature = "progress")]
@@ -15,7 +16,7 @@ const INTERVAL: Duration = Duration::from_millis(100);
 #[cfg(feature = "progress")]
 const WHOLE: f64 = 1000.0;
 #[cfg(feature = "progress")]
-const LINE: &str = "{prefix} {bar:24} {percent:>3} %  {eta} left  {msg}";
+const LINE: &str = "{prefix} {bar:24} {percent:>3} %  {msg}";
 
 /// Shows how far a run is, on standard error if that is a terminal and not at all otherwise.
 /// The line is redrawn at most ten times a second, and erased at the end.
@@ -34,6 +35,9 @@ pub struct Progress {
     bar: ProgressBar,
     #[cfg(feature = "progress")]
     shown: Option<Instant>,
+    /// The time left as it was last told, and when that was.
+    #[cfg(feature = "progress")]
+    told: Option<(Duration, Instant)>,
 }
 
 impl Progress {
@@ -53,6 +57,8 @@ impl Progress {
             bar: bar(label.into()),
             #[cfg(feature = "progress")]
             shown: None,
+            #[cfg(feature = "progress")]
+            told: None,
         }
     }
 
@@ -75,6 +81,39 @@ impl Progress {
         self
     }
 
+    /// Whether a person sees it, and it is time to draw it again: a reason to ask what is left.
+    ///
+    /// ```
+    /// # use meshfree::output::progress::Progress;
+    /// // Nobody looks at the output of a test.
+    /// assert!(!Progress::new("dam break").is_due());
+    /// ```
+    #[must_use]
+    pub fn is_due(&self) -> bool {
+        #[cfg(feature = "progress")]
+        return !self.bar.is_hidden() && self.is_old();
+        #[cfg(not(feature = "progress"))]
+        false
+    }
+
+    /// Says what time is left from now, by a [cost model](crate::study::cost_model) for instance; until it is told again the line
+    /// counts down from it. Without it the line takes the rest to be as fast as all before.
+    ///
+    /// ```
+    /// # use meshfree::output::progress::Progress;
+    /// # use std::time::Duration;
+    /// let mut progress = Progress::new("dam break");
+    /// progress.expect(Duration::from_secs(60));
+    /// ```
+    pub fn expect(&mut self, left: Duration) {
+        #[cfg(feature = "progress")]
+        {
+            self.told = Some((left, Instant::now()));
+        }
+        #[cfg(not(feature = "progress"))]
+        let _ = left;
+    }
+
     /// Says what fraction is done now, with a detail such as the simulated time, which is only
     /// formatted when the line is redrawn.
     ///
@@ -85,11 +124,12 @@ impl Progress {
     /// ```
     pub fn update(&mut self, done: f64, detail: impl fmt::Display) {
         #[cfg(feature = "progress")]
-        if self.shown.is_none_or(|shown| shown.elapsed() >= INTERVAL) {
+        if self.is_old() {
             self.shown = Some(Instant::now());
             self.bar.set_position(steps(done));
             if !self.bar.is_hidden() {
-                self.bar.set_message(detail.to_string());
+                self.bar
+                    .set_message(format!("{:#} left  {detail}", HumanDuration(self.left())));
             }
         }
         #[cfg(not(feature = "progress"))]
@@ -103,6 +143,19 @@ impl Progress {
     /// Progress::new("dam break").finish();
     /// ```
     pub fn finish(self) {}
+
+    #[cfg(feature = "progress")]
+    fn is_old(&self) -> bool {
+        self.shown.is_none_or(|shown| shown.elapsed() >= INTERVAL)
+    }
+
+    #[cfg(feature = "progress")]
+    fn left(&self) -> Duration {
+        match self.told {
+            Some((left, told)) => left.saturating_sub(told.elapsed()),
+            None => self.bar.eta(),
+        }
+    }
 }
 
 #[cfg(feature = "progress")]
@@ -145,6 +198,14 @@ mod tests {
             progress.update(done, "");
             assert_eq!(progress.bar.position(), position, "{done}");
         }
+    }
+
+    #[test]
+    fn what_is_told_counts_down() {
+        let mut progress = Progress::new("run");
+        progress.expect(Duration::from_secs(60));
+        let left = progress.left().as_secs_f64();
+        assert!(left < 60.0 && left > 59.0, "{left}");
     }
 
     #[test]

@@ -33,7 +33,7 @@
 //! | energy of a liquid, work on it, dissipation | [`Simulation::energy`] |
 //! | what left through outlets | [`Simulation::removed`] |
 //! | memory | [`Simulation::bytes`] |
-//! | all of these as counts that no machine changes | [`Simulation::work`] |
+//! | all of these as counts that no machine changes | [`Simulation::work`], and [`Simulation::expected_work`] of what is to come |
 //! | whether the run is sound: bounds, limits, residuals, arrangement, steps, with a verdict | [`Simulation::keep_stability`], [`Simulation::stability`] |
 //! | how far sums are from a continuum, fronts and films are resolved, and what limits accuracy most | [`Simulation::indicators`] |
 //! | time, by phase of a step, and by effect with bytes and criteria | [`Simulation::phases`], [`Simulation::cost`] |
@@ -135,6 +135,7 @@ mod limits;
 mod load;
 mod loads;
 mod neighborhood;
+mod outlook;
 mod pair_images;
 mod pair_list;
 mod phases;
@@ -161,6 +162,7 @@ pub use held::Clamped;
 pub use indicators::{Indicators, Limit, LimitedBy, Spread};
 pub use ledger::{Budget, Ledger, Total};
 pub use load::{Load, LoadPoint};
+pub(crate) use outlook::Outlook;
 pub use phases::Phases;
 pub use query::{ParticleView, ParticleViews};
 pub use stability::{

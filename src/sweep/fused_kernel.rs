@@ -231,6 +231,7 @@ impl<K, P, const MODES: u8> FusedKernel<K, P, MODES> {
         let length = row * wanted.div_ceil(width);
         // Sweeps take turns on the same rows: only growth costs.
         if rows.data.len() < length {
+            rows.data.reserve_exact(length - rows.data.len());
             rows.data.resize(length, T::zero());
         }
         rows.reactions

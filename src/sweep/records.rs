@@ -156,7 +156,12 @@ impl<T: Real> Records<T> {
     ) {
         let (stride, slots) = (reads.width(D), columns.slots());
         self.stride = stride;
-        self.data.resize(stride * (slots + images.len()), T::zero());
+        let length = stride * (slots + images.len());
+        if length > self.data.capacity() {
+            // Growth by itself takes twice the memory, which is more than a few images are worth; all is packed anew anyhow.
+            self.data = Vec::with_capacity(length + length / 32);
+        }
+        self.data.resize(length, T::zero());
         let (own, mirrored) = self.data.split_at_mut(stride * slots);
         for_each(cut(own, GRAIN * stride), |chunk, records| {
             let first = chunk * GRAIN;

@@ -19,9 +19,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     ///
     /// Sums are over the neighbour lists and pressures that the last step or evaluation has left
     /// ([`evaluate`](Simulation::evaluate) makes them of a state that is new). Of large scenes every n-th
-    /// 256 particles are looked at, 32 768 in all, so that a look takes a few hundredths of a second to a tenth, whatever the
-    /// scene: in the closure of [`run_with`](Simulation::run_with), every 500 steps, it costs less than a per cent of most
-    /// runs. It changes no bit of them.
+    /// 256 particles are looked at, 32 768 in all, beside a sort of all of them: call it in the closure of
+    /// [`run_with`](Simulation::run_with) every 500 steps or so. It changes no bit of a run.
     ///
     /// **Free surfaces** are no defects. A particle is at one if a cone of 45° to the side where it lacks neighbours is empty up
     /// to two spacings; walls and images count as neighbours. What has such a particle, or is one, within its support has sums
@@ -36,7 +35,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// patch.evaluate()?;
     /// let indicators = patch.indicators();
     /// println!("{indicators}");
-    /// // A lattice: Σ V W is that of its kernel, gradients are even, and four layers at the surface are left out.
+    /// // A lattice: Σ V W is that of its kernel, gradients are even, and the layers at the surface are left out.
     /// let unity = indicators.unity.as_ref().map(|own| own.median);
     /// assert!(unity.is_some_and(|unity| unity < 0.01), "{indicators}");
     /// assert!(indicators.disorder.as_ref().is_some_and(|own| own.worst.value < 1e-12));
