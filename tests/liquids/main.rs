@@ -15,6 +15,7 @@ mod indicators;
 mod jet_on_step;
 mod lees_edwards;
 mod liquid_conservation;
+mod manufactured;
 mod mirror_planes;
 mod off_lattice;
 mod one_evaluation;

@@ -18,6 +18,7 @@ mod hourglass;
 mod integrators;
 mod kernels_on_lattices;
 mod loads;
+mod manufactured;
 #[cfg(feature = "meshes")]
 mod meshes;
 mod misprints;
