@@ -20,6 +20,8 @@
 //! [`Stage`]: crate::term::Stage
 //! [`Stage::Walls`]: crate::term::Stage::Walls
 
+#[cfg(test)]
+mod absent;
 mod acoustic_damping;
 mod artificial_conduction;
 mod artificial_pressure;
@@ -33,6 +35,8 @@ mod density;
 mod density_diffusion;
 mod density_floor;
 mod density_form;
+mod during;
+mod each;
 mod evolved;
 mod finite_strain_plasticity;
 mod gradients;
@@ -76,6 +80,7 @@ pub(crate) use density::{ConsistentSmoothing, ContactActivity, SummedDensity};
 pub use density_diffusion::DensityDiffusion;
 pub use density_floor::DensityFloor;
 pub use density_form::DensityForm;
+pub use during::During;
 pub use evolved::{ByField, BySum, Evolved, Rate, Update, View, When};
 pub use finite_strain_plasticity::FiniteStrainPlasticity;
 pub(crate) use gradients::CorrectedGradients;

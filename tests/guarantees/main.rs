@@ -5,6 +5,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod absent_effects;
 mod allocations;
 mod approach;
 mod bad_input;

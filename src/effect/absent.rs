@@ -1,0 +1,257 @@
+//! An effect that a scheme does not name is in no loop, no column and no law: tests over all effects of the crate.
+//! A list in which it is absent has the same loops, by type, with the same operations a pair, as a list written without it.
+
+use super::{Cavitation, DensityForm, When};
+use super::{Effect, Effects, HourglassControl, Setting, StepProgram, TotalLagrangian};
+use crate::kernel::{Kernel, WendlandC2};
+use crate::particles::{Field, Fields, Output, Outputs, PLACES};
+use crate::scalar::{Lane, Operation, Record, Traced};
+use crate::term::{Layout, Pair, Stage, Sums, Term, TermDoc, Terms, probe, stage};
+use core::any::type_name;
+use core::fmt::Debug;
+use core::marker::PhantomData;
+
+/// An effect that is not there: an entry of a list, by type, with nothing of what `A` is.
+#[derive(Clone, Debug)]
+struct Absent<A>(PhantomData<A>);
+
+impl<const D: usize, A: Clone + Debug + Send + Sync + 'static> Effect<D> for Absent<A> {
+    type Terms = ();
+    fn terms(&self, _setting: &Setting) {}
+}
+
+/// A list of terms as one term, to be recorded.
+#[derive(Clone, Debug)]
+struct AsOne<A>(A);
+
+impl<const D: usize, A: Terms<D>> Term<D> for AsOne<A> {
+    const READS: Fields = A::READS;
+    const WRITES: Outputs = A::WRITES;
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+        self.0.pair(pair, sums);
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: String::new(),
+            equation: "",
+            source: "",
+        }
+    }
+}
+
+/// The loop of a stage: its type, how many operations a pair takes, and how many numbers it reads and sums.
+#[derive(Clone, Debug, PartialEq)]
+struct Loop {
+    stage: Stage,
+    terms: &'static str,
+    operations: usize,
+    reads: usize,
+    sums: usize,
+}
+
+/// Most components of a field.
+const WIDEST: usize = 9;
+
+fn loop_of<const D: usize, A: Terms<D>>(stage: Stage, terms: A) -> Loop
+where
+    WendlandC2: Kernel<D>,
+{
+    let size = PLACES * WIDEST;
+    let record = Record::of(2 * size, |given| {
+        let number =
+            |side: usize| move |field: Field, k| given[side * size + field.place() * WIDEST + k];
+        let own = AsOne(terms.clone());
+        let pair = probe::<Traced, D, _, _>(&own, &WendlandC2, number(0), number(1));
+        let mut results = vec![pair.radial, pair.shear];
+        results.extend(pair.force);
+        for sum in A::WRITES.without(Output::FORCE).iter() {
+            results.extend((0..sum.components(D)).map(|k| pair.sum(sum, k)));
+        }
+        results
+    });
+    let record = record.expect("terms are written with the arithmetic of lanes");
+    let acts = |operation: &&Operation| {
+        !matches!(
+            operation,
+            Operation::Input(_) | Operation::Constant(_) | Operation::Everywhere(_)
+        )
+    };
+    Loop {
+        stage,
+        terms: type_name::<A>(),
+        operations: record.operations().iter().filter(acts).count(),
+        reads: A::READS.width(D),
+        sums: A::WRITES.width(D),
+    }
+}
+
+/// The loops of a list, stage by stage.
+fn loops<const D: usize, E: Effects<D>>(list: &E, setting: &Setting) -> Vec<Loop>
+where
+    WendlandC2: Kernel<D>,
+{
+    macro_rules! all {
+        ($($marker:ident),*) => {
+            vec![$(loop_of::<D, _>(Stage::$marker, list.at::<stage::$marker>(setting))),*]
+        };
+    }
+    all!(
+        Reference, Density, Walls, Gradients, Flow, Rates, Continuity
+    )
+}
+
+/// Everything that a list does beside its terms, in words.
+fn program<const D: usize, E: Effects<D>>(list: &E, setting: &Setting) -> Vec<String> {
+    let mut program = StepProgram::<f64, D>::new(*setting);
+    list.register(&mut program);
+    let mut parts = vec![
+        format!("{:?}", program.fields().iter().collect::<Vec<_>>()),
+        format!("{:?} {:?}", program.declared, program.sums),
+        format!("{:?} {:?}", program.evolved, program.pending.len()),
+        format!("{:?} {:?}", program.ledger, program.documents),
+        format!("{:?} {}", program.step_factor, program.wall_normals),
+        format!("{}", program.requirements.len()),
+    ];
+    let laws = program.laws.iter().flatten();
+    parts.extend(laws.map(|law| format!("{law:?}")));
+    parts.extend(program.limits.iter().map(|limit| limit.name().to_owned()));
+    parts
+}
+
+/// What an effect adds to a list: numbers a particle, numbers and operations of its pairs, laws.
+struct Price {
+    name: &'static str,
+    numbers: usize,
+    reads: usize,
+    operations: usize,
+}
+
+/// A list with an effect that is absent against the list without it; gives what the effect adds where it is there.
+fn check<const D: usize, B: Effects<D>, A: Effect<D>>(
+    name: &'static str,
+    base: &B,
+    effect: &A,
+    setting: &Setting,
+) -> Price
+where
+    WendlandC2: Kernel<D>,
+{
+    let off = (base.clone(), Absent::<A>(PhantomData));
+    let on = (base.clone(), effect.clone());
+    let without = loops::<D, B>(base, setting);
+    assert_eq!(loops::<D, _>(&off, setting), without, "{name}");
+    assert_eq!(
+        program::<D, _>(&off, setting),
+        program::<D, _>(base, setting),
+        "{name}"
+    );
+    assert_eq!(<(B, Absent<A>) as Effects<D>>::READS, B::READS, "{name}");
+    assert!(off.problems().is_empty());
+    // The comparison would see the effect: it adds something, and to its loops operations.
+    let with = loops::<D, _>(&on, setting);
+    let more = with != without || program::<D, _>(&on, setting) != program::<D, _>(base, setting);
+    assert!(more, "{name} does nothing");
+    for (own, other) in with.iter().zip(&without) {
+        let differs = own.terms != other.terms;
+        assert_eq!(
+            differs,
+            own.operations > other.operations,
+            "{name}: {own:?} {other:?}"
+        );
+    }
+    let sum = |loops: &[Loop], of: fn(&Loop) -> usize| loops.iter().map(of).sum::<usize>();
+    let numbers = |reads: Fields, list: &dyn Fn(&mut StepProgram<f64, D>)| {
+        let mut program = StepProgram::new(*setting);
+        list(&mut program);
+        reads.union(program.fields()).width(D)
+    };
+    Price {
+        name,
+        numbers: numbers(<(B, A) as Effects<D>>::READS, &|program| {
+            on.register(program)
+        }) - numbers(B::READS, &|program| base.register(program)),
+        reads: sum(&with, |own| own.reads) - sum(&without, |own| own.reads),
+        operations: sum(&with, |own| own.operations) - sum(&without, |own| own.operations),
+    }
+}
+
+fn setting<const D: usize>(density: DensityForm) -> Setting
+where
+    WendlandC2: Kernel<D>,
+{
+    Setting::of::<D>(&WendlandC2, 1.3, (density, density), When::Drift)
+}
+
+#[test]
+fn an_absent_effect_leaves_no_trace() {
+    let liquid = setting::<2>(DensityForm::Continuity);
+    let total = setting::<2>(DensityForm::Deformation);
+    let rod = setting::<1>(DensityForm::Continuity);
+    let mut prices = Vec::new();
+    macro_rules! each {
+        (liquid [$($a:expr),*] solid [$($b:expr),*] total_lagrangian [$($c:expr),*] sheet [$($d:expr),*] rod [$($e:expr),*]) => {
+            $(prices.push(check::<2, _, _>(stringify!($a), &(), &$a, &liquid));)*
+            $(prices.push(check::<2, _, _>(stringify!($a), &((), Cavitation), &$a, &liquid));)*
+            $(prices.push(check::<2, _, _>(stringify!($b), &(), &$b, &liquid));)*
+            $(prices.push(check::<2, _, _>(stringify!($c), &(), &$c, &total));)*
+            $(prices.push(check::<2, _, _>(
+                stringify!($c), &(((), TotalLagrangian), HourglassControl::default()), &$c, &total));)*
+            $(prices.push(check::<2, _, _>(stringify!($d), &(), &$d, &total));)*
+            $(prices.push(check::<1, _, _>(stringify!($e), &(), &$e, &rod));)*
+        };
+    }
+    crate::for_each_effect!(each);
+    println!("effect | numbers a particle | numbers read by pairs | operations a pair");
+    for Price {
+        name,
+        numbers,
+        reads,
+        operations,
+    } in &prices
+    {
+        let name = name.replace("$crate::", "").replace("crate::effect::", "");
+        println!("{name} | {numbers} | {reads} | {operations}");
+    }
+    assert!(prices.iter().any(|price| price.operations == 0));
+    assert!(prices.iter().any(|price| price.operations > 20));
+}
+
+#[test]
+fn a_choice_at_run_time_of_an_effect_without_terms_is_none() {
+    let liquid = setting::<2>(DensityForm::Continuity);
+    let none = ((), None::<super::AcousticDamping>);
+    assert_eq!(loops::<2, _>(&none, &liquid), loops::<2, _>(&(), &liquid));
+    assert_eq!(
+        program::<2, _>(&none, &liquid),
+        program::<2, _>(&(), &liquid)
+    );
+}
+
+#[test]
+fn the_list_has_every_effect() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/effect");
+    macro_rules! written {
+        ($($group:ident [$($effect:expr),*])*) => { [$($(stringify!($effect)),*),*].join(" ") };
+    }
+    let listed = crate::for_each_effect!(written);
+    let mut found = 0;
+    for entry in std::fs::read_dir(folder).expect("the sources") {
+        let text = std::fs::read_to_string(entry.expect("a file").path()).expect("a text");
+        for line in text.lines().filter(|line| line.starts_with("impl")) {
+            let Some((_, rest)) = line.split_once("> for ") else {
+                continue;
+            };
+            let is_effect = line.contains(" Effect<");
+            let end = rest.find(|c: char| !c.is_alphanumeric()).unwrap_or(0);
+            let name = &rest[..end];
+            // What is nothing, and what holds another.
+            if is_effect
+                && !["NoWalls", "Option", "During", "Absent", "InPlaneStress"].contains(&name)
+            {
+                found += 1;
+                assert!(listed.contains(name), "`for_each_effect` lacks {name}");
+            }
+        }
+    }
+    assert!(found > 20, "{found}");
+}

@@ -1,0 +1,59 @@
+//! The list of all effects, for tests and benchmarks that run over each of them.
+//! A new effect takes one line here, and is then held to what all are held to.
+
+/// Calls a macro with one effect of each kind, as expressions, in groups by the schemes that they go with: liquids, solids that
+/// follow present neighbours, total-Lagrangian solids, sheets in plane stress (two dimensions) and rods in uniaxial stress
+/// (one dimension). Whatever else it is given comes first.
+///
+/// ```
+/// macro_rules! count {
+///     ($($group:ident [$($effect:expr),*])*) => { [$([$(stringify!($effect)),*].len()),*] };
+/// }
+/// assert!(meshfree::for_each_effect!(count).iter().sum::<usize>() > 20);
+/// ```
+#[macro_export]
+macro_rules! for_each_effect {
+    ($callback:ident $($given:tt)*) => {
+        $callback! {
+            $($given)*
+            liquid [
+                $crate::effect::Cavitation,
+                $crate::effect::ExpansionMemory,
+                $crate::effect::AcousticDamping { strength: 0.3 },
+                $crate::effect::VolumeConsistency { strength: 0.05 },
+                $crate::effect::DensityDiffusion($crate::term::Fourtakas::default()),
+                $crate::effect::Shifting::STANDARD,
+                $crate::effect::Laminar($crate::term::LaminarViscosity),
+                $crate::effect::GeneralisedNewtonian,
+                $crate::effect::ArtificialPressure::default(),
+                $crate::effect::PairingControl::default(),
+                $crate::effect::ExtrapolatedPressure::default(),
+                $crate::effect::RiemannWalls::default()
+            ]
+            solid [
+                $crate::effect::Hypoelastic,
+                $crate::effect::Plasticity,
+                $crate::effect::Damage,
+                $crate::effect::DensityFloor::default(),
+                $crate::effect::ArtificialStress::default(),
+                $crate::effect::HourglassFree::default()
+            ]
+            total_lagrangian [
+                $crate::effect::TotalLagrangian,
+                $crate::effect::NeoHookean,
+                $crate::effect::StVenantKirchhoff,
+                $crate::effect::FiniteStrainPlasticity,
+                $crate::effect::HourglassControl::default(),
+                $crate::effect::YieldingHourglass
+            ]
+            sheet [
+                $crate::effect::PlaneStress,
+                $crate::effect::StVenantKirchhoff.plane_stress(),
+                $crate::effect::NeoHookean.plane_stress()
+            ]
+            rod [
+                $crate::effect::UniaxialStress
+            ]
+        }
+    };
+}
