@@ -25,6 +25,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             rigid,
             accelerations,
             loads,
+            events,
             control,
             skin,
             // A checkpoint says on which it runs on.
@@ -47,7 +48,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         }
         let count = debug(accelerations.len());
         let all_loads = core::iter::once(count).chain(loads.iter().map(ToString::to_string));
-        vec![
+        let mut all = vec![
             ("schemes", schemes),
             ("bodies", bodies.value()),
             ("walls", all_walls.value()),
@@ -85,7 +86,13 @@ impl<T: Real, const D: usize> Scene<T, D> {
             ("the loads", of_texts(all_loads)),
             ("the choice of steps", of_texts([debug(control)])),
             ("the skin of neighbour lists", of_texts([debug(skin)])),
-        ]
+        ];
+        // Files of scenes without events are as they were.
+        if !events.is_empty() {
+            let until: Vec<_> = clamps.iter().map(|own| &own.until).collect();
+            all.push(("events", of_texts([debug(events), debug(until)])));
+        }
+        all
     }
 }
 

@@ -16,6 +16,8 @@ pub(super) struct ClampOf<const D: usize> {
     pub body: String,
     pub region: Region<D>,
     pub motion: Option<Arc<dyn Motion<D>>>,
+    /// The event that ends it.
+    pub until: Option<String>,
 }
 
 impl<const D: usize> ClampOf<D> {
@@ -60,6 +62,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             body: body.into(),
             region: Box::new(region),
             motion: None,
+            until: None,
         });
         self
     }
@@ -120,9 +123,13 @@ impl<T: Real, const D: usize> Scene<T, D> {
     pub(super) fn hold(&self, number: usize, group: &mut Group<T, D>) {
         for (k, body) in self.parts[number].bodies.iter().enumerate() {
             let clamps = self.clamps.iter().filter(|own| own.body == body.name);
-            let clamps =
-                clamps.map(|own| Clamp::new(k, own.particles(&body.points), own.motion.clone()));
-            group.held.clamps.extend(clamps);
+            group.held.clamps.extend(clamps.map(|own| {
+                let until = own.until.as_ref();
+                Clamp {
+                    until: until.and_then(|name| self.events.iter().position(|e| e.name == *name)),
+                    ..Clamp::new(k, own.particles(&body.points), own.motion.clone())
+                }
+            }));
             if self.rigid.contains(&body.name) {
                 let slots = group.particles.bodies[k].slots.clone();
                 let mass = &group.particles.columns.raw(Field::MASS)[slots];

@@ -36,6 +36,7 @@
 //! | the same acceleration on all particles, by time: gravity, a frame that is shaken | [`Scene::acceleration`] | yes |
 //! | an acceleration by place, velocity, density, body and time: a well, drag, a frame that turns | [`Scene::load`] with [`Load::acceleration`] | no |
 //! | a heat source by the same | [`Scene::load`] with [`Load::heating`] | |
+//! | either, from an [event](Scene::event) on | the same, with [`LoadPoint::since`](crate::simulation::LoadPoint::since) | no |
 //!
 //! # Several schemes
 //!
@@ -61,6 +62,7 @@ mod body;
 mod check;
 mod conversion;
 mod coupled;
+mod event;
 #[cfg(feature = "checkpoint")]
 mod fingerprint;
 mod held;
@@ -80,7 +82,7 @@ use crate::output::checkpoint::Checkpoint;
 use crate::particles::Fields;
 use crate::scalar::Real;
 use crate::scheme::Scheme;
-use crate::simulation::{Load, Simulation, StepControl, UniformLoad};
+use crate::simulation::{Event, Load, Simulation, StepControl, UniformLoad};
 use crate::sweep::{InstructionSet, Interaction};
 use held::ClampOf;
 use plan::Plan;
@@ -120,6 +122,7 @@ pub struct Scene<T: Real, const D: usize> {
     rigid: Vec<String>,
     accelerations: Vec<UniformLoad<D>>,
     loads: Vec<Load<D>>,
+    events: Vec<Event<T, D>>,
     control: StepControl,
     skin: Option<f64>,
     instructions: InstructionSet,
@@ -168,6 +171,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             rigid: Vec::new(),
             accelerations: Vec::new(),
             loads: Vec::new(),
+            events: Vec::new(),
             control,
             skin: None,
             instructions: InstructionSet::detect(),
@@ -464,7 +468,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
             self.control,
             self.accelerations,
             self.loads,
-        );
+        )
+        .with_events(self.events);
         #[cfg(feature = "checkpoint")]
         let simulation = simulation.of_scene(hashes);
         Ok(simulation)

@@ -25,6 +25,9 @@ pub(crate) struct Clamp<const D: usize> {
     pub particles: Vec<(u32, [f64; D])>,
     /// How they move; not at all if not given.
     pub motion: Option<Arc<dyn Motion<D>>>,
+    /// The number of the event that ends it, and whether that has happened.
+    pub until: Option<usize>,
+    pub released: bool,
     /// What holds each of them \[N\] against forces of its group, and against those of couplings where it sub-cycles.
     pub forces: [Vec<[f64; D]>; 2],
     /// Momentum \[kg m/s\] and work \[J\] that these have given since the start.
@@ -83,6 +86,8 @@ impl<const D: usize> Clamp<D> {
             body,
             particles,
             motion,
+            until: None,
+            released: false,
             forces: [Vec::new(), Vec::new()],
             impulse: [0.0; D],
             work: 0.0,
@@ -262,6 +267,9 @@ impl<T: Real, const D: usize> Group<T, D> {
                 .map(|motion| motion.pose(time));
             let forces = &mut own.forces[usize::from(coupled)];
             forces.clear();
+            if own.released {
+                continue;
+            }
             for (id, rest) in &own.particles {
                 let mut given = [0.0; D];
                 for slot in self.slots_of(own.body, *id).rev() {

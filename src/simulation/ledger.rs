@@ -334,6 +334,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         Ok(self.force_of_block(on, from))
     }
 
+    /// Whether a body feels another body, a wall or a boundary at the last evaluation.
+    pub(super) fn feels_another(&self, on: usize) -> bool {
+        let apart = (0..self.groups.len()).filter(|&k| self.groups[k].sub_cycle.is_some());
+        let alone = apart.flat_map(|group| self.reactions(Some(group)));
+        let mut all = self.reactions(None).chain(alone);
+        all.any(|(felt, exerted, by)| felt == on && exerted != on && by.iter().any(|f| *f != 0.0))
+    }
+
     /// The force \[N\] of a block on another, by scene indices.
     fn force_of_block(&self, on: usize, from: usize) -> [f64; D] {
         let mut force = [0.0; D];

@@ -19,6 +19,16 @@ pub struct LoadPoint<'a, const D: usize> {
     pub time: f64,
     /// The name of the body.
     pub body: &'a str,
+    pub(super) happened: &'a [(String, Option<f64>)],
+}
+
+impl<const D: usize> LoadPoint<'_, D> {
+    /// How long ago \[s\] an [event](crate::scene::Scene::event) happened; nothing if it has not, or there is none of that name.
+    #[must_use]
+    pub fn since(&self, event: &str) -> Option<f64> {
+        let own = self.happened.iter().find(|(name, _)| name == event)?;
+        own.1.map(|at| self.time - at)
+    }
 }
 
 /// A law of a load.

@@ -2,6 +2,7 @@
 //! Their values stay in columns, which list builds, checkpoints and evaluations between steps treat as all others.
 
 use super::Simulation;
+use super::event::Happened;
 use super::group::Group;
 use super::load::{Load, LoadPoint};
 use super::query::ParticleView;
@@ -21,7 +22,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Adds what loads give a group at `time` \[s\] to the rates of an evaluation.
     pub(super) fn apply_loads(&mut self, group: usize, time: f64) -> Result<()> {
         let group = &mut self.groups[group];
-        let Some(Wrong { load, value, slot }) = group.apply_loads(&self.loads, time) else {
+        let Some(Wrong { load, value, slot }) =
+            group.apply_loads(&self.loads, (time, &self.happened))
+        else {
             return Ok(());
         };
         let body = &group.particles.bodies[group.particles.body_of(slot)];
@@ -62,7 +65,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
 impl<T: Real, const D: usize> Group<T, D> {
     /// Evaluates loads at `time` \[s\], and adds them to forces and powers; the first value that is wrong, if there is one.
-    fn apply_loads<'a>(&mut self, loads: &'a [Load<D>], time: f64) -> Option<Wrong<'a, D>> {
+    fn apply_loads<'a>(
+        &mut self,
+        loads: &'a [Load<D>],
+        now: (f64, &Happened),
+    ) -> Option<Wrong<'a, D>> {
         for (field, sum) in [
             (Field::LOAD_ACCELERATION, Output::FORCE),
             (Field::LOAD_HEATING, Output::POWER),
@@ -73,7 +80,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             let mut values = self.take(field);
             values.fill(T::zero());
             let mut own = loads.iter().filter(|load| load.field() == field);
-            let wrong = own.find_map(|load| self.evaluate_load(load, time, &mut values));
+            let wrong = own.find_map(|load| self.evaluate_load(load, now, &mut values));
             *self.particles.columns.column_mut(field) = values;
             if wrong.is_some() {
                 return wrong;
@@ -89,7 +96,7 @@ impl<T: Real, const D: usize> Group<T, D> {
     fn evaluate_load<'a>(
         &self,
         load: &'a Load<D>,
-        time: f64,
+        (time, happened): (f64, &Happened),
         values: &mut [T],
     ) -> Option<Wrong<'a, D>> {
         let width = load.field().components(D);
@@ -106,6 +113,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                     density: particle.density(),
                     time,
                     body: &body.name,
+                    happened,
                 };
                 load.add(&at, sum).map(|value| (slot, value))
             };

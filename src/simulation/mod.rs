@@ -124,6 +124,7 @@ mod cost;
 mod couplings;
 mod energy;
 mod evaluate;
+mod event;
 mod evolve;
 mod fields;
 mod group;
@@ -174,6 +175,7 @@ pub use work::Work;
 
 pub(crate) use contact::{Acting, Couple};
 pub(crate) use couplings::Structure;
+pub(crate) use event::{Event, Happened};
 pub(crate) use group::{Group, width};
 pub(crate) use held::{Clamp, Rigid};
 pub(crate) use pair_list::PairList;
@@ -246,6 +248,9 @@ pub struct Simulation<T: Real, const D: usize> {
     failed: Option<String>,
     /// What a watched run keeps.
     watch: Option<Box<stability::Watch<D>>>,
+    /// What is looked at after every step, and what has happened.
+    events: Vec<Event<T, D>>,
+    happened: Happened,
 }
 
 impl<T: Real, const D: usize> core::fmt::Debug for Simulation<T, D> {
@@ -305,6 +310,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             due: 0.0,
             failed: None,
             watch: None,
+            events: Vec::new(),
+            happened: Happened::new(),
         }
     }
 

@@ -126,6 +126,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
         self.check_state()?;
         self.watch_step();
+        self.watch_events();
         self.book_step(start, before);
         Ok(vote.step)
     }

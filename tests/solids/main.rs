@@ -11,6 +11,7 @@ mod contact;
 mod convergence;
 mod conversion;
 mod elastic_plastic_waves;
+mod events;
 mod gas;
 mod halved_contact;
 mod held;

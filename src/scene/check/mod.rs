@@ -57,6 +57,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         self.check_sub_cycles(&mut problems);
         self.check_spreading(&mut problems);
         self.check_held(&mut problems);
+        self.check_events(&mut problems);
         let before = problems.len();
         self.check_boundaries(&mut problems);
         if problems.len() == before {

@@ -12,6 +12,9 @@ pub(super) fn put_held<const D: usize>(held: &Held<D>, name: &str, file: &mut Ch
             body: _,
             particles: _,
             motion: _,
+            // By the events, which are kept.
+            until: _,
+            released: _,
             forces,
             impulse,
             work,

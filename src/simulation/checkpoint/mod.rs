@@ -62,6 +62,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             control: _,
             accelerations: _,
             loads: _,
+            events: _,
+            happened,
             scene,
             time,
             steps,
@@ -123,6 +125,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         for (k, kept) in kept_impulses.iter().enumerate() {
             file.put(format!("kept{k}/impulses"), 1, &kept.values);
             file.put_one(format!("kept{k}/time"), kept.time);
+        }
+        for (k, (name, at)) in happened.iter().enumerate() {
+            file.put_text(format!("event {k}"), name.clone());
+            if let Some(at) = at {
+                file.put_one(format!("event{k}/time"), *at);
+            }
         }
         for (k, (couple, acting)) in couples.iter().zip(acting).enumerate() {
             couple.put(acting, &format!("coupling{k}"), &mut file);
@@ -196,6 +204,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         for (k, group) in self.groups.iter_mut().enumerate() {
             group.take_state(&format!("group{k}"), file)?;
         }
+        for (k, (_, at)) in self.happened.iter_mut().enumerate() {
+            let name = format!("event{k}/time");
+            *at = None;
+            if file.has(&name) {
+                *at = Some(file.get_one(&name)?);
+            }
+        }
+        self.release_clamps();
         Ok(())
     }
 
