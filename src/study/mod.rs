@@ -1,5 +1,5 @@
 //! Exact and reference solutions, and the norms that measure a result against them.
-//! None of it uses particles but [`work_precision`] and [`cost_model`], which count what runs cost; all of it is `f64` in
+//! None of it uses particles but [`work_precision`], [`cost_model`] and [`ablation`], which count what runs cost; all of it is `f64` in
 //! SI units (or in any consistent set of units).
 //!
 //! To judge a result, take the simplest solution that covers it: [`hugoniot`] for the height of a first
@@ -25,6 +25,7 @@
 //! | [`records`] | files of measured and published curves |
 //! | [`work_precision`] | what accuracy costs in time: sweeps, fits of error and cost, and the questions that they answer |
 //! | [`cost_model`] | what a run will cost, from its first steps |
+//! | [`ablation`] | what each effect changes and costs, by runs without it |
 //! | [`norms`] | differences of profiles, plateau, rise time, overshoot, arrival, observed order |
 //!
 //! ```
@@ -35,6 +36,7 @@
 //! # Ok::<(), meshfree::study::StudyError>(())
 //! ```
 
+pub mod ablation;
 pub mod acoustic_rods;
 pub mod channel;
 #[cfg(test)]
