@@ -255,6 +255,8 @@ macro_rules! for_each_term {
             $crate::effect::NearPairs { over_kernel_at_spacing: 20.0 },
             $crate::effect::Crowding { over_kernel_at_spacing: 20.0 },
             $crate::effect::ShiftedContinuity,
+            $crate::effect::TwoPhase::default(),
+            $crate::effect::WithinPhase($crate::term::Fourtakas::default()),
             $crate::effect::HourglassFree::default(),
             $crate::effect::VelocityMismatch,
             $crate::effect::ReferenceMoment,
