@@ -134,11 +134,13 @@
 //! | the same with shear and strength | [`schemes::impact_by_continuity`] with [`Hypoelastic`](effect::Hypoelastic) and [`Plasticity`](effect::Plasticity) |
 //! | a result of Lam, Shen & Gong (2002) to repeat | [`schemes::lam2002`] with [`LamLeapfrog`](integrator::LamLeapfrog), bodies bonded |
 //! | a liquid with a free surface, still or violent | [`schemes::weakly_compressible`] |
+//! | the same, violent and for long enough that particles leave their lattice unevenly | [`schemes::weakly_compressible`] with [`ExpansionMemory`](effect::ExpansionMemory) and [`ConsistentShifting`](effect::ConsistentShifting) |
 //! | the same, without a coefficient to choose | [`schemes::riemann_liquid`] |
+//! | two liquids, or a liquid and a gas | [`schemes::weakly_compressible`] with [`TwoPhase`](effect::TwoPhase), bodies bonded |
 //! | a liquid that fills what encloses it | [`schemes::weakly_compressible`] with [`Shifting::CLOSED`](scheme::Shifting::CLOSED) and [walls](effect::ExtrapolatedPressure) with a floor of −∞ |
 //! | a liquid in tension, as one that spins or is drawn out | [`schemes::weakly_compressible`] with [`Shifting::STANDARD`](scheme::Shifting::STANDARD), [`ArtificialPressure`](effect::ArtificialPressure) and [`PairingControl`](effect::PairingControl) |
 //! | a result of LS-DYNA to repeat | [`schemes::ls_dyna_default`], [`schemes::ls_dyna_fluid`] and their renormalised forms |
-//! | a gas | [`schemes::gas`] |
+//! | a gas | [`schemes::gas`]; with strong contacts or shear, and [`ArtificialConduction`](effect::ArtificialConduction) |
 //!
 //! A scheme prints itself, with its equations, their sources and the fields that a particle carries.
 //! [`KickDriftKick`](integrator::KickDriftKick) is the integrator unless another is named. It takes one
