@@ -10,7 +10,7 @@ use meshfree::study::noh::Noh;
 use meshfree::study::sod::Sod;
 use meshfree::study::work_precision::{Case, Failure, Method, Outcome, Quantity, relative_l1};
 use meshfree::sweep::Interaction;
-use meshfree::term::viscosity::{MonaghanGingold, SignalVelocity};
+use meshfree::term::viscosity::{CullenDehnen, MonaghanGingold, SignalVelocity};
 
 const SOD: Text = Text {
     key: "sod",
@@ -45,6 +45,8 @@ fn methods() -> Vec<Method> {
         own("gas, C4, h/dx 1.3", "gas", 1.3, 1.0),
         own("gas, C4, h/dx 2.2", "gas", 2.2, 1.0),
         own("gas, C4, h/dx 1.8, α 0.5", "gas", 1.8, 0.5),
+        own("gas, Cullen–Dehnen", "switched", 1.8, 2.0),
+        own("gas, Cullen–Dehnen, h/dx 2.2", "switched", 2.2, 2.0),
         own("cubic, signal velocity, h/dx 1.2", "cubic signal", 1.2, 1.0),
         own("cubic, Monaghan–Gingold, h/dx 1.2", "cubic", 1.2, 1.0),
         own("cubic, Monaghan–Gingold, h/dx 1.5", "cubic", 1.5, 1.0),
@@ -66,6 +68,14 @@ fn scheme(case: &Case<'_>) -> Result<Scheme<f64, 1>, Failure> {
         "gas" => SchemeBuilder::new(WendlandC4, signal)
             .density(DensityForm::Summation)
             .between_bodies(Interaction::Bonded)
+            .smoothing(follow)
+            .h_over_dx(ratio)
+            .compose(),
+        "switched" => schemes::gas()
+            .with_viscosity(CullenDehnen {
+                maximum: alpha,
+                ..CullenDehnen::STANDARD
+            })
             .smoothing(follow)
             .h_over_dx(ratio)
             .compose(),

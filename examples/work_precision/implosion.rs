@@ -153,14 +153,20 @@ fn explode(case: &Case<'_>) -> Result<Outcome, Failure> {
 }
 
 pub fn noh(quick: bool) -> Problem {
-    let study = sweep(NOH, &[8, 12, 16, 24], quick, methods(), implode)
+    let counts: &[u32] = if quick { &[6, 8, 12] } else { &[8, 12, 16, 24] };
+    let study = sweep(NOH, counts, quick, methods(), implode)
         .quantity(Quantity::measured(DENSITY))
         .quantity(Quantity::exact(PLATEAU, 64.0));
     Problem { text: NOH, study }
 }
 
 pub fn sedov(quick: bool) -> Problem {
-    let study = sweep(SEDOV, &[16, 24, 32, 48], quick, methods(), explode)
+    let counts: &[u32] = if quick {
+        &[12, 16, 20]
+    } else {
+        &[16, 24, 32, 48]
+    };
+    let study = sweep(SEDOV, counts, quick, methods(), explode)
         .quantity(Quantity::measured(DENSITY))
         .quantity(Quantity::exact(PEAK, 6.0));
     Problem { text: SEDOV, study }

@@ -113,6 +113,7 @@ pub fn problem(dimensions: usize, quick: bool) -> Problem {
     let (text, run, counts): (_, Run, &[u32]) = match dimensions {
         1 => (LINE, ring::<1>, &[16, 32, 64, 128, 256, 512]),
         2 => (PLANE, ring::<2>, &[16, 24, 32, 48, 64, 96]),
+        _ if quick => (SPACE, ring::<3>, &[12, 14, 16]),
         _ => (SPACE, ring::<3>, &[12, 16, 24, 32, 48]),
     };
     let study = sweep(text, counts, quick, methods(), run);
