@@ -164,7 +164,7 @@ pub fn sedov(quick: bool) -> Problem {
     let counts: &[u32] = if quick {
         &[12, 16, 20]
     } else {
-        &[16, 24, 32, 48]
+        &[16, 24, 32, 40]
     };
     let study = sweep(SEDOV, counts, quick, methods(), explode)
         .quantity(Quantity::measured(DENSITY))

@@ -9,12 +9,15 @@
 //! | [`SignalVelocity`] | `signal` | the speed at which the pair's waves meet | – | gases, mixed sound speeds |
 //! | [`Balsara`] | `balsara` | Monaghan–Gingold less where the flow turns | ∇v (2D, 3D) | shear, rotation |
 //! | [`MorrisMonaghan`] | `morris-monaghan` | α of its own, fed by compression | α | strong shocks in quiet surroundings |
-//! | [`CullenDehnen`] | `cullen-dehnen` | α of its own, fed by steepening | α, ∇·v, ∇v (2D, 3D) | strong shocks, subsonic turbulence |
+//! | [`CullenDehnen`] | `cullen-dehnen` | α of its own, fed by steepening | α, ∇·v, ∇v (2D, 3D) | gas that turns, subsonic turbulence, shocks; not cold gas that starts in collision |
 //! | [`Riemann`] | `riemann` | what a Riemann solver dissipates, limited | – | violent liquids, impact of unlike materials |
 //!
 //! The last three see little in a weak shock: at an impact of 20 m/s on copper the velocity jump is
 //! 0.3 % of the sound speed, and a law that grows with that ratio leaves the front ringing. A law with
 //! a fixed α does not. `docs/viscosity_frontier.md` measures all of them on one front.
+//!
+//! In gases the signal velocity loses half of Gresho's vortex where Cullen and Dehnen's law loses a sixth, and the latter 18 to
+//! 90 % of Noh's density where the former loses 1 to 9 % (`docs/accuracy_and_cost.md`).
 //!
 //! Every law is zero for receding pairs, and symmetric in the two particles, so it conserves linear
 //! and angular momentum and turns kinetic energy into heat, never back.
