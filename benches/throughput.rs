@@ -18,8 +18,8 @@ use meshfree::prelude::*;
 use meshfree::scalar::{Lane, Lanes, Mask};
 use meshfree::scheme::Scheme;
 use meshfree::sweep::{
-    FusedKernel, InstructionSet, Interaction, PairSweep, Pass, Records, Results, SmoothingMode,
-    SweepInput,
+    FusedKernel, InstructionSet, Interaction, PairSweep, Pass, Records, Results, Root,
+    SmoothingMode, SweepInput,
 };
 use meshfree::term::viscosity::{ArtificialViscosity, Inviscid, MonaghanGingold, Viscous};
 use meshfree::term::{self, Nothing, Pair, PressureForce, TermDoc, Viscosity};
@@ -264,6 +264,7 @@ struct Fused<'a> {
     h: f64,
     norm: f64,
     alpha: f64,
+    by_divider: bool,
 }
 
 impl Fused<'_> {
@@ -317,8 +318,12 @@ impl Fused<'_> {
                             let v2 = own[5] - Row::splat(other[5]);
                             let d2 = r2.mul_add(r2, r1.mul_add(r1, r0 * r0));
                             let vr = v2.mul_add(r2, v1.mul_add(r1, v0 * r0));
-                            let t = d2
-                                .root()
+                            let distance = if self.by_divider {
+                                d2.sqrt()
+                            } else {
+                                d2.root()
+                            };
+                            let t = distance
                                 .mul_add(Row::splat(-0.5 * inverse), Row::splat(1.0))
                                 .positive_part();
                             let f = t * t * t * Row::splat(-5.0 * gradient);
@@ -437,6 +442,7 @@ impl<T: Real> Lattice<T> {
             body_force: [T::zero(); 3],
             lattice_consistency_factor: 1.0,
             instructions: InstructionSet::detect(),
+            root: Root::detect(),
         }
     }
 }
@@ -496,6 +502,7 @@ fn composed_against_fused(side: usize, turns: usize) {
         h: H,
         norm: Kernel::<3>::normalisation(&WendlandC2),
         alpha,
+        by_divider: input.root == Root::Divider,
     };
     let mut out = vec![0.0; 4 * slots];
     let ratios = ratios(

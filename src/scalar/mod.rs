@@ -8,6 +8,7 @@ mod traced;
 
 pub use instructions::InstructionSet;
 pub use lanes::{LaneMask, Lanes};
+pub use root::Root;
 pub use traced::{Binary, Operation, Record, Traced, TracedMask, Unary, Unrecordable};
 
 use core::fmt::{Debug, Display, LowerExp};

@@ -30,6 +30,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             skin,
             // A checkpoint says on which it runs on.
             instructions: _,
+            root: _,
             // What a machine has to give is not of the scene.
             memory: _,
         } = self;

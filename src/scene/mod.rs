@@ -83,7 +83,7 @@ use crate::particles::Fields;
 use crate::scalar::Real;
 use crate::scheme::Scheme;
 use crate::simulation::{Event, Load, Simulation, StepControl, UniformLoad};
-use crate::sweep::{InstructionSet, Interaction};
+use crate::sweep::{InstructionSet, Interaction, Root};
 use held::ClampOf;
 use plan::Plan;
 #[cfg(feature = "checkpoint")]
@@ -126,6 +126,7 @@ pub struct Scene<T: Real, const D: usize> {
     control: StepControl,
     skin: Option<f64>,
     instructions: InstructionSet,
+    root: Root,
     memory: Option<u64>,
 }
 
@@ -175,6 +176,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             control,
             skin: None,
             instructions: InstructionSet::detect(),
+            root: Root::detect(),
             memory: None,
         }
     }
@@ -394,6 +396,25 @@ impl<T: Real, const D: usize> Scene<T, D> {
     #[must_use]
     pub fn instructions(mut self, set: InstructionSet) -> Self {
         self.instructions = set;
+        self
+    }
+
+    /// How the pair loop takes roots in `f64`; the faster way for the processor if not given, so that two makes of
+    /// processor may differ in their last bits. [`Root::Products`] gives the same bits on all that have the
+    /// instruction set; on [`InstructionSet::Baseline`] both ways are the divider's.
+    ///
+    /// ```
+    /// use meshfree::prelude::*;
+    /// use meshfree::scalar::Root;
+    /// let scene = || Scene::<f64, 2>::new(schemes::weakly_compressible())
+    ///     .body(Body::block("water", catalogue::weakly_compressible_water(1.0), [0.0; 2], [0.1; 2], 0.01));
+    /// let sums = |root| scene().root(root).build().map(|run| run.all().map(|p| p.density()).sum::<f64>());
+    /// assert!((sums(Root::Divider)? / sums(Root::Products)? - 1.0).abs() < 1e-12);
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[must_use]
+    pub fn root(mut self, root: Root) -> Self {
+        self.root = root;
         self
     }
 

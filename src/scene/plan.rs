@@ -161,6 +161,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         );
         group.indices = self.indices();
         group.instructions = self.scene.instructions;
+        group.root = self.scene.root;
         // What keeps its neighbours stays whole.
         if !self.scheme.density.keeps_neighbors() {
             group.outlets.clone_from(&self.scene.outlets);

@@ -13,7 +13,7 @@ use crate::material::eos::GuardCounts;
 use crate::particles::Columns;
 use crate::scalar::{Lane, Real};
 use crate::scheme::Scheme;
-use crate::sweep::{InstructionSet, Interaction, Records, Results, SweepInput, Transform};
+use crate::sweep::{InstructionSet, Interaction, Records, Results, Root, SweepInput, Transform};
 use std::sync::Arc;
 
 #[derive(Debug)]
@@ -44,6 +44,7 @@ pub(crate) struct Group<T: Real, const D: usize> {
     pub held: Held<D>,
     pub smoothing_length: f64,
     pub instructions: InstructionSet,
+    pub root: Root,
     pub guards: GuardCounts,
     /// Limits that laws and updates have applied, in particle steps, by name.
     pub limited: Vec<(&'static str, u64)>,
@@ -105,6 +106,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             held: Held::default(),
             smoothing_length,
             instructions: InstructionSet::detect(),
+            root: Root::detect(),
             guards: GuardCounts::default(),
             limited: Vec::new(),
         }
@@ -282,6 +284,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             smoothing_length: self.smoothing_length,
             lattice_consistency_factor: self.scheme.lattice_consistency_factor,
             instructions: self.instructions,
+            root: self.root,
         }
     }
 

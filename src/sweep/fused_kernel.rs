@@ -4,7 +4,7 @@
 use super::records::{Image, Records, Transform};
 use super::results::{Reaction, Results};
 use super::task::{BEYOND, Composed, MEAN, OWN, Task, UNIFORM, WORK, reads};
-use super::{InstructionSet, Interaction, SmoothingMode};
+use super::{InstructionSet, Interaction, Root, SmoothingMode};
 use crate::kernel::Kernel;
 use crate::neighbors::{Block, CHUNK, ChunkList, ClusterLists};
 use crate::parallel::{cut, for_each};
@@ -48,6 +48,8 @@ pub struct SweepInput<'a, T, const D: usize> {
     pub lattice_consistency_factor: f64,
     /// The instruction set to run on.
     pub instructions: InstructionSet,
+    /// How it takes roots.
+    pub root: Root,
 }
 
 /// A sweep over pairs, whatever its kernel and terms.
@@ -249,6 +251,7 @@ impl<K, P, const MODES: u8> FusedKernel<K, P, MODES> {
             targets: &input.targets,
             body_force: input.body_force,
             lattice_consistency_factor: T::from_f64(input.lattice_consistency_factor),
+            by_divider: input.root == Root::Divider,
             h,
             reach2: T::from_f64((self.kernel.support() * input.smoothing_length).powi(2) * BEYOND),
             kernel_norm: T::from_f64(self.kernel.normalisation()),

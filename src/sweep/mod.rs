@@ -17,8 +17,8 @@
 //!   that need no look, because the skin cannot carry them so far. The other pairs beyond the support are
 //!   computed too and add zero, because W and F vanish there.
 //! - **Two pairs under way.** The distance of the next pair is begun before the terms of this one: a root
-//!   takes longer than a processor looks ahead. In `f64` it is made of products ([`Lane::root`]): the
-//!   divider would take three times as long.
+//!   takes longer than a processor looks ahead. In `f64` some processors make it faster of products
+//!   ([`Root`]).
 //! - **Directions last.** A term adds to the force along rᵢⱼ and along vᵢⱼ as two numbers, or as a vector where
 //!   it has another direction. The loop turns them into one vector for all terms, so a tuple of terms costs
 //!   what one written-out loop costs, and makes power and work of it, so no term can lose its own.
@@ -32,7 +32,7 @@
 //! it; no thread adds to what belongs to
 //! another, so there are no locks and no atomics. Threads take chunks of 32 clusters
 //! ([`CHUNK`](crate::neighbors::CHUNK)), a number that depends on nothing, and reductions have a fixed
-//! shape. Another instruction set, or another skin of the lists, changes rounding.
+//! shape. Another instruction set, another [`Root`], or another skin of the lists, changes rounding.
 //!
 //! # Positions in `f32`
 //!
@@ -42,7 +42,6 @@
 //! the difference of the residuals to the difference of the positions. The price is D numbers a record
 //! and 2D additions a pair. `f64` has neither.
 //!
-//! [`Lane::root`]: crate::scalar::Lane::root
 //! [`Field::POSITION_RESIDUAL`]: crate::particles::Field::POSITION_RESIDUAL
 
 mod fused_kernel;
@@ -62,7 +61,7 @@ pub use records::{Image, Records};
 #[doc(hidden)]
 pub use results::{Reaction, Results};
 
-pub use crate::scalar::InstructionSet;
+pub use crate::scalar::{InstructionSet, Root};
 
 /// What a pair of blocks does to each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]

@@ -116,6 +116,7 @@ fn a_free_force_counts_in_force_power_and_work() {
         body_force: [0.0; 2],
         lattice_consistency_factor: 1.0,
         instructions: InstructionSet::detect(),
+        root: Root::detect(),
     };
     let (mut records, mut rates, mut works) =
         (Records::default(), Results::default(), Results::default());
@@ -300,6 +301,7 @@ fn across(stress: [f64; 6], interaction: Interaction) -> [f64; 2] {
         body_force: [0.0; 2],
         lattice_consistency_factor: 1.0,
         instructions: InstructionSet::detect(),
+        root: Root::detect(),
     };
     let (mut records, mut rows) = (Records::default(), Results::default());
     sweep.pack(Pass::Rates, &input, &mut records);

@@ -21,7 +21,7 @@ use hash::Hash;
 use meshfree::scalar::Real;
 use meshfree::scene::Scene;
 use meshfree::simulation::Simulation;
-use meshfree::sweep::InstructionSet;
+use meshfree::sweep::{InstructionSet, Root};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -74,7 +74,7 @@ impl Scenes {
         scene: impl Fn() -> Scene<T, D> + Send + Sync + 'static,
     ) {
         let name = name.into();
-        let run = move |set| run(&plan, scene().instructions(set));
+        let run = move |set| run(&plan, scene().instructions(set).root(Root::Products));
         self.0.push((name, Box::new(run)));
     }
 }

@@ -38,6 +38,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             held,
             smoothing_length: _,
             instructions: _,
+            root: _,
             guards,
             limited,
         } = self;

@@ -16,7 +16,7 @@ use super::{Criterion, Simulation, Vote, width};
 use crate::error::{CheckpointProblem, Error, Result};
 use crate::output::checkpoint::{Checkpoint, Hashes, Read, damaged};
 use crate::scalar::Real;
-use crate::sweep::InstructionSet;
+use crate::sweep::{InstructionSet, Root};
 use std::path::Path;
 
 /// The version of what is held. It rises with every change of it.
@@ -96,6 +96,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         file.put_text("dimension", D.to_string());
         file.put_text("lane width", width::<T>().to_string());
         file.put_text("instructions", format!("{:?}", self.instructions()));
+        if let Some(group) = groups.first() {
+            file.put_text("root", format!("{:?}", group.root));
+        }
         for (part, hash) in scene {
             file.put_text(format!("hash of {part}"), format!("{hash:016x}"));
         }
@@ -149,8 +152,17 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             .into_iter()
             .find(|own| format!("{own:?}") == set);
         let set = set.ok_or_else(|| damaged("its instruction set has no name"))?;
+        // Files of before there was a choice have none.
+        let root = match file.text("root") {
+            Ok(name) => Root::ALL
+                .into_iter()
+                .find(|own| format!("{own:?}") == name)
+                .ok_or_else(|| damaged("its root has no name"))?,
+            Err(_) => Root::Products,
+        };
         for group in &mut self.groups {
             group.instructions = set;
+            group.root = root;
         }
         self.time = file.get_one("time")?;
         self.steps = file.get_one("steps")?;

@@ -59,6 +59,8 @@ pub(super) struct Task<'a, T, K, P, const D: usize> {
     pub targets: &'a Range<usize>,
     pub body_force: [T; D],
     pub lattice_consistency_factor: T,
+    /// Whether roots are the machine's.
+    pub by_divider: bool,
     pub h: T,
     /// Square of the distance beyond which nothing acts where there is one smoothing length.
     pub reach2: T,

@@ -26,6 +26,16 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         image.map_or(j, |image| image.source as usize)
     }
 
+    /// A distance of its square. The choice is the same for all pairs of a run, so a processor foresees it.
+    #[inline(always)]
+    fn root<L: Lane<Scalar = T>>(&self, square: L) -> L {
+        if self.by_divider {
+            square.sqrt()
+        } else {
+            square.root()
+        }
+    }
+
     /// Where the row stands from a neighbour: rᵢⱼ, its square, and the distance that kernels see, which is |Xᵢⱼ| in the
     /// reference configuration where a term reads that.
     #[inline(always)]
@@ -60,9 +70,9 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                 let apart = own[reference + d] - L::splat(record[reference + d]);
                 square = apart.mul_add(apart, square);
             }
-            return (r, r2, square.root());
+            return (r, r2, self.root(square));
         }
-        (r, r2, r2.root())
+        (r, r2, self.root(r2))
     }
 
     /// One cluster against some neighbours.
