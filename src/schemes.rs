@@ -64,12 +64,12 @@ pub type DiffusiveLiquid<V, X> =
 /// midpoint reconstruction χ = 1/3, limited viscosity α = 2, β = 2, compatible energy, cubic spline at
 /// h/dx 1.2.
 ///
-/// The default for rods: fronts of 0.09 µs at a spacing of 0.05 mm without overshoot, waves at the
-/// right speed, bodies at rest free of stress, contact that opens.
+/// The default for rods: steep fronts without overshoot (`docs/rods.md`), waves at the right speed, bodies at rest free of
+/// stress, contact that opens.
 ///
-/// The error is the width of fronts, so a finer spacing buys more than any setting: half the error takes 2.4 times as many particles a
-/// metre. [`DriftKickDrift`](crate::integrator::DriftKickDrift) gives the same error with 20 % fewer pairs. In one dimension, where rods stay in tension, h/dx 1.3
-/// leaves 10⁻⁵ of it as ripple between neighbours, for 10⁻³ at 1.2, and widens the front by 9 % (`docs/accuracy_and_cost.md`).
+/// The error is the width of fronts, so a finer spacing buys more than any setting.
+/// [`DriftKickDrift`](crate::integrator::DriftKickDrift) gives the same error with fewer pairs. In one dimension, where rods stay in
+/// tension, h/dx 1.3 leaves less ripple between neighbours than 1.2, and a front a little wider (`docs/accuracy_and_cost.md`).
 #[must_use]
 pub fn impact() -> ImpactBuilder {
     // Less viscosity is steeper (α = 1.5: 0.080 µs), but leaves 2.5e-9 of the plateau at a joint 0.85 µs
@@ -112,15 +112,13 @@ pub fn lam2002() -> SchemeBuilder<CubicSpline, MonaghanGingold> {
 ///
 /// | scene | change | what it buys |
 /// |---|---|---|
-/// | sound, water hammer | `.density_diffusion(Antuono::default())` | 64 particles a wavelength lose 0.3 % in a period, and 4.7 % without; half as many pairs again |
-/// | waves and tanks at rest | `.h_over_dx(2.0)` | pressure at rest goes on converging below 0.3 %, in the same time; with α = 0.005 a crest loses 1.7 % a period for 4.0 % |
-/// | viscous flow without a surface | `.with_kernel(WendlandC4).h_over_dx(2.2)` | Taylor–Green at Re 100 on 96²: velocity 0.19 % off for 0.41 %, pressure 3.4 % for 20 %, in less time |
+/// | sound, water hammer | `.density_diffusion(Antuono::default())` | waves lose a tenth of what they lose without; half as many pairs again |
+/// | waves and tanks at rest | `.h_over_dx(2.0)` | pressure at rest, and crests, go on converging, in the same time |
+/// | viscous flow without a surface | `.with_kernel(WendlandC4).h_over_dx(2.2)` | half the error of velocities in less time |
 ///
-/// Not h/dx 1.3, with which the period of a standing wave gets worse with finer spacings, to 4 %. The kernel's 1.5 stays the default since it
-/// follows violent flow with the fewest pairs. [`DriftKickDrift`](crate::integrator::DriftKickDrift) takes half as many pairs again here.
-///
-/// A column of 50 particles at rest for 20 √(H/g) keeps its pressure within 0.55 % of ρgH at h/dx 1.5 and
-/// 2, and within 1.2 % at 1.3 (root mean square).
+/// Not h/dx 1.3, with which the period of a standing wave gets worse with finer spacings. The kernel's 1.5 stays the default since it
+/// follows violent flow with the fewest pairs. [`DriftKickDrift`](crate::integrator::DriftKickDrift) takes half as many pairs again
+/// here. What still water does is in `docs/liquids.md`.
 #[must_use]
 pub fn weakly_compressible() -> DiffusiveLiquid<MonaghanGingold, Fourtakas> {
     SchemeBuilder::liquid(
@@ -263,16 +261,7 @@ pub type StructureBuilder<V> =
 /// compatible energy. Add a stress: `.with(NeoHookean)`.
 ///
 /// Neighbours that stay cannot pair, so h may be small, and bending asks for it: particles at a free surface see the
-/// strain of those behind them. Period of a free plate, ten thicknesses long, over that of Timoshenko:
-///
-/// | h/dx | 5 particles through it | 10 | 20 |
-/// |---|---|---|---|
-/// | **0.8** | 1.030 | 1.009 | 1.002 |
-/// | 0.9 | 1.061 | 1.017 | 1.003 |
-/// | 1.2 | 1.126 | 1.029 | 1.007 |
-/// | 1.5 | 1.194 | 1.045 | 1.011 |
-///
-/// On a lattice 0.8 reaches the neighbours across the diagonal of a face; in a disordered body a particle may lack some.
+/// strain of those behind them (`docs/defaults.md` has periods of a plate). On a lattice 0.8 reaches the neighbours across the diagonal of a face; in a disordered body a particle may lack some.
 #[must_use]
 pub fn total_lagrangian() -> StructureBuilder<Inviscid> {
     SchemeBuilder::total_lagrangian(WendlandC2, Inviscid)

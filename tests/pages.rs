@@ -62,6 +62,8 @@ fn the_book_has_every_page() {
     let summary = fs::read_to_string(docs.join("SUMMARY.md")).expect("the summary");
     let listed: BTreeSet<PathBuf> = links(&summary).iter().map(|link| docs.join(link)).collect();
     let written = pages().into_iter().skip(1);
-    let written: BTreeSet<PathBuf> = written.filter(|page| !page.ends_with("SUMMARY.md")).collect();
+    let written: BTreeSet<PathBuf> = written
+        .filter(|page| !page.ends_with("SUMMARY.md"))
+        .collect();
     assert_eq!(listed, written);
 }

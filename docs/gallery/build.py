@@ -30,7 +30,7 @@ PICTURES = {
     "rod_impact": ("figure1.svg", ["--quick"]),
     "rubber_rings": ("rings.svg", ["--quick"]),
     "sloshing_roll": ("pressure.svg", ["--quick"]),
-    "sloshing_tank": ("particles_38ms.svg", ["--sound-speed", "artificial"]),
+    "sloshing_tank": ("particles_38ms.svg", []),
     "square_patch": ("patch.svg", ["--quick"]),
     "standing_wave": ("wave.svg", ["--quick"]),
     "taylor_bar": ("taylor_bar.svg", ["--quick"]),

@@ -50,7 +50,7 @@ const EXAMPLE: Example = Example {
         own(
             "--sound-speed",
             "NAME",
-            "physical (1480 m/s), artificial (Mach 0.1), or a number in m/s",
+            "artificial (Mach 0.1), physical (1480 m/s), or a number in m/s; artificial, with elastic walls physical",
         ),
         own(
             "--probe",
@@ -179,15 +179,6 @@ fn case(options: &Options) -> Result<Case, Failure> {
     let speed = (2.0 * peak_g * pulse::STANDARD_GRAVITY * size[0])
         .sqrt()
         .max(2.0);
-    let sound_speed = match options.text("--sound-speed") {
-        None if options.quick => SoundSpeed::artificial(speed),
-        None | Some("physical") => SoundSpeed::Physical,
-        Some("artificial") => SoundSpeed::artificial(speed),
-        Some(text) => SoundSpeed::Artificial {
-            mach: speed / number("--sound-speed", text)?,
-            speed,
-        },
-    };
     let youngs = match options.text("--walls") {
         None | Some("rigid") => None,
         Some("elastic") => Some(options.number("--youngs-modulus", elastic::YOUNGS)?),
@@ -197,9 +188,19 @@ fn case(options: &Options) -> Result<Case, Failure> {
             );
         }
     };
+    let sound_speed = match options.text("--sound-speed") {
+        // Walls that deform feel how stiff the water is.
+        None if youngs.is_some() && !options.quick => SoundSpeed::Physical,
+        None | Some("artificial") => SoundSpeed::artificial(speed),
+        Some("physical") => SoundSpeed::Physical,
+        Some(text) => SoundSpeed::Artificial {
+            mach: speed / number("--sound-speed", text)?,
+            speed,
+        },
+    };
     // Elastic walls want three layers in 30 mm, and are slow.
     let (spacings, quick_end) = match youngs {
-        None => ([0.02, 0.03], 0.08),
+        None => ([0.01, 0.03], 0.08),
         Some(_) => ([0.01, 0.015], 5e-4),
     };
     Ok(Case {

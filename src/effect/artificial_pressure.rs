@@ -44,8 +44,8 @@ use crate::term::{In, Layout, Pair, Sums, Term, TermDoc, stage};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ArtificialPressure {
-    /// Share ε of the tension; 0.3. With the 0.2 of the paper a void opens in the middle of a spinning patch of 10⁴ particles
-    /// whose start is perturbed; 0.5 is too much.
+    /// Share ε of the tension; 0.3: with the 0.2 of the paper voids open in a spinning patch that starts off the lattice, and 0.5
+    /// is too much (`docs/hard-cases.md`).
     pub share: f64,
     /// Exponent n of the kernel ratio; 4 as in the paper. Larger ones act nearer alone.
     pub exponent: u32,

@@ -23,8 +23,7 @@ use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 /// [`YieldingHourglass`](super::YieldingHourglass) cuts it there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HourglassControl {
-    /// Strength α; 0.1 by default. A plate that bends, ten particles thick at h/dx 0.8, swings 0.02 % faster with it than
-    /// without, and 0.1 % with 1.
+    /// Strength α; 0.1 by default, ten times less than what begins to stiffen bending (`docs/defaults.md`).
     pub strength: f64,
 }
 

@@ -16,16 +16,15 @@ use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 /// surface points out of the liquid, so it is silent there, and pairs that form in a jet of two or three particles
 /// stay. f − 1 is zero from the spacing Δx on: an even lattice is not moved, at a surface neither, and between equal
 /// particles the displacements are opposite, so that the centre of mass stays. That it acts by c makes it the same for every
-/// observer. Densities do not follow; angular momentum changes by δx × v of what is moved, 0.5 % in a patch that spins
-/// by four radians and stretches to five times its size.
+/// observer. Densities do not follow; angular momentum changes by δx × v of what is moved.
 ///
 /// Of the kind of Lind, Xu, Stansby & Rogers (2012, eq. 24), whose repulsion R fⁿ is that of all pairs; that only
 /// near pairs count is of this crate. It keeps pairs apart and does not close voids: with it alone, a liquid in
 /// tension opens into a net of threads. Use it with [`ArtificialPressure`](super::ArtificialPressure), where there is an example.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PairingControl {
-    /// Strength a; 0.005, which keeps a spinning square patch with a perturbed start above 0.58 spacings. Twenty times as much
-    /// keeps 0.9, and swells a liquid that is stretched: 2.7 % of its angular momentum.
+    /// Strength a; 0.005, the least that keeps pairs apart in a spinning patch: more swells a liquid that is stretched
+    /// (`docs/defaults.md`).
     pub strength: f64,
 }
 

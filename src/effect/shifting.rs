@@ -11,12 +11,7 @@ use crate::term::{ConcentrationGradient, In, Stage, stage};
 /// How particles are kept evenly spread.
 ///
 /// Where a flow strains, a lattice breaks up, and the kernel sums of a disordered neighbourhood read
-/// as pressure. Taylor–Green vortices at Re 100 on 50² particles (Wendland C2, h/dx 1.5), whose speed falls
-/// to 0.454 of the first within 1 s; the largest error of that speed:
-///
-/// | none | [`CLOSED`](Self::CLOSED), A = 20 | [`TRANSPORT`](Self::TRANSPORT), 10 ρc² |
-/// |---|---|---|
-/// | −77 % | −0.4 % | −3.6 % |
+/// as pressure: vortices decay far too fast without it (`docs/defaults.md`).
 ///
 /// That speed is by the energy, whose error passes through zero near 64² particles. The velocity itself levels off at about 0.3 % with this
 /// kernel; Wendland C4 at h/dx 2.2 goes on converging (`docs/accuracy_and_cost.md`).
@@ -39,9 +34,8 @@ pub enum Shifting {
     /// −dt² p_b/m Σ (Vᵢ² + Vⱼ²) ∇W/2 in a step (Adami, Hu & Adams 2013, eq. 8). For flow without free
     /// surface.
     ///
-    /// The stress by which Adami et al. make momentum follow (their eq. 13) is left out: with it the
-    /// vortices gained 11 % where they lose 0.8 % without (3 ρc² at h/dx 2), and with the other sign
-    /// they lost 20 %.
+    /// The stress by which Adami et al. make momentum follow (their eq. 13) is left out: vortices are nearer without
+    /// (`docs/defaults.md`).
     TransportVelocity {
         /// Background pressure in units of ρ c².
         background: f64,

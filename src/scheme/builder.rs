@@ -262,8 +262,7 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
         self.set(|own| own.step_factor = factor)
     }
     /// Leaves out the first-moment consistency factor of the kernel gradient, at rest or of the lattice, so that
-    /// waves run at the wrong speed that uncorrected SPH gives them, and a liquid column at h/dx 1.3 with Wendland
-    /// C2 is 2.7 % too heavy.
+    /// waves run at the wrong speed that uncorrected SPH gives them, and liquids at rest have the wrong weight.
     #[must_use]
     pub fn without_consistency_factor(self) -> Self {
         self.set(|own| own.consistency = Consistency::None)

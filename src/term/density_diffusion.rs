@@ -63,8 +63,7 @@ impl<const D: usize> Term<D> for Molteni {
 ///
 /// (Fourtakas et al. 2019, eqs. 12 to 14, with density differences written as pressure differences over
 /// c², so that the hydrostatic part needs no inverse of the equation of state). The mean density makes
-/// it exact to third order in the distance: with the density of one side a column of depth H at
-/// c = 10 √(gH) gained 2 % of its pressure in 20 √(H/g).
+/// it exact to third order in the distance; with the density of one side still water gains pressure.
 ///
 /// g is the body force in the frame of the wall that
 /// [carries the liquid](crate::boundary::Wall::container_frame), so a tank under 30 g is at rest in it.

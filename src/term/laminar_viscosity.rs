@@ -10,8 +10,8 @@ use crate::scalar::Lane;
 /// mᵢ dvᵢ/dt = Σⱼ Vᵢ Vⱼ 2 μ̄ᵢⱼ F vᵢⱼ with μ̄ = 2 μᵢμⱼ/(μᵢ + μⱼ)
 ///
 /// (Morris, Fox & Zhu 1997, eq. 22, with the harmonic mean of Hu & Adams 2006 for unlike viscosities).
-/// F is their (r·∇W)/(r² + 0.01 h²) without the 0.01 h²: it is finite by itself, and the addend took 1 %
-/// of the viscosity.
+/// F is their (r·∇W)/(r² + 0.01 h²) without the 0.01 h²: it is finite by itself, and the addend
+/// takes from the viscosity.
 /// It conserves linear momentum and not angular momentum, and is exact for shear between walls: the
 /// default of channels. A wall with free slip has no viscosity, so the mean vanishes there.
 #[derive(Clone, Copy, Debug, Default)]

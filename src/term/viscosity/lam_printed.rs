@@ -8,9 +8,8 @@ use crate::term::{Layout, Pair, TermDoc};
 
 /// Πᵢⱼ = (+α c̄ μ + β μ²)/ρ̄ for approaching pairs, as printed.
 ///
-/// With μ < 0 on approach Π is negative as long as |μ| < α c̄/β, so the pair attracts. In the middle of a
-/// copper rod that strikes another at 20 m/s the pressure reaches 354 times the exact plateau within
-/// 2 µs, where [`MonaghanGingold`](super::MonaghanGingold) stays within 0.2 % of it
+/// With μ < 0 on approach Π is negative as long as |μ| < α c̄/β, so the pair attracts. In rods
+/// that collide pressure grows without bound, where [`MonaghanGingold`](super::MonaghanGingold) stays at the exact plateau
 /// (`tests/solids/misprints.rs`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LamPrinted {
