@@ -140,7 +140,12 @@ pub fn sod(quick: bool) -> Problem {
 }
 
 pub fn noh(quick: bool) -> Problem {
-    problem(NOH, &[50, 100, 200, 400, 800], quick, |case| {
+    let counts: &[u32] = if quick {
+        &[25, 50, 100]
+    } else {
+        &[50, 100, 200, 400, 800]
+    };
+    problem(NOH, counts, quick, |case| {
         let gas = Material::new("gas", IdealGas::new(5.0 / 3.0, 1.0));
         let row = Body::block("gas", gas, [-1.0], [0.0], case.spacing());
         let mut row = Scene::new(scheme(case)?)

@@ -239,7 +239,12 @@ pub fn rest_again(name: &str, spacing: f64) -> Problem {
 
 pub fn wave_problem(quick: bool) -> Result<Problem, Failure> {
     let wave = StandingWave::new(2.0, 1.0, 0.05)?.with_gravity(GRAVITY)?;
-    let study = sweep(WAVE, &[10, 16, 24, 32, 40], quick, methods(), swing)
+    let counts: &[u32] = if quick {
+        &[8, 10, 16]
+    } else {
+        &[10, 16, 24, 32, 40]
+    };
+    let study = sweep(WAVE, counts, quick, methods(), swing)
         .quantity(Quantity::exact(PERIOD, wave.finite_amplitude_period()?))
         .quantity(Quantity::measured(CREST));
     Ok(Problem { text: WAVE, study })
