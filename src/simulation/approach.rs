@@ -8,7 +8,7 @@ use crate::neighbors::{CHUNK, ChunkList};
 use crate::parallel::{GRAIN, largest, reduce, runs};
 use crate::particles::Field;
 use crate::scalar::{Lane, Real};
-use crate::sweep::Interaction;
+use crate::sweep::{InstructionSet, Interaction};
 use crate::tensor::{Vector, length};
 use std::ops::Range;
 
@@ -185,8 +185,58 @@ impl<T: Real, const D: usize> Group<T, D> {
         (by.point(&x), turned.into(), c)
     }
 
-    /// The same for the particles of one chunk that move by forces.
+    /// The same for the particles of one chunk that move by forces, with the widest instructions that the loops of this
+    /// group run on; none of them rounds otherwise than the baseline does.
     fn approach_in(
+        &self,
+        chunk: usize,
+        list: &ChunkList,
+        share: f64,
+        least_h: f64,
+        range: [[f64; D]; 2],
+    ) -> Approach {
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: `InstructionSet::or_baseline` found them on this machine.
+        match self.instructions.or_baseline() {
+            InstructionSet::Avx512 => unsafe {
+                return self.approach_avx512(chunk, list, share, least_h, range);
+            },
+            InstructionSet::Avx2 => unsafe {
+                return self.approach_avx2(chunk, list, share, least_h, range);
+            },
+            InstructionSet::Baseline => {}
+        }
+        self.approach_of(chunk, list, share, least_h, range)
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx512f,avx512vl,avx512dq")]
+    fn approach_avx512(
+        &self,
+        chunk: usize,
+        list: &ChunkList,
+        share: f64,
+        least_h: f64,
+        range: [[f64; D]; 2],
+    ) -> Approach {
+        self.approach_of(chunk, list, share, least_h, range)
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2")]
+    fn approach_avx2(
+        &self,
+        chunk: usize,
+        list: &ChunkList,
+        share: f64,
+        least_h: f64,
+        range: [[f64; D]; 2],
+    ) -> Approach {
+        self.approach_of(chunk, list, share, least_h, range)
+    }
+
+    #[inline(always)]
+    fn approach_of(
         &self,
         chunk: usize,
         list: &ChunkList,
