@@ -182,7 +182,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             evaluation: timed.evaluation().as_secs_f64(),
             sweeps: timed.pairs.as_secs_f64(),
             check,
-            build: (first.lists.as_secs_f64() - check).max(0.0),
+            build: self.time_of_a_build(&before.1, check),
             ..Outlook::default()
         };
         let serves = outlook.evaluations.max(1.0);
@@ -216,12 +216,21 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let repeated = laws.iter().any(|law| law.repeats().is_some());
             // On a lattice once is enough.
             let repeats = if repeated { REPEATED - 1.0 } else { 0.0 };
-            outlook.pairs += often * (own as f64 + repeats * a_sweep) * more;
+            // A group that sub-cycles has its rates at hand, of one sweep at least.
+            let own = (own as f64).max(a_sweep);
+            outlook.pairs += often * (own + repeats * a_sweep) * more;
             outlook.beside += often * beside * a_sweep * more;
             outlook.builds += builds;
             outlook.bytes += group.bytes_in_run(more);
         }
         Ok(outlook)
+    }
+
+    /// Time \[s\] of a list build, by those so far: the scene was built with the first. A look at the age of lists takes `check`.
+    fn time_of_a_build(&self, so_far: &Phases, check: f64) -> f64 {
+        let looks = self.evaluations as f64 * check;
+        let lists = so_far.lists.as_secs_f64() - looks;
+        lists.max(0.0) / self.list_builds().max(1) as f64
     }
 
     fn pairs_by_group(&self) -> Vec<u64> {
