@@ -1,6 +1,7 @@
 //! A water tank thrown sideways at 30 g, after Vesenjak & Ren (2007): pressures, forces, the surface.
 //! `cargo run --release --example sloshing_tank -- --help` lists the options.
 
+mod air;
 mod bars;
 #[path = "../common/mod.rs"]
 mod common;
@@ -64,6 +65,11 @@ const EXAMPLE: Example = Example {
         ),
         own("--walls", "NAME", "rigid, elastic (PMMA of 30 mm); rigid"),
         own("--youngs-modulus", "PA", "of elastic walls; 3e9"),
+        own(
+            "--air",
+            "NAME",
+            "a slice of the tank in 2D with air above the water: on, off, both",
+        ),
         own("--compare", "", "all schemes side by side"),
         own("--bars", "", "measures what must hold"),
     ],
@@ -90,6 +96,9 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
                 "--bars and --compare are of rigid walls; leave out --walls elastic".into(),
             );
         }
+    }
+    if let Some(which) = options.text("--air") {
+        return air::compare::<T>(&case, which, options);
     }
     if options.has("--bars") {
         return bars::measure::<T>(&case, options);

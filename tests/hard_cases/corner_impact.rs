@@ -46,8 +46,13 @@ fn strike(cures: Cures) -> [f64; 2] {
 /// control: every liquid of the crate stays before the walls.
 #[test]
 fn water_in_a_corner_stays_before_the_walls() {
-    let [ready, even] = [Cures::NONE, Cures::EVEN].map(strike);
-    for (liquid, [pressure, depth]) in [("ready", ready), ("even", even)] {
+    let liquids = [
+        ("ready", Cures::NONE),
+        ("even", Cures::EVEN),
+        ("violent", Cures::VIOLENT),
+    ];
+    for (liquid, cures) in liquids {
+        let [pressure, depth] = strike(cures);
         println!(
             "| corner impact, {liquid} | largest pressure over ρ c v | ≤ 3, not met | {pressure:.3e} | none |"
         );

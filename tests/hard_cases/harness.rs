@@ -1,7 +1,7 @@
 //! What the hard cases share: a row of the table, the composed liquid, the same bits on one and two threads.
 //! A cure of strength zero is the control, so that a case and its control run through the same loops.
 
-use meshfree::effect::{ArtificialPressure, PairingControl};
+use meshfree::effect::{ArtificialPressure, ConsistentShifting, ExpansionMemory, PairingControl};
 use meshfree::neighbors::Cells;
 use meshfree::prelude::*;
 use meshfree::term::Fourtakas;
@@ -44,6 +44,10 @@ impl Row {
 #[derive(Clone, Copy, Debug)]
 pub struct Cures {
     pub shifting: Shifting,
+    /// Of the consistent shifting.
+    pub even: f64,
+    /// Whether torn liquid remembers how far it has expanded.
+    pub memory: bool,
     pub pressure: f64,
     pub pairing: f64,
     pub volume: f64,
@@ -58,6 +62,8 @@ impl Cures {
             strength: 0.0,
             free_surface: true,
         },
+        even: 0.0,
+        memory: false,
         pressure: 0.0,
         pairing: 0.0,
         volume: 0.0,
@@ -72,6 +78,13 @@ impl Cures {
         ..Self::NONE
     };
 
+    /// With what keeps a violent liquid even.
+    pub const VIOLENT: Self = Self {
+        even: 0.1,
+        memory: true,
+        ..Self::NONE
+    };
+
     /// The liquid with them.
     pub fn liquid(self) -> Scheme<f64, 2> {
         let diffusion = Fourtakas { delta: self.delta };
@@ -83,6 +96,11 @@ impl Cures {
             .with_viscosity(viscosity)
             .density_diffusion(diffusion)
             .with(self.shifting)
+            .with(ConsistentShifting {
+                strength: self.even,
+                ..ConsistentShifting::default()
+            })
+            .with(self.memory.then_some(ExpansionMemory))
             .with(ArtificialPressure {
                 share: self.pressure,
                 ..ArtificialPressure::default()

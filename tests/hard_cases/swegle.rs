@@ -34,7 +34,6 @@ fn square(stress: f64, hourglass: f64) -> Simulation<f64, 2> {
     let weak = LimitedMonaghanGingold {
         alpha: 0.1,
         beta: 0.0,
-        ..LimitedMonaghanGingold::STANDARD
     };
     let scheme = schemes::impact_by_continuity()
         .with_viscosity(weak)
