@@ -20,7 +20,8 @@ use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 ///
 /// Density diffusion must not look across the interface: [`WithinPhase`] confines it. A closed tank has no surface, so pressures
 /// may be negative: let the walls show them, with a [floor](super::ExtrapolatedPressure::floor) to match the
-/// cut-off. The step follows the larger sound speed: air whose ρc² is a tenth of water's has ten times its sound speed.
+/// cut-off. The step follows the larger sound speed: air whose ρc² is a tenth of water's has ten times its sound speed. Softer air is thrown
+/// about by what the water's pressures err at the interface: with a two-hundredth, as true air has, a tank at 30 g breaks at once.
 ///
 /// The pressure between two particles weighted by their densities, (ρⱼ pᵢ + ρᵢ pⱼ)/(ρᵢ + ρⱼ) (Hu & Adams 2006), was tried in the place of
 /// the mean: with densities by continuity it drives water and air at rest at 1000:1 apart within half of √(H/g).
