@@ -112,13 +112,13 @@ pub fn lam2002() -> SchemeBuilder<CubicSpline, MonaghanGingold> {
 ///
 /// | scene | change | what it buys |
 /// |---|---|---|
-/// | sound, water hammer | `.density_diffusion(Antuono::default())` | waves lose a tenth of what they lose without; half as many pairs again |
-/// | waves and tanks at rest | `.h_over_dx(2.0)` | pressure at rest, and crests, go on converging, in the same time |
+/// | sound, water hammer | `.density_diffusion(Antuono::default())` | waves lose a fifteenth of what they lose without; half as many pairs again |
+/// | waves | `.h_over_dx(2.0)` and α = 0.005 | crests lose less than half, in the same time |
 /// | viscous flow without a surface | `.with_kernel(WendlandC4).h_over_dx(2.2)` | half the error of velocities in less time |
 ///
-/// Not h/dx 1.3, with which the period of a standing wave gets worse with finer spacings. The kernel's 1.5 stays the default since it
-/// follows violent flow with the fewest pairs. [`DriftKickDrift`](crate::integrator::DriftKickDrift) takes half as many pairs again
-/// here. What still water does is in `docs/liquids.md`.
+/// Not h/dx 1.3, with which finer spacings make waves and pressure at rest worse. At 1.5 the front of a dam break is nearer than
+/// at 2.0. [`DriftKickDrift`](crate::integrator::DriftKickDrift) takes half as many pairs again here. What still water does is in
+/// `docs/liquids.md`.
 #[must_use]
 pub fn weakly_compressible() -> DiffusiveLiquid<MonaghanGingold, Fourtakas> {
     SchemeBuilder::liquid(

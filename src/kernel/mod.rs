@@ -9,7 +9,7 @@
 //! | [`CubicSpline`] | 2h | 1.2 (1.0–1.25) | 58 | 1D, strong shocks, reproducing older work |
 //! | [`QuarticSpline`] | 5/2 h | 1.2 (1.0–1.5) | 113 | less noise than the cubic |
 //! | [`QuinticSpline`] | 3h | 1.2 (1.0–1.5) | 195 | waves, viscous flow |
-//! | [`WendlandC2`] | 2h | 1.5 (1.2–2.0) | 113 | liquids, fluid with structure; 2.0 for waves and rest |
+//! | [`WendlandC2`] | 2h | 1.5 (1.2–2.0) | 113 | liquids, fluid with structure; 2.0 for waves |
 //! | [`WendlandC4`] | 2h | 1.8 (1.3–2.3) | 196 | gases, convergence; 2.2 for viscous flow without a surface |
 //! | [`WendlandC6`] | 2h | 2.0 (1.5–2.5) | 268 | reference solutions |
 //! | [`Gaussian`] | 3h | 1.1 (1.0–1.5) | 150 | comparison with theory |
