@@ -144,7 +144,7 @@ impl ClusterLists {
     pub fn rebuild<T: Real, const D: usize>(&mut self, input: &SearchInput<'_, T, D>) {
         let instructions = input.instructions.or_baseline();
         // Blocks at once: liquid by one thread and walls by another.
-        let sources = collect(input.blocks.len(), |block| Source::new(input, block));
+        let sources = collect(input.blocks.len(), |block| Source::of_block(input, block));
         let clusters = input.slots / input.width;
         self.chunks
             .resize_with(clusters.div_ceil(CHUNK), ChunkList::default);
@@ -186,7 +186,7 @@ impl ClusterLists {
     }
 }
 
-/// The particles of a block, as the search for neighbours meets them.
+/// Particles of a block, as the search for neighbours meets them.
 struct Source<T, const D: usize> {
     cells: Cells<D>,
     /// Positions in the order of the cells.
@@ -195,26 +195,51 @@ struct Source<T, const D: usize> {
     largest: f64,
 }
 
+/// Parts of a block by its support radii, each at most half as wide as the one before; the last takes all that are left.
+const OCTAVES: usize = 4;
+
 impl<T: Real, const D: usize> Source<T, D> {
-    fn new(input: &SearchInput<'_, T, D>, block: usize) -> Self {
+    /// The particles of a block, those of wide support apart from the others: few particles that reach far, as gas behind a
+    /// blast does, would else have all others searched for as far away as they reach.
+    fn of_block(input: &SearchInput<'_, T, D>, block: usize) -> Vec<Self> {
         let blocks = input.blocks.len();
         let wanted = (0..blocks).any(|own| input.lists(own, block));
         let slots = input.blocks[block].slots.clone();
-        let points: Vec<u32> = if wanted {
+        let mut points: Vec<u32> = if wanted {
             (slots.start as u32..slots.end as u32).collect()
         } else {
             Vec::new()
         };
-        let largest = match input.radii {
-            Radii::Uniform(radius) => radius,
-            Radii::Varying(..) => points
-                .iter()
-                .fold(0.0_f64, |m, &p| m.max(input.radii.of(p as usize))),
+        let Radii::Varying(..) = input.radii else {
+            let largest = input.radii.of(0);
+            return vec![Self::new(input, &points, largest)];
         };
+        let widest = |points: &[u32]| {
+            let radii = points.iter().map(|&p| input.radii.of(p as usize));
+            radii.fold(0.0_f64, f64::max)
+        };
+        let mut parts = Vec::new();
+        loop {
+            let largest = widest(&points);
+            let mut rest = Vec::new();
+            if parts.len() + 1 < OCTAVES {
+                let narrow = |p: &u32| input.radii.of(*p as usize) < 0.5 * largest;
+                rest.extend(points.iter().copied().filter(narrow));
+                points.retain(|p| !narrow(p));
+            }
+            parts.push(Self::new(input, &points, largest));
+            if rest.is_empty() {
+                return parts;
+            }
+            points = rest;
+        }
+    }
+
+    fn new(input: &SearchInput<'_, T, D>, points: &[u32], largest: f64) -> Self {
         let reach = largest + input.skin;
         // Cells of half the reach fit the boxes of clusters better than cells of the full reach.
         let size = if D == 1 { reach } else { 0.5 * reach };
-        let cells = Cells::build(input.positions, &points, size);
+        let cells = Cells::build(input.positions, points, size);
         let mut positions = vec![[T::zero(); D]; cells.points().len()];
         for_each(cut(&mut positions, GRAIN), |piece, own| {
             for (x, &j) in own.iter_mut().zip(&cells.points()[piece * GRAIN..]) {
@@ -234,21 +259,27 @@ impl<T: Real, const D: usize> Source<T, D> {
 struct Scratch {
     /// Runs of points in cells that meet a cluster's box.
     ranges: Vec<Range<usize>>,
-    /// Neighbours that may leave the support before the lists are built again.
+    /// Neighbours that may leave the support before the lists are built again, of one part of a block.
     far: Vec<u32>,
+    /// The same of all parts.
+    leaving: Vec<u32>,
 }
 
 /// Lists every point within reach of any member, block after block: first those that stay in the support.
 fn search<T: Real, const D: usize>(
     input: &SearchInput<'_, T, D>,
-    sources: &[Source<T, D>],
+    sources: &[Vec<Source<T, D>>],
     block: usize,
     members: Range<usize>,
     instructions: InstructionSet,
     scratch: &mut Scratch,
     chunk: &mut ChunkList,
 ) {
-    let Scratch { ranges, far } = scratch;
+    let Scratch {
+        ranges,
+        far,
+        leaving,
+    } = scratch;
     let rows = &input.positions[members.clone()];
     let (mut low, mut high) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
     for x in rows {
@@ -260,31 +291,35 @@ fn search<T: Real, const D: usize>(
     let own = members
         .clone()
         .fold(0.0_f64, |m, k| m.max(input.radii.of(k)));
-    for (other, source) in sources.iter().enumerate() {
+    for (other, parts) in sources.iter().enumerate() {
         if !input.lists(block, other) {
             continue;
         }
-        // A pair acts within the mean of the two supports (or, where each side uses its own smoothing
-        // length, within the larger): the larger covers both.
-        let reach = own.max(source.largest) + input.skin;
-        let box_low = core::array::from_fn(|d| low[d] - reach);
-        let box_high = core::array::from_fn(|d| high[d] + reach);
         let start = chunk.neighbors.len();
-        ranges.clear();
-        source
-            .cells
-            .for_each_range(box_low, box_high, |range| ranges.push(range));
-        let sieve = Sieve {
-            input,
-            rows,
-            own,
-            reach,
-            source,
-            ranges,
-        };
-        sieve.dispatch(instructions, &mut chunk.neighbors, far);
+        leaving.clear();
+        for source in parts {
+            // A pair acts within the mean of the two supports (or, where each side uses its own smoothing
+            // length, within the larger): the larger covers both.
+            let reach = own.max(source.largest) + input.skin;
+            let box_low = core::array::from_fn(|d| low[d] - reach);
+            let box_high = core::array::from_fn(|d| high[d] + reach);
+            ranges.clear();
+            source
+                .cells
+                .for_each_range(box_low, box_high, |range| ranges.push(range));
+            let sieve = Sieve {
+                input,
+                rows,
+                own,
+                reach,
+                source,
+                ranges,
+            };
+            sieve.dispatch(instructions, &mut chunk.neighbors, far);
+            leaving.extend_from_slice(far);
+        }
         let near_end = chunk.neighbors.len();
-        chunk.neighbors.extend_from_slice(far);
+        chunk.neighbors.extend_from_slice(leaving);
         let end = chunk.neighbors.len();
         if end > start {
             chunk.segments.push(Segment {
@@ -405,6 +440,57 @@ fn within<L: Lane, const D: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn supports_of_many_sizes_miss_no_neighbour_and_search_less() {
+        let positions: Vec<[f64; 2]> = (0..800)
+            .map(|k| {
+                let k = f64::from(k);
+                [(k * 0.618).fract(), (k * 0.414).fract()]
+            })
+            .collect();
+        // Supports from 0.02 to 0.4, few of them large.
+        let radii: Vec<f64> = (0..800)
+            .map(|k| 0.02 * 20.0_f64.powf((f64::from(k) * 0.271).fract().powi(8)))
+            .collect();
+        let blocks = [Block {
+            slots: 0..800,
+            wall: false,
+        }];
+        let input = SearchInput {
+            positions: &positions,
+            radii: Radii::Varying(&radii, 1.0),
+            blocks: &blocks,
+            listed: &[],
+            width: 8,
+            slots: 800,
+            skin: 0.01,
+            instructions: InstructionSet::detect(),
+        };
+        let parts = Source::of_block(&input, 0);
+        assert_eq!(parts.len(), OCTAVES);
+        assert!(parts.windows(2).all(|p| p[1].largest < 0.5 * p[0].largest));
+        let mut lists = ClusterLists::default();
+        lists.rebuild(&input);
+        let (mut found, mut missing) = (0, 0);
+        for (c, chunk) in lists.chunks().iter().enumerate() {
+            for (k, bounds) in chunk.starts.windows(2).enumerate() {
+                assert_eq!(bounds[1] - bounds[0], 1, "one run a block");
+                let segment = chunk.segments[bounds[0] as usize];
+                let listed = &chunk.neighbors[segment.start as usize..segment.end as usize];
+                for i in (c * CHUNK + k) * 8..(c * CHUNK + k) * 8 + 8 {
+                    for (j, y) in positions.iter().enumerate() {
+                        let apart = (positions[i][0] - y[0]).hypot(positions[i][1] - y[1]);
+                        if apart < radii[i].max(radii[j]) + 0.01 {
+                            found += 1;
+                            missing += usize::from(!listed.contains(&(j as u32)));
+                        }
+                    }
+                }
+            }
+        }
+        assert!(found > 10_000 && missing == 0, "{missing} of {found}");
+    }
 
     #[test]
     fn neighbours_that_stay_in_the_support_come_first() {
