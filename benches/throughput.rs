@@ -2,7 +2,8 @@
 //! what each term costs, the composed pair loop against one that is written out by hand, kernels and
 //! viscosities of a user's own against those of the crate, and solids beside the liquid.
 //!
-//! `cargo bench --bench throughput [-- --quick | --solids]`. An interaction is an ordered pair of particles inside
+//! `cargo bench --bench throughput [-- --quick | --solids | --gate]`. With `--gate` it compares the two loops only, and fails
+//! if the composed one takes more than 1.15 of the other's time. An interaction is an ordered pair of particles inside
 //! of the support, the first of them liquid. Times are medians over steps, ratios medians over pairs of
 //! runs that take turns.
 
@@ -470,23 +471,60 @@ fn ratios(turns: usize, mut one: impl FnMut() + Send, mut other: impl FnMut() + 
     ratios
 }
 
-/// The median and order statistics that hold it in 95 % of all samples.
-fn print_ratio(ratios: &[f64]) {
+/// The median and order statistics that hold it in 95 % of all samples, of which it returns the lower.
+fn print_ratio(ratios: &[f64]) -> f64 {
     let n = ratios.len();
     let off = (0.98 * (n as f64).sqrt()).ceil() as usize;
+    let low = ratios[(n / 2).saturating_sub(off)];
     println!(
         "{n} turns: median ratio {:.3}, 95 % interval {:.3} to {:.3}",
         ratios[n / 2],
-        ratios[(n / 2).saturating_sub(off)],
+        low,
         ratios[(n / 2 + off).min(n - 1)],
+    );
+    low
+}
+
+/// The share of lanes with a pair that acts, of those for which terms are evaluated: rows of particles against
+/// neighbours that come within the support of any of the row.
+fn useful_lanes<T: Real>(side: usize) {
+    let lattice = Lattice::<T>::new(side, Fields::NONE);
+    let width = <T::Wide<false> as Lane>::WIDTH;
+    let positions = lattice.columns.vectors(Field::POSITION);
+    let (mut useful, mut evaluated) = (0, 0);
+    for (c, chunk) in lattice.lists.chunks().iter().enumerate() {
+        for (k, bounds) in chunk.starts.windows(2).enumerate() {
+            let first = (c * CHUNK + k) * width;
+            for segment in &chunk.segments[bounds[0] as usize..bounds[1] as usize] {
+                for &j in &chunk.neighbors[segment.start as usize..segment.end as usize] {
+                    let acts = |i: &usize| {
+                        let apart = (0..3).map(|d| positions[*i][d] - positions[j as usize][d]);
+                        let square: f64 = apart.map(|r| r.to_f64().powi(2)).sum();
+                        square < 4.0 * H * H && *i != j as usize
+                    };
+                    let lanes = (first..first + width).filter(acts).count();
+                    useful += lanes;
+                    evaluated += if lanes > 0 { width } else { 0 };
+                }
+            }
+        }
+    }
+    println!(
+        "useful lanes, {} × {width}, 3D: {:.2}",
+        T::NAME,
+        f64::from(useful as u32) / f64::from(evaluated as u32)
     );
 }
 
-/// Composed against written out, over the same lists, taking turns.
-fn composed_against_fused(side: usize, turns: usize) {
+/// Composed over written out, from which on `--gate` fails; by the lower end of the interval of its median, or a machine
+/// that does other things besides would fail it.
+const GATE: f64 = 1.15;
+
+/// Composed against written out, over the same lists, taking turns: the least that the median ratio may be.
+fn composed_against_fused(side: usize, turns: usize) -> f64 {
     if InstructionSet::detect() != InstructionSet::Avx512 {
         println!("\ncomposed against written out: skipped, the machine has no AVX-512");
-        return;
+        return 1.0;
     }
     let alpha = 0.02;
     let sweep = pair_loop(WendlandC2, MonaghanGingold { alpha, beta: 0.0 });
@@ -519,8 +557,11 @@ fn composed_against_fused(side: usize, turns: usize) {
     assert_same(slots, &rows, &out, |slot, d| {
         (slot / 8 * 4 + d) * 8 + slot % 8
     });
-    print!("\ncomposed against written out, {slots} particles, ");
-    print_ratio(&ratios);
+    print!(
+        "\ncomposed against written out, {slots} particles, root by {:?}, ",
+        input.root
+    );
+    print_ratio(&ratios)
 }
 
 /// Both loops make the same forces, or their comparison says nothing; `place` is where the one written out has them.
@@ -678,7 +719,16 @@ fn main() {
     };
     let (fall, steps) = if full { (0.05, 30) } else { (0.0, 3) };
     let (side, turns) = if full { (32, 60) } else { (12, 5) };
-    composed_against_fused(side, turns);
+    let ratio = composed_against_fused(side, turns);
+    if given("--gate") {
+        assert!(
+            ratio <= GATE,
+            "the composed loop takes at least {ratio:.3} of the time of the one written out, and may take {GATE}"
+        );
+        return;
+    }
+    useful_lanes::<f64>(side);
+    useful_lanes::<f32>(side);
     solids::composed_against_fused(side, turns);
     solids::table(if full { 32 } else { 10 }, steps);
     if given("--solids") {

@@ -5,6 +5,7 @@ use super::{H, Lattice, Row, assert_same, print_ratio, ratios};
 use meshfree::effect::{FiniteStrainPlasticity, Hypoelastic, NeoHookean, Plasticity, StressForce};
 use meshfree::kernel::{Kernel, WendlandC2};
 use meshfree::material::catalogue;
+use meshfree::material::eos::IdealGas;
 use meshfree::neighbors::{CHUNK, Cells, ClusterLists};
 use meshfree::particles::{Field, Fields};
 use meshfree::prelude::*;
@@ -24,9 +25,13 @@ fn row(name: &str, scheme: Scheme<f64, 3>, material: Material<f64>, side: usize,
         .expect("a pool of threads");
     pool.install(|| {
         let (dx, size) = (1e-3, 1e-3 * side as f64);
-        let (_, c) = material.state(material.reference_density(), 0.0);
+        // A gas rings about a state in which it has a pressure.
+        let (_, cold) = material.state(material.reference_density(), 0.0);
+        let energy = if cold > 0.0 { 0.0 } else { 1.0 };
+        let (_, c) = material.state(material.reference_density(), energy);
         let rings = move |x: [f64; 3], own: Start<3>| Start {
             velocity: [0, 1, 2].map(|d| 1e-3 * c * (6.0 * x[d] / size).sin()),
+            energy,
             ..own
         };
         let body = Body::block("block", material, [0.0; 3], [size; 3], dx).start(rings);
@@ -79,6 +84,16 @@ pub fn table(side: usize, steps: usize) {
     let liquid = schemes::weakly_compressible().h_over_dx(1.3).compose();
     let water = catalogue::weakly_compressible_water(10.0);
     row("liquid, h/dx 1.3", liquid, water, side, steps);
+    let gas = Material::new("gas", IdealGas::new(5.0 / 3.0, 1.0));
+    row(
+        "gas, h follows density",
+        schemes::gas().compose(),
+        gas,
+        side,
+        steps,
+    );
+    let impact = schemes::impact().compose();
+    row("impact, copper", impact, catalogue::copper(), side, steps);
     let updated = || schemes::impact_by_continuity().with(Hypoelastic);
     row(
         "updated Lagrangian, elastic, h/dx 1.2",
