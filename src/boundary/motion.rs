@@ -143,8 +143,10 @@ impl<const D: usize> Translation<D> {
         let mut pieces: Vec<Piece<D>> = Vec::with_capacity(record.len());
         for (k, &(time, acceleration)) in record.iter().enumerate() {
             let row = k + 1;
-            if let Some(bad) = acceleration.into_iter().find(|a| !a.is_finite()) {
-                let must_be = "it must be a finite number in m/s²: mend the row, or take it out";
+            let wrong = |a: &f64| !a.is_finite() || a.abs() >= MOST;
+            if let Some(bad) = acceleration.into_iter().find(wrong) {
+                let must_be =
+                    "it must be a finite number in m/s², below 1e100: mend the row, or take it out";
                 return refuse(format!("acceleration in row {row}"), bad, must_be);
             }
             if !time.is_finite() || pieces.last().is_some_and(|last| time <= last.time) {
@@ -163,6 +165,12 @@ impl<const D: usize> Translation<D> {
                 last.slope = slope;
                 piece.state[0] = last.at(0, time);
                 piece.state[1] = last.at(1, time);
+            }
+            let slope = pieces.last().map(|last| last.slope);
+            let mut numbers = piece.state.iter().chain(&slope).flatten();
+            if let Some(&bad) = numbers.find(|x| !x.is_finite() || x.abs() >= MOST * MOST) {
+                let must_be = "it must be a finite number: are times in seconds, and not too near to each other?";
+                return refuse(format!("integral up to row {row}"), bad, must_be);
             }
             pieces.push(piece);
         }
@@ -184,6 +192,9 @@ impl<const D: usize> Translation<D> {
         Ok(Self::new(path(0), path(1), path(2)))
     }
 }
+
+/// What no acceleration \[m/s²\] reaches, so that its integrals are numbers.
+const MOST: f64 = 1e100;
 
 /// A stretch of straight acceleration.
 #[derive(Clone, Copy)]

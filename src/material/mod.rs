@@ -47,6 +47,11 @@ use rheology::{RheologyObject, ViscosityLaw};
 use std::sync::Arc;
 use strength::{PlasticHeating, Strength};
 
+/// Whether a constant of a material, in SI units, is not negative and so small that its products are numbers.
+fn is_size(value: f64) -> bool {
+    (0.0..1e100).contains(&value)
+}
+
 /// An equation of state whose type is erased: what a [`Material`] holds.
 ///
 /// Sealed; [`Material::new`] makes one from any [`EquationOfState`].
@@ -358,10 +363,29 @@ impl<T: Real> Material<T> {
         let density = self.reference_density();
         density * self.state(density, 0.0).1.powi(2)
     }
+    /// Constants that are numbers, and whose products are none: what a law makes of them must be finite.
+    fn problems_of_size(&self) -> Vec<(&'static str, f64, &'static str)> {
+        let rest = self.reference_density();
+        let far = self.state(2.0 * rest, self.state(rest, 0.0).1.powi(2));
+        let all = [
+            ("reference_density", rest),
+            ("sound_speed", self.state(rest, 0.0).1),
+            ("bulk_modulus", self.bulk_modulus()),
+            ("pressure at twice the density", far.0.abs()),
+            ("sound_speed at twice the density", far.1),
+        ];
+        let wrong = all.into_iter().filter(|own| !is_size(own.1));
+        wrong
+            .map(|(what, value)| (what, value, "finite and below 1e100 in SI units"))
+            .collect()
+    }
     /// What is wrong with the constants, as `(field, value, what it must be)`; empty if nothing.
     #[must_use]
     pub fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         let mut problems = self.eos.problems();
+        if problems.is_empty() {
+            problems.extend(self.problems_of_size());
+        }
         let constants = [
             ("yield_stress", self.yield_stress),
             ("shear_modulus", self.shear_modulus),

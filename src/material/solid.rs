@@ -3,7 +3,7 @@
 
 use super::Material;
 use super::failure::Failure;
-use super::strength::{PlasticHeating, Strength};
+use super::strength::{PlasticHeating, PlasticState, Strength};
 use crate::scalar::Real;
 use std::sync::Arc;
 
@@ -85,9 +85,29 @@ impl<T: Real> Material<T> {
 
     /// What is wrong with its strength, its failure and the heat of plastic work.
     pub(super) fn problems_of_solids(&self) -> Vec<(&'static str, f64, &'static str)> {
-        let strength = self.strength.iter().flat_map(|law| law.problems());
+        let strength = self.strength.iter().flat_map(|law| {
+            let mut problems = law.problems();
+            if problems.is_empty() {
+                problems.extend(problem_of_size(&**law));
+            }
+            problems
+        });
         let heating = self.plastic_heating.iter().flat_map(|own| own.problems());
         let failure = self.failure.iter().flat_map(|law| law.problems());
         strength.chain(heating).chain(failure).collect()
     }
+}
+
+/// A law whose constants are numbers, and whose yield stress is none at a strain and rate that a run may reach.
+fn problem_of_size(law: &dyn Strength) -> Option<(&'static str, f64, &'static str)> {
+    let far = PlasticState {
+        strain: 10.0,
+        rate: 1e9,
+        pressure: 1e9,
+        ..PlasticState::default()
+    };
+    let yields = law.yield_stress(&far);
+    let what = "yield_stress at a strain of 10 and a rate of 1e9 1/s";
+    let must_be = "finite, not negative and below 1e100 Pa";
+    (!super::is_size(yields)).then_some((what, yields, must_be))
 }

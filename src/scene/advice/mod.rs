@@ -50,6 +50,7 @@
 //! | spacing across a wall, gap or film | thickness/dx | ≥ 5 | impossible < 4 |
 //!
 //! They are estimates of orders of magnitude, and their bands customary ones: a number near a bound says little.
+//! An [ablation](crate::study::ablation) tells what an effect really changes.
 
 mod bands;
 mod known;
