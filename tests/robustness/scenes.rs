@@ -300,9 +300,9 @@ fn scenes_are_built_or_refused() {
     }
 }
 
-/// A million: as long as it takes, about a day on two cores; `MESHFREE_CASES` says how many instead.
+/// A million: ten minutes on two cores; `MESHFREE_CASES` says how many instead.
 #[test]
-#[ignore = "a million scenes, about a day; MESHFREE_CASES for fewer"]
+#[ignore = "a million scenes, ten minutes; MESHFREE_CASES for fewer"]
 fn a_million_scenes() {
     let from = std::env::var("MESHFREE_FROM")
         .ok()
