@@ -168,7 +168,7 @@ where
     Price {
         name,
         numbers: numbers(<(B, A) as Effects<D>>::READS, &|program| {
-            on.register(program)
+            on.register(program);
         }) - numbers(B::READS, &|program| base.register(program)),
         reads: sum(&with, |own| own.reads) - sum(&without, |own| own.reads),
         operations: sum(&with, |own| own.operations) - sum(&without, |own| own.operations),
