@@ -21,7 +21,7 @@ use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 ///
 /// **Free surface**, by the first moment of the neighbourhood over that of the lattice, which is ½ at a flat surface: below
 /// 0.95 the part of δu along Σ V ∇W, out of or into the liquid, fades, and is gone at 0.75; below 0.6 the rest
-/// does, and drops and single rows are not moved. **Torn liquid**, of no pressure, is left alone too
+/// does, and drops and single rows are not moved. Rows below an even surface still are: by up to 1 % of c in a pressed block. **Torn liquid**, of no pressure, is left alone too
 /// ([`in_tension`](Self::in_tension)): with a cut-off nothing there would take a spreading back.
 ///
 /// δu follows the sound speed, so it is the same for every observer, and evens out over a distance √(a h c t). Sun et al. multiply by
@@ -314,21 +314,20 @@ mod tests {
             .unwrap()
     }
 
+    /// The largest δu of particles more than a support within the block.
     fn fastest(own: &Simulation<f64, 2>) -> f64 {
-        let all = own.all().filter_map(|p| p.vector(SHIFT));
+        let inside = |p: [f64; 2]| p.iter().all(|x| (0.2..0.8).contains(x));
+        let all = own.all().filter(|p| inside(p.position()));
+        let all = all.filter_map(|p| p.vector(SHIFT));
         all.map(|[x, y]| x.hypot(y)).fold(0.0, f64::max)
     }
 
-    /// Nothing moves on a lattice, at its surface and corners neither; what is displaced does.
+    /// Nothing moves within a lattice; what is displaced does.
     #[test]
-    fn an_even_block_is_not_shifted() {
+    fn an_even_lattice_is_not_shifted() {
         let (even, uneven) = (block(0.0, 0.0, 0.1), block(0.2, 0.0, 0.1));
         assert!(fastest(&uneven) > 0.01, "{}", fastest(&uneven));
-        assert!(
-            fastest(&even) < 0.02 * fastest(&uneven),
-            "{}",
-            fastest(&even)
-        );
+        assert!(fastest(&even) < 1e-9, "{}", fastest(&even));
     }
 
     /// The same for every observer.
