@@ -28,7 +28,9 @@ impl Root {
     pub fn detect() -> Self {
         #[cfg(target_arch = "x86_64")]
         {
-            let maker = core::arch::x86_64::__cpuid(0);
+            // SAFETY: every processor of this target has the instruction. Newer compilers take the call for safe.
+            #[allow(unused_unsafe)]
+            let maker = unsafe { core::arch::x86_64::__cpuid(0) };
             let name = [maker.ebx, maker.edx, maker.ecx].map(u32::to_le_bytes);
             if name.concat() == b"AuthenticAMD" {
                 return Self::Divider;
