@@ -17,7 +17,7 @@ const EXAMPLE: Example = Example {
 };
 
 fn main() -> std::process::ExitCode {
-    common::main(&EXAMPLE, perform::<f32>, perform::<f64>)
+    common::main(&EXAMPLE, perform::<f64>, None)
 }
 
 fn perform<T: Real>(options: &Options) -> Result<(), Failure> {

@@ -27,15 +27,14 @@ use std::process::ExitCode;
 /// What can end an example early.
 pub type Failure = Box<dyn std::error::Error + Send + Sync>;
 
+/// What an example does with its options, in one precision.
+pub type Perform = fn(&Options) -> Result<(), Failure>;
+
 /// Reads the command line, sets the threads, and runs the example in the precision asked for. Only examples in which single
 /// precision is of interest are given both: each takes as long to compile as the other.
 ///
 /// Exit status 2 is a command line or a scene that cannot be followed, 1 a run that failed.
-pub fn main(
-    example: &Example,
-    in_f64: fn(&Options) -> Result<(), Failure>,
-    in_f32: Option<fn(&Options) -> Result<(), Failure>>,
-) -> ExitCode {
+pub fn main(example: &Example, in_f64: Perform, in_f32: Option<Perform>) -> ExitCode {
     let options = example.parse();
     if let Some(threads) = options.threads
         && let Err(failure) = rayon::ThreadPoolBuilder::new()

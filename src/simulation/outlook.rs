@@ -3,6 +3,7 @@
 
 use super::group::Group;
 use super::{Phases, Simulation, Work, width};
+use crate::clock::Instant;
 use crate::error::{Error, Problem, Result};
 use crate::integrator::System;
 use crate::neighbors::listed_around;
@@ -10,7 +11,7 @@ use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::scheme::EnergyForm;
 use crate::term::Stage;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Evaluations that a list serves, below which the next one has the thick skin.
 const SHORT: f64 = 8.0;
