@@ -27,6 +27,8 @@ macro_rules! for_each_effect {
                 $crate::effect::GeneralisedNewtonian,
                 $crate::effect::ArtificialPressure::default(),
                 $crate::effect::PairingControl::default(),
+                $crate::effect::ConsistentShifting::default(),
+                $crate::effect::TwoPhase::default(),
                 $crate::effect::ExtrapolatedPressure::default(),
                 $crate::effect::RiemannWalls::default()
             ]
@@ -35,6 +37,7 @@ macro_rules! for_each_effect {
                 $crate::effect::Plasticity,
                 $crate::effect::Damage,
                 $crate::effect::DensityFloor::default(),
+                $crate::effect::ArtificialConduction::default(),
                 $crate::effect::ArtificialStress::default(),
                 $crate::effect::HourglassFree::default()
             ]

@@ -270,14 +270,20 @@ fn reflect<T: Real, const D: usize>(record: &mut [T], reads: Fields, by: &Transf
 /// Turns a copy of the source's record into that of an image by a shift alone: the same numbers as [`reflect`] makes,
 /// without its products.
 fn shift<T: Real, const D: usize>(record: &mut [T], reads: Fields, by: &Vector<T, D>) {
-    let position = reads.offset(Field::POSITION, D);
-    let residual = reads.offset(Field::POSITION_RESIDUAL, D);
-    for d in 0..D {
-        let (sum, error) = two_sum(record[position + d], by[d]);
-        record[position + d] = sum;
-        if reads.contains(Field::POSITION_RESIDUAL) {
-            record[residual + d] += error;
+    let mut lost = [T::zero(); D];
+    let mut offset = 0;
+    for field in reads.iter() {
+        if field.shape() == Shape::Point {
+            for d in 0..D {
+                let (sum, error) = two_sum(record[offset + d], by[d]);
+                (record[offset + d], lost[d]) = (sum, error);
+            }
+        } else if field == Field::POSITION_RESIDUAL {
+            for d in 0..D {
+                record[offset + d] += lost[d];
+            }
         }
+        offset += field.components(D);
     }
 }
 
@@ -315,6 +321,7 @@ mod tests {
     fn a_period_makes_the_same_image_with_and_without_products() {
         let reads = Fields::of(&[
             Field::POSITION,
+            Field::REFERENCE_POSITION,
             Field::VELOCITY,
             Field::MASS,
             Field::POSITION_RESIDUAL,
