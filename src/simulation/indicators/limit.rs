@@ -173,7 +173,7 @@ pub(super) fn limits<T: Real, const D: usize>(
         add(LimitedBy::Disorder, error, Some(&disorder.worst), wider);
     }
     if let Some(drift) = indicators.drift {
-        let remedy = "VolumeConsistency, or a run that starts from rest".to_string();
+        let remedy = "an effect that holds densities to the space of particles".to_string();
         add(LimitedBy::Drift, drift.abs(), None, (remedy, None));
     }
     for across in &indicators.thickness {
