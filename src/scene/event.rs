@@ -71,7 +71,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
     /// use meshfree::prelude::*;
     /// let mut simulation = Scene::<f64, 1>::new(schemes::impact())
     ///     .body(Body::block("striker", catalogue::copper(), [0.0], [0.005], 2e-4).velocity([100.0]))
-    ///     .body(Body::block("target", catalogue::copper(), [0.0051], [0.01], 2e-4))
+    ///     .body(Body::block("target", catalogue::copper(), [0.0051], [0.0101], 2e-4))
     ///     .acceleration(|_| [1e5])
     ///     .at_rest_until_contact("target")
     ///     .build()?;
