@@ -113,6 +113,8 @@ impl Movie {
 }
 
 /// Writes a picture as `.svg`, with title and bar, and as `.png`: with the feature `pictures`, and else not.
+// It can fail with the feature.
+#[cfg_attr(not(feature = "pictures"), allow(clippy::unnecessary_wraps))]
 pub fn save_picture(picture: &Picture, path: impl AsRef<Path>) -> Result<(), Error> {
     #[cfg(feature = "pictures")]
     {

@@ -211,6 +211,5 @@ fn snapshot<T: Real>(
             case.spacing,
             water,
         );
-    picture.save(folder.join("water_38ms.svg"))?;
-    picture.save_png(folder.join("water_38ms.png"))
+    crate::common::save_picture(&picture, folder.join("water_38ms"))
 }
