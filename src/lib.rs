@@ -140,7 +140,7 @@
 //! | a liquid that fills what encloses it | [`schemes::weakly_compressible`] with [`Shifting::CLOSED`](scheme::Shifting::CLOSED) and [walls](effect::ExtrapolatedPressure) with a floor of −∞ |
 //! | a liquid in tension, as one that spins or is drawn out | [`schemes::weakly_compressible`] with [`Shifting::STANDARD`](scheme::Shifting::STANDARD), [`ArtificialPressure`](effect::ArtificialPressure) and [`PairingControl`](effect::PairingControl) |
 //! | a result of LS-DYNA to repeat | [`schemes::ls_dyna_default`], [`schemes::ls_dyna_fluid`] and their renormalised forms |
-//! | a gas | [`schemes::gas`]; with strong contacts or shear, and [`ArtificialConduction`](effect::ArtificialConduction) |
+//! | a gas | [`schemes::gas`]; where unlike gases touch or shear, with [`ArtificialConduction`](effect::ArtificialConduction) |
 //!
 //! A scheme prints itself, with its equations, their sources and the fields that a particle carries.
 //! [`KickDriftKick`](integrator::KickDriftKick) is the integrator unless another is named. It takes one
@@ -164,7 +164,7 @@
 //!
 //! # Accuracy and cost
 //!
-//! What an error costs is measured on ten problems with known answers in `docs/accuracy_and_cost.md`, for each scheme that
+//! What an error costs is measured on sixteen problems with known answers in `docs/accuracy_and_cost.md`, for each scheme that
 //! suits them, and on a problem of one's own by [`study::work_precision`]. In short:
 //!
 //! - Errors fall with the power 0.8 to 1 of the spacing where fronts, contacts or free surfaces are, at first order in smooth flow

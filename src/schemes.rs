@@ -30,7 +30,7 @@
 //!
 //! [`ls_dyna_renormalised`] and [`ls_dyna_fluid_renormalised`] correct the gradients of the last two.
 //!
-//! What an error costs with them, on ten problems with known answers, is in `docs/accuracy_and_cost.md`.
+//! What an error costs with them, on sixteen problems with known answers, is in `docs/accuracy_and_cost.md`.
 
 use crate::effect::{
     Cavitation, DensityDiffusion, ExtrapolatedPressure, HourglassControl, NoWalls, TotalLagrangian,
@@ -145,16 +145,15 @@ pub type GasBuilder = SchemeBuilder<
 /// Gases: summed density with a smoothing length that is consistent with it between a fifth and five times the first
 /// (grad-h terms), signal-velocity viscosity, compatible energy, Wendland C4; bodies are one gas where they meet.
 ///
-/// What to change, by the numbers of `docs/accuracy_and_cost.md`:
+/// What to change, and why, by the numbers of `docs/defaults.md`:
 ///
-/// | scene | change | what it buys |
-/// |---|---|---|
-/// | shocks of any strength | nothing | errors of first order in Sod's tube and in Noh's problem |
-/// | gas that turns, shocks of moderate strength | `.with_viscosity(CullenDehnen::STANDARD)`, `.h_over_dx(2.2)` | Gresho's vortex on 64² is 17 % off for 51 %, in the same time; Sod's tube has 5 % more error at h/dx 1.8 for 30 % fewer pairs |
-/// | strong shocks on coarse spacings | `.h_over_dx(1.3)` | Noh with 100 particles is 3.1 % off for 4.6 %; in three dimensions with 24 particles a radius the plateau is 44 % low for 59 % |
+/// | scene | change |
+/// |---|---|
+/// | shocks of any strength | nothing |
+/// | gas that turns, shocks of moderate strength | `.with_viscosity(CullenDehnen::STANDARD)`, `.h_over_dx(2.2)` |
+/// | strong shocks on coarse spacings | `.h_over_dx(1.3)` |
 ///
-/// Not [`CullenDehnen`](crate::term::viscosity::CullenDehnen) where cold gas starts in collision: Noh's problem is 18 to 90 % off with
-/// it. With α = 0.5 Sod's error is 6 to 15 % smaller and Noh's 3 %, in longer steps.
+/// Not [`CullenDehnen`](crate::term::viscosity::CullenDehnen) where cold gas starts in collision.
 ///
 /// ```
 /// use meshfree::prelude::*;

@@ -60,8 +60,7 @@ pub enum ConductionSignal {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ArtificialConduction {
-    /// Strength α; 0.5. Price (2008) has 1, which smears more: in a blast of 10⁶:1 from 400 particles the L1 error of density is
-    /// 0.015 without, 0.029 with 0.5 and 0.034 with 1, and one pair, none and none change sides (`docs/hard-cases.md`). Zero is none.
+    /// Strength α; 0.5. Price (2008) has 1, which smears more and turns no fewer neighbours (`docs/defaults.md`). Zero is none.
     pub strength: f64,
     /// The speed; that of the pressures by default.
     pub signal: ConductionSignal,

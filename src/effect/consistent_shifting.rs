@@ -17,28 +17,19 @@ use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 ///
 /// with the sound speed c \[m/s\], the kernel W₀ at the spacing and the first moment s of the lattice (Sun et al. 2019). The first sum is
 /// what the motion δu compresses, the second the mass that crosses into moved volumes. [`Shifting`](super::Shifting) has
-/// neither: what it moves apart keeps its density and takes more space, and in a tank at 30 g the water swells by 13 % of its space.
+/// neither: what it moves apart keeps its density and takes more space.
 ///
 /// **Free surface**, by the first moment of the neighbourhood over that of the lattice, which is ½ at a flat surface: below
 /// 0.95 the part of δu along Σ V ∇W, out of or into the liquid, fades, and is gone at 0.75; below 0.6 the rest
-/// does, and drops and single rows are not moved. Rows below an even surface still are: by up to 1 % of c in a pressed block. **Torn liquid**, of no pressure, is left alone too
-/// ([`in_tension`](Self::in_tension)): with a cut-off nothing there would take a spreading back.
+/// does, and drops and single rows are not moved. Rows below an even surface still are. **Torn liquid**, of no pressure, is left
+/// alone too ([`in_tension`](Self::in_tension)): with a cut-off nothing there would take a spreading back.
 ///
 /// δu follows the sound speed, so it is the same for every observer, and evens out over a distance √(a h c t). Sun et al. multiply by
-/// the largest speed expected over c instead: a = 0.1 is that at a fifth of a tenth.
-///
-/// Water in a tank at 30 g (2D, `docs/hard-cases.md`), at 38 ms near the struck wall, spacing upwards over that along, and scatter of
-/// pressure about its local mean:
-///
-/// | 5 mm | spacings | scatter | space | impulse at Point 1 |
-/// |---|---|---|---|---|
-/// | none | 1.66 | 20 % | −0.2 % | |
-/// | [`Shifting::STANDARD`](super::Shifting::STANDARD) | 1.14 | 4.6 % | −0.2 % | +0.6 % |
-/// | this | 1.03 | 6.6 % | −0.3 % | −0.2 % |
+/// the largest speed expected over c instead, and by more.
 ///
 /// The paper's term in momentum, Σ V (ρᵢ uᵢ δuᵢ + ρⱼ uⱼ δuⱼ)·∇W, is left out: alone it depends on the frame in which u is
-/// measured, and what would make up for that is no force between pairs. With it, in the frame of the tank, the impulse at Point 1
-/// after 80 ms was 2.8 % lower at 10 mm, and scatter and spacings no better.
+/// measured, and what would make up for that is no force between pairs. A tank at 30 g with each form, and what a does there, is in
+/// `docs/defaults.md`.
 ///
 /// It costs a sweep in every evaluation and two vectors a particle.
 ///
@@ -53,8 +44,7 @@ use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConsistentShifting {
-    /// Strength a; 0.1. In the tank at 10 mm 0.02 leaves the layers (1.73), 0.05 evens them half (1.19), and 0.2 loses 4 % of the
-    /// impulse until 80 ms. Zero is none.
+    /// Strength a; 0.1: less leaves the layers of the first lattice in violent flow, more loses impulse. Zero is none.
     pub strength: f64,
     /// Whether particles without pressure are moved; not by default. Without a cut-off, in liquids that bear tension, say yes.
     pub in_tension: bool,

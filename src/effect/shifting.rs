@@ -13,9 +13,6 @@ use crate::term::{ConcentrationGradient, In, Stage, stage};
 /// Where a flow strains, a lattice breaks up, and the kernel sums of a disordered neighbourhood read
 /// as pressure: vortices decay far too fast without it (`docs/defaults.md`).
 ///
-/// That speed is by the energy, whose error passes through zero near 64² particles. The velocity itself levels off at about 0.3 % with this
-/// kernel; Wendland C4 at h/dx 2.2 goes on converging (`docs/accuracy_and_cost.md`).
-///
 /// Densities do not follow the shifts, and drift where viscosity is too weak to keep order:
 /// [`VolumeConsistency`](super::VolumeConsistency) holds them.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -10,7 +10,7 @@ type At = dyn Fn(f64) -> [f64; 2] + Send + Sync;
 /// The shape and the slope of a kernel with its normalisation.
 pub(crate) struct Profile {
     at: Box<At>,
-    /// Σ r²/D over W, in h²: the second moment along an axis.
+    /// ∫ r²/D W dV in h²: the second moment along an axis.
     pub spread: f64,
 }
 

@@ -2,7 +2,6 @@
 //! It writes nothing where no person looks, and leaves nothing when it is done; without the feature it is silent.
 
 use core::fmt;
-
 use core::time::Duration;
 #[cfg(feature = "progress")]
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};

@@ -196,42 +196,17 @@ impl<T: Real, const D: usize> Group<T, D> {
         range: [[f64; D]; 2],
     ) -> Approach {
         #[cfg(target_arch = "x86_64")]
-        // SAFETY: `InstructionSet::or_baseline` found them on this machine.
         match self.instructions.or_baseline() {
+            // SAFETY: `InstructionSet::or_baseline` found them on this machine.
             InstructionSet::Avx512 => unsafe {
                 return self.approach_avx512(chunk, list, share, least_h, range);
             },
+            // SAFETY: as above.
             InstructionSet::Avx2 => unsafe {
                 return self.approach_avx2(chunk, list, share, least_h, range);
             },
             InstructionSet::Baseline => {}
         }
-        self.approach_of(chunk, list, share, least_h, range)
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx512f,avx512vl,avx512dq")]
-    fn approach_avx512(
-        &self,
-        chunk: usize,
-        list: &ChunkList,
-        share: f64,
-        least_h: f64,
-        range: [[f64; D]; 2],
-    ) -> Approach {
-        self.approach_of(chunk, list, share, least_h, range)
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2")]
-    fn approach_avx2(
-        &self,
-        chunk: usize,
-        list: &ChunkList,
-        share: f64,
-        least_h: f64,
-        range: [[f64; D]; 2],
-    ) -> Approach {
         self.approach_of(chunk, list, share, least_h, range)
     }
 
@@ -333,3 +308,28 @@ impl<T: Real, const D: usize> Group<T, D> {
         all
     }
 }
+
+/// `approach_of`, compiled for an instruction set.
+#[cfg(target_arch = "x86_64")]
+macro_rules! approach_with {
+    ($name:ident, $features:literal) => {
+        impl<T: Real, const D: usize> Group<T, D> {
+            #[target_feature(enable = $features)]
+            fn $name(
+                &self,
+                chunk: usize,
+                list: &ChunkList,
+                share: f64,
+                least_h: f64,
+                range: [[f64; D]; 2],
+            ) -> Approach {
+                self.approach_of(chunk, list, share, least_h, range)
+            }
+        }
+    };
+}
+
+#[cfg(target_arch = "x86_64")]
+approach_with!(approach_avx512, "avx512f,avx512vl,avx512dq");
+#[cfg(target_arch = "x86_64")]
+approach_with!(approach_avx2, "avx2");

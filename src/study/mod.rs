@@ -24,7 +24,7 @@
 //! | [`ghia`] | centre-line velocities of the lid-driven cavity |
 //! | [`records`] | files of measured and published curves |
 //! | [`work_precision`] | what accuracy costs in time: sweeps, fits of error and cost, and the questions that they answer |
-//! | [`cost_model`] | what a run will cost, from its first steps |
+//! | [`cost_model`] | what a run will cost, before it and from its first steps |
 //! | [`ablation`] | what each effect changes and costs, by runs without it |
 //! | [`norms`] | differences of profiles, plateau, rise time, overshoot, arrival, observed order |
 //!

@@ -36,14 +36,18 @@ impl Scale {
     /// The band of a value.
     #[must_use]
     pub fn band(&self, value: f64) -> &'static Band {
+        &self.bands[self.place(value)]
+    }
+
+    /// The place of that band.
+    fn place(&self, value: f64) -> usize {
         let last = self.bands.len() - 1;
-        &self.bands[self.bands[..last].partition_point(|band| value >= band.below)]
+        self.bands[..last].partition_point(|band| value >= band.below)
     }
 
     /// What a value says of a body.
     pub(super) fn line(&self, of: &str, value: f64, present: Option<bool>) -> Line {
-        let last = self.bands.len() - 1;
-        let number = self.bands[..last].partition_point(|band| value >= band.below);
+        let number = self.place(value);
         let band = &self.bands[number];
         let bounds = match (
             number.checked_sub(1).map(|k| self.bands[k].below),

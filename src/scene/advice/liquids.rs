@@ -15,7 +15,8 @@ use crate::scene::{Body, Part, Scene};
 use crate::scheme::EnergyForm;
 use crate::term::Stage;
 
-/// Deflection of a clamped plate under a pressure ρ U²/2 over its length: 0.014 (ρ U²/E)(L/t)³ of it.
+/// Deflection over length of a clamped square plate under a pressure q = ρ U²: 0.00126 q L⁴/D with D = E t³/(12 (1 − ν²)) and ν = 0.3
+/// (Timoshenko & Woinowsky-Krieger 1959, table 35) is 0.014 (ρ U²/E)(L/t)³.
 const PLATE: f64 = 0.014;
 
 /// A liquid, or a gas, and its scales.

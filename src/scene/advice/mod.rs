@@ -188,6 +188,9 @@ impl<T: Real, const D: usize> Scene<T, D> {
     #[must_use]
     pub fn advise(&self, end: f64, known: &Known) -> Advice {
         let mut advice = Advice::default();
+        for problem in known.problems() {
+            advice.lacks(problem.to_string());
+        }
         let measures = Measures::of(self, end, known);
         self.advise_on_liquids(&measures, known, &mut advice);
         self.advise_on_solids(&measures, known, &mut advice);

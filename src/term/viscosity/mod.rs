@@ -16,8 +16,8 @@
 //! 0.3 % of the sound speed, and a law that grows with that ratio leaves the front ringing. A law with
 //! a fixed α does not. `docs/viscosity_frontier.md` measures all of them on one front.
 //!
-//! In gases the signal velocity loses half of Gresho's vortex where Cullen and Dehnen's law loses a sixth, and the latter 18 to
-//! 90 % of Noh's density where the former loses 1 to 9 % (`docs/accuracy_and_cost.md`).
+//! In gases the signal velocity wears vortices down that Cullen and Dehnen's law keeps, and the latter fails where cold gas starts in
+//! collision (`docs/accuracy_and_cost.md`).
 //!
 //! Every law is zero for receding pairs, and symmetric in the two particles, so it conserves linear
 //! and angular momentum and turns kinetic energy into heat, never back.
