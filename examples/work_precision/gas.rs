@@ -53,33 +53,42 @@ fn methods() -> Vec<Method> {
     ]
 }
 
-fn scheme(case: &Case<'_>) -> Result<Scheme<f64, 1>, Failure> {
-    let (ratio, alpha) = (case.number("h/dx")?, case.number("alpha")?);
-    let signal = SignalVelocity {
+/// The viscosity of the ready gas with another α.
+pub fn signal(alpha: f64) -> SignalVelocity {
+    SignalVelocity {
         alpha,
         ..SignalVelocity::STANDARD
-    };
+    }
+}
+
+/// The one that rises where gas is compressed, up to a largest α.
+pub fn switched(maximum: f64) -> CullenDehnen {
+    CullenDehnen {
+        maximum,
+        ..CullenDehnen::STANDARD
+    }
+}
+
+fn scheme(case: &Case<'_>) -> Result<Scheme<f64, 1>, Failure> {
+    let (ratio, alpha) = (case.number("h/dx")?, case.number("alpha")?);
     let follow = Smoothing::Consistent {
         smallest: 0.02,
         largest: 50.0,
     };
     Ok(match case.text("scheme")? {
         "gas itself" => schemes::gas().compose(),
-        "gas" => SchemeBuilder::new(WendlandC4, signal)
+        "gas" => SchemeBuilder::new(WendlandC4, signal(alpha))
             .density(DensityForm::Summation)
             .between_bodies(Interaction::Bonded)
             .smoothing(follow)
             .h_over_dx(ratio)
             .compose(),
         "switched" => schemes::gas()
-            .with_viscosity(CullenDehnen {
-                maximum: alpha,
-                ..CullenDehnen::STANDARD
-            })
+            .with_viscosity(switched(alpha))
             .smoothing(follow)
             .h_over_dx(ratio)
             .compose(),
-        "cubic signal" => SchemeBuilder::new(CubicSpline, signal)
+        "cubic signal" => SchemeBuilder::new(CubicSpline, signal(alpha))
             .density(DensityForm::Summation)
             .smoothing(follow)
             .h_over_dx(ratio)

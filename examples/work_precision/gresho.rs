@@ -1,18 +1,18 @@
 //! Gresho's vortex in two dimensions: gas that turns, without a shock, and so without need of a viscosity.
 //! The exact flow is steady; what a run loses of it is what its viscosity takes.
 
+use crate::gas::{signal, switched};
 use crate::problem::{Problem, Text, method, sweep};
 use meshfree::material::eos::IdealGas;
 use meshfree::prelude::*;
 use meshfree::scene::Start;
 use meshfree::study::work_precision::{Case, Failure, Method, Outcome, Quantity, relative_l1};
-use meshfree::term::viscosity::{CullenDehnen, SignalVelocity};
 
 const TEXT: Text = Text {
     key: "gresho",
     title: "Gresho's vortex",
-    setting: "Gas of γ 5/3 and 1 kg/m³ that turns by up to 1 m/s at 0.2 m from its middle, at a third of the speed of sound, in a periodic square of 1 m, after \
-              1 s. Mean error of velocity over mean velocity (Gresho & Chan 1990). Two dimensions.",
+    setting: "Gas of γ 5/3 and 1 kg/m³ that turns by up to 1 m/s at 0.2 m from its middle, at a third of the speed of sound, in a \
+              periodic square of 1 m, after 1 s. Mean error of velocity over mean velocity (Gresho & Chan 1990). Two dimensions.",
     words: include_str!("words/gresho.md"),
     errors: &[0.3, 0.1],
     seconds: &[1.0, 10.0],
@@ -56,17 +56,11 @@ fn run(case: &Case<'_>) -> Result<Outcome, Failure> {
     let (ratio, alpha) = (case.number("h/dx")?, case.number("alpha")?);
     let scheme: Scheme<f64, 2> = match case.text("viscosity")? {
         "signal" => schemes::gas()
-            .with_viscosity(SignalVelocity {
-                alpha,
-                ..SignalVelocity::STANDARD
-            })
+            .with_viscosity(signal(alpha))
             .h_over_dx(ratio)
             .compose(),
         _ => schemes::gas()
-            .with_viscosity(CullenDehnen {
-                maximum: alpha,
-                ..CullenDehnen::STANDARD
-            })
+            .with_viscosity(switched(alpha))
             .h_over_dx(ratio)
             .compose(),
     };

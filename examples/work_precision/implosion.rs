@@ -23,8 +23,8 @@ const NOH: Text = Text {
 const SEDOV: Text = Text {
     key: "sedov_3d",
     title: "Sedov's blast in three dimensions",
-    setting: "A joule at a point of cold gas of γ 1.4 and 1 kg/m³, until its shock is 0.4 m out; density within 0.48 m. Mean error of density over mean \
-              density, by volume.",
+    setting: "A joule at a point of cold gas of γ 1.4 and 1 kg/m³, until its shock is 0.4 m out; density within 0.48 m. Mean error \
+              of density over mean density, by volume.",
     words: include_str!("words/sedov_3d.md"),
     errors: &[0.3, 0.1],
     seconds: &[10.0, 60.0],

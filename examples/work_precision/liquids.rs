@@ -1,7 +1,7 @@
 //! Water under gravity in a tank, in two dimensions: at rest, in a standing wave, and as a column that falls.
 //! The first two have exact answers, the hydrostatic pressure and the period of theory; the third has its own finest run.
 
-use crate::problem::{Problem, Text, method, sweep, with};
+use crate::problem::{Problem, Text, liquid, plain_viscosity, sweep, with};
 use meshfree::boundary::Wall;
 use meshfree::integrator::DriftKickDrift;
 use meshfree::kernel::CubicSpline;
@@ -14,14 +14,13 @@ use meshfree::study::standing_wave::StandingWave;
 use meshfree::study::work_precision::{
     Case, Failure, History, Method, Outcome, Quantity, WorkPrecision,
 };
-use meshfree::term::viscosity::MonaghanGingold;
 use meshfree::term::{Antuono, Fourtakas};
 
 const TANK: Text = Text {
     key: "tank",
     title: "Water at rest in a tank",
-    setting: "Water of 1 m depth and 0.5 m width at rest for 1.6 s: root mean square error of pressure over ρgH in the last 0.32 s, after it was \
-              released with the pressure of rest. Two dimensions.",
+    setting: "Water of 1 m depth and 0.5 m width at rest for 1.6 s: root mean square error of pressure over ρgH in the last \
+              0.32 s, after it was released with the pressure of rest. Two dimensions.",
     words: include_str!("words/tank.md"),
     errors: &[0.01, 0.003, 0.001],
     seconds: &[1.0, 60.0],
@@ -38,8 +37,9 @@ const WAVE: Text = Text {
 const DAM: Text = Text {
     key: "dam",
     title: "The front of a dam break",
-    setting: "A column of water twice as high as wide, the one of Martin & Moyce (1952, 57 mm wide), falls onto a dry bed without friction; the place \
-              of its front at t √(2g/a) = 2.5, against that of 112 particles over the width with h/dx 2.0. Two dimensions.",
+    setting: "A column of water twice as high as wide, the one of Martin & Moyce (1952, 57 mm wide), falls onto a dry bed without \
+              friction; the place of its front at t √(2g/a) = 2.5, against that of 112 particles over the width with \
+              h/dx 2.0. Two dimensions.",
     words: include_str!("words/dam.md"),
     errors: &[0.03, 0.01],
     seconds: &[1.0, 60.0],
@@ -54,35 +54,29 @@ const CREST: &str = "lost height of the crest in one period";
 const FRONT: &str = "place of the front";
 const REAR: &str = "height at the rear wall";
 
-/// How long water rests \[s\], and the last part of that, ten passages of sound over the depth, over which its error is taken: at one time
-/// it would be that of a phase of what sound is left.
+/// How long water rests \[s\], and the last part of that, ten passages of sound over the depth, over which its error is taken: at
+/// one time it would be that of a phase of what sound is left.
 const REST: f64 = 1.6;
 const LAST: f64 = 0.32;
 
-/// A scheme of liquids as it stands but for these.
-fn own(name: &str, what: &str, ratio: f64, alpha: f64, delta: f64) -> Method {
-    let numbers = [("h/dx", ratio), ("alpha", alpha), ("delta", delta)];
-    method(name, &[("scheme", what)], &numbers)
-}
-
 fn methods() -> Vec<Method> {
     vec![
-        own("h/dx 1.5, α 0.02, δ 0.1 (default)", "C2", 1.5, 0.02, 0.1),
-        own("h/dx 1.3, α 0.02, δ 0.1", "C2", 1.3, 0.02, 0.1),
-        own("h/dx 2.0, α 0.02, δ 0.1", "C2", 2.0, 0.02, 0.1),
-        own("h/dx 2.0, α 0.005, δ 0.1", "C2", 2.0, 0.005, 0.1),
-        own("h/dx 2.0, α 0.02, δ 0.02", "C2", 2.0, 0.02, 0.02),
-        own("h/dx 1.5, Antuono δ 0.1", "Antuono", 1.5, 0.02, 0.1),
+        liquid("h/dx 1.5, α 0.02, δ 0.1 (default)", "C2", 1.5, 0.02, 0.1),
+        liquid("h/dx 1.3, α 0.02, δ 0.1", "C2", 1.3, 0.02, 0.1),
+        liquid("h/dx 2.0, α 0.02, δ 0.1", "C2", 2.0, 0.02, 0.1),
+        liquid("h/dx 2.0, α 0.005, δ 0.1", "C2", 2.0, 0.005, 0.1),
+        liquid("h/dx 2.0, α 0.02, δ 0.02", "C2", 2.0, 0.02, 0.02),
+        liquid("h/dx 1.5, Antuono δ 0.1", "Antuono", 1.5, 0.02, 0.1),
     ]
 }
 
 /// What is tried on water at rest alone, where it is cheap: another kernel, integrator, step and precision.
 fn more_methods() -> Vec<Method> {
     let more = [
-        own("cubic spline, h/dx 1.2", "cubic", 1.2, 0.02, 0.1),
-        own("h/dx 1.5, half the step", "half", 1.5, 0.02, 0.1),
-        own("h/dx 1.5, drift–kick–drift", "dkd", 1.5, 0.02, 0.1),
-        own("h/dx 1.5, f32", "f32", 1.5, 0.02, 0.1),
+        liquid("cubic spline, h/dx 1.2", "cubic", 1.2, 0.02, 0.1),
+        liquid("h/dx 1.5, half the step", "half", 1.5, 0.02, 0.1),
+        liquid("h/dx 1.5, drift–kick–drift", "dkd", 1.5, 0.02, 0.1),
+        liquid("h/dx 1.5, f32", "f32", 1.5, 0.02, 0.1),
     ];
     methods().into_iter().chain(more).collect()
 }
@@ -90,7 +84,7 @@ fn more_methods() -> Vec<Method> {
 /// The scheme of liquids with the numbers of a case.
 fn usual<T: Real>(case: &Case<'_>, step: f64) -> Result<Scheme<T, 2>, Failure> {
     let scheme = schemes::weakly_compressible()
-        .with_viscosity(viscosity(case)?)
+        .with_viscosity(plain_viscosity(case)?)
         .h_over_dx(case.number("h/dx")?)
         .density_diffusion(Fourtakas {
             delta: case.number("delta")?,
@@ -98,22 +92,15 @@ fn usual<T: Real>(case: &Case<'_>, step: f64) -> Result<Scheme<T, 2>, Failure> {
     Ok(scheme.step_factor(step).compose())
 }
 
-fn viscosity(case: &Case<'_>) -> Result<MonaghanGingold, Failure> {
-    Ok(MonaghanGingold {
-        alpha: case.number("alpha")?,
-        beta: 0.0,
-    })
-}
-
 fn scheme(case: &Case<'_>) -> Result<Scheme<f64, 2>, Failure> {
     let (ratio, delta) = (case.number("h/dx")?, case.number("delta")?);
     Ok(match case.text("scheme")? {
-        "cubic" => SchemeBuilder::liquid(CubicSpline, viscosity(case)?)
+        "cubic" => SchemeBuilder::liquid(CubicSpline, plain_viscosity(case)?)
             .with(DensityDiffusion(Fourtakas { delta }))
             .h_over_dx(ratio)
             .compose(),
         "Antuono" => schemes::weakly_compressible()
-            .with_viscosity(viscosity(case)?)
+            .with_viscosity(plain_viscosity(case)?)
             .h_over_dx(ratio)
             .density_diffusion(Antuono { delta })
             .compose(),
@@ -122,8 +109,8 @@ fn scheme(case: &Case<'_>) -> Result<Scheme<f64, 2>, Failure> {
     })
 }
 
-/// Pressure of water at rest over ρ₀gH at a depth \[m\]: what is above is compressed, by 1 % at the bottom where c² = 100 gH, so it is heavier
-/// than ρ₀gz, by 0.22 % of ρ₀gH in root mean square.
+/// Pressure of water at rest over ρ₀gH at a depth \[m\]: what is above is compressed, by 1 % at the bottom where c² = 100 gH, so
+/// it is heavier than ρ₀gz, by 0.22 % of ρ₀gH in root mean square.
 fn at_rest(depth: f64) -> f64 {
     100.0 * (0.01 * depth).exp_m1()
 }

@@ -1,6 +1,5 @@
 //! What accuracy costs in time: one study for each of sixteen problems, and the page `docs/accuracy_and_cost.md` of them.
-//! `cargo run --release --example work_precision [-- --quick] [--only KEY,KEY] [--out DIR]`,
-//! with `--within` what comes of runs that are to take a minute, and with `--forecast` what first steps foretell of whole runs.
+//! `cargo run --release --example work_precision -- --help` lists the options.
 
 mod choices;
 mod forecast;
@@ -16,6 +15,8 @@ mod sound;
 mod vortices;
 mod within;
 
+use clap::Parser;
+use clap::builder::PossibleValuesParser;
 use meshfree::study::work_precision::{Clock, Failure, Report};
 use problem::Problem;
 use std::path::{Path, PathBuf};
@@ -43,6 +44,27 @@ const PROBLEMS: &[(&str, Make)] = &[
     ("plate", plate::problem),
 ];
 
+/// What an error costs: all problems, and the page of them, into docs/ and out/work_precision
+#[derive(Parser)]
+struct Line {
+    /// Three coarse spacings of each problem, into out/work_precision
+    #[arg(long)]
+    quick: bool,
+    /// Some of the problems, into out/work_precision
+    #[arg(long, value_name = "KEY,KEY", value_delimiter = ',',
+          value_parser = PossibleValuesParser::new(PROBLEMS.iter().map(|(key, _)| *key)))]
+    only: Vec<String>,
+    /// Where files go instead
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// What first steps foretell of whole runs
+    #[arg(long)]
+    forecast: bool,
+    /// What comes of runs that are to take a minute
+    #[arg(long)]
+    within: bool,
+}
+
 /// After this time of a problem none of its runs is begun; what was not run is a row that says so.
 const BUDGET: Duration = Duration::from_secs(180);
 
@@ -66,40 +88,24 @@ fn measure(problem: Problem, quick: bool, data: &Path, out: &Path) -> Result<Rep
 }
 
 fn main() -> Result<(), Failure> {
-    let (mut quick, mut foretell, mut minute) = (false, false, false);
-    let (mut only, mut out) = (None::<String>, None);
-    let mut arguments = std::env::args().skip(1);
-    while let Some(argument) = arguments.next() {
-        match argument.as_str() {
-            "--quick" => quick = true,
-            "--forecast" => foretell = true,
-            "--within" => minute = true,
-            "--only" => only = arguments.next(),
-            "--out" => out = arguments.next().map(PathBuf::from),
-            other => {
-                return Err(format!(
-                    "unknown option `{other}`: there are --quick, --forecast, --within, --only KEY,KEY and --out DIR"
-                )
-                .into());
-            }
-        }
-    }
+    let line = Line::parse();
+    let quick = line.quick;
     // Small runs have nothing to share out, and one thread repeats.
     rayon::ThreadPoolBuilder::new()
         .num_threads(1)
         .build_global()?;
-    if foretell {
+    if line.forecast {
         print!("{}", forecast::table(quick)?);
         return Ok(());
     }
-    if minute {
+    if line.within {
         let seconds = if quick { 2.0 } else { 60.0 };
         print!("{}", within::table(seconds)?);
         return Ok(());
     }
     // A quick run, or one of some problems, checks that everything works: it does not touch the documentation.
-    let whole = !quick && only.is_none();
-    let out = out.unwrap_or_else(|| {
+    let whole = !quick && line.only.is_empty();
+    let out = line.out.unwrap_or_else(|| {
         if whole {
             "docs".into()
         } else {
@@ -114,10 +120,7 @@ fn main() -> Result<(), Failure> {
     let start = Instant::now();
     let mut page = page::Page::new();
     for (key, make) in PROBLEMS {
-        if only
-            .as_ref()
-            .is_some_and(|only| !only.split(',').any(|own| own == *key))
-        {
+        if !line.only.is_empty() && !line.only.iter().any(|own| own == key) {
             continue;
         }
         let begin = Instant::now();

@@ -2,6 +2,7 @@
 //! Text about a choice is written from the numbers, and to be read again when they change.
 
 use meshfree::study::work_precision::{Case, Failure, Method, Outcome, Value, WorkPrecision};
+use meshfree::term::viscosity::MonaghanGingold;
 
 /// What is said about a problem.
 #[derive(Clone, Copy)]
@@ -38,10 +39,18 @@ pub fn method(name: &str, texts: &[(&str, &str)], numbers: &[(&str, f64)]) -> Me
     }
 }
 
-/// A weakly compressible liquid: h/dx, artificial viscosity and density diffusion.
-pub fn liquid(name: &str, ratio: f64, alpha: f64, delta: f64) -> Method {
+/// A weakly compressible liquid: which scheme, h/dx, artificial viscosity and density diffusion.
+pub fn liquid(name: &str, scheme: &str, ratio: f64, alpha: f64, delta: f64) -> Method {
     let numbers = [("h/dx", ratio), ("alpha", alpha), ("delta", delta)];
-    method(name, &[], &numbers)
+    method(name, &[("scheme", scheme)], &numbers)
+}
+
+/// The artificial viscosity of such a liquid.
+pub fn plain_viscosity(case: &Case<'_>) -> Result<MonaghanGingold, Failure> {
+    Ok(MonaghanGingold {
+        alpha: case.number("alpha")?,
+        beta: 0.0,
+    })
 }
 
 /// A study of these methods on so many particles a metre; of a quick one the three coarsest.

@@ -43,8 +43,9 @@ const TENSION: Text = Text {
     key: "rods_tension",
     title: "Copper rods until the target is in tension",
     setting: "The rods of copper until 9 µs: both have parted, and the waves from the free ends have met in the middle of the \
-              target and left it in tension over half of its length. Mean error of pressure over mean pressure, by h/dx; with the rise of the first \
-              front, and the ripple: the root mean square by which neighbours in tension differ from a smooth curve, over the tension.",
+              target and left it in tension over half of its length. Mean error of pressure over mean pressure, by h/dx; with \
+              the rise of the first front, and the ripple: the root mean square by which neighbours in tension differ from a \
+              smooth curve, over the tension.",
     words: include_str!("words/rods_tension.md"),
     errors: &[0.1, 0.03, 0.01],
     seconds: &[0.1, 10.0],

@@ -2,8 +2,10 @@
 #![allow(dead_code)]
 
 use meshfree::kernel::{Kernel, KernelKind};
+use meshfree::material::eos::IdealGas;
 use meshfree::material::{Material, catalogue};
 use meshfree::scalar::Lane;
+use meshfree::scene::{Body, Start};
 use meshfree::simulation::Simulation;
 
 /// A small generator of reproducible numbers (SplitMix64, Steele et al. 2014).
@@ -63,6 +65,24 @@ pub fn material(k: usize) -> Material<f64> {
         catalogue::water(),
     ];
     all[k % all.len()].clone()
+}
+
+/// Sod's tube from −0.5 to 0.5: `n` particles of unit density on the left, of equal mass on the right.
+pub fn shock_tube(n: usize) -> Body<f64, 1> {
+    let gas = IdealGas::new(1.4, 1.0);
+    let dx = 0.5 / n as f64;
+    // Eight times the spacing at an eighth of the density: the same mass.
+    let left = (0..n).map(|k| [-0.5 + (k as f64 + 0.5) * dx]);
+    let right = (0..n / 8).map(|k| [(k as f64 + 0.5) * 8.0 * dx]);
+    let places = left.chain(right).collect();
+    Body::points_of("tube", Material::new("gas", gas), places, dx).start(move |x, start| Start {
+        energy: if x[0] < 0.0 {
+            gas.energy(1.0, 1.0)
+        } else {
+            gas.energy(0.1, 0.125)
+        },
+        ..start
+    })
 }
 
 pub fn kernel(k: usize) -> KernelKind {

@@ -4,8 +4,9 @@
 //! To renew a number after a change that is meant, run `cargo test --release --test guarantees counted_work -- --nocapture`, write
 //! what it prints into `HELD`, and say in the message of the commit what the pairs buy.
 
+use crate::common;
 use meshfree::boundary::Wall;
-use meshfree::material::eos::{Hugoniot, IdealGas, MieGruneisen};
+use meshfree::material::eos::{Hugoniot, MieGruneisen};
 use meshfree::material::{Liquid, SoundSpeed};
 use meshfree::prelude::*;
 use meshfree::scene::Start;
@@ -95,31 +96,12 @@ fn rods(case: &Case<'_>) -> Result<Outcome, Failure> {
 
 /// Density in Sod's tube.
 fn shock_tube(case: &Case<'_>) -> Result<Outcome, Failure> {
-    let gas = IdealGas::new(1.4, 1.0);
-    let dx = case.spacing();
-    let n = (0.5 / dx).round() as usize;
-    let left = (0..n).map(|k| [-0.5 + (k as f64 + 0.5) * dx]);
-    let right = (0..n / 8).map(|k| [(k as f64 + 0.5) * 8.0 * dx]);
-    let tube = Body::points_of(
-        "tube",
-        Material::new("gas", gas),
-        left.chain(right).collect(),
-        dx,
-    );
-    let tube = tube.start(|x, start| Start {
-        energy: if x[0] < 0.0 {
-            gas.energy(1.0, 1.0)
-        } else {
-            gas.energy(0.1, 0.125)
-        },
-        ..start
-    });
     let mut scheme = schemes::gas();
     if wide(case)? {
         scheme = scheme.h_over_dx(WIDE);
     }
     let mut tube = Scene::<f64, 1>::new(scheme)
-        .body(tube)
+        .body(common::shock_tube((0.5 / case.spacing()).round() as usize))
         .boundary(MirrorPlane::symmetry([-0.5], [-1.0]))
         .boundary(MirrorPlane::symmetry([0.5], [1.0]))
         .build()?;

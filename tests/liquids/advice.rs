@@ -93,7 +93,8 @@ fn the_tank_at_30_g_has_its_worked_numbers() {
 
 #[test]
 fn water_in_crushed_cells_has_its_worked_numbers() {
-    // A hole of 3 mm, walls of 0.5 mm, four and a half spacings, of which a lattice has four; a spacing of 0.112 mm, and a strain rate of 1000 1/s.
+    // A hole of 3 mm, walls of 0.5 mm, four and a half spacings, of which a lattice has four; a spacing of 0.112 mm, and a strain
+    // rate of 1000 1/s.
     let dx = 0.112e-3;
     let slow = TensionCompression::new(49e6, 91e6);
     let polymer = catalogue::fullcure_m730().with_strength(CowperSymonds::new(slow, 4e3, 5.0));

@@ -1,7 +1,7 @@
 //! Gases: a shock tube, a sound wave, and gas that meets itself, against exact solutions.
 //! Equal masses, density by summation, smoothing lengths that follow it.
 
-use crate::common::AnyKernel;
+use crate::common::{AnyKernel, shock_tube};
 use meshfree::boundary::{MirrorPlane, Periodic};
 use meshfree::kernel::KernelKind;
 use meshfree::material::Material;
@@ -39,23 +39,8 @@ fn drift(simulation: &Simulation<f64, 1>, before: f64) -> f64 {
 
 /// Sod's tube with `n` particles of equal mass on the left of unit density.
 fn sod(kernel: KernelKind, ratio: f64, n: usize) -> (Simulation<f64, 1>, f64) {
-    let gas = ideal(1.4);
-    let dx = 0.5 / n as f64;
-    // Eight times the spacing at an eighth of the density: the same mass.
-    let left = (0..n).map(|k| -0.5 + (k as f64 + 0.5) * dx);
-    let right = (0..n / 8).map(|k| (k as f64 + 0.5) * 8.0 * dx);
-    let points: Vec<_> = left.chain(right).map(|x| [x]).collect();
-    let tube =
-        Body::points_of("tube", Material::new("gas", gas), points, dx).start(|x, start| Start {
-            energy: if x[0] < 0.0 {
-                gas.energy(1.0, 1.0)
-            } else {
-                gas.energy(0.1, 0.125)
-            },
-            ..start
-        });
     let simulation = Scene::new(gas_scheme(kernel, ratio))
-        .body(tube)
+        .body(shock_tube(n))
         .boundary(MirrorPlane::symmetry([-0.5], [-1.0]))
         .boundary(MirrorPlane::symmetry([0.5], [1.0]))
         .build()
