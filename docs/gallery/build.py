@@ -18,18 +18,18 @@ COLOURS = 100
 
 # Example: the plot that it leaves, and the options that suit a gallery.
 PICTURES = {
-    "cellular_filler": ("filler.svg", ["--quick"]),
+    "cellular_filler": ("c1.5mm_mu1e-3/water.svg", ["--quick"]),
     "channel": ("poiseuille.svg", ["--quick"]),
-    "dam_break": ("frame_00010.svg", ["--quick"]),
+    "dam_break": ("frame_00004.svg", ["--quick"]),
     "elastic_gate": ("gate.svg", ["--quick"]),
     "elastic_plate": ("plate.svg", ["--quick"]),
     "falling_drop": ("splash.svg", []),
     "hydrostatic": ("column.svg", ["--quick"]),
     "hypervelocity": ("cloud.svg", ["--quick"]),
-    "lid_driven_cavity": ("lid_driven_cavity.svg", ["--quick"]),
+    "lid_driven_cavity": ("cavity_100.svg", ["--quick"]),
     "rod_impact": ("figure1.svg", ["--quick"]),
     "rubber_rings": ("rings.svg", ["--quick"]),
-    "sloshing_roll": ("pressure.svg", ["--quick"]),
+    "sloshing_roll": ("frame_00004.svg", ["--quick"]),
     "sloshing_tank": ("particles_38ms.svg", []),
     "square_patch": ("patch.svg", ["--quick"]),
     "standing_wave": ("wave.svg", ["--quick"]),
