@@ -14,7 +14,7 @@ from pathlib import Path
 HERE = Path(__file__).parent
 ROOT = HERE.parent.parent
 WIDTH = 640
-COLOURS = 100
+COLOURS = 80
 
 # Example: the plot that it leaves, and the options that suit a gallery.
 PICTURES = {

@@ -390,7 +390,8 @@ fn snapshot<T: Real>(
     let top = 1e-3 * 1000.0 * case.peak() * case.size[0] * case.fill;
     let picture = Picture::new(1200, 800)
         .title(&format!(
-            "{comment}, {} particles",
+            "t = {:.1} ms, {} particles",
+            1e3 * now.time(),
             now.body("water")?.count()
         ))
         .view(-70.0, 15.0)
