@@ -108,7 +108,8 @@ impl<T: Real, const D: usize> Law<T, D> for ConsistentSmoothing {
         Fields::of(&[Field::SMOOTHING_LENGTH, Field::DENSITY, Field::GRAD_H])
     }
     fn repeats(&self) -> Option<(usize, f64)> {
-        Some((12, 1e-6))
+        // What a step of Newton's method leaves is of the order of its square: less than 1e-6 of a density.
+        Some((12, 1e-4))
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let (sums, first) = (chunk.around.sums, chunk.first);
@@ -128,7 +129,6 @@ impl<T: Real, const D: usize> Law<T, D> for ConsistentSmoothing {
             let h = &mut h[n];
             let summed = sums.get(Output::KERNEL_SUM, 0, first + n);
             let slope = sums.get(Output::SLOPE_IN_H, 0, first + n);
-            density[n] = summed;
             let wanted = mass[n] * (eta / *h).powi(D as u32);
             // f = ρ(h) − m (η/h)^D and f′ = ∂ρ/∂h + D m η^D/h^(D+1).
             let step = (summed - wanted) / (slope + d * wanted / *h);
@@ -143,6 +143,8 @@ impl<T: Real, const D: usize> Law<T, D> for ConsistentSmoothing {
             let change = ((next - *h) / *h).abs().to_f64();
             tally.change = tally.change.max(change);
             tally.limited += u64::from(!free);
+            // The density at the new length, to the second order in the change.
+            density[n] = summed + slope * (next - *h);
             *h = next;
         }
         tally

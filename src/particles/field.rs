@@ -348,6 +348,13 @@ quantities! {
     /// Position X in the reference configuration, as built: where terms of a sweep read it, lists and kernels are those
     /// of the reference configuration.
     REFERENCE_POSITION, Point, "reference_position", "m";
+    /// Acceleration of a kick, by which the work of its pair forces changes with its length.
+    MEAN_ACCELERATION, Vector, "mean_acceleration", "m/s²";
+    /// The smoothing length that the last evaluation found, where it follows the density.
+    FOUND_SMOOTHING_LENGTH, Scalar, "found_smoothing_length", "m";
+    /// Rate of ln h where the smoothing length follows the density, from the last two evaluations: where the next begins
+    /// to look for it.
+    SMOOTHING_RATE, Scalar, "smoothing_rate", "1/s";
 }
 
 quantities! {
@@ -395,6 +402,8 @@ quantities! {
     SIGNAL_SPEED, Scalar, "signal_speed", "m/s";
     /// Σⱼ Vⱼ sign(∇·vⱼ) Wᵢⱼ, whether the surroundings close in or open.
     DIVERGENCE_SIGN, Scalar, "divergence_sign", "1";
+    /// What a second of acceleration adds to the [power](Output::POWER) of the same forces, Σⱼ −½ Fᵢⱼ·aᵢⱼ.
+    POWER_OF_ACCELERATION, Scalar, "power_of_acceleration", "W/s";
 }
 
 impl Fields {

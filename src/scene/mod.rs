@@ -536,3 +536,5 @@ impl<T: Real, const D: usize> Scene<T, D> {
 
 /// Skins in units of the kernel's support: of lists that last, and of lists that do not.
 const SKINS: [f64; 2] = [0.1, 0.2];
+/// The same where smoothing lengths follow the density.
+const FOLLOWING_SKINS: [f64; 2] = [0.1, 0.02];

@@ -1,7 +1,7 @@
 //! The plan of a group: the bodies of a scene that share a scheme, with the walls that they meet.
 //! It is what the checks look at, and it lays out the columns from which a simulation starts.
 
-use super::{Body, Part, SKINS, Scene};
+use super::{Body, FOLLOWING_SKINS, Part, SKINS, Scene};
 use crate::boundary::{Emitter, Inlet, Slip, Wall};
 use crate::particles::{Columns, Field, Fields};
 use crate::scalar::Real;
@@ -177,6 +177,10 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         match self.scene.skin {
             Some(skin) => [skin; 2],
             // Images reach through a period as far as the check of the boundaries found room for.
+            // Lengths that follow the density change in every step, and what a list holds too much of every sum looks at.
+            None if matches!(self.scheme.smoothing, Smoothing::Consistent { .. }) => {
+                FOLLOWING_SKINS
+            }
             None if !self.scene.boundaries.is_empty() => [SKINS[0]; 2],
             None => SKINS,
         }

@@ -205,7 +205,10 @@ impl<T: Real, const D: usize> Scheme<T, D> {
             fields = fields.union(Fields::of(&[Field::POSITION_RESIDUAL]));
         }
         if self.energy == EnergyForm::Compatible {
-            fields = fields.union(Fields::of(&[Field::MEAN_VELOCITY]));
+            fields = fields.union(Fields::of(&[
+                Field::MEAN_VELOCITY,
+                Field::MEAN_ACCELERATION,
+            ]));
         }
         if self.density.has_reference() && self.reference.is_some() {
             fields = fields.union(Fields::of(&[
@@ -216,6 +219,12 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         }
         if self.smoothing != Smoothing::Fixed {
             fields = fields.union(Fields::of(&[Field::SMOOTHING_LENGTH]));
+        }
+        if matches!(self.smoothing, Smoothing::Consistent { .. }) {
+            fields = fields.union(Fields::of(&[
+                Field::FOUND_SMOOTHING_LENGTH,
+                Field::SMOOTHING_RATE,
+            ]));
         }
         fields
     }

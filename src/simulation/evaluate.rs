@@ -13,6 +13,9 @@ use crate::scheme::EnergyForm;
 use crate::sweep::Pass;
 use crate::term::Stage;
 
+/// Largest share by which a smoothing length is predicted to change.
+const MOST_PREDICTED: f64 = 0.2;
+
 impl<T: Real, const D: usize> Group<T, D> {
     /// Weights of pair sums by a density form.
     pub(super) fn set_weights(&mut self, form: DensityForm) {
@@ -72,6 +75,7 @@ impl<T: Real, const D: usize> Group<T, D> {
     /// Evaluates all rates at the present positions, velocities, densities and energies. `elapsed` \[s\] is the
     /// time over which laws that run once a step have yet to act.
     pub fn evaluate(&mut self, time: f64, elapsed: f64) {
+        let follows = self.predict_lengths(time);
         self.refresh(time, None);
         if self.scheme.pressure_form != self.scheme.density {
             self.set_weights(self.scheme.density);
@@ -81,6 +85,9 @@ impl<T: Real, const D: usize> Group<T, D> {
             ..Moment::at(time)
         };
         self.find_density(moment);
+        if follows {
+            self.set_length_rates(time);
+        }
         let start = Instant::now();
         self.evaluate_materials();
         self.apply_laws(Stage::State, moment);
@@ -107,6 +114,50 @@ impl<T: Real, const D: usize> Group<T, D> {
             self.apply_laws(Stage::Continuity, moment);
         }
         self.apply_laws(Stage::Rates, moment);
+    }
+
+    /// Smoothing lengths that follow the density, as far ahead as they have changed since: the nearer the search for them
+    /// begins, the fewer sums it takes, and the fewer lists. Whether there are any.
+    fn predict_lengths(&mut self, time: f64) -> bool {
+        let [h, rate] = self
+            .particles
+            .columns
+            .many_mut([Field::SMOOTHING_LENGTH, Field::SMOOTHING_RATE]);
+        if rate.is_empty() {
+            return false;
+        }
+        let dt = time - self.work.lengths_time;
+        if dt != 0.0 && dt.is_finite() {
+            let (dt, most) = (T::from_f64(dt), T::from_f64(MOST_PREDICTED));
+            for (h, rate) in h.iter_mut().zip(&*rate) {
+                *h *= T::one() + (*rate * dt).max(-most).min(most);
+            }
+        }
+        true
+    }
+
+    /// The rates by which the next smoothing lengths are predicted, from those found before and now.
+    fn set_length_rates(&mut self, time: f64) {
+        let dt = time - self.work.lengths_time;
+        let [h, before, rate] = self.particles.columns.many_mut([
+            Field::SMOOTHING_LENGTH,
+            Field::FOUND_SMOOTHING_LENGTH,
+            Field::SMOOTHING_RATE,
+        ]);
+        // An evaluation at the same time, as between steps, tells nothing of rates.
+        if dt != 0.0 {
+            let dt = T::from_f64(if dt.is_finite() { dt } else { f64::INFINITY });
+            for ((rate, before), h) in rate.iter_mut().zip(before.iter_mut()).zip(&*h) {
+                // Particles that came since have no length before.
+                *rate = if *before > T::zero() {
+                    (*h / *before - T::one()) / dt
+                } else {
+                    T::zero()
+                };
+                *before = *h;
+            }
+        }
+        self.work.lengths_time = time;
     }
 
     fn find_density(&mut self, moment: Moment) {
@@ -218,6 +269,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         let mut records = core::mem::take(&mut self.work.records);
         let mut rates = core::mem::take(&mut self.work.rates);
         self.work.records_of_rates = true;
+        self.work.first_kick = None;
         let input = self.input();
         let start = Instant::now();
         sweep.pack(Pass::Rates, &input, &mut records);
@@ -237,18 +289,18 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
     }
 
-    /// The work of all pair forces of the last evaluation with the present mean velocities, into the sums.
+    /// The work of all pair forces of the last evaluation with the present mean velocities and accelerations.
     pub fn sum_work(&mut self) {
         let scheme = self.scheme.clone();
         let Some(sweep) = scheme.sweep(Stage::Rates) else {
             return;
         };
         let mut records = core::mem::take(&mut self.work.work_records);
-        let mut sums = core::mem::take(&mut self.work.sums);
+        let mut worked = core::mem::take(&mut self.work.worked);
         sweep.renew_mean_velocity(&self.input(), &mut records);
-        sweep.run(Pass::Work, &self.input(), &records, &mut sums);
+        sweep.run(Pass::Work, &self.input(), &records, &mut worked);
         self.work.spent.pairs += self.pairs_of(self.input().targets);
         self.work.work_records = records;
-        self.work.sums = sums;
+        self.work.worked = worked;
     }
 }

@@ -62,6 +62,7 @@ pub(super) struct Aside<T: Real, const D: usize> {
     pub records: Records<T>,
     pub work_records: Records<T>,
     pub records_of_rates: bool,
+    pub first_kick: Option<[f64; 2]>,
     pub gravity: [[f64; D]; 2],
     pub body_force: [T; D],
     pub guards: GuardCounts,
@@ -123,6 +124,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             records: self.work.records.clone(),
             work_records: self.work.work_records.clone(),
             records_of_rates: self.work.records_of_rates,
+            first_kick: self.work.first_kick,
             gravity: [self.gravity, self.evaluated_gravity.map(Real::to_f64)],
             body_force: self.body_force,
             guards: self.guards,
@@ -150,6 +152,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.work.records = aside.records;
         self.work.work_records = aside.work_records;
         self.work.records_of_rates = aside.records_of_rates;
+        self.work.first_kick = aside.first_kick;
         self.gravity = aside.gravity[0];
         self.evaluated_gravity = aside.gravity[1].map(T::from_f64);
         self.body_force = aside.body_force;
@@ -248,6 +251,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.neighborhood.rebuilds += 1;
         self.neighborhood.served = 0;
         self.neighborhood.listed_time = time;
+        self.work.first_kick = None;
         self.wrap(time);
         self.remove();
         let sort = self.neighborhood.wants_sort();

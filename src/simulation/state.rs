@@ -6,12 +6,13 @@ use super::group::Group;
 use super::stages::Moment;
 use super::workspace::Saved;
 use crate::effect::{Around, Evolved, View, When};
-use crate::parallel::{GRAIN, cut, for_each};
+use crate::parallel::{GRAIN, cut, for_each, reduce, runs};
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::scheme::EnergyForm;
 use crate::sweep::two_sum;
 use crate::tensor::Vector;
+use std::ops::Range;
 
 /// Positions, and what their rounding has lost.
 const POSITIONS: [Field; 2] = [Field::POSITION, Field::POSITION_RESIDUAL];
@@ -61,30 +62,89 @@ impl<T: Real, const D: usize> Group<T, D> {
     pub(super) fn heat_in_kick(&mut self, dt: f64) {
         if self.scheme.energy != EnergyForm::Compatible {
             if self.carries_energy() {
-                self.heat(dt, false);
+                self.heat(dt, None);
             }
             return;
         }
-        let half = T::from_f64(0.5 * dt);
+        // Every evaluation serves two kicks, the second of which may take its work from the first.
+        let first = self.work.first_kick.take();
+        let later = first.and_then(|first| self.later(first, 0.5 * dt));
+        if later.is_none() {
+            self.set_mean_velocities(0.5 * dt);
+            self.sum_work();
+            self.work.first_kick = Some([0.5 * dt, self.neighborhood.placed_time]);
+        }
+        self.heat(dt, Some(later.unwrap_or(0.0)));
+        self.heat_by_loads(dt);
+    }
+
+    /// The mean velocities v + a dt/2 and accelerations of a kick of which this is `half` the time \[s\].
+    fn set_mean_velocities(&mut self, half: f64) {
+        let half = T::from_f64(half);
         let gravity = self.evaluated_gravity;
         let rates = &self.work.rates;
-        let [mean, v, mass] =
-            self.particles
-                .columns
-                .many_mut([Field::MEAN_VELOCITY, Field::VELOCITY, Field::MASS]);
+        let [mean, acceleration, v, mass] = self.particles.columns.many_mut([
+            Field::MEAN_VELOCITY,
+            Field::MEAN_ACCELERATION,
+            Field::VELOCITY,
+            Field::MASS,
+        ]);
         let (v, mass) = (&*v, &*mass);
-        for_each(cut(mean, GRAIN * D), |piece, mean| {
-            for (n, mean) in mean.chunks_exact_mut(D).enumerate() {
+        let pieces = (cut(mean, GRAIN * D), cut(acceleration, GRAIN * D));
+        for_each(pieces, |piece, (mean, acceleration)| {
+            let own = mean
+                .chunks_exact_mut(D)
+                .zip(acceleration.chunks_exact_mut(D));
+            for (n, (mean, acceleration)) in own.enumerate() {
                 let slot = piece * GRAIN + n;
                 for d in 0..D {
                     let a = rates.get(Output::FORCE, d, slot) / mass[slot] + gravity[d];
                     mean[d] = v[slot * D + d] + half * a;
+                    acceleration[d] = a;
                 }
             }
         });
-        self.sum_work();
-        self.heat(dt, true);
-        self.heat_by_loads(dt);
+    }
+
+    /// The time τ \[s\] after which the mean velocities of a kick of which `half` is half the time are those of the first
+    /// kick with the same forces and τ times its accelerations: to rounding, or there is none. Whatever has changed
+    /// velocities or forces but the first kick itself takes a sum of its own.
+    fn later(&mut self, [first, placed]: [f64; 2], half: f64) -> Option<f64> {
+        if placed != self.neighborhood.placed_time {
+            return None;
+        }
+        let after = first + half;
+        let (half, tau) = (T::from_f64(half), T::from_f64(after));
+        let gravity = self.evaluated_gravity;
+        let rates = &self.work.rates;
+        let columns = &self.particles.columns;
+        let [mean, accelerations, v] = [
+            Field::MEAN_VELOCITY,
+            Field::MEAN_ACCELERATION,
+            Field::VELOCITY,
+        ]
+        .map(|field| columns.vectors(field));
+        let mass = columns.raw(Field::MASS);
+        let rounding = T::from_f64(
+            16.0 * if T::COMPENSATED {
+                f64::from(f32::EPSILON)
+            } else {
+                f64::EPSILON
+            },
+        );
+        let follows = |_, run: Range<usize>| {
+            run.into_iter().all(|slot| {
+                (0..D).all(|d| {
+                    let a = rates.get(Output::FORCE, d, slot) / mass[slot] + gravity[d];
+                    let now = v[slot][d] + half * a;
+                    let gained = tau * accelerations[slot][d];
+                    let size = now.abs() + mean[slot][d].abs() + gained.abs();
+                    (now - (mean[slot][d] + gained)).abs() <= rounding * size
+                })
+            })
+        };
+        let all = reduce(runs(0..mass.len(), GRAIN), true, follows, |a, b| a && b);
+        all.then_some(after)
     }
 
     /// v ← v + dt a, and what else is kicked, but no energy.
@@ -172,13 +232,17 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
     }
 
-    /// e ← e + dt P/m with P from the work of a kick or from the rates.
-    fn heat(&mut self, dt: f64, work: bool) {
-        let dt = T::from_f64(dt);
-        let sums = if work {
-            &self.work.sums
-        } else {
-            &self.work.rates
+    /// e ← e + dt P/m with P from the rates, or from the work of the first kick, `later` \[s\] after its middle.
+    fn heat(&mut self, dt: f64, later: Option<f64>) {
+        let (dt, tau) = (T::from_f64(dt), later.map(T::from_f64));
+        let (rates, worked) = (&self.work.rates, &self.work.worked);
+        let power = |slot: usize| match tau {
+            None => rates.get(Output::POWER, 0, slot),
+            Some(tau) if tau == T::zero() => worked.get(Output::POWER, 0, slot),
+            Some(tau) => {
+                worked.get(Output::POWER, 0, slot)
+                    + tau * worked.get(Output::POWER_OF_ACCELERATION, 0, slot)
+            }
         };
         let [energy, mass] = self
             .particles
@@ -188,7 +252,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         for_each(cut(energy, GRAIN), |piece, energy| {
             for (n, energy) in energy.iter_mut().enumerate() {
                 let slot = piece * GRAIN + n;
-                *energy += dt * sums.get(Output::POWER, 0, slot) / mass[slot];
+                *energy += dt * power(slot) / mass[slot];
             }
         });
     }
@@ -233,7 +297,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.work.is_predicted = true;
         self.kick(dt);
         if self.carries_energy() {
-            self.heat(dt, false);
+            self.heat(dt, None);
         }
     }
 

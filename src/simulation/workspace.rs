@@ -21,6 +21,12 @@ pub(crate) struct Workspace<T: Real, const D: usize> {
     pub records_of_rates: bool,
     /// The rates of the last evaluation.
     pub rates: Results<T, D>,
+    /// The work of the pair forces of the last evaluation, with the mean velocities of the first kick that took it.
+    pub worked: Results<T, D>,
+    /// Half of the time \[s\] of that kick, and where the images were in time \[s\]; none before there was one.
+    pub first_kick: Option<[f64; 2]>,
+    /// The time \[s\] at which smoothing lengths that follow the density were found; no number before they were.
+    pub lengths_time: f64,
     /// The sums of the last other sweep.
     pub sums: Results<T, D>,
     /// What its liquid does to the particles of structures, which are walls here.
@@ -46,6 +52,9 @@ impl<T: Real, const D: usize> Default for Workspace<T, D> {
             work_records: Records::default(),
             records_of_rates: false,
             rates: Results::default(),
+            worked: Results::default(),
+            first_kick: None,
+            lengths_time: f64::NAN,
             sums: Results::default(),
             coupling: Results::default(),
             moved: Moves::default(),
@@ -64,6 +73,7 @@ impl<T: Real, const D: usize> Workspace<T, D> {
         self.records.bytes()
             + self.work_records.bytes()
             + self.rates.bytes()
+            + self.worked.bytes()
             + self.sums.bytes()
             + self.coupling.bytes()
     }

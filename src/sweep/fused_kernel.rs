@@ -3,7 +3,8 @@
 
 use super::records::{Image, Records, Transform};
 use super::results::{Reaction, Results};
-use super::task::{BEYOND, Composed, MEAN, OWN, Task, UNIFORM, WORK, reads};
+use super::task::{BEYOND, Composed, MEAN, OWN, Task, UNIFORM, reads};
+use super::work::Working;
 use super::{InstructionSet, Interaction, Root, SmoothingMode};
 use crate::kernel::Kernel;
 use crate::neighbors::{Block, CHUNK, ChunkList, ClusterLists};
@@ -129,13 +130,10 @@ impl<T: Real, const D: usize, K: Kernel<D>, P: Terms<D>, const MODES: u8> PairSw
     }
 
     fn renew_mean_velocity(&self, input: &SweepInput<'_, T, D>, records: &mut Records<T>) {
-        records.renew_velocity(
-            Field::MEAN_VELOCITY,
-            self.layout::<T, D>(Pass::Work),
-            input.columns,
-            input.images,
-            input.transforms,
-        );
+        let layout = self.layout::<T, D>(Pass::Work);
+        for field in [Field::MEAN_VELOCITY, Field::MEAN_ACCELERATION] {
+            records.renew(field, layout, input.columns, input.images, input.transforms);
+        }
     }
 
     fn run(
@@ -149,17 +147,17 @@ impl<T: Real, const D: usize, K: Kernel<D>, P: Terms<D>, const MODES: u8> PairSw
         match self.mode {
             SmoothingMode::Uniform => {
                 if const { MODES & SmoothingMode::Uniform.bit() != 0 } {
-                    self.pass::<T, D, UNIFORM, { UNIFORM | WORK }>(pass, input, records, rows);
+                    self.pass::<T, D, UNIFORM>(pass, input, records, rows);
                 }
             }
             SmoothingMode::Mean => {
                 if const { MODES & SmoothingMode::Mean.bit() != 0 } {
-                    self.pass::<T, D, MEAN, { MEAN | WORK }>(pass, input, records, rows);
+                    self.pass::<T, D, MEAN>(pass, input, records, rows);
                 }
             }
             SmoothingMode::Own => {
                 if const { MODES & SmoothingMode::Own.bit() != 0 } {
-                    self.pass::<T, D, OWN, { OWN | WORK }>(pass, input, records, rows);
+                    self.pass::<T, D, OWN>(pass, input, records, rows);
                 }
             }
         }
@@ -171,16 +169,18 @@ impl<K, P, const MODES: u8> FusedKernel<K, P, MODES> {
     where
         P: Terms<D>,
     {
-        let work = if pass == Pass::Work { WORK } else { 0 };
         let mode = if self.mode == SmoothingMode::Uniform {
             UNIFORM
         } else {
             MEAN
         };
-        reads::<T, P, D>(mode | work)
+        match pass {
+            Pass::Rates => reads::<T, P, D>(mode),
+            Pass::Work => reads::<T, Working<P>, D>(mode),
+        }
     }
 
-    fn pass<T: Real, const D: usize, const RATES: u8, const WORKS: u8>(
+    fn pass<T: Real, const D: usize, const HOW: u8>(
         &self,
         pass: Pass,
         input: &SweepInput<'_, T, D>,
@@ -191,24 +191,24 @@ impl<K, P, const MODES: u8> FusedKernel<K, P, MODES> {
         P: Terms<D>,
     {
         match pass {
-            Pass::Rates => self.go::<T, D, RATES>(input, records, rows),
+            Pass::Rates => self.go::<T, D, P, HOW>(&self.terms, input, records, rows),
             // Work is only ever asked of sweeps that carry energy.
             Pass::Work => {
                 if const { P::WRITES.contains(Output::POWER) } {
-                    self.go::<T, D, WORKS>(input, records, rows);
+                    self.go::<T, D, _, HOW>(Working::of(&self.terms), input, records, rows);
                 }
             }
         }
     }
 
-    fn go<T: Real, const D: usize, const HOW: u8>(
+    fn go<T: Real, const D: usize, Q: Terms<D>, const HOW: u8>(
         &self,
+        terms: &Q,
         input: &SweepInput<'_, T, D>,
         records: &Records<T>,
         rows: &mut Results<T, D>,
     ) where
         K: Kernel<D>,
-        P: Terms<D>,
     {
         const {
             // Layouts that are never run, but compiled with the rest, need no room.
@@ -217,13 +217,12 @@ impl<K, P, const MODES: u8> FusedKernel<K, P, MODES> {
                 MEAN => SmoothingMode::Mean,
                 _ => SmoothingMode::Own,
             };
-            let works = HOW & WORK == 0 || P::WRITES.contains(Output::POWER);
-            if works && MODES & mode.bit() != 0 {
-                assert_room::<Composed<T, P, D, HOW>, D>();
+            if MODES & mode.bit() != 0 {
+                assert_room::<Composed<T, Q, D, HOW>, D>();
             }
         }
         let width = <T::Wide<false> as Lane>::WIDTH;
-        rows.lay_out(Composed::<T, P, D, HOW>::WRITES);
+        rows.lay_out(Composed::<T, Q, D, HOW>::WRITES);
         let row = rows.outputs.width(D) * width;
         // Only chunks with wanted slots have rows.
         let slots = CHUNK * width;
@@ -242,7 +241,7 @@ impl<K, P, const MODES: u8> FusedKernel<K, P, MODES> {
         let instructions = input.instructions.or_baseline();
         let task = Task {
             kernel: &self.kernel,
-            terms: &self.terms,
+            terms,
             records: records.data(),
             blocks: input.blocks,
             interactions: input.interactions,

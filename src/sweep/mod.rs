@@ -50,6 +50,7 @@ mod results;
 mod task;
 #[cfg(test)]
 mod tests;
+mod work;
 
 // For the crate's own benches: no part of its interface.
 #[doc(hidden)]

@@ -211,8 +211,8 @@ impl<T: Real> Records<T> {
 }
 
 impl<T: Real> Records<T> {
-    /// Renews one velocity-like field of records packed with `reads`, and leaves the rest as it was.
-    pub fn renew_velocity<const D: usize>(
+    /// Renews one velocity or other vector of records packed with `reads`, and leaves the rest as it was.
+    pub fn renew<const D: usize>(
         &mut self,
         field: Field,
         reads: Fields,
@@ -232,7 +232,10 @@ impl<T: Real> Records<T> {
         });
         for (record, image) in mirrored.chunks_mut(self.stride).zip(images) {
             let by = &transforms[image.transform as usize];
-            let value = by.rotation * Vector::from(values[image.source as usize]) + by.velocity;
+            let mut value = by.rotation * Vector::from(values[image.source as usize]);
+            if field.shape() == Shape::Velocity {
+                value += by.velocity;
+            }
             record[offset..offset + D].copy_from_slice(value.as_slice());
         }
     }

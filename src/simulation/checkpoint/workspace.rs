@@ -81,6 +81,9 @@ impl<T: Real, const D: usize> Group<T, D> {
             work_records: take_records(&format!("{name}/work_records"), file)?,
             records_of_rates: file.get_one::<u32>(&format!("{name}/records_of_rates"))? != 0,
             rates: rows("rates")?,
+            worked: rows("worked")?,
+            first_kick: take_first_kick(name, file)?,
+            lengths_time: file.get_one(&format!("{name}/lengths_time"))?,
             sums: rows("sums")?,
             coupling: rows("coupling")?,
             moved: Moves::default(),
@@ -145,6 +148,9 @@ pub(super) fn put_workspace<T: Real, const D: usize>(
         work_records: _,
         records_of_rates: _,
         rates: _,
+        worked,
+        first_kick: _,
+        lengths_time,
         sums,
         coupling: _,
         // Saved states have been told between steps.
@@ -166,8 +172,12 @@ pub(super) fn put_workspace<T: Real, const D: usize>(
     put_records(own.work_records, &format!("{name}/work_records"), file);
     let of_rates = u32::from(own.records_of_rates);
     file.put_one(format!("{name}/records_of_rates"), of_rates);
+    file.put_one(format!("{name}/lengths_time"), *lengths_time);
+    let first_kick = own.first_kick.unwrap_or([f64::NAN; 2]);
+    file.put(format!("{name}/first_kick"), 1, first_kick);
     let all = [
         ("rates", own.rates),
+        ("worked", worked),
         ("sums", sums),
         ("coupling", own.coupling),
     ];
@@ -187,6 +197,12 @@ pub(super) fn put_workspace<T: Real, const D: usize>(
         let full = u32::from(!saved.is_empty());
         file.put_one(format!("{name}/kept{k}/full"), full);
     }
+}
+
+/// The first kick that took the forces at hand; no number where there was none.
+fn take_first_kick(name: &str, file: &Checkpoint) -> Read<Option<[f64; 2]>> {
+    let stored: [f64; 2] = file.get_array(&format!("{name}/first_kick"))?;
+    Ok(stored.iter().all(|own| !own.is_nan()).then_some(stored))
 }
 
 fn put_records<T: Real>(records: &Records<T>, name: &str, file: &mut Checkpoint) {
