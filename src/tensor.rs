@@ -304,39 +304,43 @@ pub fn length<T: Real, const D: usize>(vector: &Vector<T, D>) -> T {
 /// is smaller than `floor` times the largest entry.
 #[must_use]
 pub fn inverse<T: Real, const D: usize>(matrix: &Matrix<T, D>, floor: f64) -> Option<Matrix<T, D>> {
-    let mut a = *matrix;
-    let mut inverse = Matrix::<T, D>::from_fn(|r, c| if r == c { T::one() } else { T::zero() });
-    let largest = a.iter().fold(T::zero(), |m, x| m.max(x.abs()));
+    // Rows of arrays: what a row operation touches lies side by side.
+    let mut a: [[T; D]; D] = core::array::from_fn(|r| core::array::from_fn(|c| matrix[(r, c)]));
+    let one = |r: usize, c: usize| if r == c { T::one() } else { T::zero() };
+    let mut inverse: [[T; D]; D] = core::array::from_fn(|r| core::array::from_fn(|c| one(r, c)));
+    let largest = matrix.iter().fold(T::zero(), |m, x| m.max(x.abs()));
     let floor = largest * T::from_f64(floor);
     for column in 0..D {
         let mut pivot = column;
         for row in column + 1..D {
-            if a[(row, column)].abs() > a[(pivot, column)].abs() {
+            if a[row][column].abs() > a[pivot][column].abs() {
                 pivot = row;
             }
         }
-        if a[(pivot, column)].abs() <= floor {
+        if a[pivot][column].abs() <= floor {
             return None;
         }
-        a.swap_rows(pivot, column);
-        inverse.swap_rows(pivot, column);
-        let scale = T::one() / a[(column, column)];
-        for k in 0..D {
-            a[(column, k)] *= scale;
-            inverse[(column, k)] *= scale;
+        if pivot != column {
+            a.swap(pivot, column);
+            inverse.swap(pivot, column);
         }
+        let scale = T::one() / a[column][column];
+        for k in 0..D {
+            a[column][k] *= scale;
+            inverse[column][k] *= scale;
+        }
+        let (from_a, from_inverse) = (a[column], inverse[column]);
         for row in 0..D {
             if row != column {
-                let factor = a[(row, column)];
+                let factor = a[row][column];
                 for k in 0..D {
-                    let (from_a, from_inverse) = (a[(column, k)], inverse[(column, k)]);
-                    a[(row, k)] -= factor * from_a;
-                    inverse[(row, k)] -= factor * from_inverse;
+                    a[row][k] -= factor * from_a[k];
+                    inverse[row][k] -= factor * from_inverse[k];
                 }
             }
         }
     }
-    Some(inverse)
+    Some(Matrix::from_fn(|r, c| inverse[r][c]))
 }
 
 /// The determinant of a `D × D` matrix by elimination with row pivoting: the factor by which a linear
@@ -348,28 +352,28 @@ pub fn inverse<T: Real, const D: usize>(matrix: &Matrix<T, D>, floor: f64) -> Op
 /// ```
 #[must_use]
 pub fn determinant<T: Real, const D: usize>(matrix: &Matrix<T, D>) -> T {
-    let mut a = *matrix;
+    let mut a: [[T; D]; D] = core::array::from_fn(|r| core::array::from_fn(|c| matrix[(r, c)]));
     let mut product = T::one();
     for column in 0..D {
         let mut pivot = column;
         for row in column + 1..D {
-            if a[(row, column)].abs() > a[(pivot, column)].abs() {
+            if a[row][column].abs() > a[pivot][column].abs() {
                 pivot = row;
             }
         }
-        if a[(pivot, column)] == T::zero() {
+        if a[pivot][column] == T::zero() {
             return T::zero();
         }
         if pivot != column {
-            a.swap_rows(pivot, column);
+            a.swap(pivot, column);
             product = -product;
         }
-        product *= a[(column, column)];
+        let from = a[column];
+        product *= from[column];
         for row in column + 1..D {
-            let factor = a[(row, column)] / a[(column, column)];
+            let factor = a[row][column] / from[column];
             for k in column..D {
-                let from = a[(column, k)];
-                a[(row, k)] -= factor * from;
+                a[row][k] -= factor * from[k];
             }
         }
     }

@@ -3,7 +3,7 @@
 
 use super::hyperelastic::square;
 use super::radial_return::{after, radial_return};
-use super::total_lagrangian::{matrix, put, stretches};
+use super::total_lagrangian::{matrix, put, stretches_with};
 use super::{
     Chunk, Effect, Law, LedgerColumn, Plasticity, Setting, StepProgram, Tally, TotalLagrangian,
 };
@@ -191,7 +191,7 @@ impl<T: Real, const D: usize> Law<T, D> for FiniteStrainPlasticity {
             distortion[n] = T::from_f64(0.5 * shear * (elastic.trace() - 3.0) / rest);
             // Along X: the speed of longitudinal waves over the smallest stretch.
             let squared = c[n].to_f64().powi(2) + 4.0 / 3.0 * shear / (rest / volume);
-            let [_, over] = stretches(&gradient);
+            let [_, over] = stretches_with(&gradient, &back);
             c[n] = T::from_f64((squared * over.to_f64()).sqrt());
         }
         tally

@@ -28,35 +28,38 @@ impl<T: Real, const D: usize> Law<T, D> for CorrectedGradients {
         self.wanted
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let (sums, first) = (chunk.around.sums, chunk.first);
+        let (sums, first, count) = (chunk.around.sums, chunk.first, chunk.count);
         let [velocity, pressure, density, corrections] = chunk.columns([
             Field::VELOCITY_GRADIENT,
             Field::PRESSURE_GRADIENT,
             Field::DENSITY_GRADIENT,
             Field::CORRECTION,
         ]);
-        for (n, out) in velocity.chunks_exact_mut(D * D).enumerate() {
-            let gradient = velocity_gradient(sums, first + n);
-            for (k, value) in out.iter_mut().enumerate() {
-                *value = gradient[(k / D, k % D)];
-            }
-        }
-        for (n, out) in corrections.chunks_exact_mut(D * D).enumerate() {
-            let correction = correction(sums, first + n);
-            for (k, value) in out.iter_mut().enumerate() {
-                *value = correction[(k / D, k % D)];
-            }
-        }
-        let vectors = [
+        let mut vectors = [
             (pressure, Output::PRESSURE_GRADIENT),
             (density, Output::DENSITY_GRADIENT),
         ];
-        for (column, sum) in vectors {
-            for (n, out) in column.chunks_exact_mut(D).enumerate() {
-                let correction = correction(sums, first + n);
+        for n in 0..count {
+            // Once for all that it corrects.
+            let correction = correction(sums, first + n);
+            if let Some(out) = velocity.get_mut(n * D * D..(n + 1) * D * D) {
+                let gradient = gradient_of(sums, first + n) * correction;
+                for (k, value) in out.iter_mut().enumerate() {
+                    *value = gradient[(k / D, k % D)];
+                }
+            }
+            if let Some(out) = corrections.get_mut(n * D * D..(n + 1) * D * D) {
+                for (k, value) in out.iter_mut().enumerate() {
+                    *value = correction[(k / D, k % D)];
+                }
+            }
+            for (column, sum) in &mut vectors {
+                let Some(out) = column.get_mut(n * D..(n + 1) * D) else {
+                    continue;
+                };
                 for (b, value) in out.iter_mut().enumerate() {
                     *value = (0..D).fold(T::zero(), |total, a| {
-                        total + sums.get(sum, a, first + n) * correction[(a, b)]
+                        total + sums.get(*sum, a, first + n) * correction[(a, b)]
                     });
                 }
             }
@@ -80,8 +83,12 @@ pub(super) fn velocity_gradient<T: Real, const D: usize>(
     sums: &Results<T, D>,
     slot: usize,
 ) -> Matrix<T, D> {
-    let sum = Matrix::<T, D>::from_fn(|a, b| sums.get(Output::VELOCITY_GRADIENT, a * D + b, slot));
-    sum * correction(sums, slot)
+    gradient_of(sums, slot) * correction(sums, slot)
+}
+
+/// The sum of a velocity gradient before it is corrected.
+fn gradient_of<T: Real, const D: usize>(sums: &Results<T, D>, slot: usize) -> Matrix<T, D> {
+    Matrix::from_fn(|a, b| sums.get(Output::VELOCITY_GRADIENT, a * D + b, slot))
 }
 
 /// Smallest pivot of a moment matrix that is inverted, relative to its largest entry.

@@ -1,11 +1,11 @@
 //! Hyperelastic stresses of total-Lagrangian solids: what a law makes of the deformation gradient, and its energy.
 //! Laws are files of their own; this is what they share.
 
-use super::total_lagrangian::{matrix, put, stretches};
+use super::total_lagrangian::{matrix, put, stretches_with};
 use super::{Chunk, Law, LedgerColumn, StepProgram, Tally, TotalLagrangian};
 use crate::particles::{Field, Fields};
 use crate::scalar::Real;
-use crate::tensor::{Matrix, determinant};
+use crate::tensor::{Matrix, determinant, inverse};
 use crate::term::{Stage, TermDoc};
 use core::fmt::Debug;
 
@@ -30,12 +30,13 @@ pub(super) struct Response<T: Real, const D: usize> {
 /// A stored energy ψ(F) of Lamé's constants λ and μ \[Pa\].
 pub(super) trait StoredEnergy: Copy + Debug + Send + Sync + 'static {
     const NAME: &'static str;
-    /// The response to F, whose determinant and bounds of the squared stretches and their inverses are given.
+    /// The response to F, whose determinant, inverse, and bounds of the squared stretches and their inverses are given.
     fn respond<T: Real, const D: usize>(
         &self,
         lame: [T; 2],
         gradient: &Matrix<T, D>,
         volume: T,
+        back: &Matrix<T, D>,
         stretches: [T; 2],
     ) -> Response<T, D>;
 }
@@ -93,9 +94,9 @@ impl<T: Real, const D: usize, E: StoredEnergy> Law<T, D> for Hyperelastic<E> {
         for (n, out) in piola.chunks_exact_mut(D * D).enumerate() {
             let gradient = matrix::<T, D>(deformation, n);
             let volume = determinant(&gradient);
-            let own = self
-                .0
-                .respond(lame, &gradient, volume, stretches(&gradient));
+            let back = inverse(&gradient, 0.0).unwrap_or_else(Matrix::identity);
+            let bounds = stretches_with(&gradient, &back);
+            let own = self.0.respond(lame, &gradient, volume, &back, bounds);
             put(out, &own.piola);
             elastic[n] = own.energy / rest[n];
             pressure[n] = own.pressure;
@@ -121,7 +122,9 @@ mod tests {
         gradient: &Matrix<f64, D>,
     ) -> Response<f64, D> {
         let volume = determinant(gradient);
-        law.respond([3.0, 2.0], gradient, volume, stretches(gradient))
+        let back = inverse(gradient, 0.0).unwrap_or_else(Matrix::identity);
+        let bounds = stretches_with(gradient, &back);
+        law.respond([3.0, 2.0], gradient, volume, &back, bounds)
     }
 
     /// A deformation that is neither small nor along axes.

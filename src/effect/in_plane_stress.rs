@@ -2,13 +2,13 @@
 //! In closed form for St Venant–Kirchhoff, by Newton's method for neo-Hookean sheets.
 
 use super::hyperelastic::{self, ELASTIC, StoredEnergy};
-use super::total_lagrangian::{matrix, put, stretches};
+use super::total_lagrangian::{matrix, put, stretches_with};
 use super::{
     Chunk, Effect, Law, NeoHookean, Setting, StVenantKirchhoff, StepProgram, Tally, TotalLagrangian,
 };
 use crate::particles::{Field, Fields};
 use crate::scalar::Real;
-use crate::tensor::{Matrix, determinant};
+use crate::tensor::{Matrix, determinant, inverse};
 use crate::term::{Stage, TermDoc};
 
 /// A hyperelastic law of [total-Lagrangian](TotalLagrangian) solids in plane stress, in two dimensions: sheets that are free to
@@ -186,9 +186,9 @@ impl<T: Real, E: Sheet> Law<T, 2> for InPlaneStress<E> {
                 _ => plane[(a, b)],
             });
             let volume = determinant(&gradient);
-            let own = self
-                .0
-                .respond(lame, &gradient, volume, stretches(&gradient));
+            let back = inverse(&gradient, 0.0).unwrap_or_else(Matrix::identity);
+            let bounds = stretches_with(&gradient, &back);
+            let own = self.0.respond(lame, &gradient, volume, &back, bounds);
             let stress = Matrix::<T, 2>::from_fn(|a, b| T::from_f64(own.piola[(a, b)]));
             put(out, &stress);
             let rest = rest[n].to_f64();
@@ -215,12 +215,9 @@ mod tests {
             (2, _) | (_, 2) => 0.0,
             _ => plane[(a, b)],
         });
-        let response = law.respond(
-            LAME,
-            &gradient,
-            determinant(&gradient),
-            stretches(&gradient),
-        );
+        let back = inverse(&gradient, 0.0).unwrap_or_else(Matrix::identity);
+        let bounds = stretches_with(&gradient, &back);
+        let response = law.respond(LAME, &gradient, determinant(&gradient), &back, bounds);
         (response, across)
     }
 

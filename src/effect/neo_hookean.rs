@@ -4,7 +4,7 @@
 use super::hyperelastic::{self, Response, StoredEnergy, square};
 use super::{Effect, Setting, StepProgram};
 use crate::scalar::Real;
-use crate::tensor::{Matrix, inverse};
+use crate::tensor::Matrix;
 use crate::term::TermDoc;
 
 /// The stress of a [total-Lagrangian](super::TotalLagrangian) solid by the compressible neo-Hookean law,
@@ -54,14 +54,13 @@ impl StoredEnergy for NeoHookean {
         [lambda, mu]: [T; 2],
         gradient: &Matrix<T, D>,
         volume: T,
+        back: &Matrix<T, D>,
         [_, inverse_squared]: [T; 2],
     ) -> Response<T, D> {
         let half = T::from_f64(0.5);
         // What has no volume left has no logarithm either, and ends the run.
         let logarithm = T::from_f64(volume.to_f64().ln());
-        let back = inverse(gradient, 0.0)
-            .unwrap_or_else(Matrix::identity)
-            .transpose();
+        let back = back.transpose();
         let piola = (*gradient - back) * mu + back * (lambda * logarithm);
         let in_plane = (piola * gradient.transpose()).trace();
         let outside = lambda * logarithm * T::from_f64((3 - D) as f64);

@@ -60,6 +60,7 @@ impl StoredEnergy for StVenantKirchhoff {
         [lambda, mu]: [T; 2],
         gradient: &Matrix<T, D>,
         volume: T,
+        _back: &Matrix<T, D>,
         [squared, _]: [T; 2],
     ) -> Response<T, D> {
         let half = T::from_f64(0.5);

@@ -178,16 +178,13 @@ impl<T: Real> Records<T> {
                             record[offset] = value;
                         }
                     }
-                    Shape::Matrix | Shape::Tensor => {
-                        for (record, values) in records.zip(column.chunks_exact(width)) {
-                            record[offset..offset + width].copy_from_slice(values);
-                        }
-                    }
-                    _ => {
-                        for (record, values) in records.zip(column.as_chunks::<D>().0) {
-                            record[offset..offset + D].copy_from_slice(values);
-                        }
-                    }
+                    Shape::Tensor => copy::<T, 6>(records, offset, column),
+                    Shape::Matrix => match width {
+                        9 => copy::<T, 9>(records, offset, column),
+                        4 => copy::<T, 4>(records, offset, column),
+                        _ => copy::<T, 1>(records, offset, column),
+                    },
+                    _ => copy::<T, D>(records, offset, column),
                 }
                 offset += width;
             }
@@ -238,6 +235,17 @@ impl<T: Real> Records<T> {
             }
             record[offset..offset + D].copy_from_slice(value.as_slice());
         }
+    }
+}
+
+/// Copies `W` numbers of each particle into its record.
+fn copy<'a, T: Real, const W: usize>(
+    records: impl Iterator<Item = &'a mut [T]>,
+    offset: usize,
+    column: &[T],
+) {
+    for (record, values) in records.zip(column.as_chunks::<W>().0) {
+        record[offset..offset + W].copy_from_slice(values);
     }
 }
 
