@@ -199,7 +199,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let a_sweep = group.pairs_of(group.input().targets) as f64;
             let kicks = f64::from(u8::from(group.scheme.energy == EnergyForm::Compatible));
             let drifts = f64::from(u8::from(group.scheme.sums_in_drift()));
-            let beside = kicks * f64::from(asked.kicks) + drifts * f64::from(asked.drifts);
+            // Kicks with the same forces share one sum of their work.
+            let worked = asked.kicks.min(asked.evaluations.max(1));
+            let beside = kicks * f64::from(worked) + drifts * f64::from(asked.drifts);
             let builds = group.builds_a_step(step, end - self.time);
             // Lists that last for few evaluations get the thick skin, which lasts longer.
             let [thin, thick] = group.neighborhood.skins;

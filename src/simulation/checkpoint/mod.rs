@@ -20,7 +20,7 @@ use crate::sweep::{InstructionSet, Root};
 use std::path::Path;
 
 /// The version of what is held. It rises with every change of it.
-const VERSION: &str = "2";
+const VERSION: &str = "3";
 
 const FORMAT: &str = "meshfree checkpoint";
 
