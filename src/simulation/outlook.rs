@@ -17,8 +17,8 @@ use std::time::Duration;
 const SHORT: f64 = 8.0;
 /// The speed that a liquid or gas is taken to reach, over that of sound, unless it has more.
 const MACH: f64 = 0.1;
-/// Sums of density an evaluation where they are repeated until lengths follow: those of a shock tube.
-const REPEATED: f64 = 4.0;
+/// Sums of density an evaluation where they are repeated until lengths follow: those of a blast, by their time.
+const REPEATED: f64 = 2.5;
 /// Least time over which an evaluation is timed.
 const TIMED: Duration = Duration::from_millis(50);
 /// Most evaluations for that.
