@@ -18,18 +18,13 @@ use std::ops::Range;
 pub(super) const UNIFORM: u8 = 0;
 pub(super) const MEAN: u8 = 1;
 pub(super) const OWN: u8 = 2;
-pub(super) const WORK: u8 = 4;
 
 /// The layout of a sweep: what its terms name, and what the way of running adds.
 pub(super) struct Composed<T, P, const D: usize, const HOW: u8>(PhantomData<(T, P)>);
 
 impl<T: Real, P: Terms<D>, const D: usize, const HOW: u8> Layout for Composed<T, P, D, HOW> {
     const READS: Fields = reads::<T, P, D>(HOW);
-    const WRITES: Outputs = if HOW & WORK == 0 {
-        P::WRITES
-    } else {
-        Outputs::of(&[Output::POWER])
-    };
+    const WRITES: Outputs = P::WRITES;
 }
 
 pub(super) const fn reads<T: Real, P: Terms<D>, const D: usize>(how: u8) -> Fields {
@@ -39,9 +34,6 @@ pub(super) const fn reads<T: Real, P: Terms<D>, const D: usize>(how: u8) -> Fiel
     }
     if how & (MEAN | OWN) != 0 {
         fields = fields.union(Fields::of(&[Field::SMOOTHING_LENGTH]));
-    }
-    if how & WORK != 0 {
-        fields = fields.union(Fields::of(&[Field::MEAN_VELOCITY]));
     }
     fields
 }

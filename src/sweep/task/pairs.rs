@@ -1,9 +1,9 @@
 //! The loop over pairs: one row of particles against one neighbour after the other.
 //! All terms share its distances and kernel values, and it turns their scalar forces into vectors.
 
-use super::{Composed, MEAN, OWN, Row, Shown, Task, WORK};
+use super::{Composed, MEAN, OWN, Row, Shown, Task};
 use crate::kernel::Kernel;
-use crate::particles::{Field, Fields, Output, Outputs};
+use crate::particles::{Field, Output};
 use crate::scalar::{Lane, Real};
 use crate::term::{Layout, MOST_READS, Pair, Sums, Terms};
 use core::marker::PhantomData;
@@ -182,37 +182,17 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
             }
             sums.next_pair();
             self.terms.pair(&pair, sums);
-            apply::<L, D, HOW, _>(&pair, sums, &P::WRITES, own, record, reads);
+            apply(&pair, sums);
         }
         total.take(&kept);
     }
 }
 
-/// Turns the pair's forces along directions into vectors, and adds them with the free one to the kept force,
-/// or all to power and work.
+/// Turns the pair's forces along directions into vectors, and adds them with the free one to the kept force.
 #[inline(always)]
-fn apply<L: Lane, const D: usize, const HOW: u8, C: Layout>(
-    pair: &Pair<'_, L, D, C>,
-    sums: &mut Sums<L, D, C>,
-    writes: &Outputs,
-    own: &[L; MOST_READS],
-    record: &[L::Scalar],
-    reads: Fields,
-) {
+fn apply<L: Lane, const D: usize, C: Layout>(pair: &Pair<'_, L, D, C>, sums: &mut Sums<L, D, C>) {
+    let writes = const { C::WRITES };
     if !writes.contains(Output::FORCE) {
-        return;
-    }
-    if HOW & WORK != 0 {
-        let mean = reads.offset(Field::MEAN_VELOCITY, D);
-        let mut work = L::zero();
-        for d in 0..D {
-            let free = sums.force.plus(d, L::zero());
-            let force = sums
-                .radial
-                .mul_add(pair.r[d], sums.shear.mul_add(pair.v[d], free));
-            work = force.mul_add(L::splat(record[mean + d]) - own[mean + d], work);
-        }
-        sums.add(Output::POWER, work * L::of(0.5));
         return;
     }
     for d in 0..D {
