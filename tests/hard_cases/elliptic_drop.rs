@@ -1,7 +1,7 @@
 //! A drop that a straining flow draws out to twice its height, with the exact semi-axes of Monaghan (1994).
 //! Others lose its area and its evenness: lattices that are squeezed along an axis pair or fold.
 
-use super::harness::{Cures, Row};
+use super::harness::{Cures, Row, Varied, seed};
 use meshfree::material::SoundSpeed;
 use meshfree::prelude::*;
 use meshfree::scene::Start;
@@ -44,10 +44,10 @@ fn drop(cures: Cures, count: usize) -> [f64; 3] {
         ..start
     };
     let body = Body::fill("drop", water, &Ball::new([0.0; 2], 1.0), spacing)
-        .jitter(0.01, 3)
+        .jitter(0.01, seed(3))
         .start(strained);
     let scene = Scene::new(cures.liquid()).body(body);
-    let mut simulation = scene.build().expect("a drop");
+    let mut simulation = scene.varied().build().expect("a drop");
     simulation.keep_stability(Thresholds::default());
     simulation.run_until(END).expect("a run");
     // Of an ellipse the mean square of a coordinate is a quarter of the square of its semi-axis.

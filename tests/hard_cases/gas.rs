@@ -1,7 +1,7 @@
 //! Gases in one dimension: expansion into near vacuum, Sod, a pressure ratio of 10⁶, two blasts, Noh's implosion.
 //! Others invert the order of particles or lose energy; the cures are signal-velocity viscosity and artificial conduction.
 
-use super::harness::{Row, same_bits};
+use super::harness::{Row, Varied, same_bits, seed};
 use meshfree::effect::ArtificialConduction;
 use meshfree::material::eos::IdealGas;
 use meshfree::prelude::*;
@@ -73,7 +73,7 @@ fn tube(
         [range[1]],
         spacing,
     )
-    .jitter(0.01, 11)
+    .jitter(0.01, seed(11))
     .start(|[x]: [f64; 1], own| {
         let (pressure, velocity) = start(x);
         Start {
@@ -86,6 +86,7 @@ fn tube(
         .body(body)
         .boundary(MirrorPlane::symmetry([range[0]], [-1.0]))
         .boundary(MirrorPlane::symmetry([range[1]], [1.0]))
+        .varied()
         .build()
         .expect("a tube");
     tube.keep_stability(Thresholds {
@@ -185,6 +186,7 @@ fn gas_expands_into_near_vacuum() {
         let mut own = Scene::new(scheme(READY, largest))
             .body(body)
             .boundary(MirrorPlane::symmetry([0.0], [-1.0]))
+            .varied()
             .build()
             .expect("gas");
         own.keep_stability(Thresholds {

@@ -1,7 +1,7 @@
 //! Gases in two dimensions: Noh's implosion, Sedov's blast, and a contact at which two gases shear (Kelvin–Helmholtz).
 //! Others lose energy, heat the middle, or part the gases by a jump of pressure that density and energy make between them.
 
-use super::harness::Row;
+use super::harness::{Row, Varied, seed};
 use meshfree::effect::ArtificialConduction;
 use meshfree::material::eos::IdealGas;
 use meshfree::prelude::*;
@@ -51,7 +51,7 @@ fn implosion(form: EnergyForm, count: usize) -> [f64; 2] {
     let places = places.map(|ij| ij.map(|k| (k as f64 + 0.5) * spacing));
     let disc: Vec<_> = places.filter(|x| radius(*x) < 1.0).collect();
     let body = Body::points_of("gas", Material::new("gas", law), disc, spacing)
-        .jitter(0.01, 11)
+        .jitter(0.01, seed(11))
         .start(|x, own| Start {
             velocity: x.map(|c| -c / radius(x)),
             energy: law.energy(1e-6, 1.0),
@@ -59,6 +59,7 @@ fn implosion(form: EnergyForm, count: usize) -> [f64; 2] {
         });
     let mut own = Scene::new(gas(CONDUCTING, form))
         .body(body)
+        .varied()
         .build()
         .expect("a disc");
     let before = energy(&own);
@@ -122,7 +123,7 @@ fn blast(form: EnergyForm, count: usize) -> [f64; 2] {
         [1.0; 2],
         spacing,
     );
-    let base = base.jitter(0.01, 11);
+    let base = base.jitter(0.01, seed(11));
     let whole: f64 = base.points().iter().map(|x| bump(*x)).sum::<f64>() * spacing * spacing;
     let body = base.start(|x, own| Start {
         energy: law.energy(1e-6, 1.0) + bump(x) / whole,
@@ -130,6 +131,7 @@ fn blast(form: EnergyForm, count: usize) -> [f64; 2] {
     });
     let mut own = Scene::new(gas(CONDUCTING, form))
         .body(body)
+        .varied()
         .build()
         .expect("gas");
     let before = energy(&own);
@@ -191,6 +193,7 @@ fn shear(cure: [f64; 2], count: usize, [from, to]: [f64; 2]) -> [f64; 2] {
         .body(body)
         .boundary(Periodic::along(0, 0.0, 1.0))
         .boundary(Periodic::along(1, 0.0, 1.0))
+        .varied()
         .build()
         .expect("gas");
     // The size of the mode that linear theory grows: sin and cos of its wavenumber, e^(−k |y|) from each contact.

@@ -1,7 +1,7 @@
 //! Rods in one dimension: contact that chatters and opens, and release from compression.
 //! Others let tension through a contact, so that bodies stick, or lose the energy of a rebound.
 
-use super::harness::{Row, same_bits};
+use super::harness::{Row, Varied, lasting, same_bits, seed};
 use meshfree::prelude::*;
 use meshfree::scheme::EnergyForm;
 use meshfree::simulation::Thresholds;
@@ -12,12 +12,13 @@ const DX: f64 = 2e-4;
 /// over the spacing, and how often the sign of their force changed, which is chatter.
 fn strike(interaction: Interaction) -> f64 {
     let rod = |name, low: f64, high: f64| {
-        Body::block(name, catalogue::copper(), [low], [high], DX).jitter(0.01, 2)
+        Body::block(name, catalogue::copper(), [low], [high], DX).jitter(0.01, seed(2))
     };
     let scheme = schemes::impact().between_bodies(interaction);
     let mut rods = Scene::<f64, 1>::new(scheme)
         .body(rod("striker", 0.0, 0.01).velocity([20.0]))
         .body(rod("target", 0.01, 0.05))
+        .varied()
         .build()
         .expect("rods");
     rods.keep_stability(Thresholds {
@@ -56,15 +57,16 @@ fn release(form: EnergyForm) -> f64 {
     let law = catalogue::copper::<f64>();
     let density = law.reference_density() * 1.01;
     let body = Body::block("rod", law, [0.0], [0.02], DX)
-        .jitter(0.01, 4)
+        .jitter(0.01, seed(4))
         .density(density);
     let scheme = schemes::impact_by_continuity().energy(form);
     let mut rod = Scene::<f64, 1>::new(scheme)
         .body(body)
+        .varied()
         .build()
         .expect("a rod");
     rod.keep_stability(Thresholds::default());
-    rod.run_until(2.5e-4).expect("a run");
+    rod.run_until(lasting(2.5e-4)).expect("a run");
     let report = rod.stability();
     println!("{form:?}\n{report}");
     report.energy_closure.unwrap_or(f64::NAN)
@@ -82,7 +84,7 @@ fn a_released_rod_keeps_its_energy() {
     same_bits(|| {
         let body = Body::block("rod", catalogue::copper(), [0.0], [0.02], DX).density(9000.0);
         let scene = Scene::<f64, 1>::new(schemes::impact_by_continuity()).body(body);
-        let mut rod = scene.build().expect("a rod");
+        let mut rod = scene.varied().build().expect("a rod");
         rod.run_until(2e-6).expect("a run");
         rod
     });

@@ -1,7 +1,7 @@
 //! A square patch of liquid that spins: tension inside, corners that become arms, one-sided surfaces everywhere.
 //! Others clump and tear (Le Touzé, Colagrossi, Colicchio & Greco 2013); the cure is three effects together.
 
-use super::harness::{Cures, Row, largest_piece, same_bits};
+use super::harness::{Cures, Row, Varied, largest_piece, same_bits, seed};
 use meshfree::material::SoundSpeed;
 use meshfree::prelude::*;
 use meshfree::scene::Start;
@@ -32,10 +32,10 @@ pub fn patch(cures: Cures, count: usize) -> Simulation<f64, 2> {
     };
     let spacing = 1.0 / count as f64;
     let body = Body::block("patch", water, [-0.5; 2], [0.5; 2], spacing)
-        .jitter(0.01, 1)
+        .jitter(0.01, seed(1))
         .start(spin);
     let scene = Scene::new(cures.liquid()).body(body);
-    scene.build().expect("a patch")
+    scene.varied().build().expect("a patch")
 }
 
 /// Σ m (x v − y u).

@@ -1,7 +1,7 @@
 //! A slice of a tank that is thrown at 30 g: particles near the struck wall stay in layers of the starting lattice.
 //! The cure is shifting with its term in continuity; volume, pressure and the impulse at the wall must not pay for it.
 
-use super::harness::{Cures, Row};
+use super::harness::{Cures, Row, Varied};
 use meshfree::kernel::Kernel;
 use meshfree::material::{Liquid, SoundSpeed};
 use meshfree::observe::PressureProbe;
@@ -56,6 +56,7 @@ fn tank(cures: Cures, spacing: f64) -> Simulation<f64, 2> {
     .body(body)
     .wall(walls.container_frame())
     .acceleration(move |t| [pulse(t), -GRAVITY])
+    .varied()
     .build()
     .expect("a tank")
 }

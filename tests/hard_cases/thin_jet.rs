@@ -1,7 +1,7 @@
 //! A jet of three spacings that strikes a wall and leaves along it as two films of one and a half.
 //! Others break thin water up into beads, or stick it to the wall; the momentum that it brings must arrive.
 
-use super::harness::{Cures, largest_piece};
+use super::harness::{Cures, Row, Varied, largest_piece, seed};
 use meshfree::material::SoundSpeed;
 use meshfree::prelude::*;
 
@@ -14,13 +14,14 @@ fn strike(cures: Cures) -> [f64; 2] {
     let water = water.with_pressure_cut_off(0.0);
     let half = 1.5 * DX;
     let body = Body::block("jet", water, [-1.0, -half], [0.0, half], DX)
-        .jitter(0.01, 8)
+        .jitter(0.01, seed(8))
         .velocity([SPEED, 0.0]);
     let sides = [[false, true], [false; 2]];
     let wall = Wall::around("wall", [-0.2, -1.2], [0.0, 1.2], DX, 5, sides);
     let mut jet = Scene::new(cures.liquid())
         .body(body)
         .wall(wall)
+        .varied()
         .build()
         .expect("a jet");
     let [from, to] = [0.2, 0.8];
@@ -38,16 +39,22 @@ fn strike(cures: Cures) -> [f64; 2] {
     ]
 }
 
-/// Two hundredths are asked for, and are not met; there is no control, since no cure is at hand.
+/// Five times the viscosity of the ready liquid, and memory of torn water: what water in thin sheets wants.
+const THIN: Cures = Cures {
+    alpha: 0.1,
+    memory: true,
+    ..Cures::NONE
+};
+
 #[test]
 fn a_thin_jet_brings_its_momentum() {
-    let [force, whole] = strike(Cures::NONE);
-    let error = (force - 1.0).abs();
-    println!(
-        "| jet of 3 spacings on a wall | error of the force, ρ U² b | ≤ 0.02, not met | {error:.3e} | none |"
-    );
-    println!(
-        "| jet of 3 spacings on a wall | share of the largest piece | reported | {whole:.3e} | none |"
-    );
-    assert!(error < 0.08, "{force}");
+    let [[force, whole], [ready, torn]] = [THIN, Cures::NONE].map(strike);
+    println!("largest piece {whole}, ready liquid {torn}");
+    Row {
+        case: "jet of 3 spacings on a wall",
+        criterion: "error of the force, ρ U² b; α = 0.1 and expansion memory, control: ready liquid",
+        value: (force - 1.0).abs(),
+        control: (ready - 1.0).abs(),
+    }
+    .at_most(0.02);
 }

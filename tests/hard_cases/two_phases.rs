@@ -1,7 +1,7 @@
 //! Two liquids in one scheme: water below air of a thousandth of its density, at rest, and a wave on the contact of two liquids.
 //! Others throw the light one about, or let the interface blur; diffusion of density must stay within a liquid.
 
-use super::harness::Cures;
+use super::harness::{Cures, Varied, lasting, seed};
 use meshfree::effect::{TwoPhase, WithinPhase};
 use meshfree::material::eos::Tait;
 use meshfree::prelude::*;
@@ -37,8 +37,8 @@ fn rest(scheme: Scheme<f64, 2>, duration: f64) -> [f64; 2] {
     let air = Material::new("air", Tait::new(1.0, 10.0 * sound).with_gamma(1.4));
     let down = [0.0, -GRAVITY];
     let size = [DEPTH, 2.0 * DEPTH];
-    let water = Body::block("water", water, [0.0; 2], [DEPTH; 2], SPACING).jitter(0.01, 1);
-    let air = Body::block("air", air, [0.0, DEPTH], size, SPACING).jitter(0.01, 2);
+    let water = Body::block("water", water, [0.0; 2], [DEPTH; 2], SPACING).jitter(0.01, seed(1));
+    let air = Body::block("air", air, [0.0, DEPTH], size, SPACING).jitter(0.01, seed(2));
     let mut tank = Scene::new(scheme)
         .body(water.hydrostatic(down, [0.0, DEPTH]))
         .body(air.hydrostatic(down, [0.0, size[1]]))
@@ -51,9 +51,10 @@ fn rest(scheme: Scheme<f64, 2>, duration: f64) -> [f64; 2] {
             [[true; 2]; 2],
         ))
         .acceleration(move |_| down)
+        .varied()
         .build()
         .expect("a tank");
-    let ended = tank.run_until(duration * (DEPTH / GRAVITY).sqrt());
+    let ended = tank.run_until(lasting(duration) * (DEPTH / GRAVITY).sqrt());
     if let Err(error) = ended {
         println!("{error}");
         return [f64::INFINITY; 2];
@@ -129,7 +130,7 @@ fn wave(scheme: Scheme<f64, 2>, count: usize, light: f64) -> f64 {
         ..own
     };
     let down = [0.0, -GRAVITY];
-    let block = |name, density, [low, high]: [f64; 2], surface, seed| {
+    let block = |name, density, [low, high]: [f64; 2], surface, own| {
         Body::block(
             name,
             liquid(name, density),
@@ -137,7 +138,7 @@ fn wave(scheme: Scheme<f64, 2>, count: usize, light: f64) -> f64 {
             [1.0, high],
             spacing,
         )
-        .jitter(0.2, seed)
+        .jitter(0.2, seed(own))
         .hydrostatic(down, [0.0, surface])
         .start(moving)
     };
@@ -154,6 +155,7 @@ fn wave(scheme: Scheme<f64, 2>, count: usize, light: f64) -> f64 {
             [[false; 2], [true; 2]],
         ))
         .acceleration(move |_| down)
+        .varied()
         .build()
         .expect("two liquids");
     let size = |now: &Simulation<f64, 2>| -> f64 {

@@ -1,7 +1,7 @@
 //! Vortices without walls at high Reynolds numbers: Taylor and Green's at 10⁴, and Gresho's.
 //! Others open voids along the strained lattice and lose the vortex; shifting with held volumes closes them.
 
-use super::harness::{Cures, Row};
+use super::harness::{Cures, Row, Varied, seed};
 use meshfree::material::SoundSpeed;
 use meshfree::prelude::*;
 use meshfree::scene::Start;
@@ -25,7 +25,7 @@ fn vortex(
 ) -> Simulation<f64, 2> {
     let water = catalogue::water_at(SoundSpeed::Chosen(SOUND));
     let body = Body::block("water", water, [0.0; 2], [1.0; 2], 1.0 / count as f64)
-        .jitter(0.01, 9)
+        .jitter(0.01, seed(9))
         .start(|x, start| {
             let (velocity, pressure) = flow(x);
             Start {
@@ -38,6 +38,7 @@ fn vortex(
         .body(body)
         .boundary(Periodic::along(0, 0.0, 1.0))
         .boundary(Periodic::along(1, 0.0, 1.0))
+        .varied()
         .build()
         .expect("a vortex");
     own.keep_stability(Thresholds::default());
