@@ -104,7 +104,7 @@ fn sheet(thick: usize, young: f64, parted: bool, hourglass: f64) -> Found {
         all.filter(|x| side * (x[0] - middle(x[1])) > 0.0).count()
     };
     let leaked = beyond("left", 1.0) + beyond("right", -1.0);
-    let tip = &tips.iter().map(|k| rubber[*k][0]).sum::<f64>() / thick as f64;
+    let tip = tips.iter().map(|k| rubber[*k][0]).sum::<f64>() / thick as f64;
     let water = (cells(DEPTHS[0]) + cells(DEPTHS[1])) * cells(WIDTH);
     let found = Found {
         force: (sum / count / exact - 1.0).abs(),
