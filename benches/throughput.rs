@@ -394,7 +394,10 @@ impl<T: Real> Lattice<T> {
             }
         }
         let slots = positions.len();
-        let mut columns = Columns::<T, 3>::new(fields.union(Fields::of(&[Field::POSITION])), slots);
+        let mut columns = Columns::<T, 3>::new(
+            fields.union(Fields::of(&[Field::POSITION, Field::VELOCITY])),
+            slots,
+        );
         for (slot, x) in positions.iter().enumerate() {
             columns.vectors_mut(Field::POSITION)[slot] = x.map(T::from_f64);
             columns.vectors_mut(Field::VELOCITY)[slot] = x.map(|x| T::from_f64((0.3 * x).sin()));
@@ -405,7 +408,10 @@ impl<T: Real> Lattice<T> {
                 (Field::WEIGHT, 1.0),
                 (Field::PRESSURE_COEFFICIENT, 500.0 * (0.1 * x[2]).cos()),
             ] {
-                columns.raw_mut(field)[slot] = T::from_f64(value);
+                // A sweep may need fewer.
+                if let Some(own) = columns.raw_mut(field).get_mut(slot) {
+                    *own = T::from_f64(value);
+                }
             }
         }
         let blocks = [Block {
