@@ -3,7 +3,7 @@
 
 use super::cells::Cells;
 use crate::parallel::{GRAIN, collect, cut, for_each};
-use crate::scalar::{InstructionSet, Lane, Mask, Real};
+use crate::scalar::{InstructionSet, Lane, Mask, OnRows, Real};
 use std::ops::Range;
 
 /// Clusters that one thread takes at a time; fixed, so sums never depend on the number of threads.
@@ -307,15 +307,16 @@ fn search<T: Real, const D: usize>(
             source
                 .cells
                 .for_each_range(box_low, box_high, |range| ranges.push(range));
-            let sieve = Sieve {
+            instructions.run(Sieve {
                 input,
                 rows,
                 own,
                 reach,
                 source,
                 ranges,
-            };
-            sieve.dispatch(instructions, &mut chunk.neighbors, far);
+                found: &mut chunk.neighbors,
+                far,
+            });
             leaving.extend_from_slice(far);
         }
         let near_end = chunk.neighbors.len();
@@ -340,55 +341,23 @@ struct Sieve<'a, T, const D: usize> {
     reach: f64,
     source: &'a Source<T, D>,
     ranges: &'a [Range<usize>],
+    found: &'a mut Vec<u32>,
+    far: &'a mut Vec<u32>,
 }
 
-impl<T: Real, const D: usize> Sieve<'_, T, D> {
-    #[inline(always)]
-    fn dispatch(&self, instructions: InstructionSet, found: &mut Vec<u32>, far: &mut Vec<u32>) {
-        #[cfg(target_arch = "x86_64")]
-        // SAFETY: `InstructionSet::or_baseline` found them on this machine.
-        match instructions {
-            InstructionSet::Avx512 => unsafe { return self.run_avx512(found, far) },
-            InstructionSet::Avx2 => unsafe { return self.run_avx2(found, far) },
-            InstructionSet::Baseline => {}
-        }
-        let _ = instructions;
-        self.run::<T::Wide<false>>(found, far);
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx512f,avx512vl,avx512dq,fma")]
-    fn run_avx512(&self, found: &mut Vec<u32>, far: &mut Vec<u32>) {
-        self.run::<T::Wide<true>>(found, far);
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2,fma")]
-    fn run_avx2(&self, found: &mut Vec<u32>, far: &mut Vec<u32>) {
-        self.run::<T::Wide<true>>(found, far);
-    }
-
-    /// Members from `first` on; the last is repeated where there are no more.
-    #[inline(always)]
-    fn row<L: Lane<Scalar = T>>(&self, first: usize) -> [L; D] {
-        let mut row = [L::zero(); D];
-        let last = self.rows.len() - 1;
-        for (d, x) in row.iter_mut().enumerate() {
-            *x = L::from_fn(|lane| self.rows[(first + lane).min(last)][d]);
-        }
-        row
-    }
-
+impl<T: Real, const D: usize> OnRows<T> for Sieve<'_, T, D> {
+    type Output = ();
     /// Adds the points that are within reach of any member to what was found, and fills `far` with those
     /// of them that may leave the support by the time the skin is used up.
     #[inline(always)]
-    fn run<L: Lane<Scalar = T>>(&self, found: &mut Vec<u32>, far: &mut Vec<u32>) {
+    fn run<L: Lane<Scalar = T, Broadcast = T>>(self) {
+        let (found, far) = (self.found, self.far);
         let (mut count, mut far_count) = (found.len(), 0);
         let candidates: usize = self.ranges.iter().map(ExactSizeIterator::len).sum();
         found.resize(count + candidates, 0);
         far.resize(candidates, 0);
         let last = self.rows.len() - 1;
-        let first = self.row::<L>(0);
+        let first = members::<L, D>(self.rows, 0);
         for range in self.ranges {
             let slots = &self.source.cells.points()[range.clone()];
             for (x, &j) in self.source.positions[range.clone()].iter().zip(slots) {
@@ -405,7 +374,7 @@ impl<T: Real, const D: usize> Sieve<'_, T, D> {
                 let stays2 = L::of(stays * stays);
                 let (mut any, mut near) = within(&first, x, reach2, stays2);
                 for k in (L::WIDTH..=last).step_by(L::WIDTH) {
-                    let more = within(&self.row::<L>(k), x, reach2, stays2);
+                    let more = within(&members::<L, D>(self.rows, k), x, reach2, stays2);
                     any |= more.0;
                     near |= more.1;
                 }
@@ -419,6 +388,17 @@ impl<T: Real, const D: usize> Sieve<'_, T, D> {
         found.truncate(count);
         far.truncate(far_count);
     }
+}
+
+/// Members from `first` on; the last is repeated where there are no more.
+#[inline(always)]
+fn members<L: Lane, const D: usize>(rows: &[[L::Scalar; D]], first: usize) -> [L; D] {
+    let mut row = [L::zero(); D];
+    let last = rows.len() - 1;
+    for (d, x) in row.iter_mut().enumerate() {
+        *x = L::from_fn(|lane| rows[(first + lane).min(last)][d]);
+    }
+    row
 }
 
 /// Whether a point is within either of two distances of any of a row.

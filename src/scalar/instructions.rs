@@ -1,6 +1,8 @@
 //! Instruction sets: which of them the loops over neighbours are compiled for.
 //! The machine chooses at run time.
 
+use super::{Lane, Real};
+
 /// The instruction set that the loops over neighbours run on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum InstructionSet {
@@ -10,6 +12,44 @@ pub enum InstructionSet {
     Avx2,
     /// x86-64 with AVX-512 F, VL and DQ.
     Avx512,
+}
+
+/// Work on rows, which [`InstructionSet::run`] compiles for each instruction set.
+///
+/// What [`run`](Self::run) calls ought to be `#[inline(always)]`: a function of its own is compiled for what every machine of the
+/// target has.
+///
+/// ```
+/// use meshfree::scalar::{InstructionSet, Lane, OnRows};
+/// struct Sum<'a>(&'a [f64]);
+/// impl OnRows<f64> for Sum<'_> {
+///     type Output = f64;
+///     #[inline(always)]
+///     fn run<L: Lane<Scalar = f64, Broadcast = f64>>(self) -> f64 {
+///         let rows = self.0.chunks_exact(L::WIDTH);
+///         let sum = rows.fold(L::zero(), |sum, row| sum + L::from_fn(|k| row[k]));
+///         (0..L::WIDTH).map(|k| sum.extract(k)).sum()
+///     }
+/// }
+/// assert_eq!(InstructionSet::detect().run(Sum(&[0.5; 64])), 32.0);
+/// ```
+pub trait OnRows<T: Real> {
+    /// What comes of it.
+    type Output;
+    /// Does it with rows of type `L`, of the width of [`Real::Wide`].
+    fn run<L: Lane<Scalar = T, Broadcast = T>>(self) -> Self::Output;
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512vl,avx512dq,fma")]
+fn on_avx512<T: Real, W: OnRows<T>>(work: W) -> W::Output {
+    work.run::<T::Wide<true>>()
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
+fn on_avx2<T: Real, W: OnRows<T>>(work: W) -> W::Output {
+    work.run::<T::Wide<true>>()
 }
 
 impl InstructionSet {
@@ -44,6 +84,20 @@ impl InstructionSet {
         } else {
             Self::Baseline
         }
+    }
+
+    /// Does work with rows of this set, or of the baseline where this machine lacks it.
+    #[inline(always)]
+    pub fn run<T: Real, W: OnRows<T>>(self, work: W) -> W::Output {
+        #[cfg(target_arch = "x86_64")]
+        match self.or_baseline() {
+            // SAFETY: this machine has the instructions.
+            Self::Avx512 => return unsafe { on_avx512::<T, W>(work) },
+            // SAFETY: as above.
+            Self::Avx2 => return unsafe { on_avx2::<T, W>(work) },
+            Self::Baseline => {}
+        }
+        work.run::<T::Wide<false>>()
     }
 
     /// Whether this machine has it.

@@ -6,7 +6,7 @@ mod lanes;
 mod root;
 mod traced;
 
-pub use instructions::InstructionSet;
+pub use instructions::{InstructionSet, OnRows};
 pub use lanes::{LaneMask, Lanes};
 pub use root::Root;
 pub use traced::{Binary, Operation, Record, Traced, TracedMask, Unary, Unrecordable};

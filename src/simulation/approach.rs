@@ -7,8 +7,8 @@ use crate::boundary::Slip;
 use crate::neighbors::{CHUNK, ChunkList};
 use crate::parallel::{GRAIN, largest, reduce, runs};
 use crate::particles::Field;
-use crate::scalar::{Lane, Real};
-use crate::sweep::{InstructionSet, Interaction};
+use crate::scalar::{Lane, OnRows, Real};
+use crate::sweep::Interaction;
 use crate::tensor::{Vector, length};
 use std::ops::Range;
 
@@ -93,8 +93,16 @@ impl<T: Real, const D: usize> Group<T, D> {
             return NOTHING;
         }
         let chunks = self.neighborhood.lists.chunks();
-        let in_chunk =
-            |chunk: usize, _| self.approach_in(chunk, &chunks[chunk], share, least_h, range);
+        let in_chunk = |chunk: usize, _| {
+            self.instructions.run(InChunk {
+                group: self,
+                chunk,
+                list: &chunks[chunk],
+                share,
+                least_h,
+                range,
+            })
+        };
         reduce(runs(0..chunks.len(), 1), NOTHING, in_chunk, Approach::and)
     }
 
@@ -184,98 +192,88 @@ impl<T: Real, const D: usize> Group<T, D> {
         let turned = by.rotation * Vector::from(v) + by.velocity;
         (by.point(&x), turned.into(), c)
     }
+}
 
-    /// The same for the particles of one chunk that move by forces, with the widest instructions that the loops of this
-    /// group run on; none of them rounds otherwise than the baseline does.
-    fn approach_in(
-        &self,
-        chunk: usize,
-        list: &ChunkList,
-        share: f64,
-        least_h: f64,
-        range: [[f64; D]; 2],
-    ) -> Approach {
-        #[cfg(target_arch = "x86_64")]
-        match self.instructions.or_baseline() {
-            // SAFETY: `InstructionSet::or_baseline` found them on this machine.
-            InstructionSet::Avx512 => unsafe {
-                return self.approach_avx512(chunk, list, share, least_h, range);
-            },
-            // SAFETY: as above.
-            InstructionSet::Avx2 => unsafe {
-                return self.approach_avx2(chunk, list, share, least_h, range);
-            },
-            InstructionSet::Baseline => {}
-        }
-        self.approach_of(chunk, list, share, least_h, range)
-    }
+/// What the approach of pairs asks for in one chunk, among the particles that move by forces.
+struct InChunk<'a, T: Real, const D: usize> {
+    group: &'a Group<T, D>,
+    chunk: usize,
+    list: &'a ChunkList,
+    share: f64,
+    least_h: f64,
+    /// The least and the largest component of velocities.
+    range: [[f64; D]; 2],
+}
 
+impl<T: Real, const D: usize> OnRows<T> for InChunk<'_, T, D> {
+    type Output = Approach;
+    /// Without products that round once, so that steps are the same on every machine.
     #[inline(always)]
-    fn approach_of(
-        &self,
-        chunk: usize,
-        list: &ChunkList,
-        share: f64,
-        least_h: f64,
-        range: [[f64; D]; 2],
-    ) -> Approach {
-        type Row<T> = <T as Real>::Wide<false>;
-        let width = Row::<T>::WIDTH;
+    fn run<L: Lane<Scalar = T, Broadcast = T>>(self) -> Approach {
+        let Self {
+            group,
+            chunk,
+            list,
+            share,
+            least_h,
+            range,
+        } = self;
+        let width = L::WIDTH;
         let (positions, velocities) = (
-            self.particles.columns.vectors(Field::POSITION),
-            self.particles.columns.vectors(Field::VELOCITY),
+            group.particles.columns.vectors(Field::POSITION),
+            group.particles.columns.vectors(Field::VELOCITY),
         );
         let (sound, lengths) = (
-            self.particles.columns.raw(Field::SOUND_SPEED),
-            self.particles.columns.raw(Field::SMOOTHING_LENGTH),
+            group.particles.columns.raw(Field::SOUND_SPEED),
+            group.particles.columns.raw(Field::SMOOTHING_LENGTH),
         );
-        let uniform = T::from_f64(self.smoothing_length);
+        let uniform = T::from_f64(group.smoothing_length);
         let h_of = |slot: usize| lengths.get(slot).copied().unwrap_or(uniform);
-        let of_spacing = T::from_f64(NEAREST / self.scheme.h_over_dx);
-        let support = self.scheme.kernel.support;
-        let zero = Row::<T>::of(0.0);
+        let of_spacing = T::from_f64(NEAREST / group.scheme.h_over_dx);
+        let support = group.scheme.kernel.support;
+        let zero = L::of(0.0);
         let mut all = NOTHING;
         for (c, bounds) in list.starts.windows(2).enumerate() {
             let first = (chunk * CHUNK + c) * width;
-            let block = self
+            let block = group
                 .neighborhood
                 .blocks
                 .partition_point(|b| b.slots.end <= first);
-            let live = self
+            let live = group
                 .neighborhood
                 .blocks
                 .get(block)
                 .filter(|b| b.slots.contains(&first));
-            let Some(own) = live.filter(|_| first < self.particles.mobile) else {
+            let Some(own) = live.filter(|_| first < group.particles.mobile) else {
                 continue;
             };
-            let row = |of: &dyn Fn(usize) -> T| Row::<T>::from_fn(|lane| of(first + lane));
-            let x: [Row<T>; D] = core::array::from_fn(|d| row(&|slot| positions[slot][d]));
-            let v: [Row<T>; D] = core::array::from_fn(|d| row(&|slot| velocities[slot][d]));
+            let row = |of: &dyn Fn(usize) -> T| L::from_fn(|lane| of(first + lane));
+            let x: [L; D] = core::array::from_fn(|d| row(&|slot| positions[slot][d]));
+            let v: [L; D] = core::array::from_fn(|d| row(&|slot| velocities[slot][d]));
             let nearest = row(&|slot| h_of(slot) * of_spacing);
             let speeds = row(&|slot| sound[slot]);
             let (mut rate, mut mach) = (zero, zero);
             for segment in &list.segments[bounds[0] as usize..bounds[1] as usize] {
                 let other = segment.block as usize;
-                if self.neighborhood.interactions[block * self.neighborhood.blocks.len() + other]
+                if group.neighborhood.interactions[block * group.neighborhood.blocks.len() + other]
                     == Interaction::None
                 {
                     continue;
                 }
-                let seen = Row::<T>::of(if self.is_mirrored(other) { 0.5 } else { 1.0 });
+                let seen = L::of(if group.is_mirrored(other) { 0.5 } else { 1.0 });
                 for &j in &list.neighbors[segment.start as usize..segment.end as usize] {
-                    let (xj, vj, cj) = self.neighbor(j as usize);
+                    let (xj, vj, cj) = group.neighbor(j as usize);
                     let (mut r2, mut across) = (zero, zero);
                     for d in 0..D {
-                        let r = x[d] - Row::<T>::splat(xj[d]);
-                        r2 = r.mul_add(r, r2);
-                        across = r.mul_add(v[d] - Row::<T>::splat(vj[d]), across);
+                        let r = x[d] - L::splat(xj[d]);
+                        r2 += r * r;
+                        across += r * (v[d] - L::splat(vj[d]));
                     }
-                    let distance = r2.sqrt().max(nearest * Row::<T>::of(1e-6));
+                    let distance = r2.sqrt().max(nearest * L::of(1e-6));
                     let closing = (-across).positive_part() * seen / distance;
                     rate = rate.max(closing / distance.max(nearest));
                     // Twice the mean of the sound speeds.
-                    mach = mach.max(closing / (speeds + Row::<T>::splat(cj)));
+                    mach = mach.max(closing / (speeds + L::splat(cj)));
                 }
             }
             for slot in first..own.slots.end.min(first + width) {
@@ -290,7 +288,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                 let unseen = farthest.sqrt() / apart;
                 let rate = rate.extract(lane).to_f64().max(unseen);
                 let mach = 2.0 * mach.extract(lane).to_f64();
-                let meets = self.scheme.meets_walls() && mach > FASTEST;
+                let meets = group.scheme.meets_walls() && mach > FASTEST;
                 all = all.and(Approach {
                     vote: Vote {
                         step: share / rate,
@@ -308,28 +306,3 @@ impl<T: Real, const D: usize> Group<T, D> {
         all
     }
 }
-
-/// `approach_of`, compiled for an instruction set.
-#[cfg(target_arch = "x86_64")]
-macro_rules! approach_with {
-    ($name:ident, $features:literal) => {
-        impl<T: Real, const D: usize> Group<T, D> {
-            #[target_feature(enable = $features)]
-            fn $name(
-                &self,
-                chunk: usize,
-                list: &ChunkList,
-                share: f64,
-                least_h: f64,
-                range: [[f64; D]; 2],
-            ) -> Approach {
-                self.approach_of(chunk, list, share, least_h, range)
-            }
-        }
-    };
-}
-
-#[cfg(target_arch = "x86_64")]
-approach_with!(approach_avx512, "avx512f,avx512vl,avx512dq");
-#[cfg(target_arch = "x86_64")]
-approach_with!(approach_avx2, "avx2");
