@@ -134,7 +134,7 @@
 //! | the same with shear and strength | [`schemes::impact_by_continuity`] with [`Hypoelastic`](effect::Hypoelastic) and [`Plasticity`](effect::Plasticity) |
 //! | a result of Lam, Shen & Gong (2002) to repeat | [`schemes::lam2002`] with [`LamLeapfrog`](integrator::LamLeapfrog), bodies bonded |
 //! | a liquid with a free surface, still or violent | [`schemes::weakly_compressible`] |
-//! | the same, violent and for long enough that particles leave their lattice unevenly | [`schemes::weakly_compressible`] with [`ExpansionMemory`](effect::ExpansionMemory) and [`ConsistentShifting`](effect::ConsistentShifting) |
+//! | the same, violent and for long enough that particles leave their lattice unevenly | [`schemes::weakly_compressible`] with [`ExpansionMemory`](effect::ExpansionMemory) and [`Shifting::STANDARD`](effect::Shifting), in a plane [`ConsistentShifting`](effect::ConsistentShifting) |
 //! | the same, without a coefficient to choose | [`schemes::riemann_liquid`] |
 //! | two liquids, or a liquid and a gas | [`schemes::weakly_compressible`] with [`TwoPhase`](effect::TwoPhase), bodies bonded |
 //! | a liquid that fills what encloses it | [`schemes::weakly_compressible`] with [`Shifting::CLOSED`](scheme::Shifting::CLOSED) and [walls](effect::ExtrapolatedPressure) with a floor of −∞ |
