@@ -64,10 +64,11 @@ fn bytes_a_particle<T: Real, const D: usize>(
     let columns = columns.width(D) as f64;
     // Records of the widest sweep and, with compatible energy, those of the work of kicks.
     let (records, sums) = scheme.widths();
-    let packed = if scheme.energy == EnergyForm::Compatible {
-        2
+    // The latter have sums of their own, of power and of what it gains.
+    let (packed, worked) = if scheme.energy == EnergyForm::Compatible {
+        (2, 2)
     } else {
-        1
+        (1, 0)
     };
     // States that the integrator keeps, and what a prediction takes back.
     let width = |fields: &mut dyn Iterator<Item = Field>| -> usize {
@@ -82,7 +83,7 @@ fn bytes_a_particle<T: Real, const D: usize>(
     let reach = scheme.kernel.support * scheme.h_over_dx * (1.0 + skin);
     let ball = listed_around(D, reach, lanes);
     let lists = 4.0 * ball / lanes as f64;
-    let numbers = columns + (packed * records.min(MOST_READS) + 2 * sums) as f64;
+    let numbers = columns + (packed * records.min(MOST_READS) + 2 * sums + worked) as f64;
     let places = (2 * D + states) as f64;
     MARGIN * (number * (numbers + places) + lists + WHILE_BUILT)
 }
