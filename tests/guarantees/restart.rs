@@ -658,7 +658,7 @@ fn another_version_width_and_machine_are_named() {
         with(r#""version":"3""#, r#""version":"9""#),
         CheckpointProblem::Version {
             found: "9".into(),
-            known: "2"
+            known: "3"
         }
     );
     assert_eq!(
