@@ -57,6 +57,7 @@ fn particles() -> Columns<f64, 2> {
         Field::POSITION,
         Field::VELOCITY,
         Field::MEAN_VELOCITY,
+        Field::MEAN_ACCELERATION,
         Field::MASS,
         Field::WEIGHT,
         Field::PRESSURE_COEFFICIENT,
@@ -72,6 +73,7 @@ fn particles() -> Columns<f64, 2> {
         ];
         columns.vectors_mut(Field::VELOCITY)[slot] = [noise(0.3), noise(0.4)];
         columns.vectors_mut(Field::MEAN_VELOCITY)[slot] = [noise(0.5), noise(0.6)];
+        columns.vectors_mut(Field::MEAN_ACCELERATION)[slot] = [noise(1.1), noise(1.2)];
         columns.raw_mut(Field::MASS)[slot] = 1.0 + 0.5 * noise(0.7);
         columns.raw_mut(Field::WEIGHT)[slot] = 1.0 + 0.5 * noise(0.8);
         columns.raw_mut(Field::PRESSURE_COEFFICIENT)[slot] = noise(0.9);
@@ -133,7 +135,7 @@ fn a_free_force_counts_in_force_power_and_work() {
     // How much of the power the oblique force has: if it were lost, the sums would be off by so much.
     let (mut oblique_power, mut oblique_work) = (0.0_f64, 0.0_f64);
     for i in 0..36 {
-        let (mut force, mut power, mut work) = ([0.0; 2], 0.0, 0.0);
+        let (mut force, mut power, mut work, mut gained) = ([0.0; 2], 0.0, 0.0, 0.0);
         for j in (0..36).filter(|&j| j != i) {
             let r = between(Field::POSITION, i, j);
             let f = norm * Kernel::<2>::slope_over_q(&WendlandC2, r[0].hypot(r[1]) / H);
@@ -144,11 +146,13 @@ fn a_free_force_counts_in_force_power_and_work() {
                 between(Field::VELOCITY, i, j),
                 between(Field::MEAN_VELOCITY, i, j),
             );
+            let acceleration = between(Field::MEAN_ACCELERATION, i, j);
             for d in 0..2 {
                 let pair = free[d] - pressure * r[d];
                 force[d] += pair;
                 power -= 0.5 * pair * v[d];
                 work -= 0.5 * pair * mean[d];
+                gained -= 0.5 * pair * acceleration[d];
                 oblique_power += (free[d] * v[d]).abs();
                 oblique_work += (free[d] * mean[d]).abs();
             }
@@ -159,6 +163,7 @@ fn a_free_force_counts_in_force_power_and_work() {
             found[1] - force[1],
             rates.get(Output::POWER, 0, i) - power,
             works.get(Output::POWER, 0, i) - work,
+            works.get(Output::POWER_OF_ACCELERATION, 0, i) - gained,
         ];
         assert!(off.iter().all(|off| off.abs() < 1e-13), "{i}: {off:?}");
     }
