@@ -1,7 +1,7 @@
 //! Solids beside the liquid: what a step of each scheme costs a particle and a neighbour, and how many bytes.
 //! The total-Lagrangian force, composed, against one that is written out by hand.
 
-use super::{H, Lattice, Row, assert_same, print_ratio, ratios};
+use super::pair_loop::{H, Lattice, Row, assert_same, print_ratio, ratios};
 use meshfree::effect::{FiniteStrainPlasticity, Hypoelastic, NeoHookean, Plasticity, StressForce};
 use meshfree::kernel::{Kernel, WendlandC2};
 use meshfree::material::catalogue;
