@@ -49,7 +49,7 @@ const POISSON: f64 = 0.4;
 const CHANNEL: f64 = 0.15;
 const LAYERS: i64 = 3;
 
-fn main() -> ExitCode {
+pub fn main() -> ExitCode {
     common::main(&EXAMPLE, perform::<f64>, None)
 }
 

@@ -40,7 +40,7 @@ const EXAMPLE: Example = Example {
     ],
 };
 
-fn main() -> ExitCode {
+pub fn main() -> ExitCode {
     common::main(&EXAMPLE, perform::<f64>, None)
 }
 

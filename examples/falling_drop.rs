@@ -16,7 +16,7 @@ const EXAMPLE: Example = Example {
     own: &[],
 };
 
-fn main() -> std::process::ExitCode {
+pub fn main() -> std::process::ExitCode {
     common::main(&EXAMPLE, perform::<f64>, None)
 }
 

@@ -35,7 +35,7 @@ const PLACES: usize = 257;
 /// Layers of wall particles.
 const LAYERS: usize = 4;
 
-fn main() -> ExitCode {
+pub fn main() -> ExitCode {
     common::main(&EXAMPLE, perform::<f64>, None)
 }
 

@@ -31,7 +31,7 @@ const RHO: f64 = 1000.0;
 /// Ten times the speed of a corner, to a tenth and a half.
 const SOUND: f64 = 10.0;
 
-fn main() -> ExitCode {
+pub fn main() -> ExitCode {
     common::main(&EXAMPLE, perform::<f64>, None)
 }
 

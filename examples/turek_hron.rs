@@ -81,7 +81,7 @@ const TURNS: f64 = 20.0;
 const HELD: i64 = 5;
 const LAYERS: i64 = 3;
 
-fn main() -> ExitCode {
+pub fn main() -> ExitCode {
     common::main(&EXAMPLE, perform::<f64>, Some(perform::<f32>))
 }
 

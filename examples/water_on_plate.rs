@@ -58,7 +58,7 @@ const POISSON: f64 = 0.34;
 /// Columns that are held at each end, that at the edge among them.
 const HELD: i64 = 4;
 
-fn main() -> ExitCode {
+pub fn main() -> ExitCode {
     common::main(&EXAMPLE, perform::<f64>, None)
 }
 

@@ -1,4 +1,4 @@
-//! Pages: every link of README and docs leads somewhere, and the book has every page.
+//! Pages: every link of README and docs leads to a file and a heading that are there, and the book has every page.
 //! Reads files alone, so it costs nothing.
 
 use std::collections::BTreeSet;
@@ -34,20 +34,45 @@ fn links(text: &str) -> Vec<String> {
     found
 }
 
+/// Anchors of a page: its headings in lower case, with hyphens for spaces and without other signs, as GitHub and mdBook
+/// make them.
+fn anchors(text: &str) -> BTreeSet<String> {
+    let mut code = false;
+    let mut found = BTreeSet::new();
+    for line in text.lines() {
+        code ^= line.trim_start().starts_with("```");
+        if code || !line.starts_with('#') {
+            continue;
+        }
+        let title = line.trim_start_matches('#').trim().to_lowercase();
+        let title = title.replace(' ', "-");
+        found.insert(title.replace(|c: char| !(c.is_alphanumeric() || "-_".contains(c)), ""));
+    }
+    found
+}
+
 #[test]
-fn links_lead_to_files_that_are_there() {
+fn links_lead_to_what_is_there() {
     let mut broken = Vec::new();
     let mut checked = 0;
     for page in pages() {
         let text = fs::read_to_string(&page).expect("a page");
         let folder = page.parent().expect("a folder");
         for link in links(&text) {
-            let path = link.split('#').next().unwrap_or_default();
-            if path.is_empty() || link.contains("://") {
+            if link.contains("://") {
                 continue;
             }
+            let (path, anchor) = link.split_once('#').unwrap_or((&link, ""));
+            let path = if path.is_empty() {
+                page.clone()
+            } else {
+                folder.join(path)
+            };
             checked += 1;
-            if !folder.join(path).exists() {
+            let there = path.exists()
+                && (anchor.is_empty()
+                    || anchors(&fs::read_to_string(path).expect("a page")).contains(anchor));
+            if !there {
                 broken.push(format!("{}: {link}", page.display()));
             }
         }

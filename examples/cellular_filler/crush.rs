@@ -1,7 +1,7 @@
 //! The structure as an elastic–plastic solid between two plates, with water in it or without: the scene.
 //! x is the way out, z the direction of the crush; half of the depth y of a cell stands between planes of symmetry.
 
-use crate::filler::{HOLE, LAYERS, RATE, SOUND, water_scheme};
+use super::filler::{HOLE, LAYERS, RATE, SOUND, water_scheme};
 use meshfree::boundary::Translation;
 use meshfree::effect::FiniteStrainPlasticity;
 use meshfree::geometry::{Cuboid, OpenCell, Shape, fill};
@@ -36,7 +36,7 @@ Our choice, which the paper does not state:
   symmetry; a plane of symmetry at the closed end; the other end is open to the water, and the structure free there;
 - rigid plates above and below, which touch structure and water; the upper one moves at constant speed, and all starts
   in the motion of the crush: the structure with v_z = -1000 z, the water beside that with v_x = 1000 x;
-- contact without friction by springs between particles (they see no images in planes of symmetry);
+- contact without friction by springs between particles (images in planes of symmetry included);
 - artificial viscosity: alpha 0.2 in the polymer, none in the water beside its density diffusion;
 - no outlet: water that has left flies on;
 - water sticks to structure and plates;

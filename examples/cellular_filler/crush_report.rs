@@ -1,8 +1,8 @@
 //! What is said of crushed structures: stress over strain, sections, where the work has gone, and what must hold.
 //! Energies are those of one cell's depth, twice what half of it has.
 
-use crate::crush::{CHOICES, Crushed};
-use crate::crushing::{Crushing, SECTIONS};
+use super::crush::{CHOICES, Crushed};
+use super::crushing::{Crushing, SECTIONS};
 use meshfree::output::svg::{Axis, Cloud, Figure, Panel, Series, viridis};
 use meshfree::output::table::{Table, significant};
 
@@ -10,7 +10,7 @@ type Runs = [(Crushed, Crushing)];
 
 /// Stress and absorbed energy over strain.
 pub fn figure(runs: &Runs) -> Figure {
-    let panel = |name: &str, unit: &str, of: &dyn Fn(&crate::crushing::Sample) -> f64| {
+    let panel = |name: &str, unit: &str, of: &dyn Fn(&super::crushing::Sample) -> f64| {
         let mut panel = Panel::new(
             Axis::linear("strain", "%"),
             Axis::linear(name, unit).from(0.0),

@@ -1,8 +1,8 @@
 //! A run of the crush: the force of the plates, where their work goes, and what water leaves.
 //! Forces of plates are summed step by step, as kicks have used them, so that their work is exact.
 
-use crate::common::Failure;
-use crate::crush::Crushed;
+use super::common::Failure;
+use super::crush::Crushed;
 use meshfree::effect::Plasticity;
 use meshfree::output::csv::CsvWriter;
 use meshfree::output::progress::Progress;

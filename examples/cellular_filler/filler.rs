@@ -1,7 +1,7 @@
 //! One case: the scene, the run, and what is sampled on the way.
 //! x is the way out, z the direction of the crush; the depth y is one cell between planes of symmetry.
 
-use crate::common::{Failure, Movie};
+use super::common::{Failure, Movie};
 use meshfree::geometry::{Cuboid, OpenCell, Shape, fill};
 use meshfree::material::{Liquid, SoundSpeed};
 use meshfree::observe::FlowPlane;
@@ -276,5 +276,5 @@ fn picture<T: Real>(
             dx,
             front.filter(|x| x[1] > 0.5 * size[1]),
         );
-    crate::common::save_picture(&picture, folder.join("water"))
+    super::common::save_picture(&picture, folder.join("water"))
 }

@@ -1,14 +1,14 @@
 //! Forces, works and volumes of all cases in one figure and one table.
 //! What must hold: volumes to 2 %, forces that rise with viscosity and with the density of the structure.
 
-use crate::filler::{Case, Record};
+use super::filler::{Case, Record};
 use meshfree::output::svg::{Axis, Figure, Panel, Series, viridis};
 use meshfree::output::table::{Table, significant};
 
 /// Force, work and expelled volume against strain.
 pub fn figure(runs: &[(Case, Record)]) -> Figure {
     let label = |case: &Case| format!("c {:.1} mm, {:.0e} Pa s", 1e3 * case.wall, case.viscosity);
-    let panel = |name: &str, unit: &str, of: &dyn Fn(&crate::filler::Sample) -> f64| {
+    let panel = |name: &str, unit: &str, of: &dyn Fn(&super::filler::Sample) -> f64| {
         let mut panel = Panel::new(Axis::linear("strain", "%"), Axis::linear(name, unit));
         for (case, record) in runs {
             let points = record.samples.iter().map(|s| (1e2 * s.strain, of(s)));

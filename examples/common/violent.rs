@@ -4,7 +4,7 @@
 // Each example uses a part of this.
 #![allow(dead_code)]
 
-use crate::common::{Failure, Options, Own};
+use super::common::{Failure, Options, Own};
 use meshfree::observe::{PressureProbe, WaveGauge};
 use meshfree::output::csv::CsvWriter;
 use meshfree::output::progress::Progress;

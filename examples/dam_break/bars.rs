@@ -1,10 +1,10 @@
 //! What a dam break must meet, and whether it does.
 //! Measured numbers are quoted from the papers; bounds are those of the crate's issue list.
 
-use crate::common::Failure;
-use crate::figures::{MARTIN_MOYCE_FRONT, VOLUME_OF_FLUID_H2, VOLUME_OF_FLUID_P1};
-use crate::flat::Flat;
-use crate::violent::{Bar, Choices, History, print_bars};
+use super::common::Failure;
+use super::figures::{MARTIN_MOYCE_FRONT, VOLUME_OF_FLUID_H2, VOLUME_OF_FLUID_P1};
+use super::flat::Flat;
+use super::violent::{Bar, Choices, History, print_bars};
 
 /// Slope of a line through points, by least squares.
 fn slope(points: &[(f64, f64)]) -> f64 {

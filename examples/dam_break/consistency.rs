@@ -1,10 +1,10 @@
 //! SPHERIC 2 over quarter seconds, beside its record: pressures on the face of the box, and the water that gauges see.
 //! The record is held against itself, too: what its gauges add up to, and what weighs between its sensors.
 
-use crate::common::Failure;
-use crate::flat::GRAVITY;
-use crate::obstacle::{BOX, COLUMN, DENSITY, GAUGES, SENSORS, TANK};
-use crate::violent::{Choices, History};
+use super::common::Failure;
+use super::flat::GRAVITY;
+use super::obstacle::{BOX, COLUMN, DENSITY, GAUGES, SENSORS, TANK};
+use super::violent::{Choices, History};
 use meshfree::output::table::{Table, significant};
 use meshfree::study::records::Record;
 

@@ -1,10 +1,10 @@
 //! Figures of dam breaks: histories with the measured ones in the same axes, and frames.
 //! What is not in the reference folder is left out, by name.
 
-use crate::common::Failure;
-use crate::flat::Flat;
-use crate::obstacle::{BOX, TANK};
-use crate::violent::{Choices, History};
+use super::common::Failure;
+use super::flat::Flat;
+use super::obstacle::{BOX, TANK};
+use super::violent::{Choices, History};
 use meshfree::output::picture::Picture;
 use meshfree::output::svg::{Axis, Cloud, Color, Figure, Panel, Series};
 use meshfree::prelude::*;
@@ -116,7 +116,7 @@ fn measured(
 /// Particles coloured by pressure at one instant.
 pub fn plane<T: Real>(case: &Flat, now: &Simulation<T, 2>, path: &Path) -> Result<(), Failure> {
     let top = (2.0 * case.column[1]).min(case.tank[1]);
-    let hydrostatic = case.density * crate::flat::GRAVITY * case.column[1];
+    let hydrostatic = case.density * super::flat::GRAVITY * case.column[1];
     let value = Axis::linear("pressure", "kPa").range(0.0, 1e-3 * hydrostatic);
     let walls = now.walls().map(|name| now.wall(name));
     let walls = walls.collect::<Result<Vec<_>, _>>()?.into_iter().flatten();
@@ -130,7 +130,7 @@ pub fn plane<T: Real>(case: &Flat, now: &Simulation<T, 2>, path: &Path) -> Resul
             case.spacing,
             walls.map(|p| p.position()),
         );
-    crate::common::save_picture(&picture, path)?;
+    super::common::save_picture(&picture, path)?;
     let points = now.all().map(|particle| {
         let [x, y] = particle.position();
         (x, y, 1e-3 * particle.pressure())
@@ -244,7 +244,7 @@ pub fn space<T: Real>(now: &Simulation<T, 3>, path: &Path) -> Result<(), Failure
         .plain(Color(120, 120, 120), 1.0, now.spacing(), obstacle)
         .edges([0.0; 3], TANK)
         .edges(low, high);
-    Ok(crate::common::save_picture(&picture, path)?)
+    Ok(super::common::save_picture(&picture, path)?)
 }
 
 /// Heights and pressures of SPHERIC 2.

@@ -1,9 +1,9 @@
 //! Dam breaks in a plane: a column of water between the rear wall of a tank and a gate.
 //! The gate vanishes at once, or is a wall that is pulled up.
 
-use crate::common::{Failure, Options};
-use crate::violent::{self, Choices, History, Keep, Watch};
-use crate::{bars, figures};
+use super::common::{Failure, Options};
+use super::violent::{self, Choices, History, Keep, Watch};
+use super::{bars, figures};
 use meshfree::boundary::Translation;
 use meshfree::geometry::{Cuboid, Shape};
 use meshfree::material::{Liquid, SoundSpeed};

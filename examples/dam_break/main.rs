@@ -32,7 +32,7 @@ each choice gains.",
     )),
 };
 
-fn main() -> ExitCode {
+pub fn main() -> ExitCode {
     common::main(&EXAMPLE, perform::<f64>, Some(perform::<f32>))
 }
 

@@ -1,10 +1,10 @@
 //! SPHERIC 2: a column of water in a tank with a box in its way (Kleefsman et al. 2005).
 //! Heights at four gauges and pressures at eight sensors of the box.
 
-use crate::common::{Failure, Options};
-use crate::flat::GRAVITY;
-use crate::violent::{self, Choices, Keep, Watch};
-use crate::{bars, consistency, figures, lattice_rows};
+use super::common::{Failure, Options};
+use super::flat::GRAVITY;
+use super::violent::{self, Choices, Keep, Watch};
+use super::{bars, consistency, figures, lattice_rows};
 use meshfree::geometry::{Cuboid, Shape, fill};
 use meshfree::material::{Liquid, SoundSpeed};
 use meshfree::observe::{PressureProbe, WaveGauge};

@@ -50,7 +50,7 @@ const EXAMPLE: Example = Example {
     ],
 };
 
-fn main() -> ExitCode {
+pub fn main() -> ExitCode {
     common::main(
         &EXAMPLE,
         |options| match options.text("--dimension").unwrap_or("2") {

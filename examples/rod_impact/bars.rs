@@ -1,16 +1,16 @@
 //! What the method must meet, measured: plateaus, fronts, arrivals, contact ends, pads, conservation.
 //! The reference is the Godunov solution with the same equation of state and a contact that opens.
 
-use crate::Failure;
-use crate::cases::{Case, short};
-use crate::choices::{Precision, SchemeChoice};
-use crate::claims::{last_above, pulse_length};
-use crate::figures::at;
-use crate::options::Options;
-use crate::paper::{cases, pad_label};
-use crate::parallel::{self, Board};
-use crate::record::{self, Record, Watch};
-use crate::theory::{Theory, steps_of};
+use super::Failure;
+use super::cases::{Case, short};
+use super::choices::{Precision, SchemeChoice};
+use super::claims::{last_above, pulse_length};
+use super::figures::at;
+use super::options::Options;
+use super::paper::{cases, pad_label};
+use super::parallel::{self, Board};
+use super::record::{self, Record, Watch};
+use super::theory::{Theory, steps_of};
 use meshfree::output::table::{Align, Table};
 use meshfree::study::norms::{arrival, overshoot, plateau_mean, rise_10_90};
 use std::path::Path;
@@ -142,9 +142,9 @@ pub fn measure(options: &Options, folder: &Path) -> Result<(), Failure> {
     fronts(&measured, &mut rows)?;
     figures(&measured, &mut rows)?;
     contacts(&measured, &mut rows)?;
-    crate::pads::rows(&measured, &mut rows)?;
+    super::pads::rows(&measured, &mut rows)?;
     conservation(&measured, &mut rows)?;
-    crate::invariants::rows(options, &mut |name, bar, values| {
+    super::invariants::rows(options, &mut |name, bar, values| {
         rows.push(Row { name, bar, values });
     })?;
     let text = format!(

@@ -1,7 +1,7 @@
 //! A case: a striker, perhaps with a pad on its head, that hits a rod or a wall.
 //! Geometry, materials and numerical choices; its scene and its exact solutions follow from it.
 
-use crate::choices::{
+use super::choices::{
     ContactChoice, IntegratorChoice, Precision, SchemeChoice, StateChoice, StrengthChoice,
 };
 use meshfree::boundary::MirrorPlane;

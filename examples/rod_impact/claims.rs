@@ -1,9 +1,9 @@
 //! Every claim of the paper beside what its equations give and what the runs give.
 //! Where the paper and its own equations differ, the table says so.
 
-use crate::Failure;
-use crate::paper::{PADS, Run, Runs, SCHEMES, pad_label};
-use crate::theory::{Theory, steps_of};
+use super::Failure;
+use super::paper::{PADS, Run, Runs, SCHEMES, pad_label};
+use super::theory::{Theory, steps_of};
 use meshfree::output::table::{Align, Table};
 use meshfree::study::norms::plateau_mean;
 
@@ -78,7 +78,7 @@ impl<'a> Sources<'a> {
         };
         let sampled = |time: &[f64], stress: &[f64]| -> Vec<f64> {
             grid.iter()
-                .map(|&t| crate::figures::at(time, stress, t))
+                .map(|&t| super::figures::at(time, stress, t))
                 .collect()
         };
         let linear: Result<Vec<f64>, _> = grid
@@ -101,10 +101,10 @@ impl<'a> Sources<'a> {
         let gauge = &self.theory.reference.gauges()[self.gauge];
         let mut all = vec![
             self.theory.acoustic.velocity(self.x0, time)?,
-            crate::figures::at(&gauge.time, &gauge.velocity, time),
+            super::figures::at(&gauge.time, &gauge.velocity, time),
         ];
         all.extend(self.runs.iter().map(|run| {
-            crate::figures::at(
+            super::figures::at(
                 &run.record.time,
                 &run.record.probes[self.gauge].velocity,
                 time,

@@ -1,14 +1,14 @@
 //! The error of figure 1 against the spacing, over a factor of 16, for our scheme and the paper's.
 //! Written as a page with a table, a plot and the reasons for the difference.
 
-use crate::Failure;
-use crate::cases::{Case, short};
-use crate::choices::SchemeChoice;
-use crate::figures::at;
-use crate::options::Options;
-use crate::parallel::{self, Board};
-use crate::record::{self, Watch};
-use crate::theory::{Theory, waves};
+use super::Failure;
+use super::cases::{Case, short};
+use super::choices::SchemeChoice;
+use super::figures::at;
+use super::options::Options;
+use super::parallel::{self, Board};
+use super::record::{self, Watch};
+use super::theory::{Theory, waves};
 use meshfree::output::svg::{Axis, Figure, PALETTE, Panel, Series};
 use meshfree::output::table::{Table, significant};
 use meshfree::study::norms::{Norms, observed_order};

@@ -1,10 +1,10 @@
 //! The seven figures of the paper as SVG and CSV, our scheme beside the paper's.
 //! Dashed black lines are the exact linear waves of the same case and contact law.
 
-use crate::Failure;
-use crate::choices::SchemeChoice;
-use crate::paper::{PAD_SHOWN, PADS, Run, Runs, SCHEMES, SHOWN, TARGETS, pad_label};
-use crate::record::Point;
+use super::Failure;
+use super::choices::SchemeChoice;
+use super::paper::{PAD_SHOWN, PADS, Run, Runs, SCHEMES, SHOWN, TARGETS, pad_label};
+use super::record::Point;
 use meshfree::output::csv::CsvWriter;
 use meshfree::output::svg::{Axis, Color, Figure, Legend, PALETTE, Panel, Series};
 use std::path::Path;

@@ -1,11 +1,11 @@
 //! Runs that must agree: a wall with two rods that meet, and one thread with two.
 //! The first to rounding, the second bit for bit.
 
-use crate::Failure;
-use crate::cases::Case;
-use crate::choices::SchemeChoice;
-use crate::options::Options;
-use crate::record::{self, Watch};
+use super::Failure;
+use super::cases::Case;
+use super::choices::SchemeChoice;
+use super::options::Options;
+use super::record::{self, Watch};
 use meshfree::material::catalogue;
 use meshfree::scene::{Body, Scene};
 

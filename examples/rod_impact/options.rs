@@ -1,8 +1,8 @@
 //! The command line: what it accepts, and messages that say what was wrong.
 //! A bad option names itself, the value it was given, and what it takes.
 
-use crate::cases::{Case, material};
-use crate::choices::{
+use super::cases::{Case, material};
+use super::choices::{
     ContactChoice, IntegratorChoice, Precision, SchemeChoice, StateChoice, StrengthChoice,
 };
 use clap::error::ErrorKind;
@@ -219,7 +219,7 @@ fn shear(case: &Case) -> Result<(), String> {
 
 /// Fills in what follows from the rest, and checks what options mean together.
 fn complete(case: &mut Case, until: Option<f64>) -> Result<(), String> {
-    let transit = |rod: &crate::cases::Rod| {
+    let transit = |rod: &super::cases::Rod| {
         material::<f64>(&rod.material).map_or(0.0, |material| {
             rod.length() * material.reference_density() / material.impedance()
         })
@@ -251,10 +251,10 @@ fn complete(case: &mut Case, until: Option<f64>) -> Result<(), String> {
         if probe > length * (1.0 + 1e-12) {
             return Err(bad(
                 "--probe",
-                &crate::cases::short(1e3 * probe),
+                &super::cases::short(1e3 * probe),
                 format!(
                     "a distance within the chain, 0 to {} mm",
-                    crate::cases::short(1e3 * length)
+                    super::cases::short(1e3 * length)
                 ),
             ));
         }
@@ -263,17 +263,17 @@ fn complete(case: &mut Case, until: Option<f64>) -> Result<(), String> {
         if time > case.until * (1.0 + 1e-12) {
             return Err(bad(
                 "--snapshot",
-                &crate::cases::short(1e6 * time),
+                &super::cases::short(1e6 * time),
                 format!(
                     "a time up to --until, {} µs",
-                    crate::cases::short(1e6 * case.until)
+                    super::cases::short(1e6 * case.until)
                 ),
             ));
         }
     }
-    let spacing = crate::cases::short(1e3 * case.spacing);
+    let spacing = super::cases::short(1e3 * case.spacing);
     if length / case.spacing > MOST_PARTICLES {
-        let least = crate::cases::short(1e3 * length / MOST_PARTICLES);
+        let least = super::cases::short(1e3 * length / MOST_PARTICLES);
         return Err(bad(
             "--spacing",
             &spacing,
@@ -281,7 +281,7 @@ fn complete(case: &mut Case, until: Option<f64>) -> Result<(), String> {
         ));
     }
     if let Some(rod) = rods.iter().find(|rod| rod.count(case.spacing) < 5.0) {
-        let most = crate::cases::short(1e3 * rod.length() / 5.0);
+        let most = super::cases::short(1e3 * rod.length() / 5.0);
         return Err(bad(
             "--spacing",
             &spacing,

@@ -1,10 +1,10 @@
 //! What pads must meet: the steps that the reference holds, quiet before the wave, joints free of stress.
 //! One of the pads is no multiple of the striker.
 
-use crate::Failure;
-use crate::bars::{Measured, Row, means, window};
-use crate::paper::pad_label;
-use crate::theory::Theory;
+use super::Failure;
+use super::bars::{Measured, Row, means, window};
+use super::paper::pad_label;
+use super::theory::Theory;
 
 /// Steps that the reference holds at probe `p` for half a microsecond, within 0.5 % of the largest
 /// stress, as (from, until, stress).

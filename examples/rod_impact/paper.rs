@@ -1,13 +1,13 @@
 //! The runs behind the paper's figures: cases 1, 2 and 3, by our scheme and by the paper's.
 //! Each run carries the exact linear waves of its own contact law.
 
-use crate::Failure;
-use crate::cases::{Case, short};
-use crate::choices::SchemeChoice;
-use crate::options::Options;
-use crate::parallel::{self, Board};
-use crate::record::{self, Record, Watch};
-use crate::theory::{Theory, waves};
+use super::Failure;
+use super::cases::{Case, short};
+use super::choices::SchemeChoice;
+use super::options::Options;
+use super::parallel::{self, Board};
+use super::record::{self, Record, Watch};
+use super::theory::{Theory, waves};
 use meshfree::study::acoustic_rods::AcousticSolution;
 
 /// The two schemes that are shown side by side.

@@ -1,7 +1,7 @@
 //! Runs independent jobs side by side, one thread each, and shows how far all of them are.
 //! A job's result does not depend on how many run beside it.
 
-use crate::Failure;
+use super::Failure;
 use meshfree::output::progress::Progress;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -1,8 +1,8 @@
 //! Runs a case and records it: probes, contact force, snapshots and the ledger, step by step.
 //! Given a folder, everything is in its files as soon as it is known.
 
-use crate::cases::{Case, short};
-use crate::choices::{IntegratorChoice, Precision};
+use super::cases::{Case, short};
+use super::choices::{IntegratorChoice, Precision};
 use meshfree::effect::{Hypoelastic, Plasticity};
 use meshfree::error::Result;
 use meshfree::output::csv::{Cell, CsvWriter};

@@ -1,11 +1,11 @@
 //! One case: runs it, compares it with theory, and writes its report and a picture.
 //! Everything but the report is written while the case runs.
 
-use crate::Failure;
-use crate::cases::{Case, short};
-use crate::options::Options;
-use crate::record::{self, Record, Watch};
-use crate::theory::{Theory, steps_of};
+use super::Failure;
+use super::cases::{Case, short};
+use super::options::Options;
+use super::record::{self, Record, Watch};
+use super::theory::{Theory, steps_of};
 use meshfree::output::progress::Progress;
 use meshfree::output::svg::{Axis, Figure, PALETTE, Panel, Series};
 use meshfree::output::table::{Table, significant};
@@ -118,7 +118,7 @@ fn summary(record: &Record, threads: usize) -> String {
             .into(),
     ];
     for rod in case.rods() {
-        if let Ok(material) = crate::cases::material::<f64>(&rod.material) {
+        if let Ok(material) = super::cases::material::<f64>(&rod.material) {
             lines.push(format!(
                 "{}: {} mm of {}, {:?} ({})",
                 rod.name,

@@ -1,8 +1,8 @@
 //! Tests of the command line: every bad option has a message that helps.
 //! Figures are drawn unless an option says something of the case.
 
-use crate::choices::{SchemeChoice, StrengthChoice};
-use crate::options::{Options, Task, parse};
+use super::choices::{SchemeChoice, StrengthChoice};
+use super::options::{Options, Task, parse};
 
 fn parse_line(line: &str) -> Result<Options, String> {
     let line = ["rod_impact"].into_iter().chain(line.split_whitespace());

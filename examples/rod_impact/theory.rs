@@ -1,8 +1,8 @@
 //! The exact solutions of a case: linear waves without a grid, and the Godunov reference.
 //! The second has the equation of state of the particles, and so the true heights of plateaus.
 
-use crate::Failure;
-use crate::cases::{Case, material};
+use super::Failure;
+use super::cases::{Case, material};
 use meshfree::study::acoustic_rods::{AcousticRods, AcousticSolution, RodSegment};
 use meshfree::study::godunov_rods::{self, GodunovRods, GodunovSolution, PressureFn};
 use meshfree::study::{Joint, StudyError};

@@ -1,8 +1,8 @@
 //! How the tank of SPHERIC 10 rolls: as measured, or by the fit of it.
 //! Angles are smooth to the second derivative, which the water feels.
 
-use crate::common::{Failure, Options};
-use crate::violent::Choices;
+use super::common::{Failure, Options};
+use super::violent::Choices;
 use meshfree::study::records::Record;
 
 /// The record's file.

@@ -1,9 +1,9 @@
 //! What the air in the tank does: a slice of it, 2D, with water and air as two phases, or with water alone.
 //! Both runs share scheme and cut-off, so that they differ by the air.
 
-use crate::common::{Failure, Options};
-use crate::run::SNAPSHOT;
-use crate::tank::{Case, GRAVITY};
+use super::common::{Failure, Options};
+use super::run::SNAPSHOT;
+use super::tank::{Case, GRAVITY};
 use meshfree::effect::{ExpansionMemory, TwoPhase, WithinPhase};
 use meshfree::material::Liquid;
 use meshfree::material::eos::Tait;
@@ -211,5 +211,5 @@ fn snapshot<T: Real>(
             case.spacing,
             water,
         );
-    crate::common::save_picture(&picture, folder.join("water_38ms"))
+    super::common::save_picture(&picture, folder.join("water_38ms"))
 }

@@ -1,12 +1,12 @@
 //! What must hold, measured: start-up pressure, impulses, balances, frames, and the wall that is left.
 //! Each line is a quantity, what it must be, and what was found; `docs/sloshing.md` keeps a full run.
 
-use crate::common::{Failure, Options};
-use crate::pulse::Pulse;
-use crate::report::{IMPULSIVE, acceleration, bracket, shares};
-use crate::run::{Record, Sample, in_tank, run};
-use crate::surface::Space;
-use crate::tank::{Case, GRAVITY, H_OVER_DX, WATER};
+use super::common::{Failure, Options};
+use super::pulse::Pulse;
+use super::report::{IMPULSIVE, acceleration, bracket, shares};
+use super::run::{Record, Sample, in_tank, run};
+use super::surface::Space;
+use super::tank::{Case, GRAVITY, H_OVER_DX, WATER};
 use meshfree::material::SoundSpeed;
 use meshfree::output::table::{Table, significant};
 use meshfree::scalar::Real;

@@ -1,10 +1,10 @@
 //! Elastic walls: the box of PMMA as one total-Lagrangian body, its deflections, energies and clamps.
 //! Vesenjak & Ren (2007) take shells; here particles fill the thickness.
 
-use crate::common::Failure;
-use crate::pulse::Pulse;
-use crate::run::Record;
-use crate::tank::{Case, GRAVITY};
+use super::common::Failure;
+use super::pulse::Pulse;
+use super::run::Record;
+use super::tank::{Case, GRAVITY};
 use meshfree::boundary::Motion;
 use meshfree::effect::StVenantKirchhoff;
 use meshfree::error::{Error, Problem};
@@ -242,7 +242,7 @@ impl Watch {
                 core::array::from_fn(|d| outer(-1.0, d)),
                 core::array::from_fn(|d| outer(1.0, d)),
             );
-        crate::common::save_picture(&picture, folder.join("walls_38ms"))
+        super::common::save_picture(&picture, folder.join("walls_38ms"))
     }
 }
 
@@ -355,7 +355,7 @@ fn plate(case: &Case, youngs: f64, pressure: f64) -> [f64; 2] {
 /// The deflection in the middle of the struck wall over time, with that of the plate under what acts just then.
 pub fn report(case: &Case, youngs: f64, record: &Record, folder: &Path) -> Result<String, Failure> {
     let load = |stand: &Stand| -> Result<f64, Error> {
-        let own = DENSITY * THICKNESS * crate::report::acceleration(case, stand.time)?;
+        let own = DENSITY * THICKNESS * super::report::acceleration(case, stand.time)?;
         Ok(stand.pressure + own)
     };
     let mut plates = [Vec::new(), Vec::new()];

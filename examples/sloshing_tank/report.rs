@@ -1,8 +1,8 @@
 //! Histories at the probes and the surface at 38 ms, with what theory says in the same axes.
 //! The references: the impulsive solution with its two far walls, and ρ a l of a slab of water.
 
-use crate::run::{Record, SNAPSHOT};
-use crate::tank::{Case, GRAVITY, WATER};
+use super::run::{Record, SNAPSHOT};
+use super::tank::{Case, GRAVITY, WATER};
 use meshfree::error::Error;
 use meshfree::output::svg::{Axis, Color, Figure, Panel, Series};
 use meshfree::output::table::{Table, significant};
@@ -128,7 +128,7 @@ pub fn table(case: &Case, runs: &[(String, &Record)]) -> Table {
         "time [s]",
     ]);
     for (name, record) in runs {
-        let point = |s: &crate::run::Sample| s.pressures.first().copied().unwrap_or(0.0);
+        let point = |s: &super::run::Sample| s.pressures.first().copied().unwrap_or(0.0);
         let peak = record.samples.iter().map(point).fold(0.0, f64::max);
         let window = [SNAPSHOT - 5e-4, SNAPSHOT + 5e-4];
         let at_snapshot = if case.until >= window[1] {

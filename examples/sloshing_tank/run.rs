@@ -1,10 +1,10 @@
 //! Running a case: what is sampled on the way, and what is kept at 38 ms and at the end.
 //! All coordinates are the tank's own: metres, origin at the inner corner, x towards the struck wall.
 
-use crate::common::Failure;
-use crate::elastic::{self, Stand, Watch};
-use crate::surface::{Occupancy, Space};
-use crate::tank::{Case, GRAVITY, WATER};
+use super::common::Failure;
+use super::elastic::{self, Stand, Watch};
+use super::surface::{Occupancy, Space};
+use super::tank::{Case, GRAVITY, WATER};
 use meshfree::observe::PressureProbe;
 use meshfree::output::csv::CsvWriter;
 use meshfree::output::picture::Picture;
@@ -401,7 +401,7 @@ fn snapshot<T: Real>(
             in_tank(case, now)?.map(|(x, p)| (x, 1e-3 * p)),
         )
         .edges([0.0; 3], case.size);
-    crate::common::save_picture(&picture, folder.join("particles_38ms"))
+    super::common::save_picture(&picture, folder.join("particles_38ms"))
 }
 
 /// The files that grow while a case runs.

@@ -1,8 +1,8 @@
 //! Where the water is: the share of the kernel that it fills, on a grid of half the spacing.
 //! Walls take a share of the kernel away, and the rest is what water is counted against.
 
-use crate::run::{shift, walls};
-use crate::tank::Case;
+use super::run::{shift, walls};
+use super::tank::Case;
 use meshfree::kernel::{Kernel, WendlandC2};
 use meshfree::prelude::*;
 

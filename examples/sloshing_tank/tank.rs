@@ -1,8 +1,8 @@
 //! The case: a closed tank, part full of water, that is accelerated along its length.
 //! What Vesenjak & Ren (2007) do not state is chosen here, and the console says so.
 
-use crate::elastic;
-use crate::pulse::{Pulse, STANDARD_GRAVITY};
+use super::elastic;
+use super::pulse::{Pulse, STANDARD_GRAVITY};
 use meshfree::error::{BuildError, Error, Problem};
 use meshfree::material::{Liquid, SoundSpeed};
 use meshfree::observe::PressureProbe;

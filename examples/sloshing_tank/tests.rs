@@ -1,9 +1,9 @@
 //! Wrong input of the tank, each with the message that names it.
 //! What a right tank does is in `tests/liquids/sloshing.rs`.
 
-use crate::pulse::Pulse;
-use crate::surface::{Occupancy, Space};
-use crate::tank::{Case, H_OVER_DX, WATER};
+use super::pulse::Pulse;
+use super::surface::{Occupancy, Space};
+use super::tank::{Case, H_OVER_DX, WATER};
 use meshfree::material::SoundSpeed;
 
 fn case() -> Case {

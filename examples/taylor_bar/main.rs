@@ -70,7 +70,7 @@ const EXAMPLE: Example = Example {
     ],
 };
 
-fn main() -> ExitCode {
+pub fn main() -> ExitCode {
     common::main(&EXAMPLE, perform, None)
 }
 

@@ -1,7 +1,7 @@
 //! What the first steps of a run foretell of the rest, against the rest.
 //! Scenes of the other problems, in sizes of their own.
 
-use crate::{liquids, rods};
+use super::{liquids, rods};
 use meshfree::output::table::{Table, significant};
 use meshfree::prelude::*;
 use meshfree::study::cost_model::CostModel;

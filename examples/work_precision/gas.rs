@@ -1,7 +1,7 @@
 //! Sod's shock tube and Noh's problem in one dimension: two strong shocks with exact solutions.
 //! Density of all particles against the exact one, as a mean over the gas.
 
-use crate::problem::{Problem, Text, method, sweep};
+use super::problem::{Problem, Text, method, sweep};
 use meshfree::kernel::{CubicSpline, WendlandC4};
 use meshfree::material::eos::IdealGas;
 use meshfree::prelude::*;

@@ -1,8 +1,8 @@
 //! Gresho's vortex in two dimensions: gas that turns, without a shock, and so without need of a viscosity.
 //! The exact flow is steady; what a run loses of it is what its viscosity takes.
 
-use crate::gas::{signal, switched};
-use crate::problem::{Problem, Text, method, sweep};
+use super::gas::{signal, switched};
+use super::problem::{Problem, Text, method, sweep};
 use meshfree::material::eos::IdealGas;
 use meshfree::prelude::*;
 use meshfree::scene::Start;

@@ -1,7 +1,7 @@
 //! Noh's implosion and Sedov's blast in three dimensions, of which an eighth is run between planes of symmetry.
 //! Density against the exact one, on spacings as coarse as three dimensions allow.
 
-use crate::problem::{Problem, Text, method, sweep};
+use super::problem::{Problem, Text, method, sweep};
 use meshfree::kernel::CubicSpline;
 use meshfree::material::eos::IdealGas;
 use meshfree::prelude::*;

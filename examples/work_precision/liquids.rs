@@ -1,7 +1,7 @@
 //! Water under gravity in a tank, in two dimensions: at rest, in a standing wave, and as a column that falls.
 //! The first two have exact answers, the hydrostatic pressure and the period of theory; the third has its own finest run.
 
-use crate::problem::{Problem, Text, liquid, plain_viscosity, sweep, with};
+use super::problem::{Problem, Text, liquid, plain_viscosity, sweep, with};
 use meshfree::boundary::Wall;
 use meshfree::integrator::DriftKickDrift;
 use meshfree::kernel::CubicSpline;

@@ -1,8 +1,8 @@
 //! The page of a study: for every problem its plot, errors by spacing, the runs on the front, the laws, answers, and the words about them.
 //! All numbers are from the run that writes it.
 
-use crate::choices;
-use crate::problem::Text;
+use super::choices;
+use super::problem::Text;
 use meshfree::error::Error;
 use meshfree::output::table::{Table, significant};
 use meshfree::study::work_precision::{Estimate, Refusal, Report, Row, View};

@@ -1,7 +1,7 @@
 //! A free elastic plate that bends, in two dimensions: its period.
 //! Against Timoshenko's beam, and against the limit of its own refinement, which tells one from the other.
 
-use crate::problem::{Problem, Text, method, sweep};
+use super::problem::{Problem, Text, method, sweep};
 use meshfree::effect::NeoHookean;
 use meshfree::material::eos::Linear;
 use meshfree::prelude::*;

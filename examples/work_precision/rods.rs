@@ -1,7 +1,7 @@
 //! Copper rods at 20 m/s on copper and on PMMA: the pressure along both, the front, and the ripple of the tension behind it.
 //! Exact to what Godunov's method leaves on cells a fifth of the finest spacing.
 
-use crate::problem::{Problem, Text, method, with};
+use super::problem::{Problem, Text, method, with};
 use meshfree::integrator::DriftKickDrift;
 use meshfree::kernel::{CubicSpline, WendlandC2};
 use meshfree::material::catalogue;

@@ -1,7 +1,7 @@
 //! A standing sound wave in a weakly compressible liquid, in one, two and three dimensions.
 //! After one period it should be what it was.
 
-use crate::problem::{Problem, Text, liquid, plain_viscosity, sweep};
+use super::problem::{Problem, Text, liquid, plain_viscosity, sweep};
 use meshfree::material::{Liquid, SoundSpeed};
 use meshfree::prelude::*;
 use meshfree::scene::Start;

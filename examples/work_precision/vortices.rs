@@ -1,7 +1,7 @@
 //! Taylor–Green vortices at Re 100 in two dimensions, which decay by viscosity alone.
 //! Speed by the energy, velocity and pressure by their fields, against the exact flow.
 
-use crate::problem::{Problem, Text, method, sweep};
+use super::problem::{Problem, Text, method, sweep};
 use meshfree::kernel::WendlandC4;
 use meshfree::material::{Liquid, SoundSpeed};
 use meshfree::prelude::*;

@@ -1,8 +1,8 @@
 //! "Within a minute": what a study answers, and what comes of it when it is run.
 //! The answer is of the whole sweeps of two problems; the run is one that they did not see.
 
-use crate::problem::Problem;
-use crate::{liquids, rods};
+use super::problem::Problem;
+use super::{liquids, rods};
 use meshfree::output::table::{Table, significant};
 use meshfree::study::work_precision::{Clock, Estimate, Failure};
 use std::time::Duration;
