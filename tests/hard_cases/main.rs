@@ -6,6 +6,7 @@ mod corner_impact;
 mod elliptic_drop;
 mod gas;
 mod gas_in_a_plane;
+mod gas_in_space;
 mod harness;
 mod jittered;
 mod rods;
