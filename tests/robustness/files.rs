@@ -39,7 +39,7 @@ fn alter(n: &mut Numbers, bytes: &[u8]) -> Vec<u8> {
 
 const TEXT: &str = "# a comment\nt [s],p [Pa],\"a, b\"\n0,1.5,\"x\"\n1e-3,-2.5e300,y\n2e-3,NaN,z\n";
 
-fn table(seed: u64) -> &'static str {
+pub fn table(seed: u64) -> &'static str {
     let mut n = Numbers::of(seed);
     let bytes = alter(&mut n, TEXT.as_bytes());
     let text = String::from_utf8_lossy(&bytes);
@@ -69,7 +69,7 @@ fn tables_are_read_or_refused() {
     assert!(guard::share(&words, "read") > 100 && guard::share(&words, "refused") > 100);
 }
 
-fn record(seed: u64) -> &'static str {
+pub fn record(seed: u64) -> &'static str {
     let mut n = Numbers::of(seed);
     let mut time = 0.0;
     let count = n.below(8);
@@ -174,13 +174,13 @@ mod meshes {
 }
 
 #[cfg(feature = "checkpoint")]
-mod checkpoints {
+pub mod checkpoints {
     use super::{alter, guard};
     use crate::numbers::Numbers;
     use meshfree::effect::NeoHookean;
     use meshfree::prelude::*;
 
-    fn scene() -> Scene<f64, 2> {
+    pub fn scene() -> Scene<f64, 2> {
         let water = catalogue::weakly_compressible_water(10.0);
         let plate = Body::block(
             "plate",

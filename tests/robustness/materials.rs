@@ -128,7 +128,7 @@ pub fn material(n: &mut Numbers) -> Material<f64> {
     material
 }
 
-fn case(seed: u64) -> &'static str {
+pub fn case(seed: u64) -> &'static str {
     let mut n = Numbers::of(seed);
     let material = material(&mut n);
     if !material.problems().is_empty() {

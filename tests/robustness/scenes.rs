@@ -249,7 +249,7 @@ fn scene(n: &mut Numbers) -> S {
     scene
 }
 
-fn case(seed: u64) -> &'static str {
+pub fn case(seed: u64) -> &'static str {
     let mut n = Numbers::of(seed);
     let scene = scene(&mut n);
     let known = Known {
