@@ -38,7 +38,7 @@ const FORCE: f64 = 1e-4;
 /// Index of the liquid that is not Newtonian.
 const INDEX: f64 = 0.5;
 
-pub fn main() -> ExitCode {
+pub(crate) fn main() -> ExitCode {
     common::main(&EXAMPLE, perform::<f64>, None)
 }
 

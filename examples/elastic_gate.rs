@@ -49,7 +49,7 @@ const POISSON: f64 = 0.4;
 const CHANNEL: f64 = 0.15;
 const LAYERS: i64 = 3;
 
-pub fn main() -> ExitCode {
+pub(crate) fn main() -> ExitCode {
     common::main(&EXAMPLE, perform::<f64>, None)
 }
 

@@ -40,7 +40,7 @@ const EXAMPLE: Example = Example {
     ],
 };
 
-pub fn main() -> ExitCode {
+pub(crate) fn main() -> ExitCode {
     common::main(&EXAMPLE, perform::<f64>, None)
 }
 

@@ -16,7 +16,7 @@ const EXAMPLE: Example = Example {
     own: &[],
 };
 
-pub fn main() -> std::process::ExitCode {
+pub(crate) fn main() -> std::process::ExitCode {
     common::main(&EXAMPLE, perform::<f64>, None)
 }
 

@@ -23,7 +23,7 @@ const EXAMPLE: Example = Example {
 const DEPTH: f64 = 1.0;
 const GRAVITY: f64 = 9.81;
 
-pub fn main() -> ExitCode {
+pub(crate) fn main() -> ExitCode {
     common::main(&EXAMPLE, perform::<f64>, None)
 }
 

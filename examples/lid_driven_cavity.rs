@@ -35,7 +35,7 @@ const PLACES: usize = 257;
 /// Layers of wall particles.
 const LAYERS: usize = 4;
 
-pub fn main() -> ExitCode {
+pub(crate) fn main() -> ExitCode {
     common::main(&EXAMPLE, perform::<f64>, None)
 }
 

@@ -31,7 +31,7 @@ const RHO: f64 = 1000.0;
 /// Ten times the speed of a corner, to a tenth and a half.
 const SOUND: f64 = 10.0;
 
-pub fn main() -> ExitCode {
+pub(crate) fn main() -> ExitCode {
     common::main(&EXAMPLE, perform::<f64>, None)
 }
 

@@ -29,7 +29,7 @@ const LENGTH: f64 = 2.0;
 const DEPTH: f64 = 1.0;
 const GRAVITY: f64 = 9.81;
 
-pub fn main() -> ExitCode {
+pub(crate) fn main() -> ExitCode {
     common::main(&EXAMPLE, perform::<f64>, None)
 }
 

@@ -29,7 +29,7 @@ const EXAMPLE: Example = Example {
 /// Sound speed in units of the greatest speed.
 const SOUND: f64 = 10.0;
 
-pub fn main() -> ExitCode {
+pub(crate) fn main() -> ExitCode {
     common::main(&EXAMPLE, perform::<f64>, None)
 }
 

@@ -81,7 +81,7 @@ const TURNS: f64 = 20.0;
 const HELD: i64 = 5;
 const LAYERS: i64 = 3;
 
-pub fn main() -> ExitCode {
+pub(crate) fn main() -> ExitCode {
     common::main(&EXAMPLE, perform::<f64>, Some(perform::<f32>))
 }
 

@@ -237,7 +237,7 @@ fn figure(results: &[(Case, Option<Front>)], targets: &[&str]) -> Figure {
 
 const TEXT: &str = include_str!("viscosity_frontier.md");
 
-pub fn main() -> Result<(), Box<dyn Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let mut quick = false;
     let mut out = None;
     let mut arguments = std::env::args().skip(1);

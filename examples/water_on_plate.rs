@@ -58,7 +58,7 @@ const POISSON: f64 = 0.34;
 /// Columns that are held at each end, that at the edge among them.
 const HELD: i64 = 4;
 
-pub fn main() -> ExitCode {
+pub(crate) fn main() -> ExitCode {
     common::main(&EXAMPLE, perform::<f64>, None)
 }
 

@@ -62,7 +62,7 @@ const fn own(name: &'static str, value: &'static str, help: &'static str) -> Own
     Own { name, value, help }
 }
 
-pub fn main() -> ExitCode {
+pub(crate) fn main() -> ExitCode {
     common::main(&EXAMPLE, perform::<f64>, None)
 }
 

@@ -32,7 +32,7 @@ each choice gains.",
     )),
 };
 
-pub fn main() -> ExitCode {
+pub(crate) fn main() -> ExitCode {
     common::main(&EXAMPLE, perform::<f64>, Some(perform::<f32>))
 }
 

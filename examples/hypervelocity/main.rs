@@ -50,7 +50,7 @@ const EXAMPLE: Example = Example {
     ],
 };
 
-pub fn main() -> ExitCode {
+pub(crate) fn main() -> ExitCode {
     common::main(
         &EXAMPLE,
         |options| match options.text("--dimension").unwrap_or("2") {

@@ -27,7 +27,7 @@ use std::time::Instant;
 /// What can end the program early.
 type Failure = Box<dyn Error + Send + Sync>;
 
-pub fn main() -> ExitCode {
+pub(crate) fn main() -> ExitCode {
     let options = options::parse(std::env::args_os()).unwrap_or_else(|bad| bad.exit());
     match perform(&options) {
         Ok(()) => ExitCode::SUCCESS,

@@ -35,7 +35,7 @@ const POISSON: f64 = 0.3975;
 /// Speed of each ring in units of the speed of sound √(K/ρ).
 const MACH: f64 = 0.059;
 
-pub fn main() -> ExitCode {
+pub(crate) fn main() -> ExitCode {
     common::main(&EXAMPLE, perform::<f64>, None)
 }
 

@@ -44,7 +44,7 @@ const WATER: [f64; 2] = [998.0, 8.94e-4];
 /// The record's file.
 const PRESSURE: &str = "spheric10_lateral_water/pressure_sensor1.csv";
 
-pub fn main() -> ExitCode {
+pub(crate) fn main() -> ExitCode {
     common::main(&EXAMPLE, perform::<f64>, Some(perform::<f32>))
 }
 

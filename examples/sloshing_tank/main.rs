@@ -82,7 +82,7 @@ const fn own(name: &'static str, value: &'static str, help: &'static str) -> Own
 /// Heights \[m\] of the sensors on the struck wall, Point 1 first.
 const HEIGHTS: [f64; 6] = [0.05, 0.01, 0.10, 0.15, 0.20, 0.25];
 
-pub fn main() -> ExitCode {
+pub(crate) fn main() -> ExitCode {
     common::main(&EXAMPLE, perform::<f64>, Some(perform::<f32>))
 }
 

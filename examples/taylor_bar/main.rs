@@ -70,7 +70,7 @@ const EXAMPLE: Example = Example {
     ],
 };
 
-pub fn main() -> ExitCode {
+pub(crate) fn main() -> ExitCode {
     common::main(&EXAMPLE, perform, None)
 }
 

@@ -87,7 +87,7 @@ fn measure(problem: Problem, quick: bool, data: &Path, out: &Path) -> Result<Rep
     Ok(report)
 }
 
-pub fn main() -> Result<(), Failure> {
+pub(crate) fn main() -> Result<(), Failure> {
     let line = Line::parse();
     let quick = line.quick;
     // Small runs have nothing to share out, and one thread repeats.
