@@ -190,6 +190,20 @@ impl<K, P, const MODES: u8> FusedKernel<K, P, MODES> {
         K: Kernel<D>,
         P: Terms<D>,
     {
+        const {
+            // Layouts that are never run, but compiled with the rest, need no room.
+            let mode = match HOW & (MEAN | OWN) {
+                UNIFORM => SmoothingMode::Uniform,
+                MEAN => SmoothingMode::Mean,
+                _ => SmoothingMode::Own,
+            };
+            if MODES & mode.bit() != 0 {
+                assert_room::<Composed<T, P, D, HOW>, D>();
+                if P::WRITES.contains(Output::POWER) {
+                    assert_room::<Composed<T, Working<P>, D, HOW>, D>();
+                }
+            }
+        }
         match pass {
             Pass::Rates => self.go::<T, D, P, HOW>(&self.terms, input, records, rows),
             // Work is only ever asked of sweeps that carry energy.
@@ -210,17 +224,6 @@ impl<K, P, const MODES: u8> FusedKernel<K, P, MODES> {
     ) where
         K: Kernel<D>,
     {
-        const {
-            // Layouts that are never run, but compiled with the rest, need no room.
-            let mode = match HOW & (MEAN | OWN) {
-                UNIFORM => SmoothingMode::Uniform,
-                MEAN => SmoothingMode::Mean,
-                _ => SmoothingMode::Own,
-            };
-            if MODES & mode.bit() != 0 {
-                assert_room::<Composed<T, Q, D, HOW>, D>();
-            }
-        }
         let width = <T::Wide<false> as Lane>::WIDTH;
         rows.lay_out(Composed::<T, Q, D, HOW>::WRITES);
         let row = rows.outputs.width(D) * width;
