@@ -276,7 +276,7 @@ pub enum CheckpointProblem {
     },
     /// The machine cannot run the loops that it was written by.
     #[error(
-        "its pair loops ran on {found}, which this machine lacks, and other instructions round otherwise: resume on \
+        "its pair loops ran on {found}, which this machine or this build lacks, and other instructions round otherwise: resume on \
          a machine that has it, or run on `InstructionSet::Baseline` from the start"
     )]
     Instructions {

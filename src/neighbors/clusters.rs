@@ -142,7 +142,7 @@ impl ClusterLists {
 
     /// Finds the neighbours of every cluster.
     pub fn rebuild<T: Real, const D: usize>(&mut self, input: &SearchInput<'_, T, D>) {
-        let instructions = input.instructions.or_baseline();
+        let instructions = input.instructions.or_detected();
         // Blocks at once: liquid by one thread and walls by another.
         let sources = collect(input.blocks.len(), |block| Source::of_block(input, block));
         let clusters = input.slots / input.width;

@@ -241,7 +241,7 @@ impl<K, P, const MODES: u8> FusedKernel<K, P, MODES> {
         rows.reactions
             .resize_with(input.lists.chunks().len(), Vec::new);
         let h = T::from_f64(input.smoothing_length);
-        let instructions = input.instructions.or_baseline();
+        let instructions = input.instructions.or_detected();
         let task = Task {
             kernel: &self.kernel,
             terms,

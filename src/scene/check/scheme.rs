@@ -205,8 +205,11 @@ impl<T: Real, const D: usize> Scene<T, D> {
         }
         if !self.instructions.available() {
             problems.push(Problem::Incompatible {
-                what: format!("this machine does not have {:?}", self.instructions),
-                remedy: "leave the choice to the scene, or take InstructionSet::Baseline",
+                what: format!(
+                    "this machine, or this build, does not have {:?}",
+                    self.instructions
+                ),
+                remedy: "leave the choice to the scene, or take InstructionSet::Baseline in a build for any machine",
             });
         }
     }

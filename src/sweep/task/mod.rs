@@ -96,7 +96,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         // the loop: wider instructions are not worth a copy there.
         #[cfg(target_arch = "x86_64")]
         if const { D > 1 && !K::CHOSEN_AT_RUN_TIME } {
-            // SAFETY: `go` passes only what `InstructionSet::or_baseline` found on this machine.
+            // SAFETY: `go` passes only what `InstructionSet::or_detected` found on this machine.
             match instructions {
                 InstructionSet::Avx512 => unsafe {
                     return self.chunk_avx512::<HOW>(
@@ -108,7 +108,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                         reactions,
                     );
                 },
-                InstructionSet::Avx2 => unsafe {
+                InstructionSet::Avx2 if const { InstructionSet::Avx2.compiled() } => unsafe {
                     return self.chunk_avx2::<HOW>(
                         self.kernel,
                         self.terms,
@@ -118,7 +118,13 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                         reactions,
                     );
                 },
-                InstructionSet::Baseline => {}
+                _ => {}
+            }
+            // A build for machines that have more leaves no loop behind.
+            if const { !InstructionSet::Baseline.compiled() } {
+                unreachable!(
+                    "a build without loops of the baseline is for machines that have more"
+                );
             }
         }
         let _ = instructions;
