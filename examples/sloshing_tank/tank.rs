@@ -85,7 +85,7 @@ impl Case {
     }
 
     /// What is wrong with the tank, its probes and its spacing.
-    fn problems(&self) -> Vec<Problem> {
+    pub fn problems(&self) -> Vec<Problem> {
         let mut problems = Vec::new();
         let mut refuse = |what: String, value: f64, must_be: &'static str| {
             problems.push(Problem::Parameter {

@@ -4,6 +4,7 @@
 use super::pulse::Pulse;
 use super::surface::{Occupancy, Space};
 use super::tank::{Case, H_OVER_DX, WATER};
+use meshfree::error::{BuildError, Error};
 use meshfree::material::SoundSpeed;
 
 fn case() -> Case {
@@ -24,14 +25,19 @@ fn case() -> Case {
     }
 }
 
+/// What [`Case::build`] refuses before it builds: the crate's own checks are tested where they are.
 fn message(case: &Case) -> String {
-    case.build::<f64>()
-        .err()
-        .map_or_else(String::new, |error| error.to_string())
+    let problems = case.problems();
+    let refused = if problems.is_empty() {
+        case.pulse.motion::<3>(case.peak()).err()
+    } else {
+        Some(Error::Build(BuildError { problems }))
+    };
+    refused.map_or_else(String::new, |error| error.to_string())
 }
 
 #[test]
-fn a_right_tank_is_built() {
+fn a_right_tank_is_not_refused() {
     assert_eq!(message(&case()), "");
 }
 
@@ -39,7 +45,7 @@ fn a_right_tank_is_built() {
 fn wrong_tanks_are_refused_with_the_field() {
     let outside = vec![[0.5, 0.15, 0.35]];
     let off_the_wall = vec![[0.4, 0.15, 0.05]];
-    let wrong: [(&str, &str, Case); 7] = [
+    let wrong: [(&str, &str, Case); 6] = [
         (
             "fill is 1.1",
             "100 %",
@@ -88,14 +94,6 @@ fn wrong_tanks_are_refused_with_the_field() {
                 ..case()
             },
         ),
-        (
-            "pressure_cut_off",
-            "negative",
-            Case {
-                cut_off: 5.0,
-                ..case()
-            },
-        ),
     ];
     for (field, remedy, case) in wrong {
         let text = message(&case);
@@ -118,18 +116,6 @@ fn wrong_tanks_are_refused_with_the_field() {
     ] {
         assert!(text.contains(field), "{field}: {text}");
     }
-    let slow = Case {
-        sound_speed: SoundSpeed::Artificial {
-            mach: 0.2,
-            speed: 17.2,
-        },
-        ..case()
-    };
-    assert!(
-        message(&slow).contains("ten times the expected"),
-        "{}",
-        message(&slow)
-    );
 }
 
 #[test]
