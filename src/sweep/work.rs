@@ -45,6 +45,7 @@ impl<P: Terms<D>, const D: usize> Terms<D> for Working<P> {
         if !P::WRITES.contains(Output::FORCE) {
             return;
         }
+        sums.settle(pair.f);
         let (mut work, mut gained) = (L::zero(), L::zero());
         for d in 0..D {
             let free = sums.force.plus(d, L::zero());

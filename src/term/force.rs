@@ -17,6 +17,11 @@ impl<L: Lane> Along<L> {
     pub fn value(self) -> L {
         self.0.unwrap_or_else(L::zero)
     }
+    /// What terms have set, which is nothing from then on.
+    #[inline(always)]
+    pub(crate) fn take(&mut self) -> Option<L> {
+        self.0.take()
+    }
     /// Adds a product, with one rounding where lanes are fused.
     #[inline(always)]
     pub fn add_product(&mut self, a: L, b: L) {

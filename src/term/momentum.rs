@@ -25,10 +25,12 @@ impl<const D: usize> Term<D> for PressureForce {
     const WRITES: Outputs = Outputs::of(&[Output::FORCE]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let stress = pair
-            .i(Field::PRESSURE_COEFFICIENT)
-            .mul_add(pair.f_i, pair.j(Field::PRESSURE_COEFFICIENT) * pair.f_j);
-        sums.radial -= pair.i(Field::WEIGHT) * pair.j(Field::WEIGHT) * stress;
+        let weights = pair.i(Field::WEIGHT) * pair.j(Field::WEIGHT);
+        let [x_i, x_j] = [
+            pair.i(Field::PRESSURE_COEFFICIENT),
+            pair.j(Field::PRESSURE_COEFFICIENT),
+        ];
+        sums.add_along_gradients(pair, -weights, x_i, x_j);
     }
     fn document(&self) -> TermDoc {
         TermDoc {

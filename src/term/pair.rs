@@ -87,6 +87,8 @@ pub trait Layout: 'static {
     const READS: Fields;
     /// The sums that are kept.
     const WRITES: Outputs;
+    /// Whether both particles of a pair have the same gradient factor, because one smoothing length serves both.
+    const ONE_GRADIENT: bool = false;
 }
 
 /// A pair (i, j), or a row of pairs with the same j.
@@ -126,6 +128,8 @@ pub struct Pair<'a, L: Lane, const D: usize, P: Layout> {
     /// First moment −Σ V r·∇W/D of the lattice, for terms that are divided by it; one in schemes whose
     /// particles carry their own.
     pub lattice_consistency_factor: L,
+    /// Whether gradient factors are those of a contact, which differ for the two.
+    pub(crate) gated: bool,
     pub(crate) i: &'a [L; MOST_READS],
     pub(crate) j: &'a [L::Broadcast],
     pub(crate) layout: PhantomData<P>,
@@ -209,6 +213,9 @@ impl<L: Lane, const D: usize, P: Layout> Pair<'_, L, D, P> {
 pub struct Sums<L: Lane, const D: usize, P: Layout> {
     /// This pair's force on i along rᵢⱼ, divided by rᵢⱼ \[N/m\]: symmetric in i and j.
     pub radial: Along<L>,
+    /// This pair's force on i along ∇ᵢWᵢⱼ = F rᵢⱼ, divided by it \[N m⁴ in space\]: symmetric in i and j. What is a multiple
+    /// of F goes here, and terms share the product with it.
+    pub gradient: Along<L>,
     /// This pair's force on i along vᵢⱼ, divided by vᵢⱼ \[N s/m\]: symmetric in i and j.
     pub shear: Along<L>,
     /// This pair's force on i in any other direction \[N\]: antisymmetric in i and j.
@@ -223,6 +230,7 @@ impl<L: Lane, const D: usize, P: Layout> Sums<L, D, P> {
         let zero = L::zero();
         Self {
             radial: Along::NOTHING,
+            gradient: Along::NOTHING,
             shear: Along::NOTHING,
             force: FreeForce::NOTHING,
             kept: [zero; MOST_SUMS],
@@ -251,8 +259,33 @@ impl<L: Lane, const D: usize, P: Layout> Sums<L, D, P> {
     #[inline(always)]
     pub(crate) fn next_pair(&mut self) {
         self.radial = Along::NOTHING;
+        self.gradient = Along::NOTHING;
         self.shear = Along::NOTHING;
         self.force = FreeForce::NOTHING;
+    }
+    /// Adds a force of which each side has a part with its own gradient factor: A (aᵢ Fᵢ + aⱼ Fⱼ) rᵢⱼ on i, with A symmetric in
+    /// i and j.
+    #[inline(always)]
+    pub fn add_along_gradients(&mut self, pair: &Pair<'_, L, D, P>, factor: L, a_i: L, a_j: L) {
+        if !P::ONE_GRADIENT {
+            let sides = a_i.mul_add(pair.f_i, a_j * pair.f_j);
+            self.radial.add_product(factor, sides);
+            return;
+        }
+        let sides = if pair.gated {
+            let sides = a_i.mul_add(pair.f_i, a_j * pair.f_j) / pair.f;
+            L::select(pair.f.lt(L::zero()), sides, L::zero())
+        } else {
+            a_i + a_j
+        };
+        self.gradient.add_product(factor, sides);
+    }
+    /// Counts what terms have set along the gradient of the kernel among the forces along rᵢⱼ.
+    #[inline(always)]
+    pub(crate) fn settle(&mut self, f: L) {
+        if let Some(gradient) = self.gradient.take() {
+            self.radial.add_product(gradient, f);
+        }
     }
     /// The kept force; zero where no term sets one.
     #[inline(always)]

@@ -43,6 +43,7 @@ impl<const D: usize, A: Term<D>> Layout for Alone<A, D> {
         Field::SMOOTHING_LENGTH,
     ]));
     const WRITES: Outputs = Outputs::ALL.union(A::WRITES);
+    const ONE_GRADIENT: bool = true;
 }
 
 /// Evaluates one term for one pair under `kernel` with the mean of the two smoothing lengths, and a body
@@ -111,12 +112,14 @@ pub fn probe<L: Lane, const D: usize, K: Kernel<D>, A: Term<D>>(
         mobile_i: L::one(),
         body_force: core::array::from_fn(|d| if d == 0 { L::one() } else { L::zero() }),
         lattice_consistency_factor: L::one(),
+        gated: false,
         i: &own,
         j: &other,
         layout: PhantomData,
     };
     let mut sums = Sums::new();
     term.pair(&pair, &mut sums);
+    sums.settle(pair.f);
     Probe {
         radial: sums.radial.value(),
         shear: sums.shear.value(),

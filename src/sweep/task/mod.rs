@@ -25,6 +25,7 @@ pub(super) struct Composed<T, P, const D: usize, const HOW: u8>(PhantomData<(T, 
 impl<T: Real, P: Terms<D>, const D: usize, const HOW: u8> Layout for Composed<T, P, D, HOW> {
     const READS: Fields = reads::<T, P, D>(HOW);
     const WRITES: Outputs = P::WRITES;
+    const ONE_GRADIENT: bool = HOW & OWN == 0;
 }
 
 pub(super) const fn reads<T: Real, P: Terms<D>, const D: usize>(how: u8) -> Fields {

@@ -166,12 +166,14 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                 mobile_i: mobile[0],
                 body_force,
                 lattice_consistency_factor,
+                gated: false,
                 i: own,
                 j: record,
                 layout: PhantomData,
             };
             if contact {
                 if let Some(active) = self.active::<L>(first) {
+                    pair.gated = true;
                     pair.f_i *= active;
                     pair.f_j *= L::splat(self.contact_activity[self.source(j)]);
                     pair.f = (pair.f_i + pair.f_j) * L::of(0.5);
@@ -182,6 +184,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
             }
             sums.next_pair();
             self.terms.pair(&pair, sums);
+            sums.settle(pair.f);
             apply(&pair, sums);
         }
         total.take(&kept);

@@ -1,7 +1,7 @@
 //! Monaghan–Gingold viscosity, taken back where the flow turns instead of closing in.
 //! Balsara 1995.
 
-use super::{ArtificialViscosity, Viscous, between, coefficients};
+use super::{ArtificialViscosity, Viscous, approach, between, coefficients};
 use crate::particles::{Field, Fields};
 use crate::scalar::Lane;
 use crate::term::{Layout, Pair, TermDoc};
@@ -44,7 +44,12 @@ impl<const D: usize> ArtificialViscosity<D> for Balsara {
     };
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>) -> Viscous<L> {
-        let mut viscous = between(pair, pair.v_dot_r, L::of(self.alpha), L::of(self.beta));
+        let mut viscous = between(
+            pair,
+            approach(pair),
+            L::of(self.alpha),
+            Some(L::of(self.beta)),
+        );
         if const { D > 1 } {
             let noise = L::of(NOISE) / pair.h;
             let at_i = factor::<L, D>(

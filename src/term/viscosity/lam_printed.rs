@@ -1,7 +1,7 @@
 //! Equation 22 of Lam, Shen & Gong (2002) with the sign that is printed: a control, not a cure.
 //! Its linear term pushes approaching particles together and feeds energy into the flow.
 
-use super::{ArtificialViscosity, Viscous, between, coefficients};
+use super::{ArtificialViscosity, Viscous, approach, between, coefficients};
 use crate::particles::Fields;
 use crate::scalar::Lane;
 use crate::term::{Layout, Pair, TermDoc};
@@ -23,8 +23,18 @@ impl<const D: usize> ArtificialViscosity<D> for LamPrinted {
     const READS: Fields = Fields::NONE;
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>) -> Viscous<L> {
-        let corrected = between(pair, pair.v_dot_r, L::of(self.alpha), L::of(self.beta));
-        let printed = between(pair, pair.v_dot_r, L::of(-self.alpha), L::of(self.beta));
+        let corrected = between(
+            pair,
+            approach(pair),
+            L::of(self.alpha),
+            Some(L::of(self.beta)),
+        );
+        let printed = between(
+            pair,
+            approach(pair),
+            L::of(-self.alpha),
+            Some(L::of(self.beta)),
+        );
         Viscous {
             pi: printed.pi,
             signal: corrected.signal,

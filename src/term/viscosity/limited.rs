@@ -42,9 +42,9 @@ impl<const D: usize> ArtificialViscosity<D> for LimitedMonaghanGingold {
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>) -> Viscous<L> {
         between(
             pair,
-            limited_jump(pair),
+            limited_jump(pair).min(L::zero()),
             L::of(self.alpha),
-            L::of(self.beta),
+            Some(L::of(self.beta)),
         )
     }
     fn document(&self) -> TermDoc {
@@ -83,6 +83,6 @@ fn limited_jump<L: Lane, const D: usize, P: Layout>(pair: &Pair<'_, L, D, P>) ->
     let ratio = small / L::select(same_sign, large, L::one());
     let limiter = L::select(same_sign, (ratio + ratio).min(L::one()), L::zero());
     let left = pair.v_dot_r - limiter * L::of(0.5) * (at_i + at_j);
-    let reversed = (left * pair.v_dot_r).lt(L::zero());
-    L::select(reversed, L::zero(), left)
+    let same_side = (left * pair.v_dot_r).gt(L::zero());
+    L::select(same_side, left, L::zero())
 }

@@ -122,7 +122,7 @@ impl<const D: usize, V: ArtificialViscosity<D>> Term<D> for Viscosity<V> {
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
         let viscous = self.0.pair(pair);
         let masses = pair.i(Field::MASS) * (pair.mobile * pair.mobile_i) * pair.j(Field::MASS);
-        sums.radial.add_product(-(masses * viscous.pi), pair.f);
+        sums.gradient.add_product(-masses, viscous.pi);
         let inside = pair.f.lt(L::zero());
         sums.raise(Output::SIGNAL, L::select(inside, viscous.signal, L::zero()));
         self.0.sums(pair, sums);
@@ -132,28 +132,32 @@ impl<const D: usize, V: ArtificialViscosity<D>> Term<D> for Viscosity<V> {
     }
 }
 
-/// Π and signal with the means of sound speed and density, from the jump of v·r that dissipates.
-///
-/// μ = h jump/(r² + 0.01 h²) of an approaching pair, zero otherwise; whether it approaches is asked of
-/// the full velocity difference.
+/// v·r of an approaching pair, zero otherwise.
+#[inline(always)]
+fn approach<L: Lane, const D: usize, P: Layout>(pair: &Pair<'_, L, D, P>) -> L {
+    pair.v_dot_r.min(L::zero())
+}
+
+/// Π and signal with the means of sound speed and density, from the v·r that dissipates, which is not positive: μ = h v·r/(r² +
+/// 0.01 h²). Without β two products a pair are saved, of some thirty.
 #[inline(always)]
 fn between<L: Lane, const D: usize, P: Layout>(
     pair: &Pair<'_, L, D, P>,
-    jump: L,
+    approach: L,
     alpha: L,
-    beta: L,
+    beta: Option<L>,
 ) -> Viscous<L> {
     // Twice the means: their halves cancel in Π.
     let sound_speeds = pair.i(Field::SOUND_SPEED) + pair.j(Field::SOUND_SPEED);
     let densities = pair.i(Field::DENSITY) + pair.j(Field::DENSITY);
-    let approaching = pair.v_dot_r.lt(L::zero()) & jump.lt(L::zero());
     let r2_over_h = pair.r2.mul_add(pair.h.recip(), pair.h * L::of(0.01));
     // One division serves μ and Π: it takes longer than all else here.
-    let quotient = jump / (r2_over_h * densities);
-    let mu_over_densities = L::select(approaching, quotient, L::zero());
-    let mu = mu_over_densities * densities;
+    let mu_over_densities = approach / (r2_over_h * densities);
     // 2 (α c̄ − β μ)
-    let speed = mu.mul_add(-(beta + beta), alpha * sound_speeds);
+    let linear = alpha * sound_speeds;
+    let speed = beta.map_or(linear, |beta| {
+        (mu_over_densities * densities).mul_add(-(beta + beta), linear)
+    });
     // Monaghan 1992, eq. 10.5: a viscous pair needs h/(c + 0.6 (α c + β |μ|)).
     Viscous {
         pi: -(mu_over_densities * speed),
@@ -177,7 +181,12 @@ fn between_own<L: Lane, const D: usize, P: Layout>(
 ) -> Viscous<L> {
     let field = Field::VISCOSITY_COEFFICIENT;
     let alpha = (pair.i(field) + pair.j(field)) * L::of(0.5);
-    between(pair, pair.v_dot_r, alpha, alpha * L::of(beta_over_alpha))
+    between(
+        pair,
+        approach(pair),
+        alpha,
+        Some(alpha * L::of(beta_over_alpha)),
+    )
 }
 
 /// What is wrong with a fixed pair of coefficients.

@@ -1,7 +1,7 @@
 //! The artificial viscosity of Monaghan and Gingold: linear and quadratic in the approach of a pair.
 //! Monaghan & Gingold 1983; Lam, Shen & Gong 2002, equations 22–24 with the sign of α corrected.
 
-use super::{ArtificialViscosity, Viscous, between, coefficients};
+use super::{ArtificialViscosity, Viscous, approach, between, coefficients};
 use crate::particles::Fields;
 use crate::scalar::Lane;
 use crate::term::{Layout, Pair, TermDoc};
@@ -39,7 +39,12 @@ impl<const D: usize> ArtificialViscosity<D> for MonaghanGingold {
     const READS: Fields = Fields::NONE;
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>) -> Viscous<L> {
-        between(pair, pair.v_dot_r, L::of(self.alpha), L::of(self.beta))
+        between(
+            pair,
+            approach(pair),
+            L::of(self.alpha),
+            (self.beta != 0.0).then(|| L::of(self.beta)),
+        )
     }
     fn document(&self) -> TermDoc {
         TermDoc {

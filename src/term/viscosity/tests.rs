@@ -106,12 +106,14 @@ fn ask<V: ArtificialViscosity<D>, const D: usize>(
         mobile_i: 1.0,
         body_force: [0.0; D],
         lattice_consistency_factor: 1.0,
+        gated: false,
         i: &own,
         j: &other,
         layout: PhantomData,
     };
     let mut sums = Sums::new();
     Term::<D>::pair(&Viscosity(law.clone()), &pair, &mut sums);
+    sums.settle(pair.f);
     assert!(sums.kept[..MOST_SUMS].iter().all(|sum| sum.is_finite()));
     (law.pair(&pair), sums.radial.value())
 }
