@@ -7,7 +7,7 @@ use crate::scalar::{InstructionSet, Lane, Mask, OnRows, Real};
 use std::ops::Range;
 
 /// Clusters that one thread takes at a time; fixed, so sums never depend on the number of threads.
-pub const CHUNK: usize = 32;
+pub const CHUNK: usize = 64;
 
 /// A run of slots that belongs to one body, or a run of images behind one boundary.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,7 +18,18 @@ pub struct Block {
     pub wall: bool,
 }
 
-/// A run of a cluster's neighbours that belong to one block.
+/// Where the neighbours of a cluster are in the order of its chunk.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Order {
+    /// In the cluster itself, in another chunk, or in another block.
+    Apart,
+    /// In later clusters of its chunk and block: a sweep may sum such a pair for both.
+    Later,
+    /// In earlier ones, which have the cluster among their later neighbours.
+    Earlier,
+}
+
+/// A run of a cluster's neighbours that belong to one block, and have one place in the order of its chunk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Segment {
     /// First entry in the chunk's list.
@@ -30,6 +41,8 @@ pub struct Segment {
     pub end: u32,
     /// The block that the neighbours belong to.
     pub block: u32,
+    /// Where they are in the order of the chunk; in one dimension all are [`Order::Apart`].
+    pub order: Order,
 }
 
 /// The neighbour lists of [`CHUNK`] clusters.
@@ -41,6 +54,22 @@ pub struct ChunkList {
     pub segments: Vec<Segment>,
     /// Where each cluster's segments start, and the end of the last.
     pub starts: Vec<u32>,
+}
+
+impl ChunkList {
+    /// Ends a run of neighbours of the last cluster, unless it is empty.
+    fn close(&mut self, start: usize, near_end: usize, block: usize, order: Order) {
+        let end = self.neighbors.len();
+        if end > start {
+            self.segments.push(Segment {
+                start: start as u32,
+                near_end: near_end as u32,
+                end: end as u32,
+                block: block as u32,
+                order,
+            });
+        }
+    }
 }
 
 /// The neighbour lists of all clusters of a group.
@@ -263,7 +292,12 @@ struct Scratch {
     far: Vec<u32>,
     /// The same of all parts.
     leaving: Vec<u32>,
+    /// What was found, by its order in the chunk: neighbours that stay, and those that may leave.
+    sorted: [[Vec<u32>; 2]; ORDERS.len()],
 }
+
+/// In this order a cluster meets its neighbours.
+const ORDERS: [Order; 3] = [Order::Apart, Order::Later, Order::Earlier];
 
 /// Lists every point within reach of any member, block after block: first those that stay in the support.
 fn search<T: Real, const D: usize>(
@@ -279,6 +313,7 @@ fn search<T: Real, const D: usize>(
         ranges,
         far,
         leaving,
+        sorted,
     } = scratch;
     let rows = &input.positions[members.clone()];
     let (mut low, mut high) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
@@ -319,17 +354,46 @@ fn search<T: Real, const D: usize>(
             });
             leaving.extend_from_slice(far);
         }
-        let near_end = chunk.neighbors.len();
-        chunk.neighbors.extend_from_slice(leaving);
-        let end = chunk.neighbors.len();
-        if end > start {
-            chunk.segments.push(Segment {
-                start: start as u32,
-                near_end: near_end as u32,
-                end: end as u32,
-                block: other as u32,
-            });
+        if D == 1 || other != block {
+            let near_end = chunk.neighbors.len();
+            chunk.neighbors.extend_from_slice(leaving);
+            chunk.close(start, near_end, other, Order::Apart);
+            continue;
         }
+        let chunk_slots = CHUNK * input.width;
+        let first = members.start / chunk_slots * chunk_slots;
+        let orders =
+            [first, members.start, members.end, first + chunk_slots].map(|slot| slot as u32);
+        for (of, found) in [&chunk.neighbors[start..], leaving].into_iter().enumerate() {
+            sort(found, orders, sorted.each_mut().map(|order| &mut order[of]));
+        }
+        chunk.neighbors.truncate(start);
+        for ([near, leaving], order) in sorted.iter().zip(ORDERS) {
+            let start = chunk.neighbors.len();
+            chunk.neighbors.extend_from_slice(near);
+            let near_end = chunk.neighbors.len();
+            chunk.neighbors.extend_from_slice(leaving);
+            chunk.close(start, near_end, other, order);
+        }
+    }
+}
+
+/// Sorts neighbours by their order in a chunk: `first` and `last` are the slots that it starts and ends with, `own` and `end`
+/// those of the cluster.
+fn sort(found: &[u32], [first, own, end, last]: [u32; 4], sorted: [&mut Vec<u32>; 3]) {
+    let mut counts = [0; 3];
+    let lists = sorted.map(|list| {
+        list.resize(found.len(), 0);
+        list
+    });
+    for &j in found {
+        // Without a branch: which it will be nothing foretells.
+        let order = usize::from(j >= end && j < last) + 2 * usize::from(j >= first && j < own);
+        lists[order][counts[order]] = j;
+        counts[order] += 1;
+    }
+    for (list, count) in lists.into_iter().zip(counts) {
+        list.truncate(count);
     }
 }
 
@@ -455,9 +519,12 @@ mod tests {
         let (mut found, mut missing) = (0, 0);
         for (c, chunk) in lists.chunks().iter().enumerate() {
             for (k, bounds) in chunk.starts.windows(2).enumerate() {
-                assert_eq!(bounds[1] - bounds[0], 1, "one run a block");
-                let segment = chunk.segments[bounds[0] as usize];
-                let listed = &chunk.neighbors[segment.start as usize..segment.end as usize];
+                let segments = &chunk.segments[bounds[0] as usize..bounds[1] as usize];
+                let runs = segments.iter().map(|s| s.start as usize..s.end as usize);
+                let listed: Vec<u32> = runs
+                    .flat_map(|run| &chunk.neighbors[run])
+                    .copied()
+                    .collect();
                 for i in (c * CHUNK + k) * 8..(c * CHUNK + k) * 8 + 8 {
                     for (j, y) in positions.iter().enumerate() {
                         let apart = (positions[i][0] - y[0]).hypot(positions[i][1] - y[1]);

@@ -27,7 +27,7 @@ mod clusters;
 mod hilbert;
 
 pub use cells::{Cells, Grid};
-pub use clusters::{Block, CHUNK, ChunkList, ClusterLists, Radii, SearchInput, Segment};
+pub use clusters::{Block, CHUNK, ChunkList, ClusterLists, Order, Radii, SearchInput, Segment};
 pub use hilbert::hilbert_index;
 
 /// Entries of the list of a row of `lanes` particles at unit spacing, inside of a body: a ball as wide as the reach and the

@@ -168,6 +168,16 @@ impl<T: Real, const W: usize, const FUSED: bool> Lane for Lanes<T, W, FUSED> {
         self.0[k]
     }
     #[inline(always)]
+    fn load(from: &[T]) -> Self {
+        let mut row = [T::default(); W];
+        row.copy_from_slice(&from[..W]);
+        Self(row)
+    }
+    #[inline(always)]
+    fn store(self, to: &mut [T]) {
+        to[..W].copy_from_slice(&self.0);
+    }
+    #[inline(always)]
     fn map(mut self, f: impl Fn(T) -> T) -> Self {
         for x in &mut self.0 {
             *x = f(*x);

@@ -1,6 +1,7 @@
 //! Scalars and lanes: the only place that knows machine types.
 //! One text of physics serves `f32` and `f64`, one particle at a time or a block of them.
 
+mod halves;
 mod instructions;
 mod lanes;
 mod root;
@@ -18,6 +19,7 @@ use core::ops::{
 };
 use num_traits::{NumAssign, One, Zero};
 use root::{root_by_divider, root_by_products};
+use std::cell::RefCell;
 
 /// The outcome of comparing two lanes, element by element.
 pub trait Mask:
@@ -108,6 +110,19 @@ pub trait Lane:
     fn from_fn(f: impl FnMut(usize) -> Self::Scalar) -> Self;
     /// Element `k`.
     fn extract(self, k: usize) -> Self::Scalar;
+    /// The elements that stand at the start of a slice, which has as many.
+    #[inline(always)]
+    #[must_use]
+    fn load(from: &[Self::Scalar]) -> Self {
+        Self::from_fn(|k| from[k])
+    }
+    /// Puts the elements to the start of a slice, which has room for them.
+    #[inline(always)]
+    fn store(self, to: &mut [Self::Scalar]) {
+        for (k, x) in to[..Self::WIDTH].iter_mut().enumerate() {
+            *x = self.extract(k);
+        }
+    }
     /// `f` applied to every element.
     fn map(self, f: impl Fn(Self::Scalar) -> Self::Scalar) -> Self;
     /// `self * factor + summand`, with one rounding on a fused lane and two elsewhere.
@@ -209,6 +224,12 @@ pub trait Real:
         row: Lanes<Self, W, FUSED>,
     ) -> Lanes<Self, W, FUSED>;
 
+    /// The sum of the elements of a row, or the largest of them.
+    #[doc(hidden)]
+    fn halves(row: &[Self], largest: bool) -> Self;
+    /// Room for so many numbers that the thread keeps, with whatever is in it, aligned for rows. `work` must not ask for room.
+    #[doc(hidden)]
+    fn with_room<R>(length: usize, work: impl FnOnce(&mut [Self]) -> R) -> R;
     /// Rounded from `f64`.
     fn from_f64(value: f64) -> Self;
     /// Widened to `f64`.
@@ -224,7 +245,7 @@ mod sealed {
 }
 
 macro_rules! real {
-    ($T:ident, $width:literal, $compensated:literal, $root:ident) => {
+    ($T:ident, $width:literal, $compensated:literal, $root:ident, $halves:ident) => {
         impl Lane for $T {
             type Scalar = $T;
             type Broadcast = $T;
@@ -307,6 +328,25 @@ macro_rules! real {
                 $root(row)
             }
             #[inline(always)]
+            fn halves(row: &[$T], largest: bool) -> $T {
+                halves::$halves(row, largest)
+            }
+            fn with_room<R>(length: usize, work: impl FnOnce(&mut [$T]) -> R) -> R {
+                // The bytes of a row of either scalar.
+                const ROW: usize = 64;
+                thread_local! {
+                    static ROOM: RefCell<Vec<$T>> = const { RefCell::new(Vec::new()) };
+                }
+                ROOM.with_borrow_mut(|room| {
+                    let spare = ROW / size_of::<$T>();
+                    if room.len() < length + spare {
+                        room.resize(length + spare, 0.0);
+                    }
+                    let start = room.as_ptr().align_offset(ROW);
+                    work(&mut room[start..start + length])
+                })
+            }
+            #[inline(always)]
             fn from_f64(value: f64) -> $T {
                 value as $T
             }
@@ -321,5 +361,5 @@ macro_rules! real {
         }
     };
 }
-real!(f64, 8, false, root_by_products);
-real!(f32, 16, true, root_by_divider);
+real!(f64, 8, false, root_by_products, of_eight);
+real!(f32, 16, true, root_by_divider, of_sixteen);

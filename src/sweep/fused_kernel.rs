@@ -3,7 +3,7 @@
 
 use super::records::{Image, Records, Transform};
 use super::results::{Reaction, Results};
-use super::task::{BEYOND, Composed, MEAN, OWN, Task, UNIFORM, reads};
+use super::task::{BEYOND, Composed, MEAN, OWN, Task, UNIFORM, reads, room_for_both};
 use super::work::Working;
 use super::{InstructionSet, Interaction, Root, SmoothingMode};
 use crate::kernel::Kernel;
@@ -265,7 +265,10 @@ impl<K, P, const MODES: u8> FusedKernel<K, P, MODES> {
             &mut rows.reactions[skipped..],
             &input.lists.chunks()[skipped..],
             &|chunk, list, out, reactions| {
-                task.dispatch::<HOW>(instructions, skipped + chunk, list, out, reactions);
+                T::with_room(room_for_both::<Composed<T, Q, D, HOW>, D>(width), |later| {
+                    let chunk = skipped + chunk;
+                    task.dispatch::<HOW>(instructions, chunk, list, later, out, reactions);
+                });
             },
         );
     }

@@ -103,7 +103,8 @@ impl<const D: usize> Term<D> for Fourtakas {
         // What depends on i alone is the compiler's to lift out of the loop.
         let own = pair.h * L::of(2.0 * self.delta) * pair.mobile / pair.i(Field::SOUND_SPEED);
         let rate = pair.j(Field::WEIGHT) * pair.f * own;
-        sums.add_product(Output::DENSITY_DIFFUSION, rate, dynamic_jump(pair));
+        let jump = pair.from_forward(dynamic_jump(&pair.forward()));
+        sums.add_product(Output::DENSITY_DIFFUSION, rate, jump);
     }
     fn document(&self) -> TermDoc {
         TermDoc {

@@ -17,6 +17,14 @@ impl<L: Lane> Along<L> {
     pub fn value(self) -> L {
         self.0.unwrap_or_else(L::zero)
     }
+    /// The opposite force.
+    #[inline(always)]
+    pub(crate) fn reversed(self) -> Self {
+        match self.0 {
+            Some(force) => Self(Some(-force)),
+            None => self,
+        }
+    }
     /// What terms have set, which is nothing from then on.
     #[inline(always)]
     pub(crate) fn take(&mut self) -> Option<L> {
@@ -85,6 +93,14 @@ impl<L: Lane, const D: usize> FreeForce<L, D> {
     #[must_use]
     pub fn value(self) -> [L; D] {
         self.0.map(Along::value)
+    }
+    /// The opposite force.
+    #[inline(always)]
+    pub(crate) fn reversed(mut self) -> Self {
+        for d in 0..D {
+            self.0[d] = self.0[d].reversed();
+        }
+        self
     }
     /// Component `d` of the force, and `sum`.
     #[inline(always)]

@@ -130,59 +130,114 @@ pub struct Pair<'a, L: Lane, const D: usize, P: Layout> {
     pub lattice_consistency_factor: L,
     /// Whether gradient factors are those of a contact, which differ for the two.
     pub(crate) gated: bool,
+    /// Whether i is the one that a row meets, and j the row.
+    pub(crate) swapped: bool,
+    /// The record of the row, which is i unless they are swapped.
     pub(crate) i: &'a [L; MOST_READS],
+    /// The record of the one that it meets.
     pub(crate) j: &'a [L::Broadcast],
     pub(crate) layout: PhantomData<P>,
 }
 
 impl<L: Lane, const D: usize, P: Layout> Pair<'_, L, D, P> {
+    /// The pair as j sees it, which has the smoothing length and the kernel that are given.
+    #[inline(always)]
+    pub(crate) fn swapped(&self, h_j: L, w_j: L) -> Self {
+        // Loops, for a closure would be compiled without wide instructions.
+        let (mut r, mut v) = (self.r, self.v);
+        for d in 0..D {
+            (r[d], v[d]) = (-r[d], -v[d]);
+        }
+        Self {
+            r,
+            v,
+            h_i: h_j,
+            w: w_j,
+            f_i: self.f_j,
+            f_j: self.f_i,
+            mobile: self.mobile_i,
+            mobile_i: self.mobile,
+            swapped: !self.swapped,
+            ..*self
+        }
+    }
+    /// A number of the row's record, or of the one that it meets.
+    #[inline(always)]
+    fn number(&self, at: usize, of_one: bool) -> L {
+        if of_one {
+            L::broadcast(self.j[at])
+        } else {
+            self.i[at]
+        }
+    }
+    /// The pair as its first side sees it. A sweep may sum a pair for both sides when it meets it; what only changes its sign
+    /// between them, and is dear, a term takes from here and hands to [`from_forward`](Self::from_forward): it is then made once.
+    ///
+    /// A method and not a function that takes one, because what is not inlined runs without wide instructions.
+    #[inline(always)]
+    #[must_use]
+    pub fn forward(&self) -> Self {
+        if self.swapped {
+            self.swapped(self.h_i, self.w)
+        } else {
+            Self { ..*self }
+        }
+    }
+    /// A quantity of the pair from that of [`forward`](Self::forward), with the opposite sign if that is the other side.
+    #[inline(always)]
+    #[must_use]
+    pub fn from_forward(&self, antisymmetric: L) -> L {
+        if self.swapped {
+            -antisymmetric
+        } else {
+            antisymmetric
+        }
+    }
     /// A scalar field of i. The field must be among the term's `READS`.
     #[inline(always)]
     #[must_use]
     pub fn i(&self, field: Field) -> L {
-        debug_assert!(P::READS.contains(field));
-        self.i[P::READS.offset(field, D)]
+        self.i_at(field, 0)
     }
     /// A scalar field of j.
     #[inline(always)]
     #[must_use]
     pub fn j(&self, field: Field) -> L {
-        debug_assert!(P::READS.contains(field));
-        L::broadcast(self.j[P::READS.offset(field, D)])
+        self.j_at(field, 0)
     }
     /// Component `k` of a vector or matrix field of i.
     #[inline(always)]
     #[must_use]
     pub fn i_at(&self, field: Field, k: usize) -> L {
         debug_assert!(P::READS.contains(field));
-        self.i[P::READS.offset(field, D) + k]
+        self.number(P::READS.offset(field, D) + k, self.swapped)
     }
     /// Component `k` of a vector or matrix field of j.
     #[inline(always)]
     #[must_use]
     pub fn j_at(&self, field: Field, k: usize) -> L {
         debug_assert!(P::READS.contains(field));
-        L::broadcast(self.j[P::READS.offset(field, D) + k])
+        self.number(P::READS.offset(field, D) + k, !self.swapped)
     }
     /// A symmetric tensor of i.
     #[inline(always)]
     #[must_use]
     pub fn i_tensor(&self, field: Field) -> Symmetric<L> {
-        debug_assert!(P::READS.contains(field) && field.shape() == Shape::Tensor);
-        let at = P::READS.offset(field, D);
+        debug_assert!(field.shape() == Shape::Tensor);
         let mut tensor = [L::zero(); 6];
-        tensor.copy_from_slice(&self.i[at..at + 6]);
+        for k in 0..6 {
+            tensor[k] = self.i_at(field, k);
+        }
         Symmetric::new(tensor)
     }
     /// A symmetric tensor of j.
     #[inline(always)]
     #[must_use]
     pub fn j_tensor(&self, field: Field) -> Symmetric<L> {
-        debug_assert!(P::READS.contains(field) && field.shape() == Shape::Tensor);
-        let at = P::READS.offset(field, D);
+        debug_assert!(field.shape() == Shape::Tensor);
         let mut tensor = [L::zero(); 6];
         for k in 0..6 {
-            tensor[k] = L::broadcast(self.j[at + k]);
+            tensor[k] = self.j_at(field, k);
         }
         Symmetric::new(tensor)
     }
@@ -221,6 +276,10 @@ pub struct Sums<L: Lane, const D: usize, P: Layout> {
     /// This pair's force on i in any other direction \[N\]: antisymmetric in i and j.
     pub force: FreeForce<L, D>,
     pub(crate) kept: [L; MOST_SUMS],
+    /// The forces along r and v and the free one, where the other side of the pair has found them.
+    known: Option<(Along<L>, Along<L>, FreeForce<L, D>)>,
+    /// Which of the kept numbers are maxima.
+    pub(crate) raised: u128,
     layout: PhantomData<P>,
 }
 
@@ -234,6 +293,8 @@ impl<L: Lane, const D: usize, P: Layout> Sums<L, D, P> {
             shear: Along::NOTHING,
             force: FreeForce::NOTHING,
             kept: [zero; MOST_SUMS],
+            known: None,
+            raised: 0,
             layout: PhantomData,
         }
     }
@@ -249,6 +310,7 @@ impl<L: Lane, const D: usize, P: Layout> Sums<L, D, P> {
     pub(crate) fn take(&mut self, from: &Self) {
         let width = P::WRITES.width(D);
         self.kept[..width].copy_from_slice(&from.kept[..width]);
+        self.raised |= from.raised;
     }
     /// Sets the sums that are kept to zero.
     #[inline(always)]
@@ -280,9 +342,22 @@ impl<L: Lane, const D: usize, P: Layout> Sums<L, D, P> {
         };
         self.gradient.add_product(factor, sides);
     }
-    /// Counts what terms have set along the gradient of the kernel among the forces along rᵢⱼ.
+    /// Sums for the other side of a pair, on which the opposite forces act.
+    #[inline(always)]
+    pub(crate) fn opposite(&self) -> Self {
+        Self {
+            known: Some((self.radial, self.shear, self.force.reversed())),
+            ..Self::new()
+        }
+    }
+    /// Counts what terms have set along the gradient of the kernel among the forces along rᵢⱼ. Where the other side of the pair
+    /// has found the forces they are taken from there, so that momentum is kept whatever terms round.
     #[inline(always)]
     pub(crate) fn settle(&mut self, f: L) {
+        if let Some((radial, shear, force)) = self.known {
+            (self.radial, self.shear, self.force) = (radial, shear, force);
+            return;
+        }
         if let Some(gradient) = self.gradient.take() {
             self.radial.add_product(gradient, f);
         }
@@ -347,8 +422,9 @@ impl<L: Lane, const D: usize, P: Layout> Sums<L, D, P> {
     #[inline(always)]
     pub fn raise(&mut self, output: Output, value: L) {
         if P::WRITES.contains(output) {
-            let kept = &mut self.kept[P::WRITES.offset(output, D)];
-            *kept = kept.max(value);
+            let at = P::WRITES.offset(output, D);
+            self.kept[at] = self.kept[at].max(value);
+            self.raised |= 1 << at;
         }
     }
 }

@@ -113,6 +113,7 @@ pub fn probe<L: Lane, const D: usize, K: Kernel<D>, A: Term<D>>(
         body_force: core::array::from_fn(|d| if d == 0 { L::one() } else { L::zero() }),
         lattice_consistency_factor: L::one(),
         gated: false,
+        swapped: false,
         i: &own,
         j: &other,
         layout: PhantomData,

@@ -7,7 +7,7 @@ use super::records::Image;
 use super::results::Reaction;
 use super::{InstructionSet, Interaction};
 use crate::kernel::Kernel;
-use crate::neighbors::{Block, CHUNK, ChunkList, Segment};
+use crate::neighbors::{Block, CHUNK, ChunkList, Order, Segment};
 use crate::particles::{Field, Fields, Output, Outputs, PLACES, Shape};
 use crate::scalar::{Lane, Mask, Real};
 use crate::tensor::Symmetric;
@@ -75,6 +75,29 @@ struct Row<'a, L> {
     contact: bool,
     /// One where the row, and where the segment, moves by forces; zero where it belongs to a wall.
     mobile: [L; 2],
+    /// Whether pairs are summed for both sides.
+    both: bool,
+    /// The first slot of the chunk.
+    chunk_first: usize,
+}
+
+/// Most numbers of a particle that are summed for both sides of a pair at once: with more the room that the other sides
+/// take is not in the processor's nearer memory.
+const MOST_FOR_BOTH: usize = 12;
+
+/// Whether a sweep sums a pair of particles of one chunk for both of them when it meets it the first time. In one dimension there
+/// is little to gain.
+pub(super) const fn summed_for_both<C: Layout, const D: usize>() -> bool {
+    D > 1 && C::WRITES.width(D) <= MOST_FOR_BOTH
+}
+
+/// How many numbers the other sides of the pairs of a chunk take.
+pub(super) const fn room_for_both<C: Layout, const D: usize>(width: usize) -> usize {
+    if summed_for_both::<C, D>() {
+        CHUNK * width * width * C::WRITES.width(D)
+    } else {
+        0
+    }
 }
 
 /// Neighbours that are looked through at once.
@@ -87,6 +110,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         instructions: InstructionSet,
         chunk: usize,
         list: &ChunkList,
+        later: &mut [T],
         out: &mut [T],
         reactions: &mut Vec<Reaction<D>>,
     ) where
@@ -105,6 +129,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                         self.terms,
                         chunk,
                         list,
+                        later,
                         out,
                         reactions,
                     );
@@ -115,6 +140,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                         self.terms,
                         chunk,
                         list,
+                        later,
                         out,
                         reactions,
                     );
@@ -129,7 +155,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
             }
         }
         let _ = instructions;
-        self.chunk::<T::Wide<false>, HOW>(chunk, list, out, reactions);
+        self.chunk::<T::Wide<false>, HOW>(chunk, list, later, out, reactions);
     }
 
     // Kernel and terms come as arguments: what those point to nothing else changes, so constants of a term are read and
@@ -142,6 +168,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         terms: &P,
         chunk: usize,
         list: &ChunkList,
+        later: &mut [T],
         out: &mut [T],
         reactions: &mut Vec<Reaction<D>>,
     ) where
@@ -153,7 +180,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
             terms,
             ..*self
         };
-        own.chunk::<T::Wide<true>, HOW>(chunk, list, out, reactions);
+        own.chunk::<T::Wide<true>, HOW>(chunk, list, later, out, reactions);
     }
 
     #[cfg(target_arch = "x86_64")]
@@ -164,6 +191,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         terms: &P,
         chunk: usize,
         list: &ChunkList,
+        later: &mut [T],
         out: &mut [T],
         reactions: &mut Vec<Reaction<D>>,
     ) where
@@ -175,7 +203,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
             terms,
             ..*self
         };
-        own.chunk::<T::Wide<true>, HOW>(chunk, list, out, reactions);
+        own.chunk::<T::Wide<true>, HOW>(chunk, list, later, out, reactions);
     }
 
     /// All clusters of one chunk.
@@ -184,6 +212,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         &self,
         chunk: usize,
         list: &ChunkList,
+        later: &mut [T],
         out: &mut [T],
         reactions: &mut Vec<Reaction<D>>,
     ) where
@@ -200,8 +229,17 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         let mut own = [L::zero(); MOST_READS];
         let mut sums = Sums::<L, D, Composed<T, P, D, HOW>>::new();
         let mut near = [0; BATCH];
+        let chunk_first = chunk * CHUNK * L::WIDTH;
+        let chunk_end = chunk_first + (list.starts.len() - 1) * L::WIDTH;
+        // Pairs of a block are summed for both sides if it has all its sums wanted in this chunk.
+        let for_both = |block: &Block| {
+            let own = block.slots.start.max(chunk_first)..block.slots.end.min(chunk_end);
+            let possible = const { summed_for_both::<Composed<T, P, D, HOW>, D>() };
+            possible && self.targets.start <= own.start && self.targets.end >= own.end
+        };
+        later.fill(T::zero());
         for (c, bounds) in list.starts.windows(2).enumerate() {
-            let first = (chunk * CHUNK + c) * L::WIDTH;
+            let first = chunk_first + c * L::WIDTH;
             let block = self.blocks.partition_point(|b| b.slots.end <= first);
             let live = self
                 .blocks
@@ -226,6 +264,10 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                 if interaction == Interaction::None || (contact && one_sided) {
                     continue;
                 }
+                let for_both = other == block && !contact && for_both(&self.blocks[block]);
+                if for_both && segment.order == Order::Earlier {
+                    continue;
+                }
                 let foreign = forces && other != block;
                 let before = if foreign {
                     sums.kept_force()
@@ -248,8 +290,10 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                     own: &own,
                     contact,
                     mobile,
+                    both: for_both && segment.order == Order::Later,
+                    chunk_first,
                 };
-                self.segment::<L, HOW>(row, listed, &mut near, &mut sums);
+                self.segment::<L, HOW>(row, listed, &mut near, later, &mut sums);
                 if contact {
                     self.read(first, stride, &mut own);
                     sums.divert_kernel_sum(kept);
@@ -265,6 +309,19 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                 for (lane, value) in values.iter_mut().enumerate() {
                     *value = sums.kept[k].extract(lane);
                 }
+            }
+        }
+        if const { summed_for_both::<Composed<T, P, D, HOW>, D>() } {
+            let rows = (0..list.starts.len() - 1).filter(|c| {
+                let first = chunk_first + c * L::WIDTH;
+                let block = self.blocks.partition_point(|b| b.slots.end <= first);
+                let own = self.blocks.get(block).filter(|b| b.slots.contains(&first));
+                self.targets.contains(&first) && own.is_some_and(for_both)
+            });
+            for c in rows {
+                let row = width_out * L::WIDTH;
+                let later = &later[c * L::WIDTH * row..(c + 1) * L::WIDTH * row];
+                add_later::<T, L>(later, &mut out[c * row..(c + 1) * row], sums.raised);
             }
         }
     }
@@ -334,6 +391,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         row: Row<'_, L>,
         (neighbors, staying): (&[u32], usize),
         near: &mut [u32; BATCH],
+        later: &mut [T],
         sums: &mut Sums<L, D, Composed<T, P, D, HOW>>,
     ) where
         K: Kernel<D>,
@@ -342,13 +400,48 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         // In one dimension a list has few entries too many, and with several smoothing lengths the
         // reach is not known before the pair is.
         if HOW & (MEAN | OWN) != 0 || D == 1 {
-            self.pairs::<L, HOW>(row, neighbors, sums);
+            self.of_sides::<L, HOW>(row, neighbors, later, sums);
             return;
         }
         for (k, batch) in neighbors.chunks(BATCH).enumerate() {
             let staying = staying.saturating_sub(k * BATCH).min(batch.len());
             let count = self.within_reach::<L, HOW>(row.own, batch, staying, near);
-            self.pairs::<L, HOW>(row, &near[..count], sums);
+            self.of_sides::<L, HOW>(row, &near[..count], later, sums);
+        }
+    }
+
+    /// Some neighbours for one side or for both. A loop for each: with a branch inside the compiler loses the rows.
+    #[inline(always)]
+    fn of_sides<L: Lane<Scalar = T, Broadcast = T>, const HOW: u8>(
+        &self,
+        row: Row<'_, L>,
+        neighbors: &[u32],
+        later: &mut [T],
+        sums: &mut Sums<L, D, Composed<T, P, D, HOW>>,
+    ) where
+        K: Kernel<D>,
+        P: Terms<D>,
+    {
+        if const { summed_for_both::<Composed<T, P, D, HOW>, D>() } && row.both {
+            self.pairs::<L, HOW, true>(row, neighbors, later, sums);
+        } else {
+            self.pairs::<L, HOW, false>(row, neighbors, later, sums);
+        }
+    }
+}
+
+/// Adds to the sums of a row what earlier rows have summed for its particles, lane by lane: `raised` says which are maxima.
+#[inline(always)]
+fn add_later<T: Real, L: Lane<Scalar = T>>(later: &[T], out: &mut [T], raised: u128) {
+    let width_out = out.len() / L::WIDTH;
+    for (slot, own) in later.chunks_exact(width_out * L::WIDTH).enumerate() {
+        for (k, lanes) in own.chunks_exact(L::WIDTH).enumerate() {
+            let sum = &mut out[k * L::WIDTH + slot];
+            *sum = if raised >> k & 1 == 1 {
+                sum.max(T::halves(lanes, true))
+            } else {
+                *sum + T::halves(lanes, false)
+            };
         }
     }
 }

@@ -79,11 +79,15 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
     ///
     /// Across a contact that may open a pair acts only where one of the two is active, shows the
     /// other side only pressure that compresses, and its kernel sum is kept apart.
+    ///
+    /// A neighbour that the row meets for both gets its own sums in `later`, lane by lane, from the same distance, kernel and
+    /// forces.
     #[inline(always)]
-    pub(super) fn pairs<L: Lane<Scalar = T, Broadcast = T>, const HOW: u8>(
+    pub(super) fn pairs<L: Lane<Scalar = T, Broadcast = T>, const HOW: u8, const BOTH: bool>(
         &self,
         row: Row<'_, L>,
         neighbors: &[u32],
+        later: &mut [T],
         sums: &mut Sums<L, D, Composed<T, P, D, HOW>>,
     ) where
         K: Kernel<D>,
@@ -94,7 +98,10 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
             own,
             contact,
             mobile,
+            chunk_first,
+            ..
         } = row;
+        let width_out = const { Composed::<T, P, D, HOW>::WRITES.width(D) };
         let reads = const { Composed::<T, P, D, HOW>::READS };
         let stride = const { Composed::<T, P, D, HOW>::READS.width(D) };
         let velocity = reads.offset(Field::VELOCITY, D);
@@ -131,22 +138,27 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
             for d in 1..D {
                 v_dot_r = v[d].mul_add(r[d], v_dot_r);
             }
-            let (h, w, f, f_i, f_j);
+            let (h, h_j, w, w_j, f, f_i, f_j);
             if HOW & OWN != 0 {
                 let other = Scale::new(L::splat(record[h_at]), norm, D);
                 h = (own_scale.h + other.h) * L::of(0.5);
+                h_j = other.h;
                 w = own_scale.value(self.kernel, distance);
+                w_j = other.value(self.kernel, distance);
                 f_i = own_scale.gradient(self.kernel, distance);
                 f_j = other.gradient(self.kernel, distance);
                 f = (f_i + f_j) * L::of(0.5);
             } else {
                 let scale = if HOW & MEAN != 0 {
-                    Scale::new((own_scale.h + L::splat(record[h_at])) * L::of(0.5), norm, D)
+                    h_j = L::splat(record[h_at]);
+                    Scale::new((own_scale.h + h_j) * L::of(0.5), norm, D)
                 } else {
+                    h_j = uniform.h;
                     uniform
                 };
                 h = scale.h;
                 w = scale.value(self.kernel, distance);
+                w_j = w;
                 f = scale.gradient(self.kernel, distance);
                 f_i = f;
                 f_j = f;
@@ -167,11 +179,13 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                 body_force,
                 lattice_consistency_factor,
                 gated: false,
+                swapped: false,
                 i: own,
                 j: record,
                 layout: PhantomData,
             };
-            if contact {
+            // A pair that is summed for both is across no contact.
+            if !BOTH && contact {
                 if let Some(active) = self.active::<L>(first) {
                     pair.gated = true;
                     pair.f_i *= active;
@@ -185,30 +199,55 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
             sums.next_pair();
             self.terms.pair(&pair, sums);
             sums.settle(pair.f);
-            apply(&pair, sums);
+            apply::<_, D, _, false>(&pair, sums);
+            if BOTH {
+                let mut back = sums.opposite();
+                let other = pair.swapped(h_j, w_j);
+                let at = (j as usize - chunk_first) * width_out * L::WIDTH;
+                let kept = &mut later[at..at + width_out * L::WIDTH];
+                for k in 0..width_out {
+                    back.kept[k] = L::load(&kept[k * L::WIDTH..]);
+                }
+                self.terms.pair(&other, &mut back);
+                back.settle(pair.f);
+                apply::<_, D, _, true>(&pair, &mut back);
+                for k in 0..width_out {
+                    back.kept[k].store(&mut kept[k * L::WIDTH..]);
+                }
+            }
         }
         total.take(&kept);
     }
 }
 
-/// Turns the pair's forces along directions into vectors, and adds them with the free one to the kept force.
+/// Turns the pair's forces along directions into vectors, and adds them with the free one to the kept force; `OPPOSITE` are those
+/// on j.
 #[inline(always)]
-fn apply<L: Lane, const D: usize, C: Layout>(pair: &Pair<'_, L, D, C>, sums: &mut Sums<L, D, C>) {
+fn apply<L: Lane, const D: usize, C: Layout, const OPPOSITE: bool>(
+    pair: &Pair<'_, L, D, C>,
+    sums: &mut Sums<L, D, C>,
+) {
     let writes = const { C::WRITES };
     if !writes.contains(Output::FORCE) {
         return;
     }
+    let (radial, shear) = if OPPOSITE {
+        (sums.radial.reversed(), sums.shear.reversed())
+    } else {
+        (sums.radial, sums.shear)
+    };
     for d in 0..D {
         let kept = &mut sums.kept[C::WRITES.offset(Output::FORCE, D) + d];
+        // The free one of the other side has been turned when it was taken over.
         *kept = sums.force.plus(d, *kept);
-        *kept = sums.radial.mul_add(pair.r[d], *kept);
-        *kept = sums.shear.mul_add(pair.v[d], *kept);
+        *kept = radial.mul_add(pair.r[d], *kept);
+        *kept = shear.mul_add(pair.v[d], *kept);
     }
     if writes.contains(Output::POWER) {
-        let power = sums.radial.mul_add(
-            pair.v_dot_r,
-            sums.shear.mul_add(pair.v2(), sums.force.dot(&pair.v)),
-        );
+        let free = sums.force.dot(&pair.v);
+        let free = if OPPOSITE { -free } else { free };
+        let along = sums.shear.mul_add(pair.v2(), free);
+        let power = sums.radial.mul_add(pair.v_dot_r, along);
         sums.add(Output::POWER, power * L::of(-0.5));
     }
 }

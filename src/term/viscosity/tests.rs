@@ -107,6 +107,7 @@ fn ask<V: ArtificialViscosity<D>, const D: usize>(
         body_force: [0.0; D],
         lattice_consistency_factor: 1.0,
         gated: false,
+        swapped: false,
         i: &own,
         j: &other,
         layout: PhantomData,
