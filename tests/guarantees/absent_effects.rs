@@ -199,7 +199,11 @@ fn instructions(which: &str) -> Option<f64> {
         let output = Command::new("valgrind")
             .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
             .arg(std::env::current_exe().ok()?)
-            .args(["steps_to_count", "--nocapture", "--test-threads=1"])
+            .args([
+                "absent_effects::steps_to_count",
+                "--nocapture",
+                "--test-threads=1",
+            ])
             .env(ASKED, format!("{which} {steps}"))
             .env("RAYON_NUM_THREADS", "1")
             .output()

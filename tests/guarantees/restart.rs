@@ -813,7 +813,7 @@ fn a_process_killed_at_any_moment_leaves_a_file_to_go_on_from() {
         let mut victim = Command::new(std::env::current_exe().unwrap())
             .args([
                 "--exact",
-                "restart::a_process_killed_at_any_moment_leaves_a_file_to_go_on_from",
+                "guarantees::restart::a_process_killed_at_any_moment_leaves_a_file_to_go_on_from",
             ])
             .env(VICTIM, &path)
             .stdout(Stdio::null())

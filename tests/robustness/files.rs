@@ -1,8 +1,8 @@
 //! Files that are cut, altered or nonsense: checkpoints, tables, records of motion and meshes are read, or refused.
 //! An altered checkpoint is never resumed from.
 
-use crate::guard;
-use crate::numbers::Numbers;
+use super::guard;
+use super::numbers::Numbers;
 use meshfree::boundary::{Motion, Translation};
 use meshfree::output::csv::Csv;
 use meshfree::study::records::Record;
@@ -105,8 +105,8 @@ fn records_of_motion_move_or_are_refused() {
 
 #[cfg(feature = "meshes")]
 mod meshes {
+    use super::super::numbers::Numbers;
     use super::{alter, guard};
-    use crate::numbers::Numbers;
     use meshfree::geometry::{Mesh, Shape, fill};
 
     /// A tetrahedron as text and in bytes.
@@ -175,8 +175,8 @@ mod meshes {
 
 #[cfg(feature = "checkpoint")]
 pub mod checkpoints {
+    use super::super::numbers::Numbers;
     use super::{alter, guard};
-    use crate::numbers::Numbers;
     use meshfree::effect::NeoHookean;
     use meshfree::prelude::*;
 

@@ -1,8 +1,8 @@
 //! Random materials: one whose constants are accepted gives finite pressures and positive sound speeds at any finite state.
 //! The same for laws of strength and viscosity.
 
-use crate::guard;
-use crate::numbers::Numbers;
+use super::guard;
+use super::numbers::Numbers;
 use meshfree::material::eos::{
     IdealGas, Linear, MieGruneisen, Murnaghan, Polynomial, StiffenedGas, Tait, TensionCutOff,
 };

@@ -1,9 +1,9 @@
 //! Random scenes: each is built or refused with an error; what is built runs three steps to finite numbers or stops with an
 //! error. Advice is asked of every one.
 
-use crate::guard;
-use crate::materials::material;
-use crate::numbers::Numbers;
+use super::guard;
+use super::materials::material;
+use super::numbers::Numbers;
 use meshfree::boundary::{Periodic, Wall};
 use meshfree::effect::NeoHookean;
 use meshfree::prelude::*;

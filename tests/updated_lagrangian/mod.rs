@@ -1,5 +1,5 @@
 //! Updated-Lagrangian solids: rings that collide, stretched lattices, waves in every kinematics, sheets that yield, spall.
-//! One program, so that the loops over pairs of its three schemes are compiled once.
+//! Each runs with the cures of the tensile instability that the advice names, and without.
 
 mod rings;
 mod sheets;

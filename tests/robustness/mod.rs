@@ -1,9 +1,6 @@
 //! Random input: scenes, materials, checkpoints, tables and meshes are built or read, or refused with an error; nothing panics,
 //! hangs or makes numbers that are none.
 
-#[path = "../common/mod.rs"]
-mod common;
-
 mod files;
 mod guard;
 mod materials;

@@ -1,9 +1,5 @@
 //! What holds whatever is simulated: bad input is refused by name, lists miss no pair,
-//! results do not depend on threads, instruction sets or precision, and a run resumes to the same bits. One program, so
-//! that loops are compiled once.
-
-#[path = "../common/mod.rs"]
-mod common;
+//! results do not depend on threads, instruction sets or precision, and a run resumes to the same bits.
 
 mod absent_effects;
 mod allocations;

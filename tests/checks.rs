@@ -1,0 +1,10 @@
+//! What is checked beside the newcomer's tests, because it takes minutes to compile or to run. One program, in which loops
+//! and driver that its parts share are compiled once: `cargo test --release --all-features --test checks` and the name of a part.
+
+mod common;
+mod contract;
+mod guarantees;
+mod hard_cases;
+mod recording;
+mod robustness;
+mod updated_lagrangian;
