@@ -200,10 +200,9 @@ impl Case {
         )
     }
 
-    /// The scene as a simulation.
-    pub fn build<T: Real>(&self) -> Result<Simulation<T, 1>> {
-        let mut scene =
-            Scene::<T, 1>::new(self.scheme()).boxed_integrator(self.integrator().make());
+    /// The scene as a simulation with one of its schemes.
+    pub fn build<T: Real>(&self, scheme: Scheme<T, 1>) -> Result<Simulation<T, 1>> {
+        let mut scene = Scene::new(scheme).boxed_integrator(self.integrator().make());
         for rod in self.rods() {
             let mut material = material(&rod.material)?;
             if self.bears_shear() {
@@ -233,7 +232,10 @@ impl Case {
     }
 
     /// The scheme with all choices made.
-    pub fn scheme<T: Real>(&self) -> Scheme<T, 1> {
+    pub fn scheme(&self) -> Scheme<f64, 1> {
+        if self.is_ready() {
+            return self.ready_scheme();
+        }
         if self.bears_shear() {
             let mut builder = schemes::impact_by_continuity();
             if let Some(ratio) = self.h_over_dx {
@@ -255,13 +257,29 @@ impl Case {
         }
     }
 
-    fn with_choices<T, V, const FORCE: u8>(
+    /// The scheme of a case that [`Self::is_ready`]: the others are compiled in f64 alone.
+    pub fn ready_scheme<T: Real>(&self) -> Scheme<T, 1> {
+        match self.scheme {
+            SchemeChoice::Impact => self.adjusted(schemes::impact()).compose(),
+            SchemeChoice::Continuity => self.adjusted(schemes::impact_by_continuity()).compose(),
+            SchemeChoice::Lam2002 => self.adjusted(schemes::lam2002()).compose(),
+        }
+    }
+
+    /// Whether the case has a ready scheme with its own kernel and viscosity, without shear, and one spacing.
+    pub fn is_ready(&self) -> bool {
+        let own_kernel = self
+            .kernel
+            .is_none_or(|kernel| kernel == KernelKind::CubicSpline);
+        own_kernel && self.viscosity.is_none() && !self.bears_shear() && self.has_one_spacing()
+    }
+
+    fn adjusted<V, const FORCE: u8>(
         &self,
         mut builder: SolidBuilder<V, FORCE>,
-    ) -> Scheme<T, 1>
+    ) -> SolidBuilder<V, FORCE>
     where
-        T: Real,
-        V: ArtificialViscosity<1> + Into<ViscosityKind>,
+        V: ArtificialViscosity<1>,
     {
         if let Some(ratio) = self.h_over_dx {
             builder = builder.h_over_dx(ratio);
@@ -269,13 +287,15 @@ impl Case {
         if !self.integrator().make().kicks() {
             builder = builder.energy(EnergyForm::Symmetric);
         }
-        let own_kernel = self
-            .kernel
-            .is_none_or(|kernel| kernel == KernelKind::CubicSpline);
-        if own_kernel && self.viscosity.is_none() && self.has_one_spacing() {
-            return builder.compose();
-        }
-        // Loops for a choice at run time: slower, and compiled once for all choices.
+        builder
+    }
+
+    /// Loops for choices at run time: slower, and compiled once for all choices.
+    fn with_choices<V, const FORCE: u8>(&self, builder: SolidBuilder<V, FORCE>) -> Scheme<f64, 1>
+    where
+        V: ArtificialViscosity<1> + Into<ViscosityKind>,
+    {
+        let builder = self.adjusted(builder);
         let viscosity = self
             .viscosity
             .unwrap_or_else(|| builder.viscosity().clone().into());

@@ -53,7 +53,7 @@ pub fn rows(options: &Options, add: &mut dyn FnMut(String, f64, Vec<f64>)) -> Re
 /// Largest difference of pressure and velocity between a rod on a wall and one of two equal rods,
 /// relative to those of the impact, at 2, 4, 6 and 8 µs.
 fn against_mirror(case: &Case) -> Result<f64, Failure> {
-    let mut wall = case.build::<f64>()?;
+    let mut wall = case.build(case.scheme())?;
     let length = case.striker_length;
     let rod = |name, from: f64, speed| {
         Body::block(
@@ -65,7 +65,7 @@ fn against_mirror(case: &Case) -> Result<f64, Failure> {
         )
         .velocity([speed])
     };
-    let mut pair = Scene::<f64, 1>::new(case.scheme::<f64>())
+    let mut pair = Scene::new(case.scheme())
         .boxed_integrator(case.integrator().make())
         .between("striker", "image", case.contact().interaction())
         .body(rod("striker", 0.0, case.speed))

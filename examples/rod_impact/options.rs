@@ -178,6 +178,13 @@ impl Line {
             precision: self.precision,
         };
         shear(&case)?;
+        if case.precision == Precision::F32 && !case.is_ready() {
+            return Err(
+                "--precision: `f32` goes with a ready scheme, its own kernel and viscosity, rods without shear and one \
+                 spacing for all of them; leave out the rest, or take f64"
+                    .into(),
+            );
+        }
         complete(&mut case, self.until.map(|end| 1e-6 * end))?;
         Ok(case)
     }

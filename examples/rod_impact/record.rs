@@ -7,6 +7,7 @@ use meshfree::effect::{Hypoelastic, Plasticity};
 use meshfree::error::Result;
 use meshfree::output::csv::{Cell, CsvWriter};
 use meshfree::scalar::Real;
+use meshfree::scheme::Scheme;
 use meshfree::simulation::{Ledger, ParticleView, Simulation};
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -192,18 +193,23 @@ pub enum Watch<'a> {
 /// Runs a case. `progress` is told the time \[s\] now and then.
 pub fn run(case: &Case, watch: Watch<'_>, progress: &mut dyn FnMut(f64)) -> Result<Record> {
     match case.precision {
-        Precision::F32 => run_in::<f32>(case, watch, progress),
-        Precision::F64 => run_in::<f64>(case, watch, progress),
+        Precision::F32 => run_with(case.ready_scheme::<f32>(), case, watch, progress),
+        Precision::F64 => run_with(case.scheme(), case, watch, progress),
     }
 }
 
-fn run_in<T: Real>(case: &Case, watch: Watch<'_>, progress: &mut dyn FnMut(f64)) -> Result<Record> {
+fn run_with<T: Real>(
+    scheme: Scheme<T, 1>,
+    case: &Case,
+    watch: Watch<'_>,
+    progress: &mut dyn FnMut(f64),
+) -> Result<Record> {
     let started = Instant::now();
     let (folder, every) = match watch {
         Watch::Files(folder) => (Some(folder), 1),
         Watch::Every(steps) => (None, steps.max(1)),
     };
-    let mut simulation = case.build::<T>()?;
+    let mut simulation = case.build(scheme)?;
     let mut files = folder
         .map(|folder| Files::create(folder, case))
         .transpose()?;
