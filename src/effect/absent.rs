@@ -70,19 +70,23 @@ where
         results
     });
     let record = record.expect("terms are written with the arithmetic of lanes");
+    Loop {
+        stage,
+        terms: type_name::<A>(),
+        operations: operations(&record),
+        reads: A::READS.width(D),
+        sums: A::WRITES.width(D),
+    }
+}
+
+fn operations(record: &Record) -> usize {
     let acts = |operation: &&Operation| {
         !matches!(
             operation,
             Operation::Input(_) | Operation::Constant(_) | Operation::Everywhere(_)
         )
     };
-    Loop {
-        stage,
-        terms: type_name::<A>(),
-        operations: record.operations().iter().filter(acts).count(),
-        reads: A::READS.width(D),
-        sums: A::WRITES.width(D),
-    }
+    record.operations().iter().filter(acts).count()
 }
 
 /// The loops of a list, stage by stage.
@@ -104,6 +108,10 @@ where
 fn program<const D: usize, E: Effects<D>>(list: &E, setting: &Setting) -> Vec<String> {
     let mut program = StepProgram::<f64, D>::new(*setting);
     list.register(&mut program);
+    words(&program)
+}
+
+fn words<const D: usize>(program: &StepProgram<f64, D>) -> Vec<String> {
     let mut parts = vec![
         format!("{:?}", program.fields().iter().collect::<Vec<_>>()),
         format!("{:?} {:?}", program.declared, program.sums),
@@ -126,6 +134,31 @@ struct Price {
     operations: usize,
 }
 
+/// What a list is made of, without its type: so a comparison of lists is compiled once.
+struct Written {
+    loops: Vec<Loop>,
+    program: Vec<String>,
+    reads: Fields,
+    /// Of the list and of its program.
+    numbers: usize,
+    sound: bool,
+}
+
+fn written<const D: usize, E: Effects<D>>(list: &E, setting: &Setting) -> Written
+where
+    WendlandC2: Kernel<D>,
+{
+    let mut program = StepProgram::<f64, D>::new(*setting);
+    list.register(&mut program);
+    Written {
+        loops: loops::<D, E>(list, setting),
+        program: words(&program),
+        reads: E::READS,
+        numbers: E::READS.union(program.fields()).width(D),
+        sound: list.problems().is_empty(),
+    }
+}
+
 /// A list with an effect that is absent against the list without it; gives what the effect adds where it is there.
 fn check<const D: usize, B: Effects<D>, A: Effect<D>>(
     name: &'static str,
@@ -138,20 +171,23 @@ where
 {
     let off = (base.clone(), Absent::<A>(PhantomData));
     let on = (base.clone(), effect.clone());
-    let without = loops::<D, B>(base, setting);
-    assert_eq!(loops::<D, _>(&off, setting), without, "{name}");
-    assert_eq!(
-        program::<D, _>(&off, setting),
-        program::<D, _>(base, setting),
-        "{name}"
-    );
-    assert_eq!(<(B, Absent<A>) as Effects<D>>::READS, B::READS, "{name}");
-    assert!(off.problems().is_empty());
+    compare(
+        name,
+        &written(base, setting),
+        &written(&off, setting),
+        &written(&on, setting),
+    )
+}
+
+fn compare(name: &'static str, without: &Written, off: &Written, with: &Written) -> Price {
+    assert_eq!(off.loops, without.loops, "{name}");
+    assert_eq!(off.program, without.program, "{name}");
+    assert_eq!(off.reads, without.reads, "{name}");
+    assert!(off.sound);
     // The comparison would see the effect: it adds something, and to its loops operations.
-    let with = loops::<D, _>(&on, setting);
-    let more = with != without || program::<D, _>(&on, setting) != program::<D, _>(base, setting);
+    let more = with.loops != without.loops || with.program != without.program;
     assert!(more, "{name} does nothing");
-    for (own, other) in with.iter().zip(&without) {
+    for (own, other) in with.loops.iter().zip(&without.loops) {
         let differs = own.terms != other.terms;
         assert_eq!(
             differs,
@@ -159,19 +195,15 @@ where
             "{name}: {own:?} {other:?}"
         );
     }
-    let sum = |loops: &[Loop], of: fn(&Loop) -> usize| loops.iter().map(of).sum::<usize>();
-    let numbers = |reads: Fields, list: &dyn Fn(&mut StepProgram<f64, D>)| {
-        let mut program = StepProgram::new(*setting);
-        list(&mut program);
-        reads.union(program.fields()).width(D)
+    let more = |of: fn(&Loop) -> usize| {
+        let sum = |list: &Written| list.loops.iter().map(of).sum::<usize>();
+        sum(with) - sum(without)
     };
     Price {
         name,
-        numbers: numbers(<(B, A) as Effects<D>>::READS, &|program| {
-            on.register(program);
-        }) - numbers(B::READS, &|program| base.register(program)),
-        reads: sum(&with, |own| own.reads) - sum(&without, |own| own.reads),
-        operations: sum(&with, |own| own.operations) - sum(&without, |own| own.operations),
+        numbers: with.numbers - without.numbers,
+        reads: more(|own| own.reads),
+        operations: more(|own| own.operations),
     }
 }
 
