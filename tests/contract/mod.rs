@@ -483,28 +483,31 @@ fn the_record_of_a_term_has_its_bits_on_every_lane() {
     for_each_term!(can_be_recorded);
 }
 
-#[inline(never)]
-fn kernels_follow<T: Real, L: Lane<Scalar = T>, K: Kernel<D>, const D: usize>(kernel: &K) {
-    #[inline(never)]
-    fn text<L: Lane, K: Kernel<D>, const D: usize>(kernel: &K, given: &[L]) -> Vec<L> {
-        let gradient = kernel.gradient(given[0], given[1], given[2]);
-        vec![
-            kernel.shape(given[0]),
-            kernel.slope_over_q(given[0]),
-            gradient,
-        ]
-    }
-    let record = Record::of(3, |given| text(kernel, given)).unwrap();
+/// Shape, slope and gradient of a kernel for three numbers.
+fn text<L: Lane, K: Kernel<D>, const D: usize>(kernel: &K, given: &[L]) -> Vec<L> {
+    let gradient = kernel.gradient(given[0], given[1], given[2]);
+    vec![
+        kernel.shape(given[0]),
+        kernel.slope_over_q(given[0]),
+        gradient,
+    ]
+}
+
+fn kernel_follows<T: Real, L: Lane<Scalar = T>>(
+    name: &str,
+    record: &Record,
+    text: &dyn Fn(&[L]) -> Vec<L>,
+) {
     let mut random = Random(8);
     for _ in 0..50 {
         let given: [L; 3] =
             core::array::from_fn(|_| L::from_fn(|_| T::from_f64(3.5 * random.unit())));
-        let expected = text(kernel, &given);
+        let expected = text(&given);
         for (found, expected) in record.follow(&given).iter().zip(expected) {
             for lane in 0..L::WIDTH {
                 let (found, expected) = (found.extract(lane), expected.extract(lane));
                 let bits = (found.to_f64().to_bits(), expected.to_f64().to_bits());
-                assert_eq!(bits.0, bits.1, "{} in {D}D", kernel.name());
+                assert_eq!(bits.0, bits.1, "{name}");
             }
         }
     }
@@ -519,9 +522,11 @@ macro_rules! kernels {
 }
 
 fn kernels_on_lanes<K: Kernel<D>, const D: usize>(kernel: &K) {
-    kernels_follow::<f64, f64, K, D>(kernel);
-    kernels_follow::<f64, Lanes<f64, 8, true>, K, D>(kernel);
-    kernels_follow::<f32, Lanes<f32, 16, true>, K, D>(kernel);
+    let name = format!("{} in {D}D", kernel.name());
+    let record = Record::of(3, |given| text(kernel, given)).unwrap();
+    kernel_follows::<f64, f64>(&name, &record, &|given| text(kernel, given));
+    kernel_follows::<f64, Fused>(&name, &record, &|given| text(kernel, given));
+    kernel_follows::<f32, Single>(&name, &record, &|given| text(kernel, given));
 }
 
 #[test]
