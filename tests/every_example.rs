@@ -1,8 +1,8 @@
 //! All examples in one program, which compiles in half the time of a program for each, since loops and driver that
 //! they share are compiled once. It runs each in its quick setting, or those whose names contain a word that it is given.
 
-// Examples are programs; what one of them exports, another does not use.
-#![allow(missing_docs, clippy::duplicate_mod)]
+// Examples are programs; what one of them exports, another does not use. Their tests are run elsewhere, and what these use is dead here.
+#![allow(missing_docs, dead_code, unused_imports, clippy::duplicate_mod)]
 
 use std::path::Path;
 use std::process::{Command, ExitCode, Termination};
