@@ -55,7 +55,7 @@ fn lattice(count: usize) -> impl Iterator<Item = [f64; 3]> {
 }
 
 /// Mean density from 0.3 to 0.8 of the shock's radius over the exact one less one; change of energy.
-fn implosion(cured: bool, form: EnergyForm, count: usize) -> [f64; 2] {
+fn implosion(form: EnergyForm, count: usize) -> [f64; 2] {
     let begun = Instant::now();
     let law = IdealGas::new(5.0 / 3.0, 1.0);
     let ball: Vec<_> = lattice(count).filter(|x| radius(*x) < 1.0).collect();
@@ -66,13 +66,10 @@ fn implosion(cured: bool, form: EnergyForm, count: usize) -> [f64; 2] {
             energy: law.energy(1e-6, 1.0),
             ..own
         });
-    let scene = Scene::new(gas(cured, form)).body(body).varied();
+    let scene = Scene::new(gas(true, form)).body(body).varied();
     let mut own = scene.build().expect("a ball");
     let before = energy(&own);
-    if let Err(error) = own.run_until(0.6) {
-        println!("{cured}: {error}");
-        return [f64::INFINITY; 2];
-    }
+    own.run_until(0.6).expect("a run");
     let exact = Noh::new(3).expect("a case");
     let shock = exact.shock_radius(own.time());
     let plateau = own.all().filter(|p| {
@@ -94,16 +91,8 @@ fn implosion(cured: bool, form: EnergyForm, count: usize) -> [f64; 2] {
     ]
 }
 
-/// Of three runs: the case, the control of the energy, which has its symmetric form, and that of plateau or front.
-fn held(case: &'static str, criterion: &'static str, runs: [[f64; 2]; 3], bound: f64) {
-    let [[error, value], [_, control], [bare, _]] = runs;
-    Row {
-        case,
-        criterion,
-        value: error,
-        control: bare,
-    }
-    .at_most(bound);
+/// The control of the energy has its symmetric form.
+fn closed(case: &'static str, [[_, value], [_, control]]: [[f64; 2]; 2]) {
     Row {
         case,
         criterion: "change of energy; control: symmetric energy",
@@ -113,27 +102,29 @@ fn held(case: &'static str, criterion: &'static str, runs: [[f64; 2]; 3], bound:
     .at_most(1e-10);
 }
 
-const FORMS: [(bool, EnergyForm); 3] = [
-    (true, EnergyForm::Compatible),
-    (true, EnergyForm::Symmetric),
-    (false, EnergyForm::Compatible),
-];
-const PLATEAU: &str = "error of the mean of the plateau; control: no viscosity, fixed h";
-const FRONT: &str = "error of the radius of the front; control: no viscosity, fixed h";
+const FORMS: [EnergyForm; 2] = [EnergyForm::Compatible, EnergyForm::Symmetric];
+
+/// A plateau has no control: gas that streams through itself without viscosity, twelve particles a radius, is 0.153 off.
+fn reached(case: &'static str, runs: [[f64; 2]; 2], bound: f64) {
+    let error = runs[0][0];
+    println!("| {case} | error of the mean of the plateau | ≤ {bound} | {error:.3e} | none |");
+    closed(case, runs);
+    assert!(error <= bound, "{error}");
+}
 
 /// The shock is two and a half spacings of the start from the middle: the plateau is a fifth of the exact one, and the bound holds
 /// only what is. Energy is what the case asks for.
 #[test]
 fn noh_implodes_to_a_plateau_in_space() {
-    let runs = FORMS.map(|(cured, form)| implosion(cured, form, 12));
-    held("Noh's implosion 3D, 12 a radius", PLATEAU, runs, 0.85);
+    let runs = FORMS.map(|form| implosion(form, 12));
+    reached("Noh's implosion 3D, 12 a radius", runs, 0.85);
 }
 
 #[test]
-#[ignore = "three minutes: 65 000 particles, three times"]
+#[ignore = "three minutes: 65 000 particles, twice"]
 fn noh_implodes_to_a_plateau_in_space_finely() {
-    let runs = FORMS.map(|(cured, form)| implosion(cured, form, 25));
-    held("Noh's implosion 3D, 25 a radius", PLATEAU, runs, 0.6);
+    let runs = FORMS.map(|form| implosion(form, 25));
+    reached("Noh's implosion 3D, 25 a radius", runs, 0.6);
 }
 
 /// Mean radius of the densest hundred particles over that of the shock, less one; change of energy.
@@ -181,6 +172,15 @@ fn blast(cured: bool, form: EnergyForm, count: usize) -> [f64; 2] {
 
 #[test]
 fn a_point_blast_in_space_runs_as_sedov_says() {
-    let runs = FORMS.map(|(cured, form)| blast(cured, form, 12));
-    held("Sedov's blast 3D, 12 a metre", FRONT, runs, 0.02);
+    let case = "Sedov's blast 3D, 12 a metre";
+    let runs = FORMS.map(|form| blast(true, form, 12));
+    let bare = blast(false, EnergyForm::Compatible, 12);
+    Row {
+        case,
+        criterion: "error of the radius of the front; control: no viscosity, fixed h",
+        value: runs[0][0],
+        control: bare[0],
+    }
+    .at_most(0.02);
+    closed(case, runs);
 }
