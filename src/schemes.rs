@@ -261,6 +261,9 @@ pub type StructureBuilder<V> =
 ///
 /// Neighbours that stay cannot pair, so h may be small, and bending asks for it: particles at a free surface see the
 /// strain of those behind them (`docs/defaults.md` has periods of a plate). On a lattice 0.8 reaches the neighbours across the diagonal of a face; in a disordered body a particle may lack some.
+///
+/// In three dimensions it does not reach across the diagonal of a cube, and a body that is wrung gets zigzags that come and go:
+/// take `.h_over_dx(1.0)` there, with a tenth of them (`docs/solids.md`).
 #[must_use]
 pub fn total_lagrangian() -> StructureBuilder<Inviscid> {
     SchemeBuilder::total_lagrangian(WendlandC2, Inviscid)

@@ -106,6 +106,17 @@ impl<T: Real, const D: usize> Columns<T, D> {
         }
     }
 
+    /// Has columns for `fields` and no others: those that were not there are zero.
+    pub(crate) fn set_fields(&mut self, fields: Fields) {
+        for field in self.fields.minus(fields).iter() {
+            self.data[field.place()] = Vec::new();
+        }
+        for field in fields.minus(self.fields).iter() {
+            self.data[field.place()] = vec![T::zero(); field.components(D) * self.slots];
+        }
+        self.fields = fields;
+    }
+
     /// Sets all fields of a slot to zero.
     pub(crate) fn clear_slot(&mut self, slot: usize) {
         for field in self.fields.iter() {

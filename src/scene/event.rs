@@ -99,6 +99,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             }
         }
         let waits = self.clamps.iter().filter_map(|own| own.until.as_ref());
+        let waits = waits.chain(self.exchanges.iter().map(|own| &own.event));
         for name in waits.filter(|name| !self.events.iter().any(|own| own.name == **name)) {
             let known = self.events.iter().map(|own| format!("`{}`", own.name));
             problems.push(Problem::UnknownName {

@@ -1,11 +1,13 @@
 //! The fingerprint of a scene: a hash of each of its parts, by which a checkpoint knows its scene again.
 //! What closures do cannot be hashed; of loads their number, kind and body is, of motions their names.
 
-use super::{Body, Part, Scene};
+use super::{Body, Scene};
 use crate::boundary::Wall;
 use crate::output::checkpoint::{Hash, Hashes};
 use crate::scalar::Real;
+use crate::scheme::Scheme;
 use core::fmt::Debug;
+use std::sync::Arc;
 
 impl<T: Real, const D: usize> Scene<T, D> {
     /// The hash of each part, by its name in messages.
@@ -26,6 +28,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
             accelerations,
             loads,
             events,
+            awake,
+            exchanges,
             control,
             skin,
             // A checkpoint says on which it runs on.
@@ -34,7 +38,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             // What a machine has to give is not of the scene.
             memory: _,
         } = self;
-        let schemes = of_texts(parts.iter().map(Part::scheme_text));
+        let schemes = of_texts(parts.iter().map(|part| scheme_text(&part.scheme)));
         let mut bodies = Hash::new();
         for part in parts {
             text(&mut bodies, part.bodies.len());
@@ -93,19 +97,28 @@ impl<T: Real, const D: usize> Scene<T, D> {
             let until: Vec<_> = clamps.iter().map(|own| &own.until).collect();
             all.push(("events", of_texts([debug(events), debug(until)])));
         }
+        if !exchanges.is_empty() {
+            let text = |own: &super::ExchangeOf<T, D>| {
+                debug((&own.body, &own.event)) + &scheme_text(&own.scheme)
+            };
+            all.push((
+                "schemes that come later",
+                of_texts(exchanges.iter().map(text)),
+            ));
+        }
+        if awake.is_some() {
+            all.push(("the box in which it is awake", of_texts([])));
+        }
         all
     }
 }
 
-impl<T: Real, const D: usize> Part<T, D> {
-    /// All that the scheme says of itself.
-    fn scheme_text(&self) -> String {
-        let scheme = &self.scheme;
-        let program = &scheme.program;
-        let (declared, limits) = (&program.declared, &program.limits);
-        let printed = format!("{scheme}\n{}", scheme.step_program());
-        printed + &debug((scheme, declared, limits))
-    }
+/// All that a scheme says of itself.
+fn scheme_text<T: Real, const D: usize>(scheme: &Arc<Scheme<T, D>>) -> String {
+    let program = &scheme.program;
+    let (declared, limits) = (&program.declared, &program.limits);
+    let printed = format!("{scheme}\n{}", scheme.step_program());
+    printed + &debug((scheme, declared, limits))
 }
 
 /// Its debug text without the addresses of functions, which differ from run to run.

@@ -53,16 +53,18 @@
 //! ([`Scene::couple`]), and a stiff group takes steps of its own ([`Scene::sub_cycle`]).
 //!
 //! Parts of a body are clamped by [`Scene::fix`] and [`Scene::clamp`], and a body moves as a rigid one by
-//! [`Scene::rigid`].
+//! [`Scene::rigid`]. Particles sleep outside of a box by [`Scene::awake_inside`], and leave by [`Scene::outlet`].
 //!
 //! Solids do not see walls of particles; a [`MirrorPlane`](crate::boundary::MirrorPlane) holds solids and liquids.
 
 pub mod advice;
+mod asleep;
 mod body;
 mod check;
 mod conversion;
 mod coupled;
 mod event;
+mod exchange;
 #[cfg(feature = "checkpoint")]
 mod fingerprint;
 mod held;
@@ -82,8 +84,9 @@ use crate::output::checkpoint::Checkpoint;
 use crate::particles::Fields;
 use crate::scalar::Real;
 use crate::scheme::Scheme;
-use crate::simulation::{Event, Load, Simulation, StepControl, UniformLoad};
+use crate::simulation::{Awake, Event, Load, Simulation, StepControl, UniformLoad};
 use crate::sweep::{InstructionSet, Interaction, Root};
+use exchange::ExchangeOf;
 use held::ClampOf;
 use plan::Plan;
 #[cfg(feature = "checkpoint")]
@@ -123,6 +126,8 @@ pub struct Scene<T: Real, const D: usize> {
     accelerations: Vec<UniformLoad<D>>,
     loads: Vec<Load<D>>,
     events: Vec<Event<T, D>>,
+    awake: Option<Awake<T, D>>,
+    exchanges: Vec<ExchangeOf<T, D>>,
     control: StepControl,
     skin: Option<f64>,
     instructions: InstructionSet,
@@ -173,6 +178,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
             accelerations: Vec::new(),
             loads: Vec::new(),
             events: Vec::new(),
+            awake: None,
+            exchanges: Vec::new(),
             control,
             skin: None,
             instructions: InstructionSet::detect(),
@@ -435,6 +442,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         let fixed = self.control.fixed;
         let mut simulation = self.lay_out()?;
         simulation.hold_velocities();
+        simulation.put_to_sleep();
         simulation.take_references();
         let problems = simulation.isolated();
         if !problems.is_empty() {
@@ -490,7 +498,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
             self.accelerations,
             self.loads,
         )
-        .with_events(self.events);
+        .with_events(self.events)
+        .awake_inside(self.awake);
         #[cfg(feature = "checkpoint")]
         let simulation = simulation.of_scene(hashes);
         Ok(simulation)

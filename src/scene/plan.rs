@@ -6,7 +6,7 @@ use crate::boundary::{Emitter, Inlet, Slip, Wall};
 use crate::particles::{Columns, Field, Fields};
 use crate::scalar::Real;
 use crate::scheme::{Scheme, Smoothing};
-use crate::simulation::{BodyState, Group, Particles, Structure, WallState, width};
+use crate::simulation::{BodyState, Exchange, Group, Particles, Structure, WallState, width};
 use crate::sweep::Interaction;
 use std::sync::Arc;
 
@@ -37,6 +37,15 @@ impl<T: Real, const D: usize> Scene<T, D> {
     }
 
     fn plan(&self, number: usize) -> Plan<'_, T, D> {
+        self.plan_of(number, &self.parts[number].scheme)
+    }
+
+    /// The plan of a group if it obeyed a scheme, as its own or as one that comes later.
+    pub(super) fn plan_of<'a>(
+        &'a self,
+        number: usize,
+        scheme: &'a Arc<Scheme<T, D>>,
+    ) -> Plan<'a, T, D> {
         let part = &self.parts[number];
         let is_liquid = |part: &Part<T, D>| part.scheme.meets_walls();
         let mut walls = Vec::new();
@@ -57,7 +66,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         }
         Plan {
             scene: self,
-            scheme: &part.scheme,
+            scheme,
             bodies: &part.bodies,
             number,
             walls,
@@ -87,13 +96,18 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         let emitters = self.place_inlets();
         let interactions = self.interactions();
         let unilateral = interactions.contains(&Interaction::Unilateral);
-        let mut fields = self.scene.fields_of(self.scheme, self.bodies);
-        if unilateral {
-            fields = fields.union(Fields::of(&[
+        let fields_of = |scheme: &Scheme<T, D>| {
+            let fields = self.scene.fields_of(scheme, self.bodies);
+            if !unilateral {
+                return fields;
+            }
+            fields.union(Fields::of(&[
                 Field::CONTACT_ACTIVITY,
                 Field::CONTACT_THRESHOLD,
-            ]));
-        }
+            ]))
+        };
+        let fields = fields_of(self.scheme);
+        let exchanges = self.exchanges(fields_of);
         let width = width::<T>();
         let counts = self.bodies.iter().map(|body| self.capacity(body));
         let slots = counts
@@ -167,9 +181,28 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             group.outlets.clone_from(&self.scene.outlets);
         }
         group.emitters = emitters;
+        group.exchanges = exchanges;
         group.sub_cycle = self.scene.sub_cycle_of(self.number);
         self.scene.hold(self.number, &mut group);
         group
+    }
+
+    /// The schemes that the group obeys by turns, with the fields that a particle carries under each; none if it has one.
+    fn exchanges(&self, fields_of: impl Fn(&Scheme<T, D>) -> Fields) -> Vec<Exchange<T, D>> {
+        let of = |event, scheme: &Arc<Scheme<T, D>>| Exchange {
+            event,
+            scheme: scheme.clone(),
+            fields: fields_of(scheme),
+        };
+        let later = self.scene.exchanges_of(self.number).map(|own| {
+            let event = self.scene.events.iter().position(|e| e.name == own.event);
+            of(event, &own.scheme)
+        });
+        let mut all: Vec<_> = later.collect();
+        if !all.is_empty() {
+            all.insert(0, of(None, self.scheme));
+        }
+        all
     }
 
     /// Skins of the lists over the support: of lists that last, and of lists that do not.

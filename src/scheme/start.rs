@@ -3,7 +3,7 @@
 
 use super::Scheme;
 use crate::material::Material;
-use crate::particles::{Columns, Field};
+use crate::particles::{Columns, Field, Fields};
 use crate::scalar::Real;
 
 /// The state in which a particle starts.
@@ -36,7 +36,6 @@ impl<T: Real, const D: usize> Scheme<T, D> {
                 core::array::from_fn(|d| T::from_f64(x[d] - rounded[d].to_f64()));
         }
         columns.vectors_mut(Field::VELOCITY)[slot] = start.velocity.map(T::from_f64);
-        let viscosity = material.rheology().map_or(0.0, |law| law.viscosity(0.0));
         let mut set = |field: Field, value: f64| {
             let width = field.components(D);
             if let Some(own) = columns
@@ -50,11 +49,9 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         set(Field::REFERENCE_DENSITY, start.density);
         set(Field::MASS, start.density * spacing.powi(D as i32));
         set(Field::ENERGY, start.energy);
-        set(Field::DYNAMIC_VISCOSITY, viscosity);
         set(Field::SMOOTHING_LENGTH, self.h_over_dx * spacing);
-        for declared in &self.program.declared {
-            set(declared.field, declared.start);
-        }
+        let all = columns.fields();
+        self.begin(columns, slot, material, all);
         if columns.fields().contains(Field::REFERENCE_POSITION) {
             columns.vectors_mut(Field::REFERENCE_POSITION)[slot] = rounded;
             // The body is free of stress where its rounded positions are.
@@ -62,6 +59,24 @@ impl<T: Real, const D: usize> Scheme<T, D> {
             if let Some(residual) = residuals.get_mut(slot) {
                 *residual = [T::zero(); D];
             }
+        }
+    }
+
+    /// Writes what those of `fields` start with that effects declare, into a slot of a particle of a material.
+    pub(crate) fn begin(
+        &self,
+        columns: &mut Columns<T, D>,
+        slot: usize,
+        material: &Material<T>,
+        fields: Fields,
+    ) {
+        let viscosity = material.rheology().map_or(0.0, |law| law.viscosity(0.0));
+        let declared = self.program.declared.iter();
+        let all = core::iter::once((Field::DYNAMIC_VISCOSITY, viscosity))
+            .chain(declared.map(|own| (own.field, own.start)));
+        for (field, value) in all.filter(|own| fields.contains(own.0)) {
+            let width = field.components(D);
+            columns.raw_mut(field)[slot * width..(slot + 1) * width].fill(T::from_f64(value));
         }
     }
 }

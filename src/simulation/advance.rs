@@ -173,6 +173,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             };
             group.apply_laws(Stage::Continuity, moment);
             group.apply_laws(Stage::Bounds, moment);
+            group.keep_asleep(true);
         }
         let group = &mut self.groups[group];
         if !group.drifts_at_once() {
@@ -211,6 +212,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         if self.evolves_at(When::Kick) {
             self.apply_laws(Stage::Bounds, Moment::at(time));
         }
+        self.keep_asleep(true);
     }
 
     /// The first half of a drift, or all of it where nobody looks at the group in its middle.

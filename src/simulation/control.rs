@@ -173,7 +173,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// The vote of a group, but for pairs that approach each other.
     pub(super) fn vote_of(&self, group: usize, courant: f64) -> Result<Vote> {
         // What a user asks of the first scheme may be more than another bears.
-        let own = if group == 0 {
+        let own = if group == 0 && self.groups[0].exchanges.is_empty() {
             f64::INFINITY
         } else {
             self.groups[group].scheme.step_factor

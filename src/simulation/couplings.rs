@@ -133,7 +133,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     /// A group that sub-cycles alone, or all others.
-    fn stepping(&self, alone: Option<usize>) -> impl Iterator<Item = &Group<T, D>> {
+    pub(super) fn stepping(&self, alone: Option<usize>) -> impl Iterator<Item = &Group<T, D>> {
         let steps = move |(k, group): &(usize, &Group<T, D>)| match alone {
             Some(alone) => *k == alone,
             None => group.sub_cycle.is_none(),

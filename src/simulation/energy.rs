@@ -20,6 +20,8 @@ pub struct EnergyLedger {
     pub wall_work: f64,
     /// Kinetic energy that left through outlets.
     pub left: f64,
+    /// Energy that particles had which [sleep](crate::scene::Scene::awake_inside), and work on them.
+    pub asleep: f64,
     /// What viscosities, diffusion, shifting and the steps have taken: the work done less the gain in
     /// energy. Physical and numerical dissipation are not told apart.
     pub dissipated: f64,
@@ -31,6 +33,8 @@ pub(super) struct Work {
     pub start: f64,
     pub load: f64,
     pub wall: f64,
+    /// Energy \[J\] that sleepers had been given.
+    pub asleep: f64,
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
@@ -40,6 +44,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let (kinetic, compression) = self.stored();
         self.work = Some(Work {
             start: kinetic + compression,
+            asleep: self.given_to_sleepers(),
             ..Work::default()
         });
     }
@@ -50,13 +55,15 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let work = self.work?;
         let (kinetic, compression) = self.stored();
         let left = self.removed().kinetic;
+        let asleep = work.asleep - self.given_to_sleepers();
         Some(EnergyLedger {
             kinetic,
             compression,
             load_work: work.load,
             wall_work: work.wall,
             left,
-            dissipated: work.start + work.load + work.wall - kinetic - compression - left,
+            asleep,
+            dissipated: work.start + work.load + work.wall - kinetic - compression - left - asleep,
         })
     }
 
@@ -102,6 +109,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 for d in 0..D {
                     momentum[d] += 0.5 * dt * force[d];
                 }
+            }
+        }
+        for group in self.stepping(alone) {
+            let given = group.force_on_sleepers();
+            for d in 0..D {
+                momentum[d] += 0.5 * dt * given[d];
             }
         }
         let mut load = 0.0;

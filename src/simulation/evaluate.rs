@@ -114,6 +114,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             self.apply_laws(Stage::Continuity, moment);
         }
         self.apply_laws(Stage::Rates, moment);
+        self.keep_asleep(false);
     }
 
     /// Smoothing lengths that follow the density, as far ahead as they have changed since: the nearer the search for them

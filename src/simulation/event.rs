@@ -63,6 +63,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             }
         }
         self.release_clamps();
+        self.put_to_sleep();
     }
 
     /// Lets go of what is held until something that has happened.

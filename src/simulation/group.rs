@@ -1,6 +1,7 @@
 //! A group: the bodies that share a scheme, with their particles, neighbourhood and workspace.
 //! Physics happens in `stages`, by the laws of the scheme.
 
+use super::exchange::Exchange;
 use super::held::Held;
 use super::neighborhood::Neighborhood;
 use super::population::Particles;
@@ -22,6 +23,8 @@ pub(crate) struct Group<T: Real, const D: usize> {
     pub neighborhood: Neighborhood<T, D>,
     pub work: Workspace<T, D>,
     pub scheme: Arc<Scheme<T, D>>,
+    /// The schemes that it obeys by turns, its first among them; none if that is all.
+    pub exchanges: Vec<Exchange<T, D>>,
     pub walls: Vec<WallState<T, D>>,
     pub boundaries: Vec<Arc<dyn Boundary<T, D>>>,
     pub outlets: Vec<Outlet<D>>,
@@ -94,6 +97,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             neighborhood: Neighborhood::new(interactions, reach, skins),
             work: Workspace::default(),
             scheme,
+            exchanges: Vec::new(),
             walls,
             boundaries,
             outlets: Vec::new(),

@@ -1,7 +1,8 @@
-//! What does not follow forces particle by particle: clamped particles, and bodies that move as rigid ones.
+//! What does not follow forces particle by particle: clamped particles, bodies that move as rigid ones, and what sleeps.
 //! Forces are replaced after they are summed, so kicks, work and ledgers need not know.
 
 use super::Simulation;
+use super::asleep::Asleep;
 use super::group::Group;
 use crate::boundary::Motion;
 use crate::particles::{Field, Output};
@@ -9,11 +10,19 @@ use crate::scalar::Real;
 use nalgebra::{Matrix3, SymmetricEigen, UnitQuaternion, Vector3};
 use std::sync::Arc;
 
-/// Clamped particles and rigid bodies of a group.
+/// Clamped particles and rigid bodies of a group, and those of its particles that sleep, where any may.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Held<const D: usize> {
     pub clamps: Vec<Clamp<D>>,
     pub rigid: Vec<Rigid<D>>,
+    pub asleep: Option<Asleep<D>>,
+}
+
+impl<const D: usize> Held<D> {
+    /// Whether nothing is held, nor may be.
+    pub fn is_empty(&self) -> bool {
+        self.clamps.is_empty() && self.rigid.is_empty() && self.asleep.is_none()
+    }
 }
 
 /// Particles of a body whose motion is prescribed.
@@ -223,7 +232,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
 impl<T: Real, const D: usize> Group<T, D> {
     /// The slots of a particle of a body: its own, and those that repeat it.
-    fn slots_of(&self, body: usize, id: u32) -> std::ops::Range<usize> {
+    pub(super) fn slots_of(&self, body: usize, id: u32) -> std::ops::Range<usize> {
         let body = &self.particles.bodies[body];
         let slot = self.particles.slot_of[body.ids.start + id as usize];
         if slot == u32::MAX {
@@ -238,14 +247,14 @@ impl<T: Real, const D: usize> Group<T, D> {
         slot..end
     }
 
-    fn force_on(&self, slot: usize, coupled: bool) -> [T; D] {
+    pub(super) fn force_on(&self, slot: usize, coupled: bool) -> [T; D] {
         match &self.sub_cycle {
             Some(apart) if coupled => apart.forces[slot],
             _ => self.work.rates.vector(Output::FORCE, slot),
         }
     }
 
-    fn set_force(&mut self, slot: usize, coupled: bool, force: [T; D]) {
+    pub(super) fn set_force(&mut self, slot: usize, coupled: bool, force: [T; D]) {
         match &mut self.sub_cycle {
             Some(apart) if coupled => apart.forces[slot] = force,
             _ => self.work.rates.set(Output::FORCE, slot, force),
@@ -254,6 +263,7 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// Replaces forces on what is held: of its group, or of couplings where it sub-cycles.
     pub(super) fn hold(&mut self, time: f64, coupled: bool) {
+        self.hold_sleepers(coupled);
         if self.held.clamps.is_empty() && self.held.rigid.is_empty() {
             return;
         }
@@ -315,6 +325,7 @@ impl<T: Real, const D: usize> Group<T, D> {
     }
 
     fn record_clamps(&mut self, coupled: bool, dt: f64) {
+        self.record_sleepers(coupled, dt);
         let mut clamps = core::mem::take(&mut self.held.clamps);
         for own in &mut clamps {
             for ((id, _), force) in own.particles.iter().zip(&own.forces[usize::from(coupled)]) {

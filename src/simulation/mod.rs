@@ -32,6 +32,7 @@
 //! | force and impulse on a wall | [`Simulation::wall_force`], [`Simulation::wall_impulse`] |
 //! | energy of a liquid, work on it, dissipation | [`Simulation::energy`] |
 //! | what left through outlets | [`Simulation::removed`] |
+//! | what sleeps outside of a box, and what that has taken | [`Simulation::asleep`] |
 //! | memory | [`Simulation::bytes`] |
 //! | all of these as counts that no machine changes | [`Simulation::work`], and [`Simulation::expected_work`] of what is to come |
 //! | whether the run is sound: bounds, limits, residuals, arrangement, steps, with a verdict | [`Simulation::keep_stability`], [`Simulation::stability`] |
@@ -116,6 +117,7 @@
 
 mod advance;
 mod approach;
+mod asleep;
 #[cfg(feature = "checkpoint")]
 mod checkpoint;
 mod contact;
@@ -126,6 +128,7 @@ mod energy;
 mod evaluate;
 mod event;
 mod evolve;
+mod exchange;
 mod fields;
 mod group;
 mod held;
@@ -155,6 +158,7 @@ mod which;
 mod work;
 mod workspace;
 
+pub use asleep::Sleepers;
 pub use contact::Contact;
 pub use control::{Criterion, StepControl, Vote};
 pub use cost::{Cost, CostLine};
@@ -173,9 +177,11 @@ pub use which::Which;
 pub(crate) use which::find;
 pub use work::Work;
 
+pub(crate) use asleep::Awake;
 pub(crate) use contact::{Acting, Couple};
 pub(crate) use couplings::Structure;
 pub(crate) use event::{Event, Happened};
+pub(crate) use exchange::Exchange;
 pub(crate) use group::{Group, width};
 pub(crate) use held::{Clamp, Rigid};
 pub(crate) use pair_list::PairList;
@@ -251,6 +257,8 @@ pub struct Simulation<T: Real, const D: usize> {
     /// What is looked at after every step, and what has happened.
     events: Vec<Event<T, D>>,
     happened: Happened,
+    /// The box in which it is awake.
+    awake: Option<Awake<T, D>>,
 }
 
 impl<T: Real, const D: usize> core::fmt::Debug for Simulation<T, D> {
@@ -312,6 +320,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             watch: None,
             events: Vec::new(),
             happened: Happened::new(),
+            awake: None,
         }
     }
 

@@ -127,6 +127,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.check_state()?;
         self.watch_step();
         self.watch_events();
+        let followed = self.follow_events();
+        self.keep_failure(followed)?;
         self.book_step(start, before);
         Ok(vote.step)
     }

@@ -63,6 +63,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         if self.scheme.energy != EnergyForm::Compatible {
             if self.carries_energy() {
                 self.heat(dt, None);
+                self.keep_asleep(true);
             }
             return;
         }
@@ -76,6 +77,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
         self.heat(dt, Some(later.unwrap_or(0.0)));
         self.heat_by_loads(dt);
+        self.keep_asleep(true);
     }
 
     /// The mean velocities v + a dt/2 and accelerations of a kick of which this is `half` the time \[s\].
@@ -299,6 +301,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         if self.carries_energy() {
             self.heat(dt, None);
         }
+        self.keep_asleep(false);
     }
 
     /// Takes the last prediction back.

@@ -9,17 +9,29 @@ use meshfree::scene::Start;
 use meshfree::scheme::EnergyForm;
 use meshfree::study::noh::Noh;
 use meshfree::study::sedov::Sedov;
+use meshfree::term::viscosity::SignalVelocity;
 use std::time::Instant;
 
-/// The ready gas with conduction, as the cases in a plane have it.
-fn gas(form: EnergyForm) -> Scheme<f64, 3> {
-    schemes::gas()
-        .smoothing(Smoothing::Consistent {
+/// The ready gas with conduction, as the cases in a plane have it; or the control, with neither viscosity nor conduction and a
+/// fixed smoothing length, since without viscosity those in voids make a run that does not end.
+fn gas(cured: bool, form: EnergyForm) -> Scheme<f64, 3> {
+    let share = if cured { 1.0 } else { 0.0 };
+    let smoothing = if cured {
+        Smoothing::Consistent {
             smallest: 0.02,
             largest: 50.0,
+        }
+    } else {
+        Smoothing::Fixed
+    };
+    schemes::gas()
+        .with_viscosity(SignalVelocity {
+            alpha: share * SignalVelocity::STANDARD.alpha,
+            ..SignalVelocity::STANDARD
         })
+        .smoothing(smoothing)
         .with(ArtificialConduction {
-            strength: 0.5,
+            strength: 0.5 * share,
             ..ArtificialConduction::default()
         })
         .energy(form)
@@ -54,7 +66,7 @@ fn implosion(form: EnergyForm, count: usize) -> [f64; 2] {
             energy: law.energy(1e-6, 1.0),
             ..own
         });
-    let scene = Scene::new(gas(form)).body(body).varied();
+    let scene = Scene::new(gas(true, form)).body(body).varied();
     let mut own = scene.build().expect("a ball");
     let before = energy(&own);
     own.run_until(0.6).expect("a run");
@@ -79,10 +91,8 @@ fn implosion(form: EnergyForm, count: usize) -> [f64; 2] {
     ]
 }
 
-/// Without viscosity smoothing lengths in voids make a control that does not end; that of the energy has its symmetric form.
-fn held(case: &'static str, criterion: &str, runs: [[f64; 2]; 2], bound: f64) {
-    let [[error, value], [_, control]] = runs;
-    println!("| {case} | {criterion} | ≤ {bound} | {error:.3e} | none |");
+/// The control of the energy has its symmetric form.
+fn closed(case: &'static str, [[_, value], [_, control]]: [[f64; 2]; 2]) {
     Row {
         case,
         criterion: "change of energy; control: symmetric energy",
@@ -90,30 +100,35 @@ fn held(case: &'static str, criterion: &str, runs: [[f64; 2]; 2], bound: f64) {
         control,
     }
     .at_most(1e-10);
-    assert!(error <= bound, "{error}");
 }
 
 const FORMS: [EnergyForm; 2] = [EnergyForm::Compatible, EnergyForm::Symmetric];
-const PLATEAU: &str = "error of the mean of the plateau";
-const FRONT: &str = "error of the radius of the front";
+
+/// A plateau has no control: gas that streams through itself without viscosity, twelve particles a radius, is 0.153 off.
+fn reached(case: &'static str, runs: [[f64; 2]; 2], bound: f64) {
+    let error = runs[0][0];
+    println!("| {case} | error of the mean of the plateau | ≤ {bound} | {error:.3e} | none |");
+    closed(case, runs);
+    assert!(error <= bound, "{error}");
+}
 
 /// The shock is two and a half spacings of the start from the middle: the plateau is a fifth of the exact one, and the bound holds
 /// only what is. Energy is what the case asks for.
 #[test]
 fn noh_implodes_to_a_plateau_in_space() {
     let runs = FORMS.map(|form| implosion(form, 12));
-    held("Noh's implosion 3D, 12 a radius", PLATEAU, runs, 0.85);
+    reached("Noh's implosion 3D, 12 a radius", runs, 0.85);
 }
 
 #[test]
 #[ignore = "three minutes: 65 000 particles, twice"]
 fn noh_implodes_to_a_plateau_in_space_finely() {
     let runs = FORMS.map(|form| implosion(form, 25));
-    held("Noh's implosion 3D, 25 a radius", PLATEAU, runs, 0.6);
+    reached("Noh's implosion 3D, 25 a radius", runs, 0.6);
 }
 
 /// Mean radius of the densest hundred particles over that of the shock, less one; change of energy.
-fn blast(form: EnergyForm, count: usize) -> [f64; 2] {
+fn blast(cured: bool, form: EnergyForm, count: usize) -> [f64; 2] {
     let begun = Instant::now();
     let law = IdealGas::new(1.4, 1.0);
     let spacing = 1.0 / count as f64;
@@ -130,10 +145,13 @@ fn blast(form: EnergyForm, count: usize) -> [f64; 2] {
         energy: law.energy(1e-6, 1.0) + bump(x) / whole,
         ..own
     });
-    let scene = Scene::new(gas(form)).body(body).varied();
+    let scene = Scene::new(gas(cured, form)).body(body).varied();
     let mut own = scene.build().expect("gas");
     let before = energy(&own);
-    own.run_until(0.5).expect("a run");
+    if let Err(error) = own.run_until(0.5) {
+        println!("{cured}: {error}");
+        return [f64::INFINITY; 2];
+    }
     let dense = own.all().map(|p| (p.density(), radius(p.position())));
     let mut dense: Vec<_> = dense.filter(|(_, r)| *r < 1.0).collect();
     dense.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -154,6 +172,15 @@ fn blast(form: EnergyForm, count: usize) -> [f64; 2] {
 
 #[test]
 fn a_point_blast_in_space_runs_as_sedov_says() {
-    let runs = FORMS.map(|form| blast(form, 12));
-    held("Sedov's blast 3D, 12 a metre", FRONT, runs, 0.02);
+    let case = "Sedov's blast 3D, 12 a metre";
+    let runs = FORMS.map(|form| blast(true, form, 12));
+    let bare = blast(false, EnergyForm::Compatible, 12);
+    Row {
+        case,
+        criterion: "error of the radius of the front; control: no viscosity, fixed h",
+        value: runs[0][0],
+        control: bare[0],
+    }
+    .at_most(0.02);
+    closed(case, runs);
 }

@@ -20,3 +20,4 @@ mod two_phases;
 mod unlike;
 mod variations;
 mod vortices;
+mod water_hammer;

@@ -10,16 +10,15 @@ const RHO: f64 = 1000.0;
 const C: f64 = 1000.0;
 
 /// A stiff striker of 10 mm on a soft rod of 40 mm is slowed as a mass on a dashpot of impedance ρ c, to v₀ e^(−c t/L), until
-/// waves return: the largest error of its mean velocity over v₀ meanwhile. The error is of first order: 0.059, and 0.029 at this spacing.
-#[test]
-fn a_stiff_rod_is_slowed_by_a_soft_one() {
+/// waves return: the largest error of its mean velocity over v₀ meanwhile, and the changes of momentum and energy.
+fn slowed(form: DensityForm) -> [f64; 3] {
     const SPEED: f64 = 0.01;
     let soft = C / 1e5_f64.sqrt();
     let rod = |name, sound, [low, high]: [f64; 2]| {
         let law = Linear::new(RHO, sound);
         Body::block(name, Material::new(name, law), [low], [high], 2e-4).jitter(0.01, seed(2))
     };
-    let mut rods = Scene::<f64, 1>::new(schemes::impact())
+    let mut rods = Scene::<f64, 1>::new(schemes::impact().density(form))
         .body(rod("stiff", C, [0.0, 0.01]).velocity([SPEED]))
         .body(rod("soft", soft, [0.01, 0.05]))
         .varied()
@@ -27,22 +26,38 @@ fn a_stiff_rod_is_slowed_by_a_soft_one() {
         .expect("rods");
     let before = rods.ledger().whole;
     let mut worst = 0.0_f64;
-    rods.run_with(5e-3, |now| {
+    let ended = rods.run_with(5e-3, |now| {
         let striker = &now.ledger().bodies[0].1;
         let found = striker.momentum[0] / (striker.mass * SPEED);
         worst = worst.max((found - (-soft * now.time() / 0.01).exp()).abs());
-    })
-    .expect("a run");
+    });
+    if let Err(error) = ended {
+        println!("{form:?}: {error}");
+        return [f64::INFINITY; 3];
+    }
     let after = rods.ledger().whole;
-    let [momentum, energy] = [
-        after.momentum[0] / before.momentum[0] - 1.0,
-        after.total_energy() / before.total_energy() - 1.0,
-    ];
-    println!(
-        "| stiff on soft, 10⁵:1 | largest error of the striker's velocity | ≤ 0.03 | {worst:e} | none |"
-    );
+    println!("{form:?}: {worst}, {} steps", rods.steps());
+    [
+        worst,
+        (after.momentum[0] / before.momentum[0] - 1.0).abs(),
+        (after.total_energy() / before.total_energy() - 1.0).abs(),
+    ]
+}
+
+/// The error is of first order: 0.059 at twice this spacing. The control sums masses, and so sees half a neighbourhood at every end
+/// and at the joint, of which the stiff side makes stress.
+#[test]
+fn a_stiff_rod_is_slowed_by_a_soft_one() {
+    let [value, momentum, energy] = slowed(DensityForm::NumberDensity);
     println!("momentum {momentum}, energy {energy}");
-    assert!(worst < 0.03 && momentum.abs() < 1e-12 && energy.abs() < 1e-10);
+    assert!(momentum < 1e-12 && energy < 1e-10);
+    Row {
+        case: "stiff on soft, 10⁵:1, rods, 0.2 mm",
+        criterion: "largest error of the striker's velocity; number density, control: summation",
+        value,
+        control: slowed(DensityForm::Summation)[0],
+    }
+    .at_most(0.03);
 }
 
 /// A bell of pressure that runs from a rod of one spacing into one of so many times that: what comes back, over what went in.

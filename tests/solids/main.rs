@@ -5,6 +5,7 @@
 mod common;
 
 mod advice;
+mod asleep;
 mod bad_solids;
 mod conservation;
 mod contact;
@@ -12,6 +13,7 @@ mod convergence;
 mod conversion;
 mod elastic_plastic_waves;
 mod events;
+mod exchange;
 mod gas;
 mod halved_contact;
 mod held;

@@ -45,6 +45,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         self.check_names(&mut problems);
         self.check_contacts(&mut problems);
         self.check_outlets(&mut problems);
+        self.check_sleepers(&mut problems);
         let plans: Vec<Plan<'_, T, D>> = self.plans().collect();
         for plan in &plans {
             plan.check_scheme(&mut problems);
@@ -58,6 +59,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         self.check_spreading(&mut problems);
         self.check_held(&mut problems);
         self.check_events(&mut problems);
+        self.check_exchanges(&mut problems);
         let before = problems.len();
         self.check_boundaries(&mut problems);
         if problems.len() == before {
@@ -107,7 +109,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
     }
 
     /// The problem that no body has a name.
-    fn unknown_body(&self, name: &str) -> Problem {
+    pub(super) fn unknown_body(&self, name: &str) -> Problem {
         let names: Vec<_> = self
             .bodies()
             .map(|body| format!("`{}`", body.name))

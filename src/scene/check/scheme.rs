@@ -14,7 +14,7 @@ use crate::term::Stage;
 use std::sync::Arc;
 
 impl<T: Real, const D: usize> Plan<'_, T, D> {
-    pub(super) fn check_scheme(&self, problems: &mut Vec<Problem>) {
+    pub(in crate::scene) fn check_scheme(&self, problems: &mut Vec<Problem>) {
         let (scheme, kernel) = (&self.scheme, self.scheme.kernel);
         let (lowest, highest) = kernel.range;
         if !(lowest..=highest).contains(&scheme.h_over_dx) {

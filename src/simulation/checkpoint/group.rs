@@ -27,6 +27,8 @@ impl<T: Real, const D: usize> Group<T, D> {
             scheme,
             walls,
             boundaries: _,
+            // By the events, which are kept.
+            exchanges: _,
             outlets: _,
             emitters,
             gravity,
@@ -166,6 +168,10 @@ impl<T: Real, const D: usize> Group<T, D> {
             apart.pending = pending.as_chunks::<D>().0.to_vec();
         }
         take_held(&mut self.held, name, file)?;
+        if let Some(mut asleep) = self.held.asleep.take() {
+            self.keep_rows(&mut asleep);
+            self.held.asleep = Some(asleep);
+        }
         self.gravity = file.get_array(&format!("{name}/gravity"))?;
         let evaluated: [f64; D] = file.get_array(&format!("{name}/evaluated_gravity"))?;
         self.evaluated_gravity = evaluated.map(T::from_f64);

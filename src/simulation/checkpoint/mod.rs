@@ -22,6 +22,13 @@ use std::path::Path;
 /// The version of what is held. It rises with every change of it.
 const VERSION: &str = "3";
 
+/// Parts of a scene that are hashed only where there are any.
+const RARE: [&str; 3] = [
+    "events",
+    "the box in which it is awake",
+    "schemes that come later",
+];
+
 const FORMAT: &str = "meshfree checkpoint";
 
 impl<T: Real, const D: usize> Simulation<T, D> {
@@ -63,6 +70,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             accelerations: _,
             loads: _,
             events: _,
+            awake: _,
             happened,
             scene,
             time,
@@ -121,8 +129,18 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             file.put_one("last_vote/step".into(), *step);
             file.put_one("last_vote/particle".into(), *particle as u64);
         }
-        if let Some(Work { start, load, wall }) = work {
+        if let Some(Work {
+            start,
+            load,
+            wall,
+            asleep,
+        }) = work
+        {
             file.put("work".into(), 1, [*start, *load, *wall]);
+            // Files of scenes in which nothing may sleep are as they were.
+            if self.awake.is_some() {
+                file.put_one("work/asleep".into(), *asleep);
+            }
         }
         file.put("impulses".into(), 1, &impulses.values);
         for (k, kept) in kept_impulses.iter().enumerate() {
@@ -196,7 +214,17 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.work = None;
         if file.has("work") {
             let [start, load, wall] = file.get_array("work")?;
-            self.work = Some(Work { start, load, wall });
+            let asleep = if file.has("work/asleep") {
+                file.get_one("work/asleep")?
+            } else {
+                0.0
+            };
+            self.work = Some(Work {
+                start,
+                load,
+                wall,
+                asleep,
+            });
         }
         let time = self.time;
         let values = file.get("impulses")?;
@@ -210,18 +238,19 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 time: file.get_one(&format!("{name}/time"))?,
             });
         }
-        for (k, couple) in self.couples.iter_mut().enumerate() {
-            couple.take_state(&format!("coupling{k}"), file)?;
-        }
-        for (k, group) in self.groups.iter_mut().enumerate() {
-            group.take_state(&format!("group{k}"), file)?;
-        }
         for (k, (_, at)) in self.happened.iter_mut().enumerate() {
             let name = format!("event{k}/time");
             *at = None;
             if file.has(&name) {
                 *at = Some(file.get_one(&name)?);
             }
+        }
+        self.exchange_schemes();
+        for (k, couple) in self.couples.iter_mut().enumerate() {
+            couple.take_state(&format!("coupling{k}"), file)?;
+        }
+        for (k, group) in self.groups.iter_mut().enumerate() {
+            group.take_state(&format!("group{k}"), file)?;
         }
         self.release_clamps();
         Ok(())
@@ -265,12 +294,15 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let found = file.text(&format!("hash of {part}"));
             !found.is_ok_and(|found| found == format!("{hash:016x}"))
         };
-        let parts: Vec<_> = self.scene.iter().filter(differs).collect();
+        let differing = self.scene.iter().filter(differs).map(|(part, _)| *part);
+        // Parts that few scenes have, of which the file has one and the scene none.
+        let lacks = |part: &&str| {
+            let own = self.scene.iter().any(|own| own.0 == *part);
+            !own && file.text(&format!("hash of {part}")).is_ok()
+        };
+        let parts: Vec<_> = differing.chain(RARE.into_iter().filter(lacks)).collect();
         if !parts.is_empty() {
-            let parts = parts.into_iter().map(|(part, _)| *part);
-            return Err(CheckpointProblem::Scene {
-                parts: parts.collect(),
-            });
+            return Err(CheckpointProblem::Scene { parts });
         }
         let set = file.text("instructions")?;
         let lacks =

@@ -105,13 +105,18 @@ impl fmt::Display for StabilityReport {
             leaked,
             ejected,
             left,
+            asleep,
             ..
         } = self;
-        writeln!(
+        write!(
             f,
             "  {:<26} {leaked} leaked, {ejected} alone, {left} left",
             "particles"
         )?;
+        match asleep {
+            0 => writeln!(f)?,
+            asleep => writeln!(f, ", {asleep} asleep")?,
+        }
         writeln!(
             f,
             "  {:<26} {} %",

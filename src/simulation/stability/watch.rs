@@ -430,9 +430,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Whether what acts from outside is known to the momentum residual: uniform loads, walls and boundaries.
     pub(super) fn books_momentum(&self) -> bool {
-        let own = |group: &Group<T, D>| {
-            group.emitters.is_empty() && group.held.clamps.is_empty() && group.held.rigid.is_empty()
-        };
+        let own = |group: &Group<T, D>| group.emitters.is_empty() && group.held.is_empty();
         self.loads.is_empty() && self.groups.iter().all(own) && self.removed().particles == 0
     }
 

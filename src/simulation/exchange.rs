@@ -1,0 +1,96 @@
+//! Schemes that a group takes in exchange for its own when an event happens: effects with pair terms in a window of time.
+//! Each is a step program of its own, so a step pays for nothing that is not in force.
+
+use super::Simulation;
+use super::group::Group;
+use super::workspace::Workspace;
+use crate::error::Result;
+use crate::particles::{Field, Fields};
+use crate::scalar::Real;
+use crate::scheme::Scheme;
+use std::sync::Arc;
+
+/// A scheme that a group obeys from an event on.
+#[derive(Debug)]
+pub(crate) struct Exchange<T: Real, const D: usize> {
+    /// The number of the event; none for the scheme that it starts with.
+    pub event: Option<usize>,
+    pub scheme: Arc<Scheme<T, D>>,
+    /// What a particle carries under it.
+    pub fields: Fields,
+}
+
+impl<T: Real, const D: usize> Simulation<T, D> {
+    /// Gives groups the schemes that are in force by what has happened; whether any changed.
+    pub(super) fn exchange_schemes(&mut self) -> bool {
+        let mut any = false;
+        for group in &mut self.groups {
+            // The last in time, and of those at once the last that was named.
+            let mut last = (f64::NEG_INFINITY, None);
+            for (k, own) in group.exchanges.iter().enumerate() {
+                let since = match own.event {
+                    Some(event) => self.happened[event].1,
+                    None => Some(f64::NEG_INFINITY),
+                };
+                if let Some(since) = since.filter(|since| *since >= last.0) {
+                    last = (since, Some(k));
+                }
+            }
+            if let Some(k) = last.1
+                && !Arc::ptr_eq(&group.exchanges[k].scheme, &group.scheme)
+            {
+                group.exchange(k);
+                any = true;
+            }
+        }
+        any
+    }
+
+    /// The same after a step, with rates anew where any changed.
+    pub(super) fn follow_events(&mut self) -> Result<()> {
+        if self.exchange_schemes() {
+            self.forget_rates();
+            crate::integrator::System::evaluate(self, 0.0)?;
+        }
+        Ok(())
+    }
+}
+
+impl<T: Real, const D: usize> Group<T, D> {
+    /// Takes another scheme. What it carries beside the one before begins as at a start, and what it does not carry is
+    /// forgotten.
+    fn exchange(&mut self, number: usize) {
+        let Exchange { scheme, fields, .. } = &self.exchanges[number];
+        let (scheme, fields) = (scheme.clone(), *fields);
+        let columns = &mut self.particles.columns;
+        let new = fields.minus(columns.fields());
+        columns.set_fields(fields);
+        for body in &self.particles.bodies {
+            for slot in body.run() {
+                scheme.begin(columns, slot, &body.material, new);
+            }
+        }
+        if new.contains(Field::CORRECTION) {
+            let slots = columns.slots();
+            let rows = columns.raw_mut(Field::CORRECTION);
+            // The liquid corrects the gradients; a wall takes them as they are.
+            for slot in self.particles.mobile..slots {
+                for d in 0..D {
+                    rows[slot * D * D + d * (D + 1)] = T::one();
+                }
+            }
+        }
+        self.scheme = scheme;
+        self.work = Workspace {
+            phases: self.work.phases,
+            spent: self.work.spent,
+            moved: core::mem::take(&mut self.work.moved),
+            lengths_time: self.work.lengths_time,
+            ..Workspace::default()
+        };
+        if let Some(mut asleep) = self.held.asleep.take() {
+            self.keep_rows(&mut asleep);
+            self.held.asleep = Some(asleep);
+        }
+    }
+}
