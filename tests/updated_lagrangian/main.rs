@@ -1,6 +1,7 @@
 //! Updated-Lagrangian solids: rings that collide, stretched lattices, waves in every kinematics, sheets that yield, spall.
 //! One program, so that the loops over pairs of its three schemes are compiled once.
 
+mod bending;
 mod rings;
 mod sheets;
 mod spall;
