@@ -176,14 +176,19 @@ impl Case {
         (0.8 / self.inflow).min(2.0)
     }
 
+    /// Free columns of the beam, and how far they are apart \[m\]. Held are places: the last held column stands at the root, and
+    /// the tip half a column behind the last.
+    fn columns(&self) -> (f64, f64) {
+        let free = (LENGTH * self.through / THICKNESS - 0.5).round();
+        (free, LENGTH / (free + 0.5))
+    }
+
     fn beam<T: Real>(&self) -> Body<T, 2> {
         let law = Linear::from_elastic_constants(self.density, self.youngs, POISSON);
         let shear = self.youngs / (2.0 * (1.0 + POISSON));
         let material = Material::new("beam", law).with_shear_modulus(shear);
-        // Held are places: the last held column stands at the root, and the tip half a column behind the last.
         let row = THICKNESS / self.through;
-        let free = (LENGTH / row - 0.5).round();
-        let column = LENGTH / (free + 0.5);
+        let (free, column) = self.columns();
         let points = (0..self.through as i64).flat_map(|k| {
             let y = CENTRE[1] + (k as f64 + 0.5) * row - 0.5 * THICKNESS;
             (1 - HELD..=free as i64).map(move |k| [ROOT + k as f64 * column, y])
@@ -354,8 +359,7 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
         });
         Ok(own.map(|p| (p.id(), p.position())).collect())
     };
-    let free = (LENGTH * case.through / THICKNESS - 0.5).round();
-    let step = LENGTH / (free + 0.5);
+    let (free, step) = case.columns();
     let last = ROOT + free * step;
     let columns = [column(last)?, column(last - step)?];
     let tip = |now: &Simulation<T, 2>| -> Result<[f64; 2], Failure> {

@@ -6,6 +6,7 @@ mod common;
 
 mod advice;
 mod bad_solids;
+mod clamped_wall;
 mod conservation;
 mod contact;
 mod convergence;
