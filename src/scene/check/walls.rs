@@ -238,37 +238,3 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use crate::boundary::Wall;
-    use crate::error::Problem;
-    use crate::prelude::*;
-
-    /// Water on a floor whose rows are as fine as asked for, their face `gap` below it.
-    fn overlaps(row: f64, gap: f64) -> bool {
-        let water = catalogue::water().with_pressure_cut_off(0.0);
-        let water = Body::block("water", water, [0.0; 2], [0.2, 0.1], 0.01);
-        let columns = (0.3 / row) as i64;
-        let rows = (0.04 / row) as i64;
-        let floor = (0..columns).flat_map(|i| {
-            let x = (i as f64 + 0.5) * row - 0.05;
-            (0..rows).map(move |j| [x, -gap - (j as f64 + 0.5) * row])
-        });
-        let scene = Scene::<f64, 2>::new(schemes::weakly_compressible())
-            .body(water)
-            .wall(Wall::of("floor", floor.collect(), row));
-        let problems = scene.problems();
-        problems
-            .iter()
-            .any(|own| matches!(own, Problem::Overlap { .. }))
-    }
-
-    #[test]
-    fn liquid_may_stand_on_a_wall_of_any_finer_spacing_and_not_in_it() {
-        for row in [0.01, 0.0025, 0.001] {
-            assert!(!overlaps(row, 0.0), "{row}");
-            assert!(overlaps(row, -0.005), "{row}");
-        }
-    }
-}
