@@ -61,7 +61,7 @@ fn deflection(layers: usize) -> f64 {
         sum / n
     };
     let before = height(&scene);
-    scene.run_until(2e-3).unwrap();
+    scene.run_until(1.5e-3).unwrap();
     let rigidity = YOUNG * THICKNESS.powi(3) / (12.0 * (1.0 - POISSON * POISSON));
     let plate = (THIN + SHEAR) * 1e4 * SIDE.powi(4) / rigidity;
     (before - height(&scene)) / plate
