@@ -132,6 +132,7 @@
 //! | solids that meet at weak to moderate shocks and keep their shape | [`schemes::impact`] |
 //! | the same with large motion | [`schemes::impact_by_continuity`] |
 //! | the same with shear and strength | [`schemes::impact_by_continuity`] with [`Hypoelastic`](effect::Hypoelastic) and [`Plasticity`](effect::Plasticity) |
+//! | solids that bend, flow or turn, and meet others by a coupling | [`schemes::updated_lagrangian`] with [`Plasticity`](effect::Plasticity) and [`HourglassFree`](effect::HourglassFree) |
 //! | a result of Lam, Shen & Gong (2002) to repeat | [`schemes::lam2002`] with [`LamLeapfrog`](integrator::LamLeapfrog), bodies bonded |
 //! | a liquid with a free surface, still or violent | [`schemes::weakly_compressible`] |
 //! | the same, violent and for long enough that particles leave their lattice unevenly | [`schemes::weakly_compressible`] with [`ExpansionMemory`](effect::ExpansionMemory) and [`Shifting::STANDARD`](effect::Shifting), in a plane [`ConsistentShifting`](effect::ConsistentShifting) |

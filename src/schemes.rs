@@ -33,7 +33,8 @@
 //! What an error costs with them, on sixteen problems with known answers, is in `docs/accuracy_and_cost.md`.
 
 use crate::effect::{
-    Cavitation, DensityDiffusion, ExtrapolatedPressure, HourglassControl, NoWalls, TotalLagrangian,
+    Cavitation, DensityDiffusion, ExtrapolatedPressure, HourglassControl, NoWalls,
+    RenormalisedHypoelastic, TotalLagrangian,
 };
 use crate::kernel::{CubicSpline, WendlandC2, WendlandC4};
 use crate::scheme::forms;
@@ -87,6 +88,39 @@ pub fn impact_by_continuity() -> ImpactBuilder {
     impact()
         .named("impact by continuity")
         .density(DensityForm::Continuity)
+}
+
+/// What [`updated_lagrangian`] returns.
+pub type SolidBuilder = SchemeBuilder<
+    CubicSpline,
+    LimitedMonaghanGingold,
+    NoWalls,
+    ((), RenormalisedHypoelastic),
+    { SmoothingMode::Uniform.bit() },
+    { forms::ENERGY | forms::MIDPOINT | forms::RENORMALISED },
+>;
+
+/// Solids that bear shear and may flow: [`impact_by_continuity`] with all gradients corrected, those that compress, those
+/// that strain and those of the force ([`RenormalisedHypoelastic`]).
+///
+/// A plate of ten rows swings with a period 3 % too long, where without the corrections it is 11 % too short; at h/dx 1.0 it
+/// is 1.9 % (`docs/solids.md`). Add what the body does beyond elasticity, and a cure of the tensile instability after it:
+///
+/// ```
+/// use meshfree::effect::{HourglassFree, Plasticity};
+/// use meshfree::prelude::*;
+/// let scheme: Scheme<f64, 3> =
+///     schemes::updated_lagrangian().with(Plasticity).with(HourglassFree::default()).compose();
+/// assert!(scheme.to_string().contains("corrected gradients"));
+/// ```
+///
+/// Bodies that meet are groups of their own with a coupling between them.
+#[must_use]
+pub fn updated_lagrangian() -> SolidBuilder {
+    impact_by_continuity()
+        .renormalised()
+        .named("updated Lagrangian")
+        .with(RenormalisedHypoelastic)
 }
 
 /// The scheme of Lam, Shen & Gong (2002), with its misprints corrected: summation smoothed at joints,

@@ -7,7 +7,7 @@ mod profile;
 mod shots;
 
 use common::{Example, Failure, Options, Own, evenly, watch};
-use meshfree::effect::{FiniteStrainPlasticity, HourglassFree, Hypoelastic, Plasticity};
+use meshfree::effect::{FiniteStrainPlasticity, HourglassFree, Plasticity};
 use meshfree::output::csv::CsvWriter;
 use meshfree::output::svg::{Axis, Cloud, Figure, Panel, Series};
 use meshfree::output::vtu::Pvd;
@@ -50,7 +50,7 @@ const EXAMPLE: Example = Example {
         Own {
             name: "--cure",
             value: "NAME",
-            help: "of updated: none (the default), hourglass-free",
+            help: "of updated: hourglass-free (the default), none; total takes none",
         },
         Own {
             name: "--wall",
@@ -60,7 +60,7 @@ const EXAMPLE: Example = Example {
         Own {
             name: "--smoothing",
             value: "RATIO",
-            help: "of updated: smoothing length over spacing; 1.7",
+            help: "of updated: smoothing length over spacing; 2, because spacings grow more than twofold across the foot",
         },
         Own {
             name: "--viscosity",
@@ -93,12 +93,11 @@ fn scheme(
     [alpha, smoothing]: [f64; 2],
 ) -> Result<Scheme<f64, 3>, Failure> {
     let updated = || {
-        let scheme = schemes::impact_by_continuity().with_kernel(WendlandC2);
+        let scheme = schemes::updated_lagrangian().with_kernel(WendlandC2);
         let standard = *scheme.viscosity();
         scheme
             .with_viscosity(LimitedMonaghanGingold { alpha, ..standard })
             .h_over_dx(smoothing)
-            .with(Hypoelastic)
             .with(Plasticity)
     };
     match (formulation, cure) {
@@ -183,10 +182,13 @@ fn perform(options: &Options) -> Result<(), Failure> {
         speed: options.number("--speed", 227.0)?,
     };
     let formulation = options.text("--formulation").unwrap_or("updated");
-    let cure = options.text("--cure").unwrap_or("none");
-    let usual = if formulation == "total" { 0.1 } else { 0.5 };
+    let (usual, cure) = match formulation {
+        "total" => (0.1, "none"),
+        _ => (0.5, "hourglass-free"),
+    };
+    let cure = options.text("--cure").unwrap_or(cure);
     let alpha = options.number("--viscosity", usual)?;
-    let smoothing = options.number("--smoothing", 1.7)?;
+    let smoothing = options.number("--smoothing", 2.0)?;
     let spacing = options.spacing_or(bar.diameter / 16.0, bar.diameter / 8.0);
     let until = options.until_or(80e-6, 40e-6);
     let metal = material(name)?;

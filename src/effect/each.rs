@@ -34,6 +34,7 @@ macro_rules! for_each_effect {
             ]
             solid [
                 $crate::effect::Hypoelastic,
+                $crate::effect::RenormalisedHypoelastic,
                 $crate::effect::Plasticity,
                 $crate::effect::Damage,
                 $crate::effect::DensityFloor::default(),

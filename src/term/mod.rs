@@ -119,6 +119,7 @@ pub use momentum::{InternalEnergy, MidpointReconstruction, PressureForce};
 pub(crate) use pair::assert_room;
 pub use pair::{Layout, MOST_READS, MOST_SUMS, Pair, Sums};
 pub use probe::{Probe, probe};
+pub(crate) use renormalised::corrected;
 pub use renormalised::{RenormalisedCompression, RenormalisedPressureForce};
 pub use staged::{In, Join, StageMarker, StagedTerms, stage};
 pub use stages::Stage;
@@ -247,6 +248,7 @@ macro_rules! for_each_term {
             $crate::effect::VelocityBeforeWall,
             $crate::effect::ArtificialConduction::default(),
             $crate::effect::Hypoelastic,
+            $crate::effect::RenormalisedHypoelastic,
             $crate::effect::Repulsion { exponent: 4, over_kernel_at_spacing: 1.0 },
             $crate::effect::TensionRepulsion {
                 of: $crate::effect::ArtificialPressure { share: 0.3, exponent: 4 },

@@ -10,7 +10,11 @@ use crate::scalar::Lane;
 /// Loops, because a closure is compiled without the wider instructions of the pair loop unless it is
 /// inlined, and then calls a function for every fused product: 8 times slower.
 #[inline(always)]
-fn corrected<L: Lane, const D: usize>(r: &[L; D], f: L, value: impl Fn(usize) -> L) -> [L; D] {
+pub(crate) fn corrected<L: Lane, const D: usize>(
+    r: &[L; D],
+    f: L,
+    value: impl Fn(usize) -> L,
+) -> [L; D] {
     let mut gradient = [L::zero(); D];
     for (a, gradient) in gradient.iter_mut().enumerate() {
         for (b, r) in r.iter().enumerate() {

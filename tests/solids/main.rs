@@ -7,6 +7,7 @@ mod common;
 mod advice;
 mod asleep;
 mod bad_solids;
+mod clamped_wall;
 mod conservation;
 mod contact;
 mod convergence;

@@ -1,6 +1,7 @@
 //! Updated-Lagrangian solids: rings that collide, stretched lattices, waves in every kinematics, sheets that yield, spall.
 //! Each runs with the cures of the tensile instability that the advice names, and without.
 
+mod bending;
 mod rings;
 mod sheets;
 mod spall;

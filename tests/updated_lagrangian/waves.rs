@@ -84,6 +84,14 @@ fn waves_run_at_the_speeds_of_the_elastic_constants() {
             "plane stress, shear",
             speed::<2>(base().with(PlaneStress).compose(), 1, shear),
         ),
+        (
+            "plane strain, corrected",
+            speed::<2>(schemes::updated_lagrangian().compose(), 0, bulk),
+        ),
+        (
+            "plane strain, shear, corrected",
+            speed::<2>(schemes::updated_lagrangian().compose(), 1, shear),
+        ),
         ("space", speed::<3>(base().compose(), 0, bulk)),
         ("space, shear", speed::<3>(base().compose(), 2, shear)),
     ];

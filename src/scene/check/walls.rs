@@ -204,12 +204,14 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         let solid_cells = Cells::build(&solid, &every, spacing);
         for (wall, _) in &self.walls {
             let (mut faces, mut thin) = (0_usize, 0_usize);
+            // Lattices that touch are half a spacing of each apart.
+            let between = 0.5 * (spacing + wall.spacing.min(spacing));
             for x in &placed(wall) {
                 let Some((j, r2)) = near(&liquid, &liquid_cells, x, 1.2 * spacing) else {
                     continue;
                 };
                 let distance = r2.sqrt();
-                if distance < TOO_CLOSE * spacing {
+                if distance < TOO_CLOSE * between {
                     problems.push(Problem::Overlap {
                         first: wall.name.clone(),
                         second: self.bodies[0].name.clone(),
