@@ -278,6 +278,7 @@ impl<T: Real, const D: usize> Group<T, D> {
     pub fn input(&self) -> SweepInput<'_, T, D> {
         SweepInput {
             targets: 0..self.particles.mobile,
+            among: None,
             body_force: self.body_force,
             columns: &self.particles.columns,
             images: &self.neighborhood.images,

@@ -144,6 +144,7 @@ mod population;
 mod query;
 mod reference;
 mod run;
+mod settle;
 mod snapshot;
 mod soundness;
 mod stability;
