@@ -22,7 +22,7 @@ pub(super) struct Kept<T: Real, const D: usize> {
     impulses: Impulses,
     work: Option<energy::Work>,
     evaluated: f64,
-    kept_impulses: Vec<Impulses>,
+    impulses_of_states: Vec<Impulses>,
     aside: Option<SetAside<T, D>>,
     due: f64,
     watch: Option<Box<stability::Watch<D>>>,
@@ -77,7 +77,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             impulses: impulses.clone(),
             work: *work,
             evaluated: *evaluated,
-            kept_impulses: kept_impulses.clone(),
+            impulses_of_states: kept_impulses.clone(),
             aside: aside.clone(),
             due: *due,
             watch: watch.take(),
@@ -101,7 +101,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.impulses = kept.impulses;
         self.work = kept.work;
         self.evaluated = kept.evaluated;
-        self.kept_impulses = kept.kept_impulses;
+        self.kept_impulses = kept.impulses_of_states;
         self.aside = kept.aside;
         self.due = kept.due;
         self.failed = None;

@@ -108,8 +108,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let a_build = marks[0].lists.as_secs_f64() / first.list_builds.max(1) as f64;
         let marks = &marks[marks.len() / 2..];
         let (from, last) = (&marks[0], &marks[marks.len() - 1]);
-        // What it holds and a copy does not is room to grow.
-        let bytes = bytes + last.work.bytes.saturating_sub(first.bytes);
+        // A copy has no room to grow beyond what it holds.
+        let bytes = bytes.max(last.work.bytes);
         let taken = last.work.steps - from.work.steps;
         if taken == 0 {
             // It is at its end.
@@ -162,31 +162,28 @@ struct Spent {
 }
 
 impl Spent {
-    /// Medians over steps, for a machine that does something else as well interrupts some of them for long. A build is taken
-    /// to cost what one did before if none is seen.
+    /// Means over steps. A build is taken to cost what one did before if none is seen.
     fn of(marks: &[Mark], a_build: f64) -> Self {
-        let (mut without, mut looks, mut builds) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut without, mut looks, mut building) = (0.0, 0.0, 0.0);
+        let (mut unbuilt, mut builds) = (0, 0);
         for two in marks.windows(2) {
-            let time = (two[1].work.time - two[0].work.time).as_secs_f64();
-            let lists = (two[1].lists - two[0].lists).as_secs_f64();
+            let lists = two[1].lists.saturating_sub(two[0].lists).as_secs_f64();
+            let time = two[1].work.time.saturating_sub(two[0].work.time);
+            without += (time.as_secs_f64() - lists).max(0.0);
             let built = two[1].work.list_builds - two[0].work.list_builds;
-            without.push(time - lists);
             if built > 0 {
-                builds.push(lists / built as f64);
+                (building, builds) = (building + lists, builds + built);
             } else {
-                looks.push(lists);
+                (looks, unbuilt) = (looks + lists, unbuilt + 1);
             }
         }
+        let over = |sum: f64, count: u64| (count > 0).then(|| sum / count as f64);
+        let steps = marks.len().saturating_sub(1) as u64;
         Self {
-            a_step: median(&mut without).unwrap_or(0.0) + median(&mut looks).unwrap_or(0.0),
-            a_build: median(&mut builds).unwrap_or(a_build),
+            a_step: over(without, steps).unwrap_or(0.0) + over(looks, unbuilt).unwrap_or(0.0),
+            a_build: over(building, builds).unwrap_or(a_build),
         }
     }
-}
-
-fn median(values: &mut [f64]) -> Option<f64> {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied()
 }
 
 impl<T: Real, const D: usize> Group<T, D> {

@@ -97,14 +97,14 @@ impl<T: Real, const D: usize> Group<T, D> {
     pub(super) fn run_stage(&mut self, stage: Stage, moment: Moment) {
         let scheme = self.scheme.clone();
         let laws = &scheme.program.laws[stage.number()];
-        let limited = match laws.iter().find_map(|law| law.repeats()) {
-            Some(repeats) => self.settle(stage, repeats, moment),
-            None => {
-                if scheme.sweep(stage).is_some() {
-                    self.sum_stage(stage);
-                }
-                self.run_laws(stage, laws, moment, None)
+        let repeats = laws.iter().find_map(|law| law.repeats());
+        let limited = if let Some(repeats) = repeats {
+            self.settle(stage, repeats, moment)
+        } else {
+            if scheme.sweep(stage).is_some() {
+                self.sum_stage(stage);
             }
+            self.run_laws(stage, laws, moment, None)
         };
         for (law, limited) in laws.iter().zip(limited) {
             self.count(law.name(), limited);
