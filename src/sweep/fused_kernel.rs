@@ -267,7 +267,7 @@ impl<K, P, const MODES: u8> FusedKernel<K, P, MODES> {
             &mut rows.reactions[skipped..],
             &input.lists.chunks()[skipped..],
             &|chunk, list, out, reactions| {
-T::with_room(room_for_both::<Composed<T, Q, D, HOW>, D>(width), |later| {
+                T::with_room(room_for_both::<Composed<T, Q, D, HOW>, D>(width), |later| {
                     let chunk = skipped + chunk;
                     let Some(runs) = input.among else {
                         task.dispatch::<HOW>(instructions, chunk, list, later, out, reactions);
