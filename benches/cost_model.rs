@@ -9,7 +9,7 @@ use meshfree::prelude::*;
 use meshfree::scene::Start;
 use meshfree::study::cost_model::CostModel;
 use std::f64::consts::TAU;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// Seconds that this thread had a processor for, or that passed where the system does not tell.
 fn processor(begin: Instant) -> f64 {
@@ -117,11 +117,6 @@ struct Table {
 }
 
 impl Table {
-    fn pilot<const D: usize>(&mut self, mut pilot: Simulation<f64, D>) {
-        let time = Duration::from_millis(500);
-        self.model.calibrate(&mut pilot, time).expect("a pilot");
-    }
-
     fn row<const D: usize>(&mut self, name: &str, mut scene: Simulation<f64, D>, end: f64) {
         let begin = Instant::now();
         let clock = processor(begin);
@@ -164,7 +159,6 @@ fn main() {
             model: CostModel::new(),
             off: Vec::new(),
         };
-        table.pilot(rods(5e-5, catalogue::copper()));
         table.row("1D rods, copper on copper", rods(2.5e-5, catalogue::copper()), 3e-6);
         if one {
             return table.off;
@@ -173,16 +167,12 @@ fn main() {
         if full {
             table.row("1D rods, copper on PMMA", rods(2.5e-7, catalogue::pmma()), 1e-8);
         }
-        table.pilot(tube(500));
         table.row("1D shock tube", tube(2000), 0.1);
-        table.pilot(bar(2.5e-4, 10.0));
         table.row("2D bar on a wall", bar(6.25e-5, 50.0), 2e-6);
-        table.pilot(vortices::<2>(schemes::weakly_compressible().compose(), 50));
         table.row("2D tank at rest", dam(0.02, 2.0), 0.5);
         table.row("2D dam break", dam(0.02, 0.5), 0.5);
         let side = if full { 300 } else { 150 };
         table.row("2D vortices", vortices::<2>(schemes::weakly_compressible().compose(), side), 0.01);
-        table.pilot(vortices::<3>(schemes::weakly_compressible().compose(), 16));
         table.row("3D dam break", falls(if full { 40 } else { 16 }), 0.05);
         if full {
             table.row("3D vortices", vortices::<3>(schemes::weakly_compressible().compose(), 100), 0.004);

@@ -34,7 +34,7 @@ const PLATEAU: &str = "density of the plateau";
 const PEAK: &str = "peak of density";
 const RADIUS: f64 = 0.4;
 
-fn methods() -> Vec<Method> {
+pub fn methods() -> Vec<Method> {
     let own = |name: &str, scheme: &str, ratio: f64| {
         method(name, &[("scheme", scheme)], &[("h/dx", ratio)])
     };
@@ -45,7 +45,7 @@ fn methods() -> Vec<Method> {
     ]
 }
 
-fn scheme(case: &Case<'_>) -> Result<Scheme<f64, 3>, Failure> {
+pub fn scheme(case: &Case<'_>) -> Result<Scheme<f64, 3>, Failure> {
     let ratio = case.number("h/dx")?;
     let gas = schemes::gas().h_over_dx(ratio);
     Ok(match case.text("scheme")? {

@@ -1,4 +1,4 @@
-//! What accuracy costs in time: one study for each of sixteen problems, and the page `docs/accuracy_and_cost.md` of them.
+//! What accuracy costs in time: one study for each of seventeen problems, and the page `docs/accuracy_and_cost.md` of them.
 //! `cargo run --release --example work_precision -- --help` lists the options.
 
 mod choices;
@@ -10,8 +10,10 @@ mod liquids;
 mod page;
 mod plate;
 mod problem;
+mod recommended;
 mod rods;
 mod sound;
+mod tube;
 mod vortices;
 mod within;
 
@@ -30,6 +32,7 @@ const PROBLEMS: &[(&str, Make)] = &[
     ("rods_pmma", |quick| rods::problem("pmma", quick)),
     ("rods_tension", rods::tension),
     ("sod", |quick| Ok(gas::sod(quick))),
+    ("sod_3d", |quick| Ok(tube::problem(quick))),
     ("noh", |quick| Ok(gas::noh(quick))),
     ("noh_3d", |quick| Ok(implosion::noh(quick))),
     ("sedov_3d", |quick| Ok(implosion::sedov(quick))),

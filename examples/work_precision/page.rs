@@ -3,6 +3,7 @@
 
 use super::choices;
 use super::problem::Text;
+use super::recommended;
 use meshfree::error::Error;
 use meshfree::output::table::{Table, significant};
 use meshfree::study::work_precision::{Estimate, Refusal, Report, Row, View};
@@ -11,14 +12,17 @@ use std::time::Duration;
 
 const HEAD: &str = include_str!("words/head.md");
 const CHOSEN: &str = include_str!("words/choices.md");
+const RECOMMENDED: &str = include_str!("words/recommended.md");
 
 pub struct Page {
     body: String,
     choices: Table,
+    recommended: Table,
     /// Problems that failed.
     failed: usize,
-    /// Finest runs that others could foretell; errors within a quarter, times within 15 %, and the same refused.
-    foretold: [usize; 5],
+    /// Finest runs that others could foretell; errors within a quarter, times within 15 %, the same refused, and errors within
+    /// their intervals.
+    foretold: [usize; 6],
     /// Time of all runs \[s\].
     seconds: f64,
 }
@@ -42,8 +46,9 @@ impl Page {
         Self {
             body: String::new(),
             choices: choices::table(),
+            recommended: recommended::table(),
             failed: 0,
-            foretold: [0; 5],
+            foretold: [0; 6],
             seconds: 0.0,
         }
     }
@@ -58,6 +63,7 @@ impl Page {
         let view = report.first();
         self.count(&view);
         choices::add(&mut self.choices, text.key, text.title, report);
+        recommended::add(&mut self.recommended, text.key, text.title, report);
         let times = report
             .rows()
             .iter()
@@ -136,6 +142,10 @@ impl Page {
     fn count(&mut self, view: &View<'_>) {
         for own in view.foretold() {
             self.foretold[0] += 1;
+            if let (Ok(by_law), measured) = &own.error {
+                let held = by_law.low <= *measured && *measured <= by_law.high;
+                self.foretold[5] += usize::from(held);
+            }
             let off = |by_law: &Estimate, measured: f64| (by_law.value / measured - 1.0).abs();
             for (at, (by_law, measured), bound) in [(1, own.error, 0.25), (2, own.seconds, 0.15)] {
                 match by_law {
@@ -147,16 +157,18 @@ impl Page {
     }
 
     pub fn save(&self, path: &Path) -> Result<(), Error> {
-        let [all, errors, times, no_errors, no_times] = self.foretold;
+        let [all, errors, times, no_errors, no_times, held] = self.foretold;
         let failed = match self.failed {
             0 => String::new(),
             some => format!(" {some} problems failed, as their sections say."),
         };
         let text = format!(
             "{HEAD}\nThe runs took {:.0} s. Of {all} finest runs the laws through the coarser ones foretold the \
-             error of {errors} within 25 % and refused that of {no_errors}, and the time of {times} within 15 % and refused \
-             that of {no_times}.{failed}\n\n{CHOSEN}\n{}{}",
+             error of {errors} within 25 % and refused that of {no_errors}; {held} were within intervals of 90 %. The price of \
+             the coarser ones foretold the time of {times} within 15 % and refused that of {no_times}.{failed}\n\n{RECOMMENDED}\n\
+             {}\n{CHOSEN}\n{}{}",
             self.seconds,
+            self.recommended.markdown(),
             self.choices.markdown(),
             self.body
         );

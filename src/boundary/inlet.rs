@@ -135,7 +135,7 @@ impl<const D: usize> Motion<D> for Conveyor<D> {
 }
 
 /// What hands over layers of a buffer.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Emitter<const D: usize> {
     front: Vec<[f64; D]>,
     velocity: [f64; D],
@@ -145,13 +145,11 @@ pub(crate) struct Emitter<const D: usize> {
 
 impl<const D: usize> Emitter<D> {
     /// How many layers it has handed over.
-    #[cfg(feature = "checkpoint")]
     pub fn handed_over(&self) -> u64 {
         self.handed_over.load(Ordering::Relaxed)
     }
 
     /// Says how many layers it has handed over, which moves its buffer too.
-    #[cfg(feature = "checkpoint")]
     pub fn set_handed_over(&self, layers: u64) {
         self.handed_over.store(layers, Ordering::Relaxed);
     }

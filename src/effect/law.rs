@@ -36,7 +36,8 @@ pub trait Law<T: Real, const D: usize>: Debug + Send + Sync {
     /// Acts on some particles.
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally;
     /// Largest number of times, and the largest relative change at which to stop, of a law that is repeated with
-    /// its sweep; it runs once if not given.
+    /// its sweep; it runs once if not given. Particles that it has changed by less are left alone while others go on (64 at a
+    /// time), so what it changes must enter the sums of the particle itself, and of no other.
     fn repeats(&self) -> Option<(usize, f64)> {
         None
     }

@@ -20,7 +20,7 @@ const SKIN: f64 = 0.4;
 const NEAREST: f64 = 0.5;
 
 /// Two bodies, or a body and itself, that act on each other by forces between their particles.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Couple<T: Real, const D: usize> {
     pub coupling: Arc<dyn Coupling<T, D>>,
     /// The group and the body there, of both sides.

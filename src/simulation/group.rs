@@ -17,7 +17,7 @@ use crate::scheme::Scheme;
 use crate::sweep::{InstructionSet, Interaction, Records, Results, Root, SweepInput, Transform};
 use std::sync::Arc;
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Group<T: Real, const D: usize> {
     pub particles: Particles<T, D>,
     pub neighborhood: Neighborhood<T, D>,
@@ -54,7 +54,7 @@ pub(crate) struct Group<T: Real, const D: usize> {
 }
 
 /// What an evaluation changes, and the next step needs as the last step has left it.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Aside<T: Real, const D: usize> {
     pub columns: Columns<T, D>,
     pub rates: Results<T, D>,
@@ -282,6 +282,7 @@ impl<T: Real, const D: usize> Group<T, D> {
     pub fn input(&self) -> SweepInput<'_, T, D> {
         SweepInput {
             targets: 0..self.particles.mobile,
+            among: None,
             body_force: self.body_force,
             columns: &self.particles.columns,
             images: &self.neighborhood.images,

@@ -134,6 +134,7 @@ mod group;
 mod held;
 mod images;
 mod indicators;
+mod kept;
 mod ledger;
 mod limits;
 mod load;
@@ -147,6 +148,7 @@ mod population;
 mod query;
 mod reference;
 mod run;
+mod settle;
 mod snapshot;
 mod soundness;
 mod stability;
@@ -167,7 +169,6 @@ pub use held::Clamped;
 pub use indicators::{Indicators, Limit, LimitedBy, Spread};
 pub use ledger::{Budget, Ledger, Total};
 pub use load::{Load, LoadPoint};
-pub(crate) use outlook::Outlook;
 pub use phases::Phases;
 pub use query::{ParticleView, ParticleViews};
 pub use stability::{
@@ -203,7 +204,7 @@ use std::sync::Arc;
 pub(crate) type UniformLoad<const D: usize> = Box<dyn Fn(f64) -> [f64; D] + Send + Sync>;
 
 /// What an evaluation between steps changes, and the next step needs as the last step has left it.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct SetAside<T: Real, const D: usize> {
     groups: Vec<Aside<T, D>>,
     /// What each coupling by forces has left.

@@ -14,7 +14,7 @@ use crate::tensor::{Vector, length};
 use std::sync::Arc;
 
 /// Neighbour lists of a group and the images in them.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Neighborhood<T: Real, const D: usize> {
     pub blocks: Vec<Block>,
     pub interactions: Vec<Interaction>,

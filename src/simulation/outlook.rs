@@ -1,95 +1,65 @@
-//! What a run will do, in counts, before it does it: steps, pairs, list builds and bytes, from the scene as it is.
-//! One evaluation gives neighbours and the step; the integrator says how often a step asks for what.
+//! What a run will do and take before it does it: its first steps are rehearsed, counted and timed, and taken back.
+//! List builds, which first steps may not show, follow from speeds and accelerations.
 
 use super::group::Group;
-use super::{Phases, Simulation, Work, width};
-use crate::clock::Instant;
+use super::{Simulation, Work, width};
 use crate::error::{Error, Problem, Result};
-use crate::integrator::System;
 use crate::neighbors::listed_around;
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
-use crate::scheme::EnergyForm;
-use crate::term::Stage;
 use std::time::Duration;
 
+/// Steps that are rehearsed at least. The first half of them fills memory and lets fronts form, and does not count.
+const LEAST: u64 = 4;
+/// The part of the run that is rehearsed at most, and the pairs after which no further step is begun: half a second or less.
+const MOST: (f64, u64) = (0.05, 50_000_000);
+/// List builds from which on what was seen of them counts.
+const SEEN: u64 = 3;
 /// Evaluations that a list serves, below which the next one has the thick skin.
 const SHORT: f64 = 8.0;
 /// The speed that a liquid or gas is taken to reach, over that of sound, unless it has more.
 const MACH: f64 = 0.1;
-/// Sums of density an evaluation where they are repeated until lengths follow: those of a blast, by their time.
-const REPEATED: f64 = 2.5;
-/// Least time over which an evaluation is timed.
-const TIMED: Duration = Duration::from_millis(50);
-/// Most evaluations for that.
-const TIMES: u32 = 100;
 
-/// A system that counts what an integrator asks of it.
-#[derive(Debug, Default)]
-struct Counter {
-    evaluations: u32,
-    kicks: u32,
-    drifts: u32,
-    combined: u32,
+/// What was at a time of a rehearsal.
+struct Mark {
+    time: f64,
+    work: Work,
+    lists: Duration,
 }
 
-impl System for Counter {
-    fn evaluate(&mut self, _: f64) -> Result<()> {
-        self.evaluations += 1;
-        Ok(())
-    }
-    fn kick(&mut self, _: f64) {
-        self.kicks += 1;
-    }
-    fn drift(&mut self, _: f64, _: f64) -> Result<()> {
-        self.drifts += 1;
-        Ok(())
-    }
-    fn shift(&mut self, _: f64, _: f64) {}
-    fn predict(&mut self, _: f64) {}
-    fn restore(&mut self) {}
-    fn save(&mut self, _: usize) {}
-    fn load(&mut self, _: usize) {}
-    fn combine(&mut self, _: usize, _: f64, _: f64, _: f64) {
-        self.combined += 1;
-    }
-    fn accumulate(&mut self, _: usize, _: f64) {
-        self.combined += 1;
-    }
-    fn has_rates(&self) -> bool {
-        true
+impl Mark {
+    fn of<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Self {
+        Self {
+            time: simulation.time,
+            work: simulation.work(),
+            lists: simulation.phases().lists,
+        }
     }
 }
 
-/// What a step will do, and what an evaluation of the present state took.
+/// List builds a step, and what they make of lists.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Outlook {
-    /// The step \[s\].
-    pub step: f64,
-    pub particles: usize,
-    /// Evaluations a step.
-    pub evaluations: f64,
-    /// Pairs of an evaluation, and those that a step sums beside its evaluations.
-    pub pairs: f64,
-    pub beside: f64,
-    /// List builds a step.
-    pub builds: f64,
-    pub bytes: usize,
-    /// Time \[s\] of an evaluation, of its sweeps, of a look at the age of lists, and of a list build.
-    pub evaluation: f64,
-    pub sweeps: f64,
-    pub check: f64,
-    pub build: f64,
+struct Builds {
+    a_step: f64,
+    /// Pairs of the lists over those of now.
+    longer: f64,
+    /// Bytes that they will hold beyond those of now.
+    more: usize,
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
-    /// The work of a run from now until `end` \[s\], before it is done: steps by the criteria as they are, pairs by the
-    /// neighbours as they are, list builds by the speeds and accelerations as they are. Its time is zero: a
-    /// [cost model](crate::study::cost_model) knows that.
+    /// The work of a run from now until `end` \[s\], before it is done: steps, evaluations, list builds, pairs, bytes and
+    /// time.
     ///
-    /// It evaluates the rates once, which changes nothing of what comes. What the run makes of its scene is not in it:
-    /// steps of a front that sharpens, neighbours of what is compressed; groups that sub-cycle count as often as their own
-    /// steps fit into those of the others now.
+    /// It rehearses the run: it takes the first steps of it to see what they do and take, and takes them back, so that
+    /// nothing of what comes is changed. These are four steps at least, and otherwise a twentieth of the time until the
+    /// end or 5·10⁷ pairs, half a second of one thread. Pairs, steps and time of the whole are those of the later half of
+    /// the rehearsal; list builds are those seen if three were, and otherwise follow from speeds and accelerations as they
+    /// are. The state is held twice meanwhile.
+    ///
+    /// What the run makes of its scene later is not in it: neighbours of what is compressed, waves that break.
+    /// What an integrator or an effect of your own keeps outside of fields is not taken back, and events are not looked at
+    /// meanwhile.
     ///
     /// ```
     /// use meshfree::prelude::*;
@@ -98,6 +68,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     ///     .boundary(MirrorPlane::wall([0.01], [1.0]))
     ///     .build()?;
     /// let expected = rods.expected_work(2e-6)?;
+    /// assert_eq!((rods.steps(), rods.time()), (0, 0.0));
     /// let before = rods.work();
     /// rods.run_until(2e-6)?;
     /// let pairs = (rods.work().pairs - before.pairs) as f64;
@@ -106,23 +77,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// ```
     ///
     /// # Errors
-    /// As [`evaluate`](Simulation::evaluate), and [`Error::Argument`] if the end is not finite.
+    /// As [`run_until`](Simulation::run_until) if a rehearsed step fails, and [`Error::Argument`] if the end is not finite.
     pub fn expected_work(&mut self, end: f64) -> Result<Work> {
-        let outlook = self.outlook(end, Duration::ZERO)?;
-        let steps = ((end - self.time) / outlook.step).max(0.0);
-        Ok(Work {
-            particles: outlook.particles,
-            steps: steps.round() as u64,
-            evaluations: (steps * outlook.evaluations).round() as u64,
-            list_builds: (steps * outlook.builds).round() as u64,
-            pairs: (steps * (outlook.evaluations * outlook.pairs + outlook.beside)).round() as u64,
-            bytes: outlook.bytes,
-            time: Duration::ZERO,
-        })
-    }
-
-    /// What a step will do on the way to `end` \[s\], and, if evaluations may be repeated for `timing`, what they take.
-    pub(crate) fn outlook(&mut self, end: f64, timing: Duration) -> Result<Outlook> {
         if !end.is_finite() {
             return Err(Error::Argument(Problem::Parameter {
                 what: "end of the run".into(),
@@ -130,115 +86,103 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 must_be: "must be a finite time in seconds",
             }));
         }
-        let before = (self.pairs_by_group(), self.phases());
-        if self.steps == 0 {
-            // The state is the one to step from, so nothing has to be set aside.
-            self.check_failure()?;
-            System::evaluate(self, 0.0)?;
-        } else {
-            self.evaluate()?;
-        }
-        let first = self.phases().since(&before.1);
-        let mut pairs = self.pairs_by_group();
-        for (now, before) in pairs.iter_mut().zip(&before.0) {
-            *now -= before;
-        }
-        // Once more, with lists and memory in place. Before the first step each evaluation gives the same, and later the next
-        // step takes back what was set aside.
-        let mut timed = first;
-        let mut check = 0.0;
-        if timing > Duration::ZERO {
-            let kept: Vec<_> = (self.groups.iter())
-                .map(|group| (group.guards, group.limited.clone()))
-                .collect();
-            let (begin, from, evaluations) = (Instant::now(), self.phases(), self.evaluations);
-            let summed = self.pairs_by_group();
-            let mut times = 0;
-            while times < TIMES && (times == 0 || begin.elapsed() < timing.min(TIMED)) {
-                System::evaluate(self, 0.0)?;
-                times += 1;
+        self.check_failure()?;
+        let (bytes, kept) = (self.bytes(), self.keep());
+        let rehearsed = self.rehearse(end, bytes);
+        self.put_back(kept);
+        rehearsed
+    }
+
+    fn rehearse(&mut self, end: f64, bytes: usize) -> Result<Work> {
+        let (begin, mut marks) = (self.time, vec![Mark::of(self)]);
+        let (to, first) = (begin + MOST.0 * (end - begin), self.work());
+        while self.time < end {
+            let (steps, pairs) = (self.steps - first.steps, self.work().pairs - first.pairs);
+            if steps >= LEAST && (self.time >= to || pairs >= MOST.1) {
+                break;
             }
-            timed = self.phases().since(&from).over(times);
-            check = timed.lists.as_secs_f64();
-            // Densities that were found by repeated sums are found sooner from where they are.
-            for ((own, now), before) in pairs.iter_mut().zip(self.pairs_by_group()).zip(summed) {
-                let again = (now - before) / u64::from(times);
-                *own = if again > 0 { again } else { *own };
-            }
-            self.evaluations = evaluations;
-            for (group, (guards, limited)) in self.groups.iter_mut().zip(kept) {
-                (group.guards, group.limited) = (guards, limited);
-            }
+            self.step_at_most(end - self.time)?;
+            marks.push(Mark::of(self));
         }
-        let vote = self.vote()?;
-        let step = self.control.fixed.unwrap_or(vote.step).min(end - self.time);
-        let step = step.max(f64::MIN_POSITIVE);
-        let mut asked = Counter::default();
-        let integrator = self.integrator.clone();
-        integrator.step(&mut asked, step)?;
-        let mut outlook = Outlook {
-            step,
-            particles: self.particles(),
-            evaluations: f64::from(asked.evaluations),
-            evaluation: timed.evaluation().as_secs_f64(),
-            sweeps: timed.pairs.as_secs_f64(),
-            check,
-            build: self.time_of_a_build(&before.1, check),
-            ..Outlook::default()
+        // The scene was built with lists.
+        let a_build = marks[0].lists.as_secs_f64() / first.list_builds.max(1) as f64;
+        let marks = &marks[marks.len() / 2..];
+        let (from, last) = (&marks[0], &marks[marks.len() - 1]);
+        // A copy has no room to grow beyond what it holds.
+        let bytes = bytes.max(last.work.bytes);
+        let taken = last.work.steps - from.work.steps;
+        if taken == 0 {
+            // It is at its end.
+            return Ok(Work {
+                particles: first.particles,
+                bytes,
+                ..Work::default()
+            });
+        }
+        let over =
+            |count: fn(&Work) -> u64| (count(&last.work) - count(&from.work)) as f64 / taken as f64;
+        let step = (last.time - from.time) / taken as f64;
+        let ahead = |group: &Group<T, D>| {
+            group.builds_ahead(step, end - begin, over(|work| work.evaluations))
         };
-        let serves = outlook.evaluations.max(1.0);
-        for (k, own) in pairs.into_iter().enumerate() {
-            let group = &self.groups[k];
-            // Steps of a group in one of the others.
-            let often = if group.sub_cycle.is_some() {
-                let own = self.vote_of(k, self.control.courant)?.step;
-                (step / own).ceil().clamp(1.0, group.steps_at_most())
+        let builds: Vec<_> = self.groups.iter().map(ahead).collect();
+        let seen = last.work.list_builds - from.work.list_builds;
+        let a_step = if seen >= SEEN {
+            seen as f64 / taken as f64
+        } else {
+            builds.iter().map(|own| own.a_step).sum()
+        };
+        let spent = Spent::of(marks, a_build);
+        let entries = |group: &Group<T, D>| group.neighborhood.lists.entries() as f64;
+        let of_groups = |longer: &dyn Fn(usize) -> f64| -> f64 {
+            let groups = self.groups.iter().enumerate();
+            groups.map(|(k, group)| entries(group) * longer(k)).sum()
+        };
+        let longer = of_groups(&|k| builds[k].longer) / of_groups(&|_| 1.0).max(1.0);
+        let steps = (end - begin) / step;
+        let count = |own: f64| (steps * own).round() as u64;
+        let seconds = steps * (spent.a_step + a_step * spent.a_build);
+        Ok(Work {
+            particles: last.work.particles,
+            steps: steps.round() as u64,
+            evaluations: count(over(|work| work.evaluations)),
+            list_builds: count(a_step),
+            pairs: count(over(|work| work.pairs) * longer),
+            bytes: bytes + builds.iter().map(|own| own.more).sum::<usize>(),
+            time: Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX),
+        })
+    }
+}
+
+/// Time \[s\] of a step without list builds, and of a build.
+#[derive(Clone, Copy, Debug)]
+struct Spent {
+    a_step: f64,
+    a_build: f64,
+}
+
+impl Spent {
+    /// Means over steps. A build is taken to cost what one did before if none is seen.
+    fn of(marks: &[Mark], a_build: f64) -> Self {
+        let (mut without, mut looks, mut building) = (0.0, 0.0, 0.0);
+        let (mut unbuilt, mut builds) = (0, 0);
+        for two in marks.windows(2) {
+            let lists = two[1].lists.saturating_sub(two[0].lists).as_secs_f64();
+            let time = two[1].work.time.saturating_sub(two[0].work.time);
+            without += (time.as_secs_f64() - lists).max(0.0);
+            let built = two[1].work.list_builds - two[0].work.list_builds;
+            if built > 0 {
+                (building, builds) = (building + lists, builds + built);
             } else {
-                1.0
-            };
-            let a_sweep = group.pairs_of(group.input().targets) as f64;
-            let kicks = f64::from(u8::from(group.scheme.energy == EnergyForm::Compatible));
-            let drifts = f64::from(u8::from(group.scheme.sums_in_drift()));
-            // Kicks with the same forces share one sum of their work.
-            let worked = asked.kicks.min(asked.evaluations.max(1));
-            let beside = kicks * f64::from(worked) + drifts * f64::from(asked.drifts);
-            let builds = group.builds_a_step(step, end - self.time);
-            // Lists that last for few evaluations get the thick skin, which lasts longer.
-            let [thin, thick] = group.neighborhood.skins;
-            let (builds, more) = if builds * SHORT > serves && thick > thin {
-                let reach = group.scheme.kernel.support * group.smoothing_length;
-                let listed = |skin: f64| {
-                    let reach = (reach + skin) / group.spacing();
-                    listed_around(D, reach, width::<T>())
-                };
-                (builds * thin / thick, listed(thick) / listed(thin))
-            } else {
-                (builds, 1.0)
-            };
-            let laws = &group.scheme.program.laws[Stage::Density.number()];
-            let repeated = laws.iter().any(|law| law.repeats().is_some());
-            // On a lattice once is enough.
-            let repeats = if repeated { REPEATED - 1.0 } else { 0.0 };
-            // A group that sub-cycles has its rates at hand, of one sweep at least.
-            let own = (own as f64).max(a_sweep);
-            outlook.pairs += often * (own + repeats * a_sweep) * more;
-            outlook.beside += often * beside * a_sweep * more;
-            outlook.builds += builds;
-            outlook.bytes += group.bytes_in_run(more);
+                (looks, unbuilt) = (looks + lists, unbuilt + 1);
+            }
         }
-        Ok(outlook)
-    }
-
-    /// Time \[s\] of a list build, by those so far: the scene was built with the first. A look at the age of lists takes `check`.
-    fn time_of_a_build(&self, so_far: &Phases, check: f64) -> f64 {
-        let looks = self.evaluations as f64 * check;
-        let lists = so_far.lists.as_secs_f64() - looks;
-        lists.max(0.0) / self.list_builds().max(1) as f64
-    }
-
-    fn pairs_by_group(&self) -> Vec<u64> {
-        let groups = self.groups.iter();
-        groups.map(|group| group.work.spent.pairs).collect()
+        let over = |sum: f64, count: u64| (count > 0).then(|| sum / count as f64);
+        let steps = marks.len().saturating_sub(1) as u64;
+        Self {
+            a_step: over(without, steps).unwrap_or(0.0) + over(looks, unbuilt).unwrap_or(0.0),
+            a_build: over(building, builds).unwrap_or(a_build),
+        }
     }
 }
 
@@ -247,6 +191,28 @@ impl<T: Real, const D: usize> Group<T, D> {
     fn spacing(&self) -> f64 {
         let bodies = self.particles.bodies.iter();
         bodies.fold(f64::MIN_POSITIVE, |most, body| most.max(body.spacing))
+    }
+
+    /// List builds of steps of `step` \[s\] with so many evaluations, over `time` \[s\].
+    fn builds_ahead(&self, step: f64, time: f64, evaluations: f64) -> Builds {
+        let mut builds = Builds {
+            a_step: self.builds_a_step(step, time),
+            longer: 1.0,
+            more: 0,
+        };
+        // Lists that last for few evaluations get the thick skin, which lasts longer.
+        let [thin, thick] = self.neighborhood.skins;
+        let is_thin = self.neighborhood.skin < thick;
+        if is_thin && builds.a_step * SHORT > evaluations.max(1.0) {
+            let reach = self.scheme.kernel.support * self.smoothing_length;
+            let listed =
+                |skin: f64| listed_around(D, (reach + skin) / self.spacing(), width::<T>());
+            builds.a_step *= thin / thick;
+            builds.longer = listed(thick) / listed(thin);
+            let bytes = self.neighborhood.lists.bytes() as f64;
+            builds.more = ((builds.longer - 1.0).max(0.0) * bytes) as usize;
+        }
+        builds
     }
 
     /// List builds a step, when the fastest particle speeds up as all do in the mean now for `time` \[s\], up to a tenth of its sound.
@@ -281,39 +247,5 @@ impl<T: Real, const D: usize> Group<T, D> {
         let reached = (speed + acceleration * until).min(most);
         let mean = reached - 0.5 * (reached - speed) * until / time.max(f64::MIN_POSITIVE);
         (2.0 * mean * step / self.neighborhood.skin).min(1.0)
-    }
-
-    /// Bytes that it will hold once it has stepped, when lists grow by a factor.
-    fn bytes_in_run(&self, lists: f64) -> usize {
-        let number = size_of::<T>();
-        let slots = self.particles.columns.slots();
-        // Sums of the drift and of kicks, which the first step makes.
-        let sweep = |stage| {
-            let outputs = self.scheme.sweep(stage).map(|sweep| sweep.outputs());
-            outputs.map_or(0, |outputs| outputs.width(D))
-        };
-        let mut width = sweep(Stage::Continuity);
-        if self.scheme.energy == EnergyForm::Compatible {
-            width = width.max(sweep(Stage::Rates));
-        }
-        let (now, wanted) = (self.work.sums.bytes(), width * slots * number);
-        let sums = wanted.saturating_sub(now);
-        let more = (lists - 1.0) * self.neighborhood.lists.bytes() as f64;
-        self.bytes() + sums + more.max(0.0) as usize
-    }
-}
-
-impl Phases {
-    /// A share of all phases.
-    fn over(&self, times: u32) -> Self {
-        let of = |own: Duration| own / times.max(1);
-        Self {
-            lists: of(self.lists),
-            packing: of(self.packing),
-            pairs: of(self.pairs),
-            walls: of(self.walls),
-            materials: of(self.materials),
-            integration: of(self.integration),
-        }
     }
 }

@@ -8,7 +8,7 @@ use crate::tensor::Vector;
 use std::sync::Arc;
 
 /// Images of the particles of both sides of a coupling, which stand in its list behind the particles.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct PairImages<T, const D: usize> {
     /// How many particles each side has.
     pub counts: [usize; 2],
@@ -20,7 +20,7 @@ pub(crate) struct PairImages<T, const D: usize> {
     pub transforms: Vec<Transform<T, D>>,
 }
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Chain {
     /// A number that does not depend on which images there are.
     code: u32,

@@ -7,7 +7,7 @@ use crate::neighbors::Cells;
 use crate::scalar::Real;
 
 /// Pairs that may be within reach, and the particles in them. It follows from positions.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct PairList<T: Real, const D: usize> {
     /// Particles in pairs by their numbers in the body: of the first side up to `split`, then of the second.
     pub rows: Vec<u32>,

@@ -35,7 +35,7 @@ impl<T: Real> BodyState<T> {
 }
 
 /// The particles of a group: of what a checkpoint holds all.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Particles<T: Real, const D: usize> {
     pub columns: Columns<T, D>,
     pub bodies: Vec<BodyState<T>>,

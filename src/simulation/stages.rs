@@ -2,9 +2,10 @@
 //! The driver of everything that effects do; it knows none of them.
 
 use super::group::Group;
+use super::settle::{Settling, run_pieces};
 use crate::boundary::WallSurface;
 use crate::clock::Instant;
-use crate::effect::{Around, Chunk, Law, MOST_LAWS, Slices, Tally};
+use crate::effect::{Around, Chunk, Law, MOST_LAWS, Slices};
 use crate::parallel::GRAIN;
 use crate::particles::Field;
 use crate::scalar::Real;
@@ -50,13 +51,14 @@ impl Moment {
 impl<T: Real, const D: usize> Group<T, D> {
     /// Runs a sweep over particles of bodies into the sums.
     pub(super) fn sum(&mut self, choose: impl Fn(&Scheme<T, D>) -> Option<&dyn PairSweep<T, D>>) {
-        self.sum_over(0..self.particles.mobile, choose);
+        self.sum_over(0..self.particles.mobile, None, choose);
     }
 
-    /// Runs a sweep over some slots into the sums.
+    /// Runs a sweep over some slots into the sums, or over some of these.
     fn sum_over(
         &mut self,
         targets: Range<usize>,
+        among: Option<&[Range<usize>]>,
         choose: impl Fn(&Scheme<T, D>) -> Option<&dyn PairSweep<T, D>>,
     ) {
         let mut records = core::mem::take(&mut self.work.records);
@@ -65,13 +67,17 @@ impl<T: Real, const D: usize> Group<T, D> {
         if let Some(sweep) = choose(&self.scheme) {
             let input = SweepInput {
                 targets,
+                among,
                 ..self.input()
             };
             let start = Instant::now();
             sweep.pack(Pass::Rates, &input, &mut records);
             let packed = Instant::now();
             sweep.run(Pass::Rates, &input, &records, &mut sums);
-            let pairs = self.pairs_of(input.targets);
+            let pairs = match among {
+                Some(runs) => runs.iter().map(|run| self.pairs_of(run.clone())).sum(),
+                None => self.pairs_of(input.targets),
+            };
             self.work.phases.packing += packed - start;
             self.work.phases.pairs += packed.elapsed();
             self.work.spent.pairs += pairs;
@@ -87,52 +93,82 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.work.spent.sweeps[stage.number()] += start.elapsed();
     }
 
-    /// Runs the sweep of a stage, if there is one, and its laws; again, with new lists, as long as a law says that
-    /// it changes much.
+    /// Runs the sweep of a stage, if there is one, and its laws.
     pub(super) fn run_stage(&mut self, stage: Stage, moment: Moment) {
         let scheme = self.scheme.clone();
         let laws = &scheme.program.laws[stage.number()];
         let repeats = laws.iter().find_map(|law| law.repeats());
-        let (times, tolerance) = repeats.unwrap_or((1, 0.0));
-        let mut tallies = [Tally::default(); MOST_LAWS];
-        for _ in 0..times {
-            if repeats.is_some() {
-                self.refresh(moment.time, None);
-            }
+        let limited = if let Some(repeats) = repeats {
+            self.settle(stage, repeats, moment)
+        } else {
             if scheme.sweep(stage).is_some() {
                 self.sum_stage(stage);
             }
-            tallies = self.run_laws(stage, laws, moment);
-            if tallies.iter().all(|tally| tally.change < tolerance) {
+            self.run_laws(stage, laws, moment, None)
+        };
+        for (law, limited) in laws.iter().zip(limited) {
+            self.count(law.name(), limited);
+        }
+    }
+
+    /// Runs the sweep of a stage and its laws again, with new lists, on particles that they change much.
+    fn settle(
+        &mut self,
+        stage: Stage,
+        (times, tolerance): (usize, f64),
+        moment: Moment,
+    ) -> [u64; MOST_LAWS] {
+        let scheme = self.scheme.clone();
+        let laws = &scheme.program.laws[stage.number()];
+        let mut settling = core::mem::take(&mut self.work.settling);
+        settling.open_all(&self.particles.bodies);
+        for _ in 0..times {
+            let rebuilds = self.neighborhood.rebuilds;
+            self.refresh(moment.time, None);
+            if self.neighborhood.rebuilds != rebuilds {
+                // Particles may have other places.
+                settling.open_all(&self.particles.bodies);
+            }
+            let start = Instant::now();
+            self.sum_over(0..self.particles.mobile, Some(&settling.open), |scheme| {
+                scheme.sweep(stage)
+            });
+            self.work.spent.sweeps[stage.number()] += start.elapsed();
+            self.run_laws(stage, laws, moment, Some((&mut settling, tolerance)));
+            if !settling.find_open(&self.particles.bodies) {
                 break;
             }
         }
-        for (law, tally) in laws.iter().zip(tallies) {
-            self.count(law.name(), tally.limited);
-        }
+        let limited = settling.limited();
+        self.work.settling = settling;
+        limited
     }
 
     /// Runs the laws of a stage without its sweep.
     pub(super) fn apply_laws(&mut self, stage: Stage, moment: Moment) {
         let scheme = self.scheme.clone();
         let laws = &scheme.program.laws[stage.number()];
-        let tallies = self.run_laws(stage, laws, moment);
-        for (law, tally) in laws.iter().zip(tallies) {
-            self.count(law.name(), tally.limited);
+        let limited = self.run_laws(stage, laws, moment, None);
+        for (law, limited) in laws.iter().zip(limited) {
+            self.count(law.name(), limited);
         }
     }
 
-    /// Laws on all particles of bodies, body by body.
+    /// Laws on all particles of bodies, or on those that have not settled to a tolerance, body by body; the particles at
+    /// which each applied a limit.
     fn run_laws(
         &mut self,
         stage: Stage,
         laws: &[Box<dyn Law<T, D>>],
         moment: Moment,
-    ) -> [Tally; MOST_LAWS] {
+        settling: Option<(&mut Settling, f64)>,
+    ) -> [u64; MOST_LAWS] {
         let mut outcomes = [Outcome::default(); MOST_LAWS];
         if laws.is_empty() {
-            return outcomes.map(|outcome| outcome.tally);
+            return outcomes.map(|outcome| outcome.limited);
         }
+        let mut settling = settling
+            .map(|(settling, tolerance)| (settling.by_body(&self.particles.bodies), tolerance));
         let mut rest = Slices::of(&mut self.particles.columns);
         for body in &self.particles.bodies {
             let run = body.run();
@@ -154,16 +190,21 @@ impl<T: Real, const D: usize> Group<T, D> {
                 gravity: self.gravity,
                 in_drift: moment.in_drift,
             };
-            join(
-                &mut outcomes,
-                &run_chunks(laws, own, run, body.slots.end, around),
-            );
+            let live = body.slots.end;
+            let others = match &mut settling {
+                Some((pieces, tolerance)) => {
+                    let pieces = pieces.next().unwrap_or_default();
+                    run_pieces(laws, own, run, live, around, (pieces, *tolerance))
+                }
+                None => run_chunks(laws, own, run, live, around),
+            };
+            join(&mut outcomes, &others);
         }
         let spent = &mut self.work.spent.laws[stage.number()];
         for (own, outcome) in spent.iter_mut().zip(&outcomes) {
             *own += outcome.time;
         }
-        outcomes.map(|outcome| outcome.tally)
+        outcomes.map(|outcome| outcome.limited)
     }
 
     /// The stage of walls: what they take from the liquid, and the laws that answer it.
@@ -173,7 +214,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
         let slots = self.particles.mobile..self.particles.columns.slots();
         let start = Instant::now();
-        self.sum_over(slots, |scheme| scheme.sweep(Stage::Walls));
+        self.sum_over(slots, None, |scheme| scheme.sweep(Stage::Walls));
         self.work.spent.sweeps[Stage::Walls.number()] += start.elapsed();
         let scheme = self.scheme.clone();
         let laws = &scheme.program.laws[Stage::Walls.number()];
@@ -227,18 +268,17 @@ impl<T: Real, const D: usize> Group<T, D> {
     }
 }
 
-/// What a law did, and how long it took.
+/// At how many particles a law applied a limit, and how long it took.
 #[derive(Clone, Copy, Debug, Default)]
-struct Outcome {
-    tally: Tally,
-    time: Duration,
+pub(super) struct Outcome {
+    pub limited: u64,
+    pub time: Duration,
 }
 
 /// Adds the outcomes of other chunks.
-fn join(outcomes: &mut [Outcome; MOST_LAWS], others: &[Outcome; MOST_LAWS]) {
+pub(super) fn join(outcomes: &mut [Outcome; MOST_LAWS], others: &[Outcome; MOST_LAWS]) {
     for (own, other) in outcomes.iter_mut().zip(others) {
-        own.tally.limited += other.tally.limited;
-        own.tally.change = own.tally.change.max(other.tally.change);
+        own.limited += other.limited;
         own.time += other.time;
     }
 }
@@ -266,7 +306,7 @@ fn run_chunks<T: Real, const D: usize>(
     let mut chunk = Chunk::new(columns, slots.clone(), live, around);
     for (law, outcome) in laws.iter().zip(&mut outcomes) {
         let start = Instant::now();
-        outcome.tally = law.apply(&mut chunk);
+        outcome.limited = law.apply(&mut chunk).limited;
         outcome.time = start.elapsed();
     }
     outcomes

@@ -110,7 +110,8 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// The time τ \[s\] after which the mean velocities of a kick of which `half` is half the time are those of the first
     /// kick with the same forces and τ times its accelerations: to rounding, or there is none. Whatever has changed
-    /// velocities or forces but the first kick itself takes a sum of its own.
+    /// velocities or forces but the first kick itself takes a sum of its own. Ahead of a front numbers fall below the
+    /// smallest of full precision, where rounding is no part of the number any more.
     fn later(&mut self, [first, placed]: [f64; 2], half: f64) -> Option<f64> {
         if placed != self.neighborhood.placed_time {
             return None;
@@ -127,13 +128,12 @@ impl<T: Real, const D: usize> Group<T, D> {
         ]
         .map(|field| columns.vectors(field));
         let mass = columns.raw(Field::MASS);
-        let rounding = T::from_f64(
-            16.0 * if T::COMPENSATED {
-                f64::from(f32::EPSILON)
-            } else {
-                f64::EPSILON
-            },
-        );
+        let [rounding, smallest] = if T::COMPENSATED {
+            [f32::EPSILON, f32::MIN_POSITIVE].map(f64::from)
+        } else {
+            [f64::EPSILON, f64::MIN_POSITIVE]
+        };
+        let (rounding, smallest) = (T::from_f64(16.0 * rounding), T::from_f64(smallest));
         let follows = |_, run: Range<usize>| {
             run.into_iter().all(|slot| {
                 (0..D).all(|d| {
@@ -141,7 +141,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                     let now = v[slot][d] + half * a;
                     let gained = tau * accelerations[slot][d];
                     let size = now.abs() + mean[slot][d].abs() + gained.abs();
-                    (now - (mean[slot][d] + gained)).abs() <= rounding * size
+                    (now - (mean[slot][d] + gained)).abs() <= rounding * size + smallest
                 })
             })
         };

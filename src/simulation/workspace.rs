@@ -4,6 +4,7 @@
 use super::Phases;
 use super::cost::Spent;
 use super::population::Moves;
+use super::settle::Settling;
 use crate::particles::Field;
 use crate::scalar::Real;
 use crate::sweep::{Records, Results};
@@ -12,7 +13,7 @@ use crate::sweep::{Records, Results};
 pub(super) type Saved<T> = Vec<(Field, Vec<T>)>;
 
 /// Scratch of a group, and the rates at hand.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Workspace<T: Real, const D: usize> {
     pub records: Records<T>,
     /// Records of the rates with the mean velocities of a kick.
@@ -31,6 +32,8 @@ pub(crate) struct Workspace<T: Real, const D: usize> {
     pub sums: Results<T, D>,
     /// What its liquid does to the particles of structures, which are walls here.
     pub coupling: Results<T, D>,
+    /// What of a repeated law has settled.
+    pub settling: Settling,
     /// What list builds have done to particles since saved states were last told.
     pub moved: Moves<T, D>,
     /// What a prediction has changed, and takes back.
@@ -57,6 +60,7 @@ impl<T: Real, const D: usize> Default for Workspace<T, D> {
             lengths_time: f64::NAN,
             sums: Results::default(),
             coupling: Results::default(),
+            settling: Settling::default(),
             moved: Moves::default(),
             predicted: Vec::new(),
             is_predicted: false,

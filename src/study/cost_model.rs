@@ -1,20 +1,10 @@
 //! What a run will cost before it runs, and better while it runs: time, steps, pairs and memory.
-//! Counts from the scene as it is built, rates from this machine, and corrections from the run itself.
+//! Counts and rates from steps of the scene itself on this machine, and corrections from the run.
 //!
-//! **Before a run** [`CostModel::predict`] evaluates the scene as it is built, a few times if that is quick. It takes counts from
-//! it (particles, pairs by neighbours, the step by its criteria, list builds by speeds and accelerations; they are
-//! [`Simulation::expected_work`]), and what its own loops take on this machine, which no table of rates can tell: they are
-//! compiled for its effects, and their speed depends on how much of the scene a cache holds.
-//!
-//! ```text
-//! time = steps · (E τ + B λ + s (P σ/p + N μ))
-//! ```
-//!
-//! with E evaluations a step of τ seconds each, B list builds of λ seconds, and what a step does beside its evaluations: P pairs
-//! (sums in drifts, work of kicks) at the time σ/p of a pair in the sweeps of the evaluation, and N μ, as long as the part of the
-//! evaluation that is no sweep. What that takes in truth over this estimate is s, a number of the scheme:
-//! [`CostModel::calibrate`] measures it, with the correction of λ, on a second or two of a small pilot of the scheme; without one
-//! they are 1.
+//! **Before a run** [`CostModel::predict`] rehearses it: [`Simulation::expected_work`] takes the first steps of the scene as it
+//! is built, counts and times them, and takes them back. So it needs no table of rates, which could not tell what loops
+//! that are compiled for these effects take where the scene fills a cache, or does not. List builds are foretold by speeds
+//! and accelerations, since first steps may show none.
 //!
 //! **While it runs** the model corrects itself: the rest of the run is taken to be like what was watched,
 //!
@@ -32,15 +22,11 @@
 use crate::clock::Instant;
 use crate::error::{Error, Problem, Result};
 use crate::scalar::Real;
-use crate::simulation::{Outlook, Simulation, Work};
+use crate::simulation::{Simulation, Work};
 use std::time::Duration;
 
 /// Steps that are taken at least, of which the first, which fills memory, does not count.
 const LEAST: usize = 9;
-/// Steps of a pilot before its time counts.
-const WARM: u64 = 3;
-/// Time over which evaluations are repeated to be timed.
-const TIMING: Duration = Duration::from_millis(50);
 
 /// A prediction of what is left of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,16 +57,6 @@ impl Mark {
     }
 }
 
-/// What a pilot has told of its scheme on this machine.
-#[derive(Clone, Debug)]
-struct Rates {
-    scheme: String,
-    dimensions: usize,
-    bytes: usize,
-    /// What a step takes beside evaluations and list builds, over the estimate.
-    beside: f64,
-}
-
 /// A prediction, for what is left of it at a later time.
 #[derive(Clone, Copy, Debug)]
 struct Ahead {
@@ -100,8 +76,6 @@ struct Ahead {
 ///     .boundary(MirrorPlane::wall([0.01], [1.0]))
 ///     .build();
 /// let mut model = CostModel::new();
-/// // A second or two of a small pilot; here less.
-/// model.calibrate(&mut rod(2e-4)?, Duration::from_millis(20))?;
 /// // Before it runs.
 /// let mut rod = rod(1e-4)?;
 /// let expected = model.predict(&mut rod, 3e-6)?;
@@ -119,7 +93,6 @@ struct Ahead {
 #[derive(Clone, Debug, Default)]
 pub struct CostModel {
     marks: Vec<Mark>,
-    rates: Vec<Rates>,
     ahead: Option<Ahead>,
 }
 
@@ -130,77 +103,30 @@ impl CostModel {
         Self::default()
     }
 
-    /// Takes steps of a pilot for so long, and learns from them what a step of its scheme takes on this machine beside its
-    /// evaluations. A second or two of some thousand particles is enough; the pilot is used up. What it learns serves all
-    /// scenes of this scheme, dimension and scalar, until it is calibrated again; give each scheme a pilot of its own.
+    /// What a run from now until `end` \[s\] will cost, before it runs: by a [rehearsal](Simulation::expected_work) of a
+    /// twentieth of it or half a second, which changes nothing of what comes. [`forecast`](Self::forecast) repeats what is left
+    /// of it until the run has been watched.
     ///
     /// # Errors
-    /// As [`Simulation::step`].
-    pub fn calibrate<T: Real, const D: usize>(
-        &mut self,
-        pilot: &mut Simulation<T, D>,
-        time: Duration,
-    ) -> Result<()> {
-        for _ in 0..WARM {
-            pilot.step()?;
-        }
-        let begin = Instant::now();
-        let from = pilot.work();
-        while pilot.steps() < from.steps + LEAST as u64 || begin.elapsed() < time {
-            pilot.step()?;
-        }
-        let work = pilot.work();
-        let steps = (work.steps - from.steps) as f64;
-        let taken = work.time.saturating_sub(from.time).as_secs_f64() / steps;
-        let builds = (work.list_builds - from.list_builds) as f64 / steps;
-        // Evaluations are timed where the pilot has come to: from its own phases.
-        let phases = pilot.phases();
-        let outlook = pilot.outlook(pilot.time() + 1.0, TIMING)?;
-        let counted = phases.lists.as_secs_f64() / pilot.steps() as f64;
-        let builds_and_checks = if builds > 0.0 {
-            counted
-        } else {
-            outlook.check * outlook.evaluations
-        };
-        let known = outlook.evaluations * outlook.evaluation + builds_and_checks;
-        let beside = ((taken - known) / beside(&outlook)).clamp(0.1, 10.0);
-        let rates = Rates {
-            beside,
-            ..Rates::named(pilot)
-        };
-        self.rates.retain(|own| !own.is_of(&rates));
-        self.rates.push(rates);
-        Ok(())
-    }
-
-    /// What a run from now until `end` \[s\] will cost, before it runs. It evaluates the scene for a few hundredths of a second,
-    /// twice at least, which changes nothing of what comes. [`forecast`](Self::forecast) repeats what is left of it until the run
-    /// has been watched.
-    ///
-    /// # Errors
-    /// As [`Simulation::evaluate`], and if the end is not finite.
+    /// As [`Simulation::expected_work`].
     pub fn predict<T: Real, const D: usize>(
         &mut self,
         simulation: &mut Simulation<T, D>,
         end: f64,
     ) -> Result<Forecast> {
-        let outlook = simulation.outlook(end, TIMING)?;
-        let wanted = Rates::named(simulation);
-        let known = self.rates.iter().find(|own| own.is_of(&wanted));
-        let factor = known.map_or(1.0, |own| own.beside);
-        let step = outlook.evaluations * (outlook.evaluation + outlook.check)
-            + outlook.builds * outlook.build
-            + factor * beside(&outlook);
-        let time = simulation.time();
-        let steps = ((end - time) / outlook.step).max(0.0);
+        let expected = simulation.expected_work(end)?;
         let all = Forecast {
-            steps,
-            seconds: steps * step,
-            pairs: steps * (outlook.evaluations * outlook.pairs + outlook.beside),
-            bytes: outlook.bytes,
+            steps: expected.steps as f64,
+            seconds: expected.time.as_secs_f64(),
+            pairs: expected.pairs as f64,
+            bytes: expected.bytes,
         };
         self.marks.clear();
-        self.ahead = Some(Ahead { time, end, all });
+        self.ahead = Some(Ahead {
+            time: simulation.time(),
+            end,
+            all,
+        });
         Ok(all)
     }
 
@@ -277,30 +203,6 @@ impl CostModel {
             bytes: last.work.bytes,
         })
     }
-}
-
-impl Rates {
-    fn named<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Self {
-        Self {
-            scheme: simulation.scheme().name().into(),
-            dimensions: D,
-            bytes: size_of::<T>(),
-            beside: 1.0,
-        }
-    }
-
-    fn is_of(&self, other: &Self) -> bool {
-        self.scheme == other.scheme
-            && self.dimensions == other.dimensions
-            && self.bytes == other.bytes
-    }
-}
-
-/// The time \[s\] of what a step does beside evaluations and list builds, by those of its evaluations.
-fn beside(outlook: &Outlook) -> f64 {
-    let each = outlook.sweeps / outlook.pairs.max(1.0);
-    let no_sweep = (outlook.evaluation - outlook.sweeps).max(0.0);
-    (outlook.beside * each + no_sweep).max(f64::MIN_POSITIVE)
 }
 
 fn unseen(seen: usize) -> Error {

@@ -43,6 +43,8 @@ pub struct SweepInput<'a, T, const D: usize> {
     pub smoothing_length: f64,
     /// The slots whose sums are wanted; others are left as they were.
     pub targets: Range<usize>,
+    /// Runs of these to which they are narrowed, ascending, each of whole clusters; all of them if not given.
+    pub among: Option<&'a [Range<usize>]>,
     /// The acceleration that acts on all particles \[m/s²\], in the frame of their container.
     pub body_force: [T; D],
     /// First moment of the kernel gradient on the lattice, by which sums of gradients are divided.
@@ -267,7 +269,19 @@ impl<K, P, const MODES: u8> FusedKernel<K, P, MODES> {
             &|chunk, list, out, reactions| {
                 T::with_room(room_for_both::<Composed<T, Q, D, HOW>, D>(width), |later| {
                     let chunk = skipped + chunk;
-                    task.dispatch::<HOW>(instructions, chunk, list, later, out, reactions);
+                    let Some(runs) = input.among else {
+                        task.dispatch::<HOW>(instructions, chunk, list, later, out, reactions);
+                        return;
+                    };
+                    let own = chunk * slots..(chunk + 1) * slots;
+                    let from = runs.partition_point(|run| run.end <= own.start);
+                    for run in runs[from..].iter().take_while(|run| run.start < own.end) {
+                        let task = Task {
+                            targets: run,
+                            ..task
+                        };
+                        task.dispatch::<HOW>(instructions, chunk, list, later, out, reactions);
+                    }
                 });
             },
         );

@@ -12,6 +12,7 @@ use crate::simulation::cost::Spent;
 use crate::simulation::group::Group;
 use crate::simulation::neighborhood::Neighborhood;
 use crate::simulation::population::Moves;
+use crate::simulation::settle::Settling;
 use crate::simulation::workspace::{Saved, Workspace};
 use crate::sweep::{Reaction, Records, Results};
 use crate::term::Stage;
@@ -86,6 +87,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             lengths_time: file.get_one(&format!("{name}/lengths_time"))?,
             sums: rows("sums")?,
             coupling: rows("coupling")?,
+            settling: Settling::default(),
             moved: Moves::default(),
             predicted: Saved::new(),
             is_predicted: false,

@@ -2,8 +2,9 @@
 //! By the laws of the methods, or by what was measured where a law is refused.
 
 use super::fit::{Estimate, PowerFit, REACH};
+use super::price::Price;
 use super::refusal::Refusal;
-use super::report::{Row, View, fit_of_errors, fit_of_times};
+use super::report::{Row, View, fit_of_errors};
 use crate::output::table::significant;
 use core::fmt;
 use std::time::Duration;
@@ -11,7 +12,7 @@ use std::time::Duration;
 /// What an answer rests on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Basis {
-    /// The laws of error and time through all runs of the method.
+    /// The law of the error of the method, and the price of its runs.
     Fitted,
     /// One run that was measured, because a law was refused; its error is the largest of it and the finer ones.
     Measured,
@@ -82,7 +83,7 @@ pub struct Foretold {
 /// A method's laws.
 struct Laws {
     error: PowerFit,
-    time: PowerFit,
+    time: Price,
 }
 
 impl Laws {
@@ -108,7 +109,7 @@ impl View<'_> {
     fn laws(&self, method: &str) -> Result<Laws, Refusal> {
         Ok(Laws {
             error: self.fit(method)?,
-            time: self.cost_fit(method)?,
+            time: self.price(method)?,
         })
     }
 
@@ -151,31 +152,26 @@ impl View<'_> {
         best.ok_or(Refusal::NoMethod(refusals))
     }
 
-    /// The cheapest way to this error: method, spacing and time. A method whose coarsest run is already better is taken
-    /// with that, for coarser ones were not seen.
+    /// The cheapest way to this error: method, spacing and time. Where the error is larger than those that a law is of, runs
+    /// that were measured answer: a method whose coarsest run is already better is taken with that, for coarser ones were
+    /// not seen.
     ///
     /// # Errors
     /// [`Refusal::NoMethod`], with the reason of each, if none reaches it by what the runs support.
     pub fn for_error(&self, error: f64) -> Result<Recipe, Refusal> {
         self.best(
             |method, laws| {
-                let coarsest = laws.error.range().1;
-                let spacing = match laws.error.inverse(error) {
-                    Ok(spacing) => spacing,
-                    Err(Refusal::TooFar { wanted, .. }) if wanted > coarsest => Estimate {
-                        value: coarsest,
-                        low: coarsest,
-                        high: coarsest,
-                    },
-                    Err(why) => return Err(why),
-                };
-                let at_most = |spacing: f64| spacing.min(coarsest);
-                laws.recipe(
-                    method,
-                    at_most(spacing.value),
-                    at_most(spacing.low),
-                    at_most(spacing.high),
-                )
+                let spacing = laws.error.inverse(error)?;
+                // Of what is coarser than the runs of the law it says nothing, but those runs do.
+                let (from, to) = laws.error.range();
+                if spacing.value > to {
+                    return Err(Refusal::TooFar {
+                        wanted: spacing.value,
+                        from: from / REACH,
+                        to,
+                    });
+                }
+                laws.recipe(method, spacing.value, spacing.low, spacing.high.min(to))
             },
             |_, found| found <= error,
             |recipe| recipe.seconds.value,
@@ -192,9 +188,9 @@ impl View<'_> {
             |method, laws| {
                 let (coarsest, finest) = laws.time.range();
                 let fineness = match laws.time.inverse(given) {
-                    Ok(fineness) => fineness.value,
+                    Ok(fineness) => fineness,
                     Err(Refusal::TooFar { wanted, .. }) if wanted > finest => REACH * finest,
-                    Err(Refusal::Floor { .. } | Refusal::TooFar { .. }) => {
+                    Err(Refusal::TooFar { .. }) => {
                         let least = laws.time.at(coarsest)?.value;
                         return Err(Refusal::NoTime { least, given });
                     }
@@ -230,7 +226,7 @@ impl View<'_> {
                     error,
                 ),
                 seconds: (
-                    fit_of_times(&rows).and_then(|fit| fit.at(1.0 / row.spacing)),
+                    Price::of(&rows).and_then(|price| price.at(1.0 / row.spacing)),
                     row.seconds,
                 ),
             })

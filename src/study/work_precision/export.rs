@@ -123,7 +123,7 @@ impl View<'_> {
         table
     }
 
-    /// The laws of every method: order, floor, cost in time for half the spacing, and how the finest run was foretold.
+    /// The laws of every method: order, floor, order of the work, and how the finest run was foretold.
     #[must_use]
     pub fn fits(&self) -> Table {
         let mut table = Table::new([
@@ -131,7 +131,7 @@ impl View<'_> {
             "order",
             "floor [%]",
             "scatter [%]",
-            "time ~ dx^-q, q",
+            "pairs ~ dx^-q, q",
             "finest foretold: error, time (over measured)",
         ]);
         let foretold = self.foretold();
@@ -144,8 +144,8 @@ impl View<'_> {
                 ],
                 Err(why) => [why.to_string(), String::new(), String::new()],
             };
-            let cost = self.cost_fit(method);
-            let cost = cost.map_or("–".into(), |fit| span(fit.order(), 1.0));
+            let cost = self.price(method);
+            let cost = cost.map_or("–".into(), |price| span(price.order(), 1.0));
             let own = foretold.iter().find(|one| one.method == method);
             let ratio = |(by_law, measured): &(core::result::Result<Estimate, _>, f64)| match by_law
             {

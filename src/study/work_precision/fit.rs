@@ -1,5 +1,5 @@
 //! The law error = floor + C xᵖ through measured errors, with intervals, and the refusal to say more than they bear.
-//! The same law serves the cost, with one over the spacing in place of x.
+//! Intervals are of the profile likelihood.
 //!
 //! With logarithms yᵢ of n measured values, the best floor F ≥ 0, factor C > 0 and order p in \[0.1, 6\] make
 //! S = Σ (yᵢ − ln(F + C xᵢᵖ))² least. A parameter, or a prediction, lies within 90 % in the range that it takes over all
@@ -7,18 +7,24 @@
 //! degrees of freedom, and
 //!
 //! ```text
-//! s² = (S₀ + 2 · 0.03²) / ν
+//! s² = (S₀ + 2 · 0.05²) / ν
 //! ```
 //!
-//! As if two more values had been seen, each 3 % off: three values leave no scatter to judge by, and no law
-//! of this form is better than that before its spacings are fine. The search runs over grids of p and F/C, the last just
-//! around the laws within 90 %, so the same values give the same answer to the bit. Of five values with a scatter of 3 %
-//! 97 intervals of 100 held what was known, at 5 % 82, and at 10 % 78.
+//! As if two more values had been seen, each 5 % off: three values leave no scatter to judge by, and no law
+//! of this form is better than that before its spacings are fine. With 3 % for 5 %, 83 of 100 finest runs of
+//! `docs/accuracy_and_cost.md` were in the intervals of the laws through the coarser ones, and now 93 are. The search runs over
+//! grids of p and F/C, the last just around the laws within 90 %, so the same values give the same answer to the bit.
+//!
+//! What is coarse follows other laws: there an error has parts of several orders. So values at the largest x are left out, one
+//! x after another, as long as the rest scatter by more than 3 % about their law and have four x or more. An order at the
+//! edge of what is tried is none, and refused.
 
 use super::refusal::Refusal;
 
 /// Scatter that is presumed before any is seen, as a part of the value, and the weight of that in values.
-const PRESUMED: (f64, f64) = (0.03, 2.0);
+const PRESUMED: (f64, f64) = (0.05, 2.0);
+/// Scatter beyond which the values at the largest x are left out, while as many different x are left as parameters.
+const DESCRIBED: (f64, usize) = (0.03, 3);
 /// Scatter about the law beyond which it says nothing.
 const MOST_SCATTER: f64 = 0.25;
 /// How far beyond the values a law is followed.
@@ -27,6 +33,8 @@ pub(super) const REACH: f64 = 4.0;
 const ORDERS: [f64; 2] = [0.1, 6.0];
 /// F/C that are tried with x over its largest: from nothing, below which size it is told apart linearly, and the most.
 const FLOORS: [f64; 2] = [1e-4, 1e2];
+/// The least span of x that shows an order: two, but for rounding.
+const LEAST_SPAN: f64 = 1.999;
 /// Points of a grid along order and floor.
 const GRID: usize = 60;
 
@@ -106,8 +114,8 @@ impl PowerFit {
     ///
     /// # Errors
     /// If there are fewer than three different x, they span less than a factor of two, a value is not positive and
-    /// finite, values grow by more than a fifth where x falls to its least, or they scatter about the law by more than a
-    /// quarter.
+    /// finite, values grow by more than a fifth where x falls to its least, they scatter about the law by more than a
+    /// quarter, or its order is at the edge of what is tried, 0.1 to 6.
     pub fn of(x: &[f64], values: &[f64]) -> Result<Self, Refusal> {
         let good = |v: &f64| v.is_finite() && *v > 0.0;
         if x.len() != values.len() || !x.iter().chain(values).all(good) {
@@ -120,7 +128,7 @@ impl PowerFit {
             return Err(Refusal::FewSpacings { have: sorted.len() });
         }
         let range = (sorted[0], sorted[sorted.len() - 1]);
-        if range.1 < 1.999 * range.0 {
+        if range.1 < LEAST_SPAN * range.0 {
             return Err(Refusal::NarrowSpacings {
                 span: range.1 / range.0,
             });
@@ -134,16 +142,35 @@ impl PowerFit {
         if fine > 1.2 * coarse {
             return Err(Refusal::Grows { coarse, fine });
         }
-        let points: Vec<_> = x
-            .iter()
-            .zip(values)
-            .map(|(x, v)| (x / range.1, v.ln()))
-            .collect();
-        let best = best(&points);
+        let (mut range, mut largest) = (range, sorted.len());
+        let (points, best) = loop {
+            let points: Vec<_> = (x.iter().zip(values))
+                .filter(|(x, _)| **x <= range.1)
+                .map(|(x, v)| (x / range.1, v.ln()))
+                .collect();
+            let best = best(&points);
+            let scatter = (best.sum / points.len() as f64).sqrt();
+            // Without the largest of them.
+            let fewer = largest - 1;
+            if scatter <= DESCRIBED.0
+                || fewer < DESCRIBED.1
+                || sorted[fewer - 1] < LEAST_SPAN * range.0
+            {
+                break (points, best);
+            }
+            (range.1, largest) = (sorted[fewer - 1], fewer);
+        };
         let n = points.len() as f64;
         let scatter = (best.sum / n).sqrt();
         if scatter > MOST_SCATTER {
             return Err(Refusal::Scatter { scatter });
+        }
+        // Where the floor is all that is seen no order matters.
+        let edge = 1e-3 * (ORDERS[1] - ORDERS[0]);
+        let at_edge = best.order < ORDERS[0] + edge || best.order > ORDERS[1] - edge;
+        if at_edge && (points.iter()).any(|(x, _)| (best.at(*x) - best.at(0.0)).abs() > DESCRIBED.0)
+        {
+            return Err(Refusal::NoOrder { order: best.order });
         }
         let freedom = n - 3.0 + PRESUMED.1;
         let variance = (best.sum + PRESUMED.1 * PRESUMED.0 * PRESUMED.0) / freedom;
@@ -187,7 +214,7 @@ impl PowerFit {
     pub fn scatter(&self) -> f64 {
         (self.best.sum / self.points.len() as f64).sqrt()
     }
-    /// Least and largest x of the values.
+    /// Least and largest x of the values that the law is of: of what is coarser it says nothing.
     #[must_use]
     pub fn range(&self) -> (f64, f64) {
         self.range
@@ -377,7 +404,7 @@ fn laws_within(points: &[(f64, f64)], best: &Law, most: f64) -> Vec<Law> {
 }
 
 /// Two-sided 90 % quantile of Student's t.
-fn student_90(freedom: usize) -> f64 {
+pub(super) fn student_90(freedom: usize) -> f64 {
     const TABLE: [f64; 10] = [
         6.314, 2.920, 2.353, 2.132, 2.015, 1.943, 1.895, 1.860, 1.833, 1.812,
     ];
@@ -388,109 +415,4 @@ fn student_90(freedom: usize) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Numbers between 0 and 1, the same in every run.
-    fn numbers() -> impl FnMut() -> f64 {
-        let mut state = 0x9e37_79b9_7f4a_7c15_u64;
-        move || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1);
-            (state >> 11) as f64 / (1_u64 << 53) as f64
-        }
-    }
-
-    /// A number of zero mean and unit variance (Box & Muller 1958).
-    fn normal(next: &mut impl FnMut() -> f64) -> f64 {
-        let (a, b) = (next().max(1e-300), next());
-        (-2.0 * a.ln()).sqrt() * (core::f64::consts::TAU * b).cos()
-    }
-
-    #[test]
-    fn floors_and_orders_that_are_known_are_found() {
-        let x: Vec<f64> = (0..6).map(|k| 0.1 * 0.5_f64.powi(k)).collect();
-        for (floor, order) in [(0.0, 1.0), (1e-3, 1.5), (2e-2, 2.0), (1e-4, 0.5)] {
-            let y: Vec<f64> = x.iter().map(|x: &f64| floor + x.powf(order)).collect();
-            let fit = PowerFit::of(&x, &y).unwrap();
-            assert!((fit.order().value - order).abs() < 0.02, "{fit:?}");
-            assert!(
-                (fit.floor().value - floor).abs() < 0.02 * floor + 2e-5,
-                "{fit:?}"
-            );
-            assert!(fit.scatter() < 1e-3, "{fit:?}");
-        }
-    }
-
-    /// How often the intervals of order, floor and a prediction hold what is known.
-    fn held(scatter: f64, trials: u32) -> [f64; 3] {
-        let x: Vec<f64> = (0..5).map(|k| 0.1 * 0.5_f64.powi(k)).collect();
-        let (floor, order) = (3e-3, 1.5);
-        let law = |x: f64| floor + x.powf(order);
-        let mut next = numbers();
-        let mut held = [0.0; 3];
-        for _ in 0..trials {
-            let of = |x: &f64| law(*x) * (scatter * normal(&mut next)).exp();
-            let fit = PowerFit::of(&x, &x.iter().map(of).collect::<Vec<_>>()).unwrap();
-            let half = 0.5 * x[4];
-            let known = [
-                (fit.order(), order),
-                (fit.floor(), floor),
-                (fit.at(half).unwrap(), law(half)),
-            ];
-            for (held, (estimate, exact)) in held.iter_mut().zip(known) {
-                let within = estimate.low <= exact && exact <= estimate.high;
-                *held += f64::from(u8::from(within)) / f64::from(trials);
-            }
-        }
-        held
-    }
-
-    #[test]
-    fn intervals_hold_what_they_say() {
-        // As presumed, and more than three times that, which five values do not tell for certain.
-        let (presumed, more) = (held(0.03, 100), held(0.1, 100));
-        println!("within: {presumed:?} at 3 %, {more:?} at 10 %");
-        assert!(
-            presumed.iter().all(|share| (0.9..1.0).contains(share)),
-            "{presumed:?}"
-        );
-        assert!(
-            more.iter().all(|share| (0.7..0.9).contains(share)),
-            "{more:?}"
-        );
-    }
-
-    #[test]
-    fn what_the_values_do_not_bear_is_refused() {
-        let x = [0.4, 0.2, 0.1];
-        let two = PowerFit::of(&x[..2], &[0.2, 0.1]).unwrap_err().to_string();
-        assert!(two.contains("three") && two.contains('2'), "{two}");
-        assert!(matches!(
-            PowerFit::of(&[0.12, 0.11, 0.1], &x),
-            Err(Refusal::NarrowSpacings { .. })
-        ));
-        assert!(matches!(
-            PowerFit::of(&x, &[0.1, 0.1, 0.2]),
-            Err(Refusal::Grows { .. })
-        ));
-        assert!(matches!(
-            PowerFit::of(&x, &[0.4, 0.01, 0.3]),
-            Err(Refusal::Scatter { .. })
-        ));
-        assert!(matches!(
-            PowerFit::of(&x, &[0.4, 0.0, 0.3]),
-            Err(Refusal::NoLogarithm)
-        ));
-        let fit = PowerFit::of(&[0.4, 0.2, 0.1, 0.05], &[0.41, 0.21, 0.11, 0.06]).unwrap();
-        assert!(fit.at(0.0126).is_ok());
-        assert!(matches!(fit.at(0.0124), Err(Refusal::TooFar { .. })));
-        assert!(matches!(fit.inverse(0.005), Err(Refusal::Floor { .. })));
-        let spacing = fit.inverse(0.03).unwrap();
-        assert!(
-            (spacing.value - 0.02).abs() < 1e-3 && spacing.low < 0.02,
-            "{spacing:?}"
-        );
-    }
-}
+mod tests;

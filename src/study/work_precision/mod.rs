@@ -37,9 +37,9 @@
 //!
 //! # What is fitted, and what is refused
 //!
-//! Of each method [`PowerFit`] gives error = floor + C dxᵖ and time = fixed + A dx⁻ᵠ, with intervals, from three spacings on.
-//! It is followed four times beyond what was measured and no farther; a [`Refusal`] says what is missing. Where the law does not
-//! describe the errors, what was measured still answers.
+//! Of each method [`PowerFit`] gives error = floor + C dxᵖ, and [`Price`] the time by counted pairs and what one takes, with
+//! intervals, from three spacings on. They are followed four times beyond what was measured and no farther; a [`Refusal`] says
+//! what is missing. Where the law does not describe the errors, what was measured still answers.
 //!
 //! | question | call |
 //! |---|---|
@@ -59,6 +59,7 @@ mod fit;
 mod history;
 mod outcome;
 mod plot;
+mod price;
 mod quantity;
 mod refusal;
 mod report;
@@ -72,6 +73,7 @@ pub use fit::{Estimate, PowerFit};
 pub use history::History;
 pub use outcome::{Outcome, relative_l1, relative_l2, residual};
 pub use plot::Column;
+pub use price::Price;
 pub use quantity::{Norm, Quantity, Reference};
 pub use refusal::Refusal;
 pub use report::{Report, Row, Status, View};

@@ -42,6 +42,14 @@ pub enum Refusal {
         /// Root mean square, as a part of the value.
         scatter: f64,
     },
+    /// No order in sight.
+    #[error(
+        "values follow no order between 0.1 and 6, the best is {order:.1} at the edge: run finer, where one law holds"
+    )]
+    NoOrder {
+        /// The best order of those that are tried.
+        order: f64,
+    },
     /// Finer spacings do not help.
     #[error(
         "not reachable by refinement: the floor is {} ({} to {}), and {} is wanted",

@@ -5,6 +5,7 @@ use super::answer::Recipe;
 use super::case::Method;
 use super::fit::PowerFit;
 use super::outcome::Outcome;
+use super::price::Price;
 use super::quantity::Quantity;
 use super::refusal::Refusal;
 use crate::simulation::Work;
@@ -240,17 +241,14 @@ impl<'a> View<'a> {
         fit_of_errors(&self.pilots(method))
     }
 
-    /// The law of the time \[s\] of a method in one over the spacing \[1/m\].
+    /// The time \[s\] of a method by one over the spacing \[1/m\].
     ///
     /// # Errors
-    /// If its runs do not support one.
-    pub fn cost_fit(&self, method: &str) -> Result<PowerFit, Refusal> {
+    /// If there are fewer than three.
+    pub fn price(&self, method: &str) -> Result<Price, Refusal> {
         let rows = self.report.rows.iter().filter(|row| row.method == method);
-        fit_of_times(
-            &rows
-                .filter(|row| row.status == Status::Done)
-                .collect::<Vec<_>>(),
-        )
+        let done: Vec<_> = rows.filter(|row| row.status == Status::Done).collect();
+        Price::of(&done)
     }
 
     /// The rows that no other beats in both error and time, the cheapest first (the Pareto front).
@@ -277,10 +275,4 @@ pub(super) fn fit_of_errors(pilots: &[(&Row, f64)]) -> Result<PowerFit, Refusal>
     let spacings: Vec<_> = pilots.iter().map(|(row, _)| row.spacing).collect();
     let errors: Vec<_> = pilots.iter().map(|(_, error)| *error).collect();
     PowerFit::of(&spacings, &errors)
-}
-
-pub(super) fn fit_of_times(rows: &[&Row]) -> Result<PowerFit, Refusal> {
-    let fineness: Vec<_> = rows.iter().map(|row| 1.0 / row.spacing).collect();
-    let seconds: Vec<_> = rows.iter().map(|row| row.seconds).collect();
-    PowerFit::of(&fineness, &seconds)
 }

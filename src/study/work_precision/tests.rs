@@ -78,7 +78,7 @@ fn answers_are_those_of_the_laws() {
         "{time}"
     );
     let view = report.first();
-    assert!(matches!(view.cost_fit("wide"), Ok(fit) if (fit.order().value - 2.0).abs() < 0.02));
+    assert!(matches!(view.price("wide"), Ok(fit) if (fit.order().value - 2.0).abs() < 0.02));
     let none = report
         .within(Duration::from_nanos(1))
         .unwrap_err()
@@ -222,4 +222,35 @@ fn an_error_that_passes_through_zero_is_no_answer() {
     let time = view.work_at("as it is", Column::Seconds, 0.15).unwrap();
     assert!((1e-4 / 0.4..1e-4 / 0.2).contains(&time), "{time}");
     assert!(view.work_at("as it is", Column::Seconds, 0.05).is_err());
+}
+
+#[test]
+fn times_follow_counted_pairs_and_not_what_small_runs_spend_beside_them() {
+    // A nanosecond a pair of 10/dx³, and ten microseconds a step of 10/dx.
+    let seconds = |dx: f64| 1e-8 * dx.powi(-3) + 1e-4 / dx;
+    let report = WorkPrecision::new("made up", |case| {
+        let dx = case.spacing();
+        let work = Work {
+            pairs: (10.0 * dx.powi(-3)).round() as u64,
+            time: Duration::from_secs_f64(seconds(dx)),
+            ..Work::default()
+        };
+        Ok(Outcome::from_work(work).value("error", dx))
+    })
+    .quantity(Quantity::measured("error"))
+    .spacings([0.04, 0.02, 0.01, 0.005])
+    .run()
+    .unwrap();
+    let price = report.first().price("as it is").unwrap();
+    assert!((price.order().value - 3.0).abs() < 1e-3, "{price:?}");
+    for dx in [0.002, 0.00126] {
+        let (own, exact) = (price.at(1.0 / dx).unwrap(), seconds(dx));
+        assert!((own.value / exact - 1.0).abs() < 0.3, "{own:?} {exact}");
+        assert!(own.low < exact && exact < own.high, "{own:?} {exact}");
+        let back = price.inverse(own.value).unwrap();
+        assert!((back * dx - 1.0).abs() < 1e-9, "{back}");
+    }
+    assert!(
+        price.at(1000.0).is_err() && price.inverse(1e9).is_err() && price.inverse(1e-9).is_err()
+    );
 }
