@@ -205,6 +205,7 @@ impl<T: Real> Lattice<T> {
             interactions: &[Interaction::Bonded],
             smoothing_length: H,
             targets: self.blocks[0].slots.clone(),
+            among: None,
             body_force: [T::zero(); 3],
             lattice_consistency_factor: 1.0,
             instructions: InstructionSet::detect(),

@@ -11,7 +11,7 @@ use crate::scheme::Scheme;
 use std::sync::Arc;
 
 /// A scheme that a group obeys from an event on.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Exchange<T: Real, const D: usize> {
     /// The number of the event; none for the scheme that it starts with.
     pub event: Option<usize>,

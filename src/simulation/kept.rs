@@ -63,6 +63,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             watch,
             events,
             happened,
+            awake: _,
         } = self;
         Kept {
             groups: swapped(groups),

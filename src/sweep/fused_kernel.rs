@@ -270,7 +270,7 @@ impl<K, P, const MODES: u8> FusedKernel<K, P, MODES> {
                 T::with_room(room_for_both::<Composed<T, Q, D, HOW>, D>(width), |later| {
                     let chunk = skipped + chunk;
                     let Some(runs) = input.among else {
-                        task.dispatch::<HOW>(instructions, chunk, list, later, out, reactions);
+                        task.dispatch::<HOW>(instructions, (chunk, list), later, out, reactions);
                         return;
                     };
                     let own = chunk * slots..(chunk + 1) * slots;
@@ -280,7 +280,7 @@ impl<K, P, const MODES: u8> FusedKernel<K, P, MODES> {
                             targets: run,
                             ..task
                         };
-                        task.dispatch::<HOW>(instructions, chunk, list, later, out, reactions);
+                        task.dispatch::<HOW>(instructions, (chunk, list), later, out, reactions);
                     }
                 });
             },

@@ -163,6 +163,8 @@ pub(super) fn put_workspace<T: Real, const D: usize>(
         kept,
         phases: _,
         spent: _,
+        // Found anew in each evaluation.
+        settling: _,
     } = work;
     // Only sums over walls read records without packing them.
     let records = if own.records_of_rates && has_walls {

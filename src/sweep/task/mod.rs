@@ -108,8 +108,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
     pub fn dispatch<const HOW: u8>(
         &self,
         instructions: InstructionSet,
-        chunk: usize,
-        list: &ChunkList,
+        (chunk, list): (usize, &ChunkList),
         later: &mut [T],
         out: &mut [T],
         reactions: &mut Vec<Reaction<D>>,
@@ -127,8 +126,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                     return self.chunk_avx512::<HOW>(
                         self.kernel,
                         self.terms,
-                        chunk,
-                        list,
+                        (chunk, list),
                         later,
                         out,
                         reactions,
@@ -138,8 +136,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                     return self.chunk_avx2::<HOW>(
                         self.kernel,
                         self.terms,
-                        chunk,
-                        list,
+                        (chunk, list),
                         later,
                         out,
                         reactions,
@@ -155,7 +152,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
             }
         }
         let _ = instructions;
-        self.chunk::<T::Wide<false>, HOW>(chunk, list, later, out, reactions);
+        self.chunk::<T::Wide<false>, HOW>((chunk, list), later, out, reactions);
     }
 
     // Kernel and terms come as arguments: what those point to nothing else changes, so constants of a term are read and
@@ -166,8 +163,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         &self,
         kernel: &K,
         terms: &P,
-        chunk: usize,
-        list: &ChunkList,
+        (chunk, list): (usize, &ChunkList),
         later: &mut [T],
         out: &mut [T],
         reactions: &mut Vec<Reaction<D>>,
@@ -180,7 +176,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
             terms,
             ..*self
         };
-        own.chunk::<T::Wide<true>, HOW>(chunk, list, later, out, reactions);
+        own.chunk::<T::Wide<true>, HOW>((chunk, list), later, out, reactions);
     }
 
     #[cfg(target_arch = "x86_64")]
@@ -189,8 +185,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         &self,
         kernel: &K,
         terms: &P,
-        chunk: usize,
-        list: &ChunkList,
+        (chunk, list): (usize, &ChunkList),
         later: &mut [T],
         out: &mut [T],
         reactions: &mut Vec<Reaction<D>>,
@@ -203,15 +198,14 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
             terms,
             ..*self
         };
-        own.chunk::<T::Wide<true>, HOW>(chunk, list, later, out, reactions);
+        own.chunk::<T::Wide<true>, HOW>((chunk, list), later, out, reactions);
     }
 
     /// All clusters of one chunk.
     #[inline(always)]
     fn chunk<L: Lane<Scalar = T, Broadcast = T>, const HOW: u8>(
         &self,
-        chunk: usize,
-        list: &ChunkList,
+        (chunk, list): (usize, &ChunkList),
         later: &mut [T],
         out: &mut [T],
         reactions: &mut Vec<Reaction<D>>,
@@ -237,7 +231,14 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
             let possible = const { summed_for_both::<Composed<T, P, D, HOW>, D>() };
             possible && self.targets.start <= own.start && self.targets.end >= own.end
         };
-        later.fill(T::zero());
+        let first_block = self.blocks.partition_point(|b| b.slots.end <= chunk_first);
+        let here = self.blocks[first_block..].iter();
+        if here
+            .take_while(|block| block.slots.start < chunk_end)
+            .any(for_both)
+        {
+            later.fill(T::zero());
+        }
         for (c, bounds) in list.starts.windows(2).enumerate() {
             let first = chunk_first + c * L::WIDTH;
             let block = self.blocks.partition_point(|b| b.slots.end <= first);
