@@ -147,6 +147,7 @@ impl<T: Real, const W: usize, const FUSED: bool> Lane for Lanes<T, W, FUSED> {
     type Broadcast = T;
     type Mask = LaneMask<W>;
     const WIDTH: usize = W;
+    const FUSED: bool = FUSED;
     #[inline(always)]
     fn splat(value: T) -> Self {
         Self([value; W])

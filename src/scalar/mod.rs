@@ -101,6 +101,8 @@ pub trait Lane:
     type Mask: Mask;
     /// The number of elements.
     const WIDTH: usize;
+    /// Whether [`mul_add`](Self::mul_add) rounds once.
+    const FUSED: bool = false;
 
     /// The same value in every element.
     fn splat(value: Self::Scalar) -> Self;

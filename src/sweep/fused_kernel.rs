@@ -267,22 +267,37 @@ impl<K, P, const MODES: u8> FusedKernel<K, P, MODES> {
             &mut rows.reactions[skipped..],
             &input.lists.chunks()[skipped..],
             &|chunk, list, out, reactions| {
-                T::with_room(room_for_both::<Composed<T, Q, D, HOW>, D>(width), |later| {
-                    let chunk = skipped + chunk;
-                    let Some(runs) = input.among else {
-                        task.dispatch::<HOW>(instructions, (chunk, list), later, out, reactions);
-                        return;
-                    };
-                    let own = chunk * slots..(chunk + 1) * slots;
-                    let from = runs.partition_point(|run| run.end <= own.start);
-                    for run in runs[from..].iter().take_while(|run| run.start < own.end) {
-                        let task = Task {
-                            targets: run,
-                            ..task
+                T::with_room(
+                    room_for_both::<Composed<T, Q, D, HOW>, T::Wide<true>, D>(),
+                    |later| {
+                        let chunk = skipped + chunk;
+                        let Some(runs) = input.among else {
+                            task.dispatch::<HOW>(
+                                instructions,
+                                (chunk, list),
+                                later,
+                                out,
+                                reactions,
+                            );
+                            return;
                         };
-                        task.dispatch::<HOW>(instructions, (chunk, list), later, out, reactions);
-                    }
-                });
+                        let own = chunk * slots..(chunk + 1) * slots;
+                        let from = runs.partition_point(|run| run.end <= own.start);
+                        for run in runs[from..].iter().take_while(|run| run.start < own.end) {
+                            let task = Task {
+                                targets: run,
+                                ..task
+                            };
+                            task.dispatch::<HOW>(
+                                instructions,
+                                (chunk, list),
+                                later,
+                                out,
+                                reactions,
+                            );
+                        }
+                    },
+                );
             },
         );
     }

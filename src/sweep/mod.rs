@@ -16,6 +16,11 @@
 //!   all, a first look at the distances leaves out neighbours that no lane reaches; lists have those first
 //!   that need no look, because the skin cannot carry them so far. The other pairs beyond the support are
 //!   computed too and add zero, because W and F vanish there.
+//! - **Once for both.** A pair of particles of one chunk and block is evaluated when the earlier of their clusters meets it.
+//!   The forces on the other side are the opposite ones, and its other sums the same terms with i and j exchanged; they
+//!   are kept lane by lane, and added up when the chunk is done. A third of all rows is saved, at a third of the price of one.
+//!   It takes a second loop, so it is done for sweeps of liquids on wide instructions; in all others, and across contacts, each side
+//!   is evaluated by itself.
 //! - **Two pairs under way.** The distance of the next pair is begun before the terms of this one: a root
 //!   takes longer than a processor looks ahead. In `f64` some processors make it faster of products
 //!   ([`Root`]).
@@ -30,7 +35,7 @@
 //!
 //! Each particle sums over its own neighbours in the order of its list, which is the same whoever made
 //! it; no thread adds to what belongs to
-//! another, so there are no locks and no atomics. Threads take chunks of 32 clusters
+//! another, so there are no locks and no atomics. Threads take chunks of 64 clusters
 //! ([`CHUNK`](crate::neighbors::CHUNK)), a number that depends on nothing, and reductions have a fixed
 //! shape. Another instruction set, another [`Root`], or another skin of the lists, changes rounding.
 //!

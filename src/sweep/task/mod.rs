@@ -81,20 +81,25 @@ struct Row<'a, L> {
     chunk_first: usize,
 }
 
-/// Most numbers of a particle that are summed for both sides of a pair at once: with more the room that the other sides
-/// take is not in the processor's nearer memory.
-const MOST_FOR_BOTH: usize = 12;
+/// Most numbers of a particle that are summed for both sides of a pair at once: a force in space and a maximum.
+const MOST_FOR_BOTH: usize = 4;
 
-/// Whether a sweep sums a pair of particles of one chunk for both of them when it meets it the first time. In one dimension there
-/// is little to gain.
-pub(super) const fn summed_for_both<C: Layout, const D: usize>() -> bool {
-    D > 1 && C::WRITES.width(D) <= MOST_FOR_BOTH
+/// Whether a sweep sums a pair of particles of one chunk for both of them when it meets it the first time.
+///
+/// It is a second loop, with the terms twice in it, so it is compiled for the sweeps that gain most and have most to do: those
+/// of liquids, with one smoothing length, on wide instructions. In one dimension there is little to gain.
+pub(super) const fn summed_for_both<C: Layout, L: Lane, const D: usize>() -> bool {
+    D > 1
+        && L::FUSED
+        && C::WRITES.width(D) <= MOST_FOR_BOTH
+        && !C::WRITES.contains(Output::POWER)
+        && !C::READS.contains(Field::SMOOTHING_LENGTH)
 }
 
 /// How many numbers the other sides of the pairs of a chunk take.
-pub(super) const fn room_for_both<C: Layout, const D: usize>(width: usize) -> usize {
-    if summed_for_both::<C, D>() {
-        CHUNK * width * width * C::WRITES.width(D)
+pub(super) const fn room_for_both<C: Layout, L: Lane, const D: usize>() -> usize {
+    if summed_for_both::<C, L, D>() {
+        CHUNK * L::WIDTH * L::WIDTH * C::WRITES.width(D)
     } else {
         0
     }
@@ -228,7 +233,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         // Pairs of a block are summed for both sides if it has all its sums wanted in this chunk.
         let for_both = |block: &Block| {
             let own = block.slots.start.max(chunk_first)..block.slots.end.min(chunk_end);
-            let possible = const { summed_for_both::<Composed<T, P, D, HOW>, D>() };
+            let possible = const { summed_for_both::<Composed<T, P, D, HOW>, L, D>() };
             possible && self.targets.start <= own.start && self.targets.end >= own.end
         };
         let first_block = self.blocks.partition_point(|b| b.slots.end <= chunk_first);
@@ -312,7 +317,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                 }
             }
         }
-        if const { summed_for_both::<Composed<T, P, D, HOW>, D>() } {
+        if const { summed_for_both::<Composed<T, P, D, HOW>, L, D>() } {
             let rows = (0..list.starts.len() - 1).filter(|c| {
                 let first = chunk_first + c * L::WIDTH;
                 let block = self.blocks.partition_point(|b| b.slots.end <= first);
@@ -423,7 +428,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         K: Kernel<D>,
         P: Terms<D>,
     {
-        if const { summed_for_both::<Composed<T, P, D, HOW>, D>() } && row.both {
+        if const { summed_for_both::<Composed<T, P, D, HOW>, L, D>() } && row.both {
             self.pairs::<L, HOW, true>(row, neighbors, later, sums);
         } else {
             self.pairs::<L, HOW, false>(row, neighbors, later, sums);
