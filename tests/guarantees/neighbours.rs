@@ -107,7 +107,7 @@ fn lists_hold_all<const D: usize>(
         prop_assert!(
             segments
                 .windows(2)
-                .all(|pair| pair[0].block < pair[1].block),
+                .all(|pair| pair[0].block <= pair[1].block),
             "order of blocks"
         );
         let once: std::collections::BTreeSet<u32> = listed.iter().copied().collect();

@@ -318,15 +318,17 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
             }
         }
         if const { summed_for_both::<Composed<T, P, D, HOW>, L, D>() } {
-            let rows = (0..list.starts.len() - 1).filter(|c| {
+            for c in 0..list.starts.len() - 1 {
                 let first = chunk_first + c * L::WIDTH;
                 let block = self.blocks.partition_point(|b| b.slots.end <= first);
                 let own = self.blocks.get(block).filter(|b| b.slots.contains(&first));
-                self.targets.contains(&first) && own.is_some_and(for_both)
-            });
-            for c in rows {
+                let wanted = own.filter(|own| self.targets.contains(&first) && for_both(own));
+                let Some(own) = wanted else {
+                    continue;
+                };
                 let row = width_out * L::WIDTH;
-                let later = &later[c * L::WIDTH * row..(c + 1) * L::WIDTH * row];
+                let members = (own.slots.end - first).min(L::WIDTH);
+                let later = &later[c * L::WIDTH * row..][..members * row];
                 add_later::<T, L>(later, &mut out[c * row..(c + 1) * row], sums.raised);
             }
         }
@@ -436,11 +438,14 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
     }
 }
 
-/// Adds to the sums of a row what earlier rows have summed for its particles, lane by lane: `raised` says which are maxima.
+/// Adds to the sums of a row what earlier rows have summed for its particles, lane by lane: `raised` says which are maxima. Slots
+/// behind the last particle of a block repeat it.
 #[inline(always)]
 fn add_later<T: Real, L: Lane<Scalar = T>>(later: &[T], out: &mut [T], raised: u128) {
-    let width_out = out.len() / L::WIDTH;
-    for (slot, own) in later.chunks_exact(width_out * L::WIDTH).enumerate() {
+    let row = out.len();
+    let members = later.len() / row;
+    for slot in 0..L::WIDTH {
+        let own = &later[slot.min(members - 1) * row..][..row];
         for (k, lanes) in own.chunks_exact(L::WIDTH).enumerate() {
             let sum = &mut out[k * L::WIDTH + slot];
             *sum = if raised >> k & 1 == 1 {
