@@ -3,7 +3,9 @@
 
 use meshfree::particles::Field;
 use meshfree::prelude::*;
-use meshfree::simulation::{ParticleView, Simulation};
+use meshfree::simulation::ParticleView;
+#[cfg(feature = "checkpoint")]
+use meshfree::simulation::Simulation;
 
 const INFINITY: f64 = f64::INFINITY;
 const SPEED: f64 = 20.0;
@@ -22,6 +24,7 @@ fn numbers(p: &ParticleView<'_, f64, 1>) -> [u64; 3] {
     [p.position()[0], p.velocity()[0], p.energy()].map(f64::to_bits)
 }
 
+#[cfg(feature = "checkpoint")]
 fn bits(simulation: &Simulation<f64, 1>) -> Vec<u64> {
     let asleep = simulation.asleep().into_iter();
     let given = asleep.flat_map(|own| [own.impulse[0].to_bits(), own.energy.to_bits(), own.woken]);
