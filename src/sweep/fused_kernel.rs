@@ -271,16 +271,8 @@ impl<K, P, const MODES: u8> FusedKernel<K, P, MODES> {
                     room_for_both::<Composed<T, Q, D, HOW>, T::Wide<true>, D>(),
                     |later| {
                         let chunk = skipped + chunk;
-                        let Some(runs) = input.among else {
-                            task.dispatch::<HOW>(
-                                instructions,
-                                (chunk, list),
-                                later,
-                                out,
-                                reactions,
-                            );
-                            return;
-                        };
+                        let whole = core::slice::from_ref(&input.targets);
+                        let runs = input.among.unwrap_or(whole);
                         let own = chunk * slots..(chunk + 1) * slots;
                         let from = runs.partition_point(|run| run.end <= own.start);
                         for run in runs[from..].iter().take_while(|run| run.start < own.end) {

@@ -91,6 +91,7 @@ const MOST_FOR_BOTH: usize = 4;
 pub(super) const fn summed_for_both<C: Layout, L: Lane, const D: usize>() -> bool {
     D > 1
         && L::FUSED
+        && C::WRITES.width(D) > 0
         && C::WRITES.width(D) <= MOST_FOR_BOTH
         && !C::WRITES.contains(Output::POWER)
         && !C::READS.contains(Field::SMOOTHING_LENGTH)
