@@ -44,12 +44,7 @@ impl<const D: usize> ArtificialViscosity<D> for Balsara {
     };
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>) -> Viscous<L> {
-        let mut viscous = between(
-            pair,
-            approach(pair),
-            L::of(self.alpha),
-            Some(L::of(self.beta)),
-        );
+        let mut viscous = between(pair, approach(pair), L::of(self.alpha), L::of(self.beta));
         if const { D > 1 } {
             let noise = L::of(NOISE) / pair.h;
             let at_i = factor::<L, D>(

@@ -23,18 +23,8 @@ impl<const D: usize> ArtificialViscosity<D> for LamPrinted {
     const READS: Fields = Fields::NONE;
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>) -> Viscous<L> {
-        let corrected = between(
-            pair,
-            approach(pair),
-            L::of(self.alpha),
-            Some(L::of(self.beta)),
-        );
-        let printed = between(
-            pair,
-            approach(pair),
-            L::of(-self.alpha),
-            Some(L::of(self.beta)),
-        );
+        let corrected = between(pair, approach(pair), L::of(self.alpha), L::of(self.beta));
+        let printed = between(pair, approach(pair), L::of(-self.alpha), L::of(self.beta));
         Viscous {
             pi: printed.pi,
             signal: corrected.signal,

@@ -44,7 +44,7 @@ impl<const D: usize> ArtificialViscosity<D> for LimitedMonaghanGingold {
             pair,
             limited_jump(pair).min(L::zero()),
             L::of(self.alpha),
-            Some(L::of(self.beta)),
+            L::of(self.beta),
         )
     }
     fn document(&self) -> TermDoc {

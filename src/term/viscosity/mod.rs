@@ -139,13 +139,13 @@ fn approach<L: Lane, const D: usize, P: Layout>(pair: &Pair<'_, L, D, P>) -> L {
 }
 
 /// Π and signal with the means of sound speed and density, from the v·r that dissipates, which is not positive: μ = h v·r/(r² +
-/// 0.01 h²). Without β two products a pair are saved, of some thirty.
+/// 0.01 h²).
 #[inline(always)]
 fn between<L: Lane, const D: usize, P: Layout>(
     pair: &Pair<'_, L, D, P>,
     approach: L,
     alpha: L,
-    beta: Option<L>,
+    beta: L,
 ) -> Viscous<L> {
     // Twice the means: their halves cancel in Π.
     let sound_speeds = pair.i(Field::SOUND_SPEED) + pair.j(Field::SOUND_SPEED);
@@ -154,10 +154,8 @@ fn between<L: Lane, const D: usize, P: Layout>(
     // One division serves μ and Π: it takes longer than all else here.
     let mu_over_densities = approach / (r2_over_h * densities);
     // 2 (α c̄ − β μ)
-    let linear = alpha * sound_speeds;
-    let speed = beta.map_or(linear, |beta| {
-        (mu_over_densities * densities).mul_add(-(beta + beta), linear)
-    });
+    let mu = mu_over_densities * densities;
+    let speed = mu.mul_add(-(beta + beta), alpha * sound_speeds);
     // Monaghan 1992, eq. 10.5: a viscous pair needs h/(c + 0.6 (α c + β |μ|)).
     Viscous {
         pi: -(mu_over_densities * speed),
@@ -181,12 +179,7 @@ fn between_own<L: Lane, const D: usize, P: Layout>(
 ) -> Viscous<L> {
     let field = Field::VISCOSITY_COEFFICIENT;
     let alpha = (pair.i(field) + pair.j(field)) * L::of(0.5);
-    between(
-        pair,
-        approach(pair),
-        alpha,
-        Some(alpha * L::of(beta_over_alpha)),
-    )
+    between(pair, approach(pair), alpha, alpha * L::of(beta_over_alpha))
 }
 
 /// What is wrong with a fixed pair of coefficients.

@@ -39,12 +39,7 @@ impl<const D: usize> ArtificialViscosity<D> for MonaghanGingold {
     const READS: Fields = Fields::NONE;
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>) -> Viscous<L> {
-        between(
-            pair,
-            approach(pair),
-            L::of(self.alpha),
-            (self.beta != 0.0).then(|| L::of(self.beta)),
-        )
+        between(pair, approach(pair), L::of(self.alpha), L::of(self.beta))
     }
     fn document(&self) -> TermDoc {
         TermDoc {
