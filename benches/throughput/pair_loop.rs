@@ -5,7 +5,7 @@ use meshfree::kernel::{Kernel, WendlandC2, WendlandC4};
 use meshfree::neighbors::{Block, CHUNK, ClusterLists, Radii, SearchInput};
 use meshfree::particles::{Columns, Field, Fields, Output};
 use meshfree::prelude::*;
-use meshfree::scalar::{Lane, Lanes, Mask};
+use meshfree::scalar::{Lane, Mask, OnRows};
 use meshfree::sweep::{
     FusedKernel, InstructionSet, Interaction, PairSweep, Pass, Records, Results, Root,
     SmoothingMode, SweepInput,
@@ -14,28 +14,22 @@ use meshfree::term::viscosity::{ArtificialViscosity, MonaghanGingold, Viscous};
 use meshfree::term::{self, Pair, PressureForce, TermDoc, Viscosity};
 use std::time::Instant;
 
-pub type Row = Lanes<f64, 8, true>;
-
 /// Pressure force and Monaghan–Gingold viscosity of rows, written out: what the composed loop is held
 /// against. Records are x, v, m, ρ, c, B and X.
 struct Fused<'a> {
     records: &'a [f64],
     lists: &'a ClusterLists,
+    out: &'a mut [f64],
     h: f64,
     norm: f64,
     alpha: f64,
     by_divider: bool,
 }
 
-impl Fused<'_> {
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx512f,avx512vl,avx512dq,fma")]
-    fn run_avx512(&self, out: &mut [f64]) {
-        self.run(out);
-    }
-
+impl OnRows<f64> for Fused<'_> {
+    type Output = ();
     #[inline(always)]
-    fn run(&self, out: &mut [f64]) {
+    fn run<Row: Lane<Scalar = f64, Broadcast = f64>>(self) {
         const STRIDE: usize = 11;
         let (inverse, reach2) = (1.0 / self.h, 4.004 * self.h * self.h);
         let gradient = self.norm * inverse.powi(5);
@@ -111,7 +105,7 @@ impl Fused<'_> {
                         }
                     }
                 }
-                let row = &mut out[first * 4..(first + 8) * 4];
+                let row = &mut self.out[first * 4..(first + 8) * 4];
                 for (k, sum) in [force[0], force[1], force[2], signal]
                     .into_iter()
                     .enumerate()
@@ -300,24 +294,21 @@ fn composed_against_fused(side: usize, turns: usize) -> f64 {
     let input = lattice.input();
     let (mut records, mut rows) = (Records::default(), Results::default());
     sweep.pack(Pass::Rates, &input, &mut records);
-    let fused = Fused {
-        records: records.data(),
-        lists: &lattice.lists,
-        h: H,
-        norm: Kernel::<3>::normalisation(&WendlandC2),
-        alpha,
-        by_divider: input.root == Root::Divider,
-    };
+    let norm = Kernel::<3>::normalisation(&WendlandC2);
     let mut out = vec![0.0; 4 * slots];
     let ratios = ratios(
         turns,
         || sweep.run(Pass::Rates, &input, &records, &mut rows),
         || {
-            #[cfg(target_arch = "x86_64")]
-            // SAFETY: the machine has been asked above.
-            unsafe {
-                fused.run_avx512(&mut out);
-            }
+            InstructionSet::Avx512.run(Fused {
+                records: records.data(),
+                lists: &lattice.lists,
+                out: &mut out,
+                h: H,
+                norm,
+                alpha,
+                by_divider: input.root == Root::Divider,
+            });
         },
     );
     assert_same(slots, &rows, &out, |slot, d| {

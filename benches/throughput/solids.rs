@@ -1,7 +1,7 @@
 //! Solids beside the liquid: what a step of each scheme costs a particle and a neighbour, and how many bytes.
 //! The total-Lagrangian force, composed, against one that is written out by hand.
 
-use super::pair_loop::{H, Lattice, Row, assert_same, print_ratio, ratios};
+use super::pair_loop::{H, Lattice, assert_same, print_ratio, ratios};
 use meshfree::effect::{FiniteStrainPlasticity, Hypoelastic, NeoHookean, Plasticity, StressForce};
 use meshfree::kernel::{Kernel, WendlandC2};
 use meshfree::material::catalogue;
@@ -9,7 +9,7 @@ use meshfree::material::eos::IdealGas;
 use meshfree::neighbors::{CHUNK, Cells, ClusterLists};
 use meshfree::particles::{Field, Fields};
 use meshfree::prelude::*;
-use meshfree::scalar::{Lane, Mask};
+use meshfree::scalar::{Lane, Mask, OnRows};
 use meshfree::scene::Start;
 use meshfree::scheme::Scheme;
 use meshfree::sweep::{
@@ -138,6 +138,7 @@ const CORRECTED: Field = Field::matrix(13);
 struct Fused<'a> {
     records: &'a [f64],
     lists: &'a ClusterLists,
+    out: &'a mut [f64],
     gradient: f64,
 }
 
@@ -145,15 +146,10 @@ const STRIDE: usize = 16;
 /// Where the weight, the reference position and the corrected stress begin in a record.
 const AT: [usize; 3] = [3, 4, 7];
 
-impl Fused<'_> {
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx512f,avx512vl,avx512dq,fma")]
-    fn run_avx512(&self, out: &mut [f64]) {
-        self.run(out);
-    }
-
+impl OnRows<f64> for Fused<'_> {
+    type Output = ();
     #[inline(always)]
-    fn run(&self, out: &mut [f64]) {
+    fn run<Row: Lane<Scalar = f64, Broadcast = f64>>(self) {
         let [weight, place, stress] = AT;
         let (inverse, reach2) = (1.0 / H, 4.004 * H * H);
         let mut near = [0_u32; 256];
@@ -195,12 +191,12 @@ impl Fused<'_> {
                             let f = t * t * t * Row::splat(-5.0 * self.gradient);
                             let factor = own[weight] * Row::splat(other[weight]) * f;
                             for a in 0..3 {
-                                let row = |b: usize| {
+                                let mut traction = Row::zero();
+                                for b in 0..3 {
                                     let at = stress + 3 * a + b;
-                                    own[at] + Row::splat(other[at])
-                                };
-                                let traction =
-                                    row(2).mul_add(x[2], row(1).mul_add(x[1], row(0) * x[0]));
+                                    let sum = own[at] + Row::splat(other[at]);
+                                    traction = sum.mul_add(x[b], traction);
+                                }
                                 force[a] = factor.mul_add(traction, force[a]);
                             }
                         }
@@ -208,7 +204,7 @@ impl Fused<'_> {
                 }
                 for (k, sum) in force.into_iter().enumerate() {
                     for lane in 0..8 {
-                        out[first * 3 + k * 8 + lane] = sum.extract(lane);
+                        self.out[first * 3 + k * 8 + lane] = sum.extract(lane);
                     }
                 }
             }
@@ -262,21 +258,18 @@ pub fn composed_against_fused(side: usize, turns: usize) {
         (STRIDE, AT.map(Some)),
         "the layout of records"
     );
-    let fused = Fused {
-        records: records.data(),
-        lists: &lattice.lists,
-        gradient: Kernel::<3>::normalisation(&WendlandC2) / H.powi(5),
-    };
+    let gradient = Kernel::<3>::normalisation(&WendlandC2) / H.powi(5);
     let mut out = vec![0.0; 3 * slots];
     let ratios = ratios(
         turns,
         || sweep.run(Pass::Rates, &input, &records, &mut rows),
         || {
-            #[cfg(target_arch = "x86_64")]
-            // SAFETY: the machine has been asked above.
-            unsafe {
-                fused.run_avx512(&mut out);
-            }
+            InstructionSet::Avx512.run(Fused {
+                records: records.data(),
+                lists: &lattice.lists,
+                out: &mut out,
+                gradient,
+            });
         },
     );
     assert_same(slots, &rows, &out, |slot, d| {

@@ -1,7 +1,9 @@
 //! Instruction sets: which of them the loops over neighbours are compiled for.
 //! The machine chooses at run time, or the build, where it is for one machine.
 
-use super::{Lane, Real};
+use super::{Lane, OnBaseline, Real};
+#[cfg(target_arch = "x86_64")]
+use super::{OnAvx2, OnAvx512};
 
 /// The instruction set that the loops over neighbours run on.
 ///
@@ -44,16 +46,25 @@ pub trait OnRows<T: Real> {
     fn run<L: Lane<Scalar = T, Broadcast = T>>(self) -> Self::Output;
 }
 
+/// Rows in the registers of an instruction set. Its instructions are only there on machines that have it, so nothing but loops
+/// that [`InstructionSet`] has chosen for such a machine may name these rows: the module of the trait and of its types is private.
+pub trait Instructions: 'static {
+    /// A block of eight particles.
+    type Double: Lane<Scalar = f64, Broadcast = f64>;
+    /// A block of sixteen particles.
+    type Single: Lane<Scalar = f32, Broadcast = f32>;
+}
+
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,fma")]
 fn on_avx512<T: Real, W: OnRows<T>>(work: W) -> W::Output {
-    work.run::<T::Wide<true>>()
+    work.run::<T::In<OnAvx512>>()
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
 fn on_avx2<T: Real, W: OnRows<T>>(work: W) -> W::Output {
-    work.run::<T::Wide<true>>()
+    work.run::<T::In<OnAvx2>>()
 }
 
 impl InstructionSet {
@@ -126,7 +137,7 @@ impl InstructionSet {
         if const { !Self::Baseline.compiled() } {
             unreachable!("a build without loops of the baseline is for machines that have more");
         }
-        work.run::<T::Wide<false>>()
+        work.run::<T::In<OnBaseline>>()
     }
 
     /// Whether this machine and this build have it.

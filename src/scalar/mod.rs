@@ -4,11 +4,20 @@
 mod halves;
 mod instructions;
 mod lanes;
+#[cfg(target_arch = "x86_64")]
+mod registers;
 mod root;
 mod traced;
+#[cfg(target_arch = "x86_64")]
+mod twice;
 
+use instructions::Instructions;
 pub use instructions::{InstructionSet, OnRows};
+#[cfg(not(target_arch = "x86_64"))]
+pub(crate) use lanes::OnBaseline;
 pub use lanes::{LaneMask, Lanes};
+#[cfg(target_arch = "x86_64")]
+pub(crate) use registers::{OnAvx2, OnAvx512, OnBaseline};
 pub use root::Root;
 pub use traced::{Binary, Operation, Record, Traced, TracedMask, Unary, Unrecordable};
 
@@ -18,8 +27,10 @@ use core::ops::{
     Add, AddAssign, BitAnd, BitOr, Div, DivAssign, Mul, MulAssign, Neg, Not, Sub, SubAssign,
 };
 use num_traits::{NumAssign, One, Zero};
-use root::{root_by_divider, root_by_products};
+use root::{root_by_divider, root_of_lanes};
 use std::cell::RefCell;
+#[cfg(target_arch = "x86_64")]
+use twice::Twice;
 
 /// The outcome of comparing two lanes, element by element.
 pub trait Mask:
@@ -32,6 +43,8 @@ pub trait Mask:
     + BitOr<Output = Self>
     + Not<Output = Self>
 {
+    /// The number of elements.
+    const WIDTH: usize;
     /// A mask that is `value` in every element.
     fn all_of(value: bool) -> Self;
     /// The number of elements that are true.
@@ -45,6 +58,7 @@ pub trait Mask:
 }
 
 impl Mask for bool {
+    const WIDTH: usize = 1;
     fn all_of(value: bool) -> Self {
         value
     }
@@ -220,6 +234,9 @@ pub trait Real:
     /// The block of particles that the pair loop takes at once; its width depends on the scalar
     /// alone, so sums have the same order on every machine.
     type Wide<const FUSED: bool>: Lane<Scalar = Self, Broadcast = Self>;
+    /// The same block in the registers of an instruction set.
+    #[doc(hidden)]
+    type In<S: Instructions>: Lane<Scalar = Self, Broadcast = Self>;
 
     /// The root of a row ([`Lane::root`]).
     fn root_of_row<const W: usize, const FUSED: bool>(
@@ -247,7 +264,7 @@ mod sealed {
 }
 
 macro_rules! real {
-    ($T:ident, $width:literal, $compensated:literal, $root:ident, $halves:ident) => {
+    ($T:ident, $width:literal, $compensated:literal, $root:ident, $halves:ident, $In:ident) => {
         impl Lane for $T {
             type Scalar = $T;
             type Broadcast = $T;
@@ -323,6 +340,7 @@ macro_rules! real {
             const COMPENSATED: bool = $compensated;
             const NAME: &'static str = stringify!($T);
             type Wide<const FUSED: bool> = Lanes<$T, $width, FUSED>;
+            type In<S: Instructions> = S::$In;
             #[inline(always)]
             fn root_of_row<const W: usize, const FUSED: bool>(
                 row: Lanes<Self, W, FUSED>,
@@ -363,5 +381,5 @@ macro_rules! real {
         }
     };
 }
-real!(f64, 8, false, root_by_products, of_eight);
-real!(f32, 16, true, root_by_divider, of_sixteen);
+real!(f64, 8, false, root_of_lanes, of_eight, Double);
+real!(f32, 16, true, root_by_divider, of_sixteen, Single);

@@ -49,7 +49,7 @@ pub(super) fn root_by_divider<T: Real, const W: usize, const FUSED: bool>(
 }
 
 /// Half the exponent makes a first guess y of 1/√x: x y² is between 0.8504 and 0.9619 for all x.
-const ROOT_GUESS: u64 = 0x5fe5_9b71_8c50_dd8e;
+pub(super) const GUESS: u64 = 0x5fe5_9b71_8c50_dd8e;
 /// The polynomial of fourth degree that comes closest to c/√t there, within 1.4·10⁻⁸, with c = 2^(−1/3).
 const ROOT_QUARTIC: [f64; 5] = [
     2.0539037422873667,
@@ -62,23 +62,29 @@ const ROOT_QUARTIC: [f64; 5] = [
 /// The last digit is chosen so that errors of either sign are as large, 4.4·10⁻¹⁶.
 const ROOT_STEP: f64 = 1.88988157484231;
 
-/// A square root without the divider, which takes 18 cycles for eight numbers where these products take
-/// six. Without a fused multiply-add it is not worth it.
+/// The same with a first guess from the bits of each element.
 #[inline(always)]
-pub(super) fn root_by_products<const W: usize, const FUSED: bool>(
+pub(super) fn root_of_lanes<const W: usize, const FUSED: bool>(
     x: Lanes<f64, W, FUSED>,
 ) -> Lanes<f64, W, FUSED> {
     if !FUSED {
         return x.sqrt();
     }
-    let of = Lanes::<f64, W, FUSED>::of;
-    let guess = x.map(|x| f64::from_bits(ROOT_GUESS.wrapping_sub(x.to_bits() >> 1)));
-    let [a, b, c, d, e] = ROOT_QUARTIC.map(of);
+    let guess = x.map(|x| f64::from_bits(GUESS.wrapping_sub(x.to_bits() >> 1)));
+    root_by_products(x, guess)
+}
+
+/// A square root without the divider, which takes 18 cycles for eight numbers where these products take
+/// six. Without a fused multiply-add it is not worth it.
+#[inline(always)]
+pub(super) fn root_by_products<L: Lane<Scalar = f64>>(x: L, guess: L) -> L {
+    let [a, b, c, d, e] = ROOT_QUARTIC;
+    let [a, b, c, d, e] = [L::of(a), L::of(b), L::of(c), L::of(d), L::of(e)];
     let product = x * guess;
     let t = product * guess;
     let refined = t.mul_add(e, d).mul_add(t, c).mul_add(t, b).mul_add(t, a);
     let (root, inverse) = (product * refined, guess * refined);
-    root * (-root).mul_add(inverse, of(ROOT_STEP))
+    root * (-root).mul_add(inverse, L::of(ROOT_STEP))
 }
 
 #[cfg(test)]

@@ -364,6 +364,7 @@ impl Not for TracedMask {
 }
 
 impl Mask for TracedMask {
+    const WIDTH: usize = 1;
     fn all_of(value: bool) -> Self {
         mask(Operation::Everywhere(value))
     }

@@ -369,7 +369,9 @@ impl<L: Lane, const D: usize, P: Layout> Sums<L, D, P> {
             return [L::zero(); D];
         }
         let at = P::WRITES.offset(Output::FORCE, D);
-        core::array::from_fn(|d| self.kept[at + d])
+        let mut force = [L::zero(); D];
+        force.copy_from_slice(&self.kept[at..at + D]);
+        force
     }
     /// Adds to a scalar sum.
     ///

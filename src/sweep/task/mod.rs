@@ -7,9 +7,11 @@ use super::records::Image;
 use super::results::Reaction;
 use super::{InstructionSet, Interaction};
 use crate::kernel::Kernel;
-use crate::neighbors::{Block, CHUNK, ChunkList, Order, Segment};
+use crate::neighbors::{Block, CHUNK, ChunkList, Order};
 use crate::particles::{Field, Fields, Output, Outputs, PLACES, Shape};
-use crate::scalar::{Lane, Mask, Real};
+use crate::scalar::{Lane, Mask, OnBaseline, Real};
+#[cfg(target_arch = "x86_64")]
+use crate::scalar::{OnAvx2, OnAvx512};
 use crate::tensor::Symmetric;
 use crate::term::{Layout, MOST_READS, Sums, Terms};
 use core::marker::PhantomData;
@@ -158,7 +160,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
             }
         }
         let _ = instructions;
-        self.chunk::<T::Wide<false>, HOW>((chunk, list), later, out, reactions);
+        self.chunk::<T::In<OnBaseline>, HOW>((chunk, list), later, out, reactions);
     }
 
     // Kernel and terms come as arguments: what those point to nothing else changes, so constants of a term are read and
@@ -182,7 +184,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
             terms,
             ..*self
         };
-        own.chunk::<T::Wide<true>, HOW>((chunk, list), later, out, reactions);
+        own.chunk::<T::In<OnAvx512>, HOW>((chunk, list), later, out, reactions);
     }
 
     #[cfg(target_arch = "x86_64")]
@@ -204,7 +206,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
             terms,
             ..*self
         };
-        own.chunk::<T::Wide<true>, HOW>((chunk, list), later, out, reactions);
+        own.chunk::<T::In<OnAvx2>, HOW>((chunk, list), later, out, reactions);
     }
 
     /// All clusters of one chunk.
@@ -232,36 +234,23 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         let chunk_first = chunk * CHUNK * L::WIDTH;
         let chunk_end = chunk_first + (list.starts.len() - 1) * L::WIDTH;
         // Pairs of a block are summed for both sides if it has all its sums wanted in this chunk.
-        let for_both = |block: &Block| {
-            let own = block.slots.start.max(chunk_first)..block.slots.end.min(chunk_end);
-            let possible = const { summed_for_both::<Composed<T, P, D, HOW>, L, D>() };
-            possible && self.targets.start <= own.start && self.targets.end >= own.end
-        };
-        let first_block = self.blocks.partition_point(|b| b.slots.end <= chunk_first);
-        let here = self.blocks[first_block..].iter();
-        if here
-            .take_while(|block| block.slots.start < chunk_end)
-            .any(for_both)
-        {
+        let possible = const { summed_for_both::<Composed<T, P, D, HOW>, L, D>() };
+        let inside = chunk_first..chunk_end;
+        if possible && any_wanted(self.blocks, &inside, self.targets) {
             later.fill(T::zero());
         }
         for (c, bounds) in list.starts.windows(2).enumerate() {
             let first = chunk_first + c * L::WIDTH;
-            let block = self.blocks.partition_point(|b| b.slots.end <= first);
-            let live = self
-                .blocks
-                .get(block)
-                .is_some_and(|b| b.slots.contains(&first));
             if !self.targets.contains(&first) {
                 continue;
             }
-            if !live {
+            let Some(block) = block_of(self.blocks, first) else {
                 // Slots that no particle owns any more feel nothing.
                 let row = c * width_out * L::WIDTH..(c + 1) * width_out * L::WIDTH;
                 out[row].fill(T::zero());
                 continue;
-            }
-            self.read(first, stride, &mut own);
+            };
+            read(self.records, first, stride, &mut own);
             sums.clear();
             for segment in &list.segments[bounds[0] as usize..bounds[1] as usize] {
                 let other = segment.block as usize;
@@ -271,7 +260,10 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                 if interaction == Interaction::None || (contact && one_sided) {
                     continue;
                 }
-                let for_both = other == block && !contact && for_both(&self.blocks[block]);
+                let for_both = possible
+                    && other == block
+                    && !contact
+                    && wanted(&self.blocks[block], &inside, self.targets);
                 if for_both && segment.order == Order::Earlier {
                     continue;
                 }
@@ -290,8 +282,10 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                     &list.neighbors[segment.start as usize..segment.end as usize],
                     (segment.near_end - segment.start) as usize,
                 );
-                let mobile = [block, other]
-                    .map(|block| L::of(f64::from(u8::from(!self.blocks[block].wall))));
+                let mobile = [
+                    L::splat(mobility(&self.blocks[block])),
+                    L::splat(mobility(&self.blocks[other])),
+                ];
                 let row = Row {
                     first,
                     own: &own,
@@ -302,13 +296,17 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                 };
                 self.segment::<L, HOW>(row, listed, &mut near, later, &mut sums);
                 if contact {
-                    self.read(first, stride, &mut own);
+                    read(self.records, first, stride, &mut own);
                     sums.divert_kernel_sum(kept);
                 }
                 if foreign {
                     let end = self.blocks[block].slots.end;
                     let members = end.saturating_sub(first).min(L::WIDTH);
-                    reactions.push(reaction(block, segment, members, &before, &sums));
+                    reactions.push(Reaction {
+                        on: block as u32,
+                        from: segment.block,
+                        force: gained(members, &before, &sums.kept_force()),
+                    });
                 }
             }
             let row = &mut out[c * width_out * L::WIDTH..(c + 1) * width_out * L::WIDTH];
@@ -321,33 +319,18 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         if const { summed_for_both::<Composed<T, P, D, HOW>, L, D>() } {
             for c in 0..list.starts.len() - 1 {
                 let first = chunk_first + c * L::WIDTH;
-                let block = self.blocks.partition_point(|b| b.slots.end <= first);
-                let own = self.blocks.get(block).filter(|b| b.slots.contains(&first));
-                let wanted = own.filter(|own| self.targets.contains(&first) && for_both(own));
-                let Some(own) = wanted else {
+                let Some(own) = block_of(self.blocks, first).map(|block| &self.blocks[block])
+                else {
                     continue;
                 };
+                if !self.targets.contains(&first) || !wanted(own, &inside, self.targets) {
+                    continue;
+                }
                 let row = width_out * L::WIDTH;
                 let members = (own.slots.end - first).min(L::WIDTH);
                 let later = &later[c * L::WIDTH * row..][..members * row];
                 add_later::<T, L>(later, &mut out[c * row..(c + 1) * row], sums.raised);
             }
-        }
-    }
-
-    /// Reads the records of a row.
-    ///
-    /// Never inlined: what a call has written comes from memory a row at a time, while numbers that the compiler
-    /// follows one by one it may also compute one by one, without vector instructions.
-    #[inline(never)]
-    fn read<L: Lane<Scalar = T, Broadcast = T>>(
-        &self,
-        first: usize,
-        stride: usize,
-        own: &mut [L; MOST_READS],
-    ) {
-        for (k, value) in own.iter_mut().enumerate().take(stride) {
-            *value = L::from_fn(|lane| self.records[(first + lane) * stride + k]);
         }
     }
 
@@ -437,6 +420,44 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
             self.pairs::<L, HOW, false>(row, neighbors, later, sums);
         }
     }
+}
+
+/// Reads the records of a row.
+///
+/// Never inlined: what a call has written comes from memory a row at a time, while numbers that the compiler
+/// follows one by one it may also compute one by one, without vector instructions.
+#[inline(never)]
+fn read<L: Lane>(records: &[L::Scalar], first: usize, stride: usize, own: &mut [L; MOST_READS]) {
+    for (k, value) in own.iter_mut().enumerate().take(stride) {
+        *value = L::from_fn(|lane| records[(first + lane) * stride + k]);
+    }
+}
+
+/// The block that a slot belongs to, unless no particle owns it any more.
+fn block_of(blocks: &[Block], slot: usize) -> Option<usize> {
+    let block = blocks.partition_point(|b| b.slots.end <= slot);
+    let own = blocks.get(block)?.slots.contains(&slot);
+    own.then_some(block)
+}
+
+/// Whether all sums of a block's particles in a chunk are wanted: then pairs may be summed for both.
+fn wanted(block: &Block, inside: &Range<usize>, targets: &Range<usize>) -> bool {
+    targets.start <= block.slots.start.max(inside.start)
+        && targets.end >= block.slots.end.min(inside.end)
+}
+
+/// Whether that is so for any block in a chunk.
+fn any_wanted(blocks: &[Block], inside: &Range<usize>, targets: &Range<usize>) -> bool {
+    let first = blocks.partition_point(|b| b.slots.end <= inside.start);
+    let here = blocks[first..].iter();
+    here.take_while(|block| block.slots.start < inside.end)
+        .any(|block| wanted(block, inside, targets))
+}
+
+/// One where particles move by forces, zero where they belong to a wall.
+#[inline(always)]
+fn mobility<T: Real>(block: &Block) -> T {
+    if block.wall { T::zero() } else { T::one() }
 }
 
 /// Adds to the sums of a row what earlier rows have summed for its particles, lane by lane: `raised` says which are maxima. Slots
@@ -530,24 +551,14 @@ fn compress<L: Lane>(stress: &mut [L]) {
     stress.copy_from_slice(part.components());
 }
 
-/// The force that the real particles of a row felt from one segment. Never inlined, as [`Task::read`].
+/// The force that the real particles of a row felt between two moments. Never inlined, as [`read`].
 #[inline(never)]
-fn reaction<L: Lane, const D: usize, C: Layout>(
-    block: usize,
-    segment: &Segment,
-    members: usize,
-    before: &[L; D],
-    sums: &Sums<L, D, C>,
-) -> Reaction<D> {
-    let after = sums.kept_force();
-    let force = core::array::from_fn(|d| {
-        (0..members)
-            .map(|lane| (after[d] - before[d]).extract(lane).to_f64())
-            .sum()
-    });
-    Reaction {
-        on: block as u32,
-        from: segment.block,
-        force,
+fn gained<L: Lane, const D: usize>(members: usize, before: &[L; D], after: &[L; D]) -> [f64; D] {
+    let mut force = [0.0; D];
+    for d in 0..D {
+        for lane in 0..members {
+            force[d] += (after[d].extract(lane) - before[d].extract(lane)).to_f64();
+        }
     }
+    force
 }

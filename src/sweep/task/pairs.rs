@@ -113,7 +113,10 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         } else {
             Scale::new(own[h_at], norm, D)
         };
-        let body_force = self.body_force.map(L::splat);
+        let mut body_force = [L::zero(); D];
+        for d in 0..D {
+            body_force[d] = L::splat(self.body_force[d]);
+        }
         let lattice_consistency_factor = L::splat(self.lattice_consistency_factor);
         let mut shown = [T::zero(); MOST_READS];
         // A copy that nothing else points to stays in registers.
