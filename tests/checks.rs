@@ -1,5 +1,5 @@
 //! What is checked beside the newcomer's tests, because it takes minutes to compile or to run. One program, in which loops
-//! and driver that its parts share are compiled once: `cargo test --release --all-features --test checks` and the name of a part.
+//! and driver that its parts share are compiled once: `cargo test --all-features --test checks` and the name of a part.
 
 mod common;
 mod contract;

@@ -1,7 +1,7 @@
 //! Pairs that the ready schemes evaluate to reach a stated error, on four problems: 3 % more than is written here fails.
 //! No machine changes them, so what makes a method dearer or less accurate is seen where a time would hide it.
 //!
-//! To renew a number after a change that is meant, run `cargo test --release --test checks counted_work -- --nocapture`,
+//! To renew a number after a change that is meant, run `cargo test --test checks counted_work -- --nocapture`,
 //! write what it prints into `HELD`, and say in the message of the commit what the pairs buy.
 
 use crate::common;

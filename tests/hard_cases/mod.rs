@@ -1,5 +1,5 @@
 //! Hard cases: where others fail, the cure, a criterion in numbers, and a control without the cure that must fail it.
-//! `cargo test --release --test checks hard_cases -- --nocapture` prints the rows of `docs/hard-cases.md`.
+//! `cargo test --test checks hard_cases -- --nocapture` prints the rows of `docs/hard-cases.md`.
 
 mod at_rest;
 mod corner_impact;

@@ -32,7 +32,7 @@ const PATHS: [(InstructionSet, &str); 3] = [
 ];
 const PARTS: [&str; 4] = ["particles", "balances", "counts", "history"];
 const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/recording/bits.txt");
-const AGAIN: &str = "MESHFREE_RECORD=1 cargo test --release --test checks recording";
+const AGAIN: &str = "MESHFREE_RECORD=1 cargo test --test checks recording";
 
 /// The hashes of a run, in the order of [`PARTS`].
 type Bits = [u64; 4];
