@@ -10,6 +10,7 @@ use meshfree::output::csv::CsvWriter;
 use meshfree::output::svg::{Axis, Figure, Panel, Series};
 use meshfree::prelude::*;
 use meshfree::scene::Start;
+use meshfree::term::viscosity::LimitedMonaghanGingold;
 use std::process::ExitCode;
 
 const EXAMPLE: Example = Example {
@@ -36,6 +37,11 @@ const EXAMPLE: Example = Example {
             name: "--speed",
             value: "SHARE",
             help: "first speed of the tip over the sound speed; 0.01",
+        },
+        Own {
+            name: "--viscosity",
+            value: "ALPHA",
+            help: "artificial viscosity of the updated formulation, linear and quadratic; 2",
         },
     ],
 };
@@ -128,10 +134,15 @@ fn scheme<T: Real>(options: &Options) -> Result<Scheme<T, 2>, Failure> {
         "total" if options.scheme == "neo-hookean" => Ok(total.with(NeoHookean).compose()),
         "total" => Ok(total.with(StVenantKirchhoff).compose()),
         // Rows at a free surface see the strain of those behind them, the less of it the narrower the kernel is.
-        "updated" => Ok(schemes::updated_lagrangian()
-            .h_over_dx(1.0)
-            .with(HourglassFree::default())
-            .compose()),
+        "updated" => {
+            let alpha = options.number("--viscosity", LimitedMonaghanGingold::STANDARD.alpha)?;
+            let viscosity = LimitedMonaghanGingold { alpha, beta: alpha };
+            Ok(schemes::updated_lagrangian()
+                .h_over_dx(1.0)
+                .with_viscosity(viscosity)
+                .with(HourglassFree::default())
+                .compose())
+        }
         other => {
             Err(format!("--formulation: `{other}` is not accepted; it takes total, updated").into())
         }
@@ -180,29 +191,38 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
         "tip_y_m".into(),
         "kinetic_j_m".into(),
         "internal_j_m".into(),
+        "mechanical_j_m".into(),
     ];
     columns.extend(names.iter().map(|name| name.replace(' ', "_") + "_j_m"));
     let columns: Vec<_> = columns.iter().map(String::as_str).collect();
     let mut csv = CsvWriter::create(options.file("history.csv"), &columns)?;
     let mut movie = Movie::create(options.file("plate.pvd"))?;
     let mut samples = Vec::new();
-    let mut energies: [Vec<(f64, f64)>; 3] = Default::default();
+    let mut energies: [Vec<(f64, f64)>; 4] = Default::default();
     let mut deepest = None;
     let times = evenly(until, 1 + (until / case.known[0] * 200.0).ceil() as usize);
     let summary = watch(EXAMPLE.name, &mut simulation, &times, |now| {
         let height = middle(now, &tip) - rest;
         let whole = now.ledger().whole;
         let totals = names.iter().map(|name| whole.total(name).unwrap_or(0.0));
-        let own = [now.time(), height, whole.kinetic, whole.internal];
+        let mechanical = whole.kinetic + stored(&case, now);
+        let own = [
+            now.time(),
+            height,
+            whole.kinetic,
+            whole.internal,
+            mechanical,
+        ];
         csv.row(&own.into_iter().chain(totals).collect::<Vec<_>>())?;
         if samples.len() % 10 == 0 {
             movie.frame(now)?;
         }
         samples.push((now.time(), height));
         let hourglass = whole.total("hourglass energy").unwrap_or(0.0);
-        for (line, value) in energies
-            .iter_mut()
-            .zip([whole.kinetic, whole.internal, hourglass])
+        for (line, value) in
+            energies
+                .iter_mut()
+                .zip([whole.kinetic, whole.internal, hourglass, mechanical])
         {
             line.push((now.time(), value));
         }
@@ -221,9 +241,15 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
             .series(Series::line(&format!("{name} Lagrangian"), samples.clone())),
     );
     let mut energy = Panel::new(Axis::linear("time", "s"), Axis::linear("energy", "J/m"));
-    for (name, line) in ["kinetic", "internal", "hourglass"]
-        .into_iter()
-        .zip(energies)
+    let drift = drift(&case, &energies[3]);
+    for (name, line) in [
+        "kinetic",
+        "internal",
+        "hourglass",
+        "kinetic, distortion, compression",
+    ]
+    .into_iter()
+    .zip(energies)
     {
         energy = energy.series(Series::line(name, line));
     }
@@ -234,6 +260,9 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
     figure.save(options.file("plate.svg"))?;
     println!("{summary}");
     report(&case, &samples);
+    if case.gravity == 0.0 {
+        println!("{drift}");
+    }
     println!("written to {}", options.folder().display());
     Ok(())
 }
@@ -266,6 +295,43 @@ fn report(case: &Case, samples: &[(f64, f64)]) {
             100.0 * (measured / period - 1.0)
         );
     }
+}
+
+/// Energy \[J/m\] of distortion and compression.
+fn stored<T: Real>(case: &Case, now: &Simulation<T, 2>) -> f64 {
+    let whole = now.ledger().whole;
+    // A total-Lagrangian plate knows its stored energy as one.
+    if let Some(elastic) = whole.total("elastic energy") {
+        return elastic;
+    }
+    let compression = |p: f64| p * p / (2.0 * case.bulk_modulus());
+    let own = now
+        .all()
+        .map(|p| p.mass() / p.density() * compression(p.pressure()));
+    own.sum::<f64>() + whole.total("distortion").unwrap_or(0.0)
+}
+
+/// What the kinetic energy of the start has become in motion, distortion and compression: means over a period, of the first and
+/// of the last.
+fn drift(case: &Case, mechanical: &[(f64, f64)]) -> String {
+    let (Some((begin, first)), Some((end, _))) = (mechanical.first(), mechanical.last()) else {
+        return String::new();
+    };
+    let period = case.known[0];
+    let mean = |from: f64, to: f64| {
+        let within: Vec<f64> = mechanical
+            .iter()
+            .filter(|(t, _)| (from..=to).contains(t))
+            .map(|(_, energy)| energy / first)
+            .collect();
+        within.iter().sum::<f64>() / within.len() as f64
+    };
+    format!(
+        "energy of motion, distortion and compression over that of the start: {:.5} in the first period, {:.5} in the last, after {:.1} periods",
+        mean(*begin, begin + period),
+        mean(end - period, *end),
+        (end - begin) / period
+    )
 }
 
 /// The particles at the tip, at half the height.

@@ -1,7 +1,7 @@
 //! The structure as an elastic–plastic solid between two plates, with water in it or without: the scene.
 //! x is the way out, z the direction of the crush; half of the depth y of a cell stands between planes of symmetry.
 
-use super::filler::{HOLE, LAYERS, RATE, SOUND, water_scheme};
+use super::filler::{self, HOLE, LAYERS, RATE, SOUND, ramp, water_scheme};
 use meshfree::boundary::Translation;
 use meshfree::effect::FiniteStrainPlasticity;
 use meshfree::geometry::{Cuboid, OpenCell, Shape, fill};
@@ -9,7 +9,6 @@ use meshfree::material::eos::Linear;
 use meshfree::material::strength::{CowperSymonds, TensionCompression};
 use meshfree::material::{Liquid, SoundSpeed};
 use meshfree::prelude::*;
-use meshfree::scene::Start;
 use meshfree::term::viscosity::MonaghanGingold;
 use std::collections::HashSet;
 
@@ -34,8 +33,8 @@ Our choice, which the paper does not state:
   tension and compression by the sign of pressure; pressure linear in density;
 - N cells along the outflow and along the crush, one deep, of which half the depth is computed between planes of
   symmetry; a plane of symmetry at the closed end; the other end is open to the water, and the structure free there;
-- rigid plates above and below, which touch structure and water; the upper one moves at constant speed, and all starts
-  in the motion of the crush: the structure with v_z = -1000 z, the water beside that with v_x = 1000 x;
+- rigid plates above and below, which touch structure and water; all starts at rest, and the speed of the upper one grows
+  as half a cosine while sound runs through the block six times (a strain of 0.9 % for one cell of c = 1.5 mm);
 - contact without friction by springs between particles (images in planes of symmetry included);
 - artificial viscosity: alpha 0.2 in the polymer, none in the water beside its density diffusion;
 - no outlet: water that has left flies on;
@@ -93,9 +92,13 @@ impl Crushed {
             self.cells as f64 * side,
         ]
     }
-    /// Speed \[m/s\] of the upper plate.
-    pub fn speed(&self) -> f64 {
-        RATE * self.size()[2]
+    /// Engineering strain \[1\] by the upper plate, its rate \[1/s\] and the second derivative \[1/s²\] at a time \[s\].
+    pub fn strain_at(&self, time: f64) -> [f64; 3] {
+        filler::strain(ramp(self.size()[0]), time)
+    }
+    /// Time \[s\] of the final strain.
+    pub fn end(&self) -> f64 {
+        self.strain / RATE + 0.5 * ramp(self.size()[0])
     }
     /// Area \[m²\] that engineering stress is referred to.
     pub fn area(&self) -> f64 {
@@ -166,35 +169,26 @@ impl Crushed {
     }
 
     pub fn build(&self) -> Result<Simulation<f64, 3>, Error> {
-        let (dx, speed) = (self.fitted(), self.speed());
+        let dx = self.fitted();
         let [length, depth, height] = self.size();
         let [structure, void] = self.parts()?;
-        let structure = Body::points_of("structure", Self::polymer(), structure, dx);
-        let structure = structure
-            .no_slip()
-            .start(|x: [f64; 3], own: Start<3>| Start {
-                velocity: [0.0, 0.0, -RATE * x[2]],
-                ..own
-            });
+        let structure = Body::points_of("structure", Self::polymer(), structure, dx).no_slip();
         let thick = LAYERS as f64 * dx;
-        let plate = |name: &str, low: f64, speed: f64| -> Result<Body<f64, 3>, Error> {
+        let plate = |name: &str, low: f64| -> Result<Body<f64, 3>, Error> {
             let shape = Cuboid::new([0.0, 0.0, low], [(1.0 + RIM) * length, depth, low + thick]);
             let places = fill(&shape, dx, shape.bounds().0)?;
-            let plate = Body::points_of(name, Self::polymer(), places, dx);
-            Ok(plate.no_slip().velocity([0.0, 0.0, -speed]))
+            Ok(Body::points_of(name, Self::polymer(), places, dx).no_slip())
         };
         // The plates are groups of their own: within one, a body sees the images of others in planes of symmetry even where
         // the two do not meet.
-        let [bottom, top] = [plate("bottom", -thick, 0.0)?, plate("top", height, speed)?];
+        let [bottom, top] = [plate("bottom", -thick)?, plate("top", height)?];
+        let ramp = ramp(length);
+        let travel =
+            move |order: usize| move |t: f64| [0.0, 0.0, -height * filler::strain(ramp, t)[order]];
         let scene = match self.water() {
             None => Scene::<f64, 3>::new(polymer_scheme()).body(structure),
             Some(water) => {
-                let water = Body::points_of("water", water, void, dx).start(
-                    |x: [f64; 3], own: Start<3>| Start {
-                        velocity: [RATE * x[0], 0.0, -RATE * x[2]],
-                        ..own
-                    },
-                );
+                let water = Body::points_of("water", water, void, dx);
                 Scene::<f64, 3>::new(water_scheme::<f64>(0.0))
                     .body(water)
                     .group(polymer_scheme(), [structure])
@@ -204,7 +198,11 @@ impl Crushed {
             .group(polymer_scheme(), [bottom])
             .group(polymer_scheme(), [top])
             .fix("bottom", |_| true)
-            .clamp("top", |_| true, Translation::steady([0.0, 0.0, -speed]))
+            .clamp(
+                "top",
+                |_| true,
+                Translation::new(travel(0), travel(1), travel(2)),
+            )
             .between("bottom", "top", Interaction::None)
             .couple("structure", "bottom", Penalty::new())
             .couple("structure", "top", Penalty::new())

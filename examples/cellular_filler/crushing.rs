@@ -1,5 +1,5 @@
 //! A run of the crush: the force of the plates, where their work goes, and what water leaves.
-//! Forces of plates are summed step by step, as kicks have used them, so that their work is exact.
+//! Forces of plates are summed step by step, as kicks have used them; their work is that of the clamps.
 
 use super::common::Failure;
 use super::crush::Crushed;
@@ -45,6 +45,9 @@ pub struct Sample {
     /// Water beyond the end of the structure as built, and loss of void before it \[m³\].
     pub expelled: f64,
     pub crushed: f64,
+    /// Of the water before it: what it is thinner and denser than at rest by its densities \[m³\].
+    pub thinner: f64,
+    pub denser: f64,
     /// Kinetic and internal energy of the solids, less the work of contacts on them.
     pub solids: f64,
 }
@@ -75,12 +78,12 @@ impl Crushing {
     pub fn energy(&self) -> f64 {
         self.samples.last().map_or(0.0, |last| 2.0 * last.work)
     }
-    /// Slope of stress \[Pa\] over strain between half and one and a half per cent, mean of both plates.
+    /// Slope of stress \[Pa\] over strain between 1.2 and 3 %, where the rate of one cell has done growing, mean of both plates.
     pub fn stiffness(&self) -> f64 {
         let early = || {
             self.samples
                 .iter()
-                .filter(|s| (0.004..0.016).contains(&s.strain))
+                .filter(|s| (0.012..0.03).contains(&s.strain))
         };
         let n = early().count() as f64;
         let stress = |s: &Sample| 0.5 * (s.stress[0] + s.stress[1]);
@@ -101,16 +104,17 @@ impl Crushing {
     }
 }
 
-/// Kinetic energy of a body, energy of compression of its material, and volume \[m³\] on this side of x.
+/// Kinetic energy of a body, energy of compression of its material, volume \[m³\] on this side of x, and by how much
+/// that is more and less than it has at rest.
 fn stored(
     simulation: &Simulation<f64, 3>,
     body: &str,
     material: &Material<f64>,
     end: f64,
     dx: f64,
-) -> Result<[f64; 3], Error> {
+) -> Result<[f64; 5], Error> {
     let eos = material.eos();
-    let mut sums = [0.0; 3];
+    let mut sums = [0.0; 5];
     for particle in simulation.body(body)? {
         let (mass, density) = (particle.mass(), particle.density());
         let v2: f64 = particle.velocity().iter().map(|v| v * v).sum();
@@ -118,6 +122,9 @@ fn stored(
         sums[0] += 0.5 * mass * v2;
         sums[1] += mass * eos.compression_energy(density);
         sums[2] += within * mass / density;
+        let change = within * mass * (1.0 / density - 1.0 / material.reference_density());
+        sums[3] += change.max(0.0);
+        sums[4] += (-change).max(0.0);
     }
     Ok(sums)
 }
@@ -127,7 +134,7 @@ pub fn run(case: &Crushed, folder: &Path) -> Result<Crushing, Failure> {
     let mut simulation = case.build()?;
     simulation.evaluate()?;
     let started = Instant::now();
-    let (dx, size, speed) = (case.fitted(), case.size(), case.speed());
+    let (dx, size) = (case.fitted(), case.size());
     let (polymer, liquid) = (Crushed::polymer(), case.water());
     let wet = liquid.is_some();
     let mut file = CsvWriter::create(
@@ -151,6 +158,8 @@ pub fn run(case: &Crushed, folder: &Path) -> Result<Crushing, Failure> {
             "dissipated_water_j",
             "expelled_volume_m3",
             "crushed_void_m3",
+            "thinner_m3",
+            "denser_m3",
         ],
     )?;
     let mut movie = Pvd::create(folder.join("cells.pvd"))?;
@@ -175,7 +184,10 @@ pub fn run(case: &Crushed, folder: &Path) -> Result<Crushing, Failure> {
         for (name, budget) in &ledger.bodies {
             if solids.contains(&name.as_str()) {
                 let total = |name| budget.total(name).unwrap_or(0.0);
-                sample.kinetic[0] += budget.kinetic;
+                // That of plates is prescribed.
+                if name == solids[0] {
+                    sample.kinetic[0] = budget.kinetic;
+                }
                 internal += budget.internal;
                 sample.plastic += total("plastic work");
                 sample.elastic += total("distortion");
@@ -186,27 +198,38 @@ pub fn run(case: &Crushed, folder: &Path) -> Result<Crushing, Failure> {
         for contact in simulation.contacts() {
             coupled[1] += contact.stored + contact.heat;
         }
-        let [_, compression, volume] = stored(simulation, "structure", &polymer, size[0], dx)?;
+        let [_, compression, volume, ..] = stored(simulation, "structure", &polymer, size[0], dx)?;
         sample.elastic += compression;
         sample.viscous = internal - sample.plastic - sample.elastic - sample.hourglass;
         if let Some(liquid) = &liquid {
-            let [kinetic, compression, _] = stored(simulation, "water", liquid, size[0], dx)?;
+            let [kinetic, compression, volume, thinner, denser] =
+                stored(simulation, "water", liquid, size[0], dx)?;
             sample.kinetic[1] = kinetic;
             sample.water[1] = compression;
-            let beyond = simulation
-                .body("water")?
-                .filter(|p| p.position()[0] > size[0]);
-            sample.expelled = beyond.map(|p| p.mass()).sum::<f64>() / WATER;
+            let mass: f64 = simulation.body("water")?.map(|p| p.mass()).sum();
+            sample.expelled = mass / WATER - (volume - thinner + denser);
+            [sample.thinner, sample.denser] = [thinner, denser];
         }
         // The plates give it by clamps, and the water.
         sample.solids = sample.kinetic[0] + internal - coupled[0];
         sample.contact = coupled[1];
         sample.time = simulation.time();
-        sample.strain = speed * simulation.time() / size[2];
+        [sample.strain, ..] = case.strain_at(simulation.time());
+        // Of the clamps, less what the plate's own motion has.
+        for clamp in simulation.clamps() {
+            sample.work += clamp.work;
+        }
+        for (_, plate) in ledger.bodies.iter().filter(|(name, _)| name == "top") {
+            sample.work -= plate.kinetic;
+        }
         Ok((sample, volume))
     };
     let (first, solid) = take(&simulation)?;
-    let zero = [first.solids, first.kinetic[1] + first.water[1]];
+    let zero = [
+        first.solids,
+        first.kinetic[1] + first.water[1],
+        first.expelled,
+    ];
     let force = |simulation: &Simulation<f64, 3>| -> [f64; 3] {
         let of = |on: &str, from: &str| simulation.force_between(on, from).map_or(0.0, |f| f[2]);
         let [above, below] = [of("top", "water"), of("bottom", "water")];
@@ -217,8 +240,7 @@ pub fn run(case: &Crushed, folder: &Path) -> Result<Crushing, Failure> {
         ]
     };
     let mut before = (simulation.time(), force(&simulation));
-    let mut work = 0.0;
-    let end = case.strain * size[2] / speed;
+    let end = case.end();
     let count = (SAMPLES * case.strain / 0.3).round().max(20.0) as usize;
     let mut progress = Progress::new(case.name());
     record
@@ -237,14 +259,13 @@ pub fn run(case: &Crushed, folder: &Path) -> Result<Crushing, Failure> {
             before = (t, f);
             progress.update(t / end, format_args!("{:.1} µs", 1e6 * t));
         })?;
-        work += speed * impulse[0];
         let (mut sample, volume) = take(&simulation)?;
         sample.stress = impulse.map(|own| own / (before.0 - from) / case.area());
-        sample.work = work;
+        sample.expelled -= zero[2];
         // What the solids have not kept of the work of the plates is the water's; without water that is rounding.
-        sample.water[0] = work - (sample.solids - zero[0]);
+        sample.water[0] = sample.work - (sample.solids - zero[0]);
         sample.water[2] = sample.water[0] + zero[1] - sample.kinetic[1] - sample.water[1];
-        sample.crushed = case.area() * speed * before.0 - (solid - volume);
+        sample.crushed = case.area() * size[2] * sample.strain - (solid - volume);
         file.row(&[
             sample.time,
             sample.strain,
@@ -264,6 +285,8 @@ pub fn run(case: &Crushed, folder: &Path) -> Result<Crushing, Failure> {
             sample.water[2],
             sample.expelled,
             sample.crushed,
+            sample.thinner,
+            sample.denser,
         ])?;
         if k % count.div_ceil(FRAMES) == 0 || k == count {
             movie.frame(simulation.time(), &simulation.vtu())?;
@@ -287,7 +310,10 @@ pub fn run(case: &Crushed, folder: &Path) -> Result<Crushing, Failure> {
         record.leaked = leaked(
             &simulation,
             dx,
-            [size[0], size[2] - speed * simulation.time()],
+            [
+                size[0],
+                size[2] * (1.0 - case.strain_at(simulation.time())[0]),
+            ],
         )?;
     }
     record.steps = simulation.steps();

@@ -103,7 +103,7 @@ impl Case {
 
     /// Time \[s\] in which the rate of strain grows.
     fn ramp(&self) -> f64 {
-        6.0 * self.size()[0] / SOUND
+        ramp(self.size()[0])
     }
     /// Time \[s\] of the final strain.
     fn end(&self) -> f64 {
@@ -161,8 +161,13 @@ pub fn water_scheme<T: Real>(alpha: f64) -> Scheme<T, 3> {
         .compose()
 }
 
+/// Time \[s\] in which the rate of strain grows: that in which sound runs six times through a block of this length \[m\].
+pub fn ramp(length: f64) -> f64 {
+    6.0 * length / SOUND
+}
+
 /// Strain, its rate, which grows as half a cosine within `ramp` \[s\], and its second derivative.
-fn strain(ramp: f64, t: f64) -> [f64; 3] {
+pub fn strain(ramp: f64, t: f64) -> [f64; 3] {
     if t >= ramp {
         return [RATE * (t - 0.5 * ramp), RATE, 0.0];
     }
