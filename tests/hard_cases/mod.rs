@@ -19,5 +19,6 @@ mod thin_jet;
 mod two_phases;
 mod unlike;
 mod variations;
+mod viscosity_that_rises;
 mod vortices;
 mod water_hammer;
