@@ -8,6 +8,7 @@ mod gas;
 mod gas_in_a_plane;
 mod gas_in_space;
 mod harness;
+mod imploding_gas;
 mod jittered;
 mod rods;
 mod shell_in_water;
