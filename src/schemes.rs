@@ -190,7 +190,8 @@ pub type GasBuilder = SchemeBuilder<
 /// | gas that turns, shocks of moderate strength | `.with_viscosity(CullenDehnen::STANDARD)`, `.h_over_dx(2.2)` |
 /// | strong shocks on coarse spacings | `.h_over_dx(1.3)` |
 ///
-/// Not [`CullenDehnen`](crate::term::viscosity::CullenDehnen) where cold gas starts in collision.
+/// Where cold gas starts in collision [`CullenDehnen`](crate::term::viscosity::CullenDehnen) leaves twice the heat at the wall that the
+/// signal velocity leaves.
 ///
 /// ```
 /// use meshfree::prelude::*;

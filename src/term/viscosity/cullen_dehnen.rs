@@ -19,6 +19,10 @@ use crate::term::{Layout, Pair, Sums, TermDoc};
 /// Scaled with v² it is made for shocks of Mach 1.1 and more: weaker ones, as of an impact at some
 /// metres a second, it takes for sound. Two numbers a particle, and in 2D and 3D the velocity
 /// gradient. Velocities that a scene starts with count as having just appeared.
+///
+/// The step takes α c̄ + 2 β |μ| for the signal, the slope of the dissipated α c̄ μ + β μ² over μ. With the 0.6 (α c̄ + β |μ|) of
+/// Monaghan (1992), made for α = 1, neighbours in a strong shock are stopped and turned back within a step: Noh's plateau errs by a quarter
+/// (`docs/hard-cases.md`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CullenDehnen {
     /// Largest coefficient α_max; 2.
@@ -57,7 +61,16 @@ impl<const D: usize> ArtificialViscosity<D> for CullenDehnen {
     };
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>) -> Viscous<L> {
-        between_own(pair, self.beta_over_alpha)
+        let own = between_own(pair, self.beta_over_alpha);
+        // `between` has 0.6 (α c̄ + β |μ|) = 0.3 (α (cᵢ + cⱼ) + 2 β |μ|), α = ½ (αᵢ + αⱼ).
+        let coefficients =
+            pair.i(Field::VISCOSITY_COEFFICIENT) + pair.j(Field::VISCOSITY_COEFFICIENT);
+        let sound_speeds = pair.i(Field::SOUND_SPEED) + pair.j(Field::SOUND_SPEED);
+        let linear = coefficients * sound_speeds * L::of(0.25);
+        Viscous {
+            signal: own.signal.mul_add(L::of(1.0 / 0.3), -linear),
+            ..own
+        }
     }
     #[inline(always)]
     fn sums<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {

@@ -9,15 +9,15 @@
 //! | [`SignalVelocity`] | `signal` | the speed at which the pair's waves meet | – | gases, mixed sound speeds |
 //! | [`Balsara`] | `balsara` | Monaghan–Gingold less where the flow turns | ∇v (2D, 3D) | shear, rotation |
 //! | [`MorrisMonaghan`] | `morris-monaghan` | α of its own, fed by compression | α | strong shocks in quiet surroundings |
-//! | [`CullenDehnen`] | `cullen-dehnen` | α of its own, fed by steepening | α, ∇·v, ∇v (2D, 3D) | gas that turns, subsonic turbulence, shocks; not cold gas that starts in collision |
+//! | [`CullenDehnen`] | `cullen-dehnen` | α of its own, fed by steepening | α, ∇·v, ∇v (2D, 3D) | gas that turns, subsonic turbulence, shocks; leaves more heat where cold gas starts in collision |
 //! | [`Riemann`] | `riemann` | what a Riemann solver dissipates, limited | – | violent liquids, impact of unlike materials |
 //!
 //! The last three see little in a weak shock: at an impact of 20 m/s on copper the velocity jump is
 //! 0.3 % of the sound speed, and a law that grows with that ratio leaves the front ringing. A law with
 //! a fixed α does not. `docs/viscosity_frontier.md` measures all of them on one front.
 //!
-//! In gases the signal velocity wears vortices down that Cullen and Dehnen's law keeps, and the latter fails where cold gas starts in
-//! collision (`docs/accuracy_and_cost.md`).
+//! In gases the signal velocity wears vortices down that Cullen and Dehnen's law keeps (`docs/accuracy_and_cost.md`), and the latter leaves
+//! more heat where cold gas starts in collision (`docs/hard-cases.md`).
 //!
 //! Every law is zero for receding pairs, and symmetric in the two particles, so it conserves linear
 //! and angular momentum and turns kinetic energy into heat, never back.
