@@ -165,7 +165,7 @@
 //!
 //! # Accuracy and cost
 //!
-//! What an error costs is measured on sixteen problems with known answers in `docs/accuracy_and_cost.md`, for each scheme that
+//! What an error costs is measured on seventeen problems with known answers in `docs/accuracy_and_cost.md`, for each scheme that
 //! suits them, and on a problem of one's own by [`study::work_precision`]. In short:
 //!
 //! - Errors fall with the power 0.8 to 1 of the spacing where fronts, contacts or free surfaces are, at first order in smooth flow

@@ -114,8 +114,8 @@ pub type SolidBuilder = SchemeBuilder<
 /// assert!(scheme.to_string().contains("corrected gradients"));
 /// ```
 ///
-/// Where there are no shocks, `.without_midpoint_reconstruction()` and α = 0.2 lost two fifths less energy of colliding rings
-/// (`docs/solids.md`); without any viscosity pressures of neighbours alternate, and bodies break.
+/// Where there are no shocks, α = 0.2 lost two fifths less energy of colliding rings (`docs/solids.md`); with less,
+/// `.without_midpoint_reconstruction()` keeps pressures of neighbours from alternating, and without any viscosity bodies break.
 ///
 /// Bodies that meet are groups of their own with a coupling between them.
 #[must_use]

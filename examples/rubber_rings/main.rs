@@ -51,7 +51,7 @@ fn scheme<T: Real>(cure: &str) -> Result<Scheme<T, 2>, Failure> {
         "none" => Ok(solid.compose()),
         "artificial-stress" => Ok(solid.with(ArtificialStress::default()).compose()),
         "hourglass-free" => Ok(solid.with(HourglassFree::default()).compose()),
-        // Nothing here is a shock. Midpoint reconstruction needs more viscosity, or pressures of neighbours alternate.
+        // Nothing here is a shock, so a tenth of the viscosity does. Midpoint reconstruction would make pressures of neighbours alternate sooner.
         "corrected" => Ok(schemes::updated_lagrangian()
             .without_midpoint_reconstruction()
             .with_viscosity(LimitedMonaghanGingold {
