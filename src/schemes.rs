@@ -30,7 +30,7 @@
 //!
 //! [`ls_dyna_renormalised`] and [`ls_dyna_fluid_renormalised`] correct the gradients of the last two.
 //!
-//! What an error costs with them, on sixteen problems with known answers, is in `docs/accuracy_and_cost.md`.
+//! What an error costs with them, on seventeen problems with known answers, is in `docs/accuracy_and_cost.md`.
 
 use crate::effect::{
     Cavitation, DensityDiffusion, ExtrapolatedPressure, HourglassControl, NoWalls,
