@@ -1,8 +1,14 @@
 //! The price of every effect, alone and together: time a pair and a step, bytes a particle, and the step, each against the scheme
-//! without it. Pair effects against loops by hand are in `--bench throughput`.
+//! without it; and pair effects against loops by hand (`throughput/by_hand.rs`).
 //!
-//! `cargo bench --bench effects [-- --quick]`. The two of a row take turns on one thread; a time is the least over steps, which
+//! `cargo bench --bench effects [-- --quick | --by-hand]`. The two of a row take turns on one thread; a time is the least over steps, which
 //! what else a machine does changes least, and still by tens of per cent where it is busy.
+
+#[path = "throughput/by_hand.rs"]
+mod by_hand;
+#[allow(dead_code)]
+#[path = "throughput/pair_loop.rs"]
+mod pair_loop;
 
 use meshfree::effect::{
     ArtificialPressure, ArtificialStress, HourglassControl, HourglassFree, Hypoelastic, NeoHookean,
@@ -226,6 +232,11 @@ fn main() {
             steps: 40,
         },
     };
+    let turns = if given("--bench") { 60 } else { 5 };
+    by_hand::table(2 * (size.side / 2), turns);
+    if given("--by-hand") {
+        return;
+    }
     println!(
         "| a free block of {0}³, one thread | ns a step and particle | time, ratio | ns a pair | pairs | bytes a particle | step |",
         size.side
