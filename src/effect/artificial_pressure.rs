@@ -88,12 +88,14 @@ impl<const D: usize> Term<D> for TensionRepulsion {
     const WRITES: Outputs = Outputs::of(&[Output::FORCE]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let ratio = pair.w * pair.h.powi(D as u32) * L::of(self.over_kernel_at_spacing);
+        // What all pairs share comes first, once.
+        let ratio = pair.w * (pair.h.powi(D as u32) * L::of(self.over_kernel_at_spacing));
         let tension =
             (-pair.i(Field::PRESSURE)).positive_part() + (-pair.j(Field::PRESSURE)).positive_part();
-        let stress = L::of(self.of.share) * tension / pair.lattice_consistency_factor;
+        let stress = L::of(self.of.share) / pair.lattice_consistency_factor * tension;
         let volumes = pair.i(Field::WEIGHT) * pair.j(Field::WEIGHT);
-        sums.radial -= volumes * stress * ratio.powi(self.of.exponent) * pair.f;
+        sums.gradient
+            .add_product(-(volumes * stress), ratio.powi(self.of.exponent));
     }
     fn document(&self) -> TermDoc {
         TermDoc {
