@@ -3,7 +3,7 @@
 
 use super::cold;
 use super::eos::{EosState, EquationOfState, GuardCounts};
-use crate::scalar::{Lane, OnBaseline, Real};
+use crate::scalar::{Lane, Real};
 use core::fmt::Debug;
 use std::sync::Arc;
 
@@ -138,14 +138,8 @@ impl<T: Real, E: EquationOfState> EosObject<T> for Erased<E> {
         count = energy.map_or(count, |energy| count.min(energy.len()));
         let width = <T::Wide<false> as Lane>::WIDTH;
         let blocks = count - count % width;
-        let mut counts = rows::<T, T::In<OnBaseline>, E>(
-            self,
-            0..blocks,
-            density,
-            energy,
-            pressure,
-            sound_speed,
-        );
+        let mut counts =
+            rows::<T, T::Wide<false>, E>(self, 0..blocks, density, energy, pressure, sound_speed);
         counts += rows::<T, T, E>(self, blocks..count, density, energy, pressure, sound_speed);
         counts
     }

@@ -1,7 +1,7 @@
 //! Instruction sets: which of them the loops over neighbours are compiled for.
 //! The machine chooses at run time, or the build, where it is for one machine.
 
-use super::{Lane, OnBaseline, Real};
+use super::{Lane, Real};
 #[cfg(target_arch = "x86_64")]
 use super::{OnAvx2, OnAvx512};
 
@@ -137,7 +137,7 @@ impl InstructionSet {
         if const { !Self::Baseline.compiled() } {
             unreachable!("a build without loops of the baseline is for machines that have more");
         }
-        work.run::<T::In<OnBaseline>>()
+        work.run::<T::Wide<false>>()
     }
 
     /// Whether this machine and this build have it.

@@ -13,16 +13,6 @@ use num_traits::{One, Zero};
 #[repr(C, align(64))]
 pub struct Lanes<T, const W: usize, const FUSED: bool>([T; W]);
 
-/// Loops for what every machine of the target has.
-#[cfg(not(target_arch = "x86_64"))]
-#[derive(Clone, Copy, Debug)]
-pub struct OnBaseline;
-#[cfg(not(target_arch = "x86_64"))]
-impl super::Instructions for OnBaseline {
-    type Double = Lanes<f64, 8, false>;
-    type Single = Lanes<f32, 16, false>;
-}
-
 /// The element-wise comparison of two [`Lanes`].
 #[derive(Clone, Copy, Debug)]
 pub struct LaneMask<const W: usize>([bool; W]);

@@ -13,11 +13,9 @@ mod twice;
 
 use instructions::Instructions;
 pub use instructions::{InstructionSet, OnRows};
-#[cfg(not(target_arch = "x86_64"))]
-pub(crate) use lanes::OnBaseline;
 pub use lanes::{LaneMask, Lanes};
 #[cfg(target_arch = "x86_64")]
-pub(crate) use registers::{OnAvx2, OnAvx512, OnBaseline};
+pub(crate) use registers::{OnAvx2, OnAvx512};
 pub use root::Root;
 pub use traced::{Binary, Operation, Record, Traced, TracedMask, Unary, Unrecordable};
 

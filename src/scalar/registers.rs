@@ -1,5 +1,5 @@
 //! Rows of scalars as vector registers of x86-64: one instruction for what [`Lanes`](super::Lanes) write as a loop.
-//! To the same bits; the compiler has a fraction of the work, and vectors need not be discovered.
+//! To the same bits; the compiler has a fraction of the work, and vectors need not be discovered. The baseline keeps arrays.
 
 use super::root::{self, root_by_products};
 use super::{Instructions, Lane, Mask, Twice};
@@ -22,17 +22,9 @@ impl Instructions for OnAvx512 {
     type Double = Double8;
     type Single = Single16;
 }
-/// SSE2, which every machine of this target has: a row is four registers.
-#[derive(Clone, Copy, Debug)]
-pub struct OnBaseline;
-
 impl Instructions for OnAvx2 {
     type Double = Twice<Double4>;
     type Single = Twice<Single8>;
-}
-impl Instructions for OnBaseline {
-    type Double = Twice<Twice<Double2>>;
-    type Single = Twice<Twice<Single4>>;
 }
 
 macro_rules! operators {
@@ -59,7 +51,7 @@ macro_rules! register {
     (
         $Row:ident($V:ident) of $T:ident $width:literal, masks $M:ident($lt:expr, $le:expr),
         select($mask:ident, $yes:ident, $no:ident) $select:expr, root($x:ident) $root:expr,
-        $add:ident, $sub:ident, $mul:ident, $div:ident, $fused:literal $mul_add:ident, $sqrt:ident, $min:ident, $max:ident,
+        $add:ident, $sub:ident, $mul:ident, $div:ident, $mul_add:ident, $sqrt:ident, $min:ident, $max:ident,
         $xor:ident, $andnot:ident, $set:ident, $load:ident, $store:ident
     ) => {
         /// A row in one register.
@@ -112,7 +104,7 @@ macro_rules! register {
             type Broadcast = $T;
             type Mask = $M;
             const WIDTH: usize = $width;
-            const FUSED: bool = $fused;
+            const FUSED: bool = true;
             #[inline(always)]
             fn splat(value: $T) -> Self {
                 Self(unsafe { $set(value) })
@@ -212,14 +204,14 @@ register! {
         let guess = unsafe { _mm512_sub_epi64(_mm512_set1_epi64(root::GUESS as i64), half) };
         root_by_products(x, Self(unsafe { _mm512_castsi512_pd(guess) }))
     },
-    _mm512_add_pd, _mm512_sub_pd, _mm512_mul_pd, _mm512_div_pd, true _mm512_fmadd_pd, _mm512_sqrt_pd, _mm512_min_pd,
+    _mm512_add_pd, _mm512_sub_pd, _mm512_mul_pd, _mm512_div_pd, _mm512_fmadd_pd, _mm512_sqrt_pd, _mm512_min_pd,
     _mm512_max_pd, _mm512_xor_pd, _mm512_andnot_pd, _mm512_set1_pd, _mm512_loadu_pd, _mm512_storeu_pd
 }
 register! {
     Single16(__m512) of f32 16,
     masks Bits16(_mm512_cmp_ps_mask::<_CMP_LT_OQ>, _mm512_cmp_ps_mask::<_CMP_LE_OQ>),
     select(mask, yes, no) _mm512_mask_blend_ps(mask, no, yes), root(x) x.sqrt(),
-    _mm512_add_ps, _mm512_sub_ps, _mm512_mul_ps, _mm512_div_ps, true _mm512_fmadd_ps, _mm512_sqrt_ps, _mm512_min_ps,
+    _mm512_add_ps, _mm512_sub_ps, _mm512_mul_ps, _mm512_div_ps, _mm512_fmadd_ps, _mm512_sqrt_ps, _mm512_min_ps,
     _mm512_max_ps, _mm512_xor_ps, _mm512_andnot_ps, _mm512_set1_ps, _mm512_loadu_ps, _mm512_storeu_ps
 }
 register! {
@@ -230,44 +222,18 @@ register! {
         let guess = unsafe { _mm256_sub_epi64(_mm256_set1_epi64x(root::GUESS as i64), half) };
         root_by_products(x, Self(unsafe { _mm256_castsi256_pd(guess) }))
     },
-    _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd, _mm256_div_pd, true _mm256_fmadd_pd, _mm256_sqrt_pd, _mm256_min_pd,
+    _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd, _mm256_div_pd, _mm256_fmadd_pd, _mm256_sqrt_pd, _mm256_min_pd,
     _mm256_max_pd, _mm256_xor_pd, _mm256_andnot_pd, _mm256_set1_pd, _mm256_loadu_pd, _mm256_storeu_pd
 }
 register! {
     Single8(__m256) of f32 8,
     masks Signs8(_mm256_cmp_ps::<_CMP_LT_OQ>, _mm256_cmp_ps::<_CMP_LE_OQ>),
     select(mask, yes, no) _mm256_blendv_ps(no, yes, mask), root(x) x.sqrt(),
-    _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps, _mm256_div_ps, true _mm256_fmadd_ps, _mm256_sqrt_ps, _mm256_min_ps,
+    _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps, _mm256_div_ps, _mm256_fmadd_ps, _mm256_sqrt_ps, _mm256_min_ps,
     _mm256_max_ps, _mm256_xor_ps, _mm256_andnot_ps, _mm256_set1_ps, _mm256_loadu_ps, _mm256_storeu_ps
 }
 
-/// With two roundings, for want of an instruction with one.
-#[inline(always)]
-unsafe fn products_pd(a: __m128d, b: __m128d, c: __m128d) -> __m128d {
-    // SAFETY: every processor of this target has the instructions.
-    unsafe { _mm_add_pd(_mm_mul_pd(a, b), c) }
-}
-/// The same of single numbers.
-#[inline(always)]
-unsafe fn products_ps(a: __m128, b: __m128, c: __m128) -> __m128 {
-    // SAFETY: as above.
-    unsafe { _mm_add_ps(_mm_mul_ps(a, b), c) }
-}
-register! {
-    Double2(__m128d) of f64 2,
-    masks Signs2(_mm_cmplt_pd, _mm_cmple_pd),
-    select(mask, yes, no) _mm_or_pd(_mm_and_pd(mask, yes), _mm_andnot_pd(mask, no)), root(x) x.sqrt(),
-    _mm_add_pd, _mm_sub_pd, _mm_mul_pd, _mm_div_pd, false products_pd, _mm_sqrt_pd, _mm_min_pd,
-    _mm_max_pd, _mm_xor_pd, _mm_andnot_pd, _mm_set1_pd, _mm_loadu_pd, _mm_storeu_pd
-}
-register! {
-    Single4(__m128) of f32 4,
-    masks Signs4Single(_mm_cmplt_ps, _mm_cmple_ps),
-    select(mask, yes, no) _mm_or_ps(_mm_and_ps(mask, yes), _mm_andnot_ps(mask, no)), root(x) x.sqrt(),
-    _mm_add_ps, _mm_sub_ps, _mm_mul_ps, _mm_div_ps, false products_ps, _mm_sqrt_ps, _mm_min_ps,
-    _mm_max_ps, _mm_xor_ps, _mm_andnot_ps, _mm_set1_ps, _mm_loadu_ps, _mm_storeu_ps
-}
-
+// SAFETY of all below: see `Instructions`.
 /// What a comparison gives, by the instructions that combine such outcomes.
 macro_rules! mask {
     ($M:ident($V:ty) $width:literal, $and:expr, $or:expr, not($m:ident) $not:expr, bits($n:ident) $bits:expr) => {
@@ -329,10 +295,6 @@ mask!(Signs4(__m256d) 4, _mm256_and_pd, _mm256_or_pd,
     not(m) _mm256_xor_pd(m, _mm256_castsi256_pd(_mm256_set1_epi64x(-1))), bits(m) (unsafe { _mm256_movemask_pd(m) }));
 mask!(Signs8(__m256) 8, _mm256_and_ps, _mm256_or_ps,
     not(m) _mm256_xor_ps(m, _mm256_castsi256_ps(_mm256_set1_epi64x(-1))), bits(m) (unsafe { _mm256_movemask_ps(m) }));
-mask!(Signs2(__m128d) 2, _mm_and_pd, _mm_or_pd,
-    not(m) _mm_xor_pd(m, _mm_castsi128_pd(_mm_set1_epi32(-1))), bits(m) (unsafe { _mm_movemask_pd(m) }));
-mask!(Signs4Single(__m128) 4, _mm_and_ps, _mm_or_ps,
-    not(m) _mm_xor_ps(m, _mm_castsi128_ps(_mm_set1_epi32(-1))), bits(m) (unsafe { _mm_movemask_ps(m) }));
 
 #[cfg(test)]
 mod tests {

@@ -9,7 +9,7 @@ use super::{InstructionSet, Interaction};
 use crate::kernel::Kernel;
 use crate::neighbors::{Block, CHUNK, ChunkList, Order};
 use crate::particles::{Field, Fields, Output, Outputs, PLACES, Shape};
-use crate::scalar::{Lane, Mask, OnBaseline, Real};
+use crate::scalar::{Lane, Mask, Real};
 #[cfg(target_arch = "x86_64")]
 use crate::scalar::{OnAvx2, OnAvx512};
 use crate::tensor::Symmetric;
@@ -160,7 +160,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
             }
         }
         let _ = instructions;
-        self.chunk::<T::In<OnBaseline>, HOW>((chunk, list), later, out, reactions);
+        self.chunk::<T::Wide<false>, HOW>((chunk, list), later, out, reactions);
     }
 
     // Kernel and terms come as arguments: what those point to nothing else changes, so constants of a term are read and
