@@ -6,19 +6,22 @@
 
 #[path = "throughput/by_hand.rs"]
 mod by_hand;
-#[allow(dead_code)]
-#[path = "throughput/pair_loop.rs"]
-mod pair_loop;
+#[path = "throughput/lattice.rs"]
+mod lattice;
 
+use by_hand::{
+    CONTINUITY, DELTA, DIFFUSION, LAMINAR, SHARE, TENSION, VISCOSITY, over_kernel_at_spacing, row,
+    viscosity,
+};
 use meshfree::effect::{
     ArtificialPressure, ArtificialStress, HourglassControl, HourglassFree, Hypoelastic, NeoHookean,
-    PairingControl, Plasticity,
+    PairingControl, Plasticity, TensionRepulsion,
 };
 use meshfree::kernel::WendlandC2;
 use meshfree::prelude::*;
 use meshfree::scene::Start;
 use meshfree::term::viscosity::{Inviscid, MonaghanGingold};
-use meshfree::term::{Fourtakas, LaminarViscosity};
+use meshfree::term::{Compression, Fourtakas, LaminarViscosity, PressureForce};
 use std::time::Instant;
 
 /// How much is measured.
@@ -217,6 +220,33 @@ fn solids(size: Size) {
     rows(|| total().compose(), catalogue::steel_4340, cases, size);
 }
 
+/// Pair terms of liquids' effects, alone and together, over loops that are written out for just these.
+fn against_by_hand(side: usize, turns: usize) {
+    if by_hand::skipped() {
+        return;
+    }
+    println!("effects composed over written out by hand, {side}³ particles, f64, one thread");
+    let tension = || TensionRepulsion {
+        of: ArtificialPressure {
+            share: SHARE,
+            exponent: 4,
+        },
+        over_kernel_at_spacing: over_kernel_at_spacing(),
+    };
+    let diffusion = || Fourtakas { delta: DELTA };
+    row::<_, 0>("pressure", (PressureForce,), side, turns);
+    by_hand::forces(side, turns);
+    let terms = (PressureForce, LaminarViscosity);
+    row::<_, LAMINAR>("laminar viscosity", terms, side, turns);
+    let terms = (PressureForce, tension());
+    row::<_, TENSION>("artificial pressure", terms, side, turns);
+    let terms = (PressureForce, viscosity(), LaminarViscosity, tension());
+    row::<_, { VISCOSITY | LAMINAR | TENSION }>("all three", terms, side, turns);
+    row::<_, CONTINUITY>("compression", (Compression,), side, turns);
+    let terms = (Compression, diffusion());
+    row::<_, { CONTINUITY | DIFFUSION }>("density diffusion", terms, side, turns);
+}
+
 fn main() {
     // `cargo test` runs benches without `--bench`: then small and once.
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -233,7 +263,7 @@ fn main() {
         },
     };
     let turns = if given("--bench") { 60 } else { 5 };
-    by_hand::table(2 * (size.side / 2), turns);
+    against_by_hand(2 * (size.side / 2), turns);
     if given("--by-hand") {
         return;
     }

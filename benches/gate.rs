@@ -1,6 +1,10 @@
 //! The gate of `.ci/run`: fails where the composed pair loop takes more than 1.15 of the time of one written out by hand.
 //! `cargo bench --bench gate`. A program of its own, since the whole of `throughput` takes minutes to compile.
 
+#[path = "throughput/by_hand.rs"]
+mod by_hand;
+#[path = "throughput/lattice.rs"]
+mod lattice;
 #[path = "throughput/pair_loop.rs"]
 mod pair_loop;
 

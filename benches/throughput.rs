@@ -6,6 +6,10 @@
 //! of the support, the first of them liquid. Times are medians over steps, ratios medians over pairs of
 //! runs that take turns.
 
+#[path = "throughput/by_hand.rs"]
+mod by_hand;
+#[path = "throughput/lattice.rs"]
+mod lattice;
 #[path = "throughput/pair_loop.rs"]
 mod pair_loop;
 #[path = "throughput/solids.rs"]

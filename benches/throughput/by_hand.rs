@@ -1,29 +1,28 @@
-//! Effects of liquids that are pair terms, alone and together, beside loops that were written out for just these: what
-//! composing them costs. Both loops share lists, kernel, rows and root; that of the crate sums both sides of a pair at once.
+//! Pair terms of liquids, any of them, beside a loop that is written out by hand for just these: what composing costs.
+//! Both loops share lists, kernel, rows and root; that of the crate sums both sides of a pair at once.
 
-use super::pair_loop::{H, Lattice, print_ratio, ratios};
-use meshfree::effect::{ArtificialPressure, TensionRepulsion};
+use super::lattice::{BATCH, H, Lattice, assert_same, print_ratio, ratios, within_reach};
 use meshfree::kernel::{Kernel, WendlandC2};
 use meshfree::neighbors::{CHUNK, ClusterLists};
 use meshfree::particles::{Field, Fields, Output};
-use meshfree::scalar::{Lane, Mask, OnRows};
+use meshfree::scalar::{Lane, OnRows};
 use meshfree::sweep::{
     FusedKernel, InstructionSet, PairSweep, Pass, Records, Results, Root, SmoothingMode,
 };
 use meshfree::term::viscosity::MonaghanGingold;
-use meshfree::term::{Compression, Fourtakas, LaminarViscosity, PressureForce, Terms, Viscosity};
+use meshfree::term::{PressureForce, Terms, Viscosity};
 
 const ALPHA: f64 = 0.02;
-const DELTA: f64 = 0.1;
-const SHARE: f64 = 0.3;
+pub const DELTA: f64 = 0.1;
+pub const SHARE: f64 = 0.3;
 
 /// What a loop does beside pressure, or beside compression.
-const VISCOSITY: u8 = 1;
-const LAMINAR: u8 = 2;
-const TENSION: u8 = 4;
-const DIFFUSION: u8 = 8;
+pub const VISCOSITY: u8 = 1;
+pub const LAMINAR: u8 = 2;
+pub const TENSION: u8 = 4;
+pub const DIFFUSION: u8 = 8;
 /// Compression in place of forces.
-const CONTINUITY: u8 = 16;
+pub const CONTINUITY: u8 = 16;
 
 /// The loop by hand: forces (three sums and, with an artificial viscosity, a maximum), or compression (and diffusion).
 struct ByHand<'a, const WHAT: u8> {
@@ -61,9 +60,9 @@ impl<const WHAT: u8> OnRows<f64> for ByHand<'_, WHAT> {
         );
         let (weight, coefficient) = (at(Field::WEIGHT), at(Field::PRESSURE_COEFFICIENT));
         let (mu, p) = (at(Field::DYNAMIC_VISCOSITY), at(Field::PRESSURE));
-        let (inverse, reach2) = (1.0 / H, 4.004 * H * H);
+        let inverse = 1.0 / H;
         let [value, gradient] = [self.norm * inverse.powi(3), self.norm * inverse.powi(5)];
-        let mut near = [0_u32; 256];
+        let mut near = [0_u32; BATCH];
         for (chunk_at, chunk) in self.lists.chunks().iter().enumerate() {
             for (k, bounds) in chunk.starts.windows(2).enumerate() {
                 let first = (chunk_at * CHUNK + k) * 8;
@@ -75,20 +74,10 @@ impl<const WHAT: u8> OnRows<f64> for ByHand<'_, WHAT> {
                 for segment in &chunk.segments[bounds[0] as usize..bounds[1] as usize] {
                     let listed = &chunk.neighbors[segment.start as usize..segment.end as usize];
                     let staying = (segment.near_end - segment.start) as usize;
-                    for (b, batch) in listed.chunks(near.len()).enumerate() {
-                        let staying = staying.saturating_sub(b * near.len()).min(batch.len());
-                        let mut count = staying;
-                        near[..count].copy_from_slice(&batch[..count]);
-                        for &j in &batch[count..] {
-                            let x = &self.records[j as usize * stride..][..3];
-                            let mut r2 = Row::zero();
-                            for d in 0..3 {
-                                let r = own[d] - Row::splat(x[d]);
-                                r2 = r.mul_add(r, r2);
-                            }
-                            near[count % 256] = j;
-                            count += usize::from(r2.lt(Row::splat(reach2)).any());
-                        }
+                    for (b, batch) in listed.chunks(BATCH).enumerate() {
+                        let staying = staying.saturating_sub(b * BATCH).min(batch.len());
+                        let records = (self.records, stride, 0);
+                        let count = within_reach(records, &own, (batch, staying), &mut near);
                         for &j in &near[..count] {
                             let other = &self.records[j as usize * stride..][..stride];
                             let mut r = [Row::zero(); 3];
@@ -179,8 +168,9 @@ impl<const WHAT: u8> OnRows<f64> for ByHand<'_, WHAT> {
 
 type Composed<P> = FusedKernel<WendlandC2, P, { SmoothingMode::Uniform.bit() }>;
 
-/// A row: the terms composed, over the loop for `WHAT` by hand. Prints the median ratio and its interval.
-fn row<P: Terms<3>, const WHAT: u8>(name: &str, terms: P, side: usize, turns: usize) {
+/// A row: the terms composed, over the loop for `WHAT` by hand. Prints the median ratio and its interval, and returns the least
+/// that it may be.
+pub fn row<P: Terms<3>, const WHAT: u8>(name: &str, terms: P, side: usize, turns: usize) -> f64 {
     let sweep: Composed<P> = FusedKernel::new(WendlandC2, terms, SmoothingMode::Uniform);
     let sweep: &dyn PairSweep<f64, 3> = &sweep;
     let mut lattice = Lattice::<f64>::new(side, sweep.fields());
@@ -221,70 +211,47 @@ fn row<P: Terms<3>, const WHAT: u8>(name: &str, terms: P, side: usize, turns: us
             });
         },
     );
+    let count = |of: u8| usize::from(WHAT & of != 0);
     let outputs: &[(Output, usize)] = if WHAT & CONTINUITY == 0 {
-        &[(Output::FORCE, 3), (Output::SIGNAL, 1)]
+        &[(Output::FORCE, 3), (Output::SIGNAL, count(VISCOSITY))]
     } else {
-        &[(Output::COMPRESSION, 1), (Output::DENSITY_DIFFUSION, 1)]
+        &[
+            (Output::COMPRESSION, 1),
+            (Output::DENSITY_DIFFUSION, count(DIFFUSION)),
+        ]
     };
-    let mut k = 0;
-    for &(output, components) in outputs {
-        for d in 0..components {
-            if k == width {
-                break;
-            }
-            let by_hand = |slot: usize| out[(slot / 8 * width + k) * 8 + slot % 8];
-            let largest = (0..slots).fold(0.0_f64, |m, slot| m.max(by_hand(slot).abs()));
-            for slot in 0..slots {
-                let (a, b) = (rows.get(output, d, slot), by_hand(slot));
-                assert!(
-                    (a - b).abs() < 1e-9 * largest,
-                    "{name}, sum {k} of slot {slot}: {a} and {b}"
-                );
-            }
-            k += 1;
-        }
-    }
+    assert_same(&rows, outputs, &out, slots);
     print!("{name}: ");
-    print_ratio(&ratios);
+    print_ratio(&ratios)
 }
 
 /// One over hᴰ W of the spacing, which is one here.
-fn over_kernel_at_spacing() -> f64 {
+pub fn over_kernel_at_spacing() -> f64 {
     let kernel = WendlandC2;
     1.0 / (Kernel::<3>::normalisation(&kernel) * Kernel::<3>::shape(&kernel, 1.0 / H))
 }
 
-/// Every pair term of the ready liquids' effects, alone and together.
-pub fn table(side: usize, turns: usize) {
-    if InstructionSet::detect() != InstructionSet::Avx512 {
-        println!("\neffects against loops by hand: skipped, the machine has no AVX-512");
-        return;
+pub fn viscosity() -> Viscosity<MonaghanGingold> {
+    Viscosity(MonaghanGingold {
+        alpha: ALPHA,
+        beta: 0.0,
+    })
+}
+
+/// Whether the machine has what the loops by hand are compiled for.
+pub fn skipped() -> bool {
+    let skipped = InstructionSet::detect() != InstructionSet::Avx512;
+    if skipped {
+        println!("\ncomposed against written out by hand: skipped, the machine has no AVX-512");
     }
-    println!("\neffects composed over written out by hand, {side}³ particles, f64, one thread");
-    let viscosity = || {
-        Viscosity(MonaghanGingold {
-            alpha: ALPHA,
-            beta: 0.0,
-        })
-    };
-    let tension = || TensionRepulsion {
-        of: ArtificialPressure {
-            share: SHARE,
-            exponent: 4,
-        },
-        over_kernel_at_spacing: over_kernel_at_spacing(),
-    };
-    let diffusion = || Fourtakas { delta: DELTA };
-    row::<_, 0>("pressure", (PressureForce,), side, turns);
+    skipped
+}
+
+/// Pressure and artificial viscosity alone: what the gate holds.
+pub fn forces(side: usize, turns: usize) -> f64 {
+    if skipped() {
+        return 1.0;
+    }
     let terms = (PressureForce, viscosity());
-    row::<_, VISCOSITY>("artificial viscosity", terms, side, turns);
-    let terms = (PressureForce, LaminarViscosity);
-    row::<_, LAMINAR>("laminar viscosity", terms, side, turns);
-    let terms = (PressureForce, tension());
-    row::<_, TENSION>("artificial pressure", terms, side, turns);
-    let terms = (PressureForce, viscosity(), LaminarViscosity, tension());
-    row::<_, { VISCOSITY | LAMINAR | TENSION }>("all three", terms, side, turns);
-    row::<_, CONTINUITY>("compression", (Compression,), side, turns);
-    let terms = (Compression, diffusion());
-    row::<_, { CONTINUITY | DIFFUSION }>("density diffusion", terms, side, turns);
+    row::<_, VISCOSITY>("composed over written out by hand", terms, side, turns)
 }

@@ -1,15 +1,15 @@
 //! Solids beside the liquid: what a step of each scheme costs a particle and a neighbour, and how many bytes.
 //! The total-Lagrangian force, composed, against one that is written out by hand.
 
-use super::pair_loop::{H, Lattice, assert_same, print_ratio, ratios};
+use super::lattice::{BATCH, H, Lattice, assert_same, print_ratio, ratios, within_reach};
 use meshfree::effect::{FiniteStrainPlasticity, Hypoelastic, NeoHookean, Plasticity, StressForce};
 use meshfree::kernel::{Kernel, WendlandC2};
 use meshfree::material::catalogue;
 use meshfree::material::eos::IdealGas;
 use meshfree::neighbors::{CHUNK, Cells, ClusterLists};
-use meshfree::particles::{Field, Fields};
+use meshfree::particles::{Field, Fields, Output};
 use meshfree::prelude::*;
-use meshfree::scalar::{Lane, Mask, OnRows};
+use meshfree::scalar::{Lane, OnRows};
 use meshfree::scene::Start;
 use meshfree::scheme::Scheme;
 use meshfree::sweep::{
@@ -151,8 +151,8 @@ impl OnRows<f64> for Fused<'_> {
     #[inline(always)]
     fn run<Row: Lane<Scalar = f64, Broadcast = f64>>(self) {
         let [weight, place, stress] = AT;
-        let (inverse, reach2) = (1.0 / H, 4.004 * H * H);
-        let mut near = [0_u32; 256];
+        let inverse = 1.0 / H;
+        let mut near = [0_u32; BATCH];
         for (c, chunk) in self.lists.chunks().iter().enumerate() {
             for (k, bounds) in chunk.starts.windows(2).enumerate() {
                 let first = (c * CHUNK + k) * 8;
@@ -164,20 +164,10 @@ impl OnRows<f64> for Fused<'_> {
                 for segment in &chunk.segments[bounds[0] as usize..bounds[1] as usize] {
                     let listed = &chunk.neighbors[segment.start as usize..segment.end as usize];
                     let staying = (segment.near_end - segment.start) as usize;
-                    for (b, batch) in listed.chunks(near.len()).enumerate() {
-                        let staying = staying.saturating_sub(b * near.len()).min(batch.len());
-                        let mut count = staying;
-                        near[..count].copy_from_slice(&batch[..count]);
-                        for &j in &batch[count..] {
-                            let x = &self.records[j as usize * STRIDE + place..][..3];
-                            let mut r2 = Row::splat(0.0);
-                            for d in 0..3 {
-                                let r = own[place + d] - Row::splat(x[d]);
-                                r2 = r.mul_add(r, r2);
-                            }
-                            near[count % 256] = j;
-                            count += usize::from(r2.lt(Row::splat(reach2)).any());
-                        }
+                    for (b, batch) in listed.chunks(BATCH).enumerate() {
+                        let staying = staying.saturating_sub(b * BATCH).min(batch.len());
+                        let records = (self.records, STRIDE, place);
+                        let count = within_reach(records, &own, (batch, staying), &mut near);
                         for &j in &near[..count] {
                             let other = &self.records[j as usize * STRIDE..][..STRIDE];
                             let x: [Row; 3] = core::array::from_fn(|d| {
@@ -272,9 +262,7 @@ pub fn composed_against_fused(side: usize, turns: usize) {
             });
         },
     );
-    assert_same(slots, &rows, &out, |slot, d| {
-        slot / 8 * 24 + d * 8 + slot % 8
-    });
+    assert_same(&rows, &[(Output::FORCE, 3)], &out, slots);
     print!("\ntotal-Lagrangian force, composed against written out, {slots} particles, ");
     print_ratio(&ratios);
 }
