@@ -210,18 +210,6 @@ impl<T: Real, const W: usize, const FUSED: bool> Lane for Lanes<T, W, FUSED> {
         self.map(Lane::abs)
     }
     #[inline(always)]
-    fn powf(self, exponent: f64) -> Self {
-        self.map(|x| Lane::powf(x, exponent))
-    }
-    #[inline(always)]
-    fn exp(self) -> Self {
-        self.map(Lane::exp)
-    }
-    #[inline(always)]
-    fn ln(self) -> Self {
-        self.map(Lane::ln)
-    }
-    #[inline(always)]
     fn min(self, other: Self) -> Self {
         self.zip(other, Lane::min)
     }

@@ -198,11 +198,20 @@ pub trait Lane:
         result
     }
     /// `self` to a real power.
-    fn powf(self, exponent: f64) -> Self;
+    #[inline(always)]
+    fn powf(self, exponent: f64) -> Self {
+        self.map(|x| Lane::powf(x, exponent))
+    }
     /// The exponential function.
-    fn exp(self) -> Self;
+    #[inline(always)]
+    fn exp(self) -> Self {
+        self.map(Lane::exp)
+    }
     /// The natural logarithm.
-    fn ln(self) -> Self;
+    #[inline(always)]
+    fn ln(self) -> Self {
+        self.map(Lane::ln)
+    }
     /// The larger of the value and zero.
     #[inline(always)]
     fn positive_part(self) -> Self {

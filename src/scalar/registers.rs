@@ -161,18 +161,6 @@ macro_rules! register {
                 Self(unsafe { $andnot($set(-0.0), self.0) })
             }
             #[inline(always)]
-            fn powf(self, exponent: f64) -> Self {
-                self.map(|x| Lane::powf(x, exponent))
-            }
-            #[inline(always)]
-            fn exp(self) -> Self {
-                self.map(Lane::exp)
-            }
-            #[inline(always)]
-            fn ln(self) -> Self {
-                self.map(Lane::ln)
-            }
-            #[inline(always)]
             fn min(self, other: Self) -> Self {
                 Self(unsafe { $min(self.0, other.0) })
             }

@@ -152,18 +152,6 @@ impl<L: Lane<Broadcast = <L as Lane>::Scalar>> Lane for Twice<L> {
         Self(self.0.abs(), self.1.abs())
     }
     #[inline(always)]
-    fn powf(self, exponent: f64) -> Self {
-        Self(self.0.powf(exponent), self.1.powf(exponent))
-    }
-    #[inline(always)]
-    fn exp(self) -> Self {
-        Self(self.0.exp(), self.1.exp())
-    }
-    #[inline(always)]
-    fn ln(self) -> Self {
-        Self(self.0.ln(), self.1.ln())
-    }
-    #[inline(always)]
     fn min(self, other: Self) -> Self {
         Self(self.0.min(other.0), self.1.min(other.1))
     }
