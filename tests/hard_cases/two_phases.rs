@@ -40,34 +40,47 @@ fn by_mass() -> Scheme<f64, 2> {
         .compose()
 }
 
+const SPACING: f64 = 0.01;
+const DOWN: [f64; 2] = [0.0, -GRAVITY];
+
+/// Water of some depth, and air of a tenth of its stiffness.
+fn materials(depth: f64) -> [Material<f64>; 2] {
+    let sound = 10.0 * (GRAVITY * depth).sqrt();
+    [
+        Material::new("water", Tait::new(1000.0, sound)),
+        Material::new("air", Tait::new(1.0, 10.0 * sound).with_gamma(1.4)),
+    ]
+}
+
+/// A closed tank of two bodies under gravity, each with the pressure that it has at rest below a level of its own.
+fn tank(
+    scheme: Scheme<f64, 2>,
+    size: [f64; 2],
+    bodies: [Body<f64, 2>; 2],
+    levels: [f64; 2],
+) -> Simulation<f64, 2> {
+    let mut scene = Scene::new(scheme);
+    for (body, level) in bodies.into_iter().zip(levels) {
+        scene = scene.body(body.hydrostatic(DOWN, [0.0, level]));
+    }
+    let closed = [[true; 2]; 2];
+    scene
+        .wall(Wall::around("tank", [0.0; 2], size, SPACING, 3, closed))
+        .acceleration(|_| DOWN)
+        .varied()
+        .build()
+        .expect("a tank")
+}
+
 /// Water of 0.2 m below as much air after so many √(H/g): RMS error of the water's pressure over ρgH, and how far water is above,
 /// or air below, the level of the interface in spacings. Infinite if the run breaks.
 fn rest(scheme: Scheme<f64, 2>, duration: f64) -> [f64; 2] {
     const DEPTH: f64 = 0.2;
-    const SPACING: f64 = 0.01;
-    let sound = 10.0 * (GRAVITY * DEPTH).sqrt();
-    let water = Material::new("water", Tait::new(1000.0, sound));
-    // A tenth of the stiffness of water.
-    let air = Material::new("air", Tait::new(1.0, 10.0 * sound).with_gamma(1.4));
-    let down = [0.0, -GRAVITY];
+    let [water, air] = materials(DEPTH);
     let size = [DEPTH, 2.0 * DEPTH];
     let water = Body::block("water", water, [0.0; 2], [DEPTH; 2], SPACING).jitter(0.01, seed(1));
     let air = Body::block("air", air, [0.0, DEPTH], size, SPACING).jitter(0.01, seed(2));
-    let mut tank = Scene::new(scheme)
-        .body(water.hydrostatic(down, [0.0, DEPTH]))
-        .body(air.hydrostatic(down, [0.0, size[1]]))
-        .wall(Wall::around(
-            "tank",
-            [0.0; 2],
-            size,
-            SPACING,
-            3,
-            [[true; 2]; 2],
-        ))
-        .acceleration(move |_| down)
-        .varied()
-        .build()
-        .expect("a tank");
+    let mut tank = tank(scheme, size, [water, air], [DEPTH, size[1]]);
     let ended = tank.run_until(lasting(duration) * (DEPTH / GRAVITY).sqrt());
     if let Err(error) = ended {
         println!("{error}");
@@ -132,14 +145,10 @@ const RADIUS: f64 = 0.1;
 /// particles of unlike liquids in spacings, and how many particles have more than three of the other liquid for each of their own within
 /// two spacings. Later it tears, as a bubble without surface tension does.
 fn bubble(scheme: Scheme<f64, 2>) -> [f64; 2] {
-    const SPACING: f64 = 0.01;
     const SIZE: [f64; 2] = [0.4, 0.6];
     const MIDDLE: [f64; 2] = [0.2, 0.2];
     let apart = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
-    let sound = 10.0 * (GRAVITY * SIZE[1]).sqrt();
-    let water = Material::new("water", Tait::new(1000.0, sound));
-    let air = Material::new("air", Tait::new(1.0, 10.0 * sound).with_gamma(1.4));
-    let down = [0.0, -GRAVITY];
+    let [water, air] = materials(SIZE[1]);
     let all = Body::block("all", water.clone(), [0.0; 2], SIZE, SPACING);
     let (inside, outside): (Vec<_>, Vec<_>) =
         (all.points().iter()).partition(|x| apart(**x, MIDDLE) < RADIUS);
@@ -147,21 +156,7 @@ fn bubble(scheme: Scheme<f64, 2>) -> [f64; 2] {
     let level = MIDDLE[1] + 1000.0 * (SIZE[1] - MIDDLE[1]);
     let air = Body::points_of("air", air, inside, SPACING).jitter(0.01, seed(2));
     let water = Body::points_of("water", water, outside, SPACING).jitter(0.01, seed(1));
-    let mut tank = Scene::new(scheme)
-        .body(water.hydrostatic(down, [0.0, SIZE[1]]))
-        .body(air.hydrostatic(down, [0.0, level]))
-        .wall(Wall::around(
-            "tank",
-            [0.0; 2],
-            SIZE,
-            SPACING,
-            3,
-            [[true; 2]; 2],
-        ))
-        .acceleration(move |_| down)
-        .varied()
-        .build()
-        .expect("a tank");
+    let mut tank = tank(scheme, SIZE, [water, air], [SIZE[1], level]);
     let start = centre(&tank);
     if let Err(error) = tank.run_until(2.5 * (RADIUS / GRAVITY).sqrt()) {
         println!("{error}");
@@ -254,7 +249,6 @@ fn wave(scheme: Scheme<f64, 2>, count: usize, light: f64) -> f64 {
         velocity: mode(x).map(|v| 0.05 * omega * v),
         ..own
     };
-    let down = [0.0, -GRAVITY];
     let block = |name, density, [low, high]: [f64; 2], surface, own| {
         Body::block(
             name,
@@ -264,7 +258,7 @@ fn wave(scheme: Scheme<f64, 2>, count: usize, light: f64) -> f64 {
             spacing,
         )
         .jitter(0.2, seed(own))
-        .hydrostatic(down, [0.0, surface])
+        .hydrostatic(DOWN, [0.0, surface])
         .start(moving)
     };
     let mut own = Scene::new(scheme)
@@ -279,7 +273,7 @@ fn wave(scheme: Scheme<f64, 2>, count: usize, light: f64) -> f64 {
             3,
             [[false; 2], [true; 2]],
         ))
-        .acceleration(move |_| down)
+        .acceleration(|_| DOWN)
         .varied()
         .build()
         .expect("two liquids");
