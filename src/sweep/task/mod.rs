@@ -2,19 +2,20 @@
 //! It allocates nothing, and sums in an order that no number of threads changes.
 
 mod pairs;
+mod shown;
 
 use super::records::Image;
 use super::results::Reaction;
 use super::{InstructionSet, Interaction};
 use crate::kernel::Kernel;
 use crate::neighbors::{Block, CHUNK, ChunkList, Order};
-use crate::particles::{Field, Fields, Output, Outputs, PLACES, Shape};
+use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Mask, Real};
 #[cfg(target_arch = "x86_64")]
 use crate::scalar::{OnAvx2, OnAvx512};
-use crate::tensor::Symmetric;
 use crate::term::{Layout, MOST_READS, Sums, Terms};
 use core::marker::PhantomData;
+use shown::Shown;
 use std::ops::Range;
 
 pub(super) const UNIFORM: u8 = 0;
@@ -477,78 +478,6 @@ fn add_later<T: Real, L: Lane<Scalar = T>>(later: &[T], out: &mut [T], raised: u
             };
         }
     }
-}
-
-/// What a particle shows the other side of a contact that may open, for the fields of a record that carry
-/// tension ([`Term::TENSILE`](crate::term::Term::TENSILE)); all others are shown as they are.
-#[derive(Clone, Copy)]
-enum Compression {
-    /// A pressure, where it is positive.
-    Positive(usize),
-    /// A stress, less what pulls.
-    Tensor(usize),
-    /// Nothing: a gradient of pressure has no meaning across a gap.
-    Nothing(usize),
-}
-
-/// The fields of a record that a contact hides the tension of; a list, so that the loop sees only those.
-struct Shown {
-    fields: [Compression; MOST_READS],
-    count: usize,
-}
-
-impl Shown {
-    const fn new(reads: Fields, tensile: Fields, d: usize) -> Self {
-        let mut shown = Self {
-            fields: [Compression::Nothing(0); MOST_READS],
-            count: 0,
-        };
-        let mut place = 0;
-        while place < PLACES {
-            let field = Field::at(place);
-            if reads.contains(field) && tensile.contains(field) {
-                let at = reads.offset(field, d);
-                let mut k = 0;
-                while k < field.components(d) {
-                    shown.fields[shown.count] = match field.shape() {
-                        Shape::Scalar => Compression::Positive(at),
-                        Shape::Tensor => Compression::Tensor(at),
-                        _ => Compression::Nothing(at + k),
-                    };
-                    shown.count += 1;
-                    // A tensor is one, all others go component by component.
-                    k += if matches!(field.shape(), Shape::Tensor) {
-                        6
-                    } else {
-                        1
-                    };
-                }
-            }
-            place += 1;
-        }
-        shown
-    }
-
-    #[inline(always)]
-    fn across<T: Real, P: Terms<D>, const D: usize, const HOW: u8, L: Lane>(record: &mut [L]) {
-        let shown = const { &Self::new(Composed::<T, P, D, HOW>::READS, P::TENSILE, D) };
-        for field in &shown.fields[..shown.count] {
-            match *field {
-                Compression::Positive(at) => record[at] = record[at].positive_part(),
-                Compression::Tensor(at) => compress(&mut record[at..at + 6]),
-                Compression::Nothing(at) => record[at] = L::zero(),
-            }
-        }
-    }
-}
-
-/// Leaves of a stress what presses. Never inlined: contacts are few, and it is long.
-#[inline(never)]
-fn compress<L: Lane>(stress: &mut [L]) {
-    let mut components = [L::zero(); 6];
-    components.copy_from_slice(stress);
-    let part = Symmetric::new(components).compressive_part();
-    stress.copy_from_slice(part.components());
 }
 
 /// The force that the real particles of a row felt between two moments. Never inlined, as [`read`].

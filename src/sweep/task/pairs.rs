@@ -1,7 +1,8 @@
 //! The loop over pairs: one row of particles against one neighbour after the other.
 //! All terms share its distances and kernel values, and it turns their scalar forces into vectors.
 
-use super::{Composed, MEAN, OWN, Row, Shown, Task};
+use super::shown::Shown;
+use super::{Composed, MEAN, OWN, Row, Task};
 use crate::kernel::Kernel;
 use crate::particles::{Field, Output};
 use crate::scalar::{Lane, Real};

@@ -1,7 +1,9 @@
 //! Viscosity with a coefficient for every particle, which jumps up where the flow steepens.
 //! Cullen & Dehnen 2010, with the converging-flow condition of Borrow et al. 2022.
 
-use super::{ArtificialViscosity, Surroundings, Switch, Viscous, between_own, closing_speed};
+use super::{
+    ArtificialViscosity, SIGNAL, Surroundings, Switch, Viscous, between_own, closing_speed,
+};
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
 use crate::term::{Layout, Pair, Sums, TermDoc};
@@ -62,13 +64,13 @@ impl<const D: usize> ArtificialViscosity<D> for CullenDehnen {
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>) -> Viscous<L> {
         let own = between_own(pair, self.beta_over_alpha);
-        // `between` has 0.6 (α c̄ + β |μ|) = 0.3 (α (cᵢ + cⱼ) + 2 β |μ|), α = ½ (αᵢ + αⱼ).
+        // α c̄ + 2 β |μ| = 2 (α c̄ + β |μ|) − α c̄, with α = ½ (αᵢ + αⱼ).
         let coefficients =
             pair.i(Field::VISCOSITY_COEFFICIENT) + pair.j(Field::VISCOSITY_COEFFICIENT);
         let sound_speeds = pair.i(Field::SOUND_SPEED) + pair.j(Field::SOUND_SPEED);
         let linear = coefficients * sound_speeds * L::of(0.25);
         Viscous {
-            signal: own.signal.mul_add(L::of(1.0 / 0.3), -linear),
+            signal: own.signal.mul_add(L::of(1.0 / SIGNAL), -linear),
             ..own
         }
     }

@@ -138,6 +138,9 @@ fn approach<L: Lane, const D: usize, P: Layout>(pair: &Pair<'_, L, D, P>) -> L {
     pair.v_dot_r.min(L::zero())
 }
 
+/// Of 2 (α c̄ + β |μ|) what slows the step: a viscous pair needs h/(c + 0.6 (α c + β |μ|)) (Monaghan 1992, eq. 10.5).
+const SIGNAL: f64 = 0.3;
+
 /// Π and signal with the means of sound speed and density, from the v·r that dissipates, which is not positive: μ = h v·r/(r² +
 /// 0.01 h²).
 #[inline(always)]
@@ -156,10 +159,9 @@ fn between<L: Lane, const D: usize, P: Layout>(
     // 2 (α c̄ − β μ)
     let mu = mu_over_densities * densities;
     let speed = mu.mul_add(-(beta + beta), alpha * sound_speeds);
-    // Monaghan 1992, eq. 10.5: a viscous pair needs h/(c + 0.6 (α c + β |μ|)).
     Viscous {
         pi: -(mu_over_densities * speed),
-        signal: speed * L::of(0.3),
+        signal: speed * L::of(SIGNAL),
     }
 }
 
