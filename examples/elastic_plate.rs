@@ -242,14 +242,9 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
     );
     let mut energy = Panel::new(Axis::linear("time", "s"), Axis::linear("energy", "J/m"));
     let drift = drift(&case, &energies[3]);
-    for (name, line) in [
-        "kinetic",
-        "internal",
-        "hourglass",
-        "kinetic, distortion, compression",
-    ]
-    .into_iter()
-    .zip(energies)
+    for (name, line) in ["kinetic", "internal", "hourglass", "mechanical"]
+        .into_iter()
+        .zip(energies)
     {
         energy = energy.series(Series::line(name, line));
     }

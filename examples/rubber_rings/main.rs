@@ -187,7 +187,7 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
     for panel in panels {
         figure = figure.panel(panel);
     }
-    let shares = Axis::linear("energy / energy of motion at the start", "1").from(0.0);
+    let shares = Axis::linear("energy / energy of motion at the start", "1").range(0.0, 1.5);
     figure
         .panel(
             Panel::new(Axis::linear("time", "ms"), shares)
