@@ -225,6 +225,10 @@
 //! | `progress` | no | the drawing of [`output::progress`] | `indicatif` |
 //! | `checkpoint` | no | `Simulation::save` and `Scene::resume` | `safetensors` |
 //! | `meshes` | no | shapes from STL files | `stl_io` |
+//! | `precompiled` | no | nothing but time: what runs a scene is compiled with the crate, in all dimensions and scalars, and not with each program | |
+//!
+//! With `precompiled` the crate takes a minute of two cores to compile for release, once, and a program half of its time each
+//! time that a line of it changes. It pays while one works on a program, or has several; bits are the same.
 //!
 //! Without default features the crate builds for `wasm32-unknown-unknown`, where the clock stands still.
 #![warn(missing_docs)]
@@ -240,6 +244,7 @@ pub mod kernel;
 pub mod material;
 pub mod neighbors;
 pub mod observe;
+mod once;
 pub mod output;
 mod parallel;
 pub mod particles;

@@ -7,4 +7,5 @@ mod guarantees;
 mod hard_cases;
 mod recording;
 mod robustness;
+mod solids;
 mod updated_lagrangian;

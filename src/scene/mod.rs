@@ -60,6 +60,7 @@
 pub mod advice;
 mod asleep;
 mod body;
+mod build;
 mod check;
 mod conversion;
 mod coupled;
@@ -77,20 +78,15 @@ use crate::boundary::{Boundary, Inlet, Outlet, Wall};
 use crate::coupling::Coupling;
 #[cfg(doc)]
 use crate::coupling::LiquidStructure;
-use crate::error::{BuildError, Error, Problem, Result};
 use crate::integrator::{Integrator, KickDriftKick};
-#[cfg(feature = "checkpoint")]
-use crate::output::checkpoint::Checkpoint;
 use crate::particles::Fields;
 use crate::scalar::Real;
 use crate::scheme::Scheme;
-use crate::simulation::{Awake, Event, Load, Simulation, StepControl, UniformLoad};
+use crate::simulation::{Awake, Event, Load, StepControl, UniformLoad};
 use crate::sweep::{InstructionSet, Interaction, Root};
 use exchange::ExchangeOf;
 use held::ClampOf;
 use plan::Plan;
-#[cfg(feature = "checkpoint")]
-use std::path::Path;
 use std::sync::Arc;
 
 /// A scene: bodies, boundaries, a scheme, an integrator, and how parts act on each other.
@@ -434,77 +430,6 @@ impl<T: Real, const D: usize> Scene<T, D> {
         self
     }
 
-    /// Checks the scene and makes a simulation of it.
-    ///
-    /// # Errors
-    /// [`Error::Build`] with every problem that was found.
-    pub fn build(self) -> Result<Simulation<T, D>> {
-        let fixed = self.control.fixed;
-        let mut simulation = self.lay_out()?;
-        simulation.hold_velocities();
-        simulation.put_to_sleep();
-        simulation.take_references();
-        let problems = simulation.isolated();
-        if !problems.is_empty() {
-            return Err(Error::Build(BuildError { problems }));
-        }
-        simulation.evaluate()?;
-        let vote = simulation.largest_fixed_step()?;
-        match fixed {
-            Some(step) if step > vote.step => Err(Error::Build(BuildError {
-                problems: vec![Problem::StepAboveLimit {
-                    step,
-                    limit: vote.step,
-                    criterion: vote.criterion.name(),
-                }],
-            })),
-            _ => Ok(simulation),
-        }
-    }
-
-    /// Goes on from a [checkpoint](crate::simulation#checkpoint-and-restart) of the same scene, to the same bits as if
-    /// the run had not stopped. The scene supplies what is no state: schemes, materials, motions, loads, the integrator
-    /// and how steps are chosen; the file supplies the rest. The pair loops run on the instruction set that they ran on
-    /// before, whatever [`instructions`](Self::instructions) says.
-    ///
-    /// # Errors
-    /// [`Error::File`] if the file cannot be read, [`Error::Checkpoint`] with what differs if it is cut short or
-    /// altered, or of another scene, scalar, dimension, lane width, or of instructions that this machine lacks, and
-    /// [`Error::Build`] as [`build`](Self::build).
-    #[cfg(feature = "checkpoint")]
-    pub fn resume(self, path: impl AsRef<Path>) -> Result<Simulation<T, D>> {
-        let path = path.as_ref();
-        let file = Checkpoint::read(path)?;
-        self.lay_out()?.resumed(path, &file)
-    }
-
-    /// The simulation before anything is summed.
-    fn lay_out(self) -> Result<Simulation<T, D>> {
-        let problems = self.problems();
-        if !problems.is_empty() {
-            return Err(Error::Build(BuildError { problems }));
-        }
-        let domain = self.domain();
-        let groups = self.plans().map(Plan::lay_out).collect();
-        let couples = self.couples();
-        #[cfg(feature = "checkpoint")]
-        let hashes = self.hashes();
-        let simulation = Simulation::new(
-            groups,
-            couples,
-            domain,
-            self.integrator,
-            self.control,
-            self.accelerations,
-            self.loads,
-        )
-        .with_events(self.events)
-        .awake_inside(self.awake);
-        #[cfg(feature = "checkpoint")]
-        let simulation = simulation.of_scene(hashes);
-        Ok(simulation)
-    }
-
     /// Fields of a group: those of its scheme, and those of the loads on its bodies.
     fn fields_of(&self, scheme: &Scheme<T, D>, bodies: &[Body<T, D>]) -> Fields {
         let acts = |load: &&Load<D>| bodies.iter().any(|body| load.acts_on(&body.name));
@@ -525,21 +450,6 @@ impl<T: Real, const D: usize> Scene<T, D> {
             (a == first && b == second) || (a == second && b == first)
         };
         self.contacts.iter().rfind(meant).map(|contact| contact.2)
-    }
-
-    /// The box around bodies and walls \[m\], where walls alone bound the scene.
-    fn domain(&self) -> Option<[[f64; D]; 2]> {
-        if self.walls.is_empty() || !self.inlets.is_empty() || !self.boundaries.is_empty() {
-            return None;
-        }
-        let bodies = self.bodies().flat_map(|body| &body.points);
-        let all = bodies.chain(self.walls.iter().flat_map(|wall| &wall.points));
-        let start = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
-        Some(all.fold(start, |[low, high], x| {
-            let corner =
-                |of: fn(f64, f64) -> f64, far: [f64; D]| core::array::from_fn(|d| of(far[d], x[d]));
-            [corner(f64::min, low), corner(f64::max, high)]
-        }))
     }
 }
 

@@ -6,6 +6,7 @@ use super::group::Group;
 use super::population::BodyState;
 use super::which::{Which, find};
 use crate::error::Result;
+use crate::once::once;
 use crate::particles::Field;
 use crate::scalar::Real;
 use std::borrow::Cow;
@@ -205,6 +206,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Mass, momentum and energy now, body by body and together.
     #[must_use]
     pub fn ledger(&self) -> Ledger {
+        once!(self => &Simulation, ledger_now() -> Ledger)
+    }
+
+    fn ledger_now(&self) -> Ledger {
         let mut bodies: Vec<_> = self
             .all_bodies()
             .map(|(group, body)| (body.name.clone(), Self::budget(group, body)))

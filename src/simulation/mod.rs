@@ -193,6 +193,7 @@ pub(crate) use walls::WallState;
 
 use crate::error::{Error, Result};
 use crate::integrator::Integrator;
+use crate::once::once;
 #[cfg(feature = "checkpoint")]
 use crate::output::checkpoint::Hashes;
 use crate::scalar::Real;
@@ -380,6 +381,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Between steps it changes nothing of what comes: the next step starts from the rates that the step before has
     /// left, which belong to predicted velocities (where the evaluation had to build neighbour lists, from its own).
     pub fn evaluate(&mut self) -> Result<()> {
+        once!(self => &mut Simulation, evaluate_aside() -> Result<()>)
+    }
+
+    fn evaluate_aside(&mut self) -> Result<()> {
         self.check_failure()?;
         if self.rates_at_hand && self.aside.is_none() {
             let groups = self.groups.iter().map(Group::set_aside).collect();

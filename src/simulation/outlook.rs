@@ -5,6 +5,7 @@ use super::group::Group;
 use super::{Simulation, Work, width};
 use crate::error::{Error, Problem, Result};
 use crate::neighbors::listed_around;
+use crate::once::once;
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use std::time::Duration;
@@ -79,6 +80,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// # Errors
     /// As [`run_until`](Simulation::run_until) if a rehearsed step fails, and [`Error::Argument`] if the end is not finite.
     pub fn expected_work(&mut self, end: f64) -> Result<Work> {
+        once!(self => &mut Simulation, work_to_come(end: f64) -> Result<Work>)
+    }
+
+    fn work_to_come(&mut self, end: f64) -> Result<Work> {
         if !end.is_finite() {
             return Err(Error::Argument(Problem::Parameter {
                 what: "end of the run".into(),

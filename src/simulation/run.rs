@@ -4,6 +4,7 @@
 use super::Simulation;
 use super::control::{self, Criterion, Vote};
 use crate::error::{Error, Problem, Result};
+use crate::once::once;
 use crate::scalar::Real;
 
 impl<T: Real, const D: usize> Simulation<T, D> {
@@ -20,6 +21,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// # Errors
     /// As [`run_until`](Simulation::run_until), and [`Error::Argument`] if the limit is not positive.
     pub fn step_at_most(&mut self, limit: f64) -> Result<f64> {
+        once!(self => &mut Simulation, step_within(limit: f64) -> Result<f64>)
+    }
+
+    fn step_within(&mut self, limit: f64) -> Result<f64> {
         self.check_failure()?;
         if limit.is_nan() || limit <= 0.0 {
             return Err(Error::Argument(Problem::Parameter {

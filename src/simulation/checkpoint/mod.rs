@@ -14,6 +14,7 @@ use super::energy::Work;
 use super::ledger::Impulses;
 use super::{Criterion, Simulation, Vote, width};
 use crate::error::{CheckpointProblem, Error, Result};
+use crate::once::once;
 use crate::output::checkpoint::{Checkpoint, Hashes, Read, damaged};
 use crate::scalar::Real;
 use crate::sweep::{InstructionSet, Root};
@@ -61,6 +62,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     fn put(&self) -> Checkpoint {
+        once!(self => &Simulation, put_here() -> Checkpoint)
+    }
+
+    fn put_here(&self) -> Checkpoint {
         let Self {
             groups,
             couples,

@@ -11,6 +11,7 @@ pub use limit::{Limit, LimitedBy};
 pub use report::{Indicators, Spread};
 
 use super::Simulation;
+use crate::once::once;
 use crate::scalar::Real;
 
 impl<T: Real, const D: usize> Simulation<T, D> {
@@ -44,6 +45,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// ```
     #[must_use]
     pub fn indicators(&self) -> Indicators {
+        once!(self => &Simulation, indicators_now() -> Indicators)
+    }
+
+    fn indicators_now(&self) -> Indicators {
         report::of(self)
     }
 }

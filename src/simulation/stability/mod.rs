@@ -12,6 +12,7 @@ pub use report::{Breach, Extreme, StabilityReport, StepHistory, Thresholds, Verd
 pub(super) use watch::Watch;
 
 use super::Simulation;
+use crate::once::once;
 use crate::scalar::Real;
 
 impl<T: Real, const D: usize> Simulation<T, D> {
@@ -45,6 +46,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// ```
     #[must_use]
     pub fn stability(&self) -> StabilityReport {
+        once!(self => &Simulation, stability_now() -> StabilityReport)
+    }
+
+    fn stability_now(&self) -> StabilityReport {
         report::of(self)
     }
 

@@ -1,8 +1,5 @@
 //! Solids and gases against exact solutions: rods that strike, waves, shock tubes, and what is conserved.
-//! One program, so that loops over pairs that several files use are compiled once.
-
-#[path = "../common/mod.rs"]
-mod common;
+//! Cases of several bodies and schemes among them: contact, loads, events, conversion.
 
 mod advice;
 mod asleep;

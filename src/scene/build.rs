@@ -1,0 +1,150 @@
+//! From a scene to a simulation: checked, laid out and evaluated once, or gone on with from a checkpoint.
+
+use super::Scene;
+use super::plan::Plan;
+use crate::error::{BuildError, Error, Problem, Result};
+use crate::once::once;
+#[cfg(feature = "checkpoint")]
+use crate::output::checkpoint::Checkpoint;
+use crate::scalar::Real;
+use crate::simulation::Simulation;
+#[cfg(feature = "checkpoint")]
+use std::path::Path;
+
+/// A scene, and then the simulation that was made of it: one value, so that no type of its own has to come back.
+struct Building<T: Real, const D: usize> {
+    scene: Option<Scene<T, D>>,
+    simulation: Option<Simulation<T, D>>,
+}
+
+impl<T: Real, const D: usize> Building<T, D> {
+    fn of(scene: Scene<T, D>) -> Self {
+        Self {
+            scene: Some(scene),
+            simulation: None,
+        }
+    }
+
+    fn simulation(
+        mut self,
+        make: impl FnOnce(&mut Self) -> Result<()>,
+    ) -> Result<Simulation<T, D>> {
+        make(&mut self)?;
+        Ok(self.simulation.expect("it was made"))
+    }
+
+    fn scene(&mut self) -> Scene<T, D> {
+        self.scene.take().expect("it is made once")
+    }
+
+    fn build(&mut self) -> Result<()> {
+        once!(self => &mut Building, build_here() -> Result<()>)
+    }
+
+    fn build_here(&mut self) -> Result<()> {
+        self.simulation = Some(self.scene().built()?);
+        Ok(())
+    }
+
+    #[cfg(feature = "checkpoint")]
+    fn resume(&mut self, path: &Path) -> Result<()> {
+        once!(self => &mut Building, resume_here(path: &Path) -> Result<()>)
+    }
+
+    #[cfg(feature = "checkpoint")]
+    fn resume_here(&mut self, path: &Path) -> Result<()> {
+        let file = Checkpoint::read(path)?;
+        self.simulation = Some(self.scene().lay_out()?.resumed(path, &file)?);
+        Ok(())
+    }
+}
+
+impl<T: Real, const D: usize> Scene<T, D> {
+    /// Checks the scene and makes a simulation of it.
+    ///
+    /// # Errors
+    /// [`Error::Build`] with every problem that was found.
+    pub fn build(self) -> Result<Simulation<T, D>> {
+        Building::of(self).simulation(Building::build)
+    }
+
+    fn built(self) -> Result<Simulation<T, D>> {
+        let fixed = self.control.fixed;
+        let mut simulation = self.lay_out()?;
+        simulation.hold_velocities();
+        simulation.put_to_sleep();
+        simulation.take_references();
+        let problems = simulation.isolated();
+        if !problems.is_empty() {
+            return Err(Error::Build(BuildError { problems }));
+        }
+        simulation.evaluate()?;
+        let vote = simulation.largest_fixed_step()?;
+        match fixed {
+            Some(step) if step > vote.step => Err(Error::Build(BuildError {
+                problems: vec![Problem::StepAboveLimit {
+                    step,
+                    limit: vote.step,
+                    criterion: vote.criterion.name(),
+                }],
+            })),
+            _ => Ok(simulation),
+        }
+    }
+
+    /// Goes on from a [checkpoint](crate::simulation#checkpoint-and-restart) of the same scene, to the same bits as if
+    /// the run had not stopped. The scene supplies what is no state: schemes, materials, motions, loads, the integrator
+    /// and how steps are chosen; the file supplies the rest. The pair loops run on the instruction set that they ran on
+    /// before, whatever [`instructions`](Self::instructions) says.
+    ///
+    /// # Errors
+    /// [`Error::File`] if the file cannot be read, [`Error::Checkpoint`] with what differs if it is cut short or
+    /// altered, or of another scene, scalar, dimension, lane width, or of instructions that this machine lacks, and
+    /// [`Error::Build`] as [`build`](Self::build).
+    #[cfg(feature = "checkpoint")]
+    pub fn resume(self, path: impl AsRef<Path>) -> Result<Simulation<T, D>> {
+        Building::of(self).simulation(|own| own.resume(path.as_ref()))
+    }
+
+    /// The simulation before anything is summed.
+    fn lay_out(self) -> Result<Simulation<T, D>> {
+        let problems = self.problems();
+        if !problems.is_empty() {
+            return Err(Error::Build(BuildError { problems }));
+        }
+        let domain = self.domain();
+        let groups = self.plans().map(Plan::lay_out).collect();
+        let couples = self.couples();
+        #[cfg(feature = "checkpoint")]
+        let hashes = self.hashes();
+        let simulation = Simulation::new(
+            groups,
+            couples,
+            domain,
+            self.integrator,
+            self.control,
+            self.accelerations,
+            self.loads,
+        )
+        .with_events(self.events)
+        .awake_inside(self.awake);
+        #[cfg(feature = "checkpoint")]
+        let simulation = simulation.of_scene(hashes);
+        Ok(simulation)
+    }
+
+    /// The box around bodies and walls \[m\], where walls alone bound the scene.
+    fn domain(&self) -> Option<[[f64; D]; 2]> {
+        if self.walls.is_empty() || !self.inlets.is_empty() || !self.boundaries.is_empty() {
+            return None;
+        }
+        let bodies = self.bodies().flat_map(|body| &body.points);
+        let all = bodies.chain(self.walls.iter().flat_map(|wall| &wall.points));
+        let start = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
+        Some(all.fold(start, |[low, high], x| {
+            let corner =
+                |of: fn(f64, f64) -> f64, far: [f64; D]| core::array::from_fn(|d| of(far[d], x[d]));
+            [corner(f64::min, low), corner(f64::max, high)]
+        }))
+    }
+}
