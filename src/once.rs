@@ -3,6 +3,7 @@
 
 /// Calls a method of a [`Scene`](crate::scene::Scene), or whatever else is generic over `T` and `D`: where they are compiled
 /// by one of six functions that are not generic. The method that calls knows `T` and `D`; neither may be in what comes back.
+/// The method that is called does the work wherever it is compiled, and has a name that ends in `_here`.
 ///
 /// The condition is a constant, so a program compiles one of the branches alone.
 #[cfg(all(feature = "precompiled", not(test)))]

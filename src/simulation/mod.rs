@@ -381,10 +381,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Between steps it changes nothing of what comes: the next step starts from the rates that the step before has
     /// left, which belong to predicted velocities (where the evaluation had to build neighbour lists, from its own).
     pub fn evaluate(&mut self) -> Result<()> {
-        once!(self => &mut Simulation, evaluate_aside() -> Result<()>)
+        once!(self => &mut Simulation, evaluate_here() -> Result<()>)
     }
 
-    fn evaluate_aside(&mut self) -> Result<()> {
+    fn evaluate_here(&mut self) -> Result<()> {
         self.check_failure()?;
         if self.rates_at_hand && self.aside.is_none() {
             let groups = self.groups.iter().map(Group::set_aside).collect();

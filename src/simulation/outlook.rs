@@ -80,10 +80,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// # Errors
     /// As [`run_until`](Simulation::run_until) if a rehearsed step fails, and [`Error::Argument`] if the end is not finite.
     pub fn expected_work(&mut self, end: f64) -> Result<Work> {
-        once!(self => &mut Simulation, work_to_come(end: f64) -> Result<Work>)
+        once!(self => &mut Simulation, expected_work_here(end: f64) -> Result<Work>)
     }
 
-    fn work_to_come(&mut self, end: f64) -> Result<Work> {
+    fn expected_work_here(&mut self, end: f64) -> Result<Work> {
         if !end.is_finite() {
             return Err(Error::Argument(Problem::Parameter {
                 what: "end of the run".into(),

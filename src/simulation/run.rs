@@ -21,10 +21,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// # Errors
     /// As [`run_until`](Simulation::run_until), and [`Error::Argument`] if the limit is not positive.
     pub fn step_at_most(&mut self, limit: f64) -> Result<f64> {
-        once!(self => &mut Simulation, step_within(limit: f64) -> Result<f64>)
+        once!(self => &mut Simulation, step_here(limit: f64) -> Result<f64>)
     }
 
-    fn step_within(&mut self, limit: f64) -> Result<f64> {
+    fn step_here(&mut self, limit: f64) -> Result<f64> {
         self.check_failure()?;
         if limit.is_nan() || limit <= 0.0 {
             return Err(Error::Argument(Problem::Parameter {

@@ -45,10 +45,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// ```
     #[must_use]
     pub fn indicators(&self) -> Indicators {
-        once!(self => &Simulation, indicators_now() -> Indicators)
+        once!(self => &Simulation, indicators_here() -> Indicators)
     }
 
-    fn indicators_now(&self) -> Indicators {
+    fn indicators_here(&self) -> Indicators {
         report::of(self)
     }
 }

@@ -46,10 +46,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// ```
     #[must_use]
     pub fn stability(&self) -> StabilityReport {
-        once!(self => &Simulation, stability_now() -> StabilityReport)
+        once!(self => &Simulation, stability_here() -> StabilityReport)
     }
 
-    fn stability_now(&self) -> StabilityReport {
+    fn stability_here(&self) -> StabilityReport {
         report::of(self)
     }
 
