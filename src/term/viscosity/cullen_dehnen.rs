@@ -1,9 +1,7 @@
 //! Viscosity with a coefficient for every particle, which jumps up where the flow steepens.
 //! Cullen & Dehnen 2010, with the converging-flow condition of Borrow et al. 2022.
 
-use super::{
-    ArtificialViscosity, SIGNAL, Surroundings, Switch, Viscous, between_own, closing_speed,
-};
+use super::{ArtificialViscosity, Surroundings, Switch, Viscous, between_own, closing_speed};
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
 use crate::term::{Layout, Pair, Sums, TermDoc};
@@ -21,10 +19,6 @@ use crate::term::{Layout, Pair, Sums, TermDoc};
 /// Scaled with v² it is made for shocks of Mach 1.1 and more: weaker ones, as of an impact at some
 /// metres a second, it takes for sound. Two numbers a particle, and in 2D and 3D the velocity
 /// gradient. Velocities that a scene starts with count as having just appeared.
-///
-/// The step takes α c̄ + 2 β |μ| for the signal, the slope of the dissipated α c̄ μ + β μ² over μ. With the 0.6 (α c̄ + β |μ|) of
-/// Monaghan (1992), made for α = 1, neighbours in a strong shock are stopped and turned back within a step: Noh's plateau errs by a quarter
-/// (`docs/hard-cases.md`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CullenDehnen {
     /// Largest coefficient α_max; 2.
@@ -63,16 +57,7 @@ impl<const D: usize> ArtificialViscosity<D> for CullenDehnen {
     };
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>) -> Viscous<L> {
-        let own = between_own(pair, self.beta_over_alpha);
-        // α c̄ + 2 β |μ| = 2 (α c̄ + β |μ|) − α c̄, with α = ½ (αᵢ + αⱼ).
-        let coefficients =
-            pair.i(Field::VISCOSITY_COEFFICIENT) + pair.j(Field::VISCOSITY_COEFFICIENT);
-        let sound_speeds = pair.i(Field::SOUND_SPEED) + pair.j(Field::SOUND_SPEED);
-        let linear = coefficients * sound_speeds * L::of(0.25);
-        Viscous {
-            signal: own.signal.mul_add(L::of(1.0 / SIGNAL), -linear),
-            ..own
-        }
+        between_own(pair, self.beta_over_alpha)
     }
     #[inline(always)]
     fn sums<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {

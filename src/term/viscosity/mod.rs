@@ -138,11 +138,14 @@ fn approach<L: Lane, const D: usize, P: Layout>(pair: &Pair<'_, L, D, P>) -> L {
     pair.v_dot_r.min(L::zero())
 }
 
-/// Of 2 (α c̄ + β |μ|) what slows the step: a viscous pair needs h/(c + 0.6 (α c + β |μ|)) (Monaghan 1992, eq. 10.5).
-const SIGNAL: f64 = 0.3;
+/// Of α c̄ what slows the step: a pair whose viscosity is linear needs h/(c + 0.6 α c) (Monaghan 1992, eq. 10.5).
+const LINEAR_SIGNAL: f64 = 0.6;
 
 /// Π and signal with the means of sound speed and density, from the v·r that dissipates, which is not positive: μ = h v·r/(r² +
 /// 0.01 h²).
+///
+/// The signal is 0.6 α c̄ + 2 β |μ|. The second part is the slope of the β μ² that dissipates: with the 0.6 β |μ| of Monaghan, neighbours
+/// in a strong shock of cold gas are stopped and turned back within a step, and Noh's plateau errs (`docs/hard-cases.md`).
 #[inline(always)]
 fn between<L: Lane, const D: usize, P: Layout>(
     pair: &Pair<'_, L, D, P>,
@@ -158,10 +161,11 @@ fn between<L: Lane, const D: usize, P: Layout>(
     let mu_over_densities = approach / (r2_over_h * densities);
     // 2 (α c̄ − β μ)
     let mu = mu_over_densities * densities;
-    let speed = mu.mul_add(-(beta + beta), alpha * sound_speeds);
+    let linear = alpha * sound_speeds;
+    let speed = mu.mul_add(-(beta + beta), linear);
     Viscous {
         pi: -(mu_over_densities * speed),
-        signal: speed * L::of(SIGNAL),
+        signal: linear.mul_add(L::of(0.5 * LINEAR_SIGNAL - 1.0), speed),
     }
 }
 
