@@ -958,6 +958,23 @@ fn periods_that_do_not_hold_the_body() {
         "given twice",
         "one period for each direction",
     );
+    // Points that fill a period to its ends, as those of a relaxed glass, overlap where one is at the image of another.
+    let gas = || Material::new("gas", meshfree::material::eos::IdealGas::new(1.4, 1.0));
+    let points = |last: f64| {
+        let points = (0..20).map(|k| [f64::from(k) * 0.05]).chain([[last]]);
+        let body = Body::points_of("points", gas(), points.collect(), 0.05).energy(1.0);
+        Scene::<f64, 1>::new(schemes::gas())
+            .body(body)
+            .boundary(Periodic::along(0, 0.0, 1.0))
+    };
+    assert_eq!(points(0.98).problems(), []);
+    for last in [0.99, 1.0, 1.01, 1.02] {
+        incompatible(
+            &problem(points(last)),
+            "would overlap itself",
+            "as long as the body",
+        );
+    }
 }
 
 /// As many images as it is told to make.

@@ -5,6 +5,7 @@ use super::parameter;
 use crate::error::Problem;
 use crate::geometry::Flaw;
 use crate::integrator::Integrator;
+use crate::neighbors::Cells;
 use crate::scalar::Real;
 use crate::scene::plan::Plan;
 use crate::scene::{Body, Scene};
@@ -25,11 +26,29 @@ const FARTHEST: f64 = 1e-3 / f64::EPSILON;
 /// Images that a boundary can give a particle.
 const MOST_IMAGES: usize = 64;
 
-/// Share of the spacing by which the ends of a body may come closer than a period, so that jittered lattices may.
+/// Spacings between a particle at the one end of a period and the image of one at the other, below which they are one place.
 const SEAM: f64 = 0.3;
 
 /// States that an integrator can keep.
 const MOST_STATES: usize = 64;
+
+/// Whether one of the others is nearer to one of the points than `reach`.
+fn any_within<const D: usize>(
+    points: &[[f64; D]],
+    mut others: impl Iterator<Item = [f64; D]>,
+    reach: f64,
+) -> bool {
+    let all: Vec<u32> = (0..points.len() as u32).collect();
+    let cells = Cells::build(points, &all, reach);
+    others.any(|x| {
+        let mut found = false;
+        cells.for_each_run(x.map(|x| x - reach), x.map(|x| x + reach), |run| {
+            let apart = |j: &u32| length(&(Vector::from(points[*j as usize]) - Vector::from(x)));
+            found |= run.iter().any(|j| apart(j) < reach);
+        });
+        found
+    })
+}
 
 /// What is wrong with the numbers that particles start with.
 pub(super) fn check_starts<T: Real, const D: usize>(body: &Body<T, D>) -> Option<Flaw> {
@@ -184,11 +203,24 @@ impl<T: Real, const D: usize> Scene<T, D> {
         problems: &mut Vec<Problem>,
     ) {
         for body in self.bodies() {
-            let heights = body.points.iter().map(|x| along.dot(&Vector::from(*x)));
+            let height = |x: &[f64; D]| along.dot(&Vector::from(*x));
+            let heights = body.points.iter().map(height);
             let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
                 (low.min(x), high.max(x))
             });
-            if high - low > period - SEAM * body.spacing {
+            // Points without a lattice may fill a period to its ends and a little beyond, where none is at the image of another.
+            let seam = SEAM * body.spacing;
+            let meets = || {
+                let last = |x: &&[f64; D]| height(x) > low + period - seam;
+                let images = body.points.iter().filter(last).map(|x| {
+                    let image = Vector::from(*x) - along * period;
+                    image.into()
+                });
+                let first = |x: &&[f64; D]| height(x) < high - period + seam;
+                let ends = body.points.iter().filter(first).copied();
+                any_within(&ends.collect::<Vec<_>>(), images, seam)
+            };
+            if high - low > period + seam || high - low > period - seam && meets() {
                 problems.push(Problem::Incompatible {
                         what: format!(
                             "body `{}` reaches over {} m along the {}, which is {period} m long, and would overlap itself",
