@@ -46,7 +46,7 @@ pub struct Segment {
 }
 
 /// The neighbour lists of [`CHUNK`] clusters.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub struct ChunkList {
     /// Slots of neighbours, cluster after cluster, by block inside a cluster.
     pub neighbors: Vec<u32>,
@@ -54,6 +54,22 @@ pub struct ChunkList {
     pub segments: Vec<Segment>,
     /// Where each cluster's segments start, and the end of the last.
     pub starts: Vec<u32>,
+}
+
+impl Clone for ChunkList {
+    /// With the same room to grow: a copy that steps takes the memory that the list itself would take.
+    fn clone(&self) -> Self {
+        fn roomy<V: Copy>(own: &Vec<V>) -> Vec<V> {
+            let mut copy = Vec::with_capacity(own.capacity());
+            copy.extend_from_slice(own);
+            copy
+        }
+        Self {
+            neighbors: roomy(&self.neighbors),
+            segments: roomy(&self.segments),
+            starts: roomy(&self.starts),
+        }
+    }
 }
 
 impl ChunkList {

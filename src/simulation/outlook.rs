@@ -113,7 +113,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let a_build = marks[0].lists.as_secs_f64() / first.list_builds.max(1) as f64;
         let marks = &marks[marks.len() / 2..];
         let (from, last) = (&marks[0], &marks[marks.len() - 1]);
-        // A copy has no room to grow beyond what it holds.
+        // Copies of columns have no room to grow beyond what they hold.
         let bytes = bytes.max(last.work.bytes);
         let taken = last.work.steps - from.work.steps;
         if taken == 0 {
