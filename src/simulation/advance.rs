@@ -16,7 +16,7 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
         self.evaluated = time;
         self.load_groups(time);
         for group in &mut self.groups {
-            group.evaluated_gravity = group.gravity.map(T::from_f64);
+            group.work.evaluated_gravity = group.gravity.map(T::from_f64);
         }
         self.place_structures(time, true);
         self.impulses.time = time;

@@ -73,7 +73,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             .iter()
             .fold(f64::INFINITY, |least, h| least.min(h.to_f64()));
         let least_h = if lengths.is_empty() {
-            self.smoothing_length
+            self.neighborhood.smoothing_length
         } else {
             least_h
         };
@@ -227,7 +227,7 @@ impl<T: Real, const D: usize> OnRows<T> for InChunk<'_, T, D> {
             group.particles.columns.raw(Field::SOUND_SPEED),
             group.particles.columns.raw(Field::SMOOTHING_LENGTH),
         );
-        let uniform = T::from_f64(group.smoothing_length);
+        let uniform = T::from_f64(group.neighborhood.smoothing_length);
         let h_of = |slot: usize| lengths.get(slot).copied().unwrap_or(uniform);
         let of_spacing = T::from_f64(NEAREST / group.scheme.h_over_dx);
         let support = group.scheme.kernel.support;

@@ -214,7 +214,7 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// Replaces the force on a sleeper by what leaves it at rest, and says what that gives.
     fn hold_still(&mut self, (body, id): (usize, u32), coupled: bool) -> [f64; D] {
-        let gravity = self.evaluated_gravity.map(Real::to_f64);
+        let gravity = self.work.evaluated_gravity.map(Real::to_f64);
         let mut given = [0.0; D];
         for slot in self.slots_of(body, id).rev() {
             let mass = self.particles.columns.raw(Field::MASS)[slot].to_f64();

@@ -5,6 +5,7 @@ use super::Simulation;
 use super::group::Group;
 use super::pair_images::velocity;
 use super::pair_list::PairList;
+use super::population::Particles;
 use crate::boundary::Boundary;
 use crate::coupling::{CoupledPair, Coupling};
 use crate::error::{Error, Problem, Result};
@@ -198,7 +199,7 @@ impl<T: Real, const D: usize> Couple<T, D> {
             for d in 0..D {
                 // Where a group sub-cycles, the kick is that of couplings alone.
                 let a = group.sub_cycle.as_ref().map_or_else(
-                    || group.acceleration(slot * D + d),
+                    || group.work.acceleration(mass, slot * D + d),
                     |apart| apart.forces[slot][d] / mass[slot],
                 );
                 work += force[d].to_f64() * (v[slot][d].to_f64() + 0.5 * dt * a.to_f64());
@@ -212,7 +213,7 @@ impl<T: Real, const D: usize> Couple<T, D> {
         if self.stiffness.is_nan() {
             let [a, b] = self
                 .sides
-                .map(|(group, body)| groups[group].stiffness_of(body));
+                .map(|(group, body)| stiffness_of(&groups[group].particles, body));
             self.stiffness = 2.0 / (1.0 / a + 1.0 / b);
         }
         if !self.list_serves(groups, time) {
@@ -493,14 +494,12 @@ impl<T: Real, const D: usize> Couple<T, D> {
     }
 }
 
-impl<T: Real, const D: usize> Group<T, D> {
-    /// The largest ρc² of a body \[Pa\].
-    fn stiffness_of(&self, body: usize) -> f64 {
-        let columns = &self.particles.columns;
-        let (rho, c) = (columns.raw(Field::DENSITY), columns.raw(Field::SOUND_SPEED));
-        let own = self.particles.bodies[body].slots.clone();
-        own.fold(0.0, |most: f64, slot| {
-            most.max(rho[slot].to_f64() * c[slot].to_f64().powi(2))
-        })
-    }
+/// The largest ρc² of a body \[Pa\].
+fn stiffness_of<T: Real, const D: usize>(particles: &Particles<T, D>, body: usize) -> f64 {
+    let columns = &particles.columns;
+    let (rho, c) = (columns.raw(Field::DENSITY), columns.raw(Field::SOUND_SPEED));
+    let own = particles.bodies[body].slots.clone();
+    own.fold(0.0, |most: f64, slot| {
+        most.max(rho[slot].to_f64() * c[slot].to_f64().powi(2))
+    })
 }

@@ -3,6 +3,11 @@
 
 use super::Simulation;
 use super::group::Group;
+use super::limits::{broken_effect, vote_of_effects};
+use super::population::Particles;
+use super::soundness::energy_of;
+use super::stages::Moment;
+use super::workspace::Workspace;
 use crate::error::{Error, Result};
 use crate::parallel::{GRAIN, reduce, runs};
 use crate::particles::{Field, Output};
@@ -183,7 +188,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             courant: courant.min(own) * self.integrator.stability(),
             ..self.control
         };
-        let vote = group.vote_of_effects(group.vote(&control));
+        let h = group.neighborhood.smoothing_length;
+        let vote = vote(&group.particles, &group.work, h, &control);
+        let views = group.views(Moment::of_rates());
+        let vote = vote_of_effects(&group.scheme.program, views, vote);
         if vote.step < 0.0 {
             return Err(self.broken(group, vote.particle));
         }
@@ -203,7 +211,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 particle: group.particles.ids[meeting.slot] as usize - body.ids.start,
                 speed: meeting.speed,
                 sound_speed: meeting.speed / meeting.mach,
-                position: group.position(meeting.slot),
+                position: group.particles.position(meeting.slot),
                 time: self.time,
             });
         }
@@ -231,6 +239,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let own = slot * width..(slot + 1) * width;
             worst(columns.raw(field).get(own).unwrap_or_default())
         };
+        let (v, internal) = (
+            &columns.vectors(Field::VELOCITY)[slot],
+            columns.raw(Field::ENERGY).get(slot),
+        );
+        let energy = energy_of(columns.raw(Field::MASS)[slot], v, internal);
         let signal = group.work.rates.get(Output::SIGNAL, 0, slot).to_f64();
         let candidates = [
             ("density", number(Field::DENSITY)),
@@ -244,7 +257,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 worst(&group.work.rates.vector(Output::FORCE, slot)),
             ),
             ("signal of the artificial viscosity", signal),
-            ("energy", group.energy_of(slot)),
+            ("energy", energy),
         ];
         let wrong = |&(name, value): &(&str, f64)| {
             !value.is_finite() || (name == "density" && value <= 0.0)
@@ -252,7 +265,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let (quantity, value) = candidates
             .into_iter()
             .find(wrong)
-            .or_else(|| group.broken_effect(slot))
+            .or_else(|| {
+                let mut views = group.views(Moment::of_rates());
+                let (_, view) = views.nth(group.particles.body_of(slot))?;
+                broken_effect(&group.scheme.program, &view, slot)
+            })
             .unwrap_or(candidates[0]);
         let body = &group.particles.bodies[group.particles.body_of(slot)];
         Error::NotFinite {
@@ -260,7 +277,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             value,
             body: body.name.clone(),
             particle: (group.particles.ids[slot] as usize).saturating_sub(body.ids.start),
-            position: group.position(slot),
+            position: group.particles.position(slot),
             time: self.time,
             step: self.steps,
         }
@@ -283,62 +300,65 @@ pub(super) fn least(a: Vote, b: Vote) -> Vote {
     }
 }
 
-impl<T: Real, const D: usize> Group<T, D> {
-    /// The largest stable step, and the slot that sets it; negative where a state is not finite.
-    fn vote(&self, control: &StepControl) -> Vote {
-        let columns = &self.particles.columns;
-        let (c, rho) = (columns.raw(Field::SOUND_SPEED), columns.raw(Field::DENSITY));
-        let viscosity = columns.raw(Field::DYNAMIC_VISCOSITY);
-        let (mass, h) = (
-            columns.raw(Field::MASS),
-            columns.raw(Field::SMOOTHING_LENGTH),
-        );
-        let velocity = columns.vectors(Field::VELOCITY);
-        let uniform = self.smoothing_length;
-        let gravity = Vector::<T, D>::from(self.evaluated_gravity);
-        // Of each criterion, in the order in which one wins a tie; negative where the state is not sound.
-        let limits = |slot: usize| {
-            let h = h.get(slot).map_or(uniform, |h| h.to_f64());
-            let signal = self.work.rates.get(Output::SIGNAL, 0, slot).to_f64();
-            let acoustic = control.courant * h / (c[slot].to_f64() + signal);
-            let force: Vector<T, D> = self.work.rates.vector(Output::FORCE, slot).into();
-            let a = length(&(force / mass[slot] + gravity)).to_f64();
-            let by_force = control.force * (h / a.max(f64::MIN_POSITIVE)).sqrt();
-            let speed = velocity[slot].iter().fold(0.0, |s, v| s + v.to_f64().abs());
-            let density = rho[slot].to_f64();
-            // Without sound, as in dust, other criteria limit the step.
-            let speeds = c[slot].to_f64() + signal + a + speed;
-            if !(speeds.is_finite() && !acoustic.is_nan() && density > 0.0) {
-                return [-1.0; 3];
-            }
-            let by_viscosity = viscosity.get(slot).map_or(f64::INFINITY, |mu| {
-                control.viscous * h * h * density / mu.to_f64()
-            });
-            [acoustic, by_force, by_viscosity]
-        };
-        let shortest = |slot: usize| (limits(slot).into_iter().fold(f64::INFINITY, f64::min), slot);
-        // The lower slot wins a tie, whatever the order of reduction.
-        let least = |a: (f64, usize), b: (f64, usize)| {
-            if b.0 < a.0 || (b.0 == a.0 && b.1 < a.1) {
-                b
-            } else {
-                a
-            }
-        };
-        let none = (NO_VOTE.step, NO_VOTE.particle);
-        let in_run = |_, run: Range<usize>| run.map(shortest).fold(none, least);
-        let all = runs(0..self.particles.mobile, GRAIN);
-        let (step, particle) = reduce(all, none, in_run, least);
-        if particle == NO_VOTE.particle {
-            return NO_VOTE;
+/// The largest stable step, and the slot that sets it; negative where a state is not finite. `uniform` \[m\] is the
+/// smoothing length of all where particles have none of their own.
+fn vote<T: Real, const D: usize>(
+    particles: &Particles<T, D>,
+    work: &Workspace<T, D>,
+    uniform: f64,
+    control: &StepControl,
+) -> Vote {
+    let columns = &particles.columns;
+    let (c, rho) = (columns.raw(Field::SOUND_SPEED), columns.raw(Field::DENSITY));
+    let viscosity = columns.raw(Field::DYNAMIC_VISCOSITY);
+    let (mass, h) = (
+        columns.raw(Field::MASS),
+        columns.raw(Field::SMOOTHING_LENGTH),
+    );
+    let velocity = columns.vectors(Field::VELOCITY);
+    let gravity = Vector::<T, D>::from(work.evaluated_gravity);
+    // Of each criterion, in the order in which one wins a tie; negative where the state is not sound.
+    let limits = |slot: usize| {
+        let h = h.get(slot).map_or(uniform, |h| h.to_f64());
+        let signal = work.rates.get(Output::SIGNAL, 0, slot).to_f64();
+        let acoustic = control.courant * h / (c[slot].to_f64() + signal);
+        let force: Vector<T, D> = work.rates.vector(Output::FORCE, slot).into();
+        let a = length(&(force / mass[slot] + gravity)).to_f64();
+        let by_force = control.force * (h / a.max(f64::MIN_POSITIVE)).sqrt();
+        let speed = velocity[slot].iter().fold(0.0, |s, v| s + v.to_f64().abs());
+        let density = rho[slot].to_f64();
+        // Without sound, as in dust, other criteria limit the step.
+        let speeds = c[slot].to_f64() + signal + a + speed;
+        if !(speeds.is_finite() && !acoustic.is_nan() && density > 0.0) {
+            return [-1.0; 3];
         }
-        let own = limits(particle);
-        let kinds = [Criterion::Acoustic, Criterion::Force, Criterion::Viscous];
-        let set = kinds.into_iter().zip(own).find(|(_, limit)| *limit == step);
-        Vote {
-            step,
-            criterion: set.map_or(Criterion::Fixed, |(criterion, _)| criterion),
-            particle,
+        let by_viscosity = viscosity.get(slot).map_or(f64::INFINITY, |mu| {
+            control.viscous * h * h * density / mu.to_f64()
+        });
+        [acoustic, by_force, by_viscosity]
+    };
+    let shortest = |slot: usize| (limits(slot).into_iter().fold(f64::INFINITY, f64::min), slot);
+    // The lower slot wins a tie, whatever the order of reduction.
+    let least = |a: (f64, usize), b: (f64, usize)| {
+        if b.0 < a.0 || (b.0 == a.0 && b.1 < a.1) {
+            b
+        } else {
+            a
         }
+    };
+    let none = (NO_VOTE.step, NO_VOTE.particle);
+    let in_run = |_, run: Range<usize>| run.map(shortest).fold(none, least);
+    let all = runs(0..particles.mobile, GRAIN);
+    let (step, particle) = reduce(all, none, in_run, least);
+    if particle == NO_VOTE.particle {
+        return NO_VOTE;
+    }
+    let own = limits(particle);
+    let kinds = [Criterion::Acoustic, Criterion::Force, Criterion::Viscous];
+    let set = kinds.into_iter().zip(own).find(|(_, limit)| *limit == step);
+    Vote {
+        step,
+        criterion: set.map_or(Criterion::Fixed, |(criterion, _)| criterion),
+        particle,
     }
 }

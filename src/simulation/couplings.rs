@@ -314,7 +314,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             return;
         }
         let mut rows = core::mem::take(&mut self.work.coupling);
-        self.work.spent.pairs += self.pairs_of(targets.clone());
+        self.work.spent.pairs += self.neighborhood.pairs_of(targets.clone());
         self.sum_on_walls(targets, &mut rows);
         self.work.coupling = rows;
     }
@@ -357,7 +357,7 @@ impl<T: Real, const D: usize> Structure<T, D> {
                 let mass = group.particles.columns.raw(Field::MASS)[own];
                 let force = group.work.rates.vector(Output::FORCE, own);
                 self.accelerations[at] = core::array::from_fn(|d| {
-                    (force[d] / mass + group.evaluated_gravity[d]).to_f64()
+                    (force[d] / mass + group.work.evaluated_gravity[d]).to_f64()
                 });
                 if let Some(before) = before {
                     *before = velocity;

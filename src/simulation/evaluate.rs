@@ -276,7 +276,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         sweep.pack(Pass::Rates, &input, &mut records);
         let packed = Instant::now();
         sweep.run(Pass::Rates, &input, &records, &mut rates);
-        let pairs = self.pairs_of(input.targets);
+        let pairs = self.neighborhood.pairs_of(input.targets);
         self.work.phases.packing += packed - start;
         self.work.phases.pairs += packed.elapsed();
         self.work.spent.sweeps[Stage::Rates.number()] += start.elapsed();
@@ -300,7 +300,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         let mut worked = core::mem::take(&mut self.work.worked);
         sweep.renew_mean_velocity(&self.input(), &mut records);
         sweep.run(Pass::Work, &self.input(), &records, &mut worked);
-        self.work.spent.pairs += self.pairs_of(self.input().targets);
+        self.work.spent.pairs += self.neighborhood.pairs_of(self.input().targets);
         self.work.work_records = records;
         self.work.worked = worked;
     }

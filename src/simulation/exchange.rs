@@ -86,6 +86,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             spent: self.work.spent,
             moved: core::mem::take(&mut self.work.moved),
             lengths_time: self.work.lengths_time,
+            evaluated_gravity: self.work.evaluated_gravity,
             ..Workspace::default()
         };
         if let Some(mut asleep) = self.held.asleep.take() {

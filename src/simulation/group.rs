@@ -32,8 +32,6 @@ pub(crate) struct Group<T: Real, const D: usize> {
     pub emitters: Vec<(usize, Emitter<D>)>,
     /// What the loads give \[m/s²\].
     pub gravity: [f64; D],
-    /// The same at the last evaluation.
-    pub evaluated_gravity: [T; D],
     /// The same in the frame of the wall that carries the liquid.
     pub body_force: [T; D],
     /// The scene index of each of its bodies, walls and boundaries: bodies of all groups, then walls,
@@ -45,7 +43,6 @@ pub(crate) struct Group<T: Real, const D: usize> {
     pub sub_cycle: Option<SubCycle<T, D>>,
     /// Clamped particles and rigid bodies.
     pub held: Held<D>,
-    pub smoothing_length: f64,
     pub instructions: InstructionSet,
     pub root: Root,
     pub guards: GuardCounts,
@@ -103,13 +100,11 @@ impl<T: Real, const D: usize> Group<T, D> {
             outlets: Vec::new(),
             emitters: Vec::new(),
             gravity: [0.0; D],
-            evaluated_gravity: [T::zero(); D],
             body_force: [T::zero(); D],
             indices: Vec::new(),
             is_met: false,
             sub_cycle: None,
             held: Held::default(),
-            smoothing_length,
             instructions: InstructionSet::detect(),
             root: Root::detect(),
             guards: GuardCounts::default(),
@@ -129,7 +124,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             work_records: self.work.work_records.clone(),
             records_of_rates: self.work.records_of_rates,
             first_kick: self.work.first_kick,
-            gravity: [self.gravity, self.evaluated_gravity.map(Real::to_f64)],
+            gravity: [self.gravity, self.work.evaluated_gravity.map(Real::to_f64)],
             body_force: self.body_force,
             guards: self.guards,
             limited: self.limited.clone(),
@@ -158,7 +153,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.work.records_of_rates = aside.records_of_rates;
         self.work.first_kick = aside.first_kick;
         self.gravity = aside.gravity[0];
-        self.evaluated_gravity = aside.gravity[1].map(T::from_f64);
+        self.work.evaluated_gravity = aside.gravity[1].map(T::from_f64);
         self.body_force = aside.body_force;
         self.guards = aside.guards;
         self.limited = aside.limited;
@@ -290,7 +285,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             lists: &self.neighborhood.lists,
             blocks: &self.neighborhood.blocks,
             interactions: &self.neighborhood.interactions,
-            smoothing_length: self.smoothing_length,
+            smoothing_length: self.neighborhood.smoothing_length,
             lattice_consistency_factor: self.scheme.lattice_consistency_factor,
             instructions: self.instructions,
             root: self.root,

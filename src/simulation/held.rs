@@ -268,7 +268,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             return;
         }
         let mut held = core::mem::take(&mut self.held);
-        let gravity = self.evaluated_gravity.map(Real::to_f64);
+        let gravity = self.work.evaluated_gravity.map(Real::to_f64);
         for own in &mut held.clamps {
             let pose = own
                 .motion
@@ -327,6 +327,7 @@ impl<T: Real, const D: usize> Group<T, D> {
     fn record_clamps(&mut self, coupled: bool, dt: f64) {
         self.record_sleepers(coupled, dt);
         let mut clamps = core::mem::take(&mut self.held.clamps);
+        let mass = self.particles.columns.raw(Field::MASS);
         for own in &mut clamps {
             for ((id, _), force) in own.particles.iter().zip(&own.forces[usize::from(coupled)]) {
                 let slots = self.slots_of(own.body, *id);
@@ -339,7 +340,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                     let a = if coupled {
                         T::zero()
                     } else {
-                        self.acceleration(slots.start * D + d)
+                        self.work.acceleration(mass, slots.start * D + d)
                     };
                     own.impulse[d] += dt * force[d];
                     own.work += dt * force[d] * (v[d].to_f64() + 0.5 * dt * a.to_f64());

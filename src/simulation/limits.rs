@@ -2,67 +2,74 @@
 //! Reductions have a fixed order, as those of the other criteria.
 
 use super::control::{Criterion, NO_VOTE, Vote, least};
-use super::group::Group;
-use super::stages::Moment;
+use super::population::BodyState;
+use crate::effect::{StepProgram, View};
 use crate::parallel::{GRAIN, reduce, runs};
+use crate::particles::Columns;
 use crate::scalar::Real;
 use std::ops::Range;
 
-impl<T: Real, const D: usize> Group<T, D> {
-    /// The vote, if no effect asks for a smaller step; negative where a limit is negative or no number.
-    pub(super) fn vote_of_effects(&self, mut vote: Vote) -> Vote {
-        if vote.step < 0.0 {
-            return vote;
-        }
-        for (body, state) in self.particles.bodies.iter().enumerate() {
-            let view = self.view(body, Moment::of_rates());
-            for limit in &self.scheme.program.limits {
-                let own = |slot| {
-                    let step = limit.step(&view, slot);
-                    Vote {
-                        step: if step >= 0.0 { step } else { -1.0 },
-                        criterion: Criterion::Effect(limit.name()),
-                        particle: slot,
-                    }
-                };
-                let in_run = |_, run: Range<usize>| run.map(own).fold(NO_VOTE, least);
-                vote = reduce(runs(state.slots.clone(), GRAIN), vote, in_run, least);
-            }
-        }
-        vote
+/// The vote, if no effect asks for a smaller step; negative where a limit is negative or no number.
+pub(super) fn vote_of_effects<'a, T: Real, const D: usize>(
+    program: &StepProgram<T, D>,
+    bodies: impl Iterator<Item = (&'a BodyState<T>, View<'a, T, D>)>,
+    mut vote: Vote,
+) -> Vote {
+    if vote.step < 0.0 {
+        return vote;
     }
-
-    /// Whether all that effects integrate is finite in a run of slots.
-    pub(super) fn has_sound_effects(&self, run: Range<usize>) -> bool {
-        self.scheme.program.evolved.iter().all(|own| {
-            let width = own.field.components(D);
-            let numbers =
-                &self.particles.columns.raw(own.field)[run.start * width..run.end * width];
-            // What is no number, or infinite, is not zero times itself.
-            let finite = |value: &T| *value * T::zero() == T::zero();
-            numbers.iter().fold(true, |all, value| all & finite(value))
-        })
-    }
-
-    /// A field of a particle that an effect integrates, and that is not finite, or a limit of its step that is negative
-    /// or no number.
-    pub(super) fn broken_effect(&self, slot: usize) -> Option<(&'static str, f64)> {
-        let program = &self.scheme.program;
-        let field = program.evolved.iter().find_map(|own| {
-            let width = own.field.components(D);
-            let column = self.particles.columns.raw(own.field);
-            let values = column[slot * width..(slot + 1) * width].iter();
-            let wrong = values
-                .map(|value| value.to_f64())
-                .find(|value| !value.is_finite())?;
-            Some((program.name_of(own.field).0, wrong))
-        });
-        field.or_else(|| {
-            let view = self.view(self.particles.body_of(slot), Moment::of_rates());
-            program.limits.iter().find_map(|limit| {
+    for (body, view) in bodies {
+        for limit in &program.limits {
+            let own = |slot| {
                 let step = limit.step(&view, slot);
-                (step.is_nan() || step < 0.0).then_some((limit.name(), step))
-            })
-        })
+                Vote {
+                    step: if step >= 0.0 { step } else { -1.0 },
+                    criterion: Criterion::Effect(limit.name()),
+                    particle: slot,
+                }
+            };
+            let in_run = |_, run: Range<usize>| run.map(own).fold(NO_VOTE, least);
+            vote = reduce(runs(body.slots.clone(), GRAIN), vote, in_run, least);
+        }
     }
+    vote
+}
+
+/// Whether all that effects integrate is finite in a run of slots.
+pub(super) fn are_finite<T: Real, const D: usize>(
+    program: &StepProgram<T, D>,
+    columns: &Columns<T, D>,
+    run: Range<usize>,
+) -> bool {
+    program.evolved.iter().all(|own| {
+        let width = own.field.components(D);
+        let numbers = &columns.raw(own.field)[run.start * width..run.end * width];
+        // What is no number, or infinite, is not zero times itself.
+        let finite = |value: &T| *value * T::zero() == T::zero();
+        numbers.iter().fold(true, |all, value| all & finite(value))
+    })
+}
+
+/// A field of a particle that an effect integrates, and that is not finite, or a limit of its step that is negative
+/// or no number; seen with what is around it.
+pub(super) fn broken_effect<T: Real, const D: usize>(
+    program: &StepProgram<T, D>,
+    view: &View<'_, T, D>,
+    slot: usize,
+) -> Option<(&'static str, f64)> {
+    let field = program.evolved.iter().find_map(|own| {
+        let width = own.field.components(D);
+        let column = view.columns.raw(own.field);
+        let values = column[slot * width..(slot + 1) * width].iter();
+        let wrong = values
+            .map(|value| value.to_f64())
+            .find(|value| !value.is_finite())?;
+        Some((program.name_of(own.field).0, wrong))
+    });
+    field.or_else(|| {
+        program.limits.iter().find_map(|limit| {
+            let step = limit.step(view, slot);
+            (step.is_nan() || step < 0.0).then_some((limit.name(), step))
+        })
+    })
 }

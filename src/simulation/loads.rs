@@ -33,7 +33,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             value,
             body: body.name.clone(),
             particle: group.particles.ids[slot] as usize - body.ids.start,
-            position: group.position(slot),
+            position: group.particles.position(slot),
             time,
         })
     }
@@ -44,16 +44,17 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let (mut momentum, mut work) = ([0.0; D], 0.0);
         for (group, body) in self.bodies_that_step(alone) {
             let columns = &group.particles.columns;
+            let masses = columns.raw(Field::MASS);
             let loads = columns.vectors(Field::LOAD_ACCELERATION);
             if loads.is_empty() {
                 continue;
             }
             for slot in body.slots.clone() {
-                let mass = columns.raw(Field::MASS)[slot].to_f64();
+                let mass = masses[slot].to_f64();
                 let v = columns.vectors(Field::VELOCITY)[slot];
                 for d in 0..D {
                     let given = dt * mass * loads[slot][d].to_f64();
-                    let a = group.acceleration(slot * D + d).to_f64();
+                    let a = group.work.acceleration(masses, slot * D + d).to_f64();
                     momentum[d] += given;
                     work += given * (v[d].to_f64() + 0.5 * dt * a);
                 }

@@ -11,6 +11,7 @@ use crate::particles::Field;
 use crate::scalar::Real;
 use crate::sweep::{Image, InstructionSet, Interaction, Transform};
 use crate::tensor::{Vector, length};
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Neighbour lists of a group and the images in them.
@@ -157,7 +158,7 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
     pub fn remember(
         &mut self,
         particles: &Particles<T, D>,
-        walls: impl Iterator<Item = std::ops::Range<usize>>,
+        walls: impl Iterator<Item = Range<usize>>,
     ) {
         self.listed.clear();
         self.listed
@@ -199,6 +200,12 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
             skin: self.skin,
             instructions,
         });
+    }
+
+    /// The pairs of a sweep over these slots.
+    pub fn pairs_of(&self, slots: Range<usize>) -> u64 {
+        let width = width::<T>();
+        (width * self.lists.entries_of(slots, width)) as u64
     }
 
     /// Bytes held.

@@ -2,11 +2,14 @@
 //! List builds, which first steps may not show, follow from speeds and accelerations.
 
 use super::group::Group;
+use super::neighborhood::Neighborhood;
+use super::population::Particles;
+use super::workspace::Workspace;
 use super::{Simulation, Work, width};
 use crate::error::{Error, Problem, Result};
 use crate::neighbors::listed_around;
 use crate::once::once;
-use crate::particles::{Field, Output};
+use crate::particles::Field;
 use crate::scalar::Real;
 use std::time::Duration;
 
@@ -127,8 +130,22 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let over =
             |count: fn(&Work) -> u64| (count(&last.work) - count(&from.work)) as f64 / taken as f64;
         let step = (last.time - from.time) / taken as f64;
+        let evaluations = over(|work| work.evaluations);
         let ahead = |group: &Group<T, D>| {
-            group.builds_ahead(step, end - begin, over(|work| work.evaluations))
+            let (particles, neighborhood) = (&group.particles, &group.neighborhood);
+            let a_step = if group.scheme.density.keeps_neighbors() {
+                0.0
+            } else {
+                builds_a_step(
+                    particles,
+                    &group.work,
+                    neighborhood.skin,
+                    (step, end - begin),
+                )
+            };
+            let spacings = particles.bodies.iter().map(|body| body.spacing);
+            let largest = spacings.fold(f64::MIN_POSITIVE, f64::max);
+            Builds::ahead(neighborhood, largest, a_step, evaluations)
         };
         let builds: Vec<_> = self.groups.iter().map(ahead).collect();
         let seen = last.work.list_builds - from.work.list_builds;
@@ -150,7 +167,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         Ok(Work {
             particles: last.work.particles,
             steps: steps.round() as u64,
-            evaluations: count(over(|work| work.evaluations)),
+            evaluations: count(evaluations),
             list_builds: count(a_step),
             pairs: count(over(|work| work.pairs) * longer),
             bytes: bytes + builds.iter().map(|own| own.more).sum::<usize>(),
@@ -191,66 +208,65 @@ impl Spent {
     }
 }
 
-impl<T: Real, const D: usize> Group<T, D> {
-    /// The largest spacing of its bodies \[m\].
-    fn spacing(&self) -> f64 {
-        let bodies = self.particles.bodies.iter();
-        bodies.fold(f64::MIN_POSITIVE, |most, body| most.max(body.spacing))
-    }
-
-    /// List builds of steps of `step` \[s\] with so many evaluations, over `time` \[s\].
-    fn builds_ahead(&self, step: f64, time: f64, evaluations: f64) -> Builds {
-        let mut builds = Builds {
-            a_step: self.builds_a_step(step, time),
+impl Builds {
+    /// In steps with so many evaluations, of which so many build lists as these are, with bodies of `spacing` \[m\].
+    fn ahead<T: Real, const D: usize>(
+        neighborhood: &Neighborhood<T, D>,
+        spacing: f64,
+        a_step: f64,
+        evaluations: f64,
+    ) -> Self {
+        let mut builds = Self {
+            a_step,
             longer: 1.0,
             more: 0,
         };
         // Lists that last for few evaluations get the thick skin, which lasts longer.
-        let [thin, thick] = self.neighborhood.skins;
-        let is_thin = self.neighborhood.skin < thick;
+        let [thin, thick] = neighborhood.skins;
+        let is_thin = neighborhood.skin < thick;
         if is_thin && builds.a_step * SHORT > evaluations.max(1.0) {
-            let reach = self.scheme.kernel.support * self.smoothing_length;
-            let listed =
-                |skin: f64| listed_around(D, (reach + skin) / self.spacing(), width::<T>());
+            let reach = neighborhood.support * neighborhood.smoothing_length;
+            let listed = |skin: f64| listed_around(D, (reach + skin) / spacing, width::<T>());
             builds.a_step *= thin / thick;
             builds.longer = listed(thick) / listed(thin);
-            let bytes = self.neighborhood.lists.bytes() as f64;
+            let bytes = neighborhood.lists.bytes() as f64;
             builds.more = ((builds.longer - 1.0).max(0.0) * bytes) as usize;
         }
         builds
     }
+}
 
-    /// List builds a step, when the fastest particle speeds up as all do in the mean now for `time` \[s\], up to a tenth of its sound.
-    fn builds_a_step(&self, step: f64, time: f64) -> f64 {
-        if self.scheme.density.keeps_neighbors() {
-            return 0.0;
-        }
-        let columns = &self.particles.columns;
-        let (v, c) = (
-            columns.vectors(Field::VELOCITY),
-            columns.raw(Field::SOUND_SPEED),
-        );
-        let mass = columns.raw(Field::MASS);
-        let length = |vector: &[T; D]| {
-            let square = vector.iter().map(|own| own.to_f64().powi(2));
-            square.sum::<f64>().sqrt()
-        };
-        let (mut speed, mut acceleration, mut sound) = (0.0_f64, 0.0_f64, 0.0_f64);
-        for slot in 0..self.particles.mobile {
-            let force = self.work.rates.vector(Output::FORCE, slot);
-            let a: [T; D] =
-                core::array::from_fn(|d| force[d] / mass[slot] + self.evaluated_gravity[d]);
-            speed = speed.max(length(&v[slot]));
-            acceleration += length(&a);
-            sound = sound.max(c[slot].to_f64());
-        }
-        // The mean, for what a free face begins with does not last.
-        acceleration /= self.particles.mobile.max(1) as f64;
-        let most = speed.max(MACH * sound);
-        // The mean of a speed that grows from the one and stays at the other.
-        let until = ((most - speed) / acceleration.max(f64::MIN_POSITIVE)).min(time);
-        let reached = (speed + acceleration * until).min(most);
-        let mean = reached - 0.5 * (reached - speed) * until / time.max(f64::MIN_POSITIVE);
-        (2.0 * mean * step / self.neighborhood.skin).min(1.0)
+/// List builds a step of `step` \[s\], when the fastest particle speeds up as all do in the mean now for `time` \[s\], up to a
+/// tenth of its sound, and may go as far as `skin` \[m\].
+fn builds_a_step<T: Real, const D: usize>(
+    particles: &Particles<T, D>,
+    work: &Workspace<T, D>,
+    skin: f64,
+    (step, time): (f64, f64),
+) -> f64 {
+    let columns = &particles.columns;
+    let (v, c) = (
+        columns.vectors(Field::VELOCITY),
+        columns.raw(Field::SOUND_SPEED),
+    );
+    let mass = columns.raw(Field::MASS);
+    let length = |vector: &[T; D]| {
+        let square = vector.iter().map(|own| own.to_f64().powi(2));
+        square.sum::<f64>().sqrt()
+    };
+    let (mut speed, mut acceleration, mut sound) = (0.0_f64, 0.0_f64, 0.0_f64);
+    for slot in 0..particles.mobile {
+        let a: [T; D] = core::array::from_fn(|d| work.acceleration(mass, slot * D + d));
+        speed = speed.max(length(&v[slot]));
+        acceleration += length(&a);
+        sound = sound.max(c[slot].to_f64());
     }
+    // The mean, for what a free face begins with does not last.
+    acceleration /= particles.mobile.max(1) as f64;
+    let most = speed.max(MACH * sound);
+    // The mean of a speed that grows from the one and stays at the other.
+    let until = ((most - speed) / acceleration.max(f64::MIN_POSITIVE)).min(time);
+    let reached = (speed + acceleration * until).min(most);
+    let mean = reached - 0.5 * (reached - speed) * until / time.max(f64::MIN_POSITIVE);
+    (2.0 * mean * step / skin).min(1.0)
 }

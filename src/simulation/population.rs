@@ -76,6 +76,12 @@ impl<T: Real, const D: usize> Particles<T, D> {
         self.bodies.iter().map(|body| body.slots.len()).sum()
     }
 
+    /// Place \[m\] of the particle in a slot.
+    pub fn position(&self, slot: usize) -> Vec<f64> {
+        let x = self.columns.vectors(Field::POSITION)[slot];
+        x.iter().map(|x| x.to_f64()).collect()
+    }
+
     /// The body of a slot.
     pub fn body_of(&self, slot: usize) -> usize {
         self.bodies

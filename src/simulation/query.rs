@@ -57,8 +57,13 @@ impl<T: Real, const D: usize> ParticleView<'_, T, D> {
         }
         let apart = self.group.sub_cycle.as_ref();
         let coupled = apart.and_then(|apart| apart.forces.get(self.slot));
+        let mass = self.group.particles.columns.raw(Field::MASS);
         core::array::from_fn(|d| {
-            let own = self.group.acceleration(self.slot * D + d).to_f64();
+            let own = self
+                .group
+                .work
+                .acceleration(mass, self.slot * D + d)
+                .to_f64();
             own + coupled.map_or(0.0, |force| force[d].to_f64() / self.mass())
         })
     }
@@ -95,7 +100,7 @@ impl<T: Real, const D: usize> ParticleView<'_, T, D> {
     #[must_use]
     pub fn smoothing_length(&self) -> f64 {
         self.scalar(Field::SMOOTHING_LENGTH)
-            .unwrap_or(self.group.smoothing_length)
+            .unwrap_or(self.group.neighborhood.smoothing_length)
     }
 }
 
@@ -328,14 +333,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub fn smoothing_length(&self) -> f64 {
         self.observed()
             .next()
-            .map_or(0.0, |group| group.smoothing_length)
+            .map_or(0.0, |group| group.neighborhood.smoothing_length)
     }
 
     /// How far the kernel of that group reaches \[m\].
     pub(crate) fn reach(&self) -> f64 {
         let group = self.observed().next();
         group.map_or(0.0, |group| {
-            group.scheme.kernel.support * group.smoothing_length
+            group.scheme.kernel.support * group.neighborhood.smoothing_length
         })
     }
 

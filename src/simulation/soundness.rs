@@ -2,10 +2,12 @@
 //! Looked at after every step, the last of a run included.
 
 use super::Simulation;
-use super::group::Group;
+use super::limits::are_finite;
+use super::population::Particles;
+use crate::effect::StepProgram;
 use crate::error::{Error, Problem, Result};
 use crate::parallel::{GRAIN, reduce, runs};
-use crate::particles::Field;
+use crate::particles::{Columns, Field};
 use crate::scalar::Real;
 use std::ops::Range;
 
@@ -21,9 +23,11 @@ const JUMP: f64 = 0.5;
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// Refuses a state in which a number is not finite.
     pub(super) fn check_state(&mut self) -> Result<()> {
-        self.groups.iter_mut().for_each(Group::count_energies);
+        for group in &mut self.groups {
+            group.count(NEGATIVE_ENERGY, negative_energies(&group.particles));
+        }
         for group in &self.groups {
-            if let Some(slot) = group.unsound() {
+            if let Some(slot) = unsound(&group.particles, &group.scheme.program) {
                 return Err(self.broken(group, slot));
             }
         }
@@ -46,7 +50,15 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Particles without neighbours, where density is measured from the reference configuration: one for each body.
     pub(crate) fn isolated(&self) -> Vec<Problem> {
-        self.groups.iter().flat_map(Group::isolated).collect()
+        let measured = self.groups.iter().filter(|group| {
+            group.scheme.density.has_reference() && group.scheme.consistent_at_rest
+        });
+        measured
+            .flat_map(|group| {
+                let reach = group.scheme.kernel.support * group.neighborhood.smoothing_length;
+                isolated(&group.particles, reach)
+            })
+            .collect()
     }
 
     /// Refuses a step of `dt` \[s\] in which a wall moves beside its own velocity, as one that jumps does.
@@ -82,102 +94,89 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 }
 
-impl<T: Real, const D: usize> Group<T, D> {
-    /// Place \[m\] of the particle in a slot.
-    pub(super) fn position(&self, slot: usize) -> Vec<f64> {
-        let x = self.particles.columns.vectors(Field::POSITION)[slot];
-        x.iter().map(|x| x.to_f64()).collect()
-    }
-
-    /// Kinetic and internal energy \[J\] of the particle in a slot.
-    pub(super) fn energy_of(&self, slot: usize) -> f64 {
-        let columns = &self.particles.columns;
-        let v = &columns.vectors(Field::VELOCITY)[slot];
-        let internal = columns.raw(Field::ENERGY).get(slot);
-        energy_of(columns.raw(Field::MASS)[slot], v, internal)
-    }
-
-    /// The first particle of each body that has no neighbours, if that takes its density away.
-    fn isolated(&self) -> Vec<Problem> {
-        let moments = self.particles.columns.raw(Field::CONSISTENCY_FACTOR);
-        let measured = self.scheme.density.has_reference() && self.scheme.consistent_at_rest;
-        let alone = |slot: &usize| {
-            let moment = moments.get(*slot).map_or(1.0, |moment| moment.to_f64());
-            measured && moment <= ALONE
-        };
-        let first = |body: &super::BodyState<T>| {
-            let slot = body.slots.clone().find(alone)?;
-            Some(Problem::Isolated {
-                body: body.name.clone(),
-                particle: self.particles.ids[slot] as usize - body.ids.start,
-                position: self.position(slot),
-                reach: self.scheme.kernel.support * self.smoothing_length,
-            })
-        };
-        self.particles.bodies.iter().filter_map(first).collect()
-    }
-
-    /// Counts gas whose internal energy is negative, in particle steps: its law takes it as none
-    /// ([`IdealGas::minimum_energy`](crate::material::eos::IdealGas::minimum_energy)), and the ledger as it is.
-    fn count_energies(&mut self) {
-        let energy = self.particles.columns.raw(Field::ENERGY);
-        let mut negative = 0;
-        for body in &self.particles.bodies {
-            let own = energy.get(body.slots.clone()).unwrap_or_default();
-            if !own.is_empty() && body.material.is_gas() {
-                let below = |_, run: Range<usize>| {
-                    let energies = own[run].iter();
-                    energies.filter(|energy| **energy < T::zero()).count() as u64
-                };
-                let all = runs(0..own.len(), GRAIN);
-                negative = reduce(all, negative, below, |a, b| a + b);
-            }
-        }
-        self.count(NEGATIVE_ENERGY, negative);
-    }
-
-    /// The first slot whose state is not finite, or whose density is not positive.
-    fn unsound(&self) -> Option<usize> {
-        self.particles.bodies.iter().find_map(|body| {
-            let unsound = |_, run: Range<usize>| {
-                // Nearly always all are sound, and nobody asks which is not.
-                if self.is_sound(run.clone()) {
-                    return usize::MAX;
-                }
-                let mut slots = run.into_iter();
-                let first = slots.find(|&slot| !self.is_sound(slot..slot + 1));
-                first.unwrap_or(usize::MAX)
-            };
-            let chunks = runs(body.slots.clone(), GRAIN);
-            let first = reduce(chunks, usize::MAX, unsound, usize::min);
-            (first < usize::MAX).then_some(first)
-        })
-    }
-
-    /// Whether place, density, energy and what effects integrate are finite in all of a run, and densities positive.
-    fn is_sound(&self, run: Range<usize>) -> bool {
-        let columns = &self.particles.columns;
-        let [x, v] =
-            [Field::POSITION, Field::VELOCITY].map(|field| &columns.vectors(field)[run.clone()]);
-        let [density, mass] =
-            [Field::DENSITY, Field::MASS].map(|field| &columns.raw(field)[run.clone()]);
-        let internal = columns
-            .raw(Field::ENERGY)
-            .get(run.clone())
-            .unwrap_or_default();
-        let mut sound = true;
-        for (n, density) in density.iter().enumerate() {
-            let energy = energy_of(mass[n], &v[n], internal.get(n));
-            let place: f64 = x[n].iter().map(|x| x.to_f64()).sum();
-            let density = density.to_f64();
-            sound &= (place + density + energy).is_finite() && density > 0.0;
-        }
-        sound && self.has_sound_effects(run)
-    }
-}
-
 /// Kinetic and internal energy \[J\], by mass \[kg\], velocity \[m/s\] and specific internal energy \[J/kg\].
-fn energy_of<T: Real, const D: usize>(mass: T, v: &[T; D], internal: Option<&T>) -> f64 {
+pub(super) fn energy_of<T: Real, const D: usize>(mass: T, v: &[T; D], internal: Option<&T>) -> f64 {
     let internal = internal.map_or(0.0, |energy| energy.to_f64());
     mass.to_f64() * (0.5 * v.iter().map(|v| v.to_f64().powi(2)).sum::<f64>() + internal)
+}
+
+/// The first particle of each body that has no neighbours, by its moment at rest; `reach` \[m\] is how far it looks.
+fn isolated<T: Real, const D: usize>(
+    particles: &Particles<T, D>,
+    reach: f64,
+) -> impl Iterator<Item = Problem> {
+    let moments = particles.columns.raw(Field::CONSISTENCY_FACTOR);
+    let alone = |slot: &usize| {
+        let moment = moments.get(*slot).map_or(1.0, |moment| moment.to_f64());
+        moment <= ALONE
+    };
+    particles.bodies.iter().filter_map(move |body| {
+        let slot = body.slots.clone().find(alone)?;
+        Some(Problem::Isolated {
+            body: body.name.clone(),
+            particle: particles.ids[slot] as usize - body.ids.start,
+            position: particles.position(slot),
+            reach,
+        })
+    })
+}
+
+/// How many particles of gas have a negative internal energy: its law takes it as none
+/// ([`IdealGas::minimum_energy`](crate::material::eos::IdealGas::minimum_energy)), and the ledger as it is.
+fn negative_energies<T: Real, const D: usize>(particles: &Particles<T, D>) -> u64 {
+    let energy = particles.columns.raw(Field::ENERGY);
+    let mut negative = 0;
+    for body in &particles.bodies {
+        let own = energy.get(body.slots.clone()).unwrap_or_default();
+        if !own.is_empty() && body.material.is_gas() {
+            let below = |_, run: Range<usize>| {
+                let energies = own[run].iter();
+                energies.filter(|energy| **energy < T::zero()).count() as u64
+            };
+            let all = runs(0..own.len(), GRAIN);
+            negative = reduce(all, negative, below, |a, b| a + b);
+        }
+    }
+    negative
+}
+
+/// The first slot whose state is not finite, or whose density is not positive.
+fn unsound<T: Real, const D: usize>(
+    particles: &Particles<T, D>,
+    program: &StepProgram<T, D>,
+) -> Option<usize> {
+    let sound = |run: Range<usize>| {
+        is_sound(&particles.columns, run.clone()) && are_finite(program, &particles.columns, run)
+    };
+    particles.bodies.iter().find_map(|body| {
+        let unsound = |_, run: Range<usize>| {
+            // Nearly always all are sound, and nobody asks which is not.
+            if sound(run.clone()) {
+                return usize::MAX;
+            }
+            let mut slots = run.into_iter();
+            let first = slots.find(|&slot| !sound(slot..slot + 1));
+            first.unwrap_or(usize::MAX)
+        };
+        let chunks = runs(body.slots.clone(), GRAIN);
+        let first = reduce(chunks, usize::MAX, unsound, usize::min);
+        (first < usize::MAX).then_some(first)
+    })
+}
+
+/// Whether place, density and energy are finite in all of a run, and densities positive.
+fn is_sound<T: Real, const D: usize>(columns: &Columns<T, D>, run: Range<usize>) -> bool {
+    let [x, v] =
+        [Field::POSITION, Field::VELOCITY].map(|field| &columns.vectors(field)[run.clone()]);
+    let [density, mass] =
+        [Field::DENSITY, Field::MASS].map(|field| &columns.raw(field)[run.clone()]);
+    let internal = columns.raw(Field::ENERGY).get(run).unwrap_or_default();
+    let mut sound = true;
+    for (n, density) in density.iter().enumerate() {
+        let energy = energy_of(mass[n], &v[n], internal.get(n));
+        let place: f64 = x[n].iter().map(|x| x.to_f64()).sum();
+        let density = density.to_f64();
+        sound &= (place + density + energy).is_finite() && density > 0.0;
+    }
+    sound
 }

@@ -75,8 +75,11 @@ impl<T: Real, const D: usize> Group<T, D> {
             let packed = Instant::now();
             sweep.run(Pass::Rates, &input, &records, &mut sums);
             let pairs = match among {
-                Some(runs) => runs.iter().map(|run| self.pairs_of(run.clone())).sum(),
-                None => self.pairs_of(input.targets),
+                Some(runs) => runs
+                    .iter()
+                    .map(|run| self.neighborhood.pairs_of(run.clone()))
+                    .sum(),
+                None => self.neighborhood.pairs_of(input.targets),
             };
             self.work.phases.packing += packed - start;
             self.work.phases.pairs += packed.elapsed();
@@ -183,7 +186,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                 rates: &self.work.rates,
                 material: &body.material,
                 wall: None,
-                smoothing_length: self.smoothing_length,
+                smoothing_length: self.neighborhood.smoothing_length,
                 lattice_consistency_factor: self.scheme.lattice_consistency_factor,
                 dt: moment.dt,
                 time: moment.time,
@@ -244,7 +247,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                 rates: &self.work.rates,
                 material: &body.material,
                 wall: Some(&surface),
-                smoothing_length: self.smoothing_length,
+                smoothing_length: self.neighborhood.smoothing_length,
                 lattice_consistency_factor: self.scheme.lattice_consistency_factor,
                 dt: 0.0,
                 time,

@@ -3,6 +3,7 @@
 
 use super::evolve::{RATES, add, add_scaled, rates, update};
 use super::group::Group;
+use super::population::BodyState;
 use super::stages::Moment;
 use super::workspace::Saved;
 use crate::effect::{Around, Evolved, View, When};
@@ -38,7 +39,7 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// x ← x + da a with the accelerations of the last evaluation.
     pub(super) fn move_by_rates(&mut self, da: f64) {
-        let gravity = self.evaluated_gravity;
+        let gravity = self.work.evaluated_gravity;
         let da = T::from_f64(da);
         let rates = &self.work.rates;
         let [x, residual, mass] = self.particles.columns.many_mut([
@@ -83,7 +84,7 @@ impl<T: Real, const D: usize> Group<T, D> {
     /// The mean velocities v + a dt/2 and accelerations of a kick of which this is `half` the time \[s\].
     fn set_mean_velocities(&mut self, half: f64) {
         let half = T::from_f64(half);
-        let gravity = self.evaluated_gravity;
+        let gravity = self.work.evaluated_gravity;
         let rates = &self.work.rates;
         let [mean, acceleration, v, mass] = self.particles.columns.many_mut([
             Field::MEAN_VELOCITY,
@@ -118,7 +119,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
         let after = first + half;
         let (half, tau) = (T::from_f64(half), T::from_f64(after));
-        let gravity = self.evaluated_gravity;
+        let gravity = self.work.evaluated_gravity;
         let rates = &self.work.rates;
         let columns = &self.particles.columns;
         let [mean, accelerations, v] = [
@@ -151,7 +152,7 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// v ← v + dt a, and what else is kicked, but no energy.
     pub(super) fn kick(&mut self, dt: f64) {
-        let gravity = self.evaluated_gravity;
+        let gravity = self.work.evaluated_gravity;
         let step = T::from_f64(dt);
         let (rates, mobile) = (&self.work.rates, self.particles.mobile);
         let [v, mass] = self
@@ -195,8 +196,8 @@ impl<T: Real, const D: usize> Group<T, D> {
             };
             let width = own.field.components(D);
             let mut limited = 0;
-            for (body, state) in self.particles.bodies.iter().enumerate() {
-                let (run, view) = (state.run(), self.view(body, moment));
+            for (body, view) in self.views(moment) {
+                let run = body.run();
                 let numbers = run.start * width..run.end * width;
                 let lost = residual.get_mut(numbers.clone()).unwrap_or_default();
                 let values = (&mut column[numbers], lost);
@@ -211,27 +212,32 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
     }
 
-    /// The columns and what is around the particles of a body.
-    pub(super) fn view(&self, body: usize, moment: Moment) -> View<'_, T, D> {
-        View {
-            columns: &self.particles.columns,
-            around: Around {
-                sums: if moment.of_rates {
-                    &self.work.rates
-                } else {
-                    &self.work.sums
-                },
+    /// Bodies, with the columns and what is around their particles.
+    pub(super) fn views(
+        &self,
+        moment: Moment,
+    ) -> impl Iterator<Item = (&BodyState<T>, View<'_, T, D>)> {
+        let sums = if moment.of_rates {
+            &self.work.rates
+        } else {
+            &self.work.sums
+        };
+        self.particles.bodies.iter().map(move |body| {
+            let around = Around {
+                sums,
                 rates: &self.work.rates,
-                material: &self.particles.bodies[body].material,
+                material: &body.material,
                 wall: None,
-                smoothing_length: self.smoothing_length,
+                smoothing_length: self.neighborhood.smoothing_length,
                 lattice_consistency_factor: self.scheme.lattice_consistency_factor,
                 dt: moment.dt,
                 time: moment.time,
                 gravity: self.gravity,
                 in_drift: moment.in_drift,
-            },
-        }
+            };
+            let columns = &self.particles.columns;
+            (body, View { columns, around })
+        })
     }
 
     /// e ← e + dt P/m with P from the rates, or from the work of the first kick, `later` \[s\] after its middle.
@@ -349,10 +355,11 @@ impl<T: Real, const D: usize> Group<T, D> {
         let (a_t, b_t, dt_t) = (T::from_f64(a), T::from_f64(b), T::from_f64(dt));
         let before = of(Field::VELOCITY).unwrap_or_default();
         let mut v = self.take(Field::VELOCITY);
+        let (work, mass) = (&self.work, self.particles.columns.raw(Field::MASS));
         for_each(cut(&mut v, GRAIN), |piece, v| {
             for (n, v) in v.iter_mut().enumerate() {
                 let k = piece * GRAIN + n;
-                *v = a_t * before[k] + b_t * *v + dt_t * self.acceleration(k);
+                *v = a_t * before[k] + b_t * *v + dt_t * work.acceleration(mass, k);
             }
         });
         *self.particles.columns.column_mut(Field::VELOCITY) = v;
@@ -396,9 +403,10 @@ impl<T: Real, const D: usize> Group<T, D> {
         };
         let v = self.particles.columns.raw(Field::VELOCITY);
         add_scaled(position, residual, v, dt_t);
+        let (work, mass) = (&self.work, self.particles.columns.raw(Field::MASS));
         for_each(cut(velocity, GRAIN), |piece, saved| {
             for (n, saved) in saved.iter_mut().enumerate() {
-                *saved += dt_t * self.acceleration(piece * GRAIN + n);
+                *saved += dt_t * work.acceleration(mass, piece * GRAIN + n);
             }
         });
         let scheme = self.scheme.clone();
@@ -428,8 +436,8 @@ impl<T: Real, const D: usize> Group<T, D> {
         let width = own.field.components(D);
         let piece = RATES / width * width;
         let mut buffer = [T::zero(); RATES];
-        for (body, state) in self.particles.bodies.iter().enumerate() {
-            let (run, view) = (state.run(), self.view(body, Moment::of_rates()));
+        for (body, view) in self.views(Moment::of_rates()) {
+            let run = body.run();
             let numbers = &mut column[run.start * width..run.end * width];
             for (k, values) in numbers.chunks_mut(piece).enumerate() {
                 let first = run.start * width + k * piece;
@@ -439,14 +447,6 @@ impl<T: Real, const D: usize> Group<T, D> {
                 }
             }
         }
-    }
-
-    /// Component `k` of the column of accelerations.
-    #[inline(always)]
-    pub(super) fn acceleration(&self, k: usize) -> T {
-        let (slot, d) = (k / D, k % D);
-        let mass = self.particles.columns.raw(Field::MASS)[slot];
-        self.work.rates.get(Output::FORCE, d, slot) / mass + self.evaluated_gravity[d]
     }
 
     /// Brings saved states into the order of the particles after a list build, and through the boundaries that

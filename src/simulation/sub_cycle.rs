@@ -218,7 +218,7 @@ impl<T: Real, const D: usize> System for Alone<'_, T, D> {
         let gravity = self.simulation.body_acceleration(time);
         let group = self.own();
         group.gravity = gravity;
-        group.evaluated_gravity = gravity.map(T::from_f64);
+        group.work.evaluated_gravity = gravity.map(T::from_f64);
         group.evaluate(time, elapsed);
         self.simulation.follow_moves(self.group);
         self.simulation.apply_loads(self.group, time)?;

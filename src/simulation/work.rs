@@ -2,9 +2,7 @@
 //! Sweeps count what their lists hold, so a number of pairs is the same on any machine and number of threads.
 
 use super::Simulation;
-use super::group::{Group, width};
 use crate::scalar::Real;
-use core::ops::Range;
 use std::time::Duration;
 
 /// What a run has done so far.
@@ -25,14 +23,6 @@ pub struct Work {
     pub bytes: usize,
     /// Time of all steps.
     pub time: Duration,
-}
-
-impl<T: Real, const D: usize> Group<T, D> {
-    /// The pairs of a sweep over these slots.
-    pub(super) fn pairs_of(&self, slots: Range<usize>) -> u64 {
-        let width = width::<T>();
-        (width * self.neighborhood.lists.entries_of(slots, width)) as u64
-    }
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {

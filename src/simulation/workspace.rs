@@ -5,7 +5,7 @@ use super::Phases;
 use super::cost::Spent;
 use super::population::Moves;
 use super::settle::Settling;
-use crate::particles::Field;
+use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::sweep::{Records, Results};
 
@@ -22,6 +22,8 @@ pub(crate) struct Workspace<T: Real, const D: usize> {
     pub records_of_rates: bool,
     /// The rates of the last evaluation.
     pub rates: Results<T, D>,
+    /// What the loads gave at that evaluation \[m/s²\].
+    pub evaluated_gravity: [T; D],
     /// The work of the pair forces of the last evaluation, with the mean velocities of the first kick that took it.
     pub worked: Results<T, D>,
     /// Half of the time \[s\] of that kick, and where the images were in time \[s\]; none before there was one.
@@ -55,6 +57,7 @@ impl<T: Real, const D: usize> Default for Workspace<T, D> {
             work_records: Records::default(),
             records_of_rates: false,
             rates: Results::default(),
+            evaluated_gravity: [T::zero(); D],
             worked: Results::default(),
             first_kick: None,
             lengths_time: f64::NAN,
@@ -72,6 +75,13 @@ impl<T: Real, const D: usize> Default for Workspace<T, D> {
 }
 
 impl<T: Real, const D: usize> Workspace<T, D> {
+    /// Component `k` of the column of accelerations, of particles with these masses.
+    #[inline(always)]
+    pub fn acceleration(&self, mass: &[T], k: usize) -> T {
+        let (slot, d) = (k / D, k % D);
+        self.rates.get(Output::FORCE, d, slot) / mass[slot] + self.evaluated_gravity[d]
+    }
+
     /// Bytes held for records and sums.
     pub fn bytes(&self) -> usize {
         self.records.bytes()

@@ -32,20 +32,18 @@ impl<T: Real, const D: usize> Group<T, D> {
             outlets: _,
             emitters,
             gravity,
-            evaluated_gravity,
             body_force,
             indices: _,
             is_met: _,
             sub_cycle,
             held,
-            smoothing_length: _,
             instructions: _,
             root: _,
             guards,
             limited,
         } = self;
         let slots = particles.columns.slots();
-        let evaluated_gravity = evaluated_gravity.map(Real::to_f64);
+        let evaluated_gravity = work.evaluated_gravity.map(Real::to_f64);
         let mut own = Put {
             columns: &particles.columns,
             rates: &work.rates,
@@ -174,7 +172,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
         self.gravity = file.get_array(&format!("{name}/gravity"))?;
         let evaluated: [f64; D] = file.get_array(&format!("{name}/evaluated_gravity"))?;
-        self.evaluated_gravity = evaluated.map(T::from_f64);
+        self.work.evaluated_gravity = evaluated.map(T::from_f64);
         let force = file.get_all_reals::<T>(&format!("{name}/body_force"), D)?;
         self.body_force.copy_from_slice(&force);
         let [compression, expansion, cut_off] = file.get_array(&format!("{name}/guards"))?;

@@ -3,6 +3,7 @@
 
 use super::super::group::{Group, width};
 use crate::neighbors::CHUNK;
+use crate::parallel::{cut, for_each};
 use crate::particles::Field;
 use crate::scalar::Real;
 use crate::scheme::{DensityForm, Smoothing};
@@ -66,6 +67,29 @@ impl<'a, T: Real, const D: usize> Looker<'a, T, D> {
         Self { group, free, total }
     }
 
+    /// What some of its particles say: those of every `stride`-th chunk of lists.
+    pub fn looks(&self, stride: usize) -> (usize, Vec<Look>) {
+        let particles = &self.group.particles;
+        let each = CHUNK * width::<T>();
+        let chunks = particles.mobile.div_ceil(each);
+        let listed = self.group.neighborhood.lists.chunks().len();
+        let wanted: Vec<usize> = (0..chunks.min(listed)).step_by(stride).collect();
+        let mut all: Vec<(usize, Vec<Look>)> = vec![(0, Vec::new()); wanted.len()];
+        for_each(cut(&mut all, 1), |k, own| {
+            let first = wanted[k] * each;
+            for slot in first..(first + each).min(particles.mobile) {
+                // The rest of a body's run repeats the last of it.
+                let body = &particles.bodies[particles.body_of(slot)];
+                if body.slots.contains(&slot) {
+                    own[0].0 += 1;
+                    own[0].1.extend(self.look(slot));
+                }
+            }
+        });
+        let count = all.iter().map(|own| own.0).sum();
+        (count, all.into_iter().flat_map(|own| own.1).collect())
+    }
+
     /// The field in which the sums of the scheme measure distances.
     fn places(&self) -> Field {
         if self.total {
@@ -105,7 +129,7 @@ impl<'a, T: Real, const D: usize> Looker<'a, T, D> {
     fn smoothing_length(&self, slot: usize) -> f64 {
         let own = self.group.particles.columns.raw(Field::SMOOTHING_LENGTH);
         own.get(slot)
-            .map_or(self.group.smoothing_length, |h| h.to_f64())
+            .map_or(self.group.neighborhood.smoothing_length, |h| h.to_f64())
     }
 
     /// Visits what the list of a slot holds, itself excepted.

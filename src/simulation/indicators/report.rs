@@ -1,13 +1,11 @@
 //! The indicators of a state: median, worst and where, of all particles whose support is whole.
 //! Each is a number without unit, zero of a continuum.
 
+use super::super::Simulation;
 use super::super::stability::Extreme;
-use super::super::{Group, Simulation, width};
 use super::limit::{self, Estimates, Limit};
 use super::look::{Look, Looker};
 use super::thickness::thicknesses;
-use crate::neighbors::CHUNK;
-use crate::parallel::{cut, for_each};
 use crate::particles::Field;
 use crate::scalar::Real;
 
@@ -89,30 +87,6 @@ pub(super) fn median(values: &mut [f64]) -> f64 {
     *values.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
-impl<T: Real, const D: usize> Group<T, D> {
-    /// What some of its particles say: those of every `stride`-th chunk of lists.
-    fn looks(&self, looker: &Looker<'_, T, D>, stride: usize) -> (usize, Vec<Look>) {
-        let each = CHUNK * width::<T>();
-        let chunks = self.particles.mobile.div_ceil(each);
-        let listed = self.neighborhood.lists.chunks().len();
-        let wanted: Vec<usize> = (0..chunks.min(listed)).step_by(stride).collect();
-        let mut all: Vec<(usize, Vec<Look>)> = vec![(0, Vec::new()); wanted.len()];
-        for_each(cut(&mut all, 1), |k, own| {
-            let first = wanted[k] * each;
-            for slot in first..(first + each).min(self.particles.mobile) {
-                // The rest of a body's run repeats the last of it.
-                let body = &self.particles.bodies[self.particles.body_of(slot)];
-                if body.slots.contains(&slot) {
-                    own[0].0 += 1;
-                    own[0].1.extend(looker.look(slot));
-                }
-            }
-        });
-        let count = all.iter().map(|own| own.0).sum();
-        (count, all.into_iter().flat_map(|own| own.1).collect())
-    }
-}
-
 /// Where a value was.
 struct At {
     value: f64,
@@ -158,7 +132,7 @@ pub(super) fn of<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Indi
     let mut thickness = Vec::new();
     for (index, group) in simulation.groups.iter().enumerate() {
         let looker = Looker::new(group);
-        let (count, own) = group.looks(&looker, stride);
+        let (count, own) = looker.looks(stride);
         particles += count;
         let columns = &group.particles.columns;
         let sound = |look: &Look| {

@@ -2,9 +2,11 @@
 //! Read from the neighbour lists at hand, chunk by chunk, with sums in a fixed order.
 
 use super::super::group::Group;
-use crate::neighbors::{CHUNK, ChunkList};
+use super::super::neighborhood::Neighborhood;
+use super::super::population::Particles;
+use crate::neighbors::CHUNK;
 use crate::parallel::{cut, for_each};
-use crate::particles::Field;
+use crate::particles::{Columns, Field};
 use crate::scalar::{Lane, Real};
 use crate::sweep::Transform;
 use crate::tensor::Vector;
@@ -89,6 +91,106 @@ impl Sums {
         self.speed += other.speed;
     }
 
+    /// Adds the particles of one chunk of lists.
+    fn add_chunk<T: Real, const D: usize>(
+        &mut self,
+        particles: &Particles<T, D>,
+        neighborhood: &Neighborhood<T, D>,
+        chunk: usize,
+        group: usize,
+    ) {
+        let list = &neighborhood.lists.chunks()[chunk];
+        let width = <T::Wide<false> as Lane>::WIDTH;
+        let columns = &particles.columns;
+        let positions = columns.vectors(Field::POSITION);
+        let velocities = columns.vectors(Field::VELOCITY);
+        let slots = columns.slots();
+        for (c, bounds) in list.starts.windows(2).enumerate() {
+            let first = (chunk * CHUNK + c) * width;
+            if first >= particles.mobile {
+                break;
+            }
+            let body = &particles.bodies[particles.body_of(first)];
+            for slot in first..(first + width).min(body.slots.end) {
+                let x = positions[slot].map(Real::to_f64);
+                let v = velocities[slot].map(Real::to_f64);
+                let own = local_spacing(columns, slot);
+                let mut nearest = f64::INFINITY;
+                let (mut count, mut weights) = (0_u32, 0.0);
+                let (mut offset, mut mean) = ([0.0; D], [0.0; D]);
+                let mut moment = [[0.0; D]; D];
+                for segment in &list.segments[bounds[0] as usize..bounds[1] as usize] {
+                    for &j in &list.neighbors[segment.start as usize..segment.end as usize] {
+                        let j = j as usize;
+                        let image = j
+                            .checked_sub(slots)
+                            .and_then(|k| neighborhood.images.get(k));
+                        let source = image.map_or(j, |image| image.source as usize);
+                        if j == slot {
+                            continue;
+                        }
+                        let by = image.map(|own| &neighborhood.transforms[own.transform as usize]);
+                        let place = positions[source];
+                        let place = by.map_or(place, |by| by.point(&place));
+                        let r: [f64; D] = core::array::from_fn(|d| place[d].to_f64() - x[d]);
+                        let r2: f64 = r.iter().map(|r| r * r).sum();
+                        let mobile = source < particles.mobile;
+                        let spacing = if mobile {
+                            0.5 * (own + local_spacing(columns, source))
+                        } else {
+                            own
+                        };
+                        // Far ones first, which are most.
+                        if r2 > (2.0 * spacing).powi(2) {
+                            continue;
+                        }
+                        let q = r2.sqrt() / spacing;
+                        if mobile && by.is_none_or(shifts) {
+                            nearest = nearest.min(q);
+                        }
+                        if q < NEAR {
+                            count += 1;
+                            let weight = 1.0 - q / NEAR;
+                            weights += weight;
+                            let moved = by.map_or(velocities[source], |by| {
+                                (by.rotation * Vector::from(velocities[source]) + by.velocity)
+                                    .into()
+                            });
+                            let unit = r.map(|r| r / r2.sqrt().max(f64::MIN_POSITIVE));
+                            for a in 0..D {
+                                mean[a] += weight * moved[a].to_f64();
+                                offset[a] += weight * unit[a];
+                                for b in 0..D {
+                                    moment[a][b] += weight * unit[a] * unit[b];
+                                }
+                            }
+                        }
+                    }
+                }
+                self.count += 1;
+                self.alone += u64::from(nearest.is_infinite());
+                self.sparse += u64::from(count < 2 * D as u32);
+                if nearest < self.nearest {
+                    (self.nearest, self.at) = (nearest, (slot, group));
+                }
+                let nearest = nearest.min(2.0);
+                self.mean += nearest;
+                self.bins[(0.5 * nearest * BINS as f64) as usize] += 1;
+                self.speed += v.iter().map(|v| v * v).sum::<f64>();
+                if weights == 0.0 {
+                    continue;
+                }
+                let aside = offset.iter().map(|o| o * o).sum::<f64>().sqrt() / weights;
+                if aside < SURFACE && count >= 2 * D as u32 {
+                    self.inside += 1;
+                    self.anisotropy += departure(&moment);
+                    let differs = |d: usize| (v[d] - mean[d] / weights).powi(2);
+                    self.noise += (0..D).map(differs).sum::<f64>();
+                }
+            }
+        }
+    }
+
     /// What they say; nothing of no particles.
     fn arrangement(&self) -> Option<Arrangement> {
         let count = self.count.max(1) as f64;
@@ -121,11 +223,10 @@ pub(super) fn arrangement<T: Real, const D: usize>(
 ) -> Option<Arrangement> {
     let mut all = Sums::NONE;
     for (index, group) in groups.iter().enumerate() {
-        let chunks = group.neighborhood.lists.chunks();
         partial.clear();
-        partial.resize(chunks.len(), Sums::NONE);
+        partial.resize(group.neighborhood.lists.chunks().len(), Sums::NONE);
         for_each(cut(partial, 1), |chunk, sums| {
-            group.arrangement_of(chunk, &chunks[chunk], index, &mut sums[0]);
+            sums[0].add_chunk(&group.particles, &group.neighborhood, chunk, index);
         });
         for sums in partial.iter() {
             all.add(sums);
@@ -139,111 +240,14 @@ fn shifts<T: Real, const D: usize>(by: &Transform<T, D>) -> bool {
     by.rotation == Transform::<T, D>::identity().rotation
 }
 
-impl<T: Real, const D: usize> Group<T, D> {
-    /// The local spacing \[m\] of a slot.
-    fn local_spacing(&self, slot: usize) -> f64 {
-        let columns = &self.particles.columns;
-        let [mass, density] = [Field::MASS, Field::DENSITY].map(|f| columns.raw(f)[slot].to_f64());
-        let volume = mass / density;
-        match D {
-            1 => volume,
-            2 => volume.sqrt(),
-            _ => volume.cbrt(),
-        }
-    }
-
-    /// Adds the particles of one chunk of lists.
-    fn arrangement_of(&self, chunk: usize, list: &ChunkList, group: usize, sums: &mut Sums) {
-        let width = <T::Wide<false> as Lane>::WIDTH;
-        let columns = &self.particles.columns;
-        let positions = columns.vectors(Field::POSITION);
-        let velocities = columns.vectors(Field::VELOCITY);
-        let slots = columns.slots();
-        for (c, bounds) in list.starts.windows(2).enumerate() {
-            let first = (chunk * CHUNK + c) * width;
-            if first >= self.particles.mobile {
-                break;
-            }
-            let body = &self.particles.bodies[self.particles.body_of(first)];
-            for slot in first..(first + width).min(body.slots.end) {
-                let x = positions[slot].map(Real::to_f64);
-                let v = velocities[slot].map(Real::to_f64);
-                let own = self.local_spacing(slot);
-                let mut nearest = f64::INFINITY;
-                let (mut count, mut weights) = (0_u32, 0.0);
-                let (mut offset, mut mean) = ([0.0; D], [0.0; D]);
-                let mut moment = [[0.0; D]; D];
-                for segment in &list.segments[bounds[0] as usize..bounds[1] as usize] {
-                    for &j in &list.neighbors[segment.start as usize..segment.end as usize] {
-                        let j = j as usize;
-                        let image = j
-                            .checked_sub(slots)
-                            .and_then(|k| self.neighborhood.images.get(k));
-                        let source = image.map_or(j, |image| image.source as usize);
-                        if j == slot {
-                            continue;
-                        }
-                        let by =
-                            image.map(|own| &self.neighborhood.transforms[own.transform as usize]);
-                        let place = positions[source];
-                        let place = by.map_or(place, |by| by.point(&place));
-                        let r: [f64; D] = core::array::from_fn(|d| place[d].to_f64() - x[d]);
-                        let r2: f64 = r.iter().map(|r| r * r).sum();
-                        let mobile = source < self.particles.mobile;
-                        let spacing = if mobile {
-                            0.5 * (own + self.local_spacing(source))
-                        } else {
-                            own
-                        };
-                        // Far ones first, which are most.
-                        if r2 > (2.0 * spacing).powi(2) {
-                            continue;
-                        }
-                        let q = r2.sqrt() / spacing;
-                        if mobile && by.is_none_or(shifts) {
-                            nearest = nearest.min(q);
-                        }
-                        if q < NEAR {
-                            count += 1;
-                            let weight = 1.0 - q / NEAR;
-                            weights += weight;
-                            let moved = by.map_or(velocities[source], |by| {
-                                (by.rotation * Vector::from(velocities[source]) + by.velocity)
-                                    .into()
-                            });
-                            let unit = r.map(|r| r / r2.sqrt().max(f64::MIN_POSITIVE));
-                            for a in 0..D {
-                                mean[a] += weight * moved[a].to_f64();
-                                offset[a] += weight * unit[a];
-                                for b in 0..D {
-                                    moment[a][b] += weight * unit[a] * unit[b];
-                                }
-                            }
-                        }
-                    }
-                }
-                sums.count += 1;
-                sums.alone += u64::from(nearest.is_infinite());
-                sums.sparse += u64::from(count < 2 * D as u32);
-                if nearest < sums.nearest {
-                    (sums.nearest, sums.at) = (nearest, (slot, group));
-                }
-                let nearest = nearest.min(2.0);
-                sums.mean += nearest;
-                sums.bins[(0.5 * nearest * BINS as f64) as usize] += 1;
-                sums.speed += v.iter().map(|v| v * v).sum::<f64>();
-                if weights == 0.0 {
-                    continue;
-                }
-                let aside = offset.iter().map(|o| o * o).sum::<f64>().sqrt() / weights;
-                if aside < SURFACE && count >= 2 * D as u32 {
-                    sums.inside += 1;
-                    sums.anisotropy += departure(&moment);
-                    let differs = |d: usize| (v[d] - mean[d] / weights).powi(2);
-                    sums.noise += (0..D).map(differs).sum::<f64>();
-                }
-            }
-        }
+/// The local spacing \[m\] of a slot.
+fn local_spacing<T: Real, const D: usize>(columns: &Columns<T, D>, slot: usize) -> f64 {
+    let [mass, density] = [Field::MASS, Field::DENSITY].map(|f| columns.raw(f)[slot].to_f64());
+    let volume = mass / density;
+    match D {
+        1 => volume,
+        2 => volume.sqrt(),
+        _ => volume.cbrt(),
     }
 }
 

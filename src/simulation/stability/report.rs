@@ -241,7 +241,7 @@ pub(super) fn of<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Stab
                     time: simulation.time,
                     body,
                     particle,
-                    position: group.position(slot),
+                    position: group.particles.position(slot),
                 }
             });
         }

@@ -3,6 +3,7 @@
 
 use super::super::Simulation;
 use super::super::group::Group;
+use super::super::population::Particles;
 use super::arrangement::{self, Sums};
 use super::report::Thresholds;
 use crate::clock::Instant;
@@ -105,30 +106,31 @@ fn lower(a: Low, b: Low) -> Low {
 }
 const NOWHERE: Low = (f64::INFINITY, usize::MAX);
 
-impl<T: Real, const D: usize> Group<T, D> {
-    /// The least and the largest (with the opposite sign) of a column over what it is at rest in each body.
-    fn extremes(&self, field: Field, rest: impl Fn(usize) -> f64 + Sync) -> [Low; 2] {
-        let column = self.particles.columns.raw(field);
-        let mut all = [NOWHERE; 2];
-        for (k, body) in self.particles.bodies.iter().enumerate() {
-            let Some(own) = column.get(body.slots.clone()) else {
-                continue;
-            };
-            let (first, over) = (body.slots.start, 1.0 / rest(k));
-            let both = |a: [_; 2], b: [_; 2]| [lower(a[0], b[0]), lower(a[1], b[1])];
-            let in_run = |_, run: Range<usize>| {
-                let found = run.map(|n| {
-                    let value = own[n].to_f64() * over;
-                    [(value, first + n), (-value, first + n)]
-                });
-                found.fold([NOWHERE; 2], both)
-            };
-            all = reduce(runs(0..own.len(), GRAIN), all, in_run, both);
-        }
-        all
+/// The least and the largest (with the opposite sign) of a column over what it is at rest in each body.
+fn extremes<T: Real, const D: usize>(
+    particles: &Particles<T, D>,
+    field: Field,
+    rest: impl Fn(usize) -> f64 + Sync,
+) -> [Low; 2] {
+    let column = particles.columns.raw(field);
+    let mut all = [NOWHERE; 2];
+    for (k, body) in particles.bodies.iter().enumerate() {
+        let Some(own) = column.get(body.slots.clone()) else {
+            continue;
+        };
+        let (first, over) = (body.slots.start, 1.0 / rest(k));
+        let both = |a: [_; 2], b: [_; 2]| [lower(a[0], b[0]), lower(a[1], b[1])];
+        let in_run = |_, run: Range<usize>| {
+            let found = run.map(|n| {
+                let value = own[n].to_f64() * over;
+                [(value, first + n), (-value, first + n)]
+            });
+            found.fold([NOWHERE; 2], both)
+        };
+        all = reduce(runs(0..own.len(), GRAIN), all, in_run, both);
     }
+    all
 }
-
 impl<const D: usize> Watch<D> {
     pub fn new<T: Real>(simulation: &Simulation<T, D>, thresholds: Thresholds) -> Self {
         let (momentum, mass, [energy, energy_scale]) = simulation.state_sums();
@@ -202,8 +204,10 @@ impl<const D: usize> Watch<D> {
     fn look_at_bounds<T: Real>(&mut self, simulation: &Simulation<T, D>) {
         for group in &simulation.groups {
             let rest = |body: usize| group.particles.bodies[body].material.reference_density();
-            let density = group.extremes(Field::DENSITY, rest);
-            let lengths = group.extremes(Field::SMOOTHING_LENGTH, |_| group.smoothing_length);
+            let density = extremes(&group.particles, Field::DENSITY, rest);
+            let lengths = extremes(&group.particles, Field::SMOOTHING_LENGTH, |_| {
+                group.neighborhood.smoothing_length
+            });
             for (all, found) in [(&mut self.density, density), (&mut self.smoothing, lengths)] {
                 for (side, (value, slot)) in found.into_iter().enumerate() {
                     let sign = if side == 0 { 1.0 } else { -1.0 };
