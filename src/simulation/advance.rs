@@ -182,10 +182,16 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     /// Tells the kept states of a group what list builds did to its particles, and the ledger what boundaries gave.
-    pub(super) fn follow_moves(&mut self, group: usize) {
+    pub(super) fn follow_moves(&mut self, number: usize) {
         let kept = &self.kept_impulses;
         let time_of = |slot: usize| kept.get(slot).map_or(0.0, |kept| kept.time);
-        for (kept, [on, from], impulse) in self.groups[group].follow_moves(time_of) {
+        let group = &mut self.groups[number];
+        let given = group.work.follow(&mut group.particles.moved, time_of);
+        let first_boundary = group.particles.bodies.len() + group.walls.len();
+        for (kept, [body, boundary], impulse) in given {
+            let group = &self.groups[number];
+            let on = group.indices[body];
+            let from = group.indices[first_boundary + boundary];
             for (d, value) in impulse.into_iter().enumerate() {
                 let index = self.impulse_index(on, from, d);
                 match kept {

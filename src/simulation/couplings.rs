@@ -200,12 +200,6 @@ impl<T: Real, const D: usize> Group<T, D> {
         first.map_or(slots, |wall| wall.slots.start)..slots
     }
 
-    /// The number of a wall particle among those of its wall as built.
-    pub(super) fn rest_of(&self, wall: usize, slot: usize) -> usize {
-        let wall = &self.walls[wall];
-        (self.particles.ids[slot] as usize - wall.slots.start).min(wall.rest.len() - 1)
-    }
-
     /// The slot, in the group of a structure, of the particle that a wall particle is; none if it has left.
     fn slot_of_structure(
         &self,
@@ -214,7 +208,8 @@ impl<T: Real, const D: usize> Group<T, D> {
         group: &Self,
         body: usize,
     ) -> Option<usize> {
-        let id = group.particles.bodies[body].ids.start + self.rest_of(wall, slot);
+        let id = group.particles.bodies[body].ids.start
+            + self.walls[wall].rest_of(&self.particles.ids, slot);
         let own = group.particles.slot_of[id];
         (own != u32::MAX).then_some(own as usize)
     }
@@ -228,7 +223,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         let columns = &group.particles.columns;
         let [x, lost] = [Field::POSITION, Field::POSITION_RESIDUAL].map(|own| columns.vectors(own));
         for slot in self.walls[wall].slots.start..self.walls[wall].end {
-            let at = self.rest_of(wall, slot);
+            let at = self.walls[wall].rest_of(&self.particles.ids, slot);
             let Some(own) = self.slot_of_structure(wall, slot, group, body) else {
                 continue;
             };
@@ -258,7 +253,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         let run = self.walls[wall].slots.start..self.walls[wall].end;
         let spacing = T::from_f64(group.spacing_of(body));
         for slot in run {
-            let at = self.rest_of(wall, slot);
+            let at = self.walls[wall].rest_of(&self.particles.ids, slot);
             let Some(own) = self.slot_of_structure(wall, slot, group, body) else {
                 self.particles.columns.raw_mut(Field::MASS)[slot] = T::zero();
                 continue;

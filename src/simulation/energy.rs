@@ -173,13 +173,13 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 group.particles.mobile..group.particles.columns.slots(),
                 &mut rows,
             );
-            for (k, wall) in group.walls.iter().enumerate() {
+            for wall in &group.walls {
                 let Some(pose) = wall.motion.as_ref().map(|motion| motion.pose(time)) else {
                     continue;
                 };
                 for slot in wall.slots.clone() {
                     let force = rows.vector(Output::FORCE, slot);
-                    let v = pose.of(1, &wall.rest[group.rest_of(k, slot)]);
+                    let v = pose.of(1, &wall.rest[wall.rest_of(&group.particles.ids, slot)]);
                     power -= (0..D).map(|d| force[d].to_f64() * v[d]).sum::<f64>();
                 }
             }

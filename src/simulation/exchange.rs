@@ -84,7 +84,6 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.work = Workspace {
             phases: self.work.phases,
             spent: self.work.spent,
-            moved: core::mem::take(&mut self.work.moved),
             lengths_time: self.work.lengths_time,
             evaluated_gravity: self.work.evaluated_gravity,
             ..Workspace::default()

@@ -8,8 +8,9 @@ use super::population::Particles;
 use super::sub_cycle::SubCycle;
 use super::walls::WallState;
 use super::workspace::Workspace;
-use crate::boundary::{Boundary, Emitter, Outlet};
+use crate::boundary::{Boundary, Emitter, Outlet, Pose, Slip};
 use crate::clock::Instant;
+use crate::error::Result;
 use crate::material::eos::GuardCounts;
 use crate::particles::Columns;
 use crate::scalar::{Lane, Real};
@@ -228,7 +229,9 @@ impl<T: Real, const D: usize> Group<T, D> {
     pub fn refresh(&mut self, time: f64, chord: Option<[f64; 2]>) {
         let start = Instant::now();
         self.place_walls(time, chord);
-        let shift = self.carried(time);
+        let listed_time = self.neighborhood.listed_time;
+        let container = self.walls.iter().find(|wall| wall.container_frame);
+        let shift = container.map_or([0.0; D], |wall| wall.carried([listed_time, time]));
         if self.neighborhood.lists.chunks().is_empty() {
             self.rebuild(time);
         } else if !self.scheme.density.keeps_neighbors()
@@ -245,18 +248,70 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.work.phases.lists += start.elapsed();
     }
 
+    /// Brings walls that move to their places, and gives all walls their own velocity.
+    fn place_walls(&mut self, time: f64, chord: Option<[f64; 2]>) {
+        self.body_force = self.gravity.map(T::from_f64);
+        let listed = self.neighborhood.rebuilds > 0;
+        for wall in self.walls.iter().filter(|wall| wall.structure.is_none()) {
+            let pose = wall.pose(time, chord);
+            if let Some(pose) = pose.as_ref().filter(|_| wall.container_frame) {
+                let acceleration = pose.of(2, &wall.rest[0]);
+                for d in 0..D {
+                    self.body_force[d] -= T::from_f64(acceleration[d]);
+                }
+            }
+            // What sticks to a wall at rest has overwritten its velocity.
+            if pose.is_none() && listed {
+                if wall.slip == Slip::None {
+                    wall.stand(&mut self.particles);
+                }
+                continue;
+            }
+            let pose = pose.unwrap_or_else(Pose::rest);
+            wall.place(&pose, &mut self.particles, &self.boundaries, time);
+        }
+    }
+
+    /// Lets particles enter that are due at `time`; whether there were any.
+    ///
+    /// # Errors
+    /// If a body's reserve is used up.
+    pub fn emit(&mut self, time: f64) -> Result<bool> {
+        let mut any = false;
+        for (body, emitter) in &self.emitters {
+            while let Some((layer, velocity)) = emitter.due(time) {
+                any = true;
+                for x in layer {
+                    self.particles.insert(&self.scheme, *body, x, velocity)?;
+                }
+            }
+        }
+        if any {
+            // Lists do not know the new ones.
+            self.rebuild(time);
+        }
+        Ok(any)
+    }
+
     /// Lets particles re-enter and leave, sorts them if that pays, and lists their neighbours.
     pub fn rebuild(&mut self, time: f64) {
         self.neighborhood.rebuilds += 1;
         self.neighborhood.served = 0;
         self.neighborhood.listed_time = time;
         self.work.first_kick = None;
-        self.wrap(time);
-        self.remove();
+        self.particles
+            .wrap(&self.boundaries, &self.scheme.program, time);
+        let removed = self.particles.remove(&self.outlets);
+        self.work.rates.permute(&removed);
         let sort = self.neighborhood.wants_sort();
         let reach = self.neighborhood.reach(&self.particles);
         if sort {
-            self.sort();
+            // Walls keep their shape, so sorting them once serves; structures may not.
+            let first = self.neighborhood.rebuilds <= 1;
+            let sorted = self.walls.iter();
+            let sorted = sorted.filter(|wall| first || wall.structure.is_some());
+            let order = self.particles.sort(sorted);
+            self.work.rates.permute(&order);
         }
         self.list(time, reach);
         if sort {
@@ -266,11 +321,10 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// Lists neighbours at the present positions, with images within `reach` \[m\].
     pub fn list(&mut self, time: f64, reach: f64) {
-        self.neighborhood.listed_reach = reach;
-        let walls = self.walls.iter().map(|wall| wall.slots.clone());
-        self.neighborhood.remember(&self.particles, walls);
-        self.place_images(time, reach);
-        self.neighborhood.list(self.instructions);
+        let at = (time, reach);
+        let (walls, boundaries) = (&self.walls, &self.boundaries);
+        self.neighborhood
+            .list(&self.particles, walls, boundaries, at, self.instructions);
     }
 
     /// What a sweep over all that moves by forces works on.

@@ -4,6 +4,7 @@
 use super::group::width;
 use super::images::Chain;
 use super::population::Particles;
+use super::walls::WallState;
 use crate::boundary::Boundary;
 use crate::neighbors::{Block, ClusterLists, Radii, SearchInput};
 use crate::parallel::largest;
@@ -154,12 +155,17 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         2.0 * farthest + carried + self.support * grown > self.skin
     }
 
-    /// Remembers where particles are, as blocks of bodies and walls.
-    pub fn remember(
+    /// Lists neighbours at the present positions, with images within `reach` \[m\]; it remembers where particles are, as
+    /// blocks of bodies and walls.
+    pub fn list(
         &mut self,
         particles: &Particles<T, D>,
-        walls: impl Iterator<Item = Range<usize>>,
+        walls: &[WallState<T, D>],
+        boundaries: &[Arc<dyn Boundary<T, D>>],
+        (time, reach): (f64, f64),
+        instructions: InstructionSet,
     ) {
+        self.listed_reach = reach;
         self.listed.clear();
         self.listed
             .extend_from_slice(particles.columns.vectors(Field::POSITION));
@@ -170,11 +176,9 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         let bodies = particles.bodies.iter().map(|body| body.slots.clone());
         let block = |wall| move |slots| Block { slots, wall };
         self.blocks.extend(bodies.map(block(false)));
-        self.blocks.extend(walls.map(block(true)));
-    }
-
-    /// Builds the lists from what it remembers, with the images in place.
-    pub fn list(&mut self, instructions: InstructionSet) {
+        let walls_of = walls.iter().map(|wall| wall.slots.clone());
+        self.blocks.extend(walls_of.map(block(true)));
+        self.place_images(particles, walls, boundaries, time);
         let slots = self.listed.len() - self.images.len();
         let h = &mut self.listed_h;
         let radii = if h.is_empty() {

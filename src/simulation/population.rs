@@ -1,17 +1,20 @@
 //! The particles of a group, and their order: what enters, leaves, re-enters, and is sorted.
 //! States outside are told of every change.
 
-use super::group::Group;
+use super::walls::WallState;
+use crate::boundary::{Boundary, Outlet};
+use crate::effect::StepProgram;
 use crate::error::{Error, Problem, Result};
 use crate::material::Material;
 use crate::neighbors::Grid;
 use crate::parallel::{GRAIN, cut, for_each, sort_by_key};
 use crate::particles::{Columns, Field};
 use crate::scalar::Real;
-use crate::scheme::Start;
+use crate::scheme::{Scheme, Start};
 use crate::sweep::Transform;
 use crate::tensor::Vector;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// A body in a simulation.
 #[derive(Clone, Debug)]
@@ -48,6 +51,8 @@ pub(crate) struct Particles<T: Real, const D: usize> {
     pub removed: Removed<D>,
     /// How many particles' numbers the groups before it have.
     pub first_id: usize,
+    /// What list builds have done to them since saved states were last told.
+    pub moved: Moves<T, D>,
 }
 
 impl<T: Real, const D: usize> Particles<T, D> {
@@ -68,6 +73,7 @@ impl<T: Real, const D: usize> Particles<T, D> {
             slot_of,
             removed: Removed::default(),
             first_id: 0,
+            moved: Moves::default(),
         }
     }
 
@@ -134,8 +140,8 @@ pub(crate) struct ReEntry<T, const D: usize> {
     pub through: Transform<T, D>,
     /// When \[s\].
     pub time: f64,
-    /// What it is, and the boundary, in the scene; none for a repeat, and where nothing is given.
-    pub indices: Option<[usize; 2]>,
+    /// The body that it is of, and the boundary; none for a repeat, and where nothing is given.
+    pub given: Option<[usize; 2]>,
     pub mass: T,
     /// Its velocity before \[m/s\].
     pub velocity: Vector<T, D>,
@@ -176,12 +182,17 @@ impl<T, const D: usize> Default for Moves<T, D> {
     }
 }
 
-impl<T: Real, const D: usize> Group<T, D> {
+impl<T: Real, const D: usize> Particles<T, D> {
     /// Lets particles that have left a period, or crossed a plane, re-enter.
-    pub(super) fn wrap(&mut self, time: f64) {
-        for (b, boundary) in self.boundaries.iter().enumerate() {
-            for slot in 0..self.particles.mobile {
-                let x = self.particles.columns.vectors(Field::POSITION)[slot];
+    pub fn wrap(
+        &mut self,
+        boundaries: &[Arc<dyn Boundary<T, D>>],
+        program: &StepProgram<T, D>,
+        time: f64,
+    ) {
+        for (b, boundary) in boundaries.iter().enumerate() {
+            for slot in 0..self.mobile {
+                let x = self.columns.vectors(Field::POSITION)[slot];
                 let through = if boundary.crossed(&x, time) {
                     boundary.transform(0, time)
                 } else if let Some(through) = boundary.wrap(&x, time) {
@@ -189,39 +200,30 @@ impl<T: Real, const D: usize> Group<T, D> {
                 } else {
                     continue;
                 };
-                let body = self
-                    .particles
-                    .bodies
-                    .iter()
-                    .position(|own| own.slots.contains(&slot));
-                let velocity = Vector::from(self.particles.columns.vectors(Field::VELOCITY)[slot]);
-                let [x, residual, v] = self.particles.columns.many_mut([
+                let body = self.bodies.iter().position(|own| own.slots.contains(&slot));
+                let velocity = Vector::from(self.columns.vectors(Field::VELOCITY)[slot]);
+                let [x, residual, v] = self.columns.many_mut([
                     Field::POSITION,
                     Field::POSITION_RESIDUAL,
                     Field::VELOCITY,
                 ]);
                 through.re_enter(slot, x, residual, v);
-                for field in self.scheme.program.state() {
-                    through.turn_field(field, slot, self.particles.columns.raw_mut(field));
+                for field in program.state() {
+                    through.turn_field(field, slot, self.columns.raw_mut(field));
                 }
                 // Repeats have lost their own places in a new order, and follow their original.
-                if body.is_none() && !self.work.moved.order.is_empty() {
+                if body.is_none() && !self.moved.order.is_empty() {
                     continue;
                 }
-                let boundary = self.indices[self.particles.bodies.len() + self.walls.len() + b];
                 let given = body.filter(|_| through.turns());
-                self.work.moved.wraps.push(ReEntry {
-                    // Wraps are told by the order that outside states have now.
-                    slot: self
-                        .work
-                        .moved
-                        .order
-                        .get(slot)
-                        .map_or(slot, |&old| old as usize),
+                // Wraps are told by the order that outside states have now.
+                let old = self.moved.order.get(slot);
+                self.moved.wraps.push(ReEntry {
+                    slot: old.map_or(slot, |&old| old as usize),
                     through,
                     time,
-                    indices: given.map(|body| [self.indices[body], boundary]),
-                    mass: self.particles.columns.raw(Field::MASS)[slot],
+                    given: given.map(|body| [body, b]),
+                    mass: self.columns.raw(Field::MASS)[slot],
                     velocity,
                 });
             }
@@ -229,28 +231,26 @@ impl<T: Real, const D: usize> Group<T, D> {
     }
 
     /// Sorts every body along the space-filling curve, in cells that hold a particle each, so that the
-    /// members of a cluster are the corners of a cube as far as the flow allows.
-    pub(super) fn sort(&mut self) {
-        let positions = self.particles.columns.vectors(Field::POSITION);
+    /// members of a cluster are the corners of a cube as far as the flow allows, and so some walls. The order, as that of
+    /// [`Moves`].
+    #[must_use]
+    pub fn sort<'a>(
+        &mut self,
+        walls: impl Iterator<Item = &'a WallState<T, D>> + Clone,
+    ) -> Vec<u32> {
+        let positions = self.columns.vectors(Field::POSITION);
         let spacing = self
-            .particles
             .bodies
             .iter()
             .fold(f64::INFINITY, |least, body| least.min(body.spacing));
         let grid = Grid::centred(positions, spacing);
-        let mut order: Vec<u32> = (0..self.particles.columns.slots() as u32).collect();
-        // Walls keep their shape, so sorting them once serves; structures may not.
-        let first = self.neighborhood.rebuilds <= 1;
-        let walls = self.walls.iter();
-        let walls = walls
-            .filter(|wall| first || wall.structure.is_some())
-            .map(|wall| (&wall.slots, wall.end));
+        let mut order: Vec<u32> = (0..self.columns.slots() as u32).collect();
+        let walls = walls.map(|wall| (wall.slots.clone(), wall.end));
         let bodies = self
-            .particles
             .bodies
             .iter()
-            .map(|body| (&body.slots, body.end));
-        for (slots, end) in bodies.chain(walls) {
+            .map(|body| (body.slots.clone(), body.end));
+        for (slots, end) in bodies.chain(walls.clone()) {
             let own = &positions[slots.clone()];
             let mut keys = vec![0; own.len()];
             for_each(cut(&mut keys, GRAIN), |piece, keys| {
@@ -263,88 +263,69 @@ impl<T: Real, const D: usize> Group<T, D> {
                 order[slots.end..end].fill(last);
             }
         }
-        self.reorder(&order);
+        self.reorder(order, walls.map(|(slots, _)| slots))
     }
 
-    /// Takes out what outlets take; the slots behind the last particle of a body repeat it.
-    pub(super) fn remove(&mut self) {
-        if self.outlets.is_empty() {
-            return;
+    /// Takes out what outlets take; the slots behind the last particle of a body repeat it. The order, as that of [`Moves`].
+    #[must_use]
+    pub fn remove(&mut self, outlets: &[Outlet<D>]) -> Vec<u32> {
+        if outlets.is_empty() {
+            return Vec::new();
         }
-        let mut order: Vec<u32> = (0..self.particles.columns.slots() as u32).collect();
+        let mut order: Vec<u32> = (0..self.columns.slots() as u32).collect();
         let mut any = false;
-        for k in 0..self.particles.bodies.len() {
-            let (slots, end) = (
-                self.particles.bodies[k].slots.clone(),
-                self.particles.bodies[k].end,
-            );
+        for k in 0..self.bodies.len() {
+            let (slots, end) = (self.bodies[k].slots.clone(), self.bodies[k].end);
             let mut kept = slots.start;
             for slot in slots.clone() {
-                let x = self.particles.columns.vectors(Field::POSITION)[slot].map(Real::to_f64);
-                let v = self.particles.columns.vectors(Field::VELOCITY)[slot].map(Real::to_f64);
-                if !self.outlets.iter().any(|outlet| outlet.takes(&x, &v)) {
+                let x = self.columns.vectors(Field::POSITION)[slot].map(Real::to_f64);
+                let v = self.columns.vectors(Field::VELOCITY)[slot].map(Real::to_f64);
+                if !outlets.iter().any(|outlet| outlet.takes(&x, &v)) {
                     order[kept] = slot as u32;
                     kept += 1;
                     continue;
                 }
                 any = true;
-                self.particles.slot_of[self.particles.ids[slot] as usize] = u32::MAX;
-                let mass = self.particles.columns.raw(Field::MASS)[slot].to_f64();
-                self.particles.removed.particles += 1;
-                self.particles.removed.mass += mass;
+                self.slot_of[self.ids[slot] as usize] = u32::MAX;
+                let mass = self.columns.raw(Field::MASS)[slot].to_f64();
+                self.removed.particles += 1;
+                self.removed.mass += mass;
                 for d in 0..D {
-                    self.particles.removed.momentum[d] += mass * v[d];
-                    self.particles.removed.kinetic += 0.5 * mass * v[d] * v[d];
+                    self.removed.momentum[d] += mass * v[d];
+                    self.removed.kinetic += 0.5 * mass * v[d] * v[d];
                 }
             }
             if kept > slots.start {
                 let last = order[kept - 1];
                 order[kept..end].fill(last);
             }
-            self.particles.bodies[k].slots.end = kept;
+            self.bodies[k].slots.end = kept;
         }
         if any {
-            self.reorder(&order);
+            return self.reorder(order, core::iter::empty());
         }
-    }
-
-    /// Lets particles enter that are due at `time`; whether there were any.
-    ///
-    /// # Errors
-    /// If a body's reserve is used up.
-    pub fn emit(&mut self, time: f64) -> Result<bool> {
-        let mut any = false;
-        for k in 0..self.emitters.len() {
-            while let Some((layer, velocity)) = self.emitters[k].1.due(time) {
-                any = true;
-                for x in layer {
-                    self.insert(self.emitters[k].0, x, velocity)?;
-                }
-            }
-        }
-        if any {
-            // Lists do not know the new ones.
-            self.rebuild(time);
-        }
-        Ok(any)
+        Vec::new()
     }
 
     /// Appends one particle to a body, like its material at rest.
-    fn insert(&mut self, body: usize, x: [f64; D], velocity: [f64; D]) -> Result<()> {
-        let (slots, end) = (
-            self.particles.bodies[body].slots.clone(),
-            self.particles.bodies[body].end,
-        );
-        let free = self.particles.bodies[body]
+    ///
+    /// # Errors
+    /// If the reserve of the body is used up.
+    pub fn insert(
+        &mut self,
+        scheme: &Scheme<T, D>,
+        body: usize,
+        x: [f64; D],
+        velocity: [f64; D],
+    ) -> Result<()> {
+        let (slots, end) = (self.bodies[body].slots.clone(), self.bodies[body].end);
+        let free = self.bodies[body]
             .ids
             .clone()
-            .find(|&id| self.particles.slot_of[id] == u32::MAX);
+            .find(|&id| self.slot_of[id] == u32::MAX);
         let (Some(id), true) = (free, slots.end < end) else {
             return Err(Error::Argument(Problem::Parameter {
-                what: format!(
-                    "reserve of the inlet of body `{}`",
-                    self.particles.bodies[body].name
-                ),
+                what: format!("reserve of the inlet of body `{}`", self.bodies[body].name),
                 value: slots.len() as f64,
                 must_be: "all of it has entered and none has left: give the inlet a larger reserve, \
                           or put an outlet where the flow ends",
@@ -353,52 +334,36 @@ impl<T: Real, const D: usize> Group<T, D> {
         let slot = slots.end;
         let start = Start {
             velocity,
-            density: self.particles.bodies[body].material.reference_density(),
+            density: self.bodies[body].material.reference_density(),
             energy: 0.0,
         };
-        let own = &self.particles.bodies[body];
+        let own = &self.bodies[body];
         let (material, spacing) = (own.material.clone(), own.spacing);
-        self.scheme.place(
-            &mut self.particles.columns,
-            slot,
-            (&material, spacing),
-            x,
-            &start,
-        );
-        self.particles.bodies[body].slots.end = slot + 1;
-        self.particles.ids[slot] = id as u32;
-        self.particles.slot_of[id] = slot as u32;
+        scheme.place(&mut self.columns, slot, (&material, spacing), x, &start);
+        self.bodies[body].slots.end = slot + 1;
+        self.ids[slot] = id as u32;
+        self.slot_of[id] = slot as u32;
         Ok(())
     }
 
-    /// Rearranges the slots, and remembers it for states outside.
-    fn reorder(&mut self, order: &[u32]) {
+    /// Rearranges the slots of bodies and some walls, and remembers it for states outside. The order; empty if it is the
+    /// old one.
+    fn reorder(&mut self, order: Vec<u32>, walls: impl Iterator<Item = Range<usize>>) -> Vec<u32> {
         if order.iter().enumerate().all(|(k, &from)| k as u32 == from) {
-            return;
+            return Vec::new();
         }
-        self.particles.columns.permute(order);
-        self.work.rates.permute(order);
-        if self.work.moved.order.is_empty() {
-            self.work.moved.order.extend_from_slice(order);
+        self.columns.permute(&order);
+        let of = |before: &[u32]| order.iter().map(|&from| before[from as usize]).collect();
+        self.ids = of(&self.ids);
+        self.moved.order = if self.moved.order.is_empty() {
+            order.clone()
         } else {
-            let before = core::mem::take(&mut self.work.moved.order);
-            self.work.moved.order = order.iter().map(|&k| before[k as usize]).collect();
+            of(&self.moved.order)
+        };
+        let bodies = self.bodies.iter().map(|body| body.slots.clone());
+        for slot in bodies.chain(walls).flatten() {
+            self.slot_of[self.ids[slot] as usize] = slot as u32;
         }
-        self.particles.ids = order
-            .iter()
-            .map(|&from| self.particles.ids[from as usize])
-            .collect();
-        let walls = self.walls.iter().map(|wall| &wall.slots);
-        for slots in self
-            .particles
-            .bodies
-            .iter()
-            .map(|body| &body.slots)
-            .chain(walls)
-        {
-            for slot in slots.clone() {
-                self.particles.slot_of[self.particles.ids[slot] as usize] = slot as u32;
-            }
-        }
+        order
     }
 }

@@ -12,15 +12,10 @@ use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::scheme::EnergyForm;
 use crate::sweep::two_sum;
-use crate::tensor::Vector;
 use std::ops::Range;
 
 /// Positions, and what their rounding has lost.
 const POSITIONS: [Field; 2] = [Field::POSITION, Field::POSITION_RESIDUAL];
-
-/// What came through a boundary while lists were built: the number of a saved state, or none for the present one,
-/// the indices of what felt and what exerted, and the momentum \[kg m/s\].
-pub(super) type Given<const D: usize> = (Option<usize>, [usize; 2], [f64; D]);
 
 impl<T: Real, const D: usize> Group<T, D> {
     /// x ← x + dt v with v the present velocity.
@@ -447,71 +442,6 @@ impl<T: Real, const D: usize> Group<T, D> {
                 }
             }
         }
-    }
-
-    /// Brings saved states into the order of the particles after a list build, and through the boundaries that
-    /// particles have crossed, each where it was at the time \[s\] of the state. Gives what these gave.
-    pub(super) fn follow_moves(&mut self, time_of: impl Fn(usize) -> f64) -> Vec<Given<D>> {
-        let moved = &mut self.work.moved;
-        let mut given = Vec::new();
-        let at = |v: &[T], slot: usize| Vector::from_row_slice(&v[slot * D..(slot + 1) * D]);
-        for (number, kept) in self.work.kept.iter_mut().enumerate() {
-            let Ok([(_, x), (_, residual), (_, v)]) = kept.get_disjoint_mut([0, 1, 2]) else {
-                continue;
-            };
-            if !x.is_empty() {
-                for entry in &moved.wraps {
-                    let impulse = entry.impulse(&at(v, entry.slot));
-                    given.extend(
-                        entry
-                            .indices
-                            .map(|indices| (Some(number), indices, impulse)),
-                    );
-                    let through = entry.through_at(time_of(number));
-                    through.re_enter(entry.slot, x, residual, v);
-                }
-            }
-            for (field, column) in kept.iter_mut().skip(3) {
-                for entry in &moved.wraps {
-                    entry.through.turn_field(*field, entry.slot, column);
-                }
-            }
-        }
-        // A prediction is taken back: what it started from is the present state, and none is under way otherwise.
-        let predicted = if self.work.is_predicted {
-            self.work.predicted.as_mut_slice()
-        } else {
-            &mut []
-        };
-        let (start, others) = predicted.split_at_mut(predicted.len().min(1));
-        let mut start = start.first_mut().map(|own| &mut own.1);
-        for entry in &moved.wraps {
-            let velocity = start.as_ref().map_or(entry.velocity, |v| at(v, entry.slot));
-            let impulse = entry.impulse(&velocity);
-            given.extend(entry.indices.map(|indices| (None, indices, impulse)));
-            if let Some(v) = &mut start {
-                entry.through.turn(entry.slot, v);
-            }
-        }
-        for (field, column) in others.iter_mut() {
-            for entry in &moved.wraps {
-                entry.through.turn_field(*field, entry.slot, column);
-            }
-        }
-        if !moved.order.is_empty() {
-            let columns = self.work.kept.iter_mut().flatten();
-            for (_, column) in columns.chain(predicted) {
-                let width = column.len() / moved.order.len();
-                let before = column.clone();
-                for (k, &from) in moved.order.iter().enumerate() {
-                    let from = from as usize * width;
-                    column[k * width..(k + 1) * width].copy_from_slice(&before[from..from + width]);
-                }
-            }
-        }
-        moved.wraps.clear();
-        moved.order.clear();
-        given
     }
 
     /// Positions and what their rounding has lost, in `f64` where the scalar keeps the loss.

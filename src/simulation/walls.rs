@@ -2,8 +2,8 @@
 //! How they answer a liquid is the wall law's of its scheme.
 
 use super::couplings::Structure;
-use super::group::Group;
-use crate::boundary::{Motion, Pose, Slip};
+use super::population::Particles;
+use crate::boundary::{Boundary, Motion, Pose, Slip};
 use crate::particles::Field;
 use crate::scalar::Real;
 use crate::tensor::determinant;
@@ -34,88 +34,75 @@ pub(crate) struct WallState<T, const D: usize> {
     pub structure: Option<Structure<T, D>>,
 }
 
-impl<T: Real, const D: usize> Group<T, D> {
-    /// Brings walls that move to their places, and gives all walls their own velocity. `chord` \[s\] are the ends
-    /// of the drift under way, along which they go straight.
-    pub(super) fn place_walls(&mut self, time: f64, chord: Option<[f64; 2]>) {
-        self.body_force = self.gravity.map(T::from_f64);
-        for wall in self.walls.iter().filter(|wall| wall.structure.is_none()) {
-            let pose = wall.motion.as_ref().map(|motion| match chord {
-                Some(ends) => motion
-                    .pose(time)
-                    .on_chord(ends.map(|end| motion.pose(end)), ends),
-                None => motion.pose(time),
-            });
-            if wall.container_frame {
-                let acceleration = pose
-                    .as_ref()
-                    .map_or([0.0; D], |pose| pose.of(2, &wall.rest[0]));
-                for d in 0..D {
-                    self.body_force[d] -= T::from_f64(acceleration[d]);
-                }
+impl<T: Real, const D: usize> WallState<T, D> {
+    /// Where it is at `time` \[s\], if it moves; `chord` \[s\] are the ends of the drift under way, along which it goes
+    /// straight.
+    pub fn pose(&self, time: f64, chord: Option<[f64; 2]>) -> Option<Pose<D>> {
+        let motion = self.motion.as_ref()?;
+        let pose = motion.pose(time);
+        Some(match chord {
+            Some(ends) => pose.on_chord(ends.map(|end| motion.pose(end)), ends),
+            None => pose,
+        })
+    }
+
+    /// Gives its particles, which rest, the velocity of its surface.
+    pub fn stand(&self, particles: &mut Particles<T, D>) {
+        let own = self.slots.start..self.end;
+        let v = self.sliding.map(T::from_f64);
+        particles.columns.vectors_mut(Field::VELOCITY)[own].fill(v);
+    }
+
+    /// Brings its particles to where it is, with its velocity.
+    pub fn place(
+        &self,
+        pose: &Pose<D>,
+        particles: &mut Particles<T, D>,
+        boundaries: &[Arc<dyn Boundary<T, D>>],
+        time: f64,
+    ) {
+        let run = self.slots.start..self.end;
+        // A wall that is crushed has its particles closer, and each stands for less volume.
+        let mass = T::from_f64(self.mass * determinant(&pose.linear[0]).abs());
+        let columns = &mut particles.columns;
+        if let Some(masses) = columns.raw_mut(Field::MASS).get_mut(run.clone()) {
+            masses.fill(mass);
+        }
+        for slot in run {
+            let rest = &self.rest[self.rest_of(&particles.ids, slot)];
+            let (x, own) = (pose.of(0, rest), pose.of(1, rest));
+            let v: [f64; D] = core::array::from_fn(|d| own[d] + self.sliding[d]);
+            let rounded = x.map(T::from_f64);
+            columns.vectors_mut(Field::POSITION)[slot] = rounded;
+            columns.vectors_mut(Field::VELOCITY)[slot] = v.map(T::from_f64);
+            let residuals = columns.vectors_mut(Field::POSITION_RESIDUAL);
+            if let Some(residual) = residuals.get_mut(slot) {
+                *residual = core::array::from_fn(|d| T::from_f64(x[d] - rounded[d].to_f64()));
             }
-            // What sticks to a wall at rest has overwritten its velocity.
-            if pose.is_none() && self.neighborhood.rebuilds > 0 {
-                if wall.slip == Slip::None {
-                    let own = wall.slots.start..wall.end;
-                    let v = wall.sliding.map(T::from_f64);
-                    self.particles.columns.vectors_mut(Field::VELOCITY)[own].fill(v);
-                }
-                continue;
-            }
-            let pose = pose.unwrap_or_else(Pose::rest);
-            // A wall that is crushed has its particles closer, and each stands for less volume.
-            let mass = T::from_f64(wall.mass * determinant(&pose.linear[0]).abs());
-            if let Some(masses) = self
-                .particles
-                .columns
-                .raw_mut(Field::MASS)
-                .get_mut(wall.slots.start..wall.end)
-            {
-                masses.fill(mass);
-            }
-            for slot in wall.slots.start..wall.end {
-                let at =
-                    (self.particles.ids[slot] as usize - wall.slots.start).min(wall.rest.len() - 1);
-                let (x, own) = (pose.of(0, &wall.rest[at]), pose.of(1, &wall.rest[at]));
-                let v: [f64; D] = core::array::from_fn(|d| own[d] + wall.sliding[d]);
-                let rounded = x.map(T::from_f64);
-                self.particles.columns.vectors_mut(Field::POSITION)[slot] = rounded;
-                self.particles.columns.vectors_mut(Field::VELOCITY)[slot] = v.map(T::from_f64);
-                if let Some(residual) = self
-                    .particles
-                    .columns
-                    .vectors_mut(Field::POSITION_RESIDUAL)
-                    .get_mut(slot)
-                {
-                    *residual = core::array::from_fn(|d| T::from_f64(x[d] - rounded[d].to_f64()));
-                }
-                for boundary in &self.boundaries {
-                    if let Some(back) = boundary.wrap(&rounded, time) {
-                        let [x, residual, v] = self.particles.columns.many_mut([
-                            Field::POSITION,
-                            Field::POSITION_RESIDUAL,
-                            Field::VELOCITY,
-                        ]);
-                        back.re_enter(slot, x, residual, v);
-                    }
+            for boundary in boundaries {
+                if let Some(back) = boundary.wrap(&rounded, time) {
+                    let [x, residual, v] = columns.many_mut([
+                        Field::POSITION,
+                        Field::POSITION_RESIDUAL,
+                        Field::VELOCITY,
+                    ]);
+                    back.re_enter(slot, x, residual, v);
                 }
             }
         }
     }
 
-    /// How far the wall that carries the liquid has gone since the last list build \[m\].
-    pub(super) fn carried(&self, time: f64) -> [f64; D] {
-        let Some(wall) = self.walls.iter().find(|wall| wall.container_frame) else {
+    /// How far it has gone between two times \[m\], by its first particle.
+    pub fn carried(&self, [then, now]: [f64; 2]) -> [f64; D] {
+        let Some(motion) = &self.motion else {
             return [0.0; D];
         };
-        let Some(motion) = &wall.motion else {
-            return [0.0; D];
-        };
-        let now = motion.pose(time).of(0, &wall.rest[0]);
-        let then = motion
-            .pose(self.neighborhood.listed_time)
-            .of(0, &wall.rest[0]);
+        let [now, then] = [now, then].map(|time| motion.pose(time).of(0, &self.rest[0]));
         core::array::from_fn(|d| now[d] - then[d])
+    }
+
+    /// The number of the particle in a slot among those of the wall as built.
+    pub fn rest_of(&self, ids: &[u32], slot: usize) -> usize {
+        (ids[slot] as usize - self.slots.start).min(self.rest.len() - 1)
     }
 }

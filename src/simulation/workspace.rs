@@ -8,9 +8,14 @@ use super::settle::Settling;
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::sweep::{Records, Results};
+use crate::tensor::Vector;
 
 /// Columns of a saved state.
 pub(super) type Saved<T> = Vec<(Field, Vec<T>)>;
+
+/// What came through a boundary while lists were built: the number of a saved state, or none for the present one,
+/// the body and the boundary, and the momentum \[kg m/s\].
+pub(super) type Given<const D: usize> = (Option<usize>, [usize; 2], [f64; D]);
 
 /// Scratch of a group, and the rates at hand.
 #[derive(Clone, Debug)]
@@ -36,8 +41,6 @@ pub(crate) struct Workspace<T: Real, const D: usize> {
     pub coupling: Results<T, D>,
     /// What of a repeated law has settled.
     pub settling: Settling,
-    /// What list builds have done to particles since saved states were last told.
-    pub moved: Moves<T, D>,
     /// What a prediction has changed, and takes back.
     pub predicted: Saved<T>,
     /// Whether a prediction is under way.
@@ -64,7 +67,6 @@ impl<T: Real, const D: usize> Default for Workspace<T, D> {
             sums: Results::default(),
             coupling: Results::default(),
             settling: Settling::default(),
-            moved: Moves::default(),
             predicted: Vec::new(),
             is_predicted: false,
             kept: Vec::new(),
@@ -80,6 +82,70 @@ impl<T: Real, const D: usize> Workspace<T, D> {
     pub fn acceleration(&self, mass: &[T], k: usize) -> T {
         let (slot, d) = (k / D, k % D);
         self.rates.get(Output::FORCE, d, slot) / mass[slot] + self.evaluated_gravity[d]
+    }
+
+    /// Brings saved states into the order of the particles after a list build, and through the boundaries that
+    /// particles have crossed, each where it was at the time \[s\] of the state. Gives what these gave.
+    pub fn follow(
+        &mut self,
+        moved: &mut Moves<T, D>,
+        time_of: impl Fn(usize) -> f64,
+    ) -> Vec<Given<D>> {
+        let mut given = Vec::new();
+        let at = |v: &[T], slot: usize| Vector::from_row_slice(&v[slot * D..(slot + 1) * D]);
+        for (number, kept) in self.kept.iter_mut().enumerate() {
+            let Ok([(_, x), (_, residual), (_, v)]) = kept.get_disjoint_mut([0, 1, 2]) else {
+                continue;
+            };
+            if !x.is_empty() {
+                for entry in &moved.wraps {
+                    let impulse = entry.impulse(&at(v, entry.slot));
+                    given.extend(entry.given.map(|to| (Some(number), to, impulse)));
+                    let through = entry.through_at(time_of(number));
+                    through.re_enter(entry.slot, x, residual, v);
+                }
+            }
+            for (field, column) in kept.iter_mut().skip(3) {
+                for entry in &moved.wraps {
+                    entry.through.turn_field(*field, entry.slot, column);
+                }
+            }
+        }
+        // A prediction is taken back: what it started from is the present state, and none is under way otherwise.
+        let predicted = if self.is_predicted {
+            self.predicted.as_mut_slice()
+        } else {
+            &mut []
+        };
+        let (start, others) = predicted.split_at_mut(predicted.len().min(1));
+        let mut start = start.first_mut().map(|own| &mut own.1);
+        for entry in &moved.wraps {
+            let velocity = start.as_ref().map_or(entry.velocity, |v| at(v, entry.slot));
+            let impulse = entry.impulse(&velocity);
+            given.extend(entry.given.map(|to| (None, to, impulse)));
+            if let Some(v) = &mut start {
+                entry.through.turn(entry.slot, v);
+            }
+        }
+        for (field, column) in others.iter_mut() {
+            for entry in &moved.wraps {
+                entry.through.turn_field(*field, entry.slot, column);
+            }
+        }
+        if !moved.order.is_empty() {
+            let columns = self.kept.iter_mut().flatten();
+            for (_, column) in columns.chain(predicted) {
+                let width = column.len() / moved.order.len();
+                let before = column.clone();
+                for (k, &from) in moved.order.iter().enumerate() {
+                    let from = from as usize * width;
+                    column[k * width..(k + 1) * width].copy_from_slice(&before[from..from + width]);
+                }
+            }
+        }
+        moved.wraps.clear();
+        moved.order.clear();
+        given
     }
 
     /// Bytes held for records and sums.

@@ -5,7 +5,7 @@ use crate::output::checkpoint::{Checkpoint, Read, damaged};
 use crate::particles::{Columns, Field};
 use crate::scalar::Real;
 use crate::scheme::Scheme;
-use crate::simulation::population::{BodyState, Particles, Removed};
+use crate::simulation::population::{BodyState, Moves, Particles, Removed};
 use std::ops::Range;
 
 /// A column's name in files. Fields that effects declare may share a name.
@@ -34,6 +34,8 @@ pub(super) fn put_particles<T: Real, const D: usize>(
         slot_of,
         removed,
         first_id: _,
+        // Saved states have been told between steps.
+        moved: _,
     } = particles;
     for field in columns.fields().iter() {
         let column = format!("{name}/particles/{}", column_name(scheme, field));
@@ -90,6 +92,7 @@ pub(super) fn take_particles<T: Real, const D: usize>(
         }
         particles.bodies[k].slots.end = end;
     }
+    particles.moved = Moves::default();
     particles.removed = Removed {
         particles: file.get_one(&format!("{name}/removed/particles"))?,
         mass: file.get_one(&format!("{name}/removed/mass"))?,

@@ -11,7 +11,6 @@ use crate::simulation::Phases;
 use crate::simulation::cost::Spent;
 use crate::simulation::group::Group;
 use crate::simulation::neighborhood::Neighborhood;
-use crate::simulation::population::Moves;
 use crate::simulation::settle::Settling;
 use crate::simulation::workspace::{Saved, Workspace};
 use crate::sweep::{Reaction, Records, Results};
@@ -89,7 +88,6 @@ impl<T: Real, const D: usize> Group<T, D> {
             sums: rows("sums")?,
             coupling: rows("coupling")?,
             settling: Settling::default(),
-            moved: Moves::default(),
             predicted: Saved::new(),
             is_predicted: false,
             kept,
@@ -157,8 +155,6 @@ pub(super) fn put_workspace<T: Real, const D: usize>(
         lengths_time,
         sums,
         coupling: _,
-        // Saved states have been told between steps.
-        moved: _,
         // A prediction is taken back in the step that makes it.
         predicted: _,
         is_predicted: _,
