@@ -47,8 +47,8 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
         self.record_kick(None, dt);
         let time = self.time;
         for group in &mut self.groups {
-            if group.sub_cycle.is_some() {
-                group.kick_apart(dt);
+            if let Some(apart) = &mut group.sub_cycle {
+                apart.kick(&mut group.particles, dt);
             } else {
                 group.kick_all(dt, time);
             }
@@ -173,7 +173,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             };
             group.apply_laws(Stage::Continuity, moment);
             group.apply_laws(Stage::Bounds, moment);
-            group.keep_asleep(true);
+            group.held.keep_asleep(&mut group.particles, true);
         }
         let group = &mut self.groups[group];
         if !group.drifts_at_once() {
@@ -208,25 +208,5 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         for group in &mut self.groups {
             group.gravity = gravity;
         }
-    }
-}
-
-impl<T: Real, const D: usize> Group<T, D> {
-    /// A kick of all but energy, and the bounds of what it has changed.
-    pub(super) fn kick_all(&mut self, dt: f64, time: f64) {
-        self.kick(dt);
-        if self.evolves_at(When::Kick) {
-            self.apply_laws(Stage::Bounds, Moment::at(time));
-        }
-        self.keep_asleep(true);
-    }
-
-    /// The first half of a drift, or all of it where nobody looks at the group in its middle.
-    pub(super) fn begin_drift(&mut self, dt: f64) {
-        if self.scheme.sums_in_drift() {
-            self.predict_weights(0.5 * dt);
-        }
-        let whole = self.drifts_at_once();
-        self.move_particles(if whole { dt } else { 0.5 * dt });
     }
 }

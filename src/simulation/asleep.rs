@@ -2,10 +2,13 @@
 //! on serving as neighbours. Forces on them are replaced as those of a clamp are, and what kicks and drifts change is taken back.
 
 use super::Simulation;
-use super::group::Group;
-use crate::particles::{Field, Output};
+use super::evolve::state;
+use super::forces::Forces;
+use super::held::Held;
+use super::population::Particles;
+use crate::particles::Field;
 use crate::scalar::Real;
-use crate::scheme::EnergyForm;
+use crate::scheme::{EnergyForm, Scheme};
 use std::sync::Arc;
 
 /// The box \[m\] in which a simulation is awake, by its state.
@@ -108,25 +111,37 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         };
         let bounds = awake(self);
         for group in &mut self.groups {
-            group.put_to_sleep(&bounds);
+            let (held, particles) = (&mut group.held, &mut group.particles);
+            let now = held.outside(particles, &bounds);
+            let asleep = held.asleep.as_mut();
+            if let Some(own) = asleep.filter(|own| own.particles != now) {
+                let forces = Forces::all(&mut group.work, &mut group.sub_cycle);
+                own.change(now, particles, forces);
+                own.keep_rows(particles, &group.scheme);
+            }
         }
     }
 }
 
-impl<T: Real, const D: usize> Group<T, D> {
-    /// Who sleeps, by body and number. A bound that is no number does not bound, and what is clamped is held already.
-    fn outside(&self, [low, high]: &[[f64; D]; 2]) -> Vec<(usize, u32)> {
-        let positions = self.particles.columns.vectors(Field::POSITION);
+impl<const D: usize> Held<D> {
+    /// Who is outside of a box, by body and number. A bound that is no number does not bound, and what is clamped is held
+    /// already.
+    fn outside<T: Real>(
+        &self,
+        particles: &Particles<T, D>,
+        [low, high]: &[[f64; D]; 2],
+    ) -> Vec<(usize, u32)> {
+        let positions = particles.columns.vectors(Field::POSITION);
         let mut all = Vec::new();
-        for (k, body) in self.particles.bodies.iter().enumerate() {
-            let clamps = self.held.clamps.iter();
+        for (k, body) in particles.bodies.iter().enumerate() {
+            let clamps = self.clamps.iter();
             let clamps = clamps.filter(|own| own.body == k && !own.released);
             let mut clamped = vec![false; body.ids.len()];
             for (id, _) in clamps.flat_map(|own| &own.particles) {
                 clamped[*id as usize] = true;
             }
             for (id, clamped) in clamped.into_iter().enumerate() {
-                let slot = self.particles.slot_of[body.ids.start + id];
+                let slot = particles.slot_of[body.ids.start + id];
                 if clamped || slot == u32::MAX {
                     continue;
                 }
@@ -139,174 +154,149 @@ impl<T: Real, const D: usize> Group<T, D> {
         all
     }
 
-    fn put_to_sleep(&mut self, bounds: &[[f64; D]; 2]) {
-        let Some(mut own) = self.held.asleep.take() else {
-            return;
-        };
-        let now = self.outside(bounds);
-        if now != own.particles {
-            let before = core::mem::replace(&mut own.particles, now);
-            let forces = core::mem::take(&mut own.forces);
-            self.wake(&mut own, &before, &forces);
-            for k in 0..own.particles.len() {
-                let particle = own.particles[k];
-                let was = before.binary_search(&particle).ok();
-                if was.is_none() {
-                    self.stop(&mut own, particle);
-                }
-                for (coupled, before) in [false, true].into_iter().zip(&forces) {
-                    let held = match was {
-                        Some(n) => before.get(n).copied(),
-                        None => self
-                            .has_forces(coupled)
-                            .then(|| self.hold_still(particle, coupled)),
-                    };
-                    own.forces[usize::from(coupled)].extend(held);
-                }
-            }
-            self.keep_rows(&mut own);
-        }
-        self.held.asleep = Some(own);
-    }
-
-    /// Whether there are forces that can be replaced: none of couplings where a group does not sub-cycle, and none before
-    /// the first evaluation.
-    fn has_forces(&self, coupled: bool) -> bool {
-        match &self.sub_cycle {
-            Some(apart) if coupled => !apart.forces.is_empty(),
-            _ => !coupled && self.work.rates.outputs().contains(Output::FORCE),
-        }
-    }
-
-    /// Gives those of `before` that sleep no longer the forces back that they had.
-    fn wake(&mut self, own: &mut Asleep<D>, before: &[(usize, u32)], forces: &[Vec<[f64; D]>; 2]) {
-        for (n, particle) in before.iter().enumerate() {
-            if own.particles.binary_search(particle).is_ok() {
-                continue;
-            }
-            let slots = self.slots_of(particle.0, particle.1);
-            own.woken += u64::from(!slots.is_empty());
-            for (coupled, forces) in [false, true].into_iter().zip(forces) {
-                let Some(given) = forces.get(n) else {
-                    continue;
-                };
-                for slot in slots.clone() {
-                    let held = self.force_on(slot, coupled);
-                    let free = core::array::from_fn(|d| held[d] - T::from_f64(given[d]));
-                    self.set_force(slot, coupled, free);
-                }
-            }
-        }
-    }
-
-    /// Takes the velocity of a particle that falls asleep.
-    fn stop(&mut self, own: &mut Asleep<D>, (body, id): (usize, u32)) {
-        let slots = self.slots_of(body, id);
-        let mass = self.particles.columns.raw(Field::MASS)[slots.start].to_f64();
-        let v = self.particles.columns.vectors(Field::VELOCITY)[slots.start].map(Real::to_f64);
-        own.fallen += 1;
-        for (impulse, v) in own.impulse.iter_mut().zip(v) {
-            *impulse -= mass * v;
-            own.energy -= 0.5 * mass * v * v;
-        }
-        self.particles.columns.vectors_mut(Field::VELOCITY)[slots].fill([T::zero(); D]);
-    }
-
-    /// Replaces the force on a sleeper by what leaves it at rest, and says what that gives.
-    fn hold_still(&mut self, (body, id): (usize, u32), coupled: bool) -> [f64; D] {
-        let gravity = self.work.evaluated_gravity.map(Real::to_f64);
-        let mut given = [0.0; D];
-        for slot in self.slots_of(body, id).rev() {
-            let mass = self.particles.columns.raw(Field::MASS)[slot].to_f64();
-            let before = self.force_on(slot, coupled);
-            let after = core::array::from_fn(|d| {
-                let weight = if coupled { 0.0 } else { mass * gravity[d] };
-                T::from_f64(-weight)
-            });
-            given = core::array::from_fn(|d| (after[d] - before[d]).to_f64());
-            self.set_force(slot, coupled, after);
-        }
-        given
-    }
-
-    /// The same of all sleepers, after an evaluation.
-    pub(super) fn hold_sleepers(&mut self, coupled: bool) {
-        let Some(mut own) = self.held.asleep.take() else {
-            return;
-        };
-        let forces = &mut own.forces[usize::from(coupled)];
-        forces.clear();
-        if self.has_forces(coupled) {
-            let held = own.particles.iter();
-            forces.extend(held.map(|particle| self.hold_still(*particle, coupled)));
-        }
-        self.held.asleep = Some(own);
-    }
-
-    /// Books what holds them in a kick over `dt` \[s\].
-    pub(super) fn record_sleepers(&mut self, coupled: bool, dt: f64) {
-        if let Some(own) = &mut self.held.asleep {
-            for force in &own.forces[usize::from(coupled)] {
-                for (impulse, force) in own.impulse.iter_mut().zip(force) {
-                    *impulse += dt * force;
-                }
-            }
-        }
-    }
-
-    /// The force \[N\] that holds all of them now.
+    /// The force \[N\] that holds all sleepers now.
     pub(super) fn force_on_sleepers(&self) -> [f64; D] {
-        let own = self.held.asleep.iter().flat_map(|own| &own.forces);
+        let own = self.asleep.iter().flat_map(|own| &own.forces);
         own.flatten().fold([0.0; D], |sum, force| {
             core::array::from_fn(|d| sum[d] + force[d])
         })
     }
 
-    /// Notes the present state of sleepers as what is held.
-    pub(super) fn keep_rows(&self, own: &mut Asleep<D>) {
-        let energy = (self.scheme.energy != EnergyForm::None).then_some(Field::ENERGY);
-        let all = self
-            .state()
-            .chain(energy)
-            .chain(self.scheme.program.state());
-        own.state.clear();
-        for field in all {
-            let (width, column) = (field.components(D), self.particles.columns.raw(field));
-            if column.is_empty() || own.state.iter().any(|other| other.0 == field) {
+    /// Takes back what has changed of the state of sleepers; books the energy of it if that was a kick or a drift, and
+    /// no prediction.
+    pub(super) fn keep_asleep<T: Real>(&mut self, particles: &mut Particles<T, D>, books: bool) {
+        if let Some(own) = &mut self.asleep {
+            own.keep(particles, books);
+        }
+    }
+}
+
+impl<const D: usize> Asleep<D> {
+    /// Lets these sleep from now on and wakes all others, with all forces on them.
+    fn change<T: Real>(
+        &mut self,
+        now: Vec<(usize, u32)>,
+        particles: &mut Particles<T, D>,
+        all: [Option<Forces<'_, T, D>>; 2],
+    ) {
+        let before = core::mem::replace(&mut self.particles, now);
+        fn sleeps(all: &[(usize, u32)], own: &(usize, u32)) -> Option<usize> {
+            all.binary_search(own).ok()
+        }
+        for own in &before {
+            let there = !particles.slots_of(own.0, own.1).is_empty();
+            self.woken += u64::from(there && sleeps(&self.particles, own).is_none());
+        }
+        for k in 0..self.particles.len() {
+            if sleeps(&before, &self.particles[k]).is_none() {
+                self.stop(particles, self.particles[k]);
+            }
+        }
+        for (held, forces) in self.forces.iter_mut().zip(all) {
+            let given = core::mem::take(held);
+            let Some(mut forces) = forces else {
                 continue;
+            };
+            // Those that sleep no longer have the forces back that they had.
+            for (own, given) in before.iter().zip(&given) {
+                if sleeps(&self.particles, own).is_none() {
+                    for slot in particles.slots_of(own.0, own.1) {
+                        let held = forces.on(slot);
+                        let free = core::array::from_fn(|d| held[d] - T::from_f64(given[d]));
+                        forces.set(slot, free);
+                    }
+                }
             }
-            let mut rows = Vec::with_capacity(width * own.particles.len());
-            for &(body, id) in &own.particles {
-                let slot = self.slots_of(body, id).start;
-                let row = column[slot * width..(slot + 1) * width].iter();
-                rows.extend(row.map(|value| value.to_f64()));
+            for own in &self.particles {
+                held.extend(match sleeps(&before, own) {
+                    Some(n) => given.get(n).copied(),
+                    None => Some(hold_still(particles, &mut forces, *own)),
+                });
             }
-            own.state.push((field, rows));
         }
     }
 
-    /// Takes back what has changed of the state of sleepers; books the energy of it if that was a kick or a drift, and
-    /// no prediction.
-    pub(super) fn keep_asleep(&mut self, books: bool) {
-        let Some(mut own) = self.held.asleep.take() else {
-            return;
-        };
-        for (n, &(body, id)) in own.particles.iter().enumerate() {
-            let slots = self.slots_of(body, id);
+    /// Takes the velocity of a particle that falls asleep.
+    fn stop<T: Real>(&mut self, particles: &mut Particles<T, D>, (body, id): (usize, u32)) {
+        let slots = particles.slots_of(body, id);
+        let mass = particles.columns.raw(Field::MASS)[slots.start].to_f64();
+        let velocities = particles.columns.vectors_mut(Field::VELOCITY);
+        let v = velocities[slots.start].map(Real::to_f64);
+        self.fallen += 1;
+        for (impulse, v) in self.impulse.iter_mut().zip(v) {
+            *impulse -= mass * v;
+            self.energy -= 0.5 * mass * v * v;
+        }
+        velocities[slots].fill([T::zero(); D]);
+    }
+
+    /// Replaces the forces on all of them by what leaves them at rest, after an evaluation.
+    pub(super) fn hold<T: Real>(
+        &mut self,
+        particles: &Particles<T, D>,
+        forces: &mut Forces<'_, T, D>,
+    ) {
+        let held = &mut self.forces[usize::from(forces.are_apart())];
+        held.clear();
+        if forces.are_there() {
+            let own = self.particles.iter();
+            held.extend(own.map(|own| hold_still(particles, forces, *own)));
+        }
+    }
+
+    /// Books what holds them in a kick over `dt` \[s\].
+    pub(super) fn record(&mut self, coupled: bool, dt: f64) {
+        for force in &self.forces[usize::from(coupled)] {
+            for (impulse, force) in self.impulse.iter_mut().zip(force) {
+                *impulse += dt * force;
+            }
+        }
+    }
+
+    /// Notes their present state as what is held.
+    pub(super) fn keep_rows<T: Real>(
+        &mut self,
+        particles: &Particles<T, D>,
+        scheme: &Scheme<T, D>,
+    ) {
+        let energy = (scheme.energy != EnergyForm::None).then_some(Field::ENERGY);
+        let all = state(&scheme.program)
+            .chain(energy)
+            .chain(scheme.program.state());
+        self.state.clear();
+        for field in all {
+            let (width, column) = (field.components(D), particles.columns.raw(field));
+            if column.is_empty() || self.state.iter().any(|other| other.0 == field) {
+                continue;
+            }
+            let mut rows = Vec::with_capacity(width * self.particles.len());
+            for &(body, id) in &self.particles {
+                let slot = particles.slots_of(body, id).start;
+                let row = column[slot * width..(slot + 1) * width].iter();
+                rows.extend(row.map(|value| value.to_f64()));
+            }
+            self.state.push((field, rows));
+        }
+    }
+
+    /// Takes back what has changed of their state, and books the energy of it if asked for.
+    fn keep<T: Real>(&mut self, particles: &mut Particles<T, D>, books: bool) {
+        for (n, &(body, id)) in self.particles.iter().enumerate() {
+            let slots = particles.slots_of(body, id);
             if slots.is_empty() {
                 continue;
             }
             if books {
                 let held = |field: Field| {
-                    let rows = own.state.iter().find(|rows| rows.0 == field);
+                    let rows = self.state.iter().find(|rows| rows.0 == field);
                     rows.map(|rows| rows.1[n])
                 };
-                own.energy -= self.gained(body, slots.start, held);
+                self.energy -= gained(particles, body, slots.start, held);
             }
-            for (field, rows) in &own.state {
+            for (field, rows) in &self.state {
                 let width = field.components(D);
                 let row = &rows[n * width..(n + 1) * width];
-                let column = self.particles.columns.raw_mut(*field);
+                let column = particles.columns.raw_mut(*field);
                 for slot in slots.clone() {
                     for (now, held) in column[slot * width..].iter_mut().zip(row) {
                         *now = T::from_f64(*held);
@@ -314,25 +304,39 @@ impl<T: Real, const D: usize> Group<T, D> {
                 }
             }
         }
-        self.held.asleep = Some(own);
     }
+}
 
-    /// What the particle in a slot has gained over the state that is held \[J\]: internal energy, or that of compression in a
-    /// scheme that carries none.
-    fn gained(&self, body: usize, slot: usize, held: impl Fn(Field) -> Option<f64>) -> f64 {
-        let columns = &self.particles.columns;
-        let mass = columns.raw(Field::MASS)[slot].to_f64();
-        let now = |field: Field| columns.raw(field).get(slot).map_or(0.0, |e| e.to_f64());
-        if let Some(before) = held(Field::ENERGY) {
-            return mass * (now(Field::ENERGY) - before);
+/// Replaces the force on a sleeper by what leaves it at rest, and says what that gives.
+fn hold_still<T: Real, const D: usize>(
+    particles: &Particles<T, D>,
+    forces: &mut Forces<'_, T, D>,
+    own: (usize, u32),
+) -> [f64; D] {
+    let gravity = forces.gravity();
+    forces.replace(particles, own, |mass| gravity.map(|g| -(mass * g)))
+}
+
+/// What the particle in a slot has gained over the state that is held \[J\]: internal energy, or that of compression in a
+/// scheme that carries none.
+fn gained<T: Real, const D: usize>(
+    particles: &Particles<T, D>,
+    body: usize,
+    slot: usize,
+    held: impl Fn(Field) -> Option<f64>,
+) -> f64 {
+    let columns = &particles.columns;
+    let mass = columns.raw(Field::MASS)[slot].to_f64();
+    let now = |field: Field| columns.raw(field).get(slot).map_or(0.0, |e| e.to_f64());
+    if let Some(before) = held(Field::ENERGY) {
+        return mass * (now(Field::ENERGY) - before);
+    }
+    match held(Field::DENSITY) {
+        Some(before) if before != now(Field::DENSITY) => {
+            let law = particles.bodies[body].material.eos();
+            let of = |density| law.compression_energy(density);
+            mass * (of(now(Field::DENSITY)) - of(before))
         }
-        match held(Field::DENSITY) {
-            Some(before) if before != now(Field::DENSITY) => {
-                let law = self.particles.bodies[body].material.eos();
-                let of = |density| law.compression_energy(density);
-                mass * (of(now(Field::DENSITY)) - of(before))
-            }
-            _ => 0.0,
-        }
+        _ => 0.0,
     }
 }

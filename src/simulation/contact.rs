@@ -2,6 +2,7 @@
 //! Pairs act in the order of the numbers of their particles, so results do not depend on threads or on lists.
 
 use super::Simulation;
+use super::couplings::coupled_particle;
 use super::group::Group;
 use super::pair_images::velocity;
 use super::pair_list::PairList;
@@ -183,7 +184,7 @@ impl<T: Real, const D: usize> Couple<T, D> {
     fn spacing(&self, groups: &[Group<T, D>]) -> f64 {
         let [first, second] = self
             .sides
-            .map(|(group, body)| groups[group].spacing_of(body));
+            .map(|(group, body)| groups[group].particles.bodies[body].spacing);
         0.5 * (first + second)
     }
 
@@ -385,16 +386,16 @@ impl<T: Real, const D: usize> Couple<T, D> {
     fn see(&self, list: &mut PairList<T, D>, groups: &[Group<T, D>]) {
         let spacings = self
             .sides
-            .map(|(group, body)| T::from_f64(groups[group].spacing_of(body)));
+            .map(|(group, body)| T::from_f64(groups[group].particles.bodies[body].spacing));
         let stiffness = T::from_f64(self.stiffness);
         list.particles.clear();
         for (row, &id) in list.rows.iter().enumerate() {
             let side = usize::from(row >= list.split);
-            let group = &groups[self.sides[side].0];
-            let mut particle = group.coupled_particle(0, spacings[side]);
+            let columns = &groups[self.sides[side].0].particles.columns;
+            let mut particle = coupled_particle(columns, 0, spacings[side]);
             let (id, chain) = list.images.source(side, id);
             match self.slot(side, id, groups) {
-                Some(slot) => particle = group.coupled_particle(slot, spacings[side]),
+                Some(slot) => particle = coupled_particle(columns, slot, spacings[side]),
                 None => particle.position = [T::from_f64(f64::NAN); D],
             }
             if let Some(chain) = chain {

@@ -3,13 +3,14 @@
 
 use super::Simulation;
 use super::group::Group;
-use super::population::BodyState;
+use super::population::{BodyState, Particles};
+use super::walls::WallState;
+use super::workspace::Workspace;
+use crate::boundary::Boundary;
 use crate::coupling::{CoupledParticle, Coupling};
-use crate::particles::{Field, Output};
+use crate::particles::{Columns, Field, Output};
 use crate::scalar::Real;
-use crate::sweep::{Pass, Records, Results, SweepInput};
-use crate::term::{Stage, TermDoc};
-use std::ops::Range;
+use crate::term::TermDoc;
 use std::sync::Arc;
 
 /// The body of another group whose particles a wall is made of.
@@ -50,23 +51,25 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Brings the walls that structures are to where their particles are now, at `time` \[s\]; whether all rates are
     /// about to be evaluated.
     pub(super) fn place_structures(&mut self, time: f64, evaluated: bool) {
-        self.for_each_structure(|liquid, wall, group, body| {
-            liquid.follow(wall, (group, body), time, evaluated);
+        self.for_each_structure(|liquid, wall, group| {
+            let (own, boundaries) = (&mut liquid.particles, &liquid.boundaries);
+            let others = (&group.particles, &group.work);
+            liquid.walls[wall].follow(own, boundaries, others, (time, evaluated));
         });
     }
 
     /// Keeps where structures that have their impulses spread begin a drift.
     pub(super) fn begin_drift_of_structures(&mut self) {
-        self.for_each_structure(|liquid, wall, group, body| {
-            liquid.keep_drift(wall, (group, body), None);
+        self.for_each_structure(|liquid, wall, group| {
+            liquid.walls[wall].keep_drift(&mut liquid.particles, &group.particles, None);
         });
     }
 
     /// Gives the walls that these are the mean velocity of a drift over `dt` \[s\] that has come to its end: what they have moved by is
     /// what the liquid is to be compressed by, and their velocity at one instant is that of a swing.
     pub(super) fn end_drift_of_structures(&mut self, dt: f64) {
-        self.for_each_structure(|liquid, wall, group, body| {
-            liquid.keep_drift(wall, (group, body), Some(dt));
+        self.for_each_structure(|liquid, wall, group| {
+            liquid.walls[wall].keep_drift(&mut liquid.particles, &group.particles, Some(dt));
         });
     }
 
@@ -80,9 +83,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             group.sum_on_structures();
         }
         // What the liquids feel with the opposite sign, pair by pair.
-        self.for_each_structure(|liquid, wall, group, body| {
-            for slot in liquid.walls[wall].slots.clone() {
-                if let Some(own) = liquid.slot_of_structure(wall, slot, group, body) {
+        self.for_each_structure(|liquid, wall, group| {
+            let wall = &liquid.walls[wall];
+            for slot in wall.slots.clone() {
+                let at = wall.rest_of(&liquid.particles.ids, slot);
+                if let Some(own) = wall.slot_in(&group.particles, at) {
                     group.push(own, liquid.work.coupling.vector(Output::FORCE, slot));
                 }
             }
@@ -92,16 +97,16 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     fn for_each_structure(
         &mut self,
-        mut act: impl FnMut(&mut Group<T, D>, usize, &mut Group<T, D>, usize),
+        mut act: impl FnMut(&mut Group<T, D>, usize, &mut Group<T, D>),
     ) {
         for k in 0..self.groups.len() {
             for wall in 0..self.groups[k].walls.len() {
                 let Some(structure) = &self.groups[k].walls[wall].structure else {
                     continue;
                 };
-                let (group, body) = (structure.group, structure.body);
-                if let Ok([liquid, group]) = self.groups.get_disjoint_mut([k, group]) {
-                    act(liquid, wall, group, body);
+                let of = structure.group;
+                if let Ok([liquid, group]) = self.groups.get_disjoint_mut([k, of]) {
+                    act(liquid, wall, group);
                 }
             }
         }
@@ -152,84 +157,52 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 }
 
-impl<T: Real, const D: usize> Group<T, D> {
-    /// Adds a force \[N\] of a coupling on a particle: to its rates, or apart from them where it sub-cycles.
-    pub(super) fn push(&mut self, slot: usize, force: [T; D]) {
-        // What repeats the last particle goes where that goes.
-        let body = &self.particles.bodies[self.particles.body_of(slot)];
-        let end = if slot + 1 == body.slots.end {
-            body.end
-        } else {
-            slot + 1
-        };
-        for slot in slot..end {
-            match &mut self.sub_cycle {
-                None => self.work.rates.add(Output::FORCE, slot, force),
-                Some(apart) => {
-                    for d in 0..D {
-                        apart.forces[slot][d] += force[d];
-                    }
-                }
-            }
-        }
+/// What couplings see of the particle in a slot.
+pub(super) fn coupled_particle<T: Real, const D: usize>(
+    columns: &Columns<T, D>,
+    slot: usize,
+    spacing: T,
+) -> CoupledParticle<T, D> {
+    CoupledParticle {
+        position: columns.vectors(Field::POSITION)[slot],
+        velocity: columns.vectors(Field::VELOCITY)[slot],
+        mass: columns.raw(Field::MASS)[slot],
+        density: columns.raw(Field::DENSITY)[slot],
+        spacing,
+        stiffness: T::zero(),
+        sum: T::zero(),
+        gradient: [T::zero(); D],
+        pressure: T::zero(),
     }
+}
 
-    pub(super) fn spacing_of(&self, body: usize) -> f64 {
-        self.particles.bodies[body].spacing
-    }
-
-    pub(super) fn coupled_particle(&self, slot: usize, spacing: T) -> CoupledParticle<T, D> {
-        let columns = &self.particles.columns;
-        CoupledParticle {
-            position: columns.vectors(Field::POSITION)[slot],
-            velocity: columns.vectors(Field::VELOCITY)[slot],
-            mass: columns.raw(Field::MASS)[slot],
-            density: columns.raw(Field::DENSITY)[slot],
-            spacing,
-            stiffness: T::zero(),
-            sum: T::zero(),
-            gradient: [T::zero(); D],
-            pressure: T::zero(),
-        }
-    }
-
-    /// Slots of walls, from the first that is a structure; these stand behind the walls of the scene.
-    fn structure_slots(&self) -> Range<usize> {
-        let first = self.walls.iter().find(|wall| wall.structure.is_some());
-        let slots = self.particles.columns.slots();
-        first.map_or(slots, |wall| wall.slots.start)..slots
-    }
-
-    /// The slot, in the group of a structure, of the particle that a wall particle is; none if it has left.
-    fn slot_of_structure(
-        &self,
-        wall: usize,
-        slot: usize,
-        group: &Self,
-        body: usize,
-    ) -> Option<usize> {
-        let id = group.particles.bodies[body].ids.start
-            + self.walls[wall].rest_of(&self.particles.ids, slot);
-        let own = group.particles.slot_of[id];
-        (own != u32::MAX).then_some(own as usize)
+/// Walls that are structures.
+impl<T: Real, const D: usize> WallState<T, D> {
+    /// The slot, in the group of the structure, of the particle that is the wall's with that number as built; none if it has
+    /// left.
+    fn slot_in(&self, others: &Particles<T, D>, at: usize) -> Option<usize> {
+        let body = self.structure.as_ref()?.body;
+        let slot = others.slot_of[others.bodies[body].ids.start + at];
+        (slot != u32::MAX).then_some(slot as usize)
     }
 
     /// The begin of a drift of a structure that has its impulses spread, or its end after `dt` \[s\].
-    fn keep_drift(&mut self, wall: usize, (group, body): (&Self, usize), dt: Option<f64>) {
+    fn keep_drift(&mut self, own: &mut Particles<T, D>, others: &Particles<T, D>, dt: Option<f64>) {
         let spreads = |own: &Structure<T, D>| !own.drift.is_empty();
-        if !self.walls[wall].structure.as_ref().is_some_and(spreads) {
+        if !self.structure.as_ref().is_some_and(spreads) {
             return;
         }
-        let columns = &group.particles.columns;
-        let [x, lost] = [Field::POSITION, Field::POSITION_RESIDUAL].map(|own| columns.vectors(own));
-        for slot in self.walls[wall].slots.start..self.walls[wall].end {
-            let at = self.walls[wall].rest_of(&self.particles.ids, slot);
-            let Some(own) = self.slot_of_structure(wall, slot, group, body) else {
+        let columns = &others.columns;
+        let [x, lost] =
+            [Field::POSITION, Field::POSITION_RESIDUAL].map(|field| columns.vectors(field));
+        for slot in self.slots.start..self.end {
+            let at = self.rest_of(&own.ids, slot);
+            let Some(other) = self.slot_in(others, at) else {
                 continue;
             };
-            let lost = lost.get(own).copied().unwrap_or([T::zero(); D]);
-            let now: [f64; D] = core::array::from_fn(|d| x[own][d].to_f64() + lost[d].to_f64());
-            let Some(structure) = &mut self.walls[wall].structure else {
+            let lost = lost.get(other).copied().unwrap_or([T::zero(); D]);
+            let now: [f64; D] = core::array::from_fn(|d| x[other][d].to_f64() + lost[d].to_f64());
+            let Some(structure) = &mut self.structure else {
                 continue;
             };
             let [begun, mean] = &mut structure.drift[at];
@@ -239,106 +212,83 @@ impl<T: Real, const D: usize> Group<T, D> {
             };
             let moved: [f64; D] = core::array::from_fn(|d| now[d] - begun[d]);
             // What has come back across a period has not moved by it.
-            let far = 0.5 * group.spacing_of(body);
+            let far = 0.5 * others.bodies[structure.body].spacing;
             if moved.iter().all(|x| x.abs() < far) {
                 *mean = moved.map(|x| x / dt);
             }
             let mean = mean.map(T::from_f64);
-            self.particles.columns.vectors_mut(Field::VELOCITY)[slot] = mean;
+            own.columns.vectors_mut(Field::VELOCITY)[slot] = mean;
         }
     }
 
-    /// Moves a wall to the particles of the body that it is, as they are at `time` \[s\].
-    fn follow(&mut self, wall: usize, (group, body): (&Self, usize), time: f64, evaluated: bool) {
-        let run = self.walls[wall].slots.start..self.walls[wall].end;
-        let spacing = T::from_f64(group.spacing_of(body));
-        for slot in run {
-            let at = self.walls[wall].rest_of(&self.particles.ids, slot);
-            let Some(own) = self.slot_of_structure(wall, slot, group, body) else {
-                self.particles.columns.raw_mut(Field::MASS)[slot] = T::zero();
+    /// Moves it to the particles of the body that it is, as these are at `time` \[s\].
+    fn follow(
+        &mut self,
+        own: &mut Particles<T, D>,
+        boundaries: &[Arc<dyn Boundary<T, D>>],
+        (others, work): (&Particles<T, D>, &Workspace<T, D>),
+        (time, evaluated): (f64, bool),
+    ) {
+        for slot in self.slots.start..self.end {
+            let at = self.rest_of(&own.ids, slot);
+            let Some(other) = self.slot_in(others, at) else {
+                own.columns.raw_mut(Field::MASS)[slot] = T::zero();
                 continue;
             };
-            let particle = group.coupled_particle(own, spacing);
-            if let Some(structure) = &mut self.walls[wall].structure {
-                let rest = self.particles.columns.raw(Field::DENSITY)[slot];
+            if let Some(structure) = &mut self.structure {
+                let spacing = T::from_f64(others.bodies[structure.body].spacing);
+                let particle = coupled_particle(&others.columns, other, spacing);
+                let rest = own.columns.raw(Field::DENSITY)[slot];
                 let mass = structure.coupling.wall_mass(rest, &particle);
-                self.particles.columns.raw_mut(Field::MASS)[slot] = mass;
+                own.columns.raw_mut(Field::MASS)[slot] = mass;
                 let elapsed = if evaluated {
                     time - structure.evaluated
                 } else {
                     0.0
                 };
-                structure.accelerate(at, own, group, elapsed);
+                structure.accelerate(at, other, (others, work), elapsed);
             }
             for field in [Field::POSITION, Field::POSITION_RESIDUAL, Field::VELOCITY] {
-                let from = group.particles.columns.vectors(field).get(own);
-                let to = self.particles.columns.vectors_mut(field).get_mut(slot);
+                let from = others.columns.vectors(field).get(other);
+                let to = own.columns.vectors_mut(field).get_mut(slot);
                 if let (Some(from), Some(to)) = (from, to) {
                     *to = *from;
                 }
             }
-            if let Some(structure) = self.walls[wall].structure.as_ref().filter(|_| evaluated)
+            if let Some(structure) = self.structure.as_ref().filter(|_| evaluated)
                 && let Some([_, mean]) = structure.drift.get(at)
                 && !structure.evaluated.is_nan()
             {
                 let mean = mean.map(T::from_f64);
-                self.particles.columns.vectors_mut(Field::VELOCITY)[slot] = mean;
+                own.columns.vectors_mut(Field::VELOCITY)[slot] = mean;
             }
-            let [x, residual, v] = self.particles.columns.many_mut([
-                Field::POSITION,
-                Field::POSITION_RESIDUAL,
-                Field::VELOCITY,
-            ]);
+            let [x, residual, v] =
+                own.columns
+                    .many_mut([Field::POSITION, Field::POSITION_RESIDUAL, Field::VELOCITY]);
             // The group of the structure lets particles re-enter a period when its lists are built.
-            for boundary in &self.boundaries {
+            for boundary in boundaries {
                 let now = core::array::from_fn(|d| x[slot * D + d]);
                 if let Some(back) = boundary.wrap(&now, time) {
                     back.re_enter(slot, x, residual, v);
                 }
             }
         }
-        if let Some(structure) = self.walls[wall].structure.as_mut().filter(|_| evaluated) {
+        if let Some(structure) = self.structure.as_mut().filter(|_| evaluated) {
             structure.evaluated = time;
-        }
-    }
-
-    /// The force of the liquid on every particle of a structure with the rates at hand.
-    fn sum_on_structures(&mut self) {
-        let targets = self.structure_slots();
-        if targets.is_empty() {
-            return;
-        }
-        let mut rows = core::mem::take(&mut self.work.coupling);
-        self.work.spent.pairs += self.neighborhood.pairs_of(targets.clone());
-        self.sum_on_walls(targets, &mut rows);
-        self.work.coupling = rows;
-    }
-
-    /// The force of the liquid on wall particles with the rates at hand: the forces on the liquid with
-    /// the opposite sign.
-    pub(super) fn sum_on_walls(&self, targets: Range<usize>, rows: &mut Results<T, D>) {
-        let input = SweepInput {
-            targets,
-            ..self.input()
-        };
-        let Some(rates) = self.scheme.sweep(Stage::Rates) else {
-            return;
-        };
-        if self.work.records_of_rates {
-            rates.run(Pass::Rates, &input, &self.work.records, rows);
-        } else {
-            // Another sweep has used the records since.
-            let mut records = Records::default();
-            rates.pack(Pass::Rates, &input, &mut records);
-            rates.run(Pass::Rates, &input, &records, rows);
         }
     }
 }
 
 impl<T: Real, const D: usize> Structure<T, D> {
     /// What has accelerated its particle in a slot of its group, `elapsed` \[s\] after the evaluation before.
-    fn accelerate(&mut self, at: usize, own: usize, group: &Group<T, D>, elapsed: f64) {
-        let velocity = group.particles.columns.vectors(Field::VELOCITY)[own].map(Real::to_f64);
+    fn accelerate(
+        &mut self,
+        at: usize,
+        own: usize,
+        (particles, work): (&Particles<T, D>, &Workspace<T, D>),
+        elapsed: f64,
+    ) {
+        let velocity = particles.columns.vectors(Field::VELOCITY)[own].map(Real::to_f64);
         match self.before.get_mut(at) {
             // A stiff body swings many times in a step of the liquid, which feels the mean.
             Some(before) if !self.evaluated.is_nan() => {
@@ -349,11 +299,9 @@ impl<T: Real, const D: usize> Structure<T, D> {
                 }
             }
             before => {
-                let mass = group.particles.columns.raw(Field::MASS)[own];
-                let force = group.work.rates.vector(Output::FORCE, own);
-                self.accelerations[at] = core::array::from_fn(|d| {
-                    (force[d] / mass + group.work.evaluated_gravity[d]).to_f64()
-                });
+                let mass = particles.columns.raw(Field::MASS);
+                self.accelerations[at] =
+                    core::array::from_fn(|d| work.acceleration(mass, own * D + d).to_f64());
                 if let Some(before) = before {
                     *before = velocity;
                 }

@@ -112,7 +112,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             }
         }
         for group in self.stepping(alone) {
-            let given = group.force_on_sleepers();
+            let given = group.held.force_on_sleepers();
             for d in 0..D {
                 momentum[d] += 0.5 * dt * given[d];
             }

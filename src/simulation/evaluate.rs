@@ -10,8 +10,9 @@ use crate::parallel::{GRAIN, cut, for_each, reduce};
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::scheme::EnergyForm;
-use crate::sweep::Pass;
+use crate::sweep::{Pass, Records, Results, SweepInput};
 use crate::term::Stage;
+use std::ops::Range;
 
 /// Largest share by which a smoothing length is predicted to change.
 const MOST_PREDICTED: f64 = 0.2;
@@ -114,7 +115,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             self.apply_laws(Stage::Continuity, moment);
         }
         self.apply_laws(Stage::Rates, moment);
-        self.keep_asleep(false);
+        self.held.keep_asleep(&mut self.particles, false);
     }
 
     /// Smoothing lengths that follow the density, as far ahead as they have changed since: the nearer the search for them
@@ -287,6 +288,40 @@ impl<T: Real, const D: usize> Group<T, D> {
             let mut records = core::mem::take(&mut self.work.work_records);
             sweep.pack(Pass::Work, &self.input(), &mut records);
             self.work.work_records = records;
+        }
+    }
+
+    /// The force of the liquid on every particle of a structure with the rates at hand.
+    pub(super) fn sum_on_structures(&mut self) {
+        // Structures stand behind the walls of the scene.
+        let mut walls = self.walls.iter();
+        let Some(first) = walls.find(|wall| wall.structure.is_some()) else {
+            return;
+        };
+        let targets = first.slots.start..self.particles.columns.slots();
+        let mut rows = core::mem::take(&mut self.work.coupling);
+        self.work.spent.pairs += self.neighborhood.pairs_of(targets.clone());
+        self.sum_on_walls(targets, &mut rows);
+        self.work.coupling = rows;
+    }
+
+    /// The force of the liquid on wall particles with the rates at hand: the forces on the liquid with
+    /// the opposite sign.
+    pub(super) fn sum_on_walls(&self, targets: Range<usize>, rows: &mut Results<T, D>) {
+        let input = SweepInput {
+            targets,
+            ..self.input()
+        };
+        let Some(rates) = self.scheme.sweep(Stage::Rates) else {
+            return;
+        };
+        if self.work.records_of_rates {
+            rates.run(Pass::Rates, &input, &self.work.records, rows);
+        } else {
+            // Another sweep has used the records since.
+            let mut records = Records::default();
+            rates.pack(Pass::Rates, &input, &mut records);
+            rates.run(Pass::Rates, &input, &records, rows);
         }
     }
 

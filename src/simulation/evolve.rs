@@ -1,14 +1,30 @@
 //! How numbers of the state change: by rates, as their declarations say, and with what rounding loses.
 //! On slices of columns; which of these change when is in `state`.
 
-use crate::effect::{Evolved, Update, View};
+use crate::effect::{Evolved, StepProgram, Update, View};
 use crate::parallel::{GRAIN, cut, for_each};
+use crate::particles::Field;
 use crate::scalar::Real;
 use crate::sweep::two_sum;
 use crate::tensor::{Symmetric, rotation};
 
 /// Numbers whose rates are on the stack at a time; a whole number of particles of any shape.
 pub(super) const RATES: usize = 360;
+
+/// Positions, and what their rounding has lost.
+pub(super) const POSITIONS: [Field; 2] = [Field::POSITION, Field::POSITION_RESIDUAL];
+
+/// What a state consists of.
+pub(super) fn state<T: Real, const D: usize>(
+    program: &StepProgram<T, D>,
+) -> impl Iterator<Item = Field> {
+    let evolved = program.evolved.iter();
+    let evolved = evolved.flat_map(|own| core::iter::once(own.field).chain(own.residual));
+    POSITIONS
+        .into_iter()
+        .chain([Field::VELOCITY])
+        .chain(evolved)
+}
 
 /// dY/dt = g Y + s of some particles from slot `first` on, whose present values are `values`.
 pub(super) fn rates<T: Real, const D: usize>(
@@ -149,6 +165,36 @@ pub(super) fn add_scaled<T: Real>(x: &mut [T], residual: &mut [T], v: &[T], dt: 
         let v = &v[piece * GRAIN..];
         for ((x, residual), v) in x.iter_mut().zip(lost).zip(v) {
             (*x, *residual) = two_sum(*x, *residual + dt * *v);
+        }
+    });
+}
+
+/// x ← a · before + b · x + dt v. Positions and what their rounding has lost, in `f64` where the scalar keeps the loss.
+pub(super) fn combine_positions<T: Real>(
+    [x, residual, v]: [&mut [T]; 3],
+    [before, lost]: [&[T]; 2],
+    [a, b, dt]: [f64; 3],
+) {
+    let v = &*v;
+    if residual.is_empty() {
+        let (a, b, dt) = (T::from_f64(a), T::from_f64(b), T::from_f64(dt));
+        for_each(cut(x, GRAIN), |piece, x| {
+            for (n, x) in x.iter_mut().enumerate() {
+                let k = piece * GRAIN + n;
+                *x = a * before[k] + b * *x + dt * v[k];
+            }
+        });
+        return;
+    }
+    for_each((cut(x, GRAIN), cut(residual, GRAIN)), |piece, own| {
+        let own = own.0.iter_mut().zip(own.1);
+        for (n, (x, residual)) in own.enumerate() {
+            let k = piece * GRAIN + n;
+            let sum = a * (before[k].to_f64() + lost[k].to_f64())
+                + b * (x.to_f64() + residual.to_f64())
+                + dt * v[k].to_f64();
+            *x = T::from_f64(sum);
+            *residual = T::from_f64(sum - x.to_f64());
         }
     });
 }

@@ -2,7 +2,7 @@
 //! Each is a step program of its own, so a step pays for nothing that is not in force.
 
 use super::Simulation;
-use super::group::Group;
+use super::population::Particles;
 use super::workspace::Workspace;
 use crate::error::Result;
 use crate::particles::{Field, Fields};
@@ -39,7 +39,19 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             if let Some(k) = last.1
                 && !Arc::ptr_eq(&group.exchanges[k].scheme, &group.scheme)
             {
-                group.exchange(k);
+                let own = &group.exchanges[k];
+                own.begin(&mut group.particles);
+                group.scheme = own.scheme.clone();
+                group.work = Workspace {
+                    phases: group.work.phases,
+                    spent: group.work.spent,
+                    lengths_time: group.work.lengths_time,
+                    evaluated_gravity: group.work.evaluated_gravity,
+                    ..Workspace::default()
+                };
+                if let Some(asleep) = &mut group.held.asleep {
+                    asleep.keep_rows(&group.particles, &group.scheme);
+                }
                 any = true;
             }
         }
@@ -56,41 +68,27 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 }
 
-impl<T: Real, const D: usize> Group<T, D> {
-    /// Takes another scheme. What it carries beside the one before begins as at a start, and what it does not carry is
-    /// forgotten.
-    fn exchange(&mut self, number: usize) {
-        let Exchange { scheme, fields, .. } = &self.exchanges[number];
-        let (scheme, fields) = (scheme.clone(), *fields);
-        let columns = &mut self.particles.columns;
-        let new = fields.minus(columns.fields());
-        columns.set_fields(fields);
-        for body in &self.particles.bodies {
+impl<T: Real, const D: usize> Exchange<T, D> {
+    /// Gives particles what they carry under its scheme. What that is beside what they carried before begins as at a start,
+    /// and what they do not carry is forgotten.
+    fn begin(&self, particles: &mut Particles<T, D>) {
+        let columns = &mut particles.columns;
+        let new = self.fields.minus(columns.fields());
+        columns.set_fields(self.fields);
+        for body in &particles.bodies {
             for slot in body.run() {
-                scheme.begin(columns, slot, &body.material, new);
+                self.scheme.begin(columns, slot, &body.material, new);
             }
         }
         if new.contains(Field::CORRECTION) {
             let slots = columns.slots();
             let rows = columns.raw_mut(Field::CORRECTION);
             // The liquid corrects the gradients; a wall takes them as they are.
-            for slot in self.particles.mobile..slots {
+            for slot in particles.mobile..slots {
                 for d in 0..D {
                     rows[slot * D * D + d * (D + 1)] = T::one();
                 }
             }
-        }
-        self.scheme = scheme;
-        self.work = Workspace {
-            phases: self.work.phases,
-            spent: self.work.spent,
-            lengths_time: self.work.lengths_time,
-            evaluated_gravity: self.work.evaluated_gravity,
-            ..Workspace::default()
-        };
-        if let Some(mut asleep) = self.held.asleep.take() {
-            self.keep_rows(&mut asleep);
-            self.held.asleep = Some(asleep);
         }
     }
 }

@@ -2,6 +2,7 @@
 //! Physics happens in `stages`, by the laws of the scheme.
 
 use super::exchange::Exchange;
+use super::forces::Forces;
 use super::held::Held;
 use super::neighborhood::Neighborhood;
 use super::population::Particles;
@@ -222,6 +223,22 @@ impl<T: Real, const D: usize> Group<T, D> {
                     &reaction.force,
                 )
             })
+    }
+
+    /// Adds a force \[N\] of a coupling on a particle: to its rates, or apart from them where it sub-cycles.
+    pub fn push(&mut self, slot: usize, force: [T; D]) {
+        let body = &self.particles.bodies[self.particles.body_of(slot)];
+        let mut forces = Forces::of(&mut self.work, &mut self.sub_cycle, true);
+        // What repeats the last particle goes where that goes.
+        for slot in body.with_repeats(slot) {
+            forces.add(slot, force);
+        }
+    }
+
+    /// Replaces forces on what is held at `time` \[s\]: of its own, or of couplings where it sub-cycles.
+    pub fn hold(&mut self, time: f64, coupled: bool) {
+        let mut forces = Forces::of(&mut self.work, &mut self.sub_cycle, coupled);
+        self.held.hold(&self.particles, &mut forces, time);
     }
 
     /// Brings images and lists up to date with the positions at `time`; `chord` \[s\] are the ends of the drift

@@ -3,11 +3,15 @@
 
 use super::Simulation;
 use super::asleep::Asleep;
+use super::forces::Forces;
 use super::group::Group;
+use super::population::Particles;
+use super::workspace::Workspace;
 use crate::boundary::Motion;
-use crate::particles::{Field, Output};
+use crate::particles::Field;
 use crate::scalar::Real;
 use nalgebra::{Matrix3, SymmetricEigen, UnitQuaternion, Vector3};
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Clamped particles and rigid bodies of a group, and those of its particles that sleep, where any may.
@@ -180,6 +184,170 @@ impl<const D: usize> Rigid<D> {
         }
         self.turn.renormalize();
     }
+
+    /// The slots of its particles, by their numbers, with where they are from its centre \[m\].
+    fn slots<T: Real>(
+        &self,
+        particles: &Particles<T, D>,
+    ) -> impl Iterator<Item = (Range<usize>, Vector3<f64>)> {
+        let places = self.places.iter().enumerate();
+        let slots = places.map(|(id, place)| {
+            let own = particles.slots_of(self.body, id as u32);
+            (own, self.turn * place)
+        });
+        slots.filter(|(own, _)| !own.is_empty())
+    }
+
+    /// Gives its particles the forces that accelerate it as one, with the same sum and the same moment.
+    fn share_forces<T: Real>(&self, particles: &Particles<T, D>, forces: &mut Forces<'_, T, D>) {
+        let (mut sum, mut moment) = (Vector3::zeros(), Vector3::zeros());
+        for (slots, place) in self.slots(particles) {
+            let force = raised(&forces.on(slots.start).map(Real::to_f64));
+            sum += force;
+            moment += place.cross(&force);
+        }
+        let (a, turning) = (sum / self.mass, self.answer_in_space(&moment));
+        for (slots, place) in self.slots(particles) {
+            let all = a + turning.cross(&place);
+            for slot in slots {
+                let mass = particles.columns.raw(Field::MASS)[slot].to_f64();
+                forces.set(slot, lowered(&(mass * all)).map(T::from_f64));
+            }
+        }
+    }
+
+    /// Its momentum \[kg m/s\], and its angular momentum \[kg m²/s\] about its centre.
+    fn momenta<T: Real>(&self, particles: &Particles<T, D>) -> [Vector3<f64>; 2] {
+        let columns = &particles.columns;
+        let (mass, v) = (columns.raw(Field::MASS), columns.vectors(Field::VELOCITY));
+        let (mut momentum, mut spin) = (Vector3::zeros(), Vector3::zeros());
+        for (slots, place) in self.slots(particles) {
+            let v = raised(&v[slots.start].map(Real::to_f64));
+            let own = mass[slots.start].to_f64() * v;
+            momentum += own;
+            spin += place.cross(&own);
+        }
+        [momentum, spin]
+    }
+
+    /// Brings its particles to where it is, with the velocities that it has.
+    fn place<T: Real>(&self, particles: &mut Particles<T, D>, [momentum, spin]: [Vector3<f64>; 2]) {
+        let (v, turning) = (momentum / self.mass, self.answer_in_space(&spin));
+        for (id, place) in self.places.iter().enumerate() {
+            let place = self.turn * place;
+            let (at, speed) = (raised(&self.centre) + place, v + turning.cross(&place));
+            for slot in particles.slots_of(self.body, id as u32) {
+                let [x, residual, velocity] = particles.columns.many_mut([
+                    Field::POSITION,
+                    Field::POSITION_RESIDUAL,
+                    Field::VELOCITY,
+                ]);
+                for d in 0..D {
+                    let k = slot * D + d;
+                    x[k] = T::from_f64(at[d]);
+                    if let Some(residual) = residual.get_mut(k) {
+                        *residual = T::from_f64(at[d] - x[k].to_f64());
+                    }
+                    velocity[k] = T::from_f64(speed[d]);
+                }
+            }
+        }
+    }
+}
+
+impl<const D: usize> Held<D> {
+    /// Replaces forces on what is held.
+    pub fn hold<T: Real>(
+        &mut self,
+        particles: &Particles<T, D>,
+        forces: &mut Forces<'_, T, D>,
+        time: f64,
+    ) {
+        if let Some(own) = &mut self.asleep {
+            own.hold(particles, forces);
+        }
+        let (coupled, gravity) = (forces.are_apart(), forces.gravity());
+        for own in &mut self.clamps {
+            let motion = own.motion.as_ref().filter(|_| !coupled);
+            let pose = motion.map(|motion| motion.pose(time));
+            let given = &mut own.forces[usize::from(coupled)];
+            given.clear();
+            if own.released {
+                continue;
+            }
+            for (id, rest) in &own.particles {
+                let a = pose.as_ref().map_or([0.0; D], |pose| pose.of(2, rest));
+                given.push(forces.replace(particles, (own.body, *id), |mass| {
+                    core::array::from_fn(|d| mass * (a[d] - gravity[d]))
+                }));
+            }
+        }
+        for own in &self.rigid {
+            own.share_forces(particles, forces);
+        }
+    }
+
+    /// Books what clamps and sleepers are given in a kick over `dt` \[s\].
+    fn record<T: Real>(
+        &mut self,
+        particles: &Particles<T, D>,
+        work: &Workspace<T, D>,
+        coupled: bool,
+        dt: f64,
+    ) {
+        if let Some(own) = &mut self.asleep {
+            own.record(coupled, dt);
+        }
+        let mass = particles.columns.raw(Field::MASS);
+        let velocities = particles.columns.vectors(Field::VELOCITY);
+        for own in &mut self.clamps {
+            for ((id, _), force) in own.particles.iter().zip(&own.forces[usize::from(coupled)]) {
+                let slots = particles.slots_of(own.body, *id);
+                if slots.is_empty() {
+                    continue;
+                }
+                let v = velocities[slots.start];
+                for d in 0..D {
+                    // Couplings alone do not accelerate what is clamped.
+                    let a = if coupled {
+                        T::zero()
+                    } else {
+                        work.acceleration(mass, slots.start * D + d)
+                    };
+                    own.impulse[d] += dt * force[d];
+                    own.work += dt * force[d] * (v[d].to_f64() + 0.5 * dt * a.to_f64());
+                }
+            }
+        }
+    }
+
+    /// Moves rigid bodies over `dt` \[s\] as such.
+    pub fn move_rigid<T: Real>(&mut self, particles: &mut Particles<T, D>, dt: f64) {
+        for own in &mut self.rigid {
+            let [momentum, spin] = own.momenta(particles);
+            for d in 0..D {
+                own.centre[d] += dt * momentum[d] / own.mass;
+            }
+            own.rotate(&spin, dt);
+            own.place(particles, [momentum, spin]);
+        }
+    }
+
+    /// Gives what is held velocities that it can have.
+    fn hold_velocities<T: Real>(&self, particles: &mut Particles<T, D>, time: f64) {
+        for own in &self.clamps {
+            let pose = own.motion.as_ref().map(|motion| motion.pose(time));
+            for (id, rest) in &own.particles {
+                let v = pose.as_ref().map_or([0.0; D], |pose| pose.of(1, rest));
+                let slots = particles.slots_of(own.body, *id);
+                particles.columns.vectors_mut(Field::VELOCITY)[slots].fill(v.map(T::from_f64));
+            }
+        }
+        for own in &self.rigid {
+            let momenta = own.momenta(particles);
+            own.place(particles, momenta);
+        }
+    }
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
@@ -216,7 +384,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub(super) fn record_clamps(&mut self, alone: Option<usize>, dt: f64) {
         for (k, group) in self.groups.iter_mut().enumerate() {
             if alone.is_none_or(|alone| alone == k) {
-                group.record_clamps(alone.is_none() && group.sub_cycle.is_some(), dt);
+                let coupled = alone.is_none() && group.sub_cycle.is_some();
+                (group.held).record(&group.particles, &group.work, coupled, dt);
             }
         }
     }
@@ -225,206 +394,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub(crate) fn hold_velocities(&mut self) {
         let time = self.time;
         for group in &mut self.groups {
-            group.hold_velocities(time);
+            group.held.hold_velocities(&mut group.particles, time);
         }
-    }
-}
-
-impl<T: Real, const D: usize> Group<T, D> {
-    /// The slots of a particle of a body: its own, and those that repeat it.
-    pub(super) fn slots_of(&self, body: usize, id: u32) -> std::ops::Range<usize> {
-        let body = &self.particles.bodies[body];
-        let slot = self.particles.slot_of[body.ids.start + id as usize];
-        if slot == u32::MAX {
-            return 0..0;
-        }
-        let slot = slot as usize;
-        let end = if slot + 1 == body.slots.end {
-            body.end
-        } else {
-            slot + 1
-        };
-        slot..end
-    }
-
-    pub(super) fn force_on(&self, slot: usize, coupled: bool) -> [T; D] {
-        match &self.sub_cycle {
-            Some(apart) if coupled => apart.forces[slot],
-            _ => self.work.rates.vector(Output::FORCE, slot),
-        }
-    }
-
-    pub(super) fn set_force(&mut self, slot: usize, coupled: bool, force: [T; D]) {
-        match &mut self.sub_cycle {
-            Some(apart) if coupled => apart.forces[slot] = force,
-            _ => self.work.rates.set(Output::FORCE, slot, force),
-        }
-    }
-
-    /// Replaces forces on what is held: of its group, or of couplings where it sub-cycles.
-    pub(super) fn hold(&mut self, time: f64, coupled: bool) {
-        self.hold_sleepers(coupled);
-        if self.held.clamps.is_empty() && self.held.rigid.is_empty() {
-            return;
-        }
-        let mut held = core::mem::take(&mut self.held);
-        let gravity = self.work.evaluated_gravity.map(Real::to_f64);
-        for own in &mut held.clamps {
-            let pose = own
-                .motion
-                .as_ref()
-                .filter(|_| !coupled)
-                .map(|motion| motion.pose(time));
-            let forces = &mut own.forces[usize::from(coupled)];
-            forces.clear();
-            if own.released {
-                continue;
-            }
-            for (id, rest) in &own.particles {
-                let mut given = [0.0; D];
-                for slot in self.slots_of(own.body, *id).rev() {
-                    let mass = self.particles.columns.raw(Field::MASS)[slot].to_f64();
-                    let before = self.force_on(slot, coupled);
-                    let a = pose.as_ref().map_or([0.0; D], |pose| pose.of(2, rest));
-                    let after = core::array::from_fn(|d| {
-                        let g = if coupled { 0.0 } else { gravity[d] };
-                        T::from_f64(mass * (a[d] - g))
-                    });
-                    given = core::array::from_fn(|d| (after[d] - before[d]).to_f64());
-                    self.set_force(slot, coupled, after);
-                }
-                forces.push(given);
-            }
-        }
-        for own in &held.rigid {
-            self.share_forces(own, coupled);
-        }
-        self.held = held;
-    }
-
-    /// Gives the particles of a rigid body the forces that accelerate it as one, with the same sum and the same moment.
-    fn share_forces(&mut self, own: &Rigid<D>, coupled: bool) {
-        let (mut sum, mut moment) = (Vector3::zeros(), Vector3::zeros());
-        for (id, place) in own.places.iter().enumerate() {
-            let slots = self.slots_of(own.body, id as u32);
-            if slots.is_empty() {
-                continue;
-            }
-            let force = raised(&self.force_on(slots.start, coupled).map(Real::to_f64));
-            sum += force;
-            moment += (own.turn * place).cross(&force);
-        }
-        let (a, turning) = (sum / own.mass, own.answer_in_space(&moment));
-        for (id, place) in own.places.iter().enumerate() {
-            let all = a + turning.cross(&(own.turn * place));
-            for slot in self.slots_of(own.body, id as u32) {
-                let mass = self.particles.columns.raw(Field::MASS)[slot].to_f64();
-                self.set_force(slot, coupled, lowered(&(mass * all)).map(T::from_f64));
-            }
-        }
-    }
-
-    fn record_clamps(&mut self, coupled: bool, dt: f64) {
-        self.record_sleepers(coupled, dt);
-        let mut clamps = core::mem::take(&mut self.held.clamps);
-        let mass = self.particles.columns.raw(Field::MASS);
-        for own in &mut clamps {
-            for ((id, _), force) in own.particles.iter().zip(&own.forces[usize::from(coupled)]) {
-                let slots = self.slots_of(own.body, *id);
-                if slots.is_empty() {
-                    continue;
-                }
-                let v = self.particles.columns.vectors(Field::VELOCITY)[slots.start];
-                for d in 0..D {
-                    // Couplings alone do not accelerate what is clamped.
-                    let a = if coupled {
-                        T::zero()
-                    } else {
-                        self.work.acceleration(mass, slots.start * D + d)
-                    };
-                    own.impulse[d] += dt * force[d];
-                    own.work += dt * force[d] * (v[d].to_f64() + 0.5 * dt * a.to_f64());
-                }
-            }
-        }
-        self.held.clamps = clamps;
-    }
-
-    /// Momentum \[kg m/s\] of a rigid body, and angular momentum \[kg m²/s\] about its centre.
-    fn momenta(&self, own: &Rigid<D>) -> [Vector3<f64>; 2] {
-        let columns = &self.particles.columns;
-        let (mass, v) = (columns.raw(Field::MASS), columns.vectors(Field::VELOCITY));
-        let (mut momentum, mut spin) = (Vector3::zeros(), Vector3::zeros());
-        for (id, place) in own.places.iter().enumerate() {
-            let slots = self.slots_of(own.body, id as u32);
-            if slots.is_empty() {
-                continue;
-            }
-            let own_momentum =
-                mass[slots.start].to_f64() * raised(&v[slots.start].map(Real::to_f64));
-            momentum += own_momentum;
-            spin += (own.turn * place).cross(&own_momentum);
-        }
-        [momentum, spin]
-    }
-
-    /// Moves rigid bodies over `dt` \[s\] as such.
-    pub(super) fn move_rigid(&mut self, dt: f64) {
-        if self.held.rigid.is_empty() {
-            return;
-        }
-        let mut held = core::mem::take(&mut self.held);
-        for own in &mut held.rigid {
-            let [momentum, spin] = self.momenta(own);
-            for d in 0..D {
-                own.centre[d] += dt * momentum[d] / own.mass;
-            }
-            own.rotate(&spin, dt);
-            self.place_rigid(own, [momentum, spin]);
-        }
-        self.held = held;
-    }
-
-    /// Brings the particles of a rigid body to where it is, with the velocities that it has.
-    fn place_rigid(&mut self, own: &Rigid<D>, [momentum, spin]: [Vector3<f64>; 2]) {
-        let (v, turning) = (momentum / own.mass, own.answer_in_space(&spin));
-        for (id, place) in own.places.iter().enumerate() {
-            let place = own.turn * place;
-            let (at, speed) = (raised(&own.centre) + place, v + turning.cross(&place));
-            for slot in self.slots_of(own.body, id as u32) {
-                let [x, residual, velocity] = self.particles.columns.many_mut([
-                    Field::POSITION,
-                    Field::POSITION_RESIDUAL,
-                    Field::VELOCITY,
-                ]);
-                for d in 0..D {
-                    let k = slot * D + d;
-                    x[k] = T::from_f64(at[d]);
-                    if let Some(residual) = residual.get_mut(k) {
-                        *residual = T::from_f64(at[d] - x[k].to_f64());
-                    }
-                    velocity[k] = T::from_f64(speed[d]);
-                }
-            }
-        }
-    }
-
-    fn hold_velocities(&mut self, time: f64) {
-        let held = core::mem::take(&mut self.held);
-        for own in &held.clamps {
-            let pose = own.motion.as_ref().map(|motion| motion.pose(time));
-            for (id, rest) in &own.particles {
-                let v = pose.as_ref().map_or([0.0; D], |pose| pose.of(1, rest));
-                for slot in self.slots_of(own.body, *id) {
-                    let all = self.particles.columns.vectors_mut(Field::VELOCITY);
-                    all[slot] = v.map(T::from_f64);
-                }
-            }
-        }
-        for own in &held.rigid {
-            let momenta = self.momenta(own);
-            self.place_rigid(own, momenta);
-        }
-        self.held = held;
     }
 }

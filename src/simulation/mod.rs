@@ -130,6 +130,7 @@ mod event;
 mod evolve;
 mod exchange;
 mod fields;
+mod forces;
 mod group;
 mod held;
 mod images;

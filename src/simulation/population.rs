@@ -35,6 +35,12 @@ impl<T: Real> BodyState<T> {
     pub(crate) fn run(&self) -> Range<usize> {
         self.slots.start..self.end
     }
+
+    /// The slot of one of its particles, with those that repeat it.
+    pub(crate) fn with_repeats(&self, slot: usize) -> Range<usize> {
+        let is_last = slot + 1 == self.slots.end;
+        slot..if is_last { self.end } else { slot + 1 }
+    }
 }
 
 /// The particles of a group: of what a checkpoint holds all.
@@ -86,6 +92,16 @@ impl<T: Real, const D: usize> Particles<T, D> {
     pub fn position(&self, slot: usize) -> Vec<f64> {
         let x = self.columns.vectors(Field::POSITION)[slot];
         x.iter().map(|x| x.to_f64()).collect()
+    }
+
+    /// The slots of a particle of a body: its own, and those that repeat it; none if it has left.
+    pub fn slots_of(&self, body: usize, id: u32) -> Range<usize> {
+        let body = &self.bodies[body];
+        let slot = self.slot_of[body.ids.start + id as usize];
+        if slot == u32::MAX {
+            return 0..0;
+        }
+        body.with_repeats(slot as usize)
     }
 
     /// The body of a slot.

@@ -1,7 +1,7 @@
 //! What integrators do to the state of a group: move, kick, predict, save and combine it.
 //! Position, velocity and energy are the driver's own; other evolved fields say how they change.
 
-use super::evolve::{RATES, add, add_scaled, rates, update};
+use super::evolve::{POSITIONS, RATES, add, add_scaled, combine_positions, rates, state, update};
 use super::group::Group;
 use super::population::BodyState;
 use super::stages::Moment;
@@ -12,10 +12,8 @@ use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::scheme::EnergyForm;
 use crate::sweep::two_sum;
+use crate::term::Stage;
 use std::ops::Range;
-
-/// Positions, and what their rounding has lost.
-const POSITIONS: [Field; 2] = [Field::POSITION, Field::POSITION_RESIDUAL];
 
 impl<T: Real, const D: usize> Group<T, D> {
     /// x ← x + dt v with v the present velocity.
@@ -29,7 +27,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         ]);
         let residual = residual.get_mut(..mobile).unwrap_or_default();
         add_scaled(&mut x[..mobile], residual, v, dt);
-        self.move_rigid(dt.to_f64());
+        self.held.move_rigid(&mut self.particles, dt.to_f64());
     }
 
     /// x ← x + da a with the accelerations of the last evaluation.
@@ -59,7 +57,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         if self.scheme.energy != EnergyForm::Compatible {
             if self.carries_energy() {
                 self.heat(dt, None);
-                self.keep_asleep(true);
+                self.held.keep_asleep(&mut self.particles, true);
             }
             return;
         }
@@ -73,7 +71,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
         self.heat(dt, Some(later.unwrap_or(0.0)));
         self.heat_by_loads(dt);
-        self.keep_asleep(true);
+        self.held.keep_asleep(&mut self.particles, true);
     }
 
     /// The mean velocities v + a dt/2 and accelerations of a kick of which this is `half` the time \[s\].
@@ -166,8 +164,26 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.advance(When::Kick, dt);
     }
 
+    /// A kick of all but energy, and the bounds of what it has changed.
+    pub(super) fn kick_all(&mut self, dt: f64, time: f64) {
+        self.kick(dt);
+        if self.evolves_at(When::Kick) {
+            self.apply_laws(Stage::Bounds, Moment::at(time));
+        }
+        self.held.keep_asleep(&mut self.particles, true);
+    }
+
+    /// The first half of a drift, or all of it where nobody looks at the group in its middle.
+    pub(super) fn begin_drift(&mut self, dt: f64) {
+        if self.scheme.sums_in_drift() {
+            self.predict_weights(0.5 * dt);
+        }
+        let whole = self.drifts_at_once();
+        self.move_particles(if whole { dt } else { 0.5 * dt });
+    }
+
     /// Whether a field other than velocity and energy changes at a time.
-    pub(super) fn evolves_at(&self, when: When) -> bool {
+    fn evolves_at(&self, when: When) -> bool {
         let own = |evolved: &Evolved<T, D>| evolved.when == when && evolved.field != Field::ENERGY;
         self.scheme.program.evolved.iter().any(own)
     }
@@ -272,16 +288,6 @@ impl<T: Real, const D: usize> Group<T, D> {
             .chain(kicked.flat_map(|own| core::iter::once(own.field).chain(own.residual)))
     }
 
-    /// What a state consists of.
-    pub(super) fn state(&self) -> impl Iterator<Item = Field> {
-        let evolved = self.scheme.program.evolved.iter();
-        let evolved = evolved.flat_map(|own| core::iter::once(own.field).chain(own.residual));
-        POSITIONS
-            .into_iter()
-            .chain([Field::VELOCITY])
-            .chain(evolved)
-    }
-
     /// Sets what a kick changes `dt` \[s\] ahead with the last rates.
     pub(super) fn predict(&mut self, dt: f64) {
         let mut predicted = core::mem::take(&mut self.work.predicted);
@@ -302,7 +308,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         if self.carries_energy() {
             self.heat(dt, None);
         }
-        self.keep_asleep(false);
+        self.held.keep_asleep(&mut self.particles, false);
     }
 
     /// Takes the last prediction back.
@@ -320,7 +326,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
         let mut kept = core::mem::take(&mut self.work.kept[slot]);
         if kept.is_empty() {
-            kept.extend(self.state().map(|field| (field, Vec::new())));
+            kept.extend(state(&self.scheme.program).map(|field| (field, Vec::new())));
         }
         for (field, kept) in &mut kept {
             kept.clear();
@@ -345,8 +351,13 @@ impl<T: Real, const D: usize> Group<T, D> {
             return;
         };
         let of = |field: Field| kept.iter().find(|own| own.0 == field).map(|own| &own.1[..]);
-        let [x, lost] = POSITIONS.map(|field| of(field).unwrap_or_default());
-        self.combine_positions(x, lost, a, b, dt);
+        let columns = self.particles.columns.many_mut([
+            Field::POSITION,
+            Field::POSITION_RESIDUAL,
+            Field::VELOCITY,
+        ]);
+        let before = POSITIONS.map(|field| of(field).unwrap_or_default());
+        combine_positions(columns, before, [a, b, dt]);
         let (a_t, b_t, dt_t) = (T::from_f64(a), T::from_f64(b), T::from_f64(dt));
         let before = of(Field::VELOCITY).unwrap_or_default();
         let mut v = self.take(Field::VELOCITY);
@@ -442,36 +453,5 @@ impl<T: Real, const D: usize> Group<T, D> {
                 }
             }
         }
-    }
-
-    /// Positions and what their rounding has lost, in `f64` where the scalar keeps the loss.
-    fn combine_positions(&mut self, before: &[T], lost: &[T], a: f64, b: f64, dt: f64) {
-        let [x, residual, v] = self.particles.columns.many_mut([
-            Field::POSITION,
-            Field::POSITION_RESIDUAL,
-            Field::VELOCITY,
-        ]);
-        let v = &*v;
-        if residual.is_empty() {
-            let (a, b, dt) = (T::from_f64(a), T::from_f64(b), T::from_f64(dt));
-            for_each(cut(x, GRAIN), |piece, x| {
-                for (n, x) in x.iter_mut().enumerate() {
-                    let k = piece * GRAIN + n;
-                    *x = a * before[k] + b * *x + dt * v[k];
-                }
-            });
-            return;
-        }
-        for_each((cut(x, GRAIN), cut(residual, GRAIN)), |piece, own| {
-            let own = own.0.iter_mut().zip(own.1);
-            for (n, (x, residual)) in own.enumerate() {
-                let k = piece * GRAIN + n;
-                let sum = a * (before[k].to_f64() + lost[k].to_f64())
-                    + b * (x.to_f64() + residual.to_f64())
-                    + dt * v[k].to_f64();
-                *x = T::from_f64(sum);
-                *residual = T::from_f64(sum - x.to_f64());
-            }
-        });
     }
 }

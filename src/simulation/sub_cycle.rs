@@ -3,6 +3,7 @@
 
 use super::Simulation;
 use super::group::Group;
+use super::population::Particles;
 use crate::error::Result;
 use crate::integrator::System;
 use crate::particles::Field;
@@ -42,13 +43,87 @@ impl<T: Real, const D: usize> SubCycle<T, D> {
             spread: Vec::new(),
         }
     }
+
+    /// v ← v + dt F/m with what couplings do to its particles.
+    pub fn kick(&mut self, particles: &mut Particles<T, D>, dt: f64) {
+        let (step, forces) = (T::from_f64(dt), &self.forces);
+        push(particles, &mut self.work, |slot, _| {
+            forces[slot].map(|force| step * force)
+        });
+        if self.spreads {
+            self.pending.resize(particles.slot_of.len(), [T::zero(); D]);
+            for slot in particles.bodies.iter().flat_map(|body| body.slots.clone()) {
+                let pending = &mut self.pending[particles.ids[slot] as usize];
+                for d in 0..D {
+                    pending[d] += step * forces[slot][d];
+                }
+            }
+        }
+    }
+
+    /// Takes back what kicks have given since the last drift, to give it evenly in one over `dt` \[s\].
+    fn spread(&mut self, particles: &mut Particles<T, D>, dt: f64) {
+        if !self.spreads || self.pending.is_empty() {
+            return;
+        }
+        let (step, pending) = (T::from_f64(dt), &mut self.pending);
+        push(particles, &mut self.work, |_, id| {
+            pending[id].map(|impulse| -impulse)
+        });
+        self.spread.clear();
+        self.spread
+            .extend(pending.iter().map(|own| own.map(|impulse| impulse / step)));
+        pending.fill([T::zero(); D]);
+    }
+
+    /// Gives a part of what is spread, that of `dt` \[s\].
+    fn push_spread(&mut self, particles: &mut Particles<T, D>, dt: f64) {
+        if self.spread.is_empty() {
+            return;
+        }
+        let (step, none) = (T::from_f64(dt), [T::zero(); D]);
+        let spread = &self.spread;
+        push(particles, &mut self.work, |_, id| {
+            spread.get(id).unwrap_or(&none).map(|force| step * force)
+        });
+    }
+}
+
+/// Gives each particle an impulse \[N s\] by its slot and number, with the work of that on each body: the change of kinetic
+/// energy.
+fn push<T: Real, const D: usize>(
+    particles: &mut Particles<T, D>,
+    work: &mut [f64],
+    impulse: impl Fn(usize, usize) -> [T; D],
+) {
+    let ids = &particles.ids;
+    let columns = &mut particles.columns;
+    let [v, mass] = columns.many_mut([Field::VELOCITY, Field::MASS]);
+    for (body, work) in particles.bodies.iter().zip(work) {
+        for slot in body.slots.clone() {
+            for (d, impulse) in impulse(slot, ids[slot] as usize).into_iter().enumerate() {
+                let v = &mut v[slot * D + d];
+                let before = v.to_f64();
+                *v += impulse / mass[slot];
+                *work += 0.5 * mass[slot].to_f64() * (v.to_f64().powi(2) - before * before);
+            }
+        }
+        // Slots behind the last particle repeat it, and nothing sorts anew what keeps its neighbours.
+        if let Some(last) = body.slots.clone().last() {
+            for slot in body.slots.end..body.end {
+                v.copy_within(last * D..(last + 1) * D, slot * D);
+            }
+        }
+    }
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// Spreads what kicks have given groups that sub-cycle over a drift of `dt` \[s\] that begins; see [`SubCycle::spreads`].
     pub(super) fn spread_impulses(&mut self, dt: f64) {
         for group in &mut self.groups {
-            group.spread_impulses(dt);
+            if let Some(apart) = &mut group.sub_cycle {
+                apart.spread(&mut group.particles, dt);
+            }
         }
     }
 
@@ -107,94 +182,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 }
 
-impl<T: Real, const D: usize> Group<T, D> {
-    /// v ← v + dt F/m with what couplings do to it.
-    pub(super) fn kick_apart(&mut self, dt: f64) {
-        let Some(mut apart) = self.sub_cycle.take() else {
-            return;
-        };
-        let step = T::from_f64(dt);
-        let forces = core::mem::take(&mut apart.forces);
-        self.push_on(&mut apart, |slot, _| forces[slot].map(|force| step * force));
-        if apart.spreads {
-            let ids = &self.particles.ids;
-            apart
-                .pending
-                .resize(self.particles.slot_of.len(), [T::zero(); D]);
-            for body in &self.particles.bodies {
-                for slot in body.slots.clone() {
-                    for d in 0..D {
-                        apart.pending[ids[slot] as usize][d] += step * forces[slot][d];
-                    }
-                }
-            }
-        }
-        apart.forces = forces;
-        self.sub_cycle = Some(apart);
-    }
-
-    /// Takes back what kicks have given since the last drift, to give it evenly in one over `dt` \[s\].
-    fn spread_impulses(&mut self, dt: f64) {
-        let Some(mut apart) = self.sub_cycle.take() else {
-            return;
-        };
-        if apart.spreads && !apart.pending.is_empty() {
-            let mut pending = core::mem::take(&mut apart.pending);
-            self.push_on(&mut apart, |_, id| pending[id].map(|impulse| -impulse));
-            let step = T::from_f64(dt);
-            apart.spread.clear();
-            apart
-                .spread
-                .extend(pending.iter().map(|own| own.map(|impulse| impulse / step)));
-            pending.fill([T::zero(); D]);
-            apart.pending = pending;
-        }
-        self.sub_cycle = Some(apart);
-    }
-
-    /// Gives a part of what is spread, that of `dt` \[s\].
-    fn push_spread(&mut self, dt: f64) {
-        let Some(mut apart) = self.sub_cycle.take() else {
-            return;
-        };
-        if !apart.spread.is_empty() {
-            let step = T::from_f64(dt);
-            let spread = core::mem::take(&mut apart.spread);
-            let none = [T::zero(); D];
-            self.push_on(&mut apart, |_, id| {
-                spread.get(id).unwrap_or(&none).map(|force| step * force)
-            });
-            apart.spread = spread;
-        }
-        self.sub_cycle = Some(apart);
-    }
-
-    /// Gives each particle an impulse \[N s\] by its slot and number, with the work of that: the change of kinetic energy.
-    fn push_on(&mut self, apart: &mut SubCycle<T, D>, impulse: impl Fn(usize, usize) -> [T; D]) {
-        let ids = &self.particles.ids;
-        let [v, mass] = self
-            .particles
-            .columns
-            .many_mut([Field::VELOCITY, Field::MASS]);
-        for (body, work) in self.particles.bodies.iter().zip(&mut apart.work) {
-            for slot in body.slots.clone() {
-                for (d, impulse) in impulse(slot, ids[slot] as usize).into_iter().enumerate() {
-                    let v = &mut v[slot * D + d];
-                    let before = v.to_f64();
-                    *v += impulse / mass[slot];
-                    *work += 0.5 * mass[slot].to_f64() * (v.to_f64().powi(2) - before * before);
-                }
-            }
-            // Slots behind the last particle repeat it, and nothing sorts anew what keeps its neighbours.
-            if let Some(last) = body.slots.clone().last() {
-                for slot in body.slots.end..body.end {
-                    v.copy_within(last * D..(last + 1) * D, slot * D);
-                }
-            }
-        }
-    }
-}
-
 /// One group in a step of its own.
 struct Alone<'a, T: Real, const D: usize> {
     simulation: &'a mut Simulation<T, D>,
@@ -208,6 +195,13 @@ struct Alone<'a, T: Real, const D: usize> {
 impl<T: Real, const D: usize> Alone<'_, T, D> {
     fn own(&mut self) -> &mut Group<T, D> {
         &mut self.simulation.groups[self.group]
+    }
+
+    fn push_spread(&mut self, dt: f64) {
+        let group = self.own();
+        if let Some(apart) = &mut group.sub_cycle {
+            apart.push_spread(&mut group.particles, dt);
+        }
     }
 }
 
@@ -228,12 +222,12 @@ impl<T: Real, const D: usize> System for Alone<'_, T, D> {
 
     fn kick(&mut self, dt: f64) {
         // Half before and half after the group's own forces, so that both work with the mean velocity of the kick.
-        self.own().push_spread(0.5 * dt);
+        self.push_spread(0.5 * dt);
         self.own().heat_in_kick(dt);
         self.simulation.record_kick(Some(self.group), dt);
         let time = self.start;
         self.own().kick_all(dt, time);
-        self.own().push_spread(0.5 * dt);
+        self.push_spread(0.5 * dt);
     }
 
     fn drift(&mut self, dt: f64, offset: f64) -> Result<()> {

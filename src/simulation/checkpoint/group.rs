@@ -166,9 +166,8 @@ impl<T: Real, const D: usize> Group<T, D> {
             apart.pending = pending.as_chunks::<D>().0.to_vec();
         }
         take_held(&mut self.held, name, file)?;
-        if let Some(mut asleep) = self.held.asleep.take() {
-            self.keep_rows(&mut asleep);
-            self.held.asleep = Some(asleep);
+        if let Some(asleep) = &mut self.held.asleep {
+            asleep.keep_rows(&self.particles, &scheme);
         }
         self.gravity = file.get_array(&format!("{name}/gravity"))?;
         let evaluated: [f64; D] = file.get_array(&format!("{name}/evaluated_gravity"))?;

@@ -9,6 +9,7 @@ use crate::scalar::Real;
 use crate::scheme::Scheme;
 use crate::simulation::Phases;
 use crate::simulation::cost::Spent;
+use crate::simulation::evolve::state;
 use crate::simulation::group::Group;
 use crate::simulation::neighborhood::Neighborhood;
 use crate::simulation::settle::Settling;
@@ -72,7 +73,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             let fields = if full == 0 {
                 Vec::new()
             } else {
-                self.state().collect()
+                state(&scheme.program).collect()
             };
             kept.push(saved(&what, fields)?);
         }
