@@ -2,13 +2,14 @@
 //! Pairs are looked at only where the spread of velocities says that they could.
 
 use super::control::{Criterion, NO_VOTE, Vote, least};
-use super::group::Group;
-use crate::boundary::Slip;
+use super::neighborhood::Neighborhood;
+use super::population::Particles;
 use crate::neighbors::{CHUNK, ChunkList};
 use crate::parallel::{GRAIN, largest, reduce, runs};
-use crate::particles::Field;
+use crate::particles::{Columns, Field};
 use crate::scalar::{Lane, OnRows, Real};
-use crate::sweep::Interaction;
+use crate::scheme::Scheme;
+use crate::sweep::{InstructionSet, Interaction};
 use crate::tensor::{Vector, length};
 use std::ops::Range;
 
@@ -62,141 +63,144 @@ impl Approach {
     }
 }
 
-impl<T: Real, const D: usize> Group<T, D> {
-    /// The largest step in which no pair closes by more than `share` of its distance, if it is shorter than
-    /// `limit` \[s\], and the fastest meeting of a liquid with what is faster than its sound.
-    ///
-    /// Pairs that are not listed yet are at least a support apart, and close at most by the spread of velocities.
-    pub(super) fn approach(&self, share: f64, limit: f64) -> Approach {
-        let lengths = self.particles.columns.raw(Field::SMOOTHING_LENGTH);
-        let least_h = lengths
-            .iter()
-            .fold(f64::INFINITY, |least, h| least.min(h.to_f64()));
-        let least_h = if lengths.is_empty() {
-            self.neighborhood.smoothing_length
-        } else {
-            least_h
-        };
-        let bearable = share * NEAREST * least_h / self.scheme.h_over_dx;
-        let harmless = |speed: f64| speed == 0.0 || speed * limit <= bearable;
-        let shifted = self
-            .neighborhood
-            .transforms
-            .iter()
-            .fold(0.0_f64, |most, by| most.max(length(&by.velocity).to_f64()));
-        if harmless(2.0 * self.fastest() + shifted) {
-            return NOTHING;
-        }
-        let range = self.velocities();
-        let spread: f64 = (0..D).map(|d| (range[1][d] - range[0][d]).powi(2)).sum();
-        if harmless(spread.sqrt()) {
-            return NOTHING;
-        }
-        let chunks = self.neighborhood.lists.chunks();
-        let in_chunk = |chunk: usize, _| {
-            self.instructions.run(InChunk {
-                group: self,
-                chunk,
-                list: &chunks[chunk],
-                share,
-                least_h,
-                range,
-            })
-        };
-        reduce(runs(0..chunks.len(), 1), NOTHING, in_chunk, Approach::and)
+/// The largest step in which no pair closes by more than `share` of its distance, if it is shorter than
+/// `limit` \[s\], and the fastest meeting of a liquid with what is faster than its sound.
+///
+/// Pairs that are not listed yet are at least a support apart, and close at most by the spread of velocities.
+pub(super) fn approach<T: Real, const D: usize>(
+    particles: &Particles<T, D>,
+    neighborhood: &Neighborhood<T, D>,
+    scheme: &Scheme<T, D>,
+    instructions: InstructionSet,
+    (share, limit): (f64, f64),
+) -> Approach {
+    let lengths = particles.columns.raw(Field::SMOOTHING_LENGTH);
+    let least_h = lengths
+        .iter()
+        .fold(f64::INFINITY, |least, h| least.min(h.to_f64()));
+    let least_h = if lengths.is_empty() {
+        neighborhood.smoothing_length
+    } else {
+        least_h
+    };
+    let bearable = share * NEAREST * least_h / scheme.h_over_dx;
+    let harmless = |speed: f64| speed == 0.0 || speed * limit <= bearable;
+    let shifted = neighborhood
+        .transforms
+        .iter()
+        .fold(0.0_f64, |most, by| most.max(length(&by.velocity).to_f64()));
+    if harmless(2.0 * fastest(particles, neighborhood) + shifted) {
+        return NOTHING;
     }
+    let range = velocities(particles, neighborhood);
+    let spread: f64 = (0..D).map(|d| (range[1][d] - range[0][d]).powi(2)).sum();
+    if harmless(spread.sqrt()) {
+        return NOTHING;
+    }
+    let chunks = neighborhood.lists.chunks();
+    let in_chunk = |chunk: usize, _| {
+        instructions.run(InChunk {
+            particles,
+            neighborhood,
+            scheme,
+            chunk,
+            list: &chunks[chunk],
+            share,
+            least_h,
+            range,
+        })
+    };
+    reduce(runs(0..chunks.len(), 1), NOTHING, in_chunk, Approach::and)
+}
 
-    /// The largest speed \[m/s\] of bodies and walls.
-    fn fastest(&self) -> f64 {
-        let velocities = self.particles.columns.vectors(Field::VELOCITY);
-        let square = |v: &[T; D]| v.iter().map(|v| v.to_f64().powi(2)).sum::<f64>();
-        let slots = self.particles.bodies.iter().map(|body| body.slots.clone());
-        let fastest = |slots: Range<usize>| largest(slots, |slot| square(&velocities[slot]));
-        slots
-            .chain(self.walls.iter().map(|wall| wall.slots.clone()))
-            .map(fastest)
-            .fold(0.0, f64::max)
-            .sqrt()
-    }
+/// Slots of bodies and walls, which stand before images.
+fn direct<T: Real, const D: usize>(
+    particles: &Particles<T, D>,
+    neighborhood: &Neighborhood<T, D>,
+) -> impl Iterator<Item = Range<usize>> {
+    let slots = particles.columns.slots();
+    let blocks = neighborhood.blocks.iter().map(|block| block.slots.clone());
+    blocks.take_while(move |own| own.end <= slots)
+}
 
-    /// The least and the largest component of velocities \[m/s\] along each axis, of bodies, walls and images.
-    fn velocities(&self) -> [[f64; D]; 2] {
-        let empty = || [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
-        let both = |a: [[f64; D]; 2], b: [[f64; D]; 2]| {
-            [
-                core::array::from_fn(|d| a[0][d].min(b[0][d])),
-                core::array::from_fn(|d| a[1][d].max(b[1][d])),
-            ]
-        };
-        let velocities = self.particles.columns.vectors(Field::VELOCITY);
-        let range = |run: Range<usize>, of: &dyn Fn(usize) -> [T; D]| {
-            let all = run.map(|k| [of(k).map(Real::to_f64); 2]);
-            all.fold(empty(), both)
-        };
-        let own = |slots: Range<usize>| {
-            let of = |_, run| range(run, &|slot| velocities[slot]);
-            reduce(runs(slots, GRAIN), empty(), of, both)
-        };
-        let bodies = self.particles.bodies.iter().map(|body| body.slots.clone());
-        let walls = self.walls.iter().map(|wall| wall.slots.clone());
-        let direct = bodies.chain(walls).map(own).fold(empty(), both);
-        let images = &self.neighborhood.images;
-        let turned = |k: usize| {
-            let by = &self.neighborhood.transforms[images[k].transform as usize];
-            let v = Vector::from(velocities[images[k].source as usize]);
-            (by.rotation * v + by.velocity).into()
-        };
-        let of = |_, run| range(run, &turned);
-        reduce(runs(0..images.len(), GRAIN), direct, of, both)
-    }
+/// The largest speed \[m/s\] of bodies and walls.
+fn fastest<T: Real, const D: usize>(
+    particles: &Particles<T, D>,
+    neighborhood: &Neighborhood<T, D>,
+) -> f64 {
+    let velocities = particles.columns.vectors(Field::VELOCITY);
+    let square = |v: &[T; D]| v.iter().map(|v| v.to_f64().powi(2)).sum::<f64>();
+    let fastest = |slots: Range<usize>| largest(slots, |slot| square(&velocities[slot]));
+    direct(particles, neighborhood)
+        .map(fastest)
+        .fold(0.0, f64::max)
+        .sqrt()
+}
 
-    /// Whether particles of a block wear the mirrored velocity by which a liquid sticks to them, which differs from
-    /// that of the liquid twice as much as their own.
-    fn is_mirrored(&self, block: usize) -> bool {
-        let boundaries = self.boundaries.len();
-        let direct = self.particles.bodies.len() + self.walls.len() + boundaries;
-        let wall = if block < direct {
-            block.checked_sub(self.particles.bodies.len())
-        } else {
-            Some((block - direct) / boundaries)
-        };
-        !self
-            .particles
-            .columns
-            .raw(Field::DYNAMIC_VISCOSITY)
-            .is_empty()
-            && wall
-                .and_then(|wall| self.walls.get(wall))
-                .is_some_and(|wall| wall.slip == Slip::None)
-    }
+/// The least and the largest component of velocities \[m/s\] along each axis, of bodies, walls and images.
+fn velocities<T: Real, const D: usize>(
+    particles: &Particles<T, D>,
+    neighborhood: &Neighborhood<T, D>,
+) -> [[f64; D]; 2] {
+    let empty = || [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
+    let both = |a: [[f64; D]; 2], b: [[f64; D]; 2]| {
+        [
+            core::array::from_fn(|d| a[0][d].min(b[0][d])),
+            core::array::from_fn(|d| a[1][d].max(b[1][d])),
+        ]
+    };
+    let velocities = particles.columns.vectors(Field::VELOCITY);
+    let range = |run: Range<usize>, of: &dyn Fn(usize) -> [T; D]| {
+        let all = run.map(|k| [of(k).map(Real::to_f64); 2]);
+        all.fold(empty(), both)
+    };
+    let own = |slots: Range<usize>| {
+        let of = |_, run| range(run, &|slot| velocities[slot]);
+        reduce(runs(slots, GRAIN), empty(), of, both)
+    };
+    let all = direct(particles, neighborhood);
+    let direct = all.map(own).fold(empty(), both);
+    let images = &neighborhood.images;
+    let turned = |k: usize| {
+        let by = &neighborhood.transforms[images[k].transform as usize];
+        let v = Vector::from(velocities[images[k].source as usize]);
+        (by.rotation * v + by.velocity).into()
+    };
+    let of = |_, run| range(run, &turned);
+    reduce(runs(0..images.len(), GRAIN), direct, of, both)
+}
 
-    /// Place, velocity and sound speed of a neighbour, which may be an image.
-    #[inline(always)]
-    fn neighbor(&self, j: usize) -> ([T; D], [T; D], T) {
-        let columns = &self.particles.columns;
-        let seen = |j: usize| {
-            (
-                columns.vectors(Field::POSITION)[j],
-                columns.vectors(Field::VELOCITY)[j],
-                columns.raw(Field::SOUND_SPEED)[j],
-            )
-        };
-        let Some(image) = j
-            .checked_sub(columns.slots())
-            .and_then(|k| self.neighborhood.images.get(k))
-        else {
-            return seen(j);
-        };
-        let by = &self.neighborhood.transforms[image.transform as usize];
-        let (x, v, c) = seen(image.source as usize);
-        let turned = by.rotation * Vector::from(v) + by.velocity;
-        (by.point(&x), turned.into(), c)
-    }
+/// Place, velocity and sound speed of a neighbour, which may be an image.
+#[inline(always)]
+fn neighbor<T: Real, const D: usize>(
+    columns: &Columns<T, D>,
+    neighborhood: &Neighborhood<T, D>,
+    j: usize,
+) -> ([T; D], [T; D], T) {
+    let seen = |j: usize| {
+        (
+            columns.vectors(Field::POSITION)[j],
+            columns.vectors(Field::VELOCITY)[j],
+            columns.raw(Field::SOUND_SPEED)[j],
+        )
+    };
+    let Some(image) = j
+        .checked_sub(columns.slots())
+        .and_then(|k| neighborhood.images.get(k))
+    else {
+        return seen(j);
+    };
+    let by = &neighborhood.transforms[image.transform as usize];
+    let (x, v, c) = seen(image.source as usize);
+    let turned = by.rotation * Vector::from(v) + by.velocity;
+    (by.point(&x), turned.into(), c)
 }
 
 /// What the approach of pairs asks for in one chunk, among the particles that move by forces.
 struct InChunk<'a, T: Real, const D: usize> {
-    group: &'a Group<T, D>,
+    particles: &'a Particles<T, D>,
+    neighborhood: &'a Neighborhood<T, D>,
+    scheme: &'a Scheme<T, D>,
     chunk: usize,
     list: &'a ChunkList,
     share: f64,
@@ -211,7 +215,9 @@ impl<T: Real, const D: usize> OnRows<T> for InChunk<'_, T, D> {
     #[inline(always)]
     fn run<L: Lane<Scalar = T, Broadcast = T>>(self) -> Approach {
         let Self {
-            group,
+            particles,
+            neighborhood,
+            scheme,
             chunk,
             list,
             share,
@@ -220,31 +226,30 @@ impl<T: Real, const D: usize> OnRows<T> for InChunk<'_, T, D> {
         } = self;
         let width = L::WIDTH;
         let (positions, velocities) = (
-            group.particles.columns.vectors(Field::POSITION),
-            group.particles.columns.vectors(Field::VELOCITY),
+            particles.columns.vectors(Field::POSITION),
+            particles.columns.vectors(Field::VELOCITY),
         );
         let (sound, lengths) = (
-            group.particles.columns.raw(Field::SOUND_SPEED),
-            group.particles.columns.raw(Field::SMOOTHING_LENGTH),
+            particles.columns.raw(Field::SOUND_SPEED),
+            particles.columns.raw(Field::SMOOTHING_LENGTH),
         );
-        let uniform = T::from_f64(group.neighborhood.smoothing_length);
+        let uniform = T::from_f64(neighborhood.smoothing_length);
         let h_of = |slot: usize| lengths.get(slot).copied().unwrap_or(uniform);
-        let of_spacing = T::from_f64(NEAREST / group.scheme.h_over_dx);
-        let support = group.scheme.kernel.support;
-        let zero = L::of(0.0);
+        let of_spacing = T::from_f64(NEAREST / scheme.h_over_dx);
+        let support = scheme.kernel.support;
+        let viscosity = particles.columns.raw(Field::DYNAMIC_VISCOSITY);
+        let (zero, sticks) = (L::of(0.0), !viscosity.is_empty());
         let mut all = NOTHING;
         for (c, bounds) in list.starts.windows(2).enumerate() {
             let first = (chunk * CHUNK + c) * width;
-            let block = group
-                .neighborhood
+            let block = neighborhood
                 .blocks
                 .partition_point(|b| b.slots.end <= first);
-            let live = group
-                .neighborhood
+            let live = neighborhood
                 .blocks
                 .get(block)
                 .filter(|b| b.slots.contains(&first));
-            let Some(own) = live.filter(|_| first < group.particles.mobile) else {
+            let Some(own) = live.filter(|_| first < particles.mobile) else {
                 continue;
             };
             let row = |of: &dyn Fn(usize) -> T| L::from_fn(|lane| of(first + lane));
@@ -255,14 +260,18 @@ impl<T: Real, const D: usize> OnRows<T> for InChunk<'_, T, D> {
             let (mut rate, mut mach) = (zero, zero);
             for segment in &list.segments[bounds[0] as usize..bounds[1] as usize] {
                 let other = segment.block as usize;
-                if group.neighborhood.interactions[block * group.neighborhood.blocks.len() + other]
+                if neighborhood.interactions[block * neighborhood.blocks.len() + other]
                     == Interaction::None
                 {
                     continue;
                 }
-                let seen = L::of(if group.is_mirrored(other) { 0.5 } else { 1.0 });
+                let seen = L::of(if sticks && neighborhood.mirrored[other] {
+                    0.5
+                } else {
+                    1.0
+                });
                 for &j in &list.neighbors[segment.start as usize..segment.end as usize] {
-                    let (xj, vj, cj) = group.neighbor(j as usize);
+                    let (xj, vj, cj) = neighbor(&particles.columns, neighborhood, j as usize);
                     let (mut r2, mut across) = (zero, zero);
                     for d in 0..D {
                         let r = x[d] - L::splat(xj[d]);
@@ -288,7 +297,7 @@ impl<T: Real, const D: usize> OnRows<T> for InChunk<'_, T, D> {
                 let unseen = farthest.sqrt() / apart;
                 let rate = rate.extract(lane).to_f64().max(unseen);
                 let mach = 2.0 * mach.extract(lane).to_f64();
-                let meets = group.scheme.meets_walls() && mach > FASTEST;
+                let meets = scheme.meets_walls() && mach > FASTEST;
                 all = all.and(Approach {
                     vote: Vote {
                         step: share / rate,

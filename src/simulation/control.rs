@@ -2,6 +2,7 @@
 //! Reductions have a fixed order, so the step is the same on any number of threads.
 
 use super::Simulation;
+use super::approach::approach;
 use super::group::Group;
 use super::limits::{broken_effect, vote_of_effects};
 use super::population::Particles;
@@ -203,7 +204,13 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// `limit`, or a shorter step that pairs of a group ask for which approach each other.
     pub(super) fn approach_of(&self, group: usize, limit: Vote) -> Result<Vote> {
         let group = &self.groups[group];
-        let approach = group.approach(self.control.approach, limit.step);
+        let approach = approach(
+            &group.particles,
+            &group.neighborhood,
+            &group.scheme,
+            group.instructions,
+            (self.control.approach, limit.step),
+        );
         if let Some(meeting) = approach.meeting {
             let body = &group.particles.bodies[group.particles.body_of(meeting.slot)];
             return Err(Error::SoundSpeedTooLow {

@@ -9,7 +9,7 @@ use super::population::Particles;
 use super::sub_cycle::SubCycle;
 use super::walls::WallState;
 use super::workspace::Workspace;
-use crate::boundary::{Boundary, Emitter, Outlet, Pose, Slip};
+use crate::boundary::{Boundary, Emitter, Outlet, Pose};
 use crate::clock::Instant;
 use crate::error::Result;
 use crate::material::eos::GuardCounts;
@@ -279,7 +279,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             }
             // What sticks to a wall at rest has overwritten its velocity.
             if pose.is_none() && listed {
-                if wall.slip == Slip::None {
+                if wall.is_mirrored() {
                     wall.stand(&mut self.particles);
                 }
                 continue;

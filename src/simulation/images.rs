@@ -38,20 +38,20 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         let bodies = particles.bodies.iter().map(|body| body.slots.clone());
         let bodies: Vec<Range<usize>> = bodies.collect();
         let columns = &particles.columns;
-        self.place_images_of(columns, &bodies, false, boundaries, time);
+        self.place_images_of(columns, &bodies, None, boundaries, time);
         for wall in walls {
             let own = [wall.slots.clone()];
-            self.place_images_of(columns, &own, true, boundaries, time);
+            self.place_images_of(columns, &own, Some(wall), boundaries, time);
         }
         self.place_transforms(boundaries, time);
     }
 
-    /// One block of images a boundary, of the particles in `sources`.
+    /// One block of images a boundary, of the particles in `sources`: those of bodies, or of a wall.
     fn place_images_of(
         &mut self,
         columns: &Columns<T, D>,
         sources: &[Range<usize>],
-        wall: bool,
+        wall: Option<&WallState<T, D>>,
         boundaries: &[Arc<dyn Boundary<T, D>>],
         time: f64,
     ) {
@@ -95,8 +95,10 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
             }
             self.blocks.push(Block {
                 slots: slots + start..slots + self.images.len(),
-                wall,
+                wall: wall.is_some(),
             });
+            self.mirrored
+                .push(wall.is_some_and(|wall| wall.is_mirrored()));
         }
     }
 

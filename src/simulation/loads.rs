@@ -3,13 +3,13 @@
 
 use super::Simulation;
 use super::event::Happened;
-use super::group::Group;
 use super::load::{Load, LoadPoint};
-use super::query::ParticleView;
+use super::population::Particles;
 use crate::error::{Error, Result};
 use crate::parallel::{GRAIN, cut, reduce};
-use crate::particles::{Field, Output};
+use crate::particles::{Columns, Field, Output};
 use crate::scalar::Real;
+use crate::sweep::Results;
 
 /// A value of a load that is no number to go on with.
 struct Wrong<'a, const D: usize> {
@@ -22,18 +22,22 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Adds what loads give a group at `time` \[s\] to the rates of an evaluation.
     pub(super) fn apply_loads(&mut self, group: usize, time: f64) -> Result<()> {
         let group = &mut self.groups[group];
-        let Some(Wrong { load, value, slot }) =
-            group.apply_loads(&self.loads, (time, &self.happened))
-        else {
+        let particles = &mut group.particles;
+        let Some(Wrong { load, value, slot }) = apply_loads(
+            particles,
+            &mut group.work.rates,
+            &self.loads,
+            (time, &self.happened),
+        ) else {
             return Ok(());
         };
-        let body = &group.particles.bodies[group.particles.body_of(slot)];
+        let body = &particles.bodies[particles.body_of(slot)];
         Err(Error::Load {
             load: load.to_string(),
             value,
             body: body.name.clone(),
-            particle: group.particles.ids[slot] as usize - body.ids.start,
-            position: group.particles.position(slot),
+            particle: particles.ids[slot] as usize - body.ids.start,
+            position: particles.position(slot),
             time,
         })
     }
@@ -64,85 +68,87 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 }
 
-impl<T: Real, const D: usize> Group<T, D> {
-    /// Evaluates loads at `time` \[s\], and adds them to forces and powers; the first value that is wrong, if there is one.
-    fn apply_loads<'a>(
-        &mut self,
-        loads: &'a [Load<D>],
-        now: (f64, &Happened),
-    ) -> Option<Wrong<'a, D>> {
-        for (field, sum) in [
-            (Field::LOAD_ACCELERATION, Output::FORCE),
-            (Field::LOAD_HEATING, Output::POWER),
-        ] {
-            if self.particles.columns.raw(field).is_empty() {
-                continue;
-            }
-            let mut values = self.take(field);
-            values.fill(T::zero());
-            let mut own = loads.iter().filter(|load| load.field() == field);
-            let wrong = own.find_map(|load| self.evaluate_load(load, now, &mut values));
-            *self.particles.columns.column_mut(field) = values;
-            if wrong.is_some() {
-                return wrong;
-            }
-            let columns = &self.particles.columns;
-            let (mass, values) = (columns.raw(Field::MASS), columns.raw(field));
-            self.work.rates.add_weighted(sum, mass, values);
+/// Evaluates loads at `time` \[s\], and adds them to forces and powers; the first value that is wrong, if there is one.
+fn apply_loads<'a, T: Real, const D: usize>(
+    particles: &mut Particles<T, D>,
+    rates: &mut Results<T, D>,
+    loads: &'a [Load<D>],
+    now: (f64, &Happened),
+) -> Option<Wrong<'a, D>> {
+    for (field, sum) in [
+        (Field::LOAD_ACCELERATION, Output::FORCE),
+        (Field::LOAD_HEATING, Output::POWER),
+    ] {
+        if particles.columns.raw(field).is_empty() {
+            continue;
         }
-        None
+        let mut values = core::mem::take(particles.columns.column_mut(field));
+        values.fill(T::zero());
+        let mut own = loads.iter().filter(|load| load.field() == field);
+        let wrong = own.find_map(|load| evaluate_load(particles, load, now, &mut values));
+        *particles.columns.column_mut(field) = values;
+        if wrong.is_some() {
+            return wrong;
+        }
+        let columns = &particles.columns;
+        let (mass, values) = (columns.raw(Field::MASS), columns.raw(field));
+        rates.add_weighted(sum, mass, values);
     }
+    None
+}
 
-    /// Adds what a load gives the particles of its bodies to the values of its field.
-    fn evaluate_load<'a>(
-        &self,
-        load: &'a Load<D>,
-        (time, happened): (f64, &Happened),
-        values: &mut [T],
-    ) -> Option<Wrong<'a, D>> {
-        let width = load.field().components(D);
-        let bodies = self.particles.bodies.iter();
-        for body in bodies.filter(|body| load.acts_on(&body.name) && !body.slots.is_empty()) {
-            let run = body.run();
-            let live = body.slots.len() * width;
-            let (own, repeats) = values[run.start * width..run.end * width].split_at_mut(live);
-            let add = |(slot, sum): (usize, &mut [T])| {
-                let particle = ParticleView { group: self, slot };
-                let at = LoadPoint {
-                    position: particle.position(),
-                    velocity: particle.velocity(),
-                    density: particle.density(),
-                    time,
-                    body: &body.name,
-                    happened,
-                };
-                load.add(&at, sum).map(|value| (slot, value))
+/// Adds what a load gives the particles of its bodies to the values of its field.
+fn evaluate_load<'a, T: Real, const D: usize>(
+    particles: &Particles<T, D>,
+    load: &'a Load<D>,
+    (time, happened): (f64, &Happened),
+    values: &mut [T],
+) -> Option<Wrong<'a, D>> {
+    let width = load.field().components(D);
+    let columns = &particles.columns;
+    let (velocities, densities) = (
+        columns.vectors(Field::VELOCITY),
+        columns.raw(Field::DENSITY),
+    );
+    let bodies = particles.bodies.iter();
+    for body in bodies.filter(|body| load.acts_on(&body.name) && !body.slots.is_empty()) {
+        let run = body.run();
+        let live = body.slots.len() * width;
+        let (own, repeats) = values[run.start * width..run.end * width].split_at_mut(live);
+        let add = |(slot, sum): (usize, &mut [T])| {
+            let at = LoadPoint {
+                position: particles.exact_position(slot),
+                velocity: velocities[slot].map(Real::to_f64),
+                density: densities[slot].to_f64(),
+                time,
+                body: &body.name,
+                happened,
             };
-            let none = (usize::MAX, 0.0);
-            let first_wrong = |piece: usize, sums: &mut [T]| {
-                let mut sums = (run.start + piece * GRAIN..).zip(sums.chunks_exact_mut(width));
-                sums.find_map(add).unwrap_or(none)
-            };
-            let lower = |a: (usize, f64), b: (usize, f64)| if b.0 < a.0 { b } else { a };
-            let (slot, value) = reduce(cut(own, GRAIN * width), none, first_wrong, lower);
-            if slot < usize::MAX {
-                return Some(Wrong { load, value, slot });
-            }
-            // What repeats the last particle goes where that goes.
-            for repeat in repeats.chunks_mut(width) {
-                repeat.copy_from_slice(&own[live - width..]);
-            }
+            load.add(&at, sum).map(|value| (slot, value))
+        };
+        let none = (usize::MAX, 0.0);
+        let first_wrong = |piece: usize, sums: &mut [T]| {
+            let mut sums = (run.start + piece * GRAIN..).zip(sums.chunks_exact_mut(width));
+            sums.find_map(add).unwrap_or(none)
+        };
+        let lower = |a: (usize, f64), b: (usize, f64)| if b.0 < a.0 { b } else { a };
+        let (slot, value) = reduce(cut(own, GRAIN * width), none, first_wrong, lower);
+        if slot < usize::MAX {
+            return Some(Wrong { load, value, slot });
         }
-        None
+        // What repeats the last particle goes where that goes.
+        for repeat in repeats.chunks_mut(width) {
+            repeat.copy_from_slice(&own[live - width..]);
+        }
     }
+    None
+}
 
-    /// e ← e + dt q with the heat sources of the last evaluation, where energy changes by the work of pairs.
-    pub(super) fn heat_by_loads(&mut self, dt: f64) {
-        let dt = T::from_f64(dt);
-        let columns = &mut self.particles.columns;
-        let [energy, heating] = columns.many_mut([Field::ENERGY, Field::LOAD_HEATING]);
-        for (energy, heating) in energy.iter_mut().zip(heating) {
-            *energy += dt * *heating;
-        }
+/// e ← e + dt q with the heat sources of the last evaluation, where energy changes by the work of pairs.
+pub(super) fn heat_by_loads<T: Real, const D: usize>(columns: &mut Columns<T, D>, dt: f64) {
+    let dt = T::from_f64(dt);
+    let [energy, heating] = columns.many_mut([Field::ENERGY, Field::LOAD_HEATING]);
+    for (energy, heating) in energy.iter_mut().zip(heating) {
+        *energy += dt * *heating;
     }
 }

@@ -19,6 +19,9 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub(crate) struct Neighborhood<T: Real, const D: usize> {
     pub blocks: Vec<Block>,
+    /// Whether particles of a block wear a mirrored velocity, where a liquid sticks to them: those of some walls, and their
+    /// images.
+    pub mirrored: Vec<bool>,
     pub interactions: Vec<Interaction>,
     pub images: Vec<Image>,
     pub transforms: Vec<Transform<T, D>>,
@@ -62,6 +65,7 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
     ) -> Self {
         Self {
             blocks: Vec::new(),
+            mirrored: Vec::new(),
             interactions,
             images: Vec::new(),
             transforms: Vec::new(),
@@ -176,6 +180,10 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         let bodies = particles.bodies.iter().map(|body| body.slots.clone());
         let block = |wall| move |slots| Block { slots, wall };
         self.blocks.extend(bodies.map(block(false)));
+        self.mirrored.clear();
+        self.mirrored.resize(particles.bodies.len(), false);
+        self.mirrored
+            .extend(walls.iter().map(|wall| wall.is_mirrored()));
         let walls_of = walls.iter().map(|wall| wall.slots.clone());
         self.blocks.extend(walls_of.map(block(true)));
         self.place_images(particles, walls, boundaries, time);

@@ -94,6 +94,16 @@ impl<T: Real, const D: usize> Particles<T, D> {
         x.iter().map(|x| x.to_f64()).collect()
     }
 
+    /// The same, with what rounding has lost.
+    pub fn exact_position(&self, slot: usize) -> [f64; D] {
+        let residual = self.columns.raw(Field::POSITION_RESIDUAL);
+        let x = self.columns.vectors(Field::POSITION)[slot];
+        core::array::from_fn(|d| {
+            let lost = residual.get(slot * D + d).map_or(0.0, |r| r.to_f64());
+            x[d].to_f64() + lost
+        })
+    }
+
     /// The slots of a particle of a body: its own, and those that repeat it; none if it has left.
     pub fn slots_of(&self, body: usize, id: u32) -> Range<usize> {
         let body = &self.bodies[body];

@@ -36,13 +36,7 @@ impl<T: Real, const D: usize> ParticleView<'_, T, D> {
     /// Position \[m\].
     #[must_use]
     pub fn position(&self) -> [f64; D] {
-        let columns = &self.group.particles.columns;
-        let residual = columns.raw(Field::POSITION_RESIDUAL);
-        let x = columns.vectors(Field::POSITION)[self.slot];
-        core::array::from_fn(|d| {
-            let lost = residual.get(self.slot * D + d).map_or(0.0, |r| r.to_f64());
-            x[d].to_f64() + lost
-        })
+        self.group.particles.exact_position(self.slot)
     }
     /// Velocity \[m/s\].
     #[must_use]

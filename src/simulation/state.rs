@@ -3,6 +3,7 @@
 
 use super::evolve::{POSITIONS, RATES, add, add_scaled, combine_positions, rates, state, update};
 use super::group::Group;
+use super::loads::heat_by_loads;
 use super::population::BodyState;
 use super::stages::Moment;
 use super::workspace::Saved;
@@ -70,7 +71,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             self.work.first_kick = Some([0.5 * dt, self.neighborhood.placed_time]);
         }
         self.heat(dt, Some(later.unwrap_or(0.0)));
-        self.heat_by_loads(dt);
+        heat_by_loads(&mut self.particles.columns, dt);
         self.held.keep_asleep(&mut self.particles, true);
     }
 

@@ -101,6 +101,12 @@ impl<T: Real, const D: usize> WallState<T, D> {
         core::array::from_fn(|d| now[d] - then[d])
     }
 
+    /// Whether its particles wear the mirrored velocity by which a liquid sticks to them, which differs from that of the
+    /// liquid twice as much as their own.
+    pub fn is_mirrored(&self) -> bool {
+        self.slip == Slip::None
+    }
+
     /// The number of the particle in a slot among those of the wall as built.
     pub fn rest_of(&self, ids: &[u32], slot: usize) -> usize {
         (ids[slot] as usize - self.slots.start).min(self.rest.len() - 1)

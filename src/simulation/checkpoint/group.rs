@@ -3,7 +3,7 @@
 
 use super::held::{put_held, take_held};
 use super::particles::{check_run, put_particles, take_particles};
-use super::workspace::{put_neighborhood, put_workspace};
+use super::workspace::{put_neighborhood, put_workspace, take_neighborhood, take_workspace};
 use crate::material::eos::GuardCounts;
 use crate::output::checkpoint::{Checkpoint, Read, damaged};
 use crate::particles::Columns;
@@ -133,8 +133,22 @@ impl<T: Real, const D: usize> Group<T, D> {
         for wall in &self.walls {
             check_run(&self.particles, wall.slots.start..wall.end)?;
         }
-        self.take_neighborhood(name, file)?;
-        self.take_workspace(name, file)?;
+        let columns = &self.particles.columns;
+        let taken = take_neighborhood(&mut self.neighborhood, columns, name, file)?;
+        self.work = take_workspace(columns, &scheme, name, file)?;
+        // Lists follow from the places and lengths that they were built from.
+        let (mut listed, placed_time) = taken;
+        let mut exchange = |columns: &mut Columns<T, D>| {
+            for (field, column) in &mut listed {
+                core::mem::swap(columns.column_mut(*field), column);
+            }
+        };
+        exchange(&mut self.particles.columns);
+        let near = &self.neighborhood;
+        self.list(near.listed_time, near.listed_reach);
+        exchange(&mut self.particles.columns);
+        self.neighborhood
+            .place_transforms(&self.boundaries, placed_time);
         for (k, wall) in self.walls.iter_mut().enumerate() {
             if let Some(structure) = &mut wall.structure {
                 let own = structure.accelerations.as_flattened_mut();
@@ -170,8 +184,6 @@ impl<T: Real, const D: usize> Group<T, D> {
             asleep.keep_rows(&self.particles, &scheme);
         }
         self.gravity = file.get_array(&format!("{name}/gravity"))?;
-        let evaluated: [f64; D] = file.get_array(&format!("{name}/evaluated_gravity"))?;
-        self.work.evaluated_gravity = evaluated.map(T::from_f64);
         let force = file.get_all_reals::<T>(&format!("{name}/body_force"), D)?;
         self.body_force.copy_from_slice(&force);
         let [compression, expansion, cut_off] = file.get_array(&format!("{name}/guards"))?;

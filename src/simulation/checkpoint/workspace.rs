@@ -10,93 +10,87 @@ use crate::scheme::Scheme;
 use crate::simulation::Phases;
 use crate::simulation::cost::Spent;
 use crate::simulation::evolve::state;
-use crate::simulation::group::Group;
 use crate::simulation::neighborhood::Neighborhood;
 use crate::simulation::settle::Settling;
 use crate::simulation::workspace::{Saved, Workspace};
 use crate::sweep::{Reaction, Records, Results};
 use crate::term::Stage;
 
-impl<T: Real, const D: usize> Group<T, D> {
-    pub(super) fn take_neighborhood(&mut self, name: &str, file: &Checkpoint) -> Read<()> {
-        let slots = self.particles.columns.slots();
-        let own = &mut self.neighborhood;
-        own.listed_time = file.get_one(&format!("{name}/listed_time"))?;
-        own.listed_reach = file.get_one(&format!("{name}/listed_reach"))?;
-        let placed_time = file.get_one(&format!("{name}/placed_time"))?;
-        own.skin = file.get_one(&format!("{name}/skin"))?;
-        own.served = file.get_one(&format!("{name}/served"))?;
-        own.rebuilds = file.get_one(&format!("{name}/rebuilds"))?;
-        let entries = file.get_one::<u64>(&format!("{name}/sorted_entries"))?;
-        own.sorted_entries = entries as usize;
-        let (time, reach) = (own.listed_time, own.listed_reach);
-        let x = file.get_all_reals(&format!("{name}/listed_position"), slots * D)?;
-        let mut listed = vec![(Field::POSITION, x)];
-        let h = self.particles.columns.raw(Field::SMOOTHING_LENGTH).len();
-        let lengths = file.get_all_reals(&format!("{name}/listed_smoothing_length"), h)?;
-        listed.push((Field::SMOOTHING_LENGTH, lengths));
-        // Lists follow from the places and lengths that they were built from.
-        let mut exchange = |columns: &mut Columns<T, D>| {
-            for (field, column) in &mut listed {
-                core::mem::swap(columns.column_mut(*field), column);
-            }
-        };
-        exchange(&mut self.particles.columns);
-        self.list(time, reach);
-        exchange(&mut self.particles.columns);
-        self.neighborhood
-            .place_transforms(&self.boundaries, placed_time);
-        Ok(())
-    }
+/// Of the lists all but themselves: the places and smoothing lengths that they were built from, and the time \[s\] at which the
+/// transforms of images were.
+pub(super) fn take_neighborhood<T: Real, const D: usize>(
+    own: &mut Neighborhood<T, D>,
+    columns: &Columns<T, D>,
+    name: &str,
+    file: &Checkpoint,
+) -> Read<(Saved<T>, f64)> {
+    own.listed_time = file.get_one(&format!("{name}/listed_time"))?;
+    own.listed_reach = file.get_one(&format!("{name}/listed_reach"))?;
+    let placed_time = file.get_one(&format!("{name}/placed_time"))?;
+    own.skin = file.get_one(&format!("{name}/skin"))?;
+    own.served = file.get_one(&format!("{name}/served"))?;
+    own.rebuilds = file.get_one(&format!("{name}/rebuilds"))?;
+    let entries = file.get_one::<u64>(&format!("{name}/sorted_entries"))?;
+    own.sorted_entries = entries as usize;
+    let count = columns.slots() * D;
+    let x = file.get_all_reals(&format!("{name}/listed_position"), count)?;
+    let count = columns.raw(Field::SMOOTHING_LENGTH).len();
+    let h = file.get_all_reals(&format!("{name}/listed_smoothing_length"), count)?;
+    let listed = vec![(Field::POSITION, x), (Field::SMOOTHING_LENGTH, h)];
+    Ok((listed, placed_time))
+}
 
-    pub(super) fn take_workspace(&mut self, name: &str, file: &Checkpoint) -> Read<()> {
-        let scheme = self.scheme.clone();
-        let rows = |what: &str| take_rows(&scheme, &format!("{name}/{what}"), file);
-        let saved = |what: &str, fields: Vec<Field>| -> Read<Saved<T>> {
-            let mut columns = Saved::new();
-            for field in fields {
-                let column = format!("{name}/{what}/{}", column_name(&scheme, field));
-                // What has no column is kept as none.
-                let count = self.particles.columns.raw(field).len();
-                let numbers = match count {
-                    0 => Vec::new(),
-                    _ => file.get_all_reals(&column, count)?,
-                };
-                columns.push((field, numbers));
-            }
-            Ok(columns)
-        };
-        let mut kept = Vec::new();
-        while let what = format!("kept{}", kept.len())
-            && let Ok(full) = file.get_one::<u32>(&format!("{name}/{what}/full"))
-        {
-            let fields = if full == 0 {
-                Vec::new()
-            } else {
-                state(&scheme.program).collect()
+pub(super) fn take_workspace<T: Real, const D: usize>(
+    columns: &Columns<T, D>,
+    scheme: &Scheme<T, D>,
+    name: &str,
+    file: &Checkpoint,
+) -> Read<Workspace<T, D>> {
+    let rows = |what: &str| take_rows(scheme, &format!("{name}/{what}"), file);
+    let saved = |what: &str, fields: Vec<Field>| -> Read<Saved<T>> {
+        let mut saved = Saved::new();
+        for field in fields {
+            let column = format!("{name}/{what}/{}", column_name(scheme, field));
+            // What has no column is kept as none.
+            let count = columns.raw(field).len();
+            let numbers = match count {
+                0 => Vec::new(),
+                _ => file.get_all_reals(&column, count)?,
             };
-            kept.push(saved(&what, fields)?);
+            saved.push((field, numbers));
         }
-        self.work = Workspace {
-            records: take_records(&format!("{name}/records"), file)?,
-            work_records: take_records(&format!("{name}/work_records"), file)?,
-            records_of_rates: file.get_one::<u32>(&format!("{name}/records_of_rates"))? != 0,
-            rates: rows("rates")?,
-            evaluated_gravity: self.work.evaluated_gravity,
-            worked: rows("worked")?,
-            first_kick: take_first_kick(name, file)?,
-            lengths_time: file.get_one(&format!("{name}/lengths_time"))?,
-            sums: rows("sums")?,
-            coupling: rows("coupling")?,
-            settling: Settling::default(),
-            predicted: Saved::new(),
-            is_predicted: false,
-            kept,
-            phases: Phases::default(),
-            spent: Spent::default(),
+        Ok(saved)
+    };
+    let mut kept = Vec::new();
+    while let what = format!("kept{}", kept.len())
+        && let Ok(full) = file.get_one::<u32>(&format!("{name}/{what}/full"))
+    {
+        let fields = if full == 0 {
+            Vec::new()
+        } else {
+            state(&scheme.program).collect()
         };
-        Ok(())
+        kept.push(saved(&what, fields)?);
     }
+    let evaluated: [f64; D] = file.get_array(&format!("{name}/evaluated_gravity"))?;
+    Ok(Workspace {
+        records: take_records(&format!("{name}/records"), file)?,
+        work_records: take_records(&format!("{name}/work_records"), file)?,
+        records_of_rates: file.get_one::<u32>(&format!("{name}/records_of_rates"))? != 0,
+        rates: rows("rates")?,
+        evaluated_gravity: evaluated.map(T::from_f64),
+        worked: rows("worked")?,
+        first_kick: take_first_kick(name, file)?,
+        lengths_time: file.get_one(&format!("{name}/lengths_time"))?,
+        sums: rows("sums")?,
+        coupling: rows("coupling")?,
+        settling: Settling::default(),
+        predicted: Saved::new(),
+        is_predicted: false,
+        kept,
+        phases: Phases::default(),
+        spent: Spent::default(),
+    })
 }
 
 pub(super) fn put_neighborhood<T: Real, const D: usize>(
@@ -107,6 +101,7 @@ pub(super) fn put_neighborhood<T: Real, const D: usize>(
 ) {
     let Neighborhood {
         blocks: _,
+        mirrored: _,
         interactions: _,
         images: _,
         transforms: _,
