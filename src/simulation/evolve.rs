@@ -1,4 +1,4 @@
-//! How numbers of the state change: by rates, as their declarations say, and with what rounding loses.
+//! What a state consists of, and how its numbers change: by rates, as their declarations say, and with what rounding loses.
 //! On slices of columns; which of these change when is in `state`.
 
 use crate::effect::{Evolved, StepProgram, Update, View};

@@ -43,7 +43,7 @@ impl<T: Real> BodyState<T> {
     }
 }
 
-/// The particles of a group: of what a checkpoint holds all.
+/// The particles of a group. A checkpoint holds all of it but how they have moved, which saved states know between steps.
 #[derive(Clone, Debug)]
 pub(crate) struct Particles<T: Real, const D: usize> {
     pub columns: Columns<T, D>,
