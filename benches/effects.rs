@@ -6,22 +6,34 @@
 
 #[path = "throughput/by_hand.rs"]
 mod by_hand;
+#[path = "throughput/by_hand/continuity.rs"]
+mod continuity_by_hand;
 #[path = "throughput/lattice.rs"]
 mod lattice;
+#[path = "throughput/by_hand/solids.rs"]
+mod solids_by_hand;
 
-use by_hand::{
-    CONTINUITY, DELTA, DIFFUSION, LAMINAR, SHARE, TENSION, VISCOSITY, over_kernel_at_spacing, row,
-    viscosity,
+use by_hand::forces::{
+    CONDUCTED, CONDUCTION, ENERGY, Forces, LAMINAR, SHARE, TENSION, VISCOSITY, viscosity,
+};
+use by_hand::{norm, over_shape_at_spacing, row};
+use continuity_by_hand::{
+    COMPRESSION, CONSISTENCY, CROWDING, Continuity, DELTA, DIFFUSION, PAIRING, REPULSION, SHIFTED,
+    SHIFTING,
 };
 use meshfree::effect::{
-    ArtificialPressure, ArtificialStress, HourglassControl, HourglassFree, Hypoelastic, NeoHookean,
-    PairingControl, Plasticity, TensionRepulsion,
+    ArtificialConduction, ArtificialPressure, ArtificialStress, ConductionSignal, Crowding,
+    HourglassControl, HourglassFree, Hypoelastic, NearPairs, NeoHookean, PairingControl,
+    Plasticity, ShiftedContinuity, TensionRepulsion,
 };
 use meshfree::kernel::WendlandC2;
 use meshfree::prelude::*;
 use meshfree::scene::Start;
 use meshfree::term::viscosity::{Inviscid, MonaghanGingold};
-use meshfree::term::{Compression, Fourtakas, LaminarViscosity, PressureForce};
+use meshfree::term::{
+    Compression, ConcentrationGradient, Fourtakas, InternalEnergy, LaminarViscosity, PressureForce,
+    Unity,
+};
 use std::time::Instant;
 
 /// How much is measured.
@@ -220,31 +232,79 @@ fn solids(size: Size) {
     rows(|| total().compose(), catalogue::steel_4340, cases, size);
 }
 
-/// Pair terms of liquids' effects, alone and together, over loops that are written out for just these.
+/// Pair terms of effects, alone and together, over loops that are written out for just these.
 fn against_by_hand(side: usize, turns: usize) {
     if by_hand::skipped() {
         return;
     }
     println!("effects composed over written out by hand, {side}³ particles, f64, one thread");
+    // One over hᴰ W of the spacing.
+    let at_spacing = over_shape_at_spacing() / norm();
     let tension = || TensionRepulsion {
         of: ArtificialPressure {
             share: SHARE,
             exponent: 4,
         },
-        over_kernel_at_spacing: over_kernel_at_spacing(),
+        over_kernel_at_spacing: at_spacing,
     };
+    let force = PressureForce;
+    row("pressure", (force,), Forces::<0>, side, turns);
+    by_hand::forces::forces(side, turns);
+    let terms = (force, LaminarViscosity);
+    row("laminar viscosity", terms, Forces::<LAMINAR>, side, turns);
+    let terms = (force, tension());
+    row("artificial pressure", terms, Forces::<TENSION>, side, turns);
+    let terms = (force, viscosity(), LaminarViscosity, tension());
+    let by_hand = Forces::<{ VISCOSITY | LAMINAR | TENSION }>;
+    row("all three", terms, by_hand, side, turns);
+    let conduction = || ArtificialConduction {
+        strength: CONDUCTION,
+        signal: ConductionSignal::Pressure,
+    };
+    let terms = (force, InternalEnergy);
+    row("gas: energy", terms, Forces::<ENERGY>, side, turns);
+    let terms = (force, InternalEnergy, conduction());
+    let by_hand = Forces::<{ ENERGY | CONDUCTED }>;
+    row("gas: conduction", terms, by_hand, side, turns);
+    let terms = (force, InternalEnergy, viscosity(), conduction());
+    let by_hand = Forces::<{ ENERGY | CONDUCTED | VISCOSITY }>;
+    row("gas: conduction, viscosity", terms, by_hand, side, turns);
+
     let diffusion = || Fourtakas { delta: DELTA };
-    row::<_, 0>("pressure", (PressureForce,), side, turns);
-    by_hand::forces(side, turns);
-    let terms = (PressureForce, LaminarViscosity);
-    row::<_, LAMINAR>("laminar viscosity", terms, side, turns);
-    let terms = (PressureForce, tension());
-    row::<_, TENSION>("artificial pressure", terms, side, turns);
-    let terms = (PressureForce, viscosity(), LaminarViscosity, tension());
-    row::<_, { VISCOSITY | LAMINAR | TENSION }>("all three", terms, side, turns);
-    row::<_, CONTINUITY>("compression", (Compression,), side, turns);
+    let shifting = || ConcentrationGradient {
+        repulsion: REPULSION,
+        at_spacing: 1.0 / at_spacing,
+    };
+    let pairing = || NearPairs {
+        over_kernel_at_spacing: at_spacing,
+    };
+    let by_hand = Continuity::<COMPRESSION>;
+    row("compression", (Compression,), by_hand, side, turns);
     let terms = (Compression, diffusion());
-    row::<_, { CONTINUITY | DIFFUSION }>("density diffusion", terms, side, turns);
+    let by_hand = Continuity::<{ COMPRESSION | DIFFUSION }>;
+    row("density diffusion", terms, by_hand, side, turns);
+    let terms = (Compression, shifting());
+    let by_hand = Continuity::<{ COMPRESSION | SHIFTING }>;
+    row("shifting", terms, by_hand, side, turns);
+    let terms = (Compression, pairing());
+    let by_hand = Continuity::<{ COMPRESSION | PAIRING }>;
+    row("pairing control", terms, by_hand, side, turns);
+    let terms = (Compression, Unity);
+    let by_hand = Continuity::<{ COMPRESSION | CONSISTENCY }>;
+    row("volume consistency", terms, by_hand, side, turns);
+    let terms = (Compression, diffusion(), shifting(), Unity, pairing());
+    let by_hand = Continuity::<{ COMPRESSION | DIFFUSION | SHIFTING | CONSISTENCY | PAIRING }>;
+    row("all four", terms, by_hand, side, turns);
+    let crowding = Crowding {
+        over_kernel_at_spacing: at_spacing,
+    };
+    let by_hand = Continuity::<CROWDING>;
+    row("crowding", (crowding,), by_hand, side, turns);
+    let terms = (Compression, ShiftedContinuity);
+    let by_hand = Continuity::<{ COMPRESSION | SHIFTED }>;
+    row("consistent shifting", terms, by_hand, side, turns);
+
+    solids_by_hand::table(at_spacing, side, turns);
 }
 
 fn main() {

@@ -266,7 +266,6 @@ fn main() {
     let (fall, steps) = if full { (0.05, 30) } else { (0.0, 3) };
     let (side, turns) = if full { (32, 60) } else { (12, 5) };
     pair_loop::table(side, turns);
-    solids::composed_against_fused(side, turns);
     solids::table(if full { 32 } else { 10 }, steps);
     if given("--solids") {
         return;

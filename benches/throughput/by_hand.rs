@@ -1,5 +1,8 @@
-//! Pair terms of liquids, any of them, beside a loop that is written out by hand for just these: what composing costs.
-//! Both loops share lists, kernel, rows and root; that of the crate sums both sides of a pair at once.
+//! Sums over pairs that are written out by hand for just these effects, beside the crate's loop with the terms of these: what
+//! composing costs. Both share lists, kernel, records, rows and root; the crate's may sum both sides of a pair at once.
+
+#[path = "by_hand/forces.rs"]
+pub mod forces;
 
 use super::lattice::{BATCH, H, Lattice, assert_same, print_ratio, ratios, within_reach};
 use meshfree::kernel::{Kernel, WendlandC2};
@@ -9,87 +12,127 @@ use meshfree::scalar::{Lane, OnRows};
 use meshfree::sweep::{
     FusedKernel, InstructionSet, PairSweep, Pass, Records, Results, Root, SmoothingMode,
 };
-use meshfree::term::viscosity::MonaghanGingold;
-use meshfree::term::{PressureForce, Terms, Viscosity};
+use meshfree::term::Terms;
+use std::marker::PhantomData;
 
-const ALPHA: f64 = 0.02;
-pub const DELTA: f64 = 0.1;
-pub const SHARE: f64 = 0.3;
+/// Most numbers of a record, and most sums.
+pub const MOST: usize = 32;
 
-/// What a loop does beside pressure, or beside compression.
-pub const VISCOSITY: u8 = 1;
-pub const LAMINAR: u8 = 2;
-pub const TENSION: u8 = 4;
-pub const DIFFUSION: u8 = 8;
-/// Compression in place of forces.
-pub const CONTINUITY: u8 = 16;
+/// What a record holds, known when the loop is compiled.
+pub trait Record {
+    const FIELDS: Fields;
+}
 
-/// The loop by hand: forces (three sums and, with an artificial viscosity, a maximum), or compression (and diffusion).
-struct ByHand<'a, const WHAT: u8> {
+/// The record of a loop with these terms.
+struct Of<P>(PhantomData<P>);
+
+impl<P: Terms<3>> Record for Of<P> {
+    const FIELDS: Fields = P::READS
+        .union(Fields::of(&[Field::POSITION]))
+        .without(Field::POSITION_RESIDUAL);
+}
+
+/// Where fields begin in a record.
+pub const fn places<R: Record, const N: usize>(fields: [Field; N]) -> [usize; N] {
+    let (mut places, mut k) = ([0; N], 0);
+    while k < N {
+        places[k] = R::FIELDS.offset(fields[k], 3);
+        k += 1;
+    }
+    places
+}
+
+/// A row of particles and a neighbour: what every loop makes of their places first. What a loop does not use the compiler leaves
+/// out.
+pub struct Apart<Row> {
+    /// From the neighbour, in the places by which lists are made.
+    pub r: [Row; 3],
+    pub d2: Row,
+    /// The kernel over its factor in front.
+    pub shape: Row,
+    /// The factor F of the kernel's gradient.
+    pub f: Row,
+}
+
+/// The sums of a loop.
+pub trait Written: Copy + Send + Sync {
+    /// What is summed, and its components, in the order of `finish`.
+    fn outputs() -> Vec<(Output, usize)>;
+    /// What of a row is the same for all of its neighbours; it may replace numbers of the row's record.
+    #[inline(always)]
+    fn prepare<Row: Lane<Scalar = f64>, R: Record>(&self, _own: &mut [Row; MOST]) {}
+    /// Adds a pair.
+    fn pair<Row: Lane<Scalar = f64>, R: Record>(
+        &self,
+        apart: &Apart<Row>,
+        own: &[Row; MOST],
+        other: &[f64],
+        sums: &mut [Row; MOST],
+    );
+    /// What of the sums is the same for all neighbours, and their order.
+    fn finish<Row: Lane<Scalar = f64>>(&self, sums: &[Row; MOST]) -> [Row; MOST];
+}
+
+/// The loop by hand around the sums of `W`.
+struct ByHand<'a, W, R> {
+    written: W,
     records: &'a [f64],
     lists: &'a ClusterLists,
     out: &'a mut [f64],
-    fields: Fields,
-    norm: f64,
-    over_kernel_at_spacing: f64,
+    width: usize,
+    gradient: f64,
     by_divider: bool,
+    record: PhantomData<R>,
 }
 
-/// Most numbers of a record.
-const MOST: usize = 24;
-
-impl<const WHAT: u8> ByHand<'_, WHAT> {
-    const SUMS: usize = if WHAT & CONTINUITY == 0 {
-        3 + (WHAT & VISCOSITY != 0) as usize
-    } else {
-        1 + (WHAT & DIFFUSION != 0) as usize
-    };
+/// Reads the records of a row. Never inlined, so that what is read lies in memory row by row.
+#[inline(never)]
+fn read<Row: Lane<Scalar = f64>>(
+    records: &[f64],
+    first: usize,
+    stride: usize,
+    own: &mut [Row; MOST],
+) {
+    for (k, value) in own.iter_mut().enumerate().take(stride) {
+        *value = Row::from_fn(|lane| records[(first + lane) * stride + k]);
+    }
 }
 
-impl<const WHAT: u8> OnRows<f64> for ByHand<'_, WHAT> {
+impl<W: Written, R: Record> OnRows<f64> for ByHand<'_, W, R> {
     type Output = ();
     #[inline(always)]
     fn run<Row: Lane<Scalar = f64, Broadcast = f64>>(self) {
-        let stride = self.fields.width(3);
-        let at = |field: Field| self.fields.offset(field, 3);
-        let (v, m, rho, c) = (
-            at(Field::VELOCITY),
-            at(Field::MASS),
-            at(Field::DENSITY),
-            at(Field::SOUND_SPEED),
-        );
-        let (weight, coefficient) = (at(Field::WEIGHT), at(Field::PRESSURE_COEFFICIENT));
-        let (mu, p) = (at(Field::DYNAMIC_VISCOSITY), at(Field::PRESSURE));
+        let stride = const { R::FIELDS.width(3) };
+        let place = const {
+            if R::FIELDS.contains(Field::REFERENCE_POSITION) {
+                R::FIELDS.offset(Field::REFERENCE_POSITION, 3)
+            } else {
+                R::FIELDS.offset(Field::POSITION, 3)
+            }
+        };
         let inverse = 1.0 / H;
-        let [value, gradient] = [self.norm * inverse.powi(3), self.norm * inverse.powi(5)];
         let mut near = [0_u32; BATCH];
+        let mut own = [Row::zero(); MOST];
         for (chunk_at, chunk) in self.lists.chunks().iter().enumerate() {
             for (k, bounds) in chunk.starts.windows(2).enumerate() {
                 let first = (chunk_at * CHUNK + k) * 8;
-                let mut own = [Row::zero(); MOST];
-                for (k, value) in own[..stride].iter_mut().enumerate() {
-                    *value = Row::from_fn(|lane| self.records[(first + lane) * stride + k]);
-                }
-                let mut sums = [Row::zero(); 4];
+                read(self.records, first, stride, &mut own);
+                self.written.prepare::<Row, R>(&mut own);
+                let mut sums = [Row::zero(); MOST];
                 for segment in &chunk.segments[bounds[0] as usize..bounds[1] as usize] {
                     let listed = &chunk.neighbors[segment.start as usize..segment.end as usize];
                     let staying = (segment.near_end - segment.start) as usize;
                     for (b, batch) in listed.chunks(BATCH).enumerate() {
                         let staying = staying.saturating_sub(b * BATCH).min(batch.len());
-                        let records = (self.records, stride, 0);
+                        let records = (self.records, stride, place);
                         let count = within_reach(records, &own, (batch, staying), &mut near);
                         for &j in &near[..count] {
                             let other = &self.records[j as usize * stride..][..stride];
                             let mut r = [Row::zero(); 3];
-                            let mut jump = [Row::zero(); 3];
                             for d in 0..3 {
-                                r[d] = own[d] - Row::splat(other[d]);
-                                if WHAT & (VISCOSITY | LAMINAR | CONTINUITY) != 0 {
-                                    jump[d] = own[v + d] - Row::splat(other[v + d]);
-                                }
+                                r[d] = own[place + d] - Row::splat(other[place + d]);
                             }
                             let d2 = r[2].mul_add(r[2], r[1].mul_add(r[1], r[0] * r[0]));
-                            let vr = jump[2].mul_add(r[2], jump[1].mul_add(r[1], jump[0] * r[0]));
                             let distance = if self.by_divider {
                                 d2.sqrt()
                             } else {
@@ -99,67 +142,22 @@ impl<const WHAT: u8> OnRows<f64> for ByHand<'_, WHAT> {
                                 .mul_add(Row::splat(-0.5 * inverse), Row::one())
                                 .positive_part();
                             let t3 = t * t * t;
-                            let f = t3 * Row::splat(-5.0 * gradient);
-                            if WHAT & CONTINUITY != 0 {
-                                let share = Row::splat(other[weight]) * f;
-                                sums[0] = share.mul_add(vr, sums[0]);
-                                if WHAT & DIFFUSION != 0 {
-                                    let rate = share * (Row::splat(2.0 * DELTA * H) / own[c]);
-                                    let apart = own[p] - Row::splat(other[p]);
-                                    // Without a body force nothing is hydrostatic.
-                                    sums[1] = rate.mul_add(apart, sums[1]);
-                                }
-                                continue;
-                            }
-                            let weights = own[weight] * Row::splat(other[weight]);
-                            let stress = own[coefficient] + Row::splat(other[coefficient]);
-                            let mut along = weights * stress;
-                            if WHAT & VISCOSITY != 0 {
-                                let sounds = own[c] + Row::splat(other[c]);
-                                let densities = own[rho] + Row::splat(other[rho]);
-                                let over_h = d2.mul_add(Row::splat(inverse), Row::splat(0.01 * H));
-                                let approach = vr.min(Row::zero()) / (over_h * densities);
-                                let speed = sounds * Row::splat(ALPHA);
-                                let masses = own[m] * Row::splat(other[m]);
-                                along = masses.mul_add(-(approach * speed), along);
-                                let inside = f.lt(Row::zero());
-                                let signal = speed * Row::splat(0.3);
-                                sums[3] = sums[3].max(Row::select(inside, signal, Row::zero()));
-                            }
-                            if WHAT & TENSION != 0 {
-                                // The kernel over its value at the spacing, to the fourth power.
-                                let w = t3
-                                    * t
-                                    * (distance + distance)
-                                        .mul_add(Row::splat(inverse), Row::one());
-                                let scale = value * H * H * H * self.over_kernel_at_spacing;
-                                let ratio = w * Row::splat(scale);
-                                let square = ratio * ratio;
-                                let tension =
-                                    (-own[p]).positive_part() + Row::splat((-other[p]).max(0.0));
-                                let pull = tension * Row::splat(SHARE) * (square * square);
-                                along = weights.mul_add(pull, along);
-                            }
-                            let radial = -(along * f);
-                            for d in 0..3 {
-                                sums[d] = radial.mul_add(r[d], sums[d]);
-                            }
-                            if WHAT & LAMINAR != 0 {
-                                let [mine, its] = [own[mu], Row::splat(other[mu])];
-                                let mean = (mine + mine) * its / (mine + its);
-                                let volumes = own[m] * Row::splat(other[m])
-                                    / (own[rho] * Row::splat(other[rho]));
-                                let shear = (volumes + volumes) * mean * f;
-                                for d in 0..3 {
-                                    sums[d] = shear.mul_add(jump[d], sums[d]);
-                                }
-                            }
+                            let one_and_twice =
+                                distance.mul_add(Row::splat(2.0 * inverse), Row::one());
+                            let apart = Apart {
+                                r,
+                                d2,
+                                shape: t3 * t * one_and_twice,
+                                f: t3 * Row::splat(-5.0 * self.gradient),
+                            };
+                            self.written.pair::<Row, R>(&apart, &own, other, &mut sums);
                         }
                     }
                 }
-                let row = &mut self.out[first * Self::SUMS..(first + 8) * Self::SUMS];
-                for (k, sum) in sums[..Self::SUMS].iter().enumerate() {
-                    sum.store(&mut row[k * 8..]);
+                let row = &mut self.out[first * self.width..(first + 8) * self.width];
+                let finished = self.written.finish(&sums);
+                for (row, sum) in row.chunks_exact_mut(8).zip(&finished) {
+                    sum.store(row);
                 }
             }
         }
@@ -168,74 +166,98 @@ impl<const WHAT: u8> OnRows<f64> for ByHand<'_, WHAT> {
 
 type Composed<P> = FusedKernel<WendlandC2, P, { SmoothingMode::Uniform.bit() }>;
 
-/// A row: the terms composed, over the loop for `WHAT` by hand. Prints the median ratio and its interval, and returns the least
-/// that it may be.
-pub fn row<P: Terms<3>, const WHAT: u8>(name: &str, terms: P, side: usize, turns: usize) -> f64 {
-    let sweep: Composed<P> = FusedKernel::new(WendlandC2, terms, SmoothingMode::Uniform);
-    let sweep: &dyn PairSweep<f64, 3> = &sweep;
-    let mut lattice = Lattice::<f64>::new(side, sweep.fields());
-    let slots = lattice.columns.slots();
-    for slot in 0..slots {
+/// Fields of terms: a mean, and by how much each component varies in space.
+const VALUES: [(Field, f64, f64); 12] = [
+    (Field::DYNAMIC_VISCOSITY, 1.0, 0.1),
+    (Field::PRESSURE, 0.0, 1e4),
+    (Field::ENERGY, 1e3, 1e2),
+    (Field::CONSISTENCY_FACTOR, 1.0, 0.05),
+    // Velocities of consistent shifting.
+    (Field::vector(14), 0.0, 0.1),
+    // The deviatoric stress, the artificial one, and mismatch and stiffness of the hourglass-free form.
+    (Field::tensor(15), 0.0, 1e6),
+    (Field::tensor(14), 1e5, 1e5),
+    (Field::vector(15), 0.0, 0.01),
+    (Field::scalar(7), -1e8, 1e7),
+    // The corrected stress of total-Lagrangian solids, their deformation, and the modulus of the hourglass control.
+    (Field::matrix(13), 0.0, 1e6),
+    (Field::matrix(15), 0.3, 1.0),
+    (Field::scalar(9), 1e8, 1e7),
+];
+
+fn fill(lattice: &mut Lattice<f64>, fields: Fields) {
+    for slot in 0..lattice.columns.slots() {
         let x = lattice.columns.vectors(Field::POSITION)[slot];
-        for (field, value) in [
-            (Field::DYNAMIC_VISCOSITY, 1.0 + 0.1 * (0.2 * x[1]).cos()),
-            (Field::PRESSURE, 1e4 * (0.3 * x[0]).sin()),
-        ] {
-            if let Some(own) = lattice.columns.raw_mut(field).get_mut(slot) {
-                *own = value;
+        if fields.contains(Field::REFERENCE_POSITION) {
+            lattice.columns.vectors_mut(Field::REFERENCE_POSITION)[slot] = x;
+        }
+        for (field, mean, part) in VALUES {
+            if fields.contains(field) {
+                let width = field.components(3);
+                let own = &mut lattice.columns.raw_mut(field)[slot * width..][..width];
+                for (k, value) in own.iter_mut().enumerate() {
+                    *value = mean + part * (0.3 * x[k % 3] + k as f64).sin();
+                }
             }
         }
     }
+}
+
+/// A row of the table: terms composed, over the loop by hand. Prints the median ratio and its interval, and returns the least that
+/// it may be.
+pub fn row<P: Terms<3>, W: Written>(
+    name: &str,
+    terms: P,
+    written: W,
+    side: usize,
+    turns: usize,
+) -> f64 {
+    let sweep: Composed<P> = FusedKernel::new(WendlandC2, terms, SmoothingMode::Uniform);
+    let sweep: &dyn PairSweep<f64, 3> = &sweep;
+    assert_eq!(sweep.fields(), Of::<P>::FIELDS, "the layout of records");
+    let mut lattice = Lattice::<f64>::new(side, sweep.fields());
+    fill(&mut lattice, sweep.fields());
+    let slots = lattice.columns.slots();
     let input = lattice.input();
     let (mut records, mut rows) = (Records::default(), Results::default());
     sweep.pack(Pass::Rates, &input, &mut records);
-    assert_eq!(
-        records.data().len(),
-        sweep.fields().width(3) * slots,
-        "the layout of records"
-    );
-    let width = ByHand::<WHAT>::SUMS;
+    let outputs = W::outputs();
+    let width = outputs.iter().map(|(_, components)| components).sum();
     let mut out = vec![0.0; width * slots];
     let ratios = ratios(
         turns,
         || sweep.run(Pass::Rates, &input, &records, &mut rows),
         || {
-            InstructionSet::Avx512.run(ByHand::<WHAT> {
+            InstructionSet::Avx512.run(ByHand {
+                written,
                 records: records.data(),
                 lists: &lattice.lists,
                 out: &mut out,
-                fields: sweep.fields(),
-                norm: Kernel::<3>::normalisation(&WendlandC2),
-                over_kernel_at_spacing: over_kernel_at_spacing(),
+                width,
+                gradient: norm() / H.powi(5),
                 by_divider: input.root == Root::Divider,
+                record: PhantomData::<Of<P>>,
             });
         },
     );
-    let count = |of: u8| usize::from(WHAT & of != 0);
-    let outputs: &[(Output, usize)] = if WHAT & CONTINUITY == 0 {
-        &[(Output::FORCE, 3), (Output::SIGNAL, count(VISCOSITY))]
-    } else {
-        &[
-            (Output::COMPRESSION, 1),
-            (Output::DENSITY_DIFFUSION, count(DIFFUSION)),
-        ]
-    };
-    assert_same(&rows, outputs, &out, slots);
+    assert_eq!(
+        sweep.outputs().width(3),
+        width,
+        "all that the crate sums, and no more"
+    );
+    assert_same(&rows, &outputs, &out, slots);
     print!("{name}: ");
     print_ratio(&ratios)
 }
 
-/// One over hᴰ W of the spacing, which is one here.
-pub fn over_kernel_at_spacing() -> f64 {
-    let kernel = WendlandC2;
-    1.0 / (Kernel::<3>::normalisation(&kernel) * Kernel::<3>::shape(&kernel, 1.0 / H))
+/// The kernel's factor in front at h = 1.
+pub fn norm() -> f64 {
+    Kernel::<3>::normalisation(&WendlandC2)
 }
 
-pub fn viscosity() -> Viscosity<MonaghanGingold> {
-    Viscosity(MonaghanGingold {
-        alpha: ALPHA,
-        beta: 0.0,
-    })
+/// One over the kernel's shape at the spacing, which is one here.
+pub fn over_shape_at_spacing() -> f64 {
+    1.0 / Kernel::<3>::shape(&WendlandC2, 1.0 / H)
 }
 
 /// Whether the machine has what the loops by hand are compiled for.
@@ -245,13 +267,4 @@ pub fn skipped() -> bool {
         println!("\ncomposed against written out by hand: skipped, the machine has no AVX-512");
     }
     skipped
-}
-
-/// Pressure and artificial viscosity alone: what the gate holds.
-pub fn forces(side: usize, turns: usize) -> f64 {
-    if skipped() {
-        return 1.0;
-    }
-    let terms = (PressureForce, viscosity());
-    row::<_, VISCOSITY>("composed over written out by hand", terms, side, turns)
 }

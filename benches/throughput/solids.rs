@@ -1,20 +1,13 @@
 //! Solids beside the liquid: what a step of each scheme costs a particle and a neighbour, and how many bytes.
-//! The total-Lagrangian force, composed, against one that is written out by hand.
+//! A free block that rings, stepped on one thread.
 
-use super::lattice::{BATCH, H, Lattice, assert_same, print_ratio, ratios, within_reach};
-use meshfree::effect::{FiniteStrainPlasticity, Hypoelastic, NeoHookean, Plasticity, StressForce};
-use meshfree::kernel::{Kernel, WendlandC2};
+use meshfree::effect::{FiniteStrainPlasticity, Hypoelastic, NeoHookean, Plasticity};
 use meshfree::material::catalogue;
 use meshfree::material::eos::IdealGas;
-use meshfree::neighbors::{CHUNK, Cells, ClusterLists};
-use meshfree::particles::{Field, Fields, Output};
+use meshfree::neighbors::Cells;
 use meshfree::prelude::*;
-use meshfree::scalar::{Lane, OnRows};
 use meshfree::scene::Start;
 use meshfree::scheme::Scheme;
-use meshfree::sweep::{
-    FusedKernel, InstructionSet, PairSweep, Pass, Records, Results, SmoothingMode,
-};
 use std::time::Instant;
 
 /// A free block of `side`³ particles a millimetre apart that rings, stepped on one thread.
@@ -129,140 +122,4 @@ pub fn table(side: usize, steps: usize) {
         side,
         steps,
     );
-}
-
-/// P L, as the effect of total-Lagrangian solids has it.
-const CORRECTED: Field = Field::matrix(13);
-
-/// The force of the Piola stress, written out. Records are x, V, X and P L.
-struct Fused<'a> {
-    records: &'a [f64],
-    lists: &'a ClusterLists,
-    out: &'a mut [f64],
-    gradient: f64,
-}
-
-const STRIDE: usize = 16;
-/// Where the weight, the reference position and the corrected stress begin in a record.
-const AT: [usize; 3] = [3, 4, 7];
-
-impl OnRows<f64> for Fused<'_> {
-    type Output = ();
-    #[inline(always)]
-    fn run<Row: Lane<Scalar = f64, Broadcast = f64>>(self) {
-        let [weight, place, stress] = AT;
-        let inverse = 1.0 / H;
-        let mut near = [0_u32; BATCH];
-        for (c, chunk) in self.lists.chunks().iter().enumerate() {
-            for (k, bounds) in chunk.starts.windows(2).enumerate() {
-                let first = (c * CHUNK + k) * 8;
-                let mut own = [Row::splat(0.0); STRIDE];
-                for (k, value) in own.iter_mut().enumerate() {
-                    *value = Row::from_fn(|lane| self.records[(first + lane) * STRIDE + k]);
-                }
-                let mut force = [Row::splat(0.0); 3];
-                for segment in &chunk.segments[bounds[0] as usize..bounds[1] as usize] {
-                    let listed = &chunk.neighbors[segment.start as usize..segment.end as usize];
-                    let staying = (segment.near_end - segment.start) as usize;
-                    for (b, batch) in listed.chunks(BATCH).enumerate() {
-                        let staying = staying.saturating_sub(b * BATCH).min(batch.len());
-                        let records = (self.records, STRIDE, place);
-                        let count = within_reach(records, &own, (batch, staying), &mut near);
-                        for &j in &near[..count] {
-                            let other = &self.records[j as usize * STRIDE..][..STRIDE];
-                            let x: [Row; 3] = core::array::from_fn(|d| {
-                                own[place + d] - Row::splat(other[place + d])
-                            });
-                            let d2 = x[2].mul_add(x[2], x[1].mul_add(x[1], x[0] * x[0]));
-                            let t = d2
-                                .root()
-                                .mul_add(Row::splat(-0.5 * inverse), Row::splat(1.0))
-                                .positive_part();
-                            let f = t * t * t * Row::splat(-5.0 * self.gradient);
-                            let factor = own[weight] * Row::splat(other[weight]) * f;
-                            for a in 0..3 {
-                                let mut traction = Row::zero();
-                                for b in 0..3 {
-                                    let at = stress + 3 * a + b;
-                                    let sum = own[at] + Row::splat(other[at]);
-                                    traction = sum.mul_add(x[b], traction);
-                                }
-                                force[a] = factor.mul_add(traction, force[a]);
-                            }
-                        }
-                    }
-                }
-                for (k, sum) in force.into_iter().enumerate() {
-                    for lane in 0..8 {
-                        self.out[first * 3 + k * 8 + lane] = sum.extract(lane);
-                    }
-                }
-            }
-        }
-    }
-}
-
-/// Composed against written out, over the same lists, taking turns.
-pub fn composed_against_fused(side: usize, turns: usize) {
-    if InstructionSet::detect() != InstructionSet::Avx512 {
-        println!(
-            "\ntotal-Lagrangian force, composed against written out: skipped, the machine has no AVX-512"
-        );
-        return;
-    }
-    type Force = FusedKernel<WendlandC2, (StressForce,), { SmoothingMode::Uniform.bit() }>;
-    let sweep: Force = FusedKernel::new(WendlandC2, (StressForce,), SmoothingMode::Uniform);
-    let sweep: &dyn PairSweep<f64, 3> = &sweep;
-    // The lattice writes what liquids read, too.
-    let liquid = Fields::of(&[
-        Field::VELOCITY,
-        Field::MASS,
-        Field::DENSITY,
-        Field::SOUND_SPEED,
-        Field::PRESSURE_COEFFICIENT,
-    ]);
-    let mut lattice = Lattice::new(side, sweep.fields().union(liquid));
-    let slots = lattice.columns.slots();
-    for slot in 0..slots {
-        let x = lattice.columns.vectors(Field::POSITION)[slot];
-        lattice.columns.vectors_mut(Field::REFERENCE_POSITION)[slot] = x;
-        for k in 0..9_usize {
-            let value: f64 = 0.1 * x[k % 3] + k as f64 + 1.0;
-            lattice.columns.raw_mut(CORRECTED)[slot * 9 + k] = 1e6 * value.sin();
-        }
-    }
-    let input = lattice.input();
-    let (mut records, mut rows) = (Records::default(), Results::default());
-    sweep.pack(Pass::Rates, &input, &mut records);
-    let one = &records.data()[..records.data().len() / slots];
-    let begins = |field| {
-        let own = lattice.columns.raw(field)[0];
-        one.iter()
-            .skip(3)
-            .position(|value| *value == own)
-            .map(|k| k + 3)
-    };
-    let found = [Field::WEIGHT, Field::REFERENCE_POSITION, CORRECTED].map(begins);
-    assert_eq!(
-        (one.len(), found),
-        (STRIDE, AT.map(Some)),
-        "the layout of records"
-    );
-    let gradient = Kernel::<3>::normalisation(&WendlandC2) / H.powi(5);
-    let mut out = vec![0.0; 3 * slots];
-    let ratios = ratios(
-        turns,
-        || sweep.run(Pass::Rates, &input, &records, &mut rows),
-        || {
-            InstructionSet::Avx512.run(Fused {
-                records: records.data(),
-                lists: &lattice.lists,
-                out: &mut out,
-                gradient,
-            });
-        },
-    );
-    assert_same(&rows, &[(Output::FORCE, 3)], &out, slots);
-    print!("\ntotal-Lagrangian force, composed against written out, {slots} particles, ");
-    print_ratio(&ratios);
 }

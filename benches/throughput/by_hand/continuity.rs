@@ -1,0 +1,167 @@
+//! Sums of places and volumes of liquids, written out by hand: compression, and what is summed with it.
+//! What belongs to one particle of a pair alone is divided once a row, or once for all lanes.
+
+use super::by_hand::{Apart, MOST, Record, Written, norm, over_shape_at_spacing, places};
+use super::lattice::H;
+use meshfree::effect::ConsistentShifting;
+use meshfree::particles::{Field, Output};
+use meshfree::scalar::Lane;
+
+pub const DELTA: f64 = 0.1;
+pub const REPULSION: f64 = 0.2;
+
+/// What a loop sums of places and volumes.
+pub const COMPRESSION: u16 = 1 << 5;
+pub const DIFFUSION: u16 = 1;
+pub const SHIFTING: u16 = 1 << 1;
+pub const PAIRING: u16 = 1 << 2;
+pub const CONSISTENCY: u16 = 1 << 3;
+/// What consistent shifting does to density.
+pub const SHIFTED: u16 = 1 << 4;
+/// What the velocity of consistent shifting is made of, without compression.
+pub const CROWDING: u16 = 1 << 6;
+
+/// Where the sums of [`Continuity`] are, behind the compression.
+const DIFFUSED: usize = 1;
+const CONCENTRATION: usize = 2;
+const MOMENT: usize = 5;
+const NEAR: usize = 6;
+const UNITY: usize = 9;
+const RATE: usize = 10;
+const OUTWARDS: usize = 11;
+
+/// The sums of `WHAT`.
+#[derive(Clone, Copy)]
+pub struct Continuity<const WHAT: u16>;
+
+impl<const WHAT: u16> Continuity<WHAT> {
+    /// What is summed, its first sum, and how many there are.
+    fn sums() -> [(Output, usize, usize); 10] {
+        let count = |of: u16, components: usize| if WHAT & of != 0 { components } else { 0 };
+        [
+            (Output::COMPRESSION, 0, count(COMPRESSION, 1)),
+            (Output::DENSITY_DIFFUSION, DIFFUSED, count(DIFFUSION, 1)),
+            (
+                Output::CONCENTRATION_GRADIENT,
+                CONCENTRATION,
+                count(SHIFTING, 3),
+            ),
+            (Output::MOMENT, MOMENT, count(SHIFTING, 1)),
+            (Output::vector(12), NEAR, count(PAIRING, 3)),
+            (Output::UNITY, UNITY, count(CONSISTENCY, 1)),
+            (Output::scalar(12), RATE, count(SHIFTED, 1)),
+            (Output::vector(11), CONCENTRATION, count(CROWDING, 3)),
+            (Output::vector(10), OUTWARDS, count(CROWDING, 3)),
+            (Output::scalar(13), MOMENT, count(CROWDING, 1)),
+        ]
+    }
+}
+
+impl<const WHAT: u16> Written for Continuity<WHAT> {
+    fn outputs() -> Vec<(Output, usize)> {
+        let sums = Self::sums().into_iter();
+        sums.map(|(output, _, count)| (output, count)).collect()
+    }
+    #[inline(always)]
+    fn prepare<Row: Lane<Scalar = f64>, R: Record>(&self, own: &mut [Row; MOST]) {
+        let [c, rho, shift] = const {
+            places::<R, 3>([
+                Field::SOUND_SPEED,
+                Field::DENSITY,
+                ConsistentShifting::VELOCITY,
+            ])
+        };
+        if WHAT & DIFFUSION != 0 {
+            own[c] = Row::splat(2.0 * DELTA * H) / own[c];
+        }
+        if WHAT & SHIFTED != 0 {
+            for d in 0..3 {
+                own[shift + d] = own[shift + d] * (own[rho] + own[rho]);
+            }
+        }
+    }
+    #[inline(always)]
+    fn pair<Row: Lane<Scalar = f64>, R: Record>(
+        &self,
+        apart: &Apart<Row>,
+        own: &[Row; MOST],
+        other: &[f64],
+        sums: &mut [Row; MOST],
+    ) {
+        let [v, m, rho, c] = const {
+            places::<R, 4>([
+                Field::VELOCITY,
+                Field::MASS,
+                Field::DENSITY,
+                Field::SOUND_SPEED,
+            ])
+        };
+        let [weight, p, shift] = const {
+            places::<R, 3>([Field::WEIGHT, Field::PRESSURE, ConsistentShifting::VELOCITY])
+        };
+        let Apart { r, d2, shape, f } = *apart;
+        let gradient = Row::splat(other[weight]) * f;
+        if WHAT & COMPRESSION != 0 {
+            let mut vr = Row::zero();
+            for d in 0..3 {
+                vr = (own[v + d] - Row::splat(other[v + d])).mul_add(r[d], vr);
+            }
+            sums[0] = gradient.mul_add(vr, sums[0]);
+        }
+        if WHAT & DIFFUSION != 0 {
+            // Without a body force nothing is hydrostatic.
+            let difference = own[p] - Row::splat(other[p]);
+            sums[DIFFUSED] = (gradient * own[c]).mul_add(difference, sums[DIFFUSED]);
+        }
+        if WHAT & (SHIFTING | CROWDING) != 0 {
+            let square = shape * shape;
+            let fourth = over_shape_at_spacing().powi(4);
+            let weighted =
+                gradient * (square * square).mul_add(Row::splat(REPULSION * fourth), Row::one());
+            for d in 0..3 {
+                sums[CONCENTRATION + d] = weighted.mul_add(r[d], sums[CONCENTRATION + d]);
+            }
+            sums[MOMENT] = gradient.mul_add(d2, sums[MOMENT]);
+        }
+        if WHAT & CROWDING != 0 {
+            for d in 0..3 {
+                sums[OUTWARDS + d] = gradient.mul_add(r[d], sums[OUTWARDS + d]);
+            }
+        }
+        if WHAT & PAIRING != 0 {
+            let excess = shape.mul_add(Row::splat(over_shape_at_spacing()), -Row::one());
+            let near = gradient * excess.positive_part();
+            for d in 0..3 {
+                sums[NEAR + d] = near.mul_add(r[d], sums[NEAR + d]);
+            }
+        }
+        if WHAT & CONSISTENCY != 0 {
+            let volume = Row::splat(other[m] / other[rho]);
+            sums[UNITY] = volume.mul_add(shape, sums[UNITY]);
+        }
+        if WHAT & SHIFTED != 0 {
+            // ρᵢ (δuᵢ − δuⱼ) + ρᵢ δuᵢ + ρⱼ δuⱼ, of which the row has 2 ρᵢ δuᵢ.
+            let (mut mine, mut its) = (Row::zero(), Row::zero());
+            for d in 0..3 {
+                mine = own[shift + d].mul_add(r[d], mine);
+                its = Row::splat(other[shift + d]).mul_add(r[d], its);
+            }
+            let moved = (Row::splat(other[rho]) - own[rho]).mul_add(its, mine);
+            sums[RATE] = gradient.mul_add(moved, sums[RATE]);
+        }
+    }
+    #[inline(always)]
+    fn finish<Row: Lane<Scalar = f64>>(&self, sums: &[Row; MOST]) -> [Row; MOST] {
+        let mut sums = *sums;
+        sums[MOMENT] = sums[MOMENT] * Row::splat(-1.0 / 3.0);
+        sums[UNITY] = sums[UNITY] * Row::splat(norm() / H.powi(3));
+        let (mut finished, mut at) = ([Row::zero(); MOST], 0);
+        for (_, first, count) in Self::sums() {
+            for k in 0..count {
+                finished[at] = sums[first + k];
+                at += 1;
+            }
+        }
+        finished
+    }
+}

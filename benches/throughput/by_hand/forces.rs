@@ -1,0 +1,172 @@
+//! Forces of liquids and gas, with and without energy, written out by hand.
+//! What belongs to one particle of a pair alone is divided once a row, or once for all lanes, and a pair divides as rarely as it can.
+
+use super::super::lattice::H;
+use super::{Apart, MOST, Record, Written, over_shape_at_spacing, places, row, skipped};
+use meshfree::particles::{Field, Output};
+use meshfree::scalar::Lane;
+use meshfree::term::viscosity::MonaghanGingold;
+use meshfree::term::{PressureForce, Viscosity};
+
+const ALPHA: f64 = 0.02;
+pub const SHARE: f64 = 0.3;
+pub const CONDUCTION: f64 = 0.5;
+
+/// What a loop sums beside the pressure force.
+pub const VISCOSITY: u16 = 1;
+pub const LAMINAR: u16 = 1 << 1;
+pub const TENSION: u16 = 1 << 2;
+pub const ENERGY: u16 = 1 << 3;
+/// Needs the energy.
+pub const CONDUCTED: u16 = 1 << 4;
+
+/// Where the sums of [`Forces`] are, behind the force.
+const SIGNAL: usize = 3;
+const POWER: usize = 4;
+const FLOW: usize = 5;
+
+/// The pressure force and `WHAT`.
+#[derive(Clone, Copy)]
+pub struct Forces<const WHAT: u16>;
+
+impl<const WHAT: u16> Written for Forces<WHAT> {
+    fn outputs() -> Vec<(Output, usize)> {
+        let count = |of: u16| usize::from(WHAT & of != 0);
+        vec![
+            (Output::FORCE, 3),
+            (Output::SIGNAL, count(VISCOSITY)),
+            (Output::POWER, count(ENERGY)),
+            (Output::scalar(14), count(CONDUCTED)),
+        ]
+    }
+    #[inline(always)]
+    fn pair<Row: Lane<Scalar = f64>, R: Record>(
+        &self,
+        apart: &Apart<Row>,
+        own: &[Row; MOST],
+        other: &[f64],
+        sums: &mut [Row; MOST],
+    ) {
+        let [v, m, rho, c] = const {
+            places::<R, 4>([
+                Field::VELOCITY,
+                Field::MASS,
+                Field::DENSITY,
+                Field::SOUND_SPEED,
+            ])
+        };
+        let [weight, coefficient, mu, p, e] = const {
+            places::<R, 5>([
+                Field::WEIGHT,
+                Field::PRESSURE_COEFFICIENT,
+                Field::DYNAMIC_VISCOSITY,
+                Field::PRESSURE,
+                Field::ENERGY,
+            ])
+        };
+        let Apart { r, d2, shape, f } = *apart;
+        let mut jump = [Row::zero(); 3];
+        if WHAT & (VISCOSITY | LAMINAR | ENERGY) != 0 {
+            for d in 0..3 {
+                jump[d] = own[v + d] - Row::splat(other[v + d]);
+            }
+        }
+        let vr = jump[2].mul_add(r[2], jump[1].mul_add(r[1], jump[0] * r[0]));
+        let weights = own[weight] * Row::splat(other[weight]);
+        let stress = own[coefficient] + Row::splat(other[coefficient]);
+        let mut along = weights * stress;
+        let densities = own[rho] + Row::splat(other[rho]);
+        let masses = own[m] * Row::splat(other[m]);
+        let mut over_densities = Row::zero();
+        if WHAT & VISCOSITY != 0 {
+            let sounds = own[c] + Row::splat(other[c]);
+            let over_h = d2.mul_add(Row::splat(1.0 / H), Row::splat(0.01 * H));
+            let mut approach = vr.min(Row::zero());
+            if WHAT & CONDUCTED != 0 {
+                let one_over = (over_h * densities).recip();
+                over_densities = one_over * over_h;
+                approach = approach * one_over;
+            } else {
+                approach = approach / (over_h * densities);
+            }
+            let speed = sounds * Row::splat(ALPHA);
+            along = masses.mul_add(-(approach * speed), along);
+            let inside = f.lt(Row::zero());
+            let signal = speed * Row::splat(0.3);
+            sums[SIGNAL] = sums[SIGNAL].max(Row::select(inside, signal, Row::zero()));
+        } else if WHAT & CONDUCTED != 0 {
+            over_densities = densities.recip();
+        }
+        if WHAT & TENSION != 0 {
+            // The kernel over its value at the spacing, to the fourth power.
+            let ratio = shape * Row::splat(over_shape_at_spacing());
+            let square = ratio * ratio;
+            let tension = (-own[p]).positive_part() + Row::splat((-other[p]).max(0.0));
+            let pull = tension * Row::splat(SHARE) * (square * square);
+            along = weights.mul_add(pull, along);
+        }
+        let radial = -(along * f);
+        for d in 0..3 {
+            sums[d] = radial.mul_add(r[d], sums[d]);
+        }
+        let mut power = radial * vr;
+        if WHAT & LAMINAR != 0 {
+            // 4 Vᵢ Vⱼ μᵢ μⱼ/(μᵢ + μⱼ) F by one division.
+            let mean = masses * own[mu] * Row::splat(4.0 * other[mu]);
+            let below = own[rho] * Row::splat(other[rho]) * (own[mu] + Row::splat(other[mu]));
+            let shear = mean * f / below;
+            for d in 0..3 {
+                sums[d] = shear.mul_add(jump[d], sums[d]);
+                power = (shear * jump[d]).mul_add(jump[d], power);
+            }
+        }
+        if WHAT & ENERGY != 0 {
+            sums[POWER] = sums[POWER] + power;
+        }
+        if WHAT & CONDUCTED != 0 {
+            let difference = (own[p] - Row::splat(other[p])).abs();
+            let speed = ((difference + difference) * d2 * over_densities).root();
+            let rate = masses * speed * (f * over_densities);
+            sums[FLOW] = rate.mul_add(own[e] - Row::splat(other[e]), sums[FLOW]);
+        }
+    }
+    #[inline(always)]
+    fn finish<Row: Lane<Scalar = f64>>(&self, sums: &[Row; MOST]) -> [Row; MOST] {
+        let mut finished = *sums;
+        let mut k = 3;
+        if WHAT & VISCOSITY != 0 {
+            k += 1;
+        }
+        let flow = sums[FLOW] * Row::splat(2.0 * CONDUCTION);
+        if WHAT & ENERGY != 0 {
+            finished[k] = sums[POWER].mul_add(Row::splat(-0.5), flow);
+            k += 1;
+        }
+        if WHAT & CONDUCTED != 0 {
+            finished[k] = flow;
+        }
+        finished
+    }
+}
+
+pub fn viscosity() -> Viscosity<MonaghanGingold> {
+    Viscosity(MonaghanGingold {
+        alpha: ALPHA,
+        beta: 0.0,
+    })
+}
+
+/// Pressure and artificial viscosity alone: what the gate holds.
+pub fn forces(side: usize, turns: usize) -> f64 {
+    if skipped() {
+        return 1.0;
+    }
+    let terms = (PressureForce, viscosity());
+    row(
+        "composed over written out by hand",
+        terms,
+        Forces::<VISCOSITY>,
+        side,
+        turns,
+    )
+}
