@@ -3,10 +3,9 @@
 
 use super::by_hand::{Apart, MOST, Record, Written, norm, over_shape_at_spacing, places, row};
 use super::lattice::H;
-use meshfree::effect::ArtificialStress;
 use meshfree::effect::{
-    HourglassControl, HourglassFree, Hypoelastic, Repulsion, StressForce, TotalLagrangian,
-    VelocityMismatch,
+    ArtificialStress, HourglassControl, HourglassFree, Hypoelastic, Repulsion, StressForce,
+    TotalLagrangian, VelocityMismatch,
 };
 use meshfree::particles::{Field, Output};
 use meshfree::scalar::Lane;
@@ -41,9 +40,6 @@ impl<const WHAT: u8> Written for Updated<WHAT> {
                 ArtificialStress::TENSION,
             ])
         };
-        if WHAT == 0 {
-            return;
-        }
         // The volume in place of the mass, and stresses over the first moment.
         own[m] = own[m] / own[rho];
         let over = own[s].recip();
@@ -84,10 +80,7 @@ impl<const WHAT: u8> Written for Updated<WHAT> {
         let Apart { r, d2, shape, f } = *apart;
         let pressures = own[coefficient] + Row::splat(other[coefficient]);
         let mut radial = -(own[weight] * Row::splat(other[weight]) * pressures);
-        let mut volumes = Row::zero();
-        if WHAT != 0 {
-            volumes = own[m] * Row::splat(other[m] / other[rho]);
-        }
+        let volumes = own[m] * Row::splat(other[m] / other[rho]);
         if WHAT & HOURGLASS != 0 {
             let mut along = Row::zero();
             for d in 0..3 {
