@@ -123,17 +123,17 @@ impl<const D: usize> Term<D> for ArtificialConduction {
     const WRITES: Outputs = Outputs::of(&[Output::POWER, FLOW]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let densities = pair.i(Field::DENSITY) + pair.j(Field::DENSITY);
+        let over_densities = (pair.i(Field::DENSITY) + pair.j(Field::DENSITY)).recip();
         // v |r|, which both forms have without the distance in a denominator.
         let speed = match self.signal {
             ConductionSignal::Pressure => {
                 let jump = (pair.i(Field::PRESSURE) - pair.j(Field::PRESSURE)).abs();
-                ((jump + jump) * pair.r2 / densities).root()
+                ((jump + jump) * pair.r2 * over_densities).root()
             }
             ConductionSignal::Velocity => pair.v_dot_r.abs(),
         };
         let masses = pair.i(Field::MASS) * (pair.mobile * pair.mobile_i) * pair.j(Field::MASS);
-        let rate = masses * speed * pair.f * L::of(2.0 * self.strength) / densities;
+        let rate = masses * speed * pair.f * L::of(2.0 * self.strength) * over_densities;
         let flow = rate * (pair.i(Field::ENERGY) - pair.j(Field::ENERGY));
         sums.add(Output::POWER, flow);
         sums.add(FLOW, flow);

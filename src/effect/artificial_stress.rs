@@ -140,14 +140,9 @@ impl<const D: usize> Term<D> for Repulsion {
     const WRITES: Outputs = Outputs::of(&[Output::FORCE]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let ratio = pair.w * pair.h.powi(D as u32) * L::of(self.over_kernel_at_spacing);
-        let volumes = pair.i(Field::MASS) * pair.j(Field::MASS)
-            / (pair.i(Field::DENSITY) * pair.j(Field::DENSITY));
-        let near = -(volumes * ratio.powi(self.exponent));
-        let own = near * pair.f_i / pair.i(Field::CONSISTENCY_FACTOR);
-        let other = near * pair.f_j / pair.j(Field::CONSISTENCY_FACTOR);
-        let tension = pair.i_tensor(TENSION).scaled(own);
-        sums.force += tension.plus(other, &pair.j_tensor(TENSION)).dot(&pair.r);
+        let ratio = pair.w * (pair.h.powi(D as u32) * L::of(self.over_kernel_at_spacing));
+        let near = -(pair.volumes() * ratio.powi(self.exponent));
+        sums.add_tractions(pair, near, TENSION);
     }
     fn document(&self) -> TermDoc {
         TermDoc {

@@ -234,15 +234,15 @@ impl<const D: usize> Term<D> for Crowding {
     const WRITES: Outputs = Outputs::of(&[CONCENTRATION, OUTWARDS, FULLNESS]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let ratio = pair.w * pair.h.powi(D as u32) * L::of(self.over_kernel_at_spacing);
+        let ratio = pair.w * (pair.h.powi(D as u32) * L::of(self.over_kernel_at_spacing));
         let square = ratio * ratio;
         let gradient = pair.j(Field::WEIGHT) * pair.f;
         let crowded = gradient * (square * square).mul_add(L::of(REPULSION), L::one());
         for d in 0..D {
-            sums.add_at(CONCENTRATION, d, crowded * pair.r[d]);
-            sums.add_at(OUTWARDS, d, gradient * pair.r[d]);
+            sums.add_product_at(CONCENTRATION, d, crowded, pair.r[d]);
+            sums.add_product_at(OUTWARDS, d, gradient, pair.r[d]);
         }
-        sums.add(FULLNESS, gradient * pair.r2 * L::of(-1.0 / D as f64));
+        sums.add_product(FULLNESS, gradient * L::of(-1.0 / D as f64), pair.r2);
     }
     fn document(&self) -> TermDoc {
         TermDoc {
@@ -271,7 +271,7 @@ impl<const D: usize> Term<D> for ShiftedContinuity {
         // Both sums at once: ρᵢ (δuᵢ − δuⱼ) + ρᵢ δuᵢ + ρⱼ δuⱼ.
         let moved = (density + density) * own + (others - density) * other;
         let volume = pair.j(Field::WEIGHT) * pair.f / pair.lattice_consistency_factor;
-        sums.add(RATE, volume * moved);
+        sums.add_product(RATE, volume, moved);
     }
     fn document(&self) -> TermDoc {
         TermDoc {

@@ -208,8 +208,8 @@ impl<const D: usize> Term<D> for VelocityMismatch {
         let share = pair.j(STIFFNESS) / (pair.i(STIFFNESS) + pair.j(STIFFNESS) - L::of(LEAST));
         let weight = volume * pair.f * pair.r2 * share * L::of(-2.0 / D as f64);
         for d in 0..D {
-            sums.add_at(DIFFERENCE, d, weight * pair.v[d]);
-            sums.add_at(CENTRE, d, weight * pair.r[d]);
+            sums.add_product_at(DIFFERENCE, d, weight, pair.v[d]);
+            sums.add_product_at(CENTRE, d, weight, pair.r[d]);
         }
     }
     fn document(&self) -> TermDoc {
@@ -234,18 +234,20 @@ impl<const D: usize> Term<D> for HourglassFree {
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
         let (a, b) = (pair.i(STIFFNESS), pair.j(STIFFNESS));
-        let volumes = pair.i(Field::MASS) * pair.j(Field::MASS)
-            / (pair.i(Field::DENSITY) * pair.j(Field::DENSITY));
+        let volumes = pair.volumes();
         let moments = pair.i(Field::CONSISTENCY_FACTOR) + pair.j(Field::CONSISTENCY_FACTOR);
         let mut along = (pair.i_at(MISMATCH, 0) - pair.j_at(MISMATCH, 0)) * pair.r[0];
         for d in 1..D {
             along = (pair.i_at(MISMATCH, d) - pair.j_at(MISMATCH, d)).mul_add(pair.r[d], along);
         }
         // The harmonic mean of the two, −ξ G for equal ones, and nothing across a contact.
-        let stiffness = a * b / (a + b - L::of(LEAST)) * L::of(-4.0 * (D as f64 + 2.0));
-        let distance2 = (pair.h * pair.h).mul_add(L::of(1e-12), pair.r2);
-        sums.radial
-            .add_product(stiffness * volumes * pair.f / (moments * distance2), along);
+        let stiffness = a * b * L::of(-4.0 * (D as f64 + 2.0));
+        // One division for all; by a distance in smoothing lengths, which leaves it above the smallest number of `f32`.
+        let over_h2 = (pair.h * pair.h).recip();
+        let distance2 = pair.r2.mul_add(over_h2, L::of(1e-12));
+        let below = (a + b - L::of(LEAST)) * moments * distance2;
+        let radial = stiffness * volumes * (pair.f * over_h2) / below;
+        sums.radial.add_product(radial, along);
     }
     fn document(&self) -> TermDoc {
         TermDoc {

@@ -147,12 +147,7 @@ impl<const D: usize> Term<D> for Hypoelastic {
     const WRITES: Outputs = Outputs::of(&[Output::FORCE]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let volumes = pair.i(Field::MASS) * pair.j(Field::MASS)
-            / (pair.i(Field::DENSITY) * pair.j(Field::DENSITY));
-        let own = volumes * pair.f_i / pair.i(Field::CONSISTENCY_FACTOR);
-        let other = volumes * pair.f_j / pair.j(Field::CONSISTENCY_FACTOR);
-        let stress = pair.i_tensor(STRESS).scaled(own);
-        sums.force += stress.plus(other, &pair.j_tensor(STRESS)).dot(&pair.r);
+        sums.add_tractions(pair, pair.volumes(), STRESS);
     }
     fn document(&self) -> TermDoc {
         TermDoc {

@@ -118,10 +118,10 @@ impl<const D: usize> Term<D> for NearPairs {
     const WRITES: Outputs = Outputs::of(&[NEAR]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let ratio = pair.w * pair.h.powi(D as u32) * L::of(self.over_kernel_at_spacing);
+        let ratio = pair.w * (pair.h.powi(D as u32) * L::of(self.over_kernel_at_spacing));
         let near = pair.j(Field::WEIGHT) * pair.f * (ratio - L::one()).positive_part();
         for d in 0..D {
-            sums.add_at(NEAR, d, near * pair.r[d]);
+            sums.add_product_at(NEAR, d, near, pair.r[d]);
         }
     }
     fn document(&self) -> TermDoc {

@@ -46,8 +46,7 @@ impl<const D: usize> Term<D> for RenormalisedHypoelastic {
     const WRITES: Outputs = Outputs::of(&[Output::FORCE]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let volumes = pair.i(Field::MASS) * pair.j(Field::MASS)
-            / (pair.i(Field::DENSITY) * pair.j(Field::DENSITY));
+        let volumes = pair.volumes();
         let own = corrected(&pair.r, volumes * pair.f_i, |k| {
             pair.i_at(Field::CORRECTION, k)
         });

@@ -23,14 +23,15 @@ impl<const D: usize> Term<D> for ConcentrationGradient<D> {
     const WRITES: Outputs = Outputs::of(&[Output::CONCENTRATION_GRADIENT, Output::MOMENT]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let ratio = pair.w * pair.h.powi(D as u32) * L::of(1.0 / self.at_spacing);
+        // What all pairs share comes first, once.
+        let ratio = pair.w * (pair.h.powi(D as u32) * L::of(1.0 / self.at_spacing));
         let square = ratio * ratio;
         let gradient = pair.j(Field::WEIGHT) * pair.f;
         let weighted = gradient * (square * square).mul_add(L::of(self.repulsion), L::one());
         for d in 0..D {
-            sums.add_at(Output::CONCENTRATION_GRADIENT, d, weighted * pair.r[d]);
+            sums.add_product_at(Output::CONCENTRATION_GRADIENT, d, weighted, pair.r[d]);
         }
-        sums.add(Output::MOMENT, gradient * pair.r2 * L::of(-1.0 / D as f64));
+        sums.add_product(Output::MOMENT, gradient * L::of(-1.0 / D as f64), pair.r2);
     }
     fn document(&self) -> TermDoc {
         TermDoc {

@@ -21,8 +21,8 @@ impl<const D: usize> Term<D> for VelocityGradient {
         for a in 0..D {
             for b in 0..D {
                 let gradient = factor * pair.r[b];
-                sums.add_at(Output::VELOCITY_GRADIENT, a * D + b, pair.v[a] * gradient);
-                sums.add_at(Output::MOMENT_MATRIX, a * D + b, pair.r[a] * gradient);
+                sums.add_product_at(Output::VELOCITY_GRADIENT, a * D + b, pair.v[a], gradient);
+                sums.add_product_at(Output::MOMENT_MATRIX, a * D + b, pair.r[a], gradient);
             }
         }
     }
@@ -48,7 +48,7 @@ impl<const D: usize> Term<D> for MomentMatrix {
         for a in 0..D {
             for b in 0..D {
                 let gradient = factor * pair.r[b];
-                sums.add_at(Output::MOMENT_MATRIX, a * D + b, pair.r[a] * gradient);
+                sums.add_product_at(Output::MOMENT_MATRIX, a * D + b, pair.r[a], gradient);
             }
         }
     }

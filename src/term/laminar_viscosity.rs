@@ -37,9 +37,8 @@ fn factor<L: Lane, const D: usize, P: Layout>(pair: &Pair<'_, L, D, P>) -> L {
     // Two inviscid sides have no mean, and no viscosity; the smallest number keeps it finite.
     let sum = mu_i + mu_j + L::of(f64::from(f32::MIN_POSITIVE));
     let mu = (mu_i + mu_i) * mu_j / sum;
-    let volumes = pair.i(Field::MASS) * pair.j(Field::MASS)
-        / (pair.i(Field::DENSITY) * pair.j(Field::DENSITY));
-    (volumes + volumes) * mu * pair.f / pair.lattice_consistency_factor
+    let volumes = pair.volumes() * pair.lattice_consistency_factor.recip();
+    (volumes + volumes) * mu * pair.f
 }
 
 const READS: Fields = Fields::of(&[

@@ -76,8 +76,7 @@ impl<const D: usize> Term<D> for MidpointReconstruction {
             let gradient = Field::PRESSURE_GRADIENT;
             bend += (pair.i_at(gradient, d) - pair.j_at(gradient, d)) * pair.r[d];
         }
-        let volumes = pair.i(Field::MASS) * pair.j(Field::MASS)
-            / (pair.i(Field::DENSITY) * pair.j(Field::DENSITY));
+        let volumes = pair.volumes();
         let consistency = pair.i(Field::CONSISTENCY_FACTOR) + pair.j(Field::CONSISTENCY_FACTOR);
         sums.radial += L::of(4.0 * self.strength) * volumes * bend * pair.f / consistency;
     }

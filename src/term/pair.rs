@@ -253,6 +253,13 @@ impl<L: Lane, const D: usize, P: Layout> Pair<'_, L, D, P> {
         }
         apart
     }
+    /// Vᵢ Vⱼ \[m²ᴰ\], each a quotient of its own, so that it is made once a row and once a neighbour.
+    #[inline(always)]
+    #[must_use]
+    pub fn volumes(&self) -> L {
+        self.i(Field::MASS) / self.i(Field::DENSITY)
+            * (self.j(Field::MASS) / self.j(Field::DENSITY))
+    }
     /// vᵢⱼ·vᵢⱼ \[m²/s²\].
     #[inline(always)]
     #[must_use]
@@ -342,6 +349,18 @@ impl<L: Lane, const D: usize, P: Layout> Sums<L, D, P> {
         };
         self.gradient.add_product(factor, sides);
     }
+    /// Adds the force A (σᵢ Fᵢ/sᵢ + σⱼ Fⱼ/sⱼ)·rᵢⱼ on i of symmetric stresses σ, with the particles' own first moments s and A
+    /// symmetric in i and j.
+    #[inline(always)]
+    pub fn add_tractions(&mut self, pair: &Pair<'_, L, D, P>, factor: L, stress: Field) {
+        let own = factor * pair.f_i * pair.i(Field::CONSISTENCY_FACTOR).recip();
+        let other = factor * pair.f_j * pair.j(Field::CONSISTENCY_FACTOR).recip();
+        let of_own = pair.i_tensor(stress).dot(&pair.r);
+        let of_other = pair.j_tensor(stress).dot(&pair.r);
+        for d in 0..D {
+            self.force.add(d, own * of_own[d] + other * of_other[d]);
+        }
+    }
     /// Sums for the other side of a pair, on which the opposite forces act.
     #[inline(always)]
     pub(crate) fn opposite(&self) -> Self {
@@ -384,10 +403,15 @@ impl<L: Lane, const D: usize, P: Layout> Sums<L, D, P> {
     /// Adds a product to a scalar sum, with one rounding where lanes are fused.
     #[inline(always)]
     pub fn add_product(&mut self, output: Output, a: L, b: L) {
+        self.add_product_at(output, 0, a, b);
+    }
+    /// Adds a product to component `k` of a sum, with one rounding where lanes are fused.
+    #[inline(always)]
+    pub fn add_product_at(&mut self, output: Output, k: usize, a: L, b: L) {
         if output == Output::FORCE {
-            self.force.add(0, a * b);
+            self.force.add(k, a * b);
         } else if P::WRITES.contains(output) {
-            let kept = &mut self.kept[P::WRITES.offset(output, D)];
+            let kept = &mut self.kept[P::WRITES.offset(output, D) + k];
             *kept = a.mul_add(b, *kept);
         }
     }
