@@ -9,6 +9,7 @@ type Choice = (&'static str, &'static str, &'static str, &'static str);
 
 const IMPACT: &str = "impact, h/dx 1.2 (default)";
 const LIQUID: &str = "h/dx 1.5, α 0.02, δ 0.1 (default)";
+const CUBIC: &str = "cubic spline, h/dx 1.2";
 const WIDER: &str = "h/dx 2.0, α 0.02, δ 0.1";
 const GAS: &str = "gas, C4, h/dx 1.8 (default)";
 const VORTICES: &str = "C2, h/dx 1.5, shifted (default)";
@@ -50,7 +51,19 @@ const CHOICES: &[Choice] = &[
     (
         "C2 at 1.5 for the cubic spline at 1.2",
         "tank",
-        "cubic spline, h/dx 1.2",
+        CUBIC,
+        LIQUID,
+    ),
+    (
+        "C2 at 1.5 for the cubic spline at 1.2",
+        "wave",
+        CUBIC,
+        LIQUID,
+    ),
+    (
+        "C2 at 1.5 for the cubic spline at 1.2",
+        "dam",
+        CUBIC,
         LIQUID,
     ),
     (

@@ -31,7 +31,7 @@ const SEDOV: Text = Text {
 };
 const DENSITY: &str = "density";
 const PLATEAU: &str = "density of the plateau";
-const PEAK: &str = "peak of density";
+pub const PEAK: &str = "peak of density";
 const RADIUS: f64 = 0.4;
 
 pub fn methods() -> Vec<Method> {

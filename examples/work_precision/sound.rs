@@ -11,7 +11,7 @@ use meshfree::term::{Antuono, Fourtakas};
 const LINE: Text = Text {
     key: "sound_1d",
     title: "Sound in a liquid, one dimension",
-    setting: "A standing wave of 1 m, amplitude 10⁻⁴ c, in a period of its length, after one period of time: root mean square \
+    setting: "A standing wave of 1 m, amplitude 10⁻⁸ c, in a period of its length, after one period of time: root mean square \
               error of velocity over that of the wave.",
     words: include_str!("words/sound_1d.md"),
     errors: &[0.1, 0.03, 0.01],
@@ -89,7 +89,8 @@ where
     let wavenumber = core::f64::consts::TAU;
     let liquid = Liquid::new(1000.0, 1480.0, 0.0).linear();
     let liquid = liquid.material("liquid", SoundSpeed::Chosen(SOUND));
-    let amplitude = 1e-4 * SOUND;
+    // So small that what theory leaves out, a part of as much of the wave, is below all errors here.
+    let amplitude = 1e-8 * SOUND;
     let body = Body::block("liquid", liquid, [0.0; D], size, dx).start(|x, start| {
         let mut velocity = [0.0; D];
         velocity[0] = amplitude * (wavenumber * x[0]).sin();
