@@ -242,11 +242,12 @@ impl<const D: usize> Term<D> for HourglassFree {
         }
         // The harmonic mean of the two, −ξ G for equal ones, and nothing across a contact.
         let stiffness = a * b * L::of(-4.0 * (D as f64 + 2.0));
-        // One division for all; by a distance in smoothing lengths, which leaves it above the smallest number of `f32`.
+        // One division for all. Distances are in smoothing lengths, and powers of lengths meet before they meet stiffness: each by
+        // itself leaves the range of `f32` where particles are a micrometre or a kilometre apart.
         let over_h2 = (pair.h * pair.h).recip();
         let distance2 = pair.r2.mul_add(over_h2, L::of(1e-12));
         let below = (a + b - L::of(LEAST)) * moments * distance2;
-        let radial = stiffness * volumes * (pair.f * over_h2) / below;
+        let radial = volumes * pair.f * over_h2 * stiffness / below;
         sums.radial.add_product(radial, along);
     }
     fn document(&self) -> TermDoc {

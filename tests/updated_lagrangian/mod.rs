@@ -3,6 +3,7 @@
 
 mod bending;
 mod rings;
+mod scale;
 mod sheets;
 mod spall;
 mod stretched;
