@@ -249,7 +249,7 @@ fn against_by_hand(side: usize, turns: usize) {
     };
     let force = PressureForce;
     row("pressure", (force,), Forces::<0>, side, turns);
-    by_hand::forces::forces(side, turns);
+    by_hand::forces::with_viscosity(side, turns);
     let terms = (force, LaminarViscosity);
     row("laminar viscosity", terms, Forces::<LAMINAR>, side, turns);
     let terms = (force, tension());

@@ -1,6 +1,7 @@
 //! Sums over pairs that are written out by hand for just these effects, beside the crate's loop with the terms of these: what
 //! composing costs. Both share lists, kernel, records, rows and root; the crate's may sum both sides of a pair at once.
 
+// Those that `--bench gate` and `--bench throughput` need too; the others are modules of `--bench effects` alone.
 #[path = "by_hand/forces.rs"]
 pub mod forces;
 
@@ -52,6 +53,22 @@ pub struct Apart<Row> {
     pub shape: Row,
     /// The factor F of the kernel's gradient.
     pub f: Row,
+}
+
+/// How fast a row and a neighbour part, and the product of that with their distance.
+#[inline(always)]
+pub fn parting<Row: Lane<Scalar = f64>, R: Record>(
+    r: &[Row; 3],
+    own: &[Row; MOST],
+    other: &[f64],
+) -> ([Row; 3], Row) {
+    let [v] = const { places::<R, 1>([Field::VELOCITY]) };
+    let (mut jump, mut vr) = ([Row::zero(); 3], Row::zero());
+    for d in 0..3 {
+        jump[d] = own[v + d] - Row::splat(other[v + d]);
+        vr = jump[d].mul_add(r[d], vr);
+    }
+    (jump, vr)
 }
 
 /// The sums of a loop.

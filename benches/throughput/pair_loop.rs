@@ -172,7 +172,7 @@ fn own_against_built_in<T: Real>(side: usize, turns: usize) {
 
 /// Prints all of it: the least that the median ratio of composed to written out may be.
 pub fn table(side: usize, turns: usize) -> f64 {
-    let ratio = by_hand::forces::forces(side, turns);
+    let ratio = by_hand::forces::with_viscosity(side, turns);
     useful_lanes::<f64>(side);
     useful_lanes::<f32>(side);
     own_against_built_in::<f64>(side, turns);

@@ -1,7 +1,7 @@
 //! Sums of places and volumes of liquids, written out by hand: compression, and what is summed with it.
 //! What belongs to one particle of a pair alone is divided once a row, or once for all lanes.
 
-use super::by_hand::{Apart, MOST, Record, Written, norm, over_shape_at_spacing, places};
+use super::by_hand::{Apart, MOST, Record, Written, norm, over_shape_at_spacing, parting, places};
 use super::lattice::H;
 use meshfree::effect::ConsistentShifting;
 use meshfree::particles::{Field, Output};
@@ -88,24 +88,15 @@ impl<const WHAT: u16> Written for Continuity<WHAT> {
         other: &[f64],
         sums: &mut [Row; MOST],
     ) {
-        let [v, m, rho, c] = const {
-            places::<R, 4>([
-                Field::VELOCITY,
-                Field::MASS,
-                Field::DENSITY,
-                Field::SOUND_SPEED,
-            ])
-        };
+        let [m, rho, c] =
+            const { places::<R, 3>([Field::MASS, Field::DENSITY, Field::SOUND_SPEED]) };
         let [weight, p, shift] = const {
             places::<R, 3>([Field::WEIGHT, Field::PRESSURE, ConsistentShifting::VELOCITY])
         };
         let Apart { r, d2, shape, f } = *apart;
         let gradient = Row::splat(other[weight]) * f;
         if WHAT & COMPRESSION != 0 {
-            let mut vr = Row::zero();
-            for d in 0..3 {
-                vr = (own[v + d] - Row::splat(other[v + d])).mul_add(r[d], vr);
-            }
+            let (_, vr) = parting::<Row, R>(&r, own, other);
             sums[0] = gradient.mul_add(vr, sums[0]);
         }
         if WHAT & DIFFUSION != 0 {

@@ -2,7 +2,7 @@
 //! What belongs to one particle of a pair alone is divided once a row, or once for all lanes, and a pair divides as rarely as it can.
 
 use super::super::lattice::H;
-use super::{Apart, MOST, Record, Written, over_shape_at_spacing, places, row, skipped};
+use super::{Apart, MOST, Record, Written, over_shape_at_spacing, parting, places, row, skipped};
 use meshfree::particles::{Field, Output};
 use meshfree::scalar::Lane;
 use meshfree::term::viscosity::MonaghanGingold;
@@ -47,14 +47,8 @@ impl<const WHAT: u16> Written for Forces<WHAT> {
         other: &[f64],
         sums: &mut [Row; MOST],
     ) {
-        let [v, m, rho, c] = const {
-            places::<R, 4>([
-                Field::VELOCITY,
-                Field::MASS,
-                Field::DENSITY,
-                Field::SOUND_SPEED,
-            ])
-        };
+        let [m, rho, c] =
+            const { places::<R, 3>([Field::MASS, Field::DENSITY, Field::SOUND_SPEED]) };
         let [weight, coefficient, mu, p, e] = const {
             places::<R, 5>([
                 Field::WEIGHT,
@@ -65,13 +59,10 @@ impl<const WHAT: u16> Written for Forces<WHAT> {
             ])
         };
         let Apart { r, d2, shape, f } = *apart;
-        let mut jump = [Row::zero(); 3];
+        let (mut jump, mut vr) = ([Row::zero(); 3], Row::zero());
         if WHAT & (VISCOSITY | LAMINAR | ENERGY) != 0 {
-            for d in 0..3 {
-                jump[d] = own[v + d] - Row::splat(other[v + d]);
-            }
+            (jump, vr) = parting::<Row, R>(&r, own, other);
         }
-        let vr = jump[2].mul_add(r[2], jump[1].mul_add(r[1], jump[0] * r[0]));
         let weights = own[weight] * Row::splat(other[weight]);
         let stress = own[coefficient] + Row::splat(other[coefficient]);
         let mut along = weights * stress;
@@ -157,7 +148,7 @@ pub fn viscosity() -> Viscosity<MonaghanGingold> {
 }
 
 /// Pressure and artificial viscosity alone: what the gate holds.
-pub fn forces(side: usize, turns: usize) -> f64 {
+pub fn with_viscosity(side: usize, turns: usize) -> f64 {
     if skipped() {
         return 1.0;
     }

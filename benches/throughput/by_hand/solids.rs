@@ -1,7 +1,9 @@
 //! Sums of solids, written out by hand, and their table: updated Lagrangian forces and gradients, and total-Lagrangian forces.
 //! What belongs to one particle of a pair alone is divided once a row, or once for all lanes, and a pair divides as rarely as it can.
 
-use super::by_hand::{Apart, MOST, Record, Written, norm, over_shape_at_spacing, places, row};
+use super::by_hand::{
+    Apart, MOST, Record, Written, norm, over_shape_at_spacing, parting, places, row,
+};
 use super::lattice::H;
 use meshfree::effect::{
     ArtificialStress, HourglassControl, HourglassFree, Hypoelastic, Repulsion, StressForce,
@@ -160,21 +162,10 @@ impl<const MISMATCH: bool> Written for Gradients<MISMATCH> {
         other: &[f64],
         sums: &mut [Row; MOST],
     ) {
-        let [v, m, rho, weight, stiffness] = const {
-            places::<R, 5>([
-                Field::VELOCITY,
-                Field::MASS,
-                Field::DENSITY,
-                Field::WEIGHT,
-                STIFFNESS,
-            ])
-        };
+        let [m, rho, weight, stiffness] =
+            const { places::<R, 4>([Field::MASS, Field::DENSITY, Field::WEIGHT, STIFFNESS]) };
         let Apart { r, d2, f, .. } = *apart;
-        let mut jump = [Row::zero(); 3];
-        for d in 0..3 {
-            jump[d] = own[v + d] - Row::splat(other[v + d]);
-        }
-        let vr = jump[2].mul_add(r[2], jump[1].mul_add(r[1], jump[0] * r[0]));
+        let (jump, vr) = parting::<Row, R>(&r, own, other);
         sums[0] = (Row::splat(other[weight]) * f).mul_add(vr, sums[0]);
         let factor = Row::splat(-other[m] / other[rho]) * f;
         let mut k = MATRIX;
