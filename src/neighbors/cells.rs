@@ -85,6 +85,13 @@ impl<const D: usize> Grid<D> {
         })
     }
 
+    /// How far the cells with a coordinate along axis `d` are from `low..high` on it, but for rounding.
+    fn gap(&self, coordinate: u32, d: usize, low: f64, high: f64) -> f64 {
+        let start = self.origin[d] + f64::from(coordinate) * self.size;
+        let apart = (low - start - self.size).max(start - high);
+        (apart - 1e-6 * self.size).max(0.0)
+    }
+
     fn bits(&self) -> u32 {
         let most = self.counts.iter().copied().max().unwrap_or(1);
         (32 - (most - 1).leading_zeros()).max(1)
@@ -179,22 +186,25 @@ impl<const D: usize> Cells<D> {
 
     /// Calls `visit` with the run of points of every cell that meets the box `low..high`.
     pub fn for_each_run(&self, low: [f64; D], high: [f64; D], mut visit: impl FnMut(&[u32])) {
-        self.for_each_range(low, high, |range| visit(&self.points[range]));
+        self.for_each_range_near(low, high, 0.0, |range| visit(&self.points[range]));
     }
 
-    /// Calls `visit` with where in [`points`](Self::points) the run of every cell stands that meets the
+    /// Calls `visit` with where in [`points`](Self::points) the runs of cells stand that are within `reach` of the
     /// box `low..high`.
-    pub fn for_each_range(
+    pub fn for_each_range_near(
         &self,
         low: [f64; D],
         high: [f64; D],
+        reach: f64,
         mut visit: impl FnMut(Range<usize>),
     ) {
-        if !self.grid.meets(&low, &high) {
+        let outer_low = low.map(|x| x - reach);
+        let outer_high = high.map(|x| x + reach);
+        if !self.grid.meets(&outer_low, &outer_high) {
             return;
         }
-        let first: [u32; D] = core::array::from_fn(|d| self.grid.coordinate(low[d], d));
-        let last: [u32; D] = core::array::from_fn(|d| self.grid.coordinate(high[d], d));
+        let first: [u32; D] = core::array::from_fn(|d| self.grid.coordinate(outer_low[d], d));
+        let last: [u32; D] = core::array::from_fn(|d| self.grid.coordinate(outer_high[d], d));
         let spanned = (0..D).fold(1_u64, |n, d| {
             n.saturating_mul(u64::from(last[d] - first[d]) + 1)
         });
@@ -205,20 +215,15 @@ impl<const D: usize> Cells<D> {
         }
         let mut cell = first;
         loop {
-            let row = self.grid.linear(cell);
-            match &self.table {
-                // Cells along the first axis follow one another, and so do their points.
-                Table::Dense(starts) => {
-                    let end = row + (last[0] - first[0]) as usize + 1;
-                    visit(starts[row] as usize..starts[end] as usize);
-                }
-                Table::Hashed(runs) => {
-                    for k in 0..=u64::from(last[0] - first[0]) {
-                        if let Some(&(start, end)) = runs.get(&(row as u64 + k)) {
-                            visit(start as usize..end as usize);
-                        }
-                    }
-                }
+            // A row of cells along the first axis, as long as the reach at its distance from the box is.
+            let across2: f64 = (1..D)
+                .map(|d| self.grid.gap(cell[d], d, low[d], high[d]).powi(2))
+                .sum();
+            if across2 <= reach * reach {
+                let along = (reach * reach - across2).sqrt();
+                cell[0] = self.grid.coordinate(low[0] - along, 0);
+                let end = self.grid.coordinate(high[0] + along, 0) + 1;
+                self.visit_row(cell, (end - cell[0]) as usize, &mut visit);
             }
             let mut d = 1;
             loop {
@@ -231,6 +236,22 @@ impl<const D: usize> Cells<D> {
                 }
                 cell[d] = first[d];
                 d += 1;
+            }
+        }
+    }
+
+    /// Calls `visit` with the runs of so many cells along the first axis.
+    fn visit_row(&self, from: [u32; D], cells: usize, visit: &mut impl FnMut(Range<usize>)) {
+        let row = self.grid.linear(from);
+        match &self.table {
+            // Cells along the first axis follow one another, and so do their points.
+            Table::Dense(starts) => visit(starts[row] as usize..starts[row + cells] as usize),
+            Table::Hashed(runs) => {
+                for key in row as u64..(row + cells) as u64 {
+                    if let Some(&(start, end)) = runs.get(&key) {
+                        visit(start as usize..end as usize);
+                    }
+                }
             }
         }
     }

@@ -1,9 +1,9 @@
 //! Cluster lists with a skin: the neighbours of rows of consecutive particles.
 //! A row of W particles shares one list, so the pair loop broadcasts each neighbour to full lanes.
 
-use super::cells::Cells;
-use crate::parallel::{GRAIN, collect, cut, for_each};
-use crate::scalar::{InstructionSet, Lane, Mask, OnRows, Real};
+use super::sieve::{Candidates, Sieve, Source};
+use crate::parallel::{collect, cut, for_each};
+use crate::scalar::{InstructionSet, Real};
 use std::ops::Range;
 
 /// Clusters that one thread takes at a time; fixed, so sums never depend on the number of threads.
@@ -118,7 +118,7 @@ pub struct SearchInput<'a, T, const D: usize> {
 
 impl<T, const D: usize> SearchInput<'_, T, D> {
     /// Whether members of block `own` list those of block `other`.
-    fn lists(&self, own: usize, other: usize) -> bool {
+    pub(super) fn lists(&self, own: usize, other: usize) -> bool {
         let at = own * self.blocks.len() + other;
         self.listed.get(at).is_none_or(|&listed| listed)
     }
@@ -134,7 +134,8 @@ pub enum Radii<'a, T> {
 }
 
 impl<T: Real> Radii<'_, T> {
-    fn of(&self, k: usize) -> f64 {
+    #[inline(always)]
+    pub(super) fn of(&self, k: usize) -> f64 {
         match self {
             Radii::Uniform(radius) => *radius,
             Radii::Varying(h, factor) => h[k].to_f64() * factor,
@@ -231,85 +232,15 @@ impl ClusterLists {
     }
 }
 
-/// Particles of a block, as the search for neighbours meets them.
-struct Source<T, const D: usize> {
-    cells: Cells<D>,
-    /// Positions in the order of the cells.
-    positions: Vec<[T; D]>,
-    /// The largest support radius.
-    largest: f64,
-}
-
-/// Parts of a block by its support radii, each at most half as wide as the one before; the last takes all that are left.
-const OCTAVES: usize = 4;
-
-impl<T: Real, const D: usize> Source<T, D> {
-    /// The particles of a block, those of wide support apart from the others: few particles that reach far, as gas behind a
-    /// blast does, would else have all others searched for as far away as they reach.
-    fn of_block(input: &SearchInput<'_, T, D>, block: usize) -> Vec<Self> {
-        let blocks = input.blocks.len();
-        let wanted = (0..blocks).any(|own| input.lists(own, block));
-        let slots = input.blocks[block].slots.clone();
-        let mut points: Vec<u32> = if wanted {
-            (slots.start as u32..slots.end as u32).collect()
-        } else {
-            Vec::new()
-        };
-        let Radii::Varying(..) = input.radii else {
-            let largest = input.radii.of(0);
-            return vec![Self::new(input, &points, largest)];
-        };
-        let widest = |points: &[u32]| {
-            let radii = points.iter().map(|&p| input.radii.of(p as usize));
-            radii.fold(0.0_f64, f64::max)
-        };
-        let mut parts = Vec::new();
-        loop {
-            let largest = widest(&points);
-            let mut rest = Vec::new();
-            if parts.len() + 1 < OCTAVES {
-                let narrow = |p: &u32| input.radii.of(*p as usize) < 0.5 * largest;
-                rest.extend(points.iter().copied().filter(narrow));
-                points.retain(|p| !narrow(p));
-            }
-            parts.push(Self::new(input, &points, largest));
-            if rest.is_empty() {
-                return parts;
-            }
-            points = rest;
-        }
-    }
-
-    fn new(input: &SearchInput<'_, T, D>, points: &[u32], largest: f64) -> Self {
-        let reach = largest + input.skin;
-        // Cells of half the reach fit the boxes of clusters better than cells of the full reach.
-        let size = if D == 1 { reach } else { 0.5 * reach };
-        let cells = Cells::build(input.positions, points, size);
-        let mut positions = vec![[T::zero(); D]; cells.points().len()];
-        for_each(cut(&mut positions, GRAIN), |piece, own| {
-            for (x, &j) in own.iter_mut().zip(&cells.points()[piece * GRAIN..]) {
-                *x = input.positions[j as usize];
-            }
-        });
-        Self {
-            cells,
-            positions,
-            largest,
-        }
-    }
-}
-
 /// What a thread's searches use again.
 #[derive(Default)]
-struct Scratch {
-    /// Runs of points in cells that meet a cluster's box.
-    ranges: Vec<Range<usize>>,
-    /// Neighbours that may leave the support before the lists are built again, of one part of a block.
-    far: Vec<u32>,
-    /// The same of all parts.
+struct Scratch<T, const D: usize> {
+    candidates: Candidates<T, D>,
+    /// Neighbours that may leave the support before the lists are built again.
     leaving: Vec<u32>,
-    /// What was found, by its order in the chunk: neighbours that stay, and those that may leave.
-    sorted: [[Vec<u32>; 2]; ORDERS.len()],
+    /// What was found, by its order in the chunk: neighbours that stay, and those that may leave. Lists may be longer than
+    /// what is in them.
+    sorted: [[Vec<u32>; ORDERS.len()]; 2],
 }
 
 /// In this order a cluster meets its neighbours.
@@ -322,24 +253,23 @@ fn search<T: Real, const D: usize>(
     block: usize,
     members: Range<usize>,
     instructions: InstructionSet,
-    scratch: &mut Scratch,
+    scratch: &mut Scratch<T, D>,
     chunk: &mut ChunkList,
 ) {
     let Scratch {
-        ranges,
-        far,
+        candidates,
         leaving,
         sorted,
     } = scratch;
-    let rows = &input.positions[members.clone()];
+    let row = &input.positions[members.clone()];
     let (mut low, mut high) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
-    for x in rows {
+    for x in row {
         for d in 0..D {
             low[d] = low[d].min(x[d].to_f64());
             high[d] = high[d].max(x[d].to_f64());
         }
     }
-    let own = members
+    let radius = members
         .clone()
         .fold(0.0_f64, |m, k| m.max(input.radii.of(k)));
     for (other, parts) in sources.iter().enumerate() {
@@ -351,24 +281,18 @@ fn search<T: Real, const D: usize>(
         for source in parts {
             // A pair acts within the mean of the two supports (or, where each side uses its own smoothing
             // length, within the larger): the larger covers both.
-            let reach = own.max(source.largest) + input.skin;
-            let box_low = core::array::from_fn(|d| low[d] - reach);
-            let box_high = core::array::from_fn(|d| high[d] + reach);
-            ranges.clear();
-            source
-                .cells
-                .for_each_range(box_low, box_high, |range| ranges.push(range));
+            let reach = radius.max(source.largest) + input.skin;
+            candidates.choose(source, low, high, reach);
             instructions.run(Sieve {
                 input,
-                rows,
-                own,
+                row,
+                radius,
                 reach,
                 source,
-                ranges,
+                candidates,
                 found: &mut chunk.neighbors,
-                far,
+                leaving,
             });
-            leaving.extend_from_slice(far);
         }
         if D == 1 || other != block {
             let near_end = chunk.neighbors.len();
@@ -380,125 +304,57 @@ fn search<T: Real, const D: usize>(
         let first = members.start / chunk_slots * chunk_slots;
         let orders =
             [first, members.start, members.end, first + chunk_slots].map(|slot| slot as u32);
-        for (of, found) in [&chunk.neighbors[start..], leaving].into_iter().enumerate() {
-            sort(found, orders, sorted.each_mut().map(|order| &mut order[of]));
-        }
+        let [staying, may_leave] = sorted;
+        let staying_counts = sort(&chunk.neighbors[start..], orders, staying);
+        let leaving_counts = sort(leaving, orders, may_leave);
         chunk.neighbors.truncate(start);
-        for ([near, leaving], order) in sorted.iter().zip(ORDERS) {
+        for (k, order) in ORDERS.into_iter().enumerate() {
             let start = chunk.neighbors.len();
-            chunk.neighbors.extend_from_slice(near);
+            chunk
+                .neighbors
+                .extend_from_slice(&staying[k][..staying_counts[k]]);
             let near_end = chunk.neighbors.len();
-            chunk.neighbors.extend_from_slice(leaving);
+            chunk
+                .neighbors
+                .extend_from_slice(&may_leave[k][..leaving_counts[k]]);
             chunk.close(start, near_end, other, order);
         }
     }
 }
 
 /// Sorts neighbours by their order in a chunk: `first` and `last` are the slots that it starts and ends with, `own` and `end`
-/// those of the cluster.
-fn sort(found: &[u32], [first, own, end, last]: [u32; 4], sorted: [&mut Vec<u32>; 3]) {
-    let mut counts = [0; 3];
-    let lists = sorted.map(|list| {
-        list.resize(found.len(), 0);
-        list
-    });
-    for &j in found {
-        // Without a branch: which it will be nothing foretells.
-        let order = usize::from(j >= end && j < last) + 2 * usize::from(j >= first && j < own);
-        lists[order][counts[order]] = j;
-        counts[order] += 1;
-    }
-    for (list, count) in lists.into_iter().zip(counts) {
-        list.truncate(count);
-    }
-}
-
-/// One cluster against some runs of points.
-struct Sieve<'a, T, const D: usize> {
-    input: &'a SearchInput<'a, T, D>,
-    rows: &'a [[T; D]],
-    own: f64,
-    reach: f64,
-    source: &'a Source<T, D>,
-    ranges: &'a [Range<usize>],
-    found: &'a mut Vec<u32>,
-    far: &'a mut Vec<u32>,
-}
-
-impl<T: Real, const D: usize> OnRows<T> for Sieve<'_, T, D> {
-    type Output = ();
-    /// Adds the points that are within reach of any member to what was found, and fills `far` with those
-    /// of them that may leave the support by the time the skin is used up.
-    #[inline(always)]
-    fn run<L: Lane<Scalar = T, Broadcast = T>>(self) {
-        let (found, far) = (self.found, self.far);
-        let (mut count, mut far_count) = (found.len(), 0);
-        let candidates: usize = self.ranges.iter().map(ExactSizeIterator::len).sum();
-        found.resize(count + candidates, 0);
-        far.resize(candidates, 0);
-        let last = self.rows.len() - 1;
-        let first = members::<L, D>(self.rows, 0);
-        for range in self.ranges {
-            let slots = &self.source.cells.points()[range.clone()];
-            for (x, &j) in self.source.positions[range.clone()].iter().zip(slots) {
-                let reach = match self.input.radii {
-                    Radii::Uniform(_) => self.reach,
-                    Radii::Varying(..) => {
-                        self.own.max(self.input.radii.of(j as usize)) + self.input.skin
-                    }
-                };
-                // Rounding leaves out none.
-                let rounding = if T::COMPENSATED { 1e-6 } else { 1e-15 };
-                let reach2 = L::of(reach * reach * (1.0 + rounding));
-                let stays = (reach - 2.0 * self.input.skin).max(0.0);
-                let stays2 = L::of(stays * stays);
-                let (mut any, mut near) = within(&first, x, reach2, stays2);
-                for k in (L::WIDTH..=last).step_by(L::WIDTH) {
-                    let more = within(&members::<L, D>(self.rows, k), x, reach2, stays2);
-                    any |= more.0;
-                    near |= more.1;
-                }
-                found[count] = j;
-                count += usize::from(near);
-                far[far_count] = j;
-                // Who stays is within reach, too.
-                far_count += usize::from(any != near);
-            }
+/// those of the cluster. How many there are of each.
+fn sort(
+    found: &[u32],
+    [first, own, end, last]: [u32; 4],
+    sorted: &mut [Vec<u32>; ORDERS.len()],
+) -> [usize; ORDERS.len()] {
+    let count = found.len();
+    for list in sorted.iter_mut() {
+        if list.len() < count {
+            list.resize(count, 0);
         }
-        found.truncate(count);
-        far.truncate(far_count);
     }
-}
-
-/// Members from `first` on; the last is repeated where there are no more.
-#[inline(always)]
-fn members<L: Lane, const D: usize>(rows: &[[L::Scalar; D]], first: usize) -> [L; D] {
-    let mut row = [L::zero(); D];
-    let last = rows.len() - 1;
-    for (d, x) in row.iter_mut().enumerate() {
-        *x = L::from_fn(|lane| rows[(first + lane).min(last)][d]);
+    let [apart, later, earlier] = sorted.each_mut().map(|list| &mut list[..count]);
+    // Each is put down in all lists and counted in one, by counters in registers: nothing foretells which it will be, and a
+    // branch or a counter in memory is waited for.
+    let (mut a, mut b, mut c) = (0, 0, 0);
+    for &j in found {
+        let is_later = usize::from(j >= end && j < last);
+        let is_earlier = usize::from(j >= first && j < own);
+        apart[a] = j;
+        later[b] = j;
+        earlier[c] = j;
+        a += 1 - is_later - is_earlier;
+        b += is_later;
+        c += is_earlier;
     }
-    row
-}
-
-/// Whether a point is within either of two distances of any of a row.
-#[inline(always)]
-fn within<L: Lane, const D: usize>(
-    row: &[L; D],
-    x: &[L::Scalar; D],
-    reach2: L,
-    stays2: L,
-) -> (bool, bool) {
-    let mut r2 = L::zero();
-    for d in 0..D {
-        let r = row[d] - L::splat(x[d]);
-        r2 = r.mul_add(r, r2);
-    }
-    (r2.le(reach2).any(), r2.lt(stays2).any())
+    [a, b, c]
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::sieve::OCTAVES;
     use super::*;
 
     #[test]

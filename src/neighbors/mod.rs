@@ -19,12 +19,13 @@
 //!
 //! The skin is a trade: lists with a thicker skin are longer, and last longer. In a simulation it is
 //! 0.1 of the support, and 0.2 where lists would not last ([`Scene::skin`](crate::scene::Scene::skin)).
-//! Lists are made anew when the largest displacement since the last time has used up half of it, or a
-//! third where there are images.
+//! Lists are made anew when two particles may have come nearer by the skin: when the largest displacement is half of it
+//! and, where there are no images, displacements differ by more than it.
 
 mod cells;
 mod clusters;
 mod hilbert;
+mod sieve;
 
 pub use cells::{Cells, Grid};
 pub use clusters::{Block, CHUNK, ChunkList, ClusterLists, Order, Radii, SearchInput, Segment};

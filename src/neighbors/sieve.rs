@@ -1,0 +1,239 @@
+//! The points of a block that are within reach of a row of particles: cells near the row, and then their points.
+//! Points are looked at in rows, whose places lie axis by axis, each against all particles of the row.
+
+use super::cells::Cells;
+use super::clusters::{Radii, SearchInput};
+use crate::scalar::{Lane, Mask, OnRows, Real};
+use core::ops::Range;
+
+/// Particles of a block, as the search for neighbours meets them.
+pub(super) struct Source<T, const D: usize> {
+    cells: Cells<D>,
+    /// Slots in the order of the cells, and what fills the last row of an instruction.
+    slots: Vec<u32>,
+    /// Their positions, axis by axis.
+    positions: [Vec<T>; D],
+    /// The largest support radius.
+    pub(super) largest: f64,
+}
+
+/// Parts of a block by its support radii, each at most half as wide as the one before; the last takes all that are left.
+pub(super) const OCTAVES: usize = 4;
+
+/// No row of an instruction is wider.
+const WIDEST: usize = 16;
+
+impl<T: Real, const D: usize> Source<T, D> {
+    /// The particles of a block, those of wide support apart from the others: few particles that reach far, as gas behind a
+    /// blast does, would else have all others searched for as far away as they reach.
+    pub(super) fn of_block(input: &SearchInput<'_, T, D>, block: usize) -> Vec<Self> {
+        let blocks = input.blocks.len();
+        let wanted = (0..blocks).any(|own| input.lists(own, block));
+        let slots = input.blocks[block].slots.clone();
+        let mut points: Vec<u32> = if wanted {
+            (slots.start as u32..slots.end as u32).collect()
+        } else {
+            Vec::new()
+        };
+        let Radii::Varying(..) = input.radii else {
+            let largest = input.radii.of(0);
+            return vec![Self::new(input, &points, largest)];
+        };
+        let widest = |points: &[u32]| {
+            let radii = points.iter().map(|&p| input.radii.of(p as usize));
+            radii.fold(0.0_f64, f64::max)
+        };
+        let mut parts = Vec::new();
+        loop {
+            let largest = widest(&points);
+            let mut rest = Vec::new();
+            if parts.len() + 1 < OCTAVES {
+                let narrow = |p: &u32| input.radii.of(*p as usize) < 0.5 * largest;
+                rest.extend(points.iter().copied().filter(narrow));
+                points.retain(|p| !narrow(p));
+            }
+            parts.push(Self::new(input, &points, largest));
+            if rest.is_empty() {
+                return parts;
+            }
+            points = rest;
+        }
+    }
+
+    fn new(input: &SearchInput<'_, T, D>, points: &[u32], largest: f64) -> Self {
+        let reach = largest + input.skin;
+        // Cells of half the reach fit the boxes of clusters better than cells of the full reach.
+        let size = if D == 1 { reach } else { 0.5 * reach };
+        let cells = Cells::build(input.positions, points, size);
+        let mut slots = cells.points().to_vec();
+        slots.resize(slots.len() + WIDEST, 0);
+        let mut positions = core::array::from_fn(|_| vec![T::zero(); slots.len()]);
+        let along = positions.each_mut();
+        for (k, &slot) in slots[..points.len()].iter().enumerate() {
+            let x = &input.positions[slot as usize];
+            for d in 0..D {
+                along[d][k] = x[d];
+            }
+        }
+        Self {
+            cells,
+            slots,
+            positions,
+            largest,
+        }
+    }
+}
+
+/// Points in cells near a row of particles, run after run.
+pub(super) struct Candidates<T, const D: usize> {
+    /// Where the runs stand among the points of the source.
+    runs: Vec<Range<usize>>,
+    slots: Vec<u32>,
+    positions: [Vec<T>; D],
+}
+
+impl<T, const D: usize> Default for Candidates<T, D> {
+    fn default() -> Self {
+        Self {
+            runs: Vec::new(),
+            slots: Vec::new(),
+            positions: core::array::from_fn(|_| Vec::new()),
+        }
+    }
+}
+
+impl<T: Real, const D: usize> Candidates<T, D> {
+    /// Takes the runs of a source's points that may be within reach of a box, and makes room for them.
+    pub(super) fn choose(
+        &mut self,
+        source: &Source<T, D>,
+        low: [f64; D],
+        high: [f64; D],
+        reach: f64,
+    ) {
+        let Self {
+            runs,
+            slots,
+            positions,
+        } = self;
+        runs.clear();
+        let mut most = WIDEST;
+        // As much as rounding may add to a reach in `f32`.
+        source
+            .cells
+            .for_each_range_near(low, high, reach * (1.0 + 1e-6), |run| {
+                most += run.len();
+                runs.push(run);
+            });
+        grow(slots, most);
+        for along in positions {
+            grow(along, most);
+        }
+    }
+}
+
+/// Room for so many, with whatever is in it.
+fn grow<V: Copy + Default>(room: &mut Vec<V>, most: usize) {
+    if room.len() < most {
+        room.resize(most, V::default());
+    }
+}
+
+/// A row of particles against candidates.
+pub(super) struct Sieve<'a, T, const D: usize> {
+    pub(super) input: &'a SearchInput<'a, T, D>,
+    /// Places of the row.
+    pub(super) row: &'a [[T; D]],
+    /// Its widest support radius.
+    pub(super) radius: f64,
+    /// How far a pair reaches, with the skin.
+    pub(super) reach: f64,
+    pub(super) source: &'a Source<T, D>,
+    pub(super) candidates: &'a mut Candidates<T, D>,
+    pub(super) found: &'a mut Vec<u32>,
+    pub(super) leaving: &'a mut Vec<u32>,
+}
+
+impl<T: Real, const D: usize> OnRows<T> for Sieve<'_, T, D> {
+    type Output = ();
+    /// Adds the candidates that are within reach of any of the row: to `leaving` those that may leave the support by the
+    /// time the skin is used up, and to `found` the others.
+    #[inline(always)]
+    fn run<L: Lane<Scalar = T, Broadcast = T>>(self) {
+        let skin = self.input.skin;
+        let Candidates {
+            runs,
+            slots,
+            positions,
+        } = self.candidates;
+        // Places of memory that the compiler keeps in registers.
+        let slots = &mut slots[..];
+        let x_of = positions.each_mut().map(|along| &mut along[..]);
+        let mut count = 0;
+        for run in runs.iter() {
+            for k in run.clone().step_by(L::WIDTH) {
+                // The next run is put over what is too much.
+                let to = count + (k - run.start);
+                for d in 0..D {
+                    L::load(&self.source.positions[d][k..]).store(&mut x_of[d][to..]);
+                }
+                slots[to..to + L::WIDTH].copy_from_slice(&self.source.slots[k..k + L::WIDTH]);
+            }
+            count += run.len();
+        }
+        x_of[0][count..count + L::WIDTH].fill(T::from_f64(f64::INFINITY));
+        let (found_before, leaving_before) = (self.found.len(), self.leaving.len());
+        self.found.resize(found_before + count + L::WIDTH, 0);
+        self.leaving.resize(leaving_before + count + L::WIDTH, 0);
+        let found = &mut self.found[found_before..];
+        let leaving = &mut self.leaving[leaving_before..];
+        let (mut found_count, mut leaving_count) = (0, 0);
+        let uniform = squares::<T>(self.reach, skin);
+        for first in (0..count).step_by(L::WIDTH) {
+            let (mut x, mut least) = ([L::zero(); D], L::of(f64::INFINITY));
+            for d in 0..D {
+                x[d] = L::load(&x_of[d][first..]);
+            }
+            for y in self.row {
+                let mut r2 = L::zero();
+                for d in 0..D {
+                    let r = x[d] - L::splat(y[d]);
+                    r2 = r.mul_add(r, r2);
+                }
+                least = r2.min(least);
+            }
+            let own = &slots[first..first + L::WIDTH];
+            let [mut reach2, mut stays2] = [L::splat(uniform[0]), L::splat(uniform[1])];
+            if let Radii::Varying(..) = self.input.radii {
+                let mut each = [[T::zero(); WIDEST]; 2];
+                for lane in 0..L::WIDTH.min(count - first) {
+                    let radius = self.input.radii.of(own[lane] as usize);
+                    let of_lane = squares::<T>(self.radius.max(radius) + skin, skin);
+                    (each[0][lane], each[1][lane]) = (of_lane[0], of_lane[1]);
+                }
+                (reach2, stays2) = (L::load(&each[0]), L::load(&each[1]));
+            }
+            let (any, stays) = (least.le(reach2), least.lt(stays2));
+            for lane in 0..L::WIDTH {
+                found[found_count] = own[lane];
+                leaving[leaving_count] = own[lane];
+                // Who stays is within reach, too.
+                found_count += usize::from(stays.test(lane));
+                leaving_count += usize::from(any.test(lane) != stays.test(lane));
+            }
+        }
+        self.found.truncate(found_before + found_count);
+        self.leaving.truncate(leaving_before + leaving_count);
+    }
+}
+
+/// The squares of a reach with its skin, from which rounding leaves out none, and of what is left of it when the skin is used up.
+#[inline(always)]
+fn squares<T: Real>(reach: f64, skin: f64) -> [T; 2] {
+    let rounding = if T::COMPENSATED { 1e-6 } else { 1e-15 };
+    let stays = (reach - 2.0 * skin).max(0.0);
+    [
+        T::from_f64(reach * reach * (1.0 + rounding)),
+        T::from_f64(stays * stays),
+    ]
+}
