@@ -122,8 +122,34 @@ pub(crate) fn reduce<P: Pieces, V: Copy + Send>(
 
 /// The largest value of a range of numbers; zero, if none is larger.
 pub(crate) fn largest(range: Range<usize>, of: impl Fn(usize) -> f64 + Sync) -> f64 {
-    let in_run = |_, run: Range<usize>| run.map(&of).fold(0.0, f64::max);
-    reduce(runs(range, GRAIN), 0.0, in_run, f64::max)
+    // A comparison, which leaves NaN out as `f64::max` does, in a third of its time.
+    let larger = |most: f64, value: f64| if value > most { value } else { most };
+    let in_run = |_, run: Range<usize>| run.map(&of).fold(0.0, larger);
+    reduce(runs(range, GRAIN), 0.0, in_run, larger)
+}
+
+/// The least and the largest of each component of vectors.
+pub(crate) type Corners<const D: usize> = [[f64; D]; 2];
+
+/// Those of no vector.
+pub(crate) fn no_corners<const D: usize>() -> Corners<D> {
+    [[f64::INFINITY; D], [f64::NEG_INFINITY; D]]
+}
+
+/// The corners of a range of vectors and of what is `known`.
+pub(crate) fn corners<const D: usize>(
+    range: Range<usize>,
+    known: Corners<D>,
+    of: impl Fn(usize) -> [f64; D] + Sync,
+) -> Corners<D> {
+    let both = |a: Corners<D>, b: Corners<D>| {
+        [
+            core::array::from_fn(|d| a[0][d].min(b[0][d])),
+            core::array::from_fn(|d| a[1][d].max(b[1][d])),
+        ]
+    };
+    let in_run = |_, run: Range<usize>| run.map(|k| [of(k); 2]).fold(no_corners(), both);
+    reduce(runs(range, GRAIN), known, in_run, both)
 }
 
 /// One value for each number below `count`, in order.

@@ -5,7 +5,7 @@ use super::control::{Criterion, NO_VOTE, Vote, least};
 use super::neighborhood::Neighborhood;
 use super::population::Particles;
 use crate::neighbors::{CHUNK, ChunkList};
-use crate::parallel::{GRAIN, largest, reduce, runs};
+use crate::parallel::{Corners, corners, largest, no_corners, reduce, runs};
 use crate::particles::{Columns, Field};
 use crate::scalar::{Lane, OnRows, Real};
 use crate::scheme::Scheme;
@@ -141,33 +141,17 @@ fn fastest<T: Real, const D: usize>(
 fn velocities<T: Real, const D: usize>(
     particles: &Particles<T, D>,
     neighborhood: &Neighborhood<T, D>,
-) -> [[f64; D]; 2] {
-    let empty = || [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
-    let both = |a: [[f64; D]; 2], b: [[f64; D]; 2]| {
-        [
-            core::array::from_fn(|d| a[0][d].min(b[0][d])),
-            core::array::from_fn(|d| a[1][d].max(b[1][d])),
-        ]
-    };
+) -> Corners<D> {
     let velocities = particles.columns.vectors(Field::VELOCITY);
-    let range = |run: Range<usize>, of: &dyn Fn(usize) -> [T; D]| {
-        let all = run.map(|k| [of(k).map(Real::to_f64); 2]);
-        all.fold(empty(), both)
-    };
-    let own = |slots: Range<usize>| {
-        let of = |_, run| range(run, &|slot| velocities[slot]);
-        reduce(runs(slots, GRAIN), empty(), of, both)
-    };
-    let all = direct(particles, neighborhood);
-    let direct = all.map(own).fold(empty(), both);
+    let own = |slot: usize| velocities[slot].map(Real::to_f64);
+    let direct = direct(particles, neighborhood)
+        .fold(no_corners(), |known, slots| corners(slots, known, own));
     let images = &neighborhood.images;
-    let turned = |k: usize| {
+    corners(0..images.len(), direct, |k| {
         let by = &neighborhood.transforms[images[k].transform as usize];
         let v = Vector::from(velocities[images[k].source as usize]);
-        (by.rotation * v + by.velocity).into()
-    };
-    let of = |_, run| range(run, &turned);
-    reduce(runs(0..images.len(), GRAIN), direct, of, both)
+        <[T; D]>::from(by.rotation * v + by.velocity).map(Real::to_f64)
+    })
 }
 
 /// Place, velocity and sound speed of a neighbour, which may be an image.
@@ -206,7 +190,7 @@ struct InChunk<'a, T: Real, const D: usize> {
     share: f64,
     least_h: f64,
     /// The least and the largest component of velocities.
-    range: [[f64; D]; 2],
+    range: Corners<D>,
 }
 
 impl<T: Real, const D: usize> OnRows<T> for InChunk<'_, T, D> {

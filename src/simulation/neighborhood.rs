@@ -7,7 +7,7 @@ use super::population::Particles;
 use super::walls::WallState;
 use crate::boundary::Boundary;
 use crate::neighbors::{Block, ClusterLists, Radii, SearchInput};
-use crate::parallel::largest;
+use crate::parallel::{Corners, corners, largest, no_corners};
 use crate::particles::Field;
 use crate::scalar::Real;
 use crate::sweep::{Image, InstructionSet, Interaction, Transform};
@@ -55,7 +55,7 @@ const UNSORTED: f64 = 1.03;
 
 /// Lists that served fewer evaluations get the thick skin, and those that served more the thin one again: twice the
 /// skin lasts twice as long, so neither brings the other back.
-const LASTING: [u32; 2] = [8, 24];
+pub const LASTING: [u32; 2] = [16, 48];
 
 impl<T: Real, const D: usize> Neighborhood<T, D> {
     pub fn new(
@@ -128,11 +128,12 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         time: f64,
     ) -> bool {
         let positions = particles.columns.vectors(Field::POSITION);
+        let moved_by = |slot: usize, d: usize| {
+            let (now, then): (&[T; D], &[T; D]) = (&positions[slot], &self.listed[slot]);
+            (now[d] - then[d]).to_f64() - shift[d]
+        };
         let farthest = largest(0..positions.len(), |slot| {
-            let (now, then) = (&positions[slot], &self.listed[slot]);
-            (0..D)
-                .map(|d| ((now[d] - then[d]).to_f64() - shift[d]).powi(2))
-                .sum::<f64>()
+            (0..D).map(|d| moved_by(slot, d).powi(2)).sum::<f64>()
         });
         let farthest = farthest.sqrt();
         let h = particles.columns.raw(Field::SMOOTHING_LENGTH);
@@ -156,7 +157,16 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
                 })
             })
             .sum();
-        2.0 * farthest + carried + self.support * grown > self.skin
+        let left = self.skin - carried - self.support * grown;
+        if 2.0 * farthest <= left || !boundaries.is_empty() {
+            return 2.0 * farthest > left;
+        }
+        // What moves together stays together: no pair parts by more than the corners of all ways are apart.
+        let [low, high]: Corners<D> = corners(0..positions.len(), no_corners(), |slot| {
+            core::array::from_fn(|d| moved_by(slot, d))
+        });
+        let apart2: f64 = (0..D).map(|d| (high[d] - low[d]).powi(2)).sum();
+        apart2.sqrt() > left
     }
 
     /// Lists neighbours at the present positions, with images within `reach` \[m\]; it remembers where particles are, as

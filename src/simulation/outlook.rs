@@ -2,7 +2,7 @@
 //! List builds, which first steps may not show, follow from speeds and accelerations.
 
 use super::group::Group;
-use super::neighborhood::Neighborhood;
+use super::neighborhood::{LASTING, Neighborhood};
 use super::population::Particles;
 use super::workspace::Workspace;
 use super::{Simulation, Work, width};
@@ -20,7 +20,7 @@ const MOST: (f64, u64) = (0.05, 50_000_000);
 /// List builds from which on what was seen of them counts.
 const SEEN: u64 = 3;
 /// Evaluations that a list serves, below which the next one has the thick skin.
-const SHORT: f64 = 8.0;
+const SHORT: f64 = LASTING[0] as f64;
 /// The speed that a liquid or gas is taken to reach, over that of sound, unless it has more.
 const MACH: f64 = 0.1;
 
@@ -136,12 +136,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let a_step = if group.scheme.density.keeps_neighbors() {
                 0.0
             } else {
-                builds_a_step(
-                    particles,
-                    &group.work,
-                    neighborhood.skin,
-                    (step, end - begin),
-                )
+                // Where particles go apart from what rests, and where they may go against their images.
+                let against = if group.boundaries.is_empty() {
+                    1.0
+                } else {
+                    2.0
+                };
+                let way = neighborhood.skin / against;
+                builds_a_step(particles, &group.work, way, (step, end - begin))
             };
             let spacings = particles.bodies.iter().map(|body| body.spacing);
             let largest = spacings.fold(f64::MIN_POSITIVE, f64::max);
@@ -237,11 +239,11 @@ impl Builds {
 }
 
 /// List builds a step of `step` \[s\], when the fastest particle speeds up as all do in the mean now for `time` \[s\], up to a
-/// tenth of its sound, and may go as far as `skin` \[m\].
+/// tenth of its sound, and may go as far as `way` \[m\].
 fn builds_a_step<T: Real, const D: usize>(
     particles: &Particles<T, D>,
     work: &Workspace<T, D>,
-    skin: f64,
+    way: f64,
     (step, time): (f64, f64),
 ) -> f64 {
     let columns = &particles.columns;
@@ -268,5 +270,5 @@ fn builds_a_step<T: Real, const D: usize>(
     let until = ((most - speed) / acceleration.max(f64::MIN_POSITIVE)).min(time);
     let reached = (speed + acceleration * until).min(most);
     let mean = reached - 0.5 * (reached - speed) * until / time.max(f64::MIN_POSITIVE);
-    (2.0 * mean * step / skin).min(1.0)
+    (mean * step / way).min(1.0)
 }
