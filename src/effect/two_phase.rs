@@ -110,11 +110,11 @@ impl<T: Real, const D: usize> Law<T, D> for Phases {
     }
 }
 
-/// One where both particles are of one liquid, else zero.
+/// Whether both particles are of one liquid.
 #[inline(always)]
-fn alike<L: Lane, const D: usize, P: Layout>(pair: &Pair<'_, L, D, P>) -> L {
+fn alike<L: Lane, const D: usize, P: Layout>(pair: &Pair<'_, L, D, P>) -> L::Mask {
     let (one, other) = (pair.i(PHASE), pair.j(PHASE));
-    L::select(one.le(other) & other.le(one), L::one(), L::zero())
+    one.le(other) & other.le(one)
 }
 
 impl<const D: usize> Term<D> for TwoPhase {
@@ -122,10 +122,13 @@ impl<const D: usize> Term<D> for TwoPhase {
     const WRITES: Outputs = Outputs::of(&[Output::FORCE]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+        // The same for all neighbours of a row.
+        let share =
+            L::of(self.sharpness) * (pair.mobile * pair.mobile_i) / pair.lattice_consistency_factor;
         let pressures = pair.i(Field::PRESSURE).abs() + pair.j(Field::PRESSURE).abs();
-        let stress = (alike(pair) - L::one()) * L::of(self.sharpness) * pressures;
-        let volumes = pair.i(Field::WEIGHT) * pair.j(Field::WEIGHT) * (pair.mobile * pair.mobile_i);
-        sums.radial += volumes * stress * pair.f / pair.lattice_consistency_factor;
+        let stress = L::select(alike(pair), L::zero(), pressures * share);
+        let volumes = pair.i(Field::WEIGHT) * pair.j(Field::WEIGHT);
+        sums.gradient.add_product(-volumes, stress);
     }
     fn document(&self) -> TermDoc {
         TermDoc {
@@ -148,7 +151,7 @@ impl<const D: usize, X: Term<D>> Term<D> for WithinPhase<X> {
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
         let within = Pair {
-            mobile: pair.mobile * alike(pair),
+            mobile: L::select(alike(pair), pair.mobile, L::zero()),
             ..*pair
         };
         self.0.pair(&within, sums);
