@@ -151,9 +151,9 @@ impl<const D: usize> Term<D> for VelocityBeforeWall {
     const WRITES: Outputs = Outputs::of(&[BEFORE]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let volume = pair.j(Field::MASS) / pair.j(Field::DENSITY) * pair.w * pair.mobile;
+        let volume = pair.j(Field::MASS) / pair.j(Field::DENSITY) * (pair.w * pair.mobile);
         for d in 0..D {
-            sums.add_at(BEFORE, d, volume * pair.j_at(Field::VELOCITY, d));
+            sums.add_product_at(BEFORE, d, volume, pair.j_at(Field::VELOCITY, d));
         }
     }
     fn document(&self) -> TermDoc {

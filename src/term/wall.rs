@@ -21,12 +21,14 @@ impl<const D: usize> Term<D> for LiquidNearWall {
     ]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let mass = pair.j(Field::MASS) * pair.w * pair.mobile;
-        let volume = mass / pair.j(Field::DENSITY);
+        let liquid = pair.w * pair.mobile;
+        // A quotient of the neighbour alone is made once for a row.
+        let volume = pair.j(Field::MASS) / pair.j(Field::DENSITY) * liquid;
         sums.add(Output::UNITY, volume);
-        sums.add(Output::LIQUID_PRESSURE, volume * pair.j(Field::PRESSURE));
+        sums.add_product(Output::LIQUID_PRESSURE, volume, pair.j(Field::PRESSURE));
+        let mass = pair.j(Field::MASS) * liquid;
         for d in 0..D {
-            sums.add_at(Output::LIQUID_MOMENT, d, mass * pair.r[d]);
+            sums.add_product_at(Output::LIQUID_MOMENT, d, mass, pair.r[d]);
         }
     }
     fn document(&self) -> TermDoc {
@@ -47,10 +49,10 @@ impl<const D: usize> Term<D> for VelocityAtWall {
     const WRITES: Outputs = Outputs::of(&[Output::LIQUID_VELOCITY]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let volume = pair.j(Field::MASS) / pair.j(Field::DENSITY) * pair.w * pair.mobile;
+        let volume = pair.j(Field::MASS) / pair.j(Field::DENSITY) * (pair.w * pair.mobile);
         for d in 0..D {
             let v = pair.j_at(Field::VELOCITY, d);
-            sums.add_at(Output::LIQUID_VELOCITY, d, volume * v);
+            sums.add_product_at(Output::LIQUID_VELOCITY, d, volume, v);
         }
     }
     fn document(&self) -> TermDoc {
@@ -71,9 +73,9 @@ impl<const D: usize> Term<D> for ViscosityAtWall {
     const WRITES: Outputs = Outputs::of(&[Output::LIQUID_VISCOSITY]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let volume = pair.j(Field::MASS) / pair.j(Field::DENSITY) * pair.w * pair.mobile;
+        let volume = pair.j(Field::MASS) / pair.j(Field::DENSITY) * (pair.w * pair.mobile);
         let viscosity = pair.j(Field::DYNAMIC_VISCOSITY);
-        sums.add(Output::LIQUID_VISCOSITY, volume * viscosity);
+        sums.add_product(Output::LIQUID_VISCOSITY, volume, viscosity);
     }
     fn document(&self) -> TermDoc {
         TermDoc {
