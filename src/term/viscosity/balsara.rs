@@ -1,7 +1,7 @@
 //! Monaghan–Gingold viscosity, taken back where the flow turns instead of closing in.
 //! Balsara 1995.
 
-use super::{ArtificialViscosity, Viscous, approach, between, coefficients};
+use super::{ArtificialViscosity, Viscous, approach, below, between, coefficients, from_quotient};
 use crate::particles::{Field, Fields};
 use crate::scalar::Lane;
 use crate::term::{Layout, Pair, TermDoc};
@@ -44,22 +44,33 @@ impl<const D: usize> ArtificialViscosity<D> for Balsara {
     };
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>) -> Viscous<L> {
-        let mut viscous = between(pair, approach(pair), L::of(self.alpha), L::of(self.beta));
-        if const { D > 1 } {
-            let noise = L::of(NOISE) / pair.h;
-            let at_i = factor::<L, D>(
-                |k| pair.i_at(Field::VELOCITY_GRADIENT, k),
-                pair.i(Field::SOUND_SPEED) * noise,
-            );
-            let at_j = factor::<L, D>(
-                |k| pair.j_at(Field::VELOCITY_GRADIENT, k),
-                pair.j(Field::SOUND_SPEED) * noise,
-            );
-            let mean = (at_i + at_j) * L::of(0.5);
-            viscous.pi *= mean;
-            viscous.signal *= mean;
+        let (alpha, beta) = (L::of(self.alpha), L::of(self.beta));
+        if const { D == 1 } {
+            return between(pair, approach(pair), alpha, beta);
         }
-        viscous
+        // The same for both sides, so made once.
+        let pair = &pair.forward();
+        let noise = L::of(NOISE) / pair.h;
+        let (mut of_i, mut of_j) = ([[L::zero(); D]; D], [[L::zero(); D]; D]);
+        for a in 0..D {
+            for b in 0..D {
+                of_i[a][b] = pair.i_at(Field::VELOCITY_GRADIENT, a * D + b);
+                of_j[a][b] = pair.j_at(Field::VELOCITY_GRADIENT, a * D + b);
+            }
+        }
+        let (divergence_i, whole_i) = parts(&of_i, pair.i(Field::SOUND_SPEED) * noise);
+        let (divergence_j, whole_j) = parts(&of_j, pair.j(Field::SOUND_SPEED) * noise);
+        // That of a row is divided once for all of its neighbours; that of a neighbour shares the division of Π.
+        let at_i = divergence_i / whole_i;
+        let below = below(pair);
+        let over = (below * whole_j).recip();
+        let at_j = divergence_j * below * over;
+        let viscous = from_quotient(pair, approach(pair) * whole_j * over, alpha, beta);
+        let mean = (at_i + at_j) * L::of(0.5);
+        Viscous {
+            pi: viscous.pi * mean,
+            signal: viscous.signal * mean,
+        }
     }
     fn document(&self) -> TermDoc {
         TermDoc {
@@ -73,20 +84,21 @@ impl<const D: usize> ArtificialViscosity<D> for Balsara {
     }
 }
 
-/// |∇·v|/(|∇·v| + |∇×v| + noise) from the velocity gradient, row by row.
+/// |∇·v| and |∇·v| + |∇×v| + noise of a velocity gradient.
 #[inline(always)]
-fn factor<L: Lane, const D: usize>(gradient: impl Fn(usize) -> L, noise: L) -> L {
+fn parts<L: Lane, const D: usize>(gradient: &[[L; D]; D], noise: L) -> (L, L) {
     let mut divergence = L::zero();
     let mut curl2 = L::zero();
     for a in 0..D {
-        divergence += gradient(a * D + a);
+        divergence += gradient[a][a];
         for b in a + 1..D {
-            let turn = gradient(a * D + b) - gradient(b * D + a);
+            let turn = gradient[a][b] - gradient[b][a];
             curl2 = turn.mul_add(turn, curl2);
         }
     }
     let divergence = divergence.abs();
-    // Without flow and without sound there is nothing to damp: 0/(0 + tiny).
-    let whole = divergence + curl2.sqrt() + noise.max(L::of(1e-30));
-    divergence / whole
+    // Without flow and without sound there is nothing to damp: 0/(0 + tiny), whose product with what Π is divided by is in the
+    // range of `f32`. A sum, because the compiler does not lift a maximum out of the loop, nor what follows from it.
+    let noise = noise + L::of(1e-20);
+    (divergence, divergence + curl2.sqrt() + noise)
 }

@@ -153,12 +153,29 @@ fn between<L: Lane, const D: usize, P: Layout>(
     alpha: L,
     beta: L,
 ) -> Viscous<L> {
+    // One division serves μ and Π: it takes longer than all else here.
+    from_quotient(pair, approach / below(pair), alpha, beta)
+}
+
+/// What μ and Π are divided by together: (r² + 0.01 h²)/h times twice the mean density.
+#[inline(always)]
+fn below<L: Lane, const D: usize, P: Layout>(pair: &Pair<'_, L, D, P>) -> L {
+    let densities = pair.i(Field::DENSITY) + pair.j(Field::DENSITY);
+    let r2_over_h = pair.r2.mul_add(pair.h.recip(), pair.h * L::of(0.01));
+    r2_over_h * densities
+}
+
+/// Π and signal from μ over twice the mean density.
+#[inline(always)]
+fn from_quotient<L: Lane, const D: usize, P: Layout>(
+    pair: &Pair<'_, L, D, P>,
+    mu_over_densities: L,
+    alpha: L,
+    beta: L,
+) -> Viscous<L> {
     // Twice the means: their halves cancel in Π.
     let sound_speeds = pair.i(Field::SOUND_SPEED) + pair.j(Field::SOUND_SPEED);
     let densities = pair.i(Field::DENSITY) + pair.j(Field::DENSITY);
-    let r2_over_h = pair.r2.mul_add(pair.h.recip(), pair.h * L::of(0.01));
-    // One division serves μ and Π: it takes longer than all else here.
-    let mu_over_densities = approach / (r2_over_h * densities);
     // 2 (α c̄ − β μ)
     let mu = mu_over_densities * densities;
     let linear = alpha * sound_speeds;
@@ -169,12 +186,18 @@ fn between<L: Lane, const D: usize, P: Layout>(
     }
 }
 
+/// |rᵢⱼ| \[m\], not zero for the particle itself.
+#[inline(always)]
+fn distance<L: Lane, const D: usize, P: Layout>(pair: &Pair<'_, L, D, P>) -> L {
+    // A millionth of h² keeps the particle itself finite, and is lost in rounding elsewhere.
+    let r2 = pair.h.mul_add(pair.h * L::of(1e-6), pair.r2);
+    r2.sqrt()
+}
+
 /// −vᵢⱼ·rᵢⱼ/|rᵢⱼ| of an approaching pair, zero otherwise \[m/s\].
 #[inline(always)]
 fn closing_speed<L: Lane, const D: usize, P: Layout>(pair: &Pair<'_, L, D, P>) -> L {
-    // A millionth of h² keeps the particle itself finite, and is lost in rounding elsewhere.
-    let r2 = pair.h.mul_add(pair.h * L::of(1e-6), pair.r2);
-    (-pair.v_dot_r).positive_part() / r2.sqrt()
+    (-pair.v_dot_r).positive_part() / distance(pair)
 }
 
 /// Monaghan–Gingold with the mean of the particles' own coefficients, and β in proportion to α.

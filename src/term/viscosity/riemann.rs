@@ -1,7 +1,7 @@
 //! The dissipation of a Riemann solver between two particles, limited where the flow is gentle.
 //! Zhang, Hu & Adams 2017; impedances of unlike materials as in Rezavand, Zhang & Hu 2020.
 
-use super::{ArtificialViscosity, Viscous, closing_speed, coefficients};
+use super::{ArtificialViscosity, Viscous, coefficients, distance};
 use crate::particles::{Field, Fields};
 use crate::scalar::Lane;
 use crate::term::{Layout, Pair, TermDoc};
@@ -40,22 +40,22 @@ impl<const D: usize> ArtificialViscosity<D> for Riemann {
     const READS: Fields = Fields::NONE;
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>) -> Viscous<L> {
-        let closing = closing_speed(pair);
+        let closing = (-pair.v_dot_r).positive_part();
         let (c_i, c_j) = (pair.i(Field::SOUND_SPEED), pair.j(Field::SOUND_SPEED));
-        let sound_speed = (c_i + c_j) * L::of(0.5);
-        let share = closing * L::of(self.limiter) / sound_speed;
-        // In a vacuum there is neither sound nor impedance.
-        let sounding = sound_speed.gt(L::zero());
-        let share = L::select(sounding, share.min(L::one()), L::zero()) * L::of(self.alpha);
-        // Z/(ρᵢ ρⱼ) = cᵢ cⱼ/(ρᵢcᵢ + ρⱼcⱼ).
+        // Twice the mean, and Z/(ρᵢ ρⱼ) = cᵢ cⱼ/(ρᵢcᵢ + ρⱼcⱼ).
+        let sound_speeds = c_i + c_j;
         let impedances = pair
             .i(Field::DENSITY)
             .mul_add(c_i, pair.j(Field::DENSITY) * c_j);
-        let impedances = L::select(sounding, impedances, L::one());
-        let dissipated = share * closing * c_i * c_j / impedances;
+        // One division serves the limiter and the impedances. In a vacuum there is neither: what stands above it is zero.
+        let below = distance(pair) * sound_speeds * impedances;
+        let sounding = below.gt(L::zero());
+        let over = closing / L::select(sounding, below, L::one());
+        let limited = over * impedances * L::of(2.0 * self.limiter);
+        let share = limited.min(L::one()) * L::of(self.alpha);
         Viscous {
-            pi: dissipated + dissipated,
-            signal: share * sound_speed * L::of(0.6),
+            pi: share * over * (c_i * (c_j + c_j) * sound_speeds),
+            signal: share * sound_speeds * L::of(0.3),
         }
     }
     fn document(&self) -> TermDoc {
