@@ -72,7 +72,7 @@ const SHIFT: Field = ConsistentShifting::VELOCITY;
 const CONCENTRATION: Output = Output::vector(11);
 /// Σⱼ Vⱼ ∇W \[1/m\], out of the liquid.
 const OUTWARDS: Output = Output::vector(10);
-/// −Σⱼ Vⱼ rᵢⱼ·∇W/D.
+/// Σⱼ Vⱼ rᵢⱼ·∇W, which is −D where the kernel finds a full neighbourhood.
 const FULLNESS: Output = Output::scalar(13);
 /// Rate of density \[kg/(m³ s)\].
 const RATE: Output = Output::scalar(12);
@@ -106,7 +106,7 @@ impl<const D: usize> Effect<D> for ConsistentShifting {
         program.declare(SHIFT, "shifting_velocity", "m/s", 0.0);
         program.declare_sum(CONCENTRATION, "crowding", "1/m");
         program.declare_sum(OUTWARDS, "outwards", "1/m");
-        program.declare_sum(FULLNESS, "fullness", "1");
+        program.declare_sum(FULLNESS, "gradient_moment", "1");
         program.declare_sum(RATE, "density_rate_of_shifting", "kg/(m³ s)");
         program.law(Stage::Flow, *self);
         program.law(Stage::Continuity, Displace);
@@ -167,7 +167,7 @@ impl<T: Real, const D: usize> Law<T, D> for ConsistentShifting {
             let of = |sum: Output| -> [f64; D] {
                 core::array::from_fn(|d| sums.get(sum, d, first + n).to_f64())
             };
-            let fullness = sums.get(FULLNESS, 0, first + n).to_f64() / lattice;
+            let fullness = -sums.get(FULLNESS, 0, first + n).to_f64() / (D as f64 * lattice);
             let c = c[n].to_f64();
             let mut shift = of(CONCENTRATION).map(|gradient| -self.strength * h * c * gradient);
             let across = share(ACROSS, fullness);
@@ -234,20 +234,22 @@ impl<const D: usize> Term<D> for Crowding {
     const WRITES: Outputs = Outputs::of(&[CONCENTRATION, OUTWARDS, FULLNESS]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let ratio = pair.w * (pair.h.powi(D as u32) * L::of(self.over_kernel_at_spacing));
+        // Times the fourth root of the strength, so that the fourth power and one are a single product and sum.
+        let root = REPULSION.sqrt().sqrt() * self.over_kernel_at_spacing;
+        let ratio = pair.w * (pair.h.powi(D as u32) * L::of(root));
         let square = ratio * ratio;
         let gradient = pair.j(Field::WEIGHT) * pair.f;
-        let crowded = gradient * (square * square).mul_add(L::of(REPULSION), L::one());
+        let crowded = gradient * square.mul_add(square, L::one());
         for d in 0..D {
             sums.add_product_at(CONCENTRATION, d, crowded, pair.r[d]);
             sums.add_product_at(OUTWARDS, d, gradient, pair.r[d]);
         }
-        sums.add_product(FULLNESS, gradient * L::of(-1.0 / D as f64), pair.r2);
+        sums.add_product(FULLNESS, gradient, pair.r2);
     }
     fn document(&self) -> TermDoc {
         TermDoc {
             name: "crowding".into(),
-            equation: "Σⱼ Vⱼ (1 + 0.2 (W/W₀)⁴) ∇W, Σⱼ Vⱼ ∇W, −Σⱼ Vⱼ r·∇W/D",
+            equation: "Σⱼ Vⱼ (1 + 0.2 (W/W₀)⁴) ∇W, Σⱼ Vⱼ ∇W, Σⱼ Vⱼ r·∇W",
             source: "Lind et al. 2012, eq. 24; Sun et al. 2019",
         }
     }
