@@ -156,7 +156,7 @@ impl<const D: usize> Term<D> for DisplacementGradient {
             // Of displacements, which are exactly zero at rest.
             let displaced = factor * (pair.r[a] - apart[a]);
             for b in 0..D {
-                sums.add_at(DISPLACEMENT_SUM, a * D + b, displaced * apart[b]);
+                sums.add_product_at(DISPLACEMENT_SUM, a * D + b, displaced, apart[b]);
             }
         }
     }

@@ -70,14 +70,12 @@ impl<const D: usize> Term<D> for PressureGradient {
     const WRITES: Outputs = Outputs::of(&[Output::PRESSURE_GRADIENT, Output::MOMENT_MATRIX]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let volume = pair.j(Field::MASS) / pair.j(Field::DENSITY);
-        let difference = pair.j(Field::PRESSURE) - pair.i(Field::PRESSURE);
+        // The products of the moment matrix, which are made once for both.
+        let factor = -pair.j(Field::MASS) / pair.j(Field::DENSITY) * pair.f;
+        let difference = pair.i(Field::PRESSURE) - pair.j(Field::PRESSURE);
         for a in 0..D {
-            sums.add_at(
-                Output::PRESSURE_GRADIENT,
-                a,
-                volume * difference * pair.f * pair.r[a],
-            );
+            let gradient = factor * pair.r[a];
+            sums.add_product_at(Output::PRESSURE_GRADIENT, a, difference, gradient);
         }
     }
     fn document(&self) -> TermDoc {
@@ -100,16 +98,13 @@ impl<const D: usize> Term<D> for DensityGradient {
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
         let density = pair.j(Field::DENSITY);
         // The density of a wall does not follow from the flow.
-        let factor = pair.j(Field::MASS) / density * pair.f * pair.mobile;
-        let difference = factor * (density - pair.i(Field::DENSITY));
-        for a in 0..D {
-            sums.add_at(Output::DENSITY_GRADIENT, a, difference * pair.r[a]);
-            for b in 0..D {
-                sums.add_at(
-                    Output::MOMENT_MATRIX,
-                    a * D + b,
-                    -factor * pair.r[a] * pair.r[b],
-                );
+        let factor = -pair.j(Field::MASS) / density * (pair.f * pair.mobile);
+        let difference = pair.i(Field::DENSITY) - density;
+        for b in 0..D {
+            let gradient = factor * pair.r[b];
+            sums.add_product_at(Output::DENSITY_GRADIENT, b, difference, gradient);
+            for a in 0..D {
+                sums.add_product_at(Output::MOMENT_MATRIX, a * D + b, pair.r[a], gradient);
             }
         }
     }

@@ -264,9 +264,12 @@ impl<L: Lane, const D: usize, P: Layout> Pair<'_, L, D, P> {
     #[inline(always)]
     #[must_use]
     pub fn v2(&self) -> L {
-        (1..D).fold(self.v[0] * self.v[0], |sum, d| {
-            self.v[d].mul_add(self.v[d], sum)
-        })
+        // A loop, because a closure may be compiled without the instructions of the pair loop.
+        let mut sum = self.v[0] * self.v[0];
+        for d in 1..D {
+            sum = self.v[d].mul_add(self.v[d], sum);
+        }
+        sum
     }
 }
 
@@ -353,8 +356,24 @@ impl<L: Lane, const D: usize, P: Layout> Sums<L, D, P> {
     /// symmetric in i and j.
     #[inline(always)]
     pub fn add_tractions(&mut self, pair: &Pair<'_, L, D, P>, factor: L, stress: Field) {
-        let own = factor * pair.f_i * pair.i(Field::CONSISTENCY_FACTOR).recip();
-        let other = factor * pair.f_j * pair.j(Field::CONSISTENCY_FACTOR).recip();
+        let over_own = pair.i(Field::CONSISTENCY_FACTOR).recip();
+        let over_other = pair.j(Field::CONSISTENCY_FACTOR).recip();
+        if P::ONE_GRADIENT && !pair.gated {
+            // The row's stress over its moment is made once for all of its neighbours, and one product serves both sides.
+            let mut both = [L::zero(); 6];
+            for k in 0..6 {
+                let own = pair.i_at(stress, k) * over_own;
+                both[k] = pair.j_at(stress, k).mul_add(over_other, own);
+            }
+            let traction = Symmetric::new(both).dot(&pair.r);
+            let factor = factor * pair.f;
+            for d in 0..D {
+                self.force.add(d, factor * traction[d]);
+            }
+            return;
+        }
+        let own = factor * pair.f_i * over_own;
+        let other = factor * pair.f_j * over_other;
         let of_own = pair.i_tensor(stress).dot(&pair.r);
         let of_other = pair.j_tensor(stress).dot(&pair.r);
         for d in 0..D {

@@ -78,10 +78,9 @@ impl<const D: usize> Term<D> for SlopeInH {
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
         let slope = pair.w.mul_add(L::of(D as f64), pair.r2 * pair.f_i);
-        sums.add(
-            Output::SLOPE_IN_H,
-            -pair.j(Field::WEIGHT) * slope / pair.h_i,
-        );
+        // What belongs to the row alone is divided once for all of its neighbours.
+        let over_h = -pair.h_i.recip();
+        sums.add_product(Output::SLOPE_IN_H, pair.j(Field::WEIGHT) * slope, over_h);
     }
     fn document(&self) -> TermDoc {
         TermDoc {
