@@ -8,30 +8,38 @@
 mod by_hand;
 #[path = "throughput/by_hand/continuity.rs"]
 mod continuity_by_hand;
+#[path = "throughput/by_hand/corrected.rs"]
+mod corrected_by_hand;
 #[path = "throughput/lattice.rs"]
 mod lattice;
 #[path = "throughput/by_hand/solids.rs"]
 mod solids_by_hand;
+#[path = "throughput/by_hand/viscosities.rs"]
+mod viscosities_by_hand;
+#[path = "throughput/by_hand/walls.rs"]
+mod walls_by_hand;
 
 use by_hand::forces::{
-    CONDUCTED, CONDUCTION, ENERGY, Forces, LAMINAR, SHARE, TENSION, VISCOSITY, viscosity,
+    BY_VELOCITY, CENTRAL, CONDUCTED, CONDUCTION, ENERGY, Forces, LAMINAR, PHASES, SHARE, SHARPNESS,
+    TENSION, VISCOSITY, viscosity,
 };
 use by_hand::{norm, over_shape_at_spacing, row};
 use continuity_by_hand::{
-    COMPRESSION, CONSISTENCY, CROWDING, Continuity, DELTA, DIFFUSION, PAIRING, REPULSION, SHIFTED,
-    SHIFTING,
+    BY_RIEMANN, COMPRESSION, CONSISTENCY, CROWDING, Continuity, DELTA, DIFFUSION, FIRST_MOMENT,
+    OF_BENT, OF_DENSITY, PAIRING, REPULSION, SHIFTED, SHIFTING, SLOPE, SUMMED, WITHIN,
 };
 use meshfree::effect::{
     ArtificialConduction, ArtificialPressure, ArtificialStress, ConductionSignal, Crowding,
     HourglassControl, HourglassFree, Hypoelastic, NearPairs, NeoHookean, PairingControl,
-    Plasticity, ShiftedContinuity, TensionRepulsion,
+    Plasticity, ShiftedContinuity, TensionRepulsion, TwoPhase, WithinPhase,
 };
 use meshfree::kernel::WendlandC2;
 use meshfree::prelude::*;
 use meshfree::scene::Start;
 use meshfree::term::viscosity::{Inviscid, MonaghanGingold};
 use meshfree::term::{
-    Compression, ConcentrationGradient, Fourtakas, InternalEnergy, LaminarViscosity, PressureForce,
+    Antuono, CentralViscosity, Compression, ConcentrationGradient, Fourtakas, InternalEnergy,
+    KernelMoment, KernelSum, LaminarViscosity, Molteni, PressureForce, RiemannDiffusion, SlopeInH,
     Unity,
 };
 use std::time::Instant;
@@ -254,21 +262,32 @@ fn against_by_hand(side: usize, turns: usize) {
     row("laminar viscosity", terms, Forces::<LAMINAR>, side, turns);
     let terms = (force, tension());
     row("artificial pressure", terms, Forces::<TENSION>, side, turns);
+    let terms = (force, CentralViscosity);
+    row("central viscosity", terms, Forces::<CENTRAL>, side, turns);
+    let phases = TwoPhase {
+        sharpness: SHARPNESS,
+    };
+    row("two phases", (force, phases), Forces::<PHASES>, side, turns);
     let terms = (force, viscosity(), LaminarViscosity, tension());
     let by_hand = Forces::<{ VISCOSITY | LAMINAR | TENSION }>;
-    row("all three", terms, by_hand, side, turns);
-    let conduction = || ArtificialConduction {
+    row("all four", terms, by_hand, side, turns);
+    let conducted = |signal| ArtificialConduction {
         strength: CONDUCTION,
-        signal: ConductionSignal::Pressure,
+        signal,
     };
+    let conduction = || conducted(ConductionSignal::Pressure);
     let terms = (force, InternalEnergy);
     row("gas: energy", terms, Forces::<ENERGY>, side, turns);
     let terms = (force, InternalEnergy, conduction());
     let by_hand = Forces::<{ ENERGY | CONDUCTED }>;
     row("gas: conduction", terms, by_hand, side, turns);
+    let terms = (force, InternalEnergy, conducted(ConductionSignal::Velocity));
+    let by_hand = Forces::<{ ENERGY | BY_VELOCITY }>;
+    row("gas: conduction by velocity", terms, by_hand, side, turns);
     let terms = (force, InternalEnergy, viscosity(), conduction());
     let by_hand = Forces::<{ ENERGY | CONDUCTED | VISCOSITY }>;
     row("gas: conduction, viscosity", terms, by_hand, side, turns);
+    viscosities_by_hand::table(side, turns);
 
     let diffusion = || Fourtakas { delta: DELTA };
     let shifting = || ConcentrationGradient {
@@ -283,6 +302,18 @@ fn against_by_hand(side: usize, turns: usize) {
     let terms = (Compression, diffusion());
     let by_hand = Continuity::<{ COMPRESSION | DIFFUSION }>;
     row("density diffusion", terms, by_hand, side, turns);
+    let within = (Compression, WithinPhase(diffusion()));
+    let by_hand = Continuity::<{ COMPRESSION | WITHIN }>;
+    row("diffusion within a phase", within, by_hand, side, turns);
+    let terms = (Compression, Molteni { delta: DELTA });
+    let by_hand = Continuity::<{ COMPRESSION | OF_DENSITY }>;
+    row("diffusion, Molteni", terms, by_hand, side, turns);
+    let terms = (Compression, Antuono { delta: DELTA });
+    let by_hand = Continuity::<{ COMPRESSION | OF_BENT }>;
+    row("diffusion, Antuono", terms, by_hand, side, turns);
+    let terms = (Compression, RiemannDiffusion);
+    let by_hand = Continuity::<{ COMPRESSION | BY_RIEMANN }>;
+    row("diffusion, Riemann", terms, by_hand, side, turns);
     let terms = (Compression, shifting());
     let by_hand = Continuity::<{ COMPRESSION | SHIFTING }>;
     row("shifting", terms, by_hand, side, turns);
@@ -294,7 +325,7 @@ fn against_by_hand(side: usize, turns: usize) {
     row("volume consistency", terms, by_hand, side, turns);
     let terms = (Compression, diffusion(), shifting(), Unity, pairing());
     let by_hand = Continuity::<{ COMPRESSION | DIFFUSION | SHIFTING | CONSISTENCY | PAIRING }>;
-    row("all four", terms, by_hand, side, turns);
+    row("all five", terms, by_hand, side, turns);
     let crowding = Crowding {
         over_kernel_at_spacing: at_spacing,
     };
@@ -303,7 +334,25 @@ fn against_by_hand(side: usize, turns: usize) {
     let terms = (Compression, ShiftedContinuity);
     let by_hand = Continuity::<{ COMPRESSION | SHIFTED }>;
     row("consistent shifting", terms, by_hand, side, turns);
+    let by_hand = Continuity::<SUMMED>;
+    row("kernel sum", (KernelSum,), by_hand, side, turns);
+    let terms = (KernelSum, Unity);
+    let by_hand = Continuity::<{ SUMMED | CONSISTENCY }>;
+    row("kernel sum, unity", terms, by_hand, side, turns);
+    let terms = (KernelSum, Unity, KernelMoment);
+    let by_hand = Continuity::<{ SUMMED | CONSISTENCY | FIRST_MOMENT }>;
+    row("kernel sum, unity, moment", terms, by_hand, side, turns);
+    let by_hand = Continuity::<{ SUMMED | SLOPE }>;
+    row(
+        "kernel sum, slope in h",
+        (KernelSum, SlopeInH),
+        by_hand,
+        side,
+        turns,
+    );
 
+    walls_by_hand::table(side, turns);
+    corrected_by_hand::table(side, turns);
     solids_by_hand::table(at_spacing, side, turns);
 }
 

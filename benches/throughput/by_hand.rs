@@ -6,6 +6,7 @@
 pub mod forces;
 
 use super::lattice::{BATCH, H, Lattice, assert_same, print_ratio, ratios, within_reach};
+use meshfree::effect::TwoPhase;
 use meshfree::kernel::{Kernel, WendlandC2};
 use meshfree::neighbors::{CHUNK, ClusterLists};
 use meshfree::particles::{Field, Fields, Output};
@@ -184,7 +185,7 @@ impl<W: Written, R: Record> OnRows<f64> for ByHand<'_, W, R> {
 type Composed<P> = FusedKernel<WendlandC2, P, { SmoothingMode::Uniform.bit() }>;
 
 /// Fields of terms: a mean, and by how much each component varies in space.
-const VALUES: [(Field, f64, f64); 12] = [
+const VALUES: [(Field, f64, f64); 18] = [
     (Field::DYNAMIC_VISCOSITY, 1.0, 0.1),
     (Field::PRESSURE, 0.0, 1e4),
     (Field::ENERGY, 1e3, 1e2),
@@ -200,13 +201,26 @@ const VALUES: [(Field, f64, f64); 12] = [
     (Field::matrix(13), 0.0, 1e6),
     (Field::matrix(15), 0.3, 1.0),
     (Field::scalar(9), 1e8, 1e7),
+    // Gradients, what corrects them, and what laws of viscosity keep of each particle.
+    (Field::CORRECTION, 0.3, 1.0),
+    (Field::PRESSURE_GRADIENT, 0.0, 1e3),
+    (Field::DENSITY_GRADIENT, 0.0, 1.0),
+    (Field::VELOCITY_GRADIENT, 0.0, 0.3),
+    (Field::VISCOSITY_COEFFICIENT, 1.0, 0.5),
+    (Field::DIVERGENCE, 0.0, 1.0),
 ];
 
 fn fill(lattice: &mut Lattice<f64>, fields: Fields) {
     for slot in 0..lattice.columns.slots() {
         let x = lattice.columns.vectors(Field::POSITION)[slot];
         if fields.contains(Field::REFERENCE_POSITION) {
-            lattice.columns.vectors_mut(Field::REFERENCE_POSITION)[slot] = x;
+            let built = x.map(|x| x + 0.02 * (0.7 * x).sin());
+            lattice.columns.vectors_mut(Field::REFERENCE_POSITION)[slot] = built;
+        }
+        if fields.contains(TwoPhase::PHASE) {
+            // Two liquids side by side.
+            let phase = if x[0] < 10.0 { 1000.0 } else { 1.0 };
+            lattice.columns.raw_mut(TwoPhase::PHASE)[slot] = phase;
         }
         for (field, mean, part) in VALUES {
             if fields.contains(field) {

@@ -179,7 +179,7 @@ pub fn assert_same(rows: &Results<f64, 3>, outputs: &[(Output, usize)], out: &[f
         for slot in 0..slots {
             let (a, b) = (rows.get(output, d, slot), by_hand(slot));
             assert!(
-                (a - b).abs() < 1e-9 * largest,
+                (a - b).abs() <= 1e-9 * largest,
                 "sum {k} of slot {slot}: {a} and {b}"
             );
         }

@@ -3,7 +3,7 @@
 
 use super::by_hand::{Apart, MOST, Record, Written, norm, over_shape_at_spacing, parting, places};
 use super::lattice::H;
-use meshfree::effect::ConsistentShifting;
+use meshfree::effect::{ConsistentShifting, TwoPhase};
 use meshfree::particles::{Field, Output};
 use meshfree::scalar::Lane;
 
@@ -21,6 +21,18 @@ pub const SHIFTED: u16 = 1 << 4;
 /// What the velocity of consistent shifting is made of, without compression.
 pub const CROWDING: u16 = 1 << 6;
 
+/// Diffusion within one of two phases, of density, of what is left of it by linear fields, and by a Riemann solver.
+pub const WITHIN: u16 = 1 << 7;
+pub const OF_DENSITY: u16 = 1 << 8;
+pub const OF_BENT: u16 = 1 << 9;
+pub const BY_RIEMANN: u16 = 1 << 10;
+/// All that diffuse.
+const DIFFUSIONS: u16 = DIFFUSION | WITHIN | OF_DENSITY | OF_BENT | BY_RIEMANN;
+/// Densities by sums: the kernel, its first moment, and its slope in h.
+pub const SUMMED: u16 = 1 << 11;
+pub const FIRST_MOMENT: u16 = 1 << 12;
+pub const SLOPE: u16 = 1 << 13;
+
 /// Where the sums of [`Continuity`] are, behind the compression.
 const DIFFUSED: usize = 1;
 const CONCENTRATION: usize = 2;
@@ -29,6 +41,9 @@ const NEAR: usize = 6;
 const UNITY: usize = 9;
 const RATE: usize = 10;
 const OUTWARDS: usize = 11;
+const KERNEL: usize = 14;
+const CONTACT: usize = 15;
+const SLOPES: usize = 16;
 
 /// The sums of `WHAT`.
 #[derive(Clone, Copy)]
@@ -36,23 +51,27 @@ pub struct Continuity<const WHAT: u16>;
 
 impl<const WHAT: u16> Continuity<WHAT> {
     /// What is summed, its first sum, and how many there are.
-    fn sums() -> [(Output, usize, usize); 10] {
+    fn sums() -> [(Output, usize, usize); 13] {
         let count = |of: u16, components: usize| if WHAT & of != 0 { components } else { 0 };
         [
             (Output::COMPRESSION, 0, count(COMPRESSION, 1)),
-            (Output::DENSITY_DIFFUSION, DIFFUSED, count(DIFFUSION, 1)),
+            (Output::DENSITY_DIFFUSION, DIFFUSED, count(DIFFUSIONS, 1)),
             (
                 Output::CONCENTRATION_GRADIENT,
                 CONCENTRATION,
                 count(SHIFTING, 3),
             ),
-            (Output::MOMENT, MOMENT, count(SHIFTING, 1)),
+            (Output::MOMENT, MOMENT, count(SHIFTING | FIRST_MOMENT, 1)),
             (Output::vector(12), NEAR, count(PAIRING, 3)),
             (Output::UNITY, UNITY, count(CONSISTENCY, 1)),
             (Output::scalar(12), RATE, count(SHIFTED, 1)),
             (Output::vector(11), CONCENTRATION, count(CROWDING, 3)),
             (Output::vector(10), OUTWARDS, count(CROWDING, 3)),
             (Output::scalar(13), MOMENT, count(CROWDING, 1)),
+            (Output::KERNEL_SUM, KERNEL, count(SUMMED, 1)),
+            // Across contacts, of which there are none.
+            (Output::CONTACT_SUM, CONTACT, count(SUMMED, 1)),
+            (Output::SLOPE_IN_H, SLOPES, count(SLOPE, 1)),
         ]
     }
 }
@@ -64,15 +83,21 @@ impl<const WHAT: u16> Written for Continuity<WHAT> {
     }
     #[inline(always)]
     fn prepare<Row: Lane<Scalar = f64>, R: Record>(&self, own: &mut [Row; MOST]) {
-        let [c, rho, shift] = const {
-            places::<R, 3>([
+        let [c, rho, shift, bend] = const {
+            places::<R, 4>([
                 Field::SOUND_SPEED,
                 Field::DENSITY,
                 ConsistentShifting::VELOCITY,
+                Field::DENSITY_GRADIENT,
             ])
         };
-        if WHAT & DIFFUSION != 0 {
+        if WHAT & (DIFFUSION | WITHIN) != 0 {
             own[c] = Row::splat(2.0 * DELTA * H) / own[c];
+        }
+        if WHAT & OF_BENT != 0 {
+            for d in 0..3 {
+                own[bend + d] = own[bend + d] * Row::splat(-0.5);
+            }
         }
         if WHAT & SHIFTED != 0 {
             for d in 0..3 {
@@ -90,8 +115,14 @@ impl<const WHAT: u16> Written for Continuity<WHAT> {
     ) {
         let [m, rho, c] =
             const { places::<R, 3>([Field::MASS, Field::DENSITY, Field::SOUND_SPEED]) };
-        let [weight, p, shift] = const {
-            places::<R, 3>([Field::WEIGHT, Field::PRESSURE, ConsistentShifting::VELOCITY])
+        let [weight, p, shift, phase, bend] = const {
+            places::<R, 5>([
+                Field::WEIGHT,
+                Field::PRESSURE,
+                ConsistentShifting::VELOCITY,
+                TwoPhase::PHASE,
+                Field::DENSITY_GRADIENT,
+            ])
         };
         let Apart { r, d2, shape, f } = *apart;
         let gradient = Row::splat(other[weight]) * f;
@@ -99,10 +130,38 @@ impl<const WHAT: u16> Written for Continuity<WHAT> {
             let (_, vr) = parting::<Row, R>(&r, own, other);
             sums[0] = gradient.mul_add(vr, sums[0]);
         }
-        if WHAT & DIFFUSION != 0 {
+        if WHAT & (DIFFUSION | WITHIN) != 0 {
             // Without a body force nothing is hydrostatic.
-            let difference = own[p] - Row::splat(other[p]);
+            let mut difference = own[p] - Row::splat(other[p]);
+            if WHAT & WITHIN != 0 {
+                let its = Row::splat(other[phase]);
+                let alike = own[phase].le(its) & its.le(own[phase]);
+                difference = Row::select(alike, difference, Row::zero());
+            }
             sums[DIFFUSED] = (gradient * own[c]).mul_add(difference, sums[DIFFUSED]);
+        }
+        if WHAT & (OF_DENSITY | OF_BENT) != 0 {
+            let mut jump = own[rho] - Row::splat(other[rho]);
+            if WHAT & OF_BENT != 0 {
+                for d in 0..3 {
+                    // The row has its half, negative.
+                    let mean = own[bend + d] - Row::splat(0.5 * other[bend + d]);
+                    jump = mean.mul_add(r[d], jump);
+                }
+            }
+            let sounds = own[c] + Row::splat(other[c]);
+            sums[DIFFUSED] = (gradient * sounds).mul_add(jump, sums[DIFFUSED]);
+        }
+        if WHAT & BY_RIEMANN != 0 {
+            let jump = (own[p] - Row::splat(other[p])) * d2.sqrt();
+            let sounds = own[c] + Row::splat(other[c]);
+            sums[DIFFUSED] = gradient.mul_add(jump / sounds, sums[DIFFUSED]);
+        }
+        if WHAT & SUMMED != 0 {
+            sums[KERNEL] = Row::splat(other[weight]).mul_add(shape, sums[KERNEL]);
+        }
+        if WHAT & (FIRST_MOMENT | SLOPE) != 0 {
+            sums[MOMENT] = gradient.mul_add(d2, sums[MOMENT]);
         }
         if WHAT & (SHIFTING | CROWDING) != 0 {
             let square = shape * shape;
@@ -144,8 +203,21 @@ impl<const WHAT: u16> Written for Continuity<WHAT> {
     #[inline(always)]
     fn finish<Row: Lane<Scalar = f64>>(&self, sums: &[Row; MOST]) -> [Row; MOST] {
         let mut sums = *sums;
-        sums[MOMENT] = sums[MOMENT] * Row::splat(-1.0 / 3.0);
-        sums[UNITY] = sums[UNITY] * Row::splat(norm() / H.powi(3));
+        let kernel = Row::splat(norm() / H.powi(3));
+        sums[KERNEL] = sums[KERNEL] * kernel;
+        // ∂W/∂h = −(3 W + r² F)/h
+        let slopes = sums[KERNEL].mul_add(Row::splat(3.0), sums[MOMENT]);
+        sums[SLOPES] = slopes * Row::splat(-1.0 / H);
+        if WHAT & (OF_DENSITY | OF_BENT) != 0 {
+            sums[DIFFUSED] = sums[DIFFUSED] * Row::splat(DELTA * H);
+        }
+        if WHAT & BY_RIEMANN != 0 {
+            sums[DIFFUSED] = sums[DIFFUSED] + sums[DIFFUSED];
+        }
+        if WHAT & CROWDING == 0 {
+            sums[MOMENT] = sums[MOMENT] * Row::splat(-1.0 / 3.0);
+        }
+        sums[UNITY] = sums[UNITY] * kernel;
         let (mut finished, mut at) = ([Row::zero(); MOST], 0);
         for (_, first, count) in Self::sums() {
             for k in 0..count {

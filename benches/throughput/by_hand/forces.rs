@@ -3,6 +3,7 @@
 
 use super::super::lattice::H;
 use super::{Apart, MOST, Record, Written, over_shape_at_spacing, parting, places, row, skipped};
+use meshfree::effect::TwoPhase;
 use meshfree::particles::{Field, Output};
 use meshfree::scalar::Lane;
 use meshfree::term::viscosity::MonaghanGingold;
@@ -11,6 +12,7 @@ use meshfree::term::{PressureForce, Viscosity};
 const ALPHA: f64 = 0.02;
 pub const SHARE: f64 = 0.3;
 pub const CONDUCTION: f64 = 0.5;
+pub const SHARPNESS: f64 = 0.02;
 
 /// What a loop sums beside the pressure force.
 pub const VISCOSITY: u16 = 1;
@@ -19,6 +21,12 @@ pub const TENSION: u16 = 1 << 2;
 pub const ENERGY: u16 = 1 << 3;
 /// Needs the energy.
 pub const CONDUCTED: u16 = 1 << 4;
+/// The same by the velocity at which pairs part.
+pub const BY_VELOCITY: u16 = 1 << 5;
+/// The repulsion of two phases.
+pub const PHASES: u16 = 1 << 6;
+/// Laminar viscosity along the line of centres.
+pub const CENTRAL: u16 = 1 << 7;
 
 /// Where the sums of [`Forces`] are, behind the force.
 const SIGNAL: usize = 3;
@@ -36,7 +44,7 @@ impl<const WHAT: u16> Written for Forces<WHAT> {
             (Output::FORCE, 3),
             (Output::SIGNAL, count(VISCOSITY)),
             (Output::POWER, count(ENERGY)),
-            (Output::scalar(14), count(CONDUCTED)),
+            (Output::scalar(14), count(CONDUCTED | BY_VELOCITY)),
         ]
     }
     #[inline(always)]
@@ -49,18 +57,19 @@ impl<const WHAT: u16> Written for Forces<WHAT> {
     ) {
         let [m, rho, c] =
             const { places::<R, 3>([Field::MASS, Field::DENSITY, Field::SOUND_SPEED]) };
-        let [weight, coefficient, mu, p, e] = const {
-            places::<R, 5>([
+        let [weight, coefficient, mu, p, e, phase] = const {
+            places::<R, 6>([
                 Field::WEIGHT,
                 Field::PRESSURE_COEFFICIENT,
                 Field::DYNAMIC_VISCOSITY,
                 Field::PRESSURE,
                 Field::ENERGY,
+                TwoPhase::PHASE,
             ])
         };
         let Apart { r, d2, shape, f } = *apart;
         let (mut jump, mut vr) = ([Row::zero(); 3], Row::zero());
-        if WHAT & (VISCOSITY | LAMINAR | ENERGY) != 0 {
+        if WHAT & (VISCOSITY | LAMINAR | CENTRAL | ENERGY) != 0 {
             (jump, vr) = parting::<Row, R>(&r, own, other);
         }
         let weights = own[weight] * Row::splat(other[weight]);
@@ -85,7 +94,7 @@ impl<const WHAT: u16> Written for Forces<WHAT> {
             let inside = f.lt(Row::zero());
             let signal = speed * Row::splat(0.3);
             sums[SIGNAL] = sums[SIGNAL].max(Row::select(inside, signal, Row::zero()));
-        } else if WHAT & CONDUCTED != 0 {
+        } else if WHAT & (CONDUCTED | BY_VELOCITY) != 0 {
             over_densities = densities.recip();
         }
         if WHAT & TENSION != 0 {
@@ -95,6 +104,20 @@ impl<const WHAT: u16> Written for Forces<WHAT> {
             let tension = (-own[p]).positive_part() + Row::splat((-other[p]).max(0.0));
             let pull = tension * Row::splat(SHARE) * (square * square);
             along = weights.mul_add(pull, along);
+        }
+        if WHAT & PHASES != 0 {
+            let other_phase = Row::splat(other[phase]);
+            let unlike = own[phase].lt(other_phase) | other_phase.lt(own[phase]);
+            let push = own[p].abs() + Row::splat(other[p].abs());
+            let push = Row::select(unlike, push * Row::splat(SHARPNESS), Row::zero());
+            along = weights.mul_add(push, along);
+        }
+        if WHAT & CENTRAL != 0 {
+            // By one division, as below.
+            let mean = masses * own[mu] * Row::splat(-20.0 * other[mu]);
+            let below = own[rho] * Row::splat(other[rho]) * (own[mu] + Row::splat(other[mu]));
+            let distance2 = d2 + Row::splat(1e-6 * H * H);
+            along = along + mean * vr / (below * distance2);
         }
         let radial = -(along * f);
         for d in 0..3 {
@@ -113,6 +136,10 @@ impl<const WHAT: u16> Written for Forces<WHAT> {
         }
         if WHAT & ENERGY != 0 {
             sums[POWER] = sums[POWER] + power;
+        }
+        if WHAT & BY_VELOCITY != 0 {
+            let rate = masses * vr.abs() * (f * over_densities);
+            sums[FLOW] = rate.mul_add(own[e] - Row::splat(other[e]), sums[FLOW]);
         }
         if WHAT & CONDUCTED != 0 {
             let difference = (own[p] - Row::splat(other[p])).abs();
@@ -133,7 +160,7 @@ impl<const WHAT: u16> Written for Forces<WHAT> {
             finished[k] = sums[POWER].mul_add(Row::splat(-0.5), flow);
             k += 1;
         }
-        if WHAT & CONDUCTED != 0 {
+        if WHAT & (CONDUCTED | BY_VELOCITY) != 0 {
             finished[k] = flow;
         }
         finished

@@ -6,8 +6,8 @@ use super::by_hand::{
 };
 use super::lattice::H;
 use meshfree::effect::{
-    ArtificialStress, HourglassControl, HourglassFree, Hypoelastic, Repulsion, StressForce,
-    TotalLagrangian, VelocityMismatch,
+    ArtificialStress, DisplacementGradient, HourglassControl, HourglassFree, Hypoelastic,
+    Repulsion, StressForce, TotalLagrangian, VelocityMismatch,
 };
 use meshfree::particles::{Field, Output};
 use meshfree::scalar::Lane;
@@ -295,6 +295,38 @@ impl<const CONTROLLED: bool> Written for Total<CONTROLLED> {
     }
 }
 
+/// The sum of the deformation of a total-Lagrangian solid.
+#[derive(Clone, Copy)]
+struct Deformation;
+
+impl Written for Deformation {
+    fn outputs() -> Vec<(Output, usize)> {
+        vec![(Output::matrix(15), 9)]
+    }
+    #[inline(always)]
+    fn pair<Row: Lane<Scalar = f64>, R: Record>(
+        &self,
+        apart: &Apart<Row>,
+        own: &[Row; MOST],
+        other: &[f64],
+        sums: &mut [Row; MOST],
+    ) {
+        let [x, weight] = const { places::<R, 2>([Field::POSITION, Field::WEIGHT]) };
+        let Apart { r: built, f, .. } = *apart;
+        let factor = Row::splat(-other[weight]) * f;
+        for a in 0..3 {
+            let displaced = factor * (own[x + a] - Row::splat(other[x + a]) - built[a]);
+            for b in 0..3 {
+                sums[3 * a + b] = displaced.mul_add(built[b], sums[3 * a + b]);
+            }
+        }
+    }
+    #[inline(always)]
+    fn finish<Row: Lane<Scalar = f64>>(&self, sums: &[Row; MOST]) -> [Row; MOST] {
+        *sums
+    }
+}
+
 /// Sums of solids, alone and together.
 pub fn table(over_kernel_at_spacing: f64, side: usize, turns: usize) {
     let repulsion = || Repulsion {
@@ -329,6 +361,14 @@ pub fn table(over_kernel_at_spacing: f64, side: usize, turns: usize) {
         "velocity gradient, mismatch",
         terms,
         Gradients::<true>,
+        side,
+        turns,
+    );
+    let deformation = (DisplacementGradient,);
+    row(
+        "total-Lagrangian deformation",
+        deformation,
+        Deformation,
         side,
         turns,
     );
