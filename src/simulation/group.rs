@@ -252,9 +252,12 @@ impl<T: Real, const D: usize> Group<T, D> {
         if self.neighborhood.lists.chunks().is_empty() {
             self.rebuild(time);
         } else if !self.scheme.density.keeps_neighbors()
-            && self
-                .neighborhood
-                .outdated(&self.particles, &self.boundaries, shift, time)
+            && self.neighborhood.outdated(
+                &self.particles,
+                &self.boundaries,
+                !self.outlets.is_empty(),
+                (shift, time),
+            )
         {
             self.neighborhood.choose_skin();
             self.rebuild(time);

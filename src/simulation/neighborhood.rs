@@ -119,13 +119,14 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
     }
 
     /// Whether a particle has moved, or its support has grown, by more than the skin allows. `shift` \[m\] is how far
-    /// a container that takes its liquid with it has gone: only what moves in it outdates lists.
+    /// a container that takes its liquid with it has gone: only what moves in it outdates lists. With `outlets`, which
+    /// take particles where lists are made, these are made when all have moved together, too.
     pub fn outdated(
         &self,
         particles: &Particles<T, D>,
         boundaries: &[Arc<dyn Boundary<T, D>>],
-        shift: [f64; D],
-        time: f64,
+        outlets: bool,
+        (shift, time): ([f64; D], f64),
     ) -> bool {
         let positions = particles.columns.vectors(Field::POSITION);
         let moved_by = |slot: usize, d: usize| {
@@ -158,7 +159,7 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
             })
             .sum();
         let left = self.skin - carried - self.support * grown;
-        if 2.0 * farthest <= left || !boundaries.is_empty() {
+        if 2.0 * farthest <= left || outlets || !boundaries.is_empty() {
             return 2.0 * farthest > left;
         }
         // What moves together stays together: no pair parts by more than the corners of all ways are apart.
