@@ -3,7 +3,7 @@
 
 use super::Failure;
 use super::cases::{Case, short};
-use super::choices::{Precision, SchemeChoice};
+use super::choices::SchemeChoice;
 use super::claims::{last_above, pulse_length};
 use super::figures::at;
 use super::options::Options;
@@ -31,11 +31,6 @@ pub struct Row {
 /// A job: a case, and whether the reference is solved too.
 type Job = (String, Case, bool);
 
-/// Label of the run in single precision.
-fn single(label: &str) -> String {
-    format!("{label}, f32")
-}
-
 fn jobs(options: &Options) -> Vec<Job> {
     let mut jobs = Vec::new();
     for scheme in SCHEMES {
@@ -43,17 +38,6 @@ fn jobs(options: &Options) -> Vec<Job> {
         for (label, mut case) in all {
             if label == "wall" {
                 case.snapshots = vec![5e-6];
-            }
-            if label == "copper" {
-                let precision = Precision::F32;
-                jobs.push((
-                    single(&label),
-                    Case {
-                        precision,
-                        ..case.clone()
-                    },
-                    false,
-                ));
             }
             if label == pad_label(10.0) {
                 // A pad that is no multiple of the striker, and the joint before the wave comes.
@@ -143,7 +127,7 @@ pub fn measure(options: &Options, folder: &Path) -> Result<(), Failure> {
     figures(&measured, &mut rows)?;
     contacts(&measured, &mut rows)?;
     super::pads::rows(&measured, &mut rows)?;
-    conservation(&measured, &mut rows)?;
+    conservation(&measured, &mut rows);
     super::invariants::rows(options, &mut |name, bar, values| {
         rows.push(Row { name, bar, values });
     })?;
@@ -337,10 +321,10 @@ fn contacts(measured: &Measured, rows: &mut Vec<Row>) -> Result<(), Failure> {
     Ok(())
 }
 
-fn conservation(measured: &Measured, rows: &mut Vec<Row>) -> Result<(), Failure> {
+fn conservation(measured: &Measured, rows: &mut Vec<Row>) {
     let worst = |scheme: SchemeChoice, of: &dyn Fn(&Record) -> f64| {
         let own = measured.records.iter().map(|(_, record)| record);
-        let own = own.filter(|r| r.case.scheme == scheme && r.case.precision == Precision::F64);
+        let own = own.filter(|r| r.case.scheme == scheme);
         own.fold(0.0, |most: f64, record| most.max(of(record)))
     };
     let all = |of: &dyn Fn(&Record) -> f64| SCHEMES.iter().map(|&s| worst(s, of)).collect();
@@ -354,25 +338,4 @@ fn conservation(measured: &Measured, rows: &mut Vec<Row>) -> Result<(), Failure>
         bar: 1e-11,
         values: all(&|r| r.energy_drift),
     });
-    let theory = measured.theory("copper")?;
-    for (p, x0) in [5e-3, 15e-3].into_iter().enumerate() {
-        let mut values = Vec::new();
-        for scheme in SCHEMES {
-            let double = measured.record(scheme, "copper")?;
-            let float = measured.record(scheme, &single("copper"))?;
-            let (from, until) = window(theory, x0, 1)?;
-            let inside = double.time.iter().zip(&double.probes[p].stress);
-            let apart = inside
-                .filter(|(t, _)| (from..until).contains(*t))
-                .map(|(&t, stress)| (at(&float.time, &float.probes[p].stress, t) - stress).abs());
-            values.push(apart.fold(0.0, f64::max) / 353.17e6);
-        }
-        let name = format!("f32 against f64 on the plateau at {} mm", short(1e3 * x0));
-        rows.push(Row {
-            name,
-            bar: 2e-3,
-            values,
-        });
-    }
-    Ok(())
 }

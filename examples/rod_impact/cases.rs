@@ -1,15 +1,12 @@
 //! A case: a striker, perhaps with a pad on its head, that hits a rod or a wall.
 //! Geometry, materials and numerical choices; its scene and its exact solutions follow from it.
 
-use super::choices::{
-    ContactChoice, IntegratorChoice, Precision, SchemeChoice, StateChoice, StrengthChoice,
-};
+use super::choices::{ContactChoice, IntegratorChoice, SchemeChoice, StateChoice, StrengthChoice};
 use meshfree::boundary::MirrorPlane;
 use meshfree::effect::{Hypoelastic, NoWalls, Plasticity, UniaxialStress};
 use meshfree::error::{Error, Result};
 use meshfree::kernel::{CubicSpline, KernelKind};
 use meshfree::material::{Material, catalogue};
-use meshfree::scalar::Real;
 use meshfree::scene::{Body, Scene};
 use meshfree::scheme::{EnergyForm, Scheme, SchemeBuilder};
 use meshfree::schemes;
@@ -42,7 +39,6 @@ pub struct Case {
     pub until: f64,
     pub probes: Vec<f64>,
     pub snapshots: Vec<f64>,
-    pub precision: Precision,
 }
 
 impl Default for Case {
@@ -67,7 +63,6 @@ impl Default for Case {
             until: 12.7e-6,
             probes: Vec::new(),
             snapshots: Vec::new(),
-            precision: Precision::F64,
         }
     }
 }
@@ -93,7 +88,7 @@ impl Rod {
 }
 
 /// A catalogue material, or the crate's error for a name that it does not know.
-pub fn material<T: Real>(name: &str) -> Result<Material<T>> {
+pub fn material(name: &str) -> Result<Material<f64>> {
     catalogue::by_name(name).map_err(|unknown| {
         Error::Argument(meshfree::error::Problem::UnknownName {
             kind: "material",
@@ -104,8 +99,8 @@ pub fn material<T: Real>(name: &str) -> Result<Material<T>> {
 }
 
 /// A material with a shear modulus, that of a relative in the catalogue where it has none: the paper states none.
-pub fn with_shear<T: Real>(material: Material<T>) -> Material<T> {
-    let relative: Material<T> = match material.name.as_str() {
+pub fn with_shear(material: Material<f64>) -> Material<f64> {
+    let relative: Material<f64> = match material.name.as_str() {
         "copper" => catalogue::ofhc_copper(),
         "steel" => catalogue::steel_4340(),
         "aluminium" => catalogue::aluminium_6061_t6(),
@@ -200,9 +195,9 @@ impl Case {
         )
     }
 
-    /// The scene as a simulation with one of its schemes.
-    pub fn build<T: Real>(&self, scheme: Scheme<T, 1>) -> Result<Simulation<T, 1>> {
-        let mut scene = Scene::new(scheme).boxed_integrator(self.integrator().make());
+    /// The scene as a simulation.
+    pub fn build(&self) -> Result<Simulation<f64, 1>> {
+        let mut scene = Scene::new(self.scheme()).boxed_integrator(self.integrator().make());
         for rod in self.rods() {
             let mut material = material(&rod.material)?;
             if self.bears_shear() {
@@ -232,7 +227,7 @@ impl Case {
     }
 
     /// The scheme with all choices made.
-    pub fn scheme(&self) -> Scheme<f64, 1> {
+    fn scheme(&self) -> Scheme<f64, 1> {
         if self.is_ready() {
             return self.ready_scheme();
         }
@@ -257,8 +252,8 @@ impl Case {
         }
     }
 
-    /// The scheme of a case that [`Self::is_ready`]: the others are compiled in f64 alone.
-    pub fn ready_scheme<T: Real>(&self) -> Scheme<T, 1> {
+    /// The scheme of a case that [`Self::is_ready`].
+    fn ready_scheme(&self) -> Scheme<f64, 1> {
         match self.scheme {
             SchemeChoice::Impact => self.adjusted(schemes::impact()).compose(),
             SchemeChoice::Continuity => self.adjusted(schemes::impact_by_continuity()).compose(),
@@ -267,7 +262,7 @@ impl Case {
     }
 
     /// Whether the case has a ready scheme with its own kernel and viscosity, without shear, and one spacing.
-    pub fn is_ready(&self) -> bool {
+    fn is_ready(&self) -> bool {
         let own_kernel = self
             .kernel
             .is_none_or(|kernel| kernel == KernelKind::CubicSpline);

@@ -1,4 +1,4 @@
-//! What can be chosen by name on the command line: scheme, integrator, contact, precision.
+//! What can be chosen by name on the command line: scheme, integrator, contact, state.
 //! Each list is written once; parsing, help and messages follow from it.
 
 use clap::ValueEnum;
@@ -64,12 +64,6 @@ choices! {
     /// Whether rods yield.
     StrengthChoice:
     On "on", Off "off",
-}
-
-choices! {
-    /// The scalar of the particles.
-    Precision:
-    F32 "f32", F64 "f64",
 }
 
 impl SchemeChoice {

@@ -2,9 +2,7 @@
 //! A bad option names itself, the value it was given, and what it takes.
 
 use super::cases::{Case, material};
-use super::choices::{
-    ContactChoice, IntegratorChoice, Precision, SchemeChoice, StateChoice, StrengthChoice,
-};
+use super::choices::{ContactChoice, IntegratorChoice, SchemeChoice, StateChoice, StrengthChoice};
 use clap::error::ErrorKind;
 use clap::parser::ValueSource;
 use clap::{CommandFactory, FromArgMatches, Parser};
@@ -62,8 +60,6 @@ struct Line {
     viscosity: Option<ViscosityKind>,
     #[arg(long, value_name = "NAME", help_heading = METHOD)]
     contact: Option<ContactChoice>,
-    #[arg(long, value_name = "NAME", default_value = "f64", help_heading = METHOD)]
-    precision: Precision,
     /// All cores if not given
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), help_heading = METHOD)]
     threads: Option<u16>,
@@ -175,16 +171,8 @@ impl Line {
             until: 0.0,
             probes: all(self.probe, 1e-3),
             snapshots: all(self.snapshot, 1e-6),
-            precision: self.precision,
         };
         shear(&case)?;
-        if case.precision == Precision::F32 && !case.is_ready() {
-            return Err(
-                "--precision: `f32` goes with a ready scheme, its own kernel and viscosity, rods without shear and one \
-                 spacing for all of them; leave out the rest, or take f64"
-                    .into(),
-            );
-        }
         complete(&mut case, self.until.map(|end| 1e-6 * end))?;
         Ok(case)
     }

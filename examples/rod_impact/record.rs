@@ -2,11 +2,10 @@
 //! Given a folder, everything is in its files as soon as it is known.
 
 use super::cases::{Case, short};
-use super::choices::{IntegratorChoice, Precision};
+use super::choices::IntegratorChoice;
 use meshfree::effect::{Hypoelastic, Plasticity};
 use meshfree::error::Result;
 use meshfree::output::csv::{Cell, CsvWriter};
-use meshfree::scalar::Real;
 use meshfree::scheme::Scheme;
 use meshfree::simulation::{Ledger, ParticleView, Simulation};
 use std::path::Path;
@@ -102,9 +101,9 @@ impl Place {
     }
 
     /// Stress and velocity.
-    fn read<T: Real>(&self, simulation: &Simulation<T, 1>) -> Result<(f64, f64)> {
+    fn read(&self, simulation: &Simulation<f64, 1>) -> Result<(f64, f64)> {
         let mut particles = simulation.body(self.body)?.skip(self.left);
-        let state = |p: ParticleView<'_, T, 1>| (stress(&p), p.velocity()[0]);
+        let state = |p: ParticleView<'_, f64, 1>| (stress(&p), p.velocity()[0]);
         let left = particles.next().map_or((0.0, 0.0), state);
         let right = match particles.next() {
             Some(particle) if self.right > self.left => state(particle),
@@ -116,9 +115,9 @@ impl Place {
 }
 
 /// Stress along the rod \[Pa\], positive in tension.
-fn stress<T: Real>(p: &ParticleView<'_, T, 1>) -> f64 {
+fn stress(p: &ParticleView<'_, f64, 1>) -> f64 {
     let deviator = p.tensor(Hypoelastic::STRESS);
-    let along = deviator.map_or(0.0, |stress| stress.components()[0].to_f64());
+    let along = deviator.map_or(0.0, |stress| stress.components()[0]);
     along - p.pressure()
 }
 
@@ -192,24 +191,12 @@ pub enum Watch<'a> {
 
 /// Runs a case. `progress` is told the time \[s\] now and then.
 pub fn run(case: &Case, watch: Watch<'_>, progress: &mut dyn FnMut(f64)) -> Result<Record> {
-    match case.precision {
-        Precision::F32 => run_with(case.ready_scheme::<f32>(), case, watch, progress),
-        Precision::F64 => run_with(case.scheme(), case, watch, progress),
-    }
-}
-
-fn run_with<T: Real>(
-    scheme: Scheme<T, 1>,
-    case: &Case,
-    watch: Watch<'_>,
-    progress: &mut dyn FnMut(f64),
-) -> Result<Record> {
     let started = Instant::now();
     let (folder, every) = match watch {
         Watch::Files(folder) => (Some(folder), 1),
         Watch::Every(steps) => (None, steps.max(1)),
     };
-    let mut simulation = case.build(scheme)?;
+    let mut simulation = case.build()?;
     let mut files = folder
         .map(|folder| Files::create(folder, case))
         .transpose()?;
@@ -253,7 +240,7 @@ fn run_with<T: Real>(
     let mut stops = case.snapshots.clone();
     stops.push(case.until);
     stops.sort_by(f64::total_cmp);
-    let mut observe = |simulation: &Simulation<T, 1>, record: &mut Record| -> Result<()> {
+    let mut observe = |simulation: &Simulation<f64, 1>, record: &mut Record| -> Result<()> {
         let ledger = (files.is_some() || simulation.steps().is_multiple_of(100))
             .then(|| simulation.ledger());
         note(simulation, &places, record)?;
@@ -304,11 +291,7 @@ fn run_with<T: Real>(
     Ok(record)
 }
 
-fn note<T: Real>(
-    simulation: &Simulation<T, 1>,
-    places: &[Place],
-    record: &mut Record,
-) -> Result<()> {
+fn note(simulation: &Simulation<f64, 1>, places: &[Place], record: &mut Record) -> Result<()> {
     record.time.push(simulation.time());
     for (probe, place) in record.probes.iter_mut().zip(places) {
         let (stress, velocity) = place.read(simulation)?;
@@ -333,8 +316,8 @@ fn note_drift(first: &Ledger, now: &Ledger, record: &mut Record) {
     record.energy_drift = record.energy_drift.max(drift(&energy));
 }
 
-fn take_snapshot<T: Real>(
-    simulation: &Simulation<T, 1>,
+fn take_snapshot(
+    simulation: &Simulation<f64, 1>,
     references: &[Vec<f64>],
     time: f64,
 ) -> Result<Snapshot> {

@@ -96,10 +96,9 @@ fn summary(record: &Record, threads: usize) -> String {
         record.scheme.clone(),
         String::new(),
         format!(
-            "integrator {}, contact {}, precision {}",
+            "integrator {}, contact {}",
             record.integrator,
-            case.contact().key(),
-            case.precision.key()
+            case.contact().key()
         ),
         format!(
             "{} particles every {} mm, {} steps to {} µs, {:.2} s on {threads} thread(s)",

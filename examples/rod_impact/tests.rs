@@ -32,13 +32,6 @@ fn bad_options_name_themselves_and_what_they_take() {
         ("--integrator euler", "--integrator", "'euler'", "lam-fresh"),
         ("--viscosity mg:-1", "--viscosity", "'mg:-1'", "limited"),
         ("--contact glue", "--contact", "'glue'", "bonded"),
-        ("--precision f16", "--precision", "'f16'", "f32, f64"),
-        (
-            "--precision f32 --viscosity none",
-            "--precision",
-            "`f32`",
-            "one spacing",
-        ),
         ("--threads 0", "--threads", "'0'", "1..=1024"),
         ("--probe 51", "--probe", "`51`", "0 to 50 mm"),
         ("--until 5 --snapshot 6", "--snapshot", "`6`", "5 µs"),
