@@ -227,7 +227,7 @@ impl Case {
     }
 
     /// The scheme with all choices made.
-    fn scheme(&self) -> Scheme<f64, 1> {
+    pub fn scheme(&self) -> Scheme<f64, 1> {
         if self.is_ready() {
             return self.ready_scheme();
         }

@@ -53,7 +53,7 @@ pub fn rows(options: &Options, add: &mut dyn FnMut(String, f64, Vec<f64>)) -> Re
 /// Largest difference of pressure and velocity between a rod on a wall and one of two equal rods,
 /// relative to those of the impact, at 2, 4, 6 and 8 µs.
 fn against_mirror(case: &Case) -> Result<f64, Failure> {
-    let mut wall = case.build(case.scheme())?;
+    let mut wall = case.build()?;
     let length = case.striker_length;
     let rod = |name, from: f64, speed| {
         Body::block(

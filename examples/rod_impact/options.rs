@@ -215,7 +215,7 @@ fn shear(case: &Case) -> Result<(), String> {
 /// Fills in what follows from the rest, and checks what options mean together.
 fn complete(case: &mut Case, until: Option<f64>) -> Result<(), String> {
     let transit = |rod: &super::cases::Rod| {
-        material::<f64>(&rod.material).map_or(0.0, |material| {
+        material(&rod.material).map_or(0.0, |material| {
             rod.length() * material.reference_density() / material.impedance()
         })
     };
@@ -348,7 +348,7 @@ fn is_stiff(name: &str) -> bool {
 }
 
 fn solid(value: &str) -> Result<String, String> {
-    let found = material::<f64>(value).ok().filter(|_| is_stiff(value));
+    let found = material(value).ok().filter(|_| is_stiff(value));
     found.map(|material| material.name).ok_or_else(|| {
         let names = catalogue::NAMES.iter().copied();
         let names: Vec<_> = names.filter(|name| is_stiff(name)).collect();

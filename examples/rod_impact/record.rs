@@ -6,7 +6,6 @@ use super::choices::IntegratorChoice;
 use meshfree::effect::{Hypoelastic, Plasticity};
 use meshfree::error::Result;
 use meshfree::output::csv::{Cell, CsvWriter};
-use meshfree::scheme::Scheme;
 use meshfree::simulation::{Ledger, ParticleView, Simulation};
 use std::path::Path;
 use std::time::{Duration, Instant};

@@ -117,7 +117,7 @@ fn summary(record: &Record, threads: usize) -> String {
             .into(),
     ];
     for rod in case.rods() {
-        if let Ok(material) = super::cases::material::<f64>(&rod.material) {
+        if let Ok(material) = super::cases::material(&rod.material) {
             lines.push(format!(
                 "{}: {} mm of {}, {:?} ({})",
                 rod.name,

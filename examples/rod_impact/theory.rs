@@ -20,7 +20,7 @@ impl Theory {
     pub fn of(case: &Case, cells: usize) -> Result<Self, Failure> {
         let mut chain = GodunovRods::new(cells);
         for (k, rod) in case.rods().iter().enumerate() {
-            let material = material::<f64>(&rod.material)?;
+            let material = material(&rod.material)?;
             let density = material.reference_density();
             if k == case.head() + 1 {
                 chain = chain.contact(case.contact().in_theory());
@@ -74,7 +74,7 @@ pub fn steps_of(
 pub fn waves(case: &Case) -> Result<AcousticSolution, Failure> {
     let mut waves = AcousticRods::new();
     for (k, rod) in case.rods().iter().enumerate() {
-        let material = material::<f64>(&rod.material)?;
+        let material = material(&rod.material)?;
         let density = material.reference_density();
         if k == case.head() + 1 {
             waves = waves.contact(case.contact().in_theory());
