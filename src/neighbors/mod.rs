@@ -20,7 +20,7 @@
 //! The skin is a trade: lists with a thicker skin are longer, and last longer. In a simulation it is
 //! 0.1 of the support, and 0.2 where lists would not last ([`Scene::skin`](crate::scene::Scene::skin)).
 //! Lists are made anew when two particles may have come nearer by the skin: when the largest displacement is half of it
-//! and, where there are no images, displacements differ by more than it.
+//! and, where there are neither images nor outlets, displacements differ by more than it.
 
 mod cells;
 mod clusters;

@@ -160,6 +160,7 @@ impl<T: Real, const D: usize> OnRows<T> for Sieve<'_, T, D> {
     /// time the skin is used up, and to `found` the others.
     #[inline(always)]
     fn run<L: Lane<Scalar = T, Broadcast = T>>(self) {
+        const { assert!(L::WIDTH <= WIDEST) };
         let skin = self.input.skin;
         let Candidates {
             runs,

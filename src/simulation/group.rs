@@ -255,7 +255,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             && self.neighborhood.outdated(
                 &self.particles,
                 &self.boundaries,
-                !self.outlets.is_empty(),
+                self.is_open(),
                 (shift, time),
             )
         {
@@ -266,6 +266,11 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
         self.neighborhood.served += 1;
         self.work.phases.lists += start.elapsed();
+    }
+
+    /// Whether nothing happens at places: there are no images, and no outlets, which take particles where lists are made.
+    pub fn is_open(&self) -> bool {
+        self.boundaries.is_empty() && self.outlets.is_empty()
     }
 
     /// Brings walls that move to their places, and gives all walls their own velocity.

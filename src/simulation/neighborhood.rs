@@ -119,13 +119,13 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
     }
 
     /// Whether a particle has moved, or its support has grown, by more than the skin allows. `shift` \[m\] is how far
-    /// a container that takes its liquid with it has gone: only what moves in it outdates lists. With `outlets`, which
-    /// take particles where lists are made, these are made when all have moved together, too.
+    /// a container that takes its liquid with it has gone: only what moves in it outdates lists. Where nothing happens
+    /// at places (`open`), what moves together does not outdate them either.
     pub fn outdated(
         &self,
         particles: &Particles<T, D>,
         boundaries: &[Arc<dyn Boundary<T, D>>],
-        outlets: bool,
+        open: bool,
         (shift, time): ([f64; D], f64),
     ) -> bool {
         let positions = particles.columns.vectors(Field::POSITION);
@@ -159,10 +159,10 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
             })
             .sum();
         let left = self.skin - carried - self.support * grown;
-        if 2.0 * farthest <= left || outlets || !boundaries.is_empty() {
+        if 2.0 * farthest <= left || !open {
             return 2.0 * farthest > left;
         }
-        // What moves together stays together: no pair parts by more than the corners of all ways are apart.
+        // What moves together stays together: no pair's distance changes by more than the corners of all displacements are apart.
         let [low, high]: Corners<D> = corners(0..positions.len(), no_corners(), |slot| {
             core::array::from_fn(|d| moved_by(slot, d))
         });

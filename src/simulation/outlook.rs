@@ -136,12 +136,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let a_step = if group.scheme.density.keeps_neighbors() {
                 0.0
             } else {
-                // Where particles go apart from what rests, and where they may go against their images.
-                let against = if group.boundaries.is_empty() {
-                    1.0
-                } else {
-                    2.0
-                };
+                // Where particles go apart from what rests, and elsewhere, where any two may go against each other.
+                let against = if group.is_open() { 1.0 } else { 2.0 };
                 let way = neighborhood.skin / against;
                 builds_a_step(particles, &group.work, way, (step, end - begin))
             };

@@ -2,7 +2,7 @@
 //! while particles move within the skin.
 
 use crate::common::Random;
-use meshfree::boundary::{MirrorPlane, Periodic};
+use meshfree::boundary::{MirrorPlane, Outlet, Periodic};
 use meshfree::material::catalogue;
 use meshfree::neighbors::{Block, ClusterLists, Radii, SearchInput};
 use meshfree::scalar::InstructionSet;
@@ -217,24 +217,26 @@ fn a_rod_impact_does_not_feel_the_skin() {
     assert!(apart < 1e-9, "{apart:.3e}");
 }
 
-/// A sheet that shears and crosses its periods, so that lists, order and images all change.
-fn shear(skin: f64) -> Simulation<f64, 2> {
-    let length = 0.016;
-    let k = 2.0 * std::f64::consts::PI / length;
-    let mut simulation = Scene::new(schemes::impact_by_continuity())
-        .body(
-            Body::block("sheet", catalogue::copper(), [0.0; 2], [length; 2], 1e-3).start(
-                |x, start| meshfree::scene::Start {
-                    velocity: [
-                        300.0 + 60.0 * (k * x[1]).sin(),
-                        200.0 + 60.0 * (k * x[0]).cos(),
-                    ],
-                    ..start
-                },
-            ),
-        )
-        .boundary(Periodic::along(0, 0.0, length))
-        .boundary(Periodic::along(1, 0.0, length))
+/// Edge of a sheet that shears \[m\].
+const LENGTH: f64 = 0.016;
+
+/// A sheet that shears and moves as a whole, with what else `scene` gives it.
+fn shear(
+    skin: f64,
+    velocity: [f64; 2],
+    scene: impl FnOnce(Scene<f64, 2>) -> Scene<f64, 2>,
+) -> Simulation<f64, 2> {
+    let k = 2.0 * std::f64::consts::PI / LENGTH;
+    let sheet = Body::block("sheet", catalogue::copper(), [0.0; 2], [LENGTH; 2], 1e-3).start(
+        move |x, start| meshfree::scene::Start {
+            velocity: [
+                velocity[0] + 60.0 * (k * x[1]).sin(),
+                velocity[1] + 60.0 * (k * x[0]).cos(),
+            ],
+            ..start
+        },
+    );
+    let mut simulation = scene(Scene::new(schemes::impact_by_continuity()).body(sheet))
         .skin(skin)
         .steps(|control| StepControl {
             fixed: Some(4e-8),
@@ -250,7 +252,13 @@ fn shear(skin: f64) -> Simulation<f64, 2> {
 
 #[test]
 fn a_sheet_that_shears_through_its_periods_does_not_feel_the_skin() {
-    let (thin, thick) = (shear(0.02), shear(0.3));
+    // Lists, order and images all change.
+    let periods = |scene: Scene<f64, 2>| {
+        let scene = scene.boundary(Periodic::along(0, 0.0, LENGTH));
+        scene.boundary(Periodic::along(1, 0.0, LENGTH))
+    };
+    let of = |skin| shear(skin, [300.0, 200.0], periods);
+    let (thin, thick) = (of(0.02), of(0.3));
     println!(
         "{} and {} list builds",
         thin.list_builds(),
@@ -258,6 +266,27 @@ fn a_sheet_that_shears_through_its_periods_does_not_feel_the_skin() {
     );
     assert!(thin.list_builds() > 3 * thick.list_builds() && thick.list_builds() > 1);
     let apart = apart(&pressures(&thin), &pressures(&thick));
+    println!("apart {apart:.3e}");
+    assert!(apart < 1e-8, "{apart:.3e}");
+}
+
+#[test]
+fn lists_last_while_particles_move_together() {
+    let free = |scene| scene;
+    let (moving, still) = ([600.0, -300.0], [0.0; 2]);
+    let [fast, slow, thick] = [(0.02, moving), (0.02, still), (0.3, moving)]
+        .map(|(skin, velocity)| shear(skin, velocity, free));
+    // The control: an outlet takes particles where lists are made, and makes them follow places, however far away it is.
+    let far = Outlet::plane([1.0, 0.0], [1.0, 0.0]);
+    let watched = shear(0.02, moving, |scene| scene.outlet(far));
+    let [fast_builds, slow_builds, watched_builds] =
+        [&fast, &slow, &watched].map(|own| own.list_builds() as f64);
+    println!("{fast_builds} builds moving, {slow_builds} at rest, {watched_builds} watched");
+    assert!((fast_builds / slow_builds - 1.0).abs() < 0.1);
+    assert!(watched_builds > 2.0 * fast_builds && slow_builds > 10.0);
+    // And they miss no pair.
+    assert!(fast.list_builds() > 3 * thick.list_builds());
+    let apart = apart(&pressures(&fast), &pressures(&thick));
     println!("apart {apart:.3e}");
     assert!(apart < 1e-8, "{apart:.3e}");
 }
