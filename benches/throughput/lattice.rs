@@ -178,8 +178,10 @@ pub fn assert_same(rows: &Results<f64, 3>, outputs: &[(Output, usize)], out: &[f
         let largest = (0..slots).fold(0.0_f64, |m, slot| m.max(by_hand(slot).abs()));
         for slot in 0..slots {
             let (a, b) = (rows.get(output, d, slot), by_hand(slot));
+            // No contact is in the lattice; any other sum that is zero everywhere would hold nothing to the loop by hand.
+            let absent = output == Output::CONTACT_SUM && a == 0.0 && b == 0.0;
             assert!(
-                (a - b).abs() <= 1e-9 * largest,
+                absent || (a - b).abs() < 1e-9 * largest,
                 "sum {k} of slot {slot}: {a} and {b}"
             );
         }

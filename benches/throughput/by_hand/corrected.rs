@@ -123,10 +123,6 @@ impl<const WHAT: u8> Written for Force<WHAT> {
             sums[a] = sums[a] + force[a];
         }
     }
-    #[inline(always)]
-    fn finish<Row: Lane<Scalar = f64>>(&self, sums: &[Row; MOST]) -> [Row; MOST] {
-        *sums
-    }
 }
 
 const STRENGTH: f64 = 1.0 / 3.0;
@@ -176,10 +172,6 @@ impl Written for Midpoint {
             sums[d] = radial.mul_add(r[d], sums[d]);
         }
     }
-    #[inline(always)]
-    fn finish<Row: Lane<Scalar = f64>>(&self, sums: &[Row; MOST]) -> [Row; MOST] {
-        *sums
-    }
 }
 
 /// The corrected rate of compression.
@@ -210,10 +202,6 @@ impl Written for Compression {
             along = turned.mul_add(jump[a], along);
         }
         sums[0] = (Row::splat(other[weight]) * f).mul_add(along, sums[0]);
-    }
-    #[inline(always)]
-    fn finish<Row: Lane<Scalar = f64>>(&self, sums: &[Row; MOST]) -> [Row; MOST] {
-        *sums
     }
 }
 

@@ -126,10 +126,6 @@ impl<const WHAT: u8> Written for Updated<WHAT> {
             sums[d] = radial.mul_add(r[d], sums[d]);
         }
     }
-    #[inline(always)]
-    fn finish<Row: Lane<Scalar = f64>>(&self, sums: &[Row; MOST]) -> [Row; MOST] {
-        *sums
-    }
 }
 
 /// Where the sums of [`Gradients`] are, behind the compression: of the velocity gradient, the six of the moment
@@ -320,10 +316,6 @@ impl Written for Deformation {
                 sums[3 * a + b] = displaced.mul_add(built[b], sums[3 * a + b]);
             }
         }
-    }
-    #[inline(always)]
-    fn finish<Row: Lane<Scalar = f64>>(&self, sums: &[Row; MOST]) -> [Row; MOST] {
-        *sums
     }
 }
 
