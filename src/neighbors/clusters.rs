@@ -73,6 +73,23 @@ impl Clone for ChunkList {
 }
 
 impl ChunkList {
+    /// The segments of a cluster.
+    #[inline]
+    #[must_use]
+    pub fn segments_of(&self, cluster: usize) -> &[Segment] {
+        &self.segments[self.starts[cluster] as usize..self.starts[cluster + 1] as usize]
+    }
+
+    /// The neighbours of a segment, and how many of them, first, need not be looked at.
+    #[inline]
+    #[must_use]
+    pub fn listed(&self, segment: &Segment) -> (&[u32], usize) {
+        (
+            &self.neighbors[segment.start as usize..segment.end as usize],
+            (segment.near_end - segment.start) as usize,
+        )
+    }
+
     /// Ends a run of neighbours of the last cluster, unless it is empty.
     fn close(&mut self, start: usize, near_end: usize, block: usize, order: Order) {
         let end = self.neighbors.len();

@@ -255,7 +255,7 @@ pub trait Real:
     fn halves(row: &[Self], largest: bool) -> Self;
     /// Room for so many numbers that the thread keeps, with whatever is in it, aligned for rows. `work` must not ask for room.
     #[doc(hidden)]
-    fn with_room<R>(length: usize, work: impl FnOnce(&mut [Self]) -> R) -> R;
+    fn with_room(length: usize, work: &mut dyn FnMut(&mut [Self]));
     /// Rounded from `f64`.
     fn from_f64(value: f64) -> Self;
     /// Widened to `f64`.
@@ -358,7 +358,7 @@ macro_rules! real {
             fn halves(row: &[$T], largest: bool) -> $T {
                 halves::$halves(row, largest)
             }
-            fn with_room<R>(length: usize, work: impl FnOnce(&mut [$T]) -> R) -> R {
+            fn with_room(length: usize, work: &mut dyn FnMut(&mut [$T])) {
                 // The bytes of a row of either scalar.
                 const ROW: usize = 64;
                 thread_local! {
@@ -370,8 +370,8 @@ macro_rules! real {
                         room.resize(length + spare, 0.0);
                     }
                     let start = room.as_ptr().align_offset(ROW);
-                    work(&mut room[start..start + length])
-                })
+                    work(&mut room[start..start + length]);
+                });
             }
             #[inline(always)]
             fn from_f64(value: f64) -> $T {

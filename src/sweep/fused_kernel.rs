@@ -226,24 +226,9 @@ impl<K, P, const MODES: u8> FusedKernel<K, P, MODES> {
     ) where
         K: Kernel<D>,
     {
-        let width = <T::Wide<false> as Lane>::WIDTH;
         rows.lay_out(Composed::<T, Q, D, HOW>::WRITES);
-        let row = rows.outputs.width(D) * width;
-        // Only chunks with wanted slots have rows.
-        let slots = CHUNK * width;
-        let skipped = input.targets.start / slots;
-        rows.first = skipped * slots;
-        let wanted = input.targets.end.saturating_sub(rows.first);
-        let length = row * wanted.div_ceil(width);
-        // Sweeps take turns on the same rows: only growth costs.
-        if rows.data.len() < length {
-            rows.data.reserve_exact(length - rows.data.len());
-            rows.data.resize(length, T::zero());
-        }
-        rows.reactions
-            .resize_with(input.lists.chunks().len(), Vec::new);
-        let h = T::from_f64(input.smoothing_length);
         let instructions = input.instructions.or_detected();
+        let reach = self.kernel.support() * input.smoothing_length;
         let task = Task {
             kernel: &self.kernel,
             terms,
@@ -256,59 +241,66 @@ impl<K, P, const MODES: u8> FusedKernel<K, P, MODES> {
             body_force: input.body_force,
             lattice_consistency_factor: T::from_f64(input.lattice_consistency_factor),
             by_divider: input.root == Root::Divider,
-            h,
-            reach2: T::from_f64((self.kernel.support() * input.smoothing_length).powi(2) * BEYOND),
+            h: T::from_f64(input.smoothing_length),
+            reach2: T::from_f64(reach.powi(2) * BEYOND),
             kernel_norm: T::from_f64(self.kernel.normalisation()),
         };
-        rows.reactions.iter_mut().for_each(Vec::clear);
         over_chunks(
-            &mut rows.data[..length],
-            (row * CHUNK).max(1),
-            &mut rows.reactions[skipped..],
-            &input.lists.chunks()[skipped..],
-            &|chunk, list, out, reactions| {
-                T::with_room(
-                    room_for_both::<Composed<T, Q, D, HOW>, T::Wide<true>, D>(),
-                    |later| {
-                        let chunk = skipped + chunk;
-                        let whole = core::slice::from_ref(&input.targets);
-                        let runs = input.among.unwrap_or(whole);
-                        let own = chunk * slots..(chunk + 1) * slots;
-                        let from = runs.partition_point(|run| run.end <= own.start);
-                        for run in runs[from..].iter().take_while(|run| run.start < own.end) {
-                            let task = Task {
-                                targets: run,
-                                ..task
-                            };
-                            task.dispatch::<HOW>(
-                                instructions,
-                                (chunk, list),
-                                later,
-                                out,
-                                reactions,
-                            );
-                        }
-                    },
-                );
+            const { room_for_both::<Composed<T, Q, D, HOW>, T::Wide<true>, D>() },
+            input,
+            rows,
+            &|targets, list, later, out, reactions| {
+                let task = Task { targets, ..task };
+                task.dispatch::<HOW>(instructions, list, later, out, reactions);
             },
         );
     }
 }
 
-/// What a loop does with one chunk: its number, its lists, its rows and the forces on its blocks.
-type OneChunk<'a, T, const D: usize> =
-    dyn Fn(usize, &ChunkList, &mut [T], &mut Vec<Reaction<D>>) + Sync + 'a;
+/// What a loop does with one chunk: the slots that are wanted of it, its number and its lists, room for the other sides of its
+/// pairs, its rows and the forces on its blocks.
+type OneChunk<'a, T, const D: usize> = dyn Fn(&Range<usize>, (usize, &ChunkList), &mut [T], &mut [T], &mut Vec<Reaction<D>>)
+    + Sync
+    + 'a;
 
 /// Shares the chunks out over the threads. One indirect call a chunk, and what shares them out is compiled once and
 /// not for every loop.
 fn over_chunks<T: Real, const D: usize>(
-    rows: &mut [T],
-    row: usize,
-    reactions: &mut [Vec<Reaction<D>>],
-    lists: &[ChunkList],
+    room: usize,
+    input: &SweepInput<'_, T, D>,
+    rows: &mut Results<T, D>,
     work: &OneChunk<'_, T, D>,
 ) {
-    for_each((cut(rows, row), cut(reactions, 1)), |chunk, (out, own)| {
-        work(chunk, &lists[chunk], out, &mut own[0]);
+    let width = <T::Wide<false> as Lane>::WIDTH;
+    let row = rows.outputs.width(D) * width;
+    // Only chunks with wanted slots have rows.
+    let slots = CHUNK * width;
+    let skipped = input.targets.start / slots;
+    rows.first = skipped * slots;
+    let wanted = input.targets.end.saturating_sub(rows.first);
+    let length = row * wanted.div_ceil(width);
+    // Sweeps take turns on the same rows: only growth costs.
+    if rows.data.len() < length {
+        rows.data.reserve_exact(length - rows.data.len());
+        rows.data.resize(length, T::zero());
+    }
+    let lists = input.lists.chunks();
+    rows.reactions.resize_with(lists.len(), Vec::new);
+    rows.reactions.iter_mut().for_each(Vec::clear);
+    let whole = core::slice::from_ref(&input.targets);
+    let runs = input.among.unwrap_or(whole);
+    let pieces = (
+        cut(&mut rows.data[..length], (row * CHUNK).max(1)),
+        cut(&mut rows.reactions[skipped..], 1),
+    );
+    for_each(pieces, |piece, (out, reactions)| {
+        let chunk = skipped + piece;
+        let own = chunk * slots..(chunk + 1) * slots;
+        T::with_room(room, &mut |later| {
+            let from = runs.partition_point(|run| run.end <= own.start);
+            for run in runs[from..].iter().take_while(|run| run.start < own.end) {
+                work(run, (chunk, &lists[chunk]), later, out, &mut reactions[0]);
+            }
+        });
     });
 }

@@ -71,32 +71,19 @@ pub fn probe<L: Lane, const D: usize, K: Kernel<D>, A: Term<D>>(
 ) -> Probe<L, D> {
     const { assert_room::<Alone<A, D>, D>() }
     let reads = <Alone<A, D> as Layout>::READS;
-    let (mut own, mut other) = ([L::zero(); MOST_READS], [j(Field::POSITION, 0); MOST_READS]);
-    for field in reads.iter() {
-        for k in 0..field.components(D) {
-            own[reads.offset(field, D) + k] = i(field, k);
-            other[reads.offset(field, D) + k] = j(field, k);
-        }
-    }
-    let between = |field, k| i(field, k) - L::broadcast(j(field, k));
-    let r: [L; D] = core::array::from_fn(|d| between(Field::POSITION, d));
-    let v: [L; D] = core::array::from_fn(|d| between(Field::VELOCITY, d));
-    let r2 = (1..D).fold(r[0] * r[0], |sum, d| r[d].mul_add(r[d], sum));
-    let v_dot_r = (1..D).fold(v[0] * r[0], |sum, d| v[d].mul_add(r[d], sum));
-    let distance2 = if const { A::READS.contains(Field::REFERENCE_POSITION) } {
-        let apart: [L; D] = core::array::from_fn(|d| between(Field::REFERENCE_POSITION, d));
-        (1..D).fold(apart[0] * apart[0], |sum, d| {
-            apart[d].mul_add(apart[d], sum)
-        })
-    } else {
-        r2
-    };
-    let h_i = i(Field::SMOOTHING_LENGTH, 0);
-    let h = (h_i + L::broadcast(j(Field::SMOOTHING_LENGTH, 0))) * L::of(0.5);
-    let inverse = h.recip();
-    let q = distance2.sqrt() * inverse;
-    let norm = L::of(kernel.normalisation()) * inverse.powi(D as u32);
-    let f = norm * inverse * inverse * kernel.slope_over_q(q);
+    let Between {
+        r,
+        r2,
+        v,
+        v_dot_r,
+        h,
+        h_i,
+        w,
+        f,
+        body_force,
+        own,
+        other,
+    } = Between::new(kernel, reads, &i, &j);
     let pair = Pair::<L, D, Alone<A, D>> {
         r,
         r2,
@@ -104,13 +91,13 @@ pub fn probe<L: Lane, const D: usize, K: Kernel<D>, A: Term<D>>(
         v_dot_r,
         h,
         h_i,
-        w: norm * kernel.shape(q),
+        w,
         f,
         f_i: f,
         f_j: f,
         mobile: L::one(),
         mobile_i: L::one(),
-        body_force: core::array::from_fn(|d| if d == 0 { L::one() } else { L::zero() }),
+        body_force,
         lattice_consistency_factor: L::one(),
         gated: false,
         swapped: false,
@@ -127,5 +114,66 @@ pub fn probe<L: Lane, const D: usize, K: Kernel<D>, A: Term<D>>(
         force: sums.force.value(),
         sums: sums.kept,
         kept: <Alone<A, D> as Layout>::WRITES,
+    }
+}
+
+/// The numbers of a pair, whatever its term: so that they are compiled once for all.
+struct Between<L: Lane, const D: usize> {
+    r: [L; D],
+    r2: L,
+    v: [L; D],
+    v_dot_r: L,
+    h: L,
+    h_i: L,
+    w: L,
+    f: L,
+    body_force: [L; D],
+    own: [L; MOST_READS],
+    other: [L::Broadcast; MOST_READS],
+}
+
+impl<L: Lane, const D: usize> Between<L, D> {
+    fn new<K: Kernel<D>>(
+        kernel: &K,
+        reads: Fields,
+        i: &dyn Fn(Field, usize) -> L,
+        j: &dyn Fn(Field, usize) -> L::Broadcast,
+    ) -> Self {
+        let (mut own, mut other) = ([L::zero(); MOST_READS], [j(Field::POSITION, 0); MOST_READS]);
+        for field in reads.iter() {
+            for k in 0..field.components(D) {
+                own[reads.offset(field, D) + k] = i(field, k);
+                other[reads.offset(field, D) + k] = j(field, k);
+            }
+        }
+        let apart =
+            |field| -> [L; D] { core::array::from_fn(|k| i(field, k) - L::broadcast(j(field, k))) };
+        let dot = |a: [L; D], b: [L; D]| (1..D).fold(a[0] * b[0], |sum, d| a[d].mul_add(b[d], sum));
+        let (r, v) = (apart(Field::POSITION), apart(Field::VELOCITY));
+        let r2 = dot(r, r);
+        let distance2 = if reads.contains(Field::REFERENCE_POSITION) {
+            let apart = apart(Field::REFERENCE_POSITION);
+            dot(apart, apart)
+        } else {
+            r2
+        };
+        let h_i = i(Field::SMOOTHING_LENGTH, 0);
+        let h = (h_i + L::broadcast(j(Field::SMOOTHING_LENGTH, 0))) * L::of(0.5);
+        let inverse = h.recip();
+        let q = distance2.sqrt() * inverse;
+        let norm = L::of(kernel.normalisation()) * inverse.powi(D as u32);
+        Self {
+            r,
+            r2,
+            v,
+            v_dot_r: dot(v, r),
+            h,
+            h_i,
+            w: norm * kernel.shape(q),
+            f: norm * inverse * inverse * kernel.slope_over_q(q),
+            body_force: core::array::from_fn(|d| if d == 0 { L::one() } else { L::zero() }),
+            own,
+            other,
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! One chunk of rows against its lists of neighbours, compiled for each way it can run.
 //! It allocates nothing, and sums in an order that no number of threads changes.
 
+mod around;
 mod pairs;
 mod shown;
 
@@ -8,12 +9,13 @@ use super::records::Image;
 use super::results::Reaction;
 use super::{InstructionSet, Interaction};
 use crate::kernel::Kernel;
-use crate::neighbors::{Block, CHUNK, ChunkList, Order};
+use crate::neighbors::{Block, CHUNK, ChunkList};
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Mask, Real};
 #[cfg(target_arch = "x86_64")]
 use crate::scalar::{OnAvx2, OnAvx512};
 use crate::term::{Layout, MOST_READS, Sums, Terms};
+use around::{Around, Meeting, block_of};
 use core::marker::PhantomData;
 use shown::Shown;
 use std::ops::Range;
@@ -223,7 +225,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         P: Terms<D>,
     {
         let stride = const { Composed::<T, P, D, HOW>::READS.width(D) };
-        let width_out = const { Composed::<T, P, D, HOW>::WRITES.width(D) };
+        let row_out = const { Composed::<T, P, D, HOW>::WRITES.width(D) } * L::WIDTH;
         let one_sided = const {
             P::WRITES.contains(Output::MOMENT_MATRIX) && !P::WRITES.contains(Output::COMPRESSION)
         };
@@ -232,42 +234,36 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         let mut own = [L::zero(); MOST_READS];
         let mut sums = Sums::<L, D, Composed<T, P, D, HOW>>::new();
         let mut near = [0; BATCH];
-        let chunk_first = chunk * CHUNK * L::WIDTH;
-        let chunk_end = chunk_first + (list.starts.len() - 1) * L::WIDTH;
-        // Pairs of a block are summed for both sides if it has all its sums wanted in this chunk.
-        let possible = const { summed_for_both::<Composed<T, P, D, HOW>, L, D>() };
-        let inside = chunk_first..chunk_end;
-        if possible && any_wanted(self.blocks, &inside, self.targets) {
+        let first = chunk * CHUNK * L::WIDTH;
+        let around = Around {
+            blocks: self.blocks,
+            interactions: self.interactions,
+            targets: self.targets,
+            inside: first..first + (list.starts.len() - 1) * L::WIDTH,
+            for_both: const { summed_for_both::<Composed<T, P, D, HOW>, L, D>() },
+            one_sided,
+        };
+        if around.for_both && around.any_for_both() {
             later.fill(T::zero());
         }
-        for (c, bounds) in list.starts.windows(2).enumerate() {
-            let first = chunk_first + c * L::WIDTH;
+        for c in 0..list.starts.len() - 1 {
+            let first = first + c * L::WIDTH;
             if !self.targets.contains(&first) {
                 continue;
             }
+            let row = &mut out[c * row_out..(c + 1) * row_out];
             let Some(block) = block_of(self.blocks, first) else {
                 // Slots that no particle owns any more feel nothing.
-                let row = c * width_out * L::WIDTH..(c + 1) * width_out * L::WIDTH;
-                out[row].fill(T::zero());
+                row.fill(T::zero());
                 continue;
             };
             read(self.records, first, stride, &mut own);
             sums.clear();
-            for segment in &list.segments[bounds[0] as usize..bounds[1] as usize] {
+            for segment in list.segments_of(c) {
+                let Some(Meeting { contact, both }) = around.meeting(block, segment) else {
+                    continue;
+                };
                 let other = segment.block as usize;
-                let interaction = self.interactions[block * self.blocks.len() + other];
-                let contact = interaction == Interaction::Unilateral;
-                // A gradient does not look across a contact that may open, unless it shares the sweep of what must.
-                if interaction == Interaction::None || (contact && one_sided) {
-                    continue;
-                }
-                let for_both = possible
-                    && other == block
-                    && !contact
-                    && wanted(&self.blocks[block], &inside, self.targets);
-                if for_both && segment.order == Order::Earlier {
-                    continue;
-                }
                 let foreign = forces && other != block;
                 let before = if foreign {
                     sums.kept_force()
@@ -279,10 +275,6 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                     Shown::across::<T, P, D, HOW, L>(&mut own);
                     kept = sums.take_kernel_sum();
                 }
-                let listed = (
-                    &list.neighbors[segment.start as usize..segment.end as usize],
-                    (segment.near_end - segment.start) as usize,
-                );
                 let mobile = [
                     L::splat(mobility(&self.blocks[block])),
                     L::splat(mobility(&self.blocks[other])),
@@ -292,46 +284,29 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                     own: &own,
                     contact,
                     mobile,
-                    both: for_both && segment.order == Order::Later,
-                    chunk_first,
+                    both,
+                    chunk_first: around.inside.start,
                 };
-                self.segment::<L, HOW>(row, listed, &mut near, later, &mut sums);
+                self.segment::<L, HOW>(row, list.listed(segment), &mut near, later, &mut sums);
                 if contact {
                     read(self.records, first, stride, &mut own);
                     sums.divert_kernel_sum(kept);
                 }
                 if foreign {
-                    let end = self.blocks[block].slots.end;
-                    let members = end.saturating_sub(first).min(L::WIDTH);
+                    let members = self.blocks[block].slots.end.saturating_sub(first);
                     reactions.push(Reaction {
                         on: block as u32,
                         from: segment.block,
-                        force: gained(members, &before, &sums.kept_force()),
+                        force: gained(members.min(L::WIDTH), &before, &sums.kept_force()),
                     });
                 }
             }
-            let row = &mut out[c * width_out * L::WIDTH..(c + 1) * width_out * L::WIDTH];
             for (k, values) in row.chunks_exact_mut(L::WIDTH).enumerate() {
-                for (lane, value) in values.iter_mut().enumerate() {
-                    *value = sums.kept[k].extract(lane);
-                }
+                sums.kept[k].store(values);
             }
         }
         if const { summed_for_both::<Composed<T, P, D, HOW>, L, D>() } {
-            for c in 0..list.starts.len() - 1 {
-                let first = chunk_first + c * L::WIDTH;
-                let Some(own) = block_of(self.blocks, first).map(|block| &self.blocks[block])
-                else {
-                    continue;
-                };
-                if !self.targets.contains(&first) || !wanted(own, &inside, self.targets) {
-                    continue;
-                }
-                let row = width_out * L::WIDTH;
-                let members = (own.slots.end - first).min(L::WIDTH);
-                let later = &later[c * L::WIDTH * row..][..members * row];
-                add_later::<T, L>(later, &mut out[c * row..(c + 1) * row], sums.raised);
-            }
+            around.add_later::<T, L>(later, out, row_out, sums.raised);
         }
     }
 
@@ -434,50 +409,10 @@ fn read<L: Lane>(records: &[L::Scalar], first: usize, stride: usize, own: &mut [
     }
 }
 
-/// The block that a slot belongs to, unless no particle owns it any more.
-fn block_of(blocks: &[Block], slot: usize) -> Option<usize> {
-    let block = blocks.partition_point(|b| b.slots.end <= slot);
-    let own = blocks.get(block)?.slots.contains(&slot);
-    own.then_some(block)
-}
-
-/// Whether all sums of a block's particles in a chunk are wanted: then pairs may be summed for both.
-fn wanted(block: &Block, inside: &Range<usize>, targets: &Range<usize>) -> bool {
-    targets.start <= block.slots.start.max(inside.start)
-        && targets.end >= block.slots.end.min(inside.end)
-}
-
-/// Whether that is so for any block in a chunk.
-fn any_wanted(blocks: &[Block], inside: &Range<usize>, targets: &Range<usize>) -> bool {
-    let first = blocks.partition_point(|b| b.slots.end <= inside.start);
-    let here = blocks[first..].iter();
-    here.take_while(|block| block.slots.start < inside.end)
-        .any(|block| wanted(block, inside, targets))
-}
-
 /// One where particles move by forces, zero where they belong to a wall.
 #[inline(always)]
 fn mobility<T: Real>(block: &Block) -> T {
     if block.wall { T::zero() } else { T::one() }
-}
-
-/// Adds to the sums of a row what earlier rows have summed for its particles, lane by lane: `raised` says which are maxima. Slots
-/// behind the last particle of a block repeat it.
-#[inline(always)]
-fn add_later<T: Real, L: Lane<Scalar = T>>(later: &[T], out: &mut [T], raised: u128) {
-    let row = out.len();
-    let members = later.len() / row;
-    for slot in 0..L::WIDTH {
-        let own = &later[slot.min(members - 1) * row..][..row];
-        for (k, lanes) in own.chunks_exact(L::WIDTH).enumerate() {
-            let sum = &mut out[k * L::WIDTH + slot];
-            *sum = if raised >> k & 1 == 1 {
-                sum.max(T::halves(lanes, true))
-            } else {
-                *sum + T::halves(lanes, false)
-            };
-        }
-    }
 }
 
 /// The force that the real particles of a row felt between two moments. Never inlined, as [`read`].

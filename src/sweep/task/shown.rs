@@ -60,7 +60,15 @@ impl Shown {
     #[inline(always)]
     pub fn across<T: Real, P: Terms<D>, const D: usize, const HOW: u8, L: Lane>(record: &mut [L]) {
         let shown = const { &Self::new(Composed::<T, P, D, HOW>::READS, P::TENSILE, D) };
-        for field in &shown.fields[..shown.count] {
+        if const { Self::new(Composed::<T, P, D, HOW>::READS, P::TENSILE, D).count > 0 } {
+            shown.hide(record);
+        }
+    }
+
+    /// Hides the tension of a record. Never inlined: contacts are few, and it is long.
+    #[inline(never)]
+    fn hide<L: Lane>(&self, record: &mut [L]) {
+        for field in &self.fields[..self.count] {
             match *field {
                 Compression::Positive(at) => record[at] = record[at].positive_part(),
                 Compression::Tensor(at) => compress(&mut record[at..at + 6]),
@@ -70,8 +78,7 @@ impl Shown {
     }
 }
 
-/// Leaves of a stress what presses. Never inlined: contacts are few, and it is long.
-#[inline(never)]
+/// Leaves of a stress what presses.
 fn compress<L: Lane>(stress: &mut [L]) {
     let mut components = [L::zero(); 6];
     components.copy_from_slice(stress);
