@@ -162,9 +162,11 @@ pub(super) fn add_scaled<T: Real>(x: &mut [T], residual: &mut [T], v: &[T], dt: 
         return;
     }
     for_each((cut(x, GRAIN), cut(residual, GRAIN)), |piece, (x, lost)| {
-        let v = &v[piece * GRAIN..];
-        for ((x, residual), v) in x.iter_mut().zip(lost).zip(v) {
-            (*x, *residual) = two_sum(*x, *residual + dt * *v);
+        // Indices into slices of one length are vector instructions, three iterators are not.
+        let v = &v[piece * GRAIN..][..x.len()];
+        let lost = &mut lost[..x.len()];
+        for k in 0..x.len() {
+            (x[k], lost[k]) = two_sum(x[k], lost[k] + dt * v[k]);
         }
     });
 }

@@ -12,7 +12,7 @@ use crate::parallel::{GRAIN, cut, for_each, reduce, runs};
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::scheme::EnergyForm;
-use crate::sweep::two_sum;
+use crate::sweep::{Results, two_sum};
 use crate::term::Stage;
 use std::ops::Range;
 
@@ -154,12 +154,12 @@ impl<T: Real, const D: usize> Group<T, D> {
             .columns
             .many_mut([Field::VELOCITY, Field::MASS]);
         let mass = &*mass;
+        let row = Results::<T, D>::WIDTH;
         for_each(cut(&mut v[..mobile * D], GRAIN * D), |piece, v| {
-            for (n, v) in v.chunks_exact_mut(D).enumerate() {
-                let slot = piece * GRAIN + n;
-                for (d, v) in v.iter_mut().enumerate() {
-                    *v += step * (rates.get(Output::FORCE, d, slot) / mass[slot] + gravity[d]);
-                }
+            for (n, v) in v.chunks_exact_mut(row * D).enumerate() {
+                let first = piece * GRAIN + n * row;
+                let forces = rates.row(Output::FORCE, first);
+                kick_row(v, &mass[first..], forces, (step, &gravity));
             }
         });
         self.advance(When::Kick, dt);
@@ -456,3 +456,31 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
     }
 }
+
+/// v ← v + dt (F/m + g) of a row of particles; forces stand component by component, and are none where there are none.
+#[inline]
+fn kick_row<T: Real, const D: usize>(
+    v: &mut [T],
+    mass: &[T],
+    forces: Option<&[T]>,
+    (dt, gravity): (T, &[T; D]),
+) {
+    let row = Results::<T, D>::WIDTH;
+    let mass = &mass[..row];
+    for d in 0..D {
+        // Quotients of a row are vector instructions if they are not scattered at once.
+        let mut gained = [T::zero(); MOST_LANES];
+        if let Some(forces) = forces {
+            let (forces, gained) = (&forces[d * row..][..row], &mut gained[..row]);
+            for lane in 0..row {
+                gained[lane] = forces[lane] / mass[lane];
+            }
+        }
+        for (lane, v) in v.chunks_exact_mut(D).enumerate() {
+            v[d] += dt * (gained[lane] + gravity[d]);
+        }
+    }
+}
+
+/// Most particles in a row of either scalar.
+const MOST_LANES: usize = 16;

@@ -51,7 +51,8 @@ impl<T: Real, const D: usize> Default for Results<T, D> {
 }
 
 impl<T: Real, const D: usize> Results<T, D> {
-    const WIDTH: usize = <T::Wide<false> as Lane>::WIDTH;
+    /// Particles a row.
+    pub(crate) const WIDTH: usize = <T::Wide<false> as Lane>::WIDTH;
 
     /// Prepares for other sums.
     pub(super) fn lay_out(&mut self, outputs: Outputs) {
@@ -80,6 +81,18 @@ impl<T: Real, const D: usize> Results<T, D> {
         }
         let at = self.at(slot - self.first, offset as usize + k);
         self.data.get(at).copied().unwrap_or(T::zero())
+    }
+
+    /// A sum of the particles of the row that starts with `slot`, component by component, if it is here.
+    #[inline]
+    pub(crate) fn row(&self, output: Output, slot: usize) -> Option<&[T]> {
+        let offset = self.offsets[output.place()];
+        if offset == ABSENT || slot < self.first {
+            return None;
+        }
+        let start = self.at(slot - self.first, offset as usize);
+        self.data
+            .get(start..start + output.components(D) * Self::WIDTH)
     }
 
     /// A vector sum of the particle in `slot`.

@@ -117,7 +117,7 @@ fn a_step_between_list_builds_allocates_nothing() {
         );
         // A thread makes its room for the other sides of pairs once, when it first gets a chunk that has them: four sums of
         // eight by eight.
-        rayon::broadcast(|_| f64::with_room(CHUNK * 8 * 8 * 4, |_| ()));
+        rayon::broadcast(|_| f64::with_room(CHUNK * 8 * 8 * 4, &mut |_| ()));
         for scheme in [schemes::impact, schemes::impact_by_continuity] {
             let mut rods = Scene::<f64, 1>::new(scheme())
                 .body(
