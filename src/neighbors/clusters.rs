@@ -75,15 +75,13 @@ impl Clone for ChunkList {
 impl ChunkList {
     /// The segments of a cluster.
     #[inline]
-    #[must_use]
-    pub fn segments_of(&self, cluster: usize) -> &[Segment] {
+    pub(crate) fn segments_of(&self, cluster: usize) -> &[Segment] {
         &self.segments[self.starts[cluster] as usize..self.starts[cluster + 1] as usize]
     }
 
     /// The neighbours of a segment, and how many of them, first, need not be looked at.
     #[inline]
-    #[must_use]
-    pub fn listed(&self, segment: &Segment) -> (&[u32], usize) {
+    pub(crate) fn listed(&self, segment: &Segment) -> (&[u32], usize) {
         (
             &self.neighbors[segment.start as usize..segment.end as usize],
             (segment.near_end - segment.start) as usize,

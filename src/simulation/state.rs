@@ -457,6 +457,9 @@ impl<T: Real, const D: usize> Group<T, D> {
     }
 }
 
+/// Most particles in a row of either scalar.
+const MOST_LANES: usize = 16;
+
 /// v ← v + dt (F/m + g) of a row of particles; forces stand component by component, and are none where there are none.
 #[inline]
 fn kick_row<T: Real, const D: usize>(
@@ -465,6 +468,7 @@ fn kick_row<T: Real, const D: usize>(
     forces: Option<&[T]>,
     (dt, gravity): (T, &[T; D]),
 ) {
+    const { assert!(Results::<T, D>::WIDTH <= MOST_LANES) }
     let row = Results::<T, D>::WIDTH;
     let mass = &mass[..row];
     for d in 0..D {
@@ -481,6 +485,3 @@ fn kick_row<T: Real, const D: usize>(
         }
     }
 }
-
-/// Most particles in a row of either scalar.
-const MOST_LANES: usize = 16;

@@ -1,7 +1,7 @@
 //! One chunk of rows against its lists of neighbours, compiled for each way it can run.
 //! It allocates nothing, and sums in an order that no number of threads changes.
 
-mod around;
+mod meetings;
 mod pairs;
 mod shown;
 
@@ -15,8 +15,8 @@ use crate::scalar::{Lane, Mask, Real};
 #[cfg(target_arch = "x86_64")]
 use crate::scalar::{OnAvx2, OnAvx512};
 use crate::term::{Layout, MOST_READS, Sums, Terms};
-use around::{Around, Meeting, block_of};
 use core::marker::PhantomData;
+use meetings::{Meeting, Meetings, block_of};
 use shown::Shown;
 use std::ops::Range;
 
@@ -235,7 +235,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         let mut sums = Sums::<L, D, Composed<T, P, D, HOW>>::new();
         let mut near = [0; BATCH];
         let first = chunk * CHUNK * L::WIDTH;
-        let around = Around {
+        let meetings = Meetings {
             blocks: self.blocks,
             interactions: self.interactions,
             targets: self.targets,
@@ -243,7 +243,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
             for_both: const { summed_for_both::<Composed<T, P, D, HOW>, L, D>() },
             one_sided,
         };
-        if around.for_both && around.any_for_both() {
+        if meetings.for_both && meetings.any_for_both() {
             later.fill(T::zero());
         }
         for c in 0..list.starts.len() - 1 {
@@ -260,7 +260,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
             read(self.records, first, stride, &mut own);
             sums.clear();
             for segment in list.segments_of(c) {
-                let Some(Meeting { contact, both }) = around.meeting(block, segment) else {
+                let Some(Meeting { contact, both }) = meetings.of(block, segment) else {
                     continue;
                 };
                 let other = segment.block as usize;
@@ -285,7 +285,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                     contact,
                     mobile,
                     both,
-                    chunk_first: around.inside.start,
+                    chunk_first: meetings.inside.start,
                 };
                 self.segment::<L, HOW>(row, list.listed(segment), &mut near, later, &mut sums);
                 if contact {
@@ -306,7 +306,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
             }
         }
         if const { summed_for_both::<Composed<T, P, D, HOW>, L, D>() } {
-            around.add_later::<T, L>(later, out, row_out, sums.raised);
+            meetings.add_later::<T, L>(later, out, row_out, sums.raised);
         }
     }
 

@@ -60,7 +60,7 @@ impl Shown {
     #[inline(always)]
     pub fn across<T: Real, P: Terms<D>, const D: usize, const HOW: u8, L: Lane>(record: &mut [L]) {
         let shown = const { &Self::new(Composed::<T, P, D, HOW>::READS, P::TENSILE, D) };
-        if const { Self::new(Composed::<T, P, D, HOW>::READS, P::TENSILE, D).count > 0 } {
+        if shown.count > 0 {
             shown.hide(record);
         }
     }

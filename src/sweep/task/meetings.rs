@@ -6,8 +6,8 @@ use crate::scalar::{Lane, Real};
 use crate::sweep::Interaction;
 use std::ops::Range;
 
-/// A chunk among the blocks.
-pub(super) struct Around<'a> {
+/// The meetings of a chunk with blocks.
+pub(super) struct Meetings<'a> {
     pub blocks: &'a [Block],
     pub interactions: &'a [Interaction],
     /// The slots whose sums are wanted.
@@ -28,10 +28,10 @@ pub(super) struct Meeting {
     pub both: bool,
 }
 
-impl Around<'_> {
+impl Meetings<'_> {
     /// How a row of a block meets a segment, unless it does not or has been met by it.
     #[inline(never)]
-    pub fn meeting(&self, block: usize, segment: &Segment) -> Option<Meeting> {
+    pub fn of(&self, block: usize, segment: &Segment) -> Option<Meeting> {
         let other = segment.block as usize;
         let interaction = self.interactions[block * self.blocks.len() + other];
         let contact = interaction == Interaction::Unilateral;
