@@ -11,5 +11,6 @@ mod invariance;
 mod neighbours;
 #[cfg(feature = "checkpoint")]
 mod restart;
+mod step_limits;
 mod step_program;
 mod vtk;
