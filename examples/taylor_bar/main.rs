@@ -43,6 +43,11 @@ const EXAMPLE: Example = Example {
             help: "speed; 227",
         },
         Own {
+            name: "--spacing",
+            value: "MM",
+            help: "distance of particles; a sixteenth of the diameter, with --quick an eighth",
+        },
+        Own {
             name: "--formulation",
             value: "NAME",
             help: "updated (the default), total",
@@ -189,7 +194,8 @@ fn perform(options: &Options) -> Result<(), Failure> {
     let cure = options.text("--cure").unwrap_or(cure);
     let alpha = options.number("--viscosity", usual)?;
     let smoothing = options.number("--smoothing", 2.0)?;
-    let spacing = options.spacing_or(bar.diameter / 16.0, bar.diameter / 8.0);
+    let usual = 1e3 * bar.diameter / options.pick(16.0, 8.0);
+    let spacing = 1e-3 * options.number("--spacing", usual)?;
     let until = options.until_or(80e-6, 40e-6);
     let metal = material(name)?;
     let down = [0.0, 0.0, -1.0];
