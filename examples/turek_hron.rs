@@ -77,7 +77,7 @@ const VISCOSITY: f64 = 1.0;
 /// Length of the zone before the channel \[m\], and how often its liquid is brought to the profile on its way. The zone
 /// drives the flow, so the inflow lacks what it takes to overcome the resistance of the channel, Δp/(ρ U TURNS): 3 % with 20.
 const ZONE: f64 = 0.4;
-const TURNS: f64 = 200.0;
+const TURNS: f64 = 500.0;
 /// Columns of the beam that are held, and layers of walls.
 const HELD: i64 = 5;
 const LAYERS: i64 = 3;
