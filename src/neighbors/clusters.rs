@@ -369,7 +369,7 @@ fn sort(
 
 #[cfg(test)]
 mod tests {
-    use super::super::sieve::OCTAVES;
+    use super::super::sieve::{NARROWER, PARTS};
     use super::*;
 
     #[test]
@@ -399,8 +399,12 @@ mod tests {
             instructions: InstructionSet::detect(),
         };
         let parts = Source::of_block(&input, 0);
-        assert_eq!(parts.len(), OCTAVES);
-        assert!(parts.windows(2).all(|p| p[1].largest < 0.5 * p[0].largest));
+        assert_eq!(parts.len(), PARTS);
+        assert!(
+            parts
+                .windows(2)
+                .all(|p| p[1].largest < NARROWER * p[0].largest)
+        );
         let mut lists = ClusterLists::default();
         lists.rebuild(&input);
         let (mut found, mut missing) = (0, 0);

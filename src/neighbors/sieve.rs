@@ -13,12 +13,16 @@ pub(super) struct Source<T, const D: usize> {
     slots: Vec<u32>,
     /// Their positions, axis by axis.
     positions: [Vec<T>; D],
+    /// Their support radii, where they are not all the same.
+    radii: Vec<T>,
     /// The largest support radius.
     pub(super) largest: f64,
 }
 
-/// Parts of a block by its support radii, each at most half as wide as the one before; the last takes all that are left.
-pub(super) const OCTAVES: usize = 4;
+/// Parts of a block by its support radii, at most so many: what is narrower than this share of the widest of a part is left to
+/// the next.
+pub(super) const PARTS: usize = 8;
+pub(super) const NARROWER: f64 = 0.75;
 
 /// No row of an instruction is wider.
 const WIDEST: usize = 16;
@@ -47,8 +51,8 @@ impl<T: Real, const D: usize> Source<T, D> {
         loop {
             let largest = widest(&points);
             let mut rest = Vec::new();
-            if parts.len() + 1 < OCTAVES {
-                let narrow = |p: &u32| input.radii.of(*p as usize) < 0.5 * largest;
+            if parts.len() + 1 < PARTS {
+                let narrow = |p: &u32| input.radii.of(*p as usize) < NARROWER * largest;
                 rest.extend(points.iter().copied().filter(narrow));
                 points.retain(|p| !narrow(p));
             }
@@ -75,10 +79,19 @@ impl<T: Real, const D: usize> Source<T, D> {
                 along[d][k] = x[d];
             }
         }
+        let mut radii = Vec::new();
+        if let Radii::Varying(..) = input.radii {
+            radii.extend(
+                slots
+                    .iter()
+                    .map(|&slot| T::from_f64(input.radii.of(slot as usize))),
+            );
+        }
         Self {
             cells,
             slots,
             positions,
+            radii,
             largest,
         }
     }
@@ -90,6 +103,8 @@ pub(super) struct Candidates<T, const D: usize> {
     runs: Vec<Range<usize>>,
     slots: Vec<u32>,
     positions: [Vec<T>; D],
+    /// Support radii, where they are not all the same.
+    radii: Vec<T>,
 }
 
 impl<T, const D: usize> Default for Candidates<T, D> {
@@ -98,6 +113,7 @@ impl<T, const D: usize> Default for Candidates<T, D> {
             runs: Vec::new(),
             slots: Vec::new(),
             positions: core::array::from_fn(|_| Vec::new()),
+            radii: Vec::new(),
         }
     }
 }
@@ -115,6 +131,7 @@ impl<T: Real, const D: usize> Candidates<T, D> {
             runs,
             slots,
             positions,
+            radii,
         } = self;
         runs.clear();
         let mut most = WIDEST;
@@ -128,6 +145,9 @@ impl<T: Real, const D: usize> Candidates<T, D> {
         grow(slots, most);
         for along in positions {
             grow(along, most);
+        }
+        if !source.radii.is_empty() {
+            grow(radii, most);
         }
     }
 }
@@ -166,9 +186,11 @@ impl<T: Real, const D: usize> OnRows<T> for Sieve<'_, T, D> {
             runs,
             slots,
             positions,
+            radii,
         } = self.candidates;
+        let varying = !self.source.radii.is_empty();
         // Places of memory that the compiler keeps in registers.
-        let slots = &mut slots[..];
+        let (slots, radii) = (&mut slots[..], &mut radii[..]);
         let x_of = positions.each_mut().map(|along| &mut along[..]);
         let mut count = 0;
         for run in runs.iter() {
@@ -179,6 +201,9 @@ impl<T: Real, const D: usize> OnRows<T> for Sieve<'_, T, D> {
                     L::load(&self.source.positions[d][k..]).store(&mut x_of[d][to..]);
                 }
                 slots[to..to + L::WIDTH].copy_from_slice(&self.source.slots[k..k + L::WIDTH]);
+                if varying {
+                    L::load(&self.source.radii[k..]).store(&mut radii[to..]);
+                }
             }
             count += run.len();
         }
@@ -190,6 +215,7 @@ impl<T: Real, const D: usize> OnRows<T> for Sieve<'_, T, D> {
         let leaving = &mut self.leaving[leaving_before..];
         let (mut found_count, mut leaving_count) = (0, 0);
         let uniform = squares::<T>(self.reach, skin);
+        let widest = L::of(self.radius);
         for first in (0..count).step_by(L::WIDTH) {
             let (mut x, mut least) = ([L::zero(); D], L::of(f64::INFINITY));
             for d in 0..D {
@@ -205,36 +231,31 @@ impl<T: Real, const D: usize> OnRows<T> for Sieve<'_, T, D> {
             }
             let own = &slots[first..first + L::WIDTH];
             let [mut reach2, mut stays2] = [L::splat(uniform[0]), L::splat(uniform[1])];
-            if let Radii::Varying(..) = self.input.radii {
-                let mut each = [[T::zero(); WIDEST]; 2];
-                for lane in 0..L::WIDTH.min(count - first) {
-                    let radius = self.input.radii.of(own[lane] as usize);
-                    let of_lane = squares::<T>(self.radius.max(radius) + skin, skin);
-                    (each[0][lane], each[1][lane]) = (of_lane[0], of_lane[1]);
-                }
-                (reach2, stays2) = (L::load(&each[0]), L::load(&each[1]));
+            if varying {
+                let reach = L::load(&radii[first..]).max(widest) + L::of(skin);
+                let stays = (reach - L::of(2.0 * skin)).positive_part();
+                (reach2, stays2) = (reach * reach * L::of(1.0 + rounding::<T>()), stays * stays);
             }
             let (any, stays) = (least.le(reach2), least.lt(stays2));
-            for lane in 0..L::WIDTH {
-                found[found_count] = own[lane];
-                leaving[leaving_count] = own[lane];
-                // Who stays is within reach, too.
-                found_count += usize::from(stays.test(lane));
-                leaving_count += usize::from(any.test(lane) != stays.test(lane));
-            }
+            // Who stays is within reach, too.
+            found_count += stays.choose(own, &mut found[found_count..]);
+            leaving_count += (any & !stays).choose(own, &mut leaving[leaving_count..]);
         }
         self.found.truncate(found_before + found_count);
         self.leaving.truncate(leaving_before + leaving_count);
     }
 }
 
-/// The squares of a reach with its skin, from which rounding leaves out none, and of what is left of it when the skin is used up.
-#[inline(always)]
+/// What the square of a reach is raised by, so that rounding leaves out none.
+fn rounding<T: Real>() -> f64 {
+    if T::COMPENSATED { 1e-6 } else { 1e-15 }
+}
+
+/// The squares of a reach with its skin, and of what is left of it when the skin is used up.
 fn squares<T: Real>(reach: f64, skin: f64) -> [T; 2] {
-    let rounding = if T::COMPENSATED { 1e-6 } else { 1e-15 };
     let stays = (reach - 2.0 * skin).max(0.0);
     [
-        T::from_f64(reach * reach * (1.0 + rounding)),
+        T::from_f64(reach * reach * (1.0 + rounding::<T>())),
         T::from_f64(stays * stays),
     ]
 }

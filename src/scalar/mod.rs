@@ -53,6 +53,17 @@ pub trait Mask:
     fn any(self) -> bool {
         self.count() > 0
     }
+    /// Puts those of a row's numbers at which it is true first in `to`, in their order, and returns how many they are.
+    /// `to` has room for a row; what stands behind them is of no use.
+    #[inline(always)]
+    fn choose(self, from: &[u32], to: &mut [u32]) -> usize {
+        let mut count = 0;
+        for k in 0..Self::WIDTH {
+            to[count] = from[k];
+            count += usize::from(self.test(k));
+        }
+        count
+    }
 }
 
 impl Mask for bool {

@@ -6,8 +6,8 @@ use super::neighborhood::Neighborhood;
 use super::population::Particles;
 use crate::neighbors::{CHUNK, ChunkList};
 use crate::parallel::{Corners, corners, largest, no_corners, reduce, runs};
-use crate::particles::{Columns, Field};
-use crate::scalar::{Lane, OnRows, Real};
+use crate::particles::Field;
+use crate::scalar::{Lane, Mask, OnRows, Real};
 use crate::scheme::Scheme;
 use crate::sweep::{InstructionSet, Interaction};
 use crate::tensor::{Vector, length};
@@ -106,6 +106,7 @@ pub(super) fn approach<T: Real, const D: usize>(
             chunk,
             list: &chunks[chunk],
             share,
+            limit,
             least_h,
             range,
         })
@@ -154,31 +155,30 @@ fn velocities<T: Real, const D: usize>(
     })
 }
 
+/// What is looked at of a particle: columns of places, velocities and sound speeds.
+type Seen<'a, T, const D: usize> = (&'a [[T; D]], &'a [[T; D]], &'a [T]);
+
 /// Place, velocity and sound speed of a neighbour, which may be an image.
 #[inline(always)]
 fn neighbor<T: Real, const D: usize>(
-    columns: &Columns<T, D>,
+    (places, velocities, sound): Seen<'_, T, D>,
     neighborhood: &Neighborhood<T, D>,
     j: usize,
 ) -> ([T; D], [T; D], T) {
-    let seen = |j: usize| {
-        (
-            columns.vectors(Field::POSITION)[j],
-            columns.vectors(Field::VELOCITY)[j],
-            columns.raw(Field::SOUND_SPEED)[j],
-        )
-    };
-    let Some(image) = j
-        .checked_sub(columns.slots())
-        .and_then(|k| neighborhood.images.get(k))
-    else {
-        return seen(j);
-    };
-    let by = &neighborhood.transforms[image.transform as usize];
-    let (x, v, c) = seen(image.source as usize);
-    let turned = by.rotation * Vector::from(v) + by.velocity;
-    (by.point(&x), turned.into(), c)
+    if j < places.len() {
+        return (places[j], velocities[j], sound[j]);
+    }
+    let image = &neighborhood.images[j - places.len()];
+    let (by, source) = (
+        &neighborhood.transforms[image.transform as usize],
+        image.source as usize,
+    );
+    let turned = by.rotation * Vector::from(velocities[source]) + by.velocity;
+    (by.point(&places[source]), turned.into(), sound[source])
 }
+
+/// What rounding may add to the products by which pairs are screened: a pair within it is looked at in full.
+const ROUNDED: f64 = 1e-5;
 
 /// What the approach of pairs asks for in one chunk, among the particles that move by forces.
 struct InChunk<'a, T: Real, const D: usize> {
@@ -188,6 +188,8 @@ struct InChunk<'a, T: Real, const D: usize> {
     chunk: usize,
     list: &'a ChunkList,
     share: f64,
+    /// The step \[s\] from which on nothing matters.
+    limit: f64,
     least_h: f64,
     /// The least and the largest component of velocities.
     range: Corners<D>,
@@ -205,6 +207,7 @@ impl<T: Real, const D: usize> OnRows<T> for InChunk<'_, T, D> {
             chunk,
             list,
             share,
+            limit,
             least_h,
             range,
         } = self;
@@ -223,6 +226,10 @@ impl<T: Real, const D: usize> OnRows<T> for InChunk<'_, T, D> {
         let support = scheme.kernel.support;
         let viscosity = particles.columns.raw(Field::DYNAMIC_VISCOSITY);
         let (zero, sticks) = (L::of(0.0), !viscosity.is_empty());
+        // Most pairs do not close so fast that they matter, which products tell without a root and quotients.
+        let slowest = L::of(share / limit * (1.0 - ROUNDED));
+        let sounds = scheme.meets_walls();
+        let quarter = L::of(0.25 * FASTEST * FASTEST * (1.0 - ROUNDED));
         let mut all = NOTHING;
         for (c, bounds) in list.starts.windows(2).enumerate() {
             let first = (chunk * CHUNK + c) * width;
@@ -255,15 +262,25 @@ impl<T: Real, const D: usize> OnRows<T> for InChunk<'_, T, D> {
                     1.0
                 });
                 for &j in &list.neighbors[segment.start as usize..segment.end as usize] {
-                    let (xj, vj, cj) = neighbor(&particles.columns, neighborhood, j as usize);
+                    let seen_j = (positions, velocities, sound);
+                    let (xj, vj, cj) = neighbor(seen_j, neighborhood, j as usize);
                     let (mut r2, mut across) = (zero, zero);
                     for d in 0..D {
                         let r = x[d] - L::splat(xj[d]);
                         r2 += r * r;
                         across += r * (v[d] - L::splat(vj[d]));
                     }
+                    let towards = (-across).positive_part() * seen;
+                    let mut matters = towards.gt(slowest * r2).any();
+                    if sounds {
+                        let both = speeds + L::splat(cj);
+                        matters |= (towards * towards).gt(quarter * (both * both) * r2).any();
+                    }
+                    if !matters {
+                        continue;
+                    }
                     let distance = r2.sqrt().max(nearest * L::of(1e-6));
-                    let closing = (-across).positive_part() * seen / distance;
+                    let closing = towards / distance;
                     rate = rate.max(closing / distance.max(nearest));
                     // Twice the mean of the sound speeds.
                     mach = mach.max(closing / (speeds + L::splat(cj)));
