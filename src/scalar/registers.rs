@@ -376,6 +376,11 @@ mod tests {
                     let set = (0..L::WIDTH).filter(|&k| holds(k)).count();
                     assert_eq!((mask.count(), mask.any()), (set, set > 0));
                     assert!((0..L::WIDTH).all(|k| mask.test(k) == holds(k)));
+                    let places: Vec<u32> = (7..7 + L::WIDTH as u32).collect();
+                    let mut first = vec![0; L::WIDTH];
+                    assert_eq!(mask.choose(&places, &mut first), set);
+                    let expected = (0..L::WIDTH).filter(|&k| holds(k)).map(|k| places[k]);
+                    assert!(expected.eq(first[..set].iter().copied()));
                     let chosen = |k: usize| if holds(k) { of(k).1 } else { of(k).2 };
                     same(L::select(mask, b, c), &chosen, "choice");
                 }
