@@ -264,7 +264,8 @@ pub trait Real:
     /// The sum of the elements of a row, or the largest of them.
     #[doc(hidden)]
     fn halves(row: &[Self], largest: bool) -> Self;
-    /// Room for so many numbers that the thread keeps, with whatever is in it, aligned for rows. `work` must not ask for room.
+    /// Room for so many numbers that the thread keeps, aligned for rows: zeros, which `work` has to leave behind again. It
+    /// must not ask for room.
     #[doc(hidden)]
     fn with_room(length: usize, work: &mut dyn FnMut(&mut [Self]));
     /// Rounded from `f64`.

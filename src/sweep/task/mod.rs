@@ -111,6 +111,9 @@ pub(super) const fn room_for_both<C: Layout, L: Lane, const D: usize>() -> usize
     }
 }
 
+/// No row is wider.
+const WIDEST: usize = 16;
+
 /// Neighbours that are looked through at once.
 const BATCH: usize = 256;
 
@@ -243,9 +246,6 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
             for_both: const { summed_for_both::<Composed<T, P, D, HOW>, L, D>() },
             one_sided,
         };
-        if meetings.for_both && meetings.any_for_both() {
-            later.fill(T::zero());
-        }
         for c in 0..list.starts.len() - 1 {
             let first = first + c * L::WIDTH;
             if !self.targets.contains(&first) {
@@ -404,8 +404,13 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
 /// follows one by one it may also compute one by one, without vector instructions.
 #[inline(never)]
 fn read<L: Lane>(records: &[L::Scalar], first: usize, stride: usize, own: &mut [L; MOST_READS]) {
+    let rows = &records[first * stride..(first + L::WIDTH) * stride];
+    let mut of: [&[L::Scalar]; WIDEST] = [&[]; WIDEST];
+    for (of, row) in of.iter_mut().zip(rows.chunks_exact(stride)) {
+        *of = row;
+    }
     for (k, value) in own.iter_mut().enumerate().take(stride) {
-        *value = L::from_fn(|lane| records[(first + lane) * stride + k]);
+        *value = L::from_fn(|lane| of[lane][k]);
     }
 }
 
