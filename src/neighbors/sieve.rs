@@ -3,7 +3,7 @@
 
 use super::cells::Cells;
 use super::clusters::{Radii, SearchInput};
-use crate::scalar::{Lane, Mask, OnRows, Real};
+use crate::scalar::{Lane, MOST_LANES, Mask, OnRows, Real};
 use core::ops::Range;
 
 /// Particles of a block, as the search for neighbours meets them.
@@ -23,9 +23,6 @@ pub(super) struct Source<T, const D: usize> {
 /// the next.
 pub(super) const PARTS: usize = 8;
 pub(super) const NARROWER: f64 = 0.75;
-
-/// No row of an instruction is wider.
-const WIDEST: usize = 16;
 
 impl<T: Real, const D: usize> Source<T, D> {
     /// The particles of a block, those of wide support apart from the others: few particles that reach far, as gas behind a
@@ -70,7 +67,7 @@ impl<T: Real, const D: usize> Source<T, D> {
         let size = if D == 1 { reach } else { 0.5 * reach };
         let cells = Cells::build(input.positions, points, size);
         let mut slots = cells.points().to_vec();
-        slots.resize(slots.len() + WIDEST, 0);
+        slots.resize(slots.len() + MOST_LANES, 0);
         let mut positions = core::array::from_fn(|_| vec![T::zero(); slots.len()]);
         let along = positions.each_mut();
         for (k, &slot) in slots[..points.len()].iter().enumerate() {
@@ -134,7 +131,7 @@ impl<T: Real, const D: usize> Candidates<T, D> {
             radii,
         } = self;
         runs.clear();
-        let mut most = WIDEST;
+        let mut most = MOST_LANES;
         // As much as rounding may add to a reach in `f32`.
         source
             .cells
@@ -180,7 +177,7 @@ impl<T: Real, const D: usize> OnRows<T> for Sieve<'_, T, D> {
     /// time the skin is used up, and to `found` the others.
     #[inline(always)]
     fn run<L: Lane<Scalar = T, Broadcast = T>>(self) {
-        const { assert!(L::WIDTH <= WIDEST) };
+        const { assert!(L::WIDTH <= MOST_LANES) };
         let skin = self.input.skin;
         let Candidates {
             runs,

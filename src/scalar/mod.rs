@@ -81,6 +81,9 @@ impl Mask for bool {
     }
 }
 
+/// Most elements of a row of either scalar.
+pub(crate) const MOST_LANES: usize = 16;
+
 /// One value, or a short row of values on which arithmetic acts element by element.
 ///
 /// The traits that a user can implement ([`Kernel`](crate::kernel::Kernel),
@@ -265,7 +268,7 @@ pub trait Real:
     #[doc(hidden)]
     fn halves(row: &[Self], largest: bool) -> Self;
     /// Room for so many numbers that the thread keeps, aligned for rows: zeros, which `work` has to leave behind again. It
-    /// must not ask for room.
+    /// must not ask for room. What unwinds takes its room with it.
     #[doc(hidden)]
     fn with_room(length: usize, work: &mut dyn FnMut(&mut [Self]));
     /// Rounded from `f64`.
@@ -376,14 +379,14 @@ macro_rules! real {
                 thread_local! {
                     static ROOM: RefCell<Vec<$T>> = const { RefCell::new(Vec::new()) };
                 }
-                ROOM.with_borrow_mut(|room| {
-                    let spare = ROW / size_of::<$T>();
-                    if room.len() < length + spare {
-                        room.resize(length + spare, 0.0);
-                    }
-                    let start = room.as_ptr().align_offset(ROW);
-                    work(&mut room[start..start + length]);
-                });
+                let mut room = ROOM.take();
+                let spare = ROW / size_of::<$T>();
+                if room.len() < length + spare {
+                    room.resize(length + spare, 0.0);
+                }
+                let start = room.as_ptr().align_offset(ROW);
+                work(&mut room[start..start + length]);
+                ROOM.set(room);
             }
             #[inline(always)]
             fn from_f64(value: f64) -> $T {

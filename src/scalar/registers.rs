@@ -224,7 +224,8 @@ register! {
 // SAFETY of all below: see `Instructions`.
 /// What a comparison gives, by the instructions that combine such outcomes.
 macro_rules! mask {
-    ($M:ident($V:ty) $width:literal, $and:expr, $or:expr, not($m:ident) $not:expr, bits($n:ident) $bits:expr $(, $more:item)?) => {
+    ($M:ident($V:ty) $width:literal, $and:expr, $or:expr, not($m:ident) $not:expr, bits($n:ident) $bits:expr
+    $(, choose($compress:ident, $load:ident, $store:ident))?) => {
         /// The element-wise comparison of two rows.
         #[derive(Clone, Copy, Debug)]
         #[repr(transparent)]
@@ -274,32 +275,25 @@ macro_rules! mask {
                 let $n = self.0;
                 ($bits as u32) != 0
             }
-            $($more)?
+            $(
+                #[inline(always)]
+                fn choose(self, from: &[u32], to: &mut [u32]) -> usize {
+                    let from: &[u32; $width] = from.first_chunk().expect("a row");
+                    let to: &mut [u32; $width] = to.first_chunk_mut().expect("room for a row");
+                    unsafe {
+                        let chosen = $compress(self.0, $load(from.as_ptr().cast()));
+                        $store(to.as_mut_ptr().cast(), chosen);
+                    }
+                    self.count()
+                }
+            )?
         }
     };
 }
 mask!(Bits8(__mmask8) 8, _kand_mask8, _kor_mask8, not(m) _knot_mask8(m), bits(m) m,
-#[inline(always)]
-fn choose(self, from: &[u32], to: &mut [u32]) -> usize {
-    let from: &[u32; 8] = from.first_chunk().expect("a row");
-    let to: &mut [u32; 8] = to.first_chunk_mut().expect("room for a row");
-    unsafe {
-        let chosen = _mm256_maskz_compress_epi32(self.0, _mm256_loadu_si256(from.as_ptr().cast()));
-        _mm256_storeu_si256(to.as_mut_ptr().cast(), chosen);
-    }
-    self.count()
-});
+    choose(_mm256_maskz_compress_epi32, _mm256_loadu_si256, _mm256_storeu_si256));
 mask!(Bits16(__mmask16) 16, _kand_mask16, _kor_mask16, not(m) _knot_mask16(m), bits(m) m,
-#[inline(always)]
-fn choose(self, from: &[u32], to: &mut [u32]) -> usize {
-    let from: &[u32; 16] = from.first_chunk().expect("a row");
-    let to: &mut [u32; 16] = to.first_chunk_mut().expect("room for a row");
-    unsafe {
-        let chosen = _mm512_maskz_compress_epi32(self.0, _mm512_loadu_si512(from.as_ptr().cast()));
-        _mm512_storeu_si512(to.as_mut_ptr().cast(), chosen);
-    }
-    self.count()
-});
+    choose(_mm512_maskz_compress_epi32, _mm512_loadu_si512, _mm512_storeu_si512));
 mask!(Signs4(__m256d) 4, _mm256_and_pd, _mm256_or_pd,
     not(m) _mm256_xor_pd(m, _mm256_castsi256_pd(_mm256_set1_epi64x(-1))), bits(m) (unsafe { _mm256_movemask_pd(m) }));
 mask!(Signs8(__m256) 8, _mm256_and_ps, _mm256_or_ps,

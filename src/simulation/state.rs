@@ -10,7 +10,7 @@ use super::workspace::Saved;
 use crate::effect::{Around, Evolved, View, When};
 use crate::parallel::{GRAIN, cut, for_each, reduce, runs};
 use crate::particles::{Field, Output};
-use crate::scalar::Real;
+use crate::scalar::{MOST_LANES, Real};
 use crate::scheme::EnergyForm;
 use crate::sweep::{Results, two_sum};
 use crate::term::Stage;
@@ -456,9 +456,6 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
     }
 }
-
-/// Most particles in a row of either scalar.
-const MOST_LANES: usize = 16;
 
 /// v ← v + dt (F/m + g) of a row of particles; forces stand component by component, and are none where there are none.
 #[inline]

@@ -7,7 +7,7 @@ use crate::kernel::{Kernel, WendlandC2};
 use crate::material::catalogue;
 use crate::neighbors::{Block, ClusterLists, Radii, SearchInput};
 use crate::particles::{Columns, Field, Fields, Output, Outputs};
-use crate::scalar::Lane;
+use crate::scalar::{Lane, Real};
 use crate::scene::{Body, Scene};
 use crate::scheme::{EnergyForm, SchemeBuilder};
 use crate::term::viscosity::{ArtificialViscosity, Viscous};
@@ -337,4 +337,22 @@ fn a_stress_presses_across_a_contact_that_opens_and_does_not_pull() {
     for d in 0..2 {
         assert!((found[d] - expected[d]).abs() < 1e-13, "{found:?}");
     }
+}
+
+#[test]
+fn what_unwinds_leaves_no_sums_behind() {
+    fn leaves_none<T: Real>() {
+        let broken = std::panic::catch_unwind(|| {
+            T::with_room(64, &mut |room| {
+                room.fill(T::one());
+                panic!("a term of a user's own");
+            });
+        });
+        assert!(broken.is_err());
+        T::with_room(64, &mut |room| {
+            assert!(room.iter().all(|own| own.is_zero()));
+        });
+    }
+    leaves_none::<f64>();
+    leaves_none::<f32>();
 }

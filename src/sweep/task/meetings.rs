@@ -54,7 +54,8 @@ impl Meetings<'_> {
     }
 
     /// Adds to the rows of the chunk what earlier rows have summed for their particles, lane by lane: `raised` says which are
-    /// maxima. Slots behind the last particle of a block repeat it. What was added is cleared for the next chunk. Always inlined: as a call it costs a sweep in a plane 6 %.
+    /// maxima. Slots behind the last particle of a block repeat it. What was added is cleared for the next chunk. Always
+    /// inlined: as a call it costs a sweep in a plane 6 %.
     #[inline(always)]
     pub fn add_later<T: Real, L: Lane<Scalar = T>>(
         &self,

@@ -11,7 +11,7 @@ use super::{InstructionSet, Interaction};
 use crate::kernel::Kernel;
 use crate::neighbors::{Block, CHUNK, ChunkList};
 use crate::particles::{Field, Fields, Output, Outputs};
-use crate::scalar::{Lane, Mask, Real};
+use crate::scalar::{Lane, MOST_LANES, Mask, Real};
 #[cfg(target_arch = "x86_64")]
 use crate::scalar::{OnAvx2, OnAvx512};
 use crate::term::{Layout, MOST_READS, Sums, Terms};
@@ -110,9 +110,6 @@ pub(super) const fn room_for_both<C: Layout, L: Lane, const D: usize>() -> usize
         0
     }
 }
-
-/// No row is wider.
-const WIDEST: usize = 16;
 
 /// Neighbours that are looked through at once.
 const BATCH: usize = 256;
@@ -405,7 +402,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
 #[inline(never)]
 fn read<L: Lane>(records: &[L::Scalar], first: usize, stride: usize, own: &mut [L; MOST_READS]) {
     let rows = &records[first * stride..(first + L::WIDTH) * stride];
-    let mut of: [&[L::Scalar]; WIDEST] = [&[]; WIDEST];
+    let mut of: [&[L::Scalar]; MOST_LANES] = [&[]; MOST_LANES];
     for (of, row) in of.iter_mut().zip(rows.chunks_exact(stride)) {
         *of = row;
     }
