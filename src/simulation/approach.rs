@@ -1,7 +1,7 @@
 //! What moves towards each other limits the step: no pair may close by more than a share of its distance.
 //! Pairs are looked at only where the spread of velocities says that they could.
 
-use super::control::{Criterion, NO_VOTE, Vote, least};
+use super::control::{Criterion, NO_VOTE, ROUNDED, Vote, least};
 use super::neighborhood::Neighborhood;
 use super::population::Particles;
 use crate::neighbors::{CHUNK, ChunkList};
@@ -176,9 +176,6 @@ fn neighbor<T: Real, const D: usize>(
     let turned = by.rotation * Vector::from(velocities[source]) + by.velocity;
     (by.point(&places[source]), turned.into(), sound[source])
 }
-
-/// What rounding may add to the products by which pairs are screened: a pair within it is looked at in full.
-const ROUNDED: f64 = 1e-5;
 
 /// What the approach of pairs asks for in one chunk, among the particles that move by forces.
 struct InChunk<'a, T: Real, const D: usize> {

@@ -307,8 +307,8 @@ pub(super) fn least(a: Vote, b: Vote) -> Vote {
     }
 }
 
-/// More than what `f32` rounds of a quotient and a sum.
-const ROUNDED: f64 = 1e-5;
+/// More than what `f32` rounds of products, a quotient and a sum: what is within it is looked at in full.
+pub(super) const ROUNDED: f64 = 1e-5;
 
 /// The largest stable step, and the slot that sets it; negative where a state is not finite. `uniform` \[m\] is the
 /// smoothing length of all where particles have none of their own.
