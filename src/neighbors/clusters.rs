@@ -371,18 +371,20 @@ fn sort(
 mod tests {
     use super::super::sieve::{NARROWER, PARTS};
     use super::*;
+    use crate::scalar::Lane;
 
-    #[test]
-    fn supports_of_many_sizes_miss_no_neighbour_and_search_less() {
-        let positions: Vec<[f64; 2]> = (0..800)
+    fn supports_of_many_sizes_miss_none<T: Real>() {
+        let width = <T::Wide<false> as Lane>::WIDTH;
+        let positions: Vec<[T; 2]> = (0..800)
             .map(|k| {
                 let k = f64::from(k);
-                [(k * 0.618).fract(), (k * 0.414).fract()]
+                [(k * 0.618).fract(), (k * 0.414).fract()].map(T::from_f64)
             })
             .collect();
         // Supports from 0.02 to 0.4, few of them large.
-        let radii: Vec<f64> = (0..800)
+        let radii: Vec<T> = (0..800)
             .map(|k| 0.02 * 20.0_f64.powf((f64::from(k) * 0.271).fract().powi(8)))
+            .map(T::from_f64)
             .collect();
         let blocks = [Block {
             slots: 0..800,
@@ -393,7 +395,7 @@ mod tests {
             radii: Radii::Varying(&radii, 1.0),
             blocks: &blocks,
             listed: &[],
-            width: 8,
+            width,
             slots: 800,
             skin: 0.01,
             instructions: InstructionSet::detect(),
@@ -416,10 +418,11 @@ mod tests {
                     .flat_map(|run| &chunk.neighbors[run])
                     .copied()
                     .collect();
-                for i in (c * CHUNK + k) * 8..(c * CHUNK + k) * 8 + 8 {
+                for i in (c * CHUNK + k) * width..(c * CHUNK + k + 1) * width {
                     for (j, y) in positions.iter().enumerate() {
-                        let apart = (positions[i][0] - y[0]).hypot(positions[i][1] - y[1]);
-                        if apart < radii[i].max(radii[j]) + 0.01 {
+                        let [own, y] = [&positions[i], y].map(|x| x.map(Real::to_f64));
+                        let apart = (own[0] - y[0]).hypot(own[1] - y[1]);
+                        if apart < radii[i].to_f64().max(radii[j].to_f64()) + 0.01 {
                             found += 1;
                             missing += usize::from(!listed.contains(&(j as u32)));
                         }
@@ -428,6 +431,12 @@ mod tests {
             }
         }
         assert!(found > 10_000 && missing == 0, "{missing} of {found}");
+    }
+
+    #[test]
+    fn supports_of_many_sizes_miss_no_neighbour_and_search_less() {
+        supports_of_many_sizes_miss_none::<f64>();
+        supports_of_many_sizes_miss_none::<f32>();
     }
 
     #[test]
