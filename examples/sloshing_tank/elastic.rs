@@ -128,8 +128,8 @@ pub fn choices(case: &Case, youngs: f64) -> String {
     let dx = spacing(case);
     format!(
         "Walls of PMMA, {} mm, {DENSITY} kg/m3, E = {:.3} GPa, nu = {POISSON}: a total-Lagrangian body of {:.0} layers of \
-         particles, {:.1} mm apart, with an artificial viscosity alpha of {VISCOSITY}. Our choice: in the frame of the tank, whose acceleration loads water and walls \
-         alike, the columns along its twelve edges are clamped, so that each wall is a plate clamped all around.\n",
+         particles, {:.1} mm apart, with an artificial viscosity alpha of {VISCOSITY}. Our choice: in the frame of the \
+         tank, whose acceleration loads water and walls alike, the columns along its twelve edges are clamped, so that each wall is a plate clamped all around.\n",
         1e3 * THICKNESS,
         1e-9 * youngs,
         THICKNESS / dx,
