@@ -108,7 +108,7 @@ pub use total_lagrangian::{DisplacementGradient, ReferenceMoment, StressForce, T
 pub use two_phase::{TwoPhase, WithinPhase};
 pub use uniaxial_stress::UniaxialStress;
 pub(crate) use viscosity_switch::ViscositySwitch;
-pub use volume_consistency::VolumeConsistency;
+pub use volume_consistency::{SummedMass, VolumeConsistency};
 pub use walls::{ExtrapolatedPressure, NoWalls, RiemannWalls, VelocityBeforeWall};
 pub use yielding_hourglass::YieldingHourglass;
 

@@ -255,6 +255,7 @@ macro_rules! for_each_term {
                 over_kernel_at_spacing: 1.0
             },
             $crate::effect::NearPairs { over_kernel_at_spacing: 20.0 },
+            $crate::effect::SummedMass,
             $crate::effect::Crowding { over_kernel_at_spacing: 20.0 },
             $crate::effect::ShiftedContinuity,
             $crate::effect::TwoPhase::default(),

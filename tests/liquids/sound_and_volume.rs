@@ -1,15 +1,19 @@
 //! The cures of liquids that act on density alone: bulk viscosity and volume consistency against exact
 //! decay, expansion memory against straight paths; each with its control.
 
-use meshfree::boundary::Periodic;
+use meshfree::boundary::{Periodic, Wall};
+use meshfree::effect::{Effect, Rate, Setting, StepProgram, View};
 use meshfree::kernel::WendlandC2;
 use meshfree::material::{Liquid, Material, SoundSpeed};
+use meshfree::particles::{Field, Fields, Output, Outputs};
 use meshfree::prelude::*;
+use meshfree::scalar::Real;
 use meshfree::scene::Start;
 use meshfree::scheme::LiquidBuilder;
 use meshfree::simulation::ParticleView;
 
 use meshfree::term::viscosity::Inviscid;
+use meshfree::term::{In, Unity, stage};
 
 const SOUND: f64 = 10.0;
 const DENSITY: f64 = 1000.0;
@@ -184,6 +188,86 @@ fn volume_consistency_wants_one_smoothing_length() {
         let error = built.unwrap_err().to_string();
         assert!(error.contains("one smoothing length"), "{error}");
     }
+}
+
+#[test]
+fn volume_consistency_wants_one_density_at_rest() {
+    let scheme = plain().with(VolumeConsistency { strength: 0.05 }).compose();
+    let light = Liquid::new(0.5 * DENSITY, 1480.0, 0.0).linear();
+    let light = light.material("light", SoundSpeed::Chosen(SOUND));
+    let scene = Scene::<f64, 2>::new(scheme)
+        .body(Body::block("heavy", liquid(), [0.0; 2], [0.5, 0.5], 0.05))
+        .body(Body::block("light", light, [0.5, 0.0], [1.0, 0.5], 0.05));
+    let error = scene.build().unwrap_err().to_string();
+    let named = ["`heavy`", "`light`", "density at rest"];
+    assert!(named.iter().all(|name| error.contains(name)), "{error}");
+}
+
+/// The law with volumes at hand in place of masses, as the crate had it before.
+#[derive(Clone, Copy, Debug)]
+struct ByVolumes;
+
+impl<const D: usize> Effect<D> for ByVolumes {
+    type Terms = (In<stage::Continuity, Unity>,);
+    fn terms(&self, _setting: &Setting) -> Self::Terms {
+        (In::new(Unity),)
+    }
+    fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
+        let unity = program.setting().lattice_unity;
+        program.contribute(Field::DENSITY, Volumes { unity });
+    }
+}
+
+/// κ (c/h) (Σ V W/u₀ − 1), κ = 0.05.
+#[derive(Clone, Copy, Debug)]
+struct Volumes {
+    unity: f64,
+}
+
+impl<T: Real, const D: usize> Rate<T, D> for Volumes {
+    fn reads(&self) -> Fields {
+        Fields::NONE
+    }
+    fn sums(&self) -> Outputs {
+        Outputs::of(&[Output::UNITY])
+    }
+    fn growth(&self, at: &View<'_, T, D>, first: usize, _present: &[T], growth: &mut [T]) {
+        let factor = T::from_f64(0.05 * SOUND / at.around.smoothing_length);
+        for (n, growth) in growth.iter_mut().enumerate() {
+            let unity = at.sum(Output::UNITY, 0, first + n) / T::from_f64(self.unity);
+            *growth += factor * (unity - T::one());
+        }
+    }
+    fn source(&self, _at: &View<'_, T, D>, _first: usize, _source: &mut [T]) {}
+}
+
+/// Share of the water between walls, at rest and without pressure, that has left by an open end.
+fn driven_out(scheme: impl Into<Scheme<f64, 2>>) -> f64 {
+    let (dx, size) = (0.025, [1.0, 0.5]);
+    let water = liquid().with_pressure_cut_off(0.0);
+    let water = Body::block("water", water, [0.0; 2], size, dx);
+    let sides = [[true, false], [true; 2]];
+    let wall = Wall::around("wall", [0.0; 2], [2.0 * size[0], size[1]], dx, 3, sides);
+    let mut own = Scene::new(scheme)
+        .body(water)
+        .wall(wall)
+        .build()
+        .expect("a scene");
+    // Twenty crossings of sound.
+    own.run_until(20.0 * size[0] / SOUND).expect("a stable run");
+    let out = own
+        .all()
+        .map(|p| ((p.position()[0] - size[0]) / dx + 0.5).clamp(0.0, 1.0));
+    out.sum::<f64>() * dx * dx / (size[0] * size[1])
+}
+
+#[test]
+fn volume_consistency_leaves_water_with_an_open_end_where_it_is() {
+    let own = driven_out(plain().with(VolumeConsistency { strength: 0.05 }));
+    let volumes = driven_out(plain().with(ByVolumes));
+    println!("driven out by masses {own:e}, by volumes {volumes}");
+    assert!(own < 1e-6, "{own} of the water is driven out");
+    assert!(volumes > 0.01, "by volumes only {volumes}");
 }
 
 /// How much wider than at first a square of liquid is that was stretched to twice its width, and whose velocities
