@@ -84,9 +84,10 @@ impl<const D: usize> Effect<D> for VolumeConsistency {
                 remedy: "leave out either VolumeConsistency or smoothing and mixed_spacing",
             })
         });
-        program.require(|scene| {
+        let acts = self.strength != 0.0;
+        program.require(move |scene| {
             let rest = |k: usize| scene.bodies.get(k).map(|(_, own)| own.reference_density());
-            let other = (1..scene.bodies.len()).find(|&k| rest(k) != rest(0))?;
+            let other = (1..scene.bodies.len()).find(|&k| acts && rest(k) != rest(0))?;
             Some(Problem::Incompatible {
                 what: format!(
                     "volume consistency holds densities to the masses around, and the bodies `{}` and `{}` of its scheme \
