@@ -3,6 +3,7 @@
 
 use super::{Effect, Rate, Setting, StepProgram, View, not_negative};
 use crate::error::Problem;
+use crate::material::Material;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
 use crate::term::{In, Layout, Pair, Sums, Term, TermDoc, stage};
@@ -86,13 +87,14 @@ impl<const D: usize> Effect<D> for VolumeConsistency {
         });
         let acts = self.strength != 0.0;
         program.require(move |scene| {
-            let rest = |k: usize| scene.bodies.get(k).map(|(_, own)| own.reference_density());
-            let other = (1..scene.bodies.len()).find(|&k| acts && rest(k) != rest(0))?;
+            let ((first, liquid), others) = scene.bodies.split_first()?;
+            let rest = liquid.reference_density();
+            let unlike = |own: &&(&str, &Material<T>)| own.1.reference_density() != rest;
+            let (other, _) = others.iter().find(unlike).filter(|_| acts)?;
             Some(Problem::Incompatible {
                 what: format!(
-                    "volume consistency holds densities to the masses around, and the bodies `{}` and `{}` of its scheme \
-                     differ in their density at rest",
-                    scene.bodies[0].0, scene.bodies[other].0
+                    "volume consistency holds densities to the masses around, and the bodies `{first}` and `{other}` of its \
+                     scheme differ in their density at rest"
                 ),
                 remedy: "leave out VolumeConsistency, or give the liquids groups of their own",
             })
