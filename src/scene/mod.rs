@@ -317,8 +317,9 @@ impl<T: Real, const D: usize> Scene<T, D> {
         self
     }
 
-    /// Lets the group of a body take steps of its own, of equal size in every half of a drift of the others, and at most
-    /// `most` in a step. The others then step as if that body were `most` times less stiff, and what couplings do to it
+    /// Lets the group of a body take steps of its own, of equal size in every half of a drift of the others, which step as if that
+    /// body were `most` times less stiff: it takes `most` in a step, or one more in a half in which its own limit has fallen since
+    /// (with 2, 4, 8 and 16 of walls around water 2.8, 4.9, 8.7 and 16.3 on average). What couplings do to it
     /// comes in [impulses](crate::coupling#sub-cycling) at their kicks. It gains where a solid's sound is much faster
     /// than that of the liquid around it, and wants an integrator that kicks and drifts.
     ///
