@@ -24,7 +24,7 @@ pub const YOUNGS: f64 = 3e9;
 const POISSON: f64 = 0.35;
 /// Fewest layers of particles through the thickness.
 const LAYERS: f64 = 3.0;
-/// Steps of the walls in one of the water at most. With 23 and more, as sound speeds allow, impulses at the water's steps
+/// Steps of the walls in one of the water that are asked for. With 23 and more, as sound speeds allow, impulses at the water's steps
 /// shake the walls: their kinetic energy is thirty times as much.
 const STEPS: u32 = 8;
 /// Coefficient of the walls' artificial viscosity. Without one the impulses make them ring until they hold three times the work
@@ -129,7 +129,8 @@ pub fn choices(case: &Case, youngs: f64) -> String {
     format!(
         "Walls of PMMA, {} mm, {DENSITY} kg/m3, E = {:.3} GPa, nu = {POISSON}: a total-Lagrangian body of {:.0} layers of \
          particles, {:.1} mm apart, with an artificial viscosity alpha of {VISCOSITY}. Our choice: in the frame of the \
-         tank, whose acceleration loads water and walls alike, the columns along its twelve edges are clamped, so that each wall is a plate clamped all around.\n",
+         tank, whose acceleration loads water and walls alike, the columns along its twelve edges are clamped, so that \
+         each wall is a plate clamped all around.\n",
         1e3 * THICKNESS,
         1e-9 * youngs,
         THICKNESS / dx,

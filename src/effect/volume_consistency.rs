@@ -96,7 +96,7 @@ impl<const D: usize> Effect<D> for VolumeConsistency {
                     "volume consistency holds densities to the masses around, and the bodies `{first}` and `{other}` of its \
                      scheme differ in their density at rest"
                 ),
-                remedy: "leave out VolumeConsistency, or give the liquids groups of their own",
+                remedy: "leave out VolumeConsistency, or give the liquids one density at rest",
             })
         });
         program.document(TermDoc {
