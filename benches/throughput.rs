@@ -71,7 +71,7 @@ struct Measured {
     step: f64,
     evaluation: f64,
     /// Lists, packing, pairs, walls, materials and integration, each a share of the step.
-    shares: [f64; 6],
+    shares: [f64; 7],
     bytes: usize,
     /// The most bytes on the heap while the scene was built, particles sorted and lists made.
     peak: usize,
@@ -186,6 +186,7 @@ fn measure<T: Real, const D: usize>(
                 spent.lists,
                 spent.packing,
                 spent.pairs,
+                spent.work,
                 spent.walls,
                 spent.materials,
                 spent.integration,
@@ -200,9 +201,9 @@ fn measure<T: Real, const D: usize>(
 
 fn print_head() {
     println!(
-        "| D | scalar | liquid | with walls | threads | neighbours | M/s and thread, evaluation | step | ns a step and liquid particle | lists | packing | pairs | walls | materials | integration | bytes a liquid particle | a particle | at the peak | steps a build |"
+        "| D | scalar | liquid | with walls | threads | neighbours | M/s and thread, evaluation | step | ns a step and liquid particle | lists | packing | pairs | work | walls | materials | integration | bytes a liquid particle | a particle | at the peak | steps a build |"
     );
-    println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
+    println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
 }
 
 fn print<const D: usize>(name: &str, threads: usize, m: &Measured) {

@@ -364,6 +364,7 @@ impl History {
             lists,
             packing,
             pairs,
+            work,
             walls,
             materials,
             integration,
@@ -371,11 +372,12 @@ impl History {
         let watching = 100.0 - share(self.phases.total());
         let _ = write!(
             text,
-            "\nof the time lists {:.0} %, packing {:.0} %, pairs {:.0} %, walls {:.0} %, materials {:.0} %, \
+            "\nof the time lists {:.0} %, packing {:.0} %, pairs {:.0} %, work {:.0} %, walls {:.0} %, materials {:.0} %, \
              integration {:.0} %, probes and files {watching:.0} %",
             share(lists),
             share(packing),
             share(pairs),
+            share(work),
             share(walls),
             share(materials),
             share(integration),

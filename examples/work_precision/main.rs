@@ -2,6 +2,7 @@
 //! `cargo run --release --example work_precision -- --help` lists the options.
 
 mod choices;
+mod energy;
 mod forecast;
 mod gas;
 mod gresho;
@@ -63,6 +64,9 @@ struct Line {
     /// What first steps foretell of whole runs
     #[arg(long)]
     forecast: bool,
+    /// What compatible energy costs against symmetric
+    #[arg(long)]
+    energy: bool,
     /// What comes of runs that are to take a minute
     #[arg(long)]
     within: bool,
@@ -99,6 +103,10 @@ pub(crate) fn main() -> Result<(), Failure> {
         .build_global()?;
     if line.forecast {
         print!("{}", forecast::table(quick)?);
+        return Ok(());
+    }
+    if line.energy {
+        print!("{}", energy::table(quick)?.markdown());
         return Ok(());
     }
     if line.within {
@@ -142,6 +150,9 @@ pub(crate) fn main() -> Result<(), Failure> {
                 page.fail(key, &why.to_string());
             }
         }
+    }
+    if whole {
+        page.price_of_energy(&energy::table(quick)?);
     }
     let seconds = start.elapsed().as_secs_f64();
     page.save(&out.join("accuracy_and_cost.md"))?;

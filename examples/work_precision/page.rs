@@ -12,6 +12,7 @@ use std::time::Duration;
 
 const HEAD: &str = include_str!("words/head.md");
 const CHOSEN: &str = include_str!("words/choices.md");
+const ENERGY: &str = include_str!("words/energy.md");
 const RECOMMENDED: &str = include_str!("words/recommended.md");
 
 pub struct Page {
@@ -51,6 +52,11 @@ impl Page {
             foretold: [0; 6],
             seconds: 0.0,
         }
+    }
+
+    /// What compatible energy costs, after the problems so far.
+    pub fn price_of_energy(&mut self, table: &Table) {
+        self.body += &format!("\n{ENERGY}\n{}", table.markdown());
     }
 
     /// A problem that gave no report.

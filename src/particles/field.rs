@@ -181,7 +181,13 @@ macro_rules! quantities {
             }
             /// The members in the order of storage.
             pub fn iter(self) -> impl Iterator<Item = $Quantity> {
-                (0..PLACES).filter(move |&k| self.0 >> k & 1 == 1).map($Quantity::at)
+                let mut left = self.0;
+                core::iter::from_fn(move || {
+                    let place = left.trailing_zeros() as usize;
+                    // Clears the lowest bit that is set.
+                    left &= left.wrapping_sub(1);
+                    (place < PLACES).then(|| $Quantity::at(place))
+                })
             }
         }
     };

@@ -34,7 +34,8 @@ pub struct CostLine {
 /// The cost of a run so far, by effect.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cost {
-    /// Sweeps and laws, in the order of a step; then neighbour lists, materials and integration.
+    /// Sweeps and laws, in the order of a step; then neighbour lists, materials, the work of compatible energy, and
+    /// integration.
     pub lines: Vec<CostLine>,
     /// Bytes a particle: the columns of each field, then lists, records and sums.
     pub bytes: Vec<(String, f64)>,
@@ -137,6 +138,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             "state",
             "equations of state and coefficients".into(),
             phases.materials,
+        );
+        add(
+            "kicks",
+            "work of pair forces (compatible energy)".into(),
+            phases.work,
         );
         add(
             "integration",

@@ -286,7 +286,9 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.work.rates = rates;
         if self.scheme.energy == EnergyForm::Compatible {
             let mut records = core::mem::take(&mut self.work.work_records);
+            let start = Instant::now();
             sweep.pack(Pass::Work, &self.input(), &mut records);
+            self.work.phases.work += start.elapsed();
             self.work.work_records = records;
         }
     }
@@ -333,8 +335,10 @@ impl<T: Real, const D: usize> Group<T, D> {
         };
         let mut records = core::mem::take(&mut self.work.work_records);
         let mut worked = core::mem::take(&mut self.work.worked);
+        let start = Instant::now();
         sweep.renew_mean_velocity(&self.input(), &mut records);
         sweep.run(Pass::Work, &self.input(), &records, &mut worked);
+        self.work.phases.work += start.elapsed();
         self.work.spent.pairs += self.neighborhood.pairs_of(self.input().targets);
         self.work.work_records = records;
         self.work.worked = worked;

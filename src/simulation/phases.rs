@@ -15,6 +15,9 @@ pub struct Phases {
     pub packing: Duration,
     /// Sweeps over pairs, those of walls excepted.
     pub pairs: Duration,
+    /// The work of pair forces in kicks, which the compatible energy form sums in a sweep of its own
+    /// ([`EnergyForm::Compatible`](crate::scheme::EnergyForm::Compatible)).
+    pub work: Duration,
     /// What wall particles take from the liquid, with the sweep over their neighbours.
     pub walls: Duration,
     /// Equations of state and the coefficients of the pressure force.
@@ -24,7 +27,7 @@ pub struct Phases {
 }
 
 impl Phases {
-    /// Everything but lists and integration: what an evaluation of the rates takes.
+    /// Everything but lists, work and integration: what an evaluation of the rates takes.
     #[must_use]
     pub fn evaluation(&self) -> Duration {
         self.packing + self.pairs + self.walls + self.materials
@@ -33,7 +36,7 @@ impl Phases {
     /// All phases together.
     #[must_use]
     pub fn total(&self) -> Duration {
-        self.lists + self.evaluation() + self.integration
+        self.lists + self.evaluation() + self.work + self.integration
     }
 
     /// With what another group has spent.
@@ -42,6 +45,7 @@ impl Phases {
             lists: self.lists + other.lists,
             packing: self.packing + other.packing,
             pairs: self.pairs + other.pairs,
+            work: self.work + other.work,
             walls: self.walls + other.walls,
             materials: self.materials + other.materials,
             integration: self.integration + other.integration,
@@ -55,6 +59,7 @@ impl Phases {
             lists: self.lists.saturating_sub(earlier.lists),
             packing: self.packing.saturating_sub(earlier.packing),
             pairs: self.pairs.saturating_sub(earlier.pairs),
+            work: self.work.saturating_sub(earlier.work),
             walls: self.walls.saturating_sub(earlier.walls),
             materials: self.materials.saturating_sub(earlier.materials),
             integration: self.integration.saturating_sub(earlier.integration),

@@ -127,13 +127,13 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         K: Kernel<D>,
         P: Terms<D>,
     {
-        // In one dimension a row has a dozen neighbours, and a kernel chosen at run time branches in
-        // the loop: wider instructions are not worth a copy there.
+        // A kernel chosen at run time branches in the loop: wider instructions are not worth a copy there. In one
+        // dimension a row has a dozen neighbours, for which AVX-512 gains nothing over AVX2.
         #[cfg(target_arch = "x86_64")]
-        if const { D > 1 && !K::CHOSEN_AT_RUN_TIME } {
+        if const { !K::CHOSEN_AT_RUN_TIME } {
             // SAFETY: `go` passes only what `InstructionSet::or_detected` found on this machine.
             match instructions {
-                InstructionSet::Avx512 => unsafe {
+                InstructionSet::Avx512 if const { D > 1 } => unsafe {
                     return self.chunk_avx512::<HOW>(
                         self.kernel,
                         self.terms,
@@ -143,7 +143,9 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                         reactions,
                     );
                 },
-                InstructionSet::Avx2 if const { InstructionSet::Avx2.compiled() } => unsafe {
+                InstructionSet::Avx2 | InstructionSet::Avx512
+                    if const { InstructionSet::Avx2.compiled() || D == 1 } =>
+                unsafe {
                     return self.chunk_avx2::<HOW>(
                         self.kernel,
                         self.terms,
