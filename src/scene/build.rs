@@ -126,6 +126,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             self.accelerations,
             self.loads,
         )
+        .with_step_ends(self.step_ends)
         .with_events(self.events)
         .awake_inside(self.awake);
         #[cfg(feature = "checkpoint")]

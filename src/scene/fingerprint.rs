@@ -27,6 +27,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             rigid,
             accelerations,
             loads,
+            step_ends,
             events,
             awake,
             exchanges,
@@ -92,6 +93,9 @@ impl<T: Real, const D: usize> Scene<T, D> {
             ("the choice of steps", of_texts([debug(control)])),
             ("the skin of neighbour lists", of_texts([debug(skin)])),
         ];
+        if !step_ends.is_empty() {
+            all.push(("times at which steps end", of_texts([debug(step_ends)])));
+        }
         // Files of scenes without events are as they were.
         if !events.is_empty() {
             let until: Vec<_> = clamps.iter().map(|own| &own.until).collect();

@@ -121,6 +121,7 @@ pub struct Scene<T: Real, const D: usize> {
     rigid: Vec<String>,
     accelerations: Vec<UniformLoad<D>>,
     loads: Vec<Load<D>>,
+    step_ends: Vec<f64>,
     events: Vec<Event<T, D>>,
     awake: Option<Awake<T, D>>,
     exchanges: Vec<ExchangeOf<T, D>>,
@@ -173,6 +174,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             rigid: Vec::new(),
             accelerations: Vec::new(),
             loads: Vec::new(),
+            step_ends: Vec::new(),
             events: Vec::new(),
             awake: None,
             exchanges: Vec::new(),
@@ -380,6 +382,31 @@ impl<T: Real, const D: usize> Scene<T, D> {
     #[must_use]
     pub fn steps(mut self, change: impl FnOnce(StepControl) -> StepControl) -> Self {
         self.control = change(self.control);
+        self
+    }
+
+    /// Asks for steps that end at these times \[s\]: where a load or a motion has a kink or a jump, which a step across
+    /// it would take as smooth. The step before is shortened, or the two before.
+    ///
+    /// Such times are of the scene. [Readings](crate::simulation#readings) need none, and shorten no step.
+    ///
+    /// ```
+    /// use meshfree::prelude::*;
+    /// // A force per mass that ends after 0.1 µs leaves its momentum, and no more.
+    /// let push = |t: f64| [if t < 1e-7 { 1e9 } else { 0.0 }];
+    /// let mut rod = Scene::<f64, 1>::new(schemes::impact())
+    ///     .body(Body::block("rod", catalogue::copper(), [0.0], [0.01], 2e-4))
+    ///     .acceleration(push)
+    ///     .step_ends_at([1e-7])
+    ///     .build()?;
+    /// let mut ends = Vec::new();
+    /// rod.run_with(2e-7, |now| ends.push(now.time()))?;
+    /// assert!(ends.iter().any(|end| (end - 1e-7).abs() < 1e-16));
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[must_use]
+    pub fn step_ends_at(mut self, times: impl IntoIterator<Item = f64>) -> Self {
+        self.step_ends.extend(times);
         self
     }
 

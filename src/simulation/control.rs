@@ -8,6 +8,7 @@ use super::limits::{broken_effect, vote_of_effects};
 use super::population::Particles;
 use super::soundness::energy_of;
 use super::stages::Moment;
+use super::view::rounding;
 use super::workspace::Workspace;
 use crate::error::{Error, Result};
 use crate::parallel::{GRAIN, reduce, runs};
@@ -24,6 +25,8 @@ use std::ops::Range;
 /// Δt ≤ C_r |rᵢⱼ|/u. Sound and viscosity say nothing of a cold gas, or of liquid that is faster than its sound, and a
 /// step that moved particles through each other would be none. Distances below half a spacing count as that, and
 /// what is not in reach yet as a support away.
+///
+/// A step may be longer than the one before by a factor [`growth`](Self::growth), and shorter by any.
 ///
 /// κ is what the integrator bears relative to a leapfrog
 /// ([`stability`](crate::integrator::Integrator::stability)), and sᵢⱼ the signal that the viscosity in
@@ -43,6 +46,10 @@ pub struct StepControl {
     /// Courant, Friedrichs & Lewy (1928) for particles: what is between two may not leave. Where viscosity acts, the
     /// signal of the first criterion asks for less already, so it limits cold gas and flow without viscosity alone.
     pub approach: f64,
+    /// The factor by which a step may be longer than the one before; 1.1 by default (Wilkins 1964), above one, and
+    /// infinite for no limit. What a criterion asks for may jump up from one step to the next, and steps that jump
+    /// periodically excite what is not damped. A cut by [`Simulation::step_at_most`] does not count.
+    pub growth: f64,
     /// A fixed step \[s\], held in every step against the limit by the factor of the scheme, or by
     /// [`courant`](Self::courant) if that is larger.
     pub fixed: Option<f64>,
@@ -58,6 +65,7 @@ impl Default for StepControl {
             force: 0.25,
             viscous: 0.125,
             approach: 0.5,
+            growth: 1.1,
             fixed: None,
             smallest: None,
         }
@@ -77,21 +85,27 @@ pub enum Criterion {
     Approach,
     /// A limit of an effect, by the [name](crate::effect::Limit::name) that it has in reports.
     Effect(&'static str),
+    /// The step before, times [`StepControl::growth`].
+    Growth,
     /// The step was given.
     Fixed,
-    /// The step was cut to end at the time asked for.
+    /// The scene asked for a step that [ends](crate::scene::Scene::step_ends_at) there.
+    SceneTime,
+    /// The step was cut by [`Simulation::step_at_most`].
     End,
 }
 
 impl Criterion {
     /// All of them, which a checkpoint knows by their names.
     #[cfg(feature = "checkpoint")]
-    pub(super) const ALL: [Self; 6] = [
+    pub(super) const ALL: [Self; 8] = [
         Self::Acoustic,
         Self::Force,
         Self::Viscous,
         Self::Approach,
+        Self::Growth,
         Self::Fixed,
+        Self::SceneTime,
         Self::End,
     ];
 
@@ -104,8 +118,10 @@ impl Criterion {
             Self::Viscous => "viscous: h² ρ/mu",
             Self::Approach => "approach: distance of a pair over its closing speed",
             Self::Effect(name) => name,
+            Self::Growth => "growth: the step before times a factor",
             Self::Fixed => "fixed",
-            Self::End => "end of the run",
+            Self::SceneTime => "time at which the scene asks for the end of a step",
+            Self::End => "limit asked for",
         }
     }
 }
@@ -122,13 +138,45 @@ pub struct Vote {
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
-    /// The largest stable step at the present state, and what sets it.
+    /// The largest step that may be taken from the present state, and what sets it.
     ///
     /// # Errors
     /// [`Error::NotFinite`] if a particle's state is no longer finite, or its density not positive, and
     /// [`Error::SoundSpeedTooLow`] where a liquid meets faster than its sound.
     pub fn vote(&self) -> Result<Vote> {
-        self.vote_with(self.control.courant)
+        let vote = self.vote_with(self.control.courant)?;
+        let most = self.step_before.map(|step| self.control.growth * step);
+        Ok(match most.filter(|most| *most < vote.step) {
+            Some(step) => Vote {
+                step,
+                criterion: Criterion::Growth,
+                ..vote
+            },
+            None => vote,
+        })
+    }
+
+    /// The step, or a shorter one that ends where the scene asks for an end: of two equal ones if that is farther than one.
+    pub(super) fn ending_with_scene(&self, vote: Vote) -> Vote {
+        let later = |end: &&f64| **end - self.time > rounding(**end);
+        let Some(end) = self.step_ends.iter().find(later) else {
+            return vote;
+        };
+        let left = end - self.time;
+        // What is left after the first of two is one step to rounding, and is not halved again.
+        let step = if left > vote.step * (1.0 + 1e-6) {
+            0.5 * left
+        } else {
+            left
+        };
+        if step >= vote.step {
+            return vote;
+        }
+        Vote {
+            step,
+            criterion: Criterion::SceneTime,
+            ..vote
+        }
     }
 
     /// What a fixed step is held against: the factor of the scheme, or a larger one that was asked for. A smaller

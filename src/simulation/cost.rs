@@ -18,6 +18,14 @@ pub(crate) struct Spent {
     pub pairs: u64,
 }
 
+impl Spent {
+    /// Takes the times of another, and keeps its own pairs.
+    pub fn keep_times_of(&mut self, other: &Self) {
+        let pairs = self.pairs;
+        *self = Self { pairs, ..*other };
+    }
+}
+
 /// What one sweep or law has cost.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CostLine {
@@ -152,7 +160,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         Cost {
             lines,
             bytes,
-            steps: self.votes.clone(),
+            steps: self.votes().to_vec(),
         }
     }
 }

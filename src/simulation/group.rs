@@ -13,10 +13,9 @@ use crate::boundary::{Boundary, Emitter, Outlet, Pose};
 use crate::clock::Instant;
 use crate::error::Result;
 use crate::material::eos::GuardCounts;
-use crate::particles::Columns;
 use crate::scalar::{Lane, Real};
 use crate::scheme::Scheme;
-use crate::sweep::{InstructionSet, Interaction, Records, Results, Root, SweepInput, Transform};
+use crate::sweep::{InstructionSet, Interaction, Root, SweepInput};
 use std::sync::Arc;
 
 #[derive(Clone, Debug)]
@@ -50,30 +49,6 @@ pub(crate) struct Group<T: Real, const D: usize> {
     pub guards: GuardCounts,
     /// Limits that laws and updates have applied, in particle steps, by name.
     pub limited: Vec<(&'static str, u64)>,
-}
-
-/// What an evaluation changes, and the next step needs as the last step has left it.
-#[derive(Clone, Debug)]
-pub(super) struct Aside<T: Real, const D: usize> {
-    pub columns: Columns<T, D>,
-    pub rates: Results<T, D>,
-    pub coupling: Results<T, D>,
-    /// What couplings do to a group that sub-cycles.
-    pub apart: Vec<[T; D]>,
-    pub held: Held<D>,
-    pub records: Records<T>,
-    pub work_records: Records<T>,
-    pub records_of_rates: bool,
-    pub first_kick: Option<[f64; 2]>,
-    pub gravity: [[f64; D]; 2],
-    pub body_force: [T; D],
-    pub guards: GuardCounts,
-    pub limited: Vec<(&'static str, u64)>,
-    pub served: u32,
-    pub rebuilds: u64,
-    /// Where images of moving boundaries are, and the time \[s\] of that.
-    pub transforms: Vec<Transform<T, D>>,
-    pub placed_time: f64,
 }
 
 pub(crate) fn width<T: Real>() -> usize {
@@ -112,56 +87,6 @@ impl<T: Real, const D: usize> Group<T, D> {
             guards: GuardCounts::default(),
             limited: Vec::new(),
         }
-    }
-
-    /// A copy of what an evaluation changes.
-    pub(super) fn set_aside(&self) -> Aside<T, D> {
-        Aside {
-            columns: self.particles.columns.clone(),
-            rates: self.work.rates.clone(),
-            coupling: self.work.coupling.clone(),
-            apart: (self.sub_cycle.as_ref()).map_or(Vec::new(), |apart| apart.forces.clone()),
-            held: self.held.clone(),
-            records: self.work.records.clone(),
-            work_records: self.work.work_records.clone(),
-            records_of_rates: self.work.records_of_rates,
-            first_kick: self.work.first_kick,
-            gravity: [self.gravity, self.work.evaluated_gravity.map(Real::to_f64)],
-            body_force: self.body_force,
-            guards: self.guards,
-            limited: self.limited.clone(),
-            served: self.neighborhood.served,
-            rebuilds: self.neighborhood.rebuilds,
-            transforms: self.neighborhood.transforms.clone(),
-            placed_time: self.neighborhood.placed_time,
-        }
-    }
-
-    /// Puts back what was set aside.
-    pub(super) fn take_up(&mut self, aside: Aside<T, D>) {
-        // Lists that were built meanwhile may have sorted the particles: what is there now serves as well.
-        if aside.rebuilds != self.neighborhood.rebuilds {
-            return;
-        }
-        self.particles.columns = aside.columns;
-        self.work.rates = aside.rates;
-        self.work.coupling = aside.coupling;
-        if let Some(apart) = &mut self.sub_cycle {
-            apart.forces = aside.apart;
-        }
-        self.held = aside.held;
-        self.work.records = aside.records;
-        self.work.work_records = aside.work_records;
-        self.work.records_of_rates = aside.records_of_rates;
-        self.work.first_kick = aside.first_kick;
-        self.gravity = aside.gravity[0];
-        self.work.evaluated_gravity = aside.gravity[1].map(T::from_f64);
-        self.body_force = aside.body_force;
-        self.guards = aside.guards;
-        self.limited = aside.limited;
-        self.neighborhood.served = aside.served;
-        self.neighborhood.transforms = aside.transforms;
-        self.neighborhood.placed_time = aside.placed_time;
     }
 
     /// Whether nobody looks at it on its way through a drift.

@@ -1,39 +1,40 @@
-//! The state of a simulation, kept while it rehearses steps, and put back.
+//! The state of a simulation, of which a copy takes the place: rehearsals, readings and evaluations go on from the copy.
 //! The simulation is taken apart whole here, so a new part of it does not compile before it is said what becomes of it.
 
 use super::contact::Couple;
-use super::event::{Event, Happened};
+use super::event::Happened;
 use super::group::Group;
 use super::ledger::Impulses;
-use super::{SetAside, Simulation, Vote, energy, stability};
+use super::{Simulation, Vote, energy, stability};
 use crate::scalar::Real;
+use core::mem::swap;
 
 /// What steps change.
+#[derive(Debug)]
 pub(super) struct Kept<T: Real, const D: usize> {
-    groups: Vec<Group<T, D>>,
-    couples: Vec<Couple<T, D>>,
-    time: f64,
-    steps: u64,
-    evaluations: u64,
-    rates_at_hand: bool,
-    first_step: Option<f64>,
-    last_vote: Option<Vote>,
-    votes: Vec<(&'static str, u64)>,
-    impulses: Impulses,
-    work: Option<energy::Work>,
-    evaluated: f64,
-    impulses_of_states: Vec<Impulses>,
-    aside: Option<SetAside<T, D>>,
-    due: f64,
-    watch: Option<Box<stability::Watch<D>>>,
-    events: Vec<Event<T, D>>,
-    happened: Happened,
+    pub groups: Vec<Group<T, D>>,
+    pub couples: Vec<Couple<T, D>>,
+    pub time: f64,
+    pub steps: u64,
+    pub evaluations: u64,
+    pub rates_at_hand: bool,
+    pub first_step: Option<f64>,
+    pub step_before: Option<f64>,
+    pub last_vote: Option<Vote>,
+    pub votes: Vec<(&'static str, u64)>,
+    pub impulses: Impulses,
+    pub work: Option<energy::Work>,
+    pub evaluated: f64,
+    pub impulses_of_states: Vec<Impulses>,
+    pub due: f64,
+    pub watch: Option<Box<stability::Watch<D>>>,
+    pub happened: Happened,
     /// Layers that inlets have handed over, group by group.
-    handed_over: Vec<u64>,
+    pub handed_over: Vec<u64>,
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
-    /// Keeps the state, of which copies take the place: they go on from it, unwatched and without events.
+    /// Keeps the state, of which a copy takes the place.
     pub(super) fn keep(&mut self) -> Kept<T, D> {
         let handed_over = self.emitters().map(|own| own.handed_over()).collect();
         let Self {
@@ -44,6 +45,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             control: _,
             accelerations: _,
             loads: _,
+            step_ends: _,
             #[cfg(feature = "checkpoint")]
                 scene: _,
             time,
@@ -51,79 +53,109 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             evaluations,
             rates_at_hand,
             first_step,
+            step_before,
             last_vote,
             votes,
             impulses,
             work,
             evaluated,
             kept_impulses,
-            aside,
+            aside: _,
+            shown: _,
             due,
             failed: _,
             watch,
-            events,
+            events: _,
             happened,
             awake: _,
         } = self;
-        Kept {
-            groups: swapped(groups),
-            couples: swapped(couples),
+        let mut kept = Kept {
+            groups: groups.clone(),
+            couples: couples.clone(),
             time: *time,
             steps: *steps,
             evaluations: *evaluations,
             rates_at_hand: *rates_at_hand,
             first_step: *first_step,
+            step_before: *step_before,
             last_vote: *last_vote,
             votes: votes.clone(),
             impulses: impulses.clone(),
             work: *work,
             evaluated: *evaluated,
             impulses_of_states: kept_impulses.clone(),
-            aside: aside.clone(),
             due: *due,
-            watch: watch.take(),
-            events: core::mem::take(events),
+            watch: watch.clone(),
             happened: happened.clone(),
             handed_over,
-        }
+        };
+        self.exchange_state(&mut kept);
+        kept
     }
 
-    /// Puts back what was kept; a step that has failed since has not.
-    pub(super) fn put_back(&mut self, kept: Kept<T, D>) {
-        self.groups = kept.groups;
-        self.couples = kept.couples;
-        self.time = kept.time;
-        self.steps = kept.steps;
-        self.evaluations = kept.evaluations;
-        self.rates_at_hand = kept.rates_at_hand;
-        self.first_step = kept.first_step;
-        self.last_vote = kept.last_vote;
-        self.votes = kept.votes;
-        self.impulses = kept.impulses;
-        self.work = kept.work;
-        self.evaluated = kept.evaluated;
-        self.kept_impulses = kept.impulses_of_states;
-        self.aside = kept.aside;
-        self.due = kept.due;
-        self.failed = None;
-        self.watch = kept.watch;
-        self.events = kept.events;
-        self.happened = kept.happened;
-        for (own, layers) in self.emitters().zip(kept.handed_over) {
-            own.set_handed_over(layers);
+    /// Exchanges the state with what was kept. A failure is no part of it.
+    pub(super) fn exchange_state(&mut self, kept: &mut Kept<T, D>) {
+        let Kept {
+            groups,
+            couples,
+            time,
+            steps,
+            evaluations,
+            rates_at_hand,
+            first_step,
+            step_before,
+            last_vote,
+            votes,
+            impulses,
+            work,
+            evaluated,
+            impulses_of_states,
+            due,
+            watch,
+            happened,
+            handed_over,
+        } = kept;
+        // Copies of an inlet share their count.
+        for (own, layers) in self.emitters().zip(handed_over) {
+            let now = own.handed_over();
+            own.set_handed_over(*layers);
+            *layers = now;
         }
+        swap(&mut self.groups, groups);
+        swap(&mut self.couples, couples);
+        swap(&mut self.time, time);
+        swap(&mut self.steps, steps);
+        swap(&mut self.evaluations, evaluations);
+        swap(&mut self.rates_at_hand, rates_at_hand);
+        swap(&mut self.first_step, first_step);
+        swap(&mut self.step_before, step_before);
+        swap(&mut self.last_vote, last_vote);
+        swap(&mut self.votes, votes);
+        swap(&mut self.impulses, impulses);
+        swap(&mut self.work, work);
+        swap(&mut self.evaluated, evaluated);
+        swap(&mut self.kept_impulses, impulses_of_states);
+        swap(&mut self.due, due);
+        swap(&mut self.watch, watch);
+        swap(&mut self.happened, happened);
+    }
+
+    /// Puts back what was kept. The time that was spent meanwhile stays spent.
+    pub(super) fn put_back(&mut self, mut kept: Kept<T, D>) {
+        for (before, now) in kept.groups.iter_mut().zip(&self.groups) {
+            before.work.phases = now.work.phases;
+            before.work.spent.keep_times_of(&now.work.spent);
+        }
+        if let (Some(before), Some(now)) = (&mut kept.watch, &self.watch) {
+            before.spent = now.spent;
+        }
+        self.exchange_state(&mut kept);
     }
 
     fn emitters(&self) -> impl Iterator<Item = &crate::boundary::Emitter<D>> {
         let groups = self.groups.iter();
         groups.flat_map(|group| group.emitters.iter().map(|(_, own)| own))
     }
-}
-
-/// What was there; a copy of it takes its place.
-fn swapped<V: Clone>(place: &mut V) -> V {
-    let copy = place.clone();
-    core::mem::replace(place, copy)
 }
 
 #[cfg(test)]

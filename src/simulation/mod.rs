@@ -16,7 +16,22 @@
 //! limit in every step, and a step that falls below a millionth of the first ends the run with
 //! [`Error::StepCollapsed`]. After every step, the last included, all of the state is looked at: a number that is not
 //! finite is an [`Error::NotFinite`], and a simulation that has failed takes no further step ([`Error::Failed`]).
-//! [`Simulation::run_until`] shortens the last step to end on time.
+//!
+//! # Readings
+//!
+//! Steps follow from the state alone: what is observed, how often and when changes no bit of a run. Where the end of
+//! [`Simulation::run_until`] or [`Simulation::run_with`] falls between two steps, what they show is the state after a
+//! shortened step that is taken on a copy; the next step starts from where the last one ended. A reading costs a step
+//! and a copy of the state, which is held twice meanwhile. [`Simulation::steps`] and the other counts of work are those
+//! of the run; times of [`Simulation::phases`] and [`Simulation::cost`] contain readings.
+//!
+//! To act on the shown state makes it the state of the run: [`Simulation::set_velocities`], [`Simulation::set_field`],
+//! [`Simulation::step_at_most`], and [`Simulation::accept`] where another program acts, such as one that exchanges
+//! forces with it. [`Simulation::step_at_most`] cuts a step of the run. Where a load or a motion has a kink, the scene
+//! may ask for a step that ends there: [`Scene::step_ends_at`](crate::scene::Scene::step_ends_at).
+//!
+//! Loads, motions and conditions must be functions of what they are given: a reading asks loads and motions for times after which
+//! the next step begins. [Events](crate::scene::Scene::event) are looked at after steps alone.
 //!
 //! # What is counted
 //!
@@ -156,6 +171,7 @@ mod stability;
 mod stages;
 mod state;
 mod sub_cycle;
+mod view;
 mod walls;
 mod which;
 mod work;
@@ -198,23 +214,13 @@ use crate::once::once;
 #[cfg(feature = "checkpoint")]
 use crate::output::checkpoint::Hashes;
 use crate::scalar::Real;
-use group::Aside;
+use kept::Kept;
 use ledger::Impulses;
 use std::sync::Arc;
+use view::Shown;
 
 /// An acceleration \[m/s²\] that acts on all particles as a function of time \[s\].
 pub(crate) type UniformLoad<const D: usize> = Box<dyn Fn(f64) -> [f64; D] + Send + Sync>;
-
-/// What an evaluation between steps changes, and the next step needs as the last step has left it.
-#[derive(Clone, Debug)]
-struct SetAside<T: Real, const D: usize> {
-    groups: Vec<Aside<T, D>>,
-    /// What each coupling by forces has left.
-    acting: Vec<Acting<T, D>>,
-    /// The time \[s\] and the number of the last evaluation.
-    evaluated: f64,
-    evaluations: u64,
-}
 
 /// A simulation in `D` dimensions with scalar `T`.
 ///
@@ -232,6 +238,8 @@ pub struct Simulation<T: Real, const D: usize> {
     pub(crate) accelerations: Vec<UniformLoad<D>>,
     /// Loads that depend on the particle.
     pub(crate) loads: Vec<Load<D>>,
+    /// Times \[s\] at which steps end, in their order.
+    step_ends: Vec<f64>,
     /// Hashes of the scene that it was built from, by what was hashed.
     #[cfg(feature = "checkpoint")]
     pub(crate) scene: Hashes,
@@ -240,6 +248,8 @@ pub struct Simulation<T: Real, const D: usize> {
     evaluations: u64,
     rates_at_hand: bool,
     first_step: Option<f64>,
+    /// The step before \[s\], as it was before a cut.
+    step_before: Option<f64>,
     last_vote: Option<Vote>,
     /// Steps by the criterion that set them.
     votes: Vec<(&'static str, u64)>,
@@ -249,8 +259,10 @@ pub struct Simulation<T: Real, const D: usize> {
     /// The time \[s\] of the last evaluation.
     evaluated: f64,
     kept_impulses: Vec<Impulses>,
-    /// What an evaluation between steps has set aside.
-    aside: Option<SetAside<T, D>>,
+    /// The state before an evaluation between steps.
+    aside: Option<Box<Kept<T, D>>>,
+    /// What readings are shown.
+    shown: Shown<T, D>,
     /// Time \[s\] over which what follows the flow once a step has yet to do so.
     due: f64,
     /// What ended it, in words.
@@ -268,7 +280,7 @@ impl<T: Real, const D: usize> core::fmt::Debug for Simulation<T, D> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.debug_struct("Simulation")
             .field("time", &self.time)
-            .field("steps", &self.steps)
+            .field("steps", &self.steps())
             .field("particles", &self.particles())
             .finish_non_exhaustive()
     }
@@ -304,6 +316,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             control,
             accelerations,
             loads,
+            step_ends: Vec::new(),
             #[cfg(feature = "checkpoint")]
             scene: Hashes::new(),
             time: 0.0,
@@ -311,6 +324,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             evaluations: 0,
             rates_at_hand: false,
             first_step: None,
+            step_before: None,
             last_vote: None,
             votes: Vec::new(),
             impulses: Impulses::default(),
@@ -318,6 +332,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             evaluated: 0.0,
             kept_impulses: Vec::new(),
             aside: None,
+            shown: Shown::LastStep,
             due: 0.0,
             failed: None,
             watch: None,
@@ -327,28 +342,19 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
     }
 
+    /// The same, of steps that end at these times \[s\].
+    pub(crate) fn with_step_ends(mut self, mut times: Vec<f64>) -> Self {
+        times.sort_by(f64::total_cmp);
+        self.step_ends = times;
+        self
+    }
+
     /// Time \[s\].
+    ///
+    /// After [`run_until`](Self::run_until) this is the end that was asked for.
     #[must_use]
     pub fn time(&self) -> f64 {
         self.time
-    }
-
-    /// Steps taken.
-    #[must_use]
-    pub fn steps(&self) -> u64 {
-        self.steps
-    }
-
-    /// Evaluations of the rates so far.
-    #[must_use]
-    pub fn evaluations(&self) -> u64 {
-        self.evaluations
-    }
-
-    /// What set the last step.
-    #[must_use]
-    pub fn last_vote(&self) -> Option<Vote> {
-        self.last_vote
     }
 
     /// The body that a particle belongs to, and its number there.
@@ -380,7 +386,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// failed.
     ///
     /// Between steps it changes nothing of what comes: the next step starts from the rates that the step before has
-    /// left, which belong to predicted velocities (where the evaluation had to build neighbour lists, from its own).
+    /// left, which belong to predicted velocities. The state is held twice until then.
     pub fn evaluate(&mut self) -> Result<()> {
         once!(self => &mut Simulation, evaluate_here() -> Result<()>)
     }
@@ -388,36 +394,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     fn evaluate_here(&mut self) -> Result<()> {
         self.check_failure()?;
         if self.rates_at_hand && self.aside.is_none() {
-            let groups = self.groups.iter().map(Group::set_aside).collect();
-            let acting = self.couples.iter().map(|own| own.acting.clone());
-            self.aside = Some(SetAside {
-                groups,
-                acting: acting.collect(),
-                evaluated: self.evaluated,
-                evaluations: self.evaluations,
-            });
+            self.aside = Some(Box::new(self.keep()));
         }
         crate::integrator::System::evaluate(self, 0.0)?;
         self.vote().map(|_| ())
-    }
-
-    /// Takes up again what an evaluation between steps has set aside.
-    fn take_up(&mut self) {
-        if let Some(aside) = self.aside.take() {
-            for (group, aside) in self.groups.iter_mut().zip(aside.groups) {
-                group.take_up(aside);
-            }
-            for (couple, acting) in self.couples.iter_mut().zip(aside.acting) {
-                couple.acting = acting;
-            }
-            (self.evaluated, self.evaluations) = (aside.evaluated, aside.evaluations);
-        }
-    }
-
-    /// Forgets rates, after the state was changed from outside.
-    fn forget_rates(&mut self) {
-        self.aside = None;
-        self.rates_at_hand = false;
     }
 
     /// Refuses to go on after a failure.

@@ -26,7 +26,8 @@ pub(crate) struct Neighborhood<T: Real, const D: usize> {
     pub images: Vec<Image>,
     pub transforms: Vec<Transform<T, D>>,
     pub chains: Vec<Chain>,
-    pub lists: ClusterLists,
+    /// Shared with copies of the state until one of them lists anew.
+    pub lists: Arc<ClusterLists>,
     /// Positions of slots at the last list build, then of images.
     pub listed: Vec<[T; D]>,
     pub listed_h: Vec<T>,
@@ -70,7 +71,7 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
             images: Vec::new(),
             transforms: Vec::new(),
             chains: Vec::new(),
-            lists: ClusterLists::default(),
+            lists: Arc::default(),
             listed: Vec::new(),
             listed_h: Vec::new(),
             listed_time: 0.0,
@@ -213,7 +214,11 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
             .iter()
             .map(|&interaction| interaction != Interaction::None)
             .collect();
-        self.lists.rebuild(&SearchInput {
+        if Arc::get_mut(&mut self.lists).is_none() {
+            self.lists = Arc::default();
+        }
+        let lists = Arc::get_mut(&mut self.lists).expect("they are no other's");
+        lists.rebuild(&SearchInput {
             positions: &self.listed,
             listed: &listed,
             radii,

@@ -95,10 +95,15 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             }));
         }
         self.check_failure()?;
-        let (bytes, kept) = (self.bytes(), self.keep());
-        let rehearsed = self.rehearse(end, bytes);
-        self.put_back(kept);
-        rehearsed
+        self.on_last_step(|own| {
+            let (bytes, mut kept) = (own.bytes(), own.keep());
+            own.watch = None;
+            let events = core::mem::take(&mut own.events);
+            let rehearsed = own.rehearse(end, bytes);
+            own.exchange_state(&mut kept);
+            (own.events, own.failed) = (events, None);
+            rehearsed
+        })
     }
 
     fn rehearse(&mut self, end: f64, bytes: usize) -> Result<Work> {
@@ -109,7 +114,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             if steps >= LEAST && (self.time >= to || pairs >= MOST.1) {
                 break;
             }
-            self.step_at_most(end - self.time)?;
+            self.step_to(end - self.time)?;
             marks.push(Mark::of(self));
         }
         // The scene was built with lists.

@@ -394,10 +394,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Builds of the neighbour lists since the start.
     #[must_use]
     pub fn list_builds(&self) -> u64 {
-        self.groups
-            .iter()
-            .map(|group| group.neighborhood.rebuilds)
-            .sum()
+        let groups = self.groups_after_step().iter();
+        groups.map(|group| group.neighborhood.rebuilds).sum()
     }
 
     /// Bytes held for particles, lists and records.

@@ -1,31 +1,34 @@
-//! Steps in time: one, or as many as it takes to an end.
+//! Steps in time: one, or as many as there are before an end.
 //! A step that fails is the last one.
 
 use super::Simulation;
 use super::control::{self, Criterion, Vote};
+use super::view::rounding;
 use crate::error::{Error, Problem, Result};
 use crate::once::once;
 use crate::scalar::Real;
 
 impl<T: Real, const D: usize> Simulation<T, D> {
-    /// Takes one step, and returns its size \[s\].
+    /// Takes the next step of the run, and returns its size \[s\].
+    ///
+    /// It starts from where the last one ended, also where a state after that [is shown](crate::simulation#readings).
     ///
     /// # Errors
     /// As [`run_until`](Simulation::run_until).
     pub fn step(&mut self) -> Result<f64> {
-        self.step_at_most(f64::INFINITY)
+        self.return_to_last_step();
+        self.step_to(f64::INFINITY)
     }
 
-    /// Takes one step of at most `limit` \[s\], which may be infinite.
+    /// Takes one step of at most `limit` \[s\], which may be infinite, from the state that is shown.
+    ///
+    /// A limit below the step that the state asks for cuts a step of the run, so results depend on it. Equal cuts at equal
+    /// intervals excite what is not damped: a leapfrog of steps that vary periodically resonates far below its limit of
+    /// stability. To read the state at a time use [`run_until`](Self::run_until), which cuts none.
     ///
     /// # Errors
     /// As [`run_until`](Simulation::run_until), and [`Error::Argument`] if the limit is not positive.
     pub fn step_at_most(&mut self, limit: f64) -> Result<f64> {
-        once!(self => &mut Simulation, step_here(limit: f64) -> Result<f64>)
-    }
-
-    fn step_here(&mut self, limit: f64) -> Result<f64> {
-        self.check_failure()?;
         if limit.is_nan() || limit <= 0.0 {
             return Err(Error::Argument(Problem::Parameter {
                 what: "limit of the step".into(),
@@ -33,27 +36,36 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 must_be: "it must be positive, in seconds",
             }));
         }
-        self.take_up();
+        self.accept();
+        self.step_to(limit)
+    }
+
+    pub(super) fn step_to(&mut self, limit: f64) -> Result<f64> {
+        once!(self => &mut Simulation, step_here(limit: f64) -> Result<f64>)
+    }
+
+    fn step_here(&mut self, limit: f64) -> Result<f64> {
+        let next = self.next_step_here()?;
+        self.take_step_here(next, limit)
+    }
+
+    /// The next step, from the state after the last one. Particles have entered, and rates are at hand.
+    pub(super) fn next_step(&mut self) -> Result<Vote> {
+        once!(self => &mut Simulation, next_step_here() -> Result<Vote>)
+    }
+
+    fn next_step_here(&mut self) -> Result<Vote> {
+        self.check_failure()?;
+        let (start, before) = (crate::clock::Instant::now(), self.phases());
         for k in 0..self.groups.len() {
             let entered = self.groups[k].emit(self.time);
             if self.keep_failure(entered)? {
                 self.rates_at_hand = false;
             }
         }
-        let taken = self.take_step(limit);
-        let kept = |error: &Error| {
-            matches!(
-                error,
-                Error::NotFinite { .. }
-                    | Error::Load { .. }
-                    | Error::WallJump { .. }
-                    | Error::SoundSpeedTooLow { .. }
-            )
-        };
-        match taken {
-            Err(error) if kept(&error) => self.keep_failure(Err(error)),
-            taken => taken,
-        }
+        let next = self.find_step();
+        self.book_step(start, before);
+        self.keep_broken(next)
     }
 
     /// The error that describes a step in which time does not go on, by the last vote.
@@ -77,8 +89,20 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         outcome
     }
 
-    fn take_step(&mut self, limit: f64) -> Result<f64> {
-        let (start, before) = (crate::clock::Instant::now(), self.phases());
+    /// The same, of errors that say that the state or what acts on it is broken.
+    fn keep_broken<R>(&mut self, outcome: Result<R>) -> Result<R> {
+        match outcome {
+            Err(
+                error @ (Error::NotFinite { .. }
+                | Error::Load { .. }
+                | Error::WallJump { .. }
+                | Error::SoundSpeedTooLow { .. }),
+            ) => self.keep_failure(Err(error)),
+            outcome => outcome,
+        }
+    }
+
+    fn find_step(&mut self) -> Result<Vote> {
         if !self.rates_at_hand {
             crate::integrator::System::evaluate(self, 0.0)?;
         }
@@ -100,22 +124,47 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             };
         }
         let first = *self.first_step.get_or_insert(vote.step);
-        let step = vote.step.min(limit);
-        // A step that time does not feel would be taken for ever.
-        let lost = self.time + step <= self.time;
-        if lost || vote.step < self.control.smallest.unwrap_or(1e-6 * first) {
+        if vote.step < self.control.smallest.unwrap_or(1e-6 * first) {
             self.last_vote = Some(vote);
-            return Err(self.collapsed(step));
+            return Err(self.collapsed(vote.step));
         }
-        if vote.step > limit {
-            vote = Vote {
+        Ok(self.ending_with_scene(vote))
+    }
+
+    /// Takes a step of the run, of at most `limit` \[s\], and looks at what has happened.
+    fn take_step(&mut self, next: Vote, limit: f64) -> Result<f64> {
+        once!(self => &mut Simulation, take_step_here(next: Vote, limit: f64) -> Result<f64>)
+    }
+
+    fn take_step_here(&mut self, next: Vote, limit: f64) -> Result<f64> {
+        let (start, before) = (crate::clock::Instant::now(), self.phases());
+        self.advance(next, limit)?;
+        self.watch_events();
+        let followed = self.follow_events();
+        self.keep_failure(followed)?;
+        self.book_step(start, before);
+        Ok(next.step.min(limit))
+    }
+
+    /// Takes a step, of at most `limit` \[s\], and looks at the state that it leaves.
+    pub(super) fn advance(&mut self, next: Vote, limit: f64) -> Result<()> {
+        let vote = if next.step > limit {
+            Vote {
                 step: limit,
                 criterion: Criterion::End,
-                ..vote
-            };
-        }
-        self.check_walls(vote.step)?;
+                ..next
+            }
+        } else {
+            next
+        };
         self.last_vote = Some(vote);
+        // A step that time does not feel would be taken for ever.
+        if self.time + vote.step <= self.time {
+            self.last_vote = Some(next);
+            return Err(self.collapsed(vote.step));
+        }
+        let walls = self.check_walls(vote.step);
+        self.keep_failure(walls)?;
         self.due += vote.step;
         self.impulses.time = self.time;
         // The integrator sees the simulation as a system, and is shared with it while it steps.
@@ -124,21 +173,24 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.keep_failure(stepped)?;
         self.time += vote.step;
         self.steps += 1;
+        self.step_before = Some(next.step);
         let name = vote.criterion.name();
         match self.votes.iter_mut().find(|own| own.0 == name) {
             Some(own) => own.1 += 1,
             None => self.votes.push((name, 1)),
         }
-        self.check_state()?;
+        let sound = self.check_state();
+        self.keep_broken(sound)?;
         self.watch_step();
-        self.watch_events();
-        let followed = self.follow_events();
-        self.keep_failure(followed)?;
-        self.book_step(start, before);
-        Ok(vote.step)
+        Ok(())
     }
 
-    /// Steps until `end` \[s\]; the last step is shortened to end there.
+    /// Steps until `end` \[s\].
+    ///
+    /// No step is cut: steps follow from the state alone, and the run is the same to the bit whatever ends are asked for,
+    /// and how many. Where `end` is between two steps, what is shown is the state after a shortened step on a copy, from
+    /// which the next step does not start; see [readings](crate::simulation#readings). To act on what is shown makes it
+    /// the state of the run.
     ///
     /// # Errors
     /// [`Error::NotFinite`] when the run has broken, [`Error::Load`] when a load has, [`Error::StepCollapsed`] when the
@@ -149,7 +201,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.run_with(end, |_| {})
     }
 
-    /// Steps until `end` \[s\] and shows the simulation to `observe` after every step.
+    /// Steps until `end` \[s\] and shows the simulation to `observe` after every step, and at the end if that is between
+    /// two steps. A run that goes on from there shows the next step, whose end is after what was shown.
     ///
     /// # Errors
     /// As [`run_until`](Simulation::run_until).
@@ -163,21 +216,24 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
         self.check_failure()?;
         // Steps shorter than this are rounding, not time.
-        let rounding = 1e-12 * end.abs();
+        let rounding = rounding(end);
+        if end - self.time <= rounding {
+            return Ok(());
+        }
+        self.return_to_last_step();
         while end - self.time > rounding {
+            let next = self.next_step()?;
             let left = end - self.time;
-            // Two equal last steps instead of a full one and a sliver. What is left after the first of
-            // them is one step to rounding, and is not halved again.
-            let limit = match self.last_vote {
-                Some(vote) if left < 2.0 * vote.step && left > 1.000_001 * vote.step => 0.5 * left,
-                _ => left,
-            };
-            let taken = self.step_at_most(limit)?;
-            if taken < rounding && end - self.time > rounding {
-                return Err(self.collapsed(taken));
-            }
-            if end - self.time <= rounding {
-                self.time = end;
+            if next.step > left + rounding {
+                self.show(end, next)?;
+            } else {
+                let taken = self.take_step(next, f64::INFINITY)?;
+                if taken < rounding && end - self.time > rounding {
+                    return Err(self.collapsed(taken));
+                }
+                if end - self.time <= rounding {
+                    self.show_at(end);
+                }
             }
             observe(self);
         }

@@ -138,10 +138,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Steps of all groups that sub-cycle since the start; see [`Scene::sub_cycle`](crate::scene::Scene::sub_cycle).
     #[must_use]
     pub fn sub_steps(&self) -> u64 {
-        let apart = self
-            .groups
-            .iter()
-            .filter_map(|group| group.sub_cycle.as_ref());
+        let groups = self.groups_after_step().iter();
+        let apart = groups.filter_map(|group| group.sub_cycle.as_ref());
         apart.map(|apart| apart.steps).sum()
     }
 

@@ -47,7 +47,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             steps: self.steps(),
             evaluations: self.evaluations(),
             list_builds: self.list_builds(),
-            pairs: self.groups.iter().map(|group| group.work.spent.pairs).sum(),
+            pairs: {
+                let groups = self.groups_after_step().iter();
+                groups.map(|group| group.work.spent.pairs).sum()
+            },
             bytes: self.bytes(),
             time: self.phases().total(),
         }

@@ -10,6 +10,8 @@ mod filling;
 mod invariance;
 mod neighbours;
 #[cfg(feature = "checkpoint")]
+mod readings;
+#[cfg(feature = "checkpoint")]
 mod restart;
 mod step_limits;
 mod step_program;

@@ -1,6 +1,7 @@
 //! Restart: a simulation that stops at any moment and goes on from its file ends with the same bits, in every kind of
 //! scheme; and a file that is not its own is refused with what differs.
 
+use super::readings::read_on_the_way;
 use crate::common::{self, Random};
 use meshfree::boundary::{Crush, Inlet, Outlet, Rotation, Wall};
 use meshfree::coupling::ContactDensity;
@@ -45,7 +46,7 @@ impl Drop for Folder {
 }
 
 /// All that a simulation says of itself, to the bit.
-fn said<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Vec<u64> {
+pub(super) fn said<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Vec<u64> {
     let mut all = vec![
         simulation.steps(),
         simulation.evaluations(),
@@ -172,6 +173,8 @@ fn stop_and_go_on<T: Real, const D: usize>(
         resumed.save(&again).unwrap();
         assert_same(name, &at_end, &again);
     }
+    let resume = |path: &Path| scene().resume(path).unwrap();
+    read_on_the_way(name, start, resume, end, &folder.file("read"));
     last
 }
 
@@ -655,10 +658,10 @@ fn another_version_width_and_machine_are_named() {
         problem(rods::<f64>(), &copy)
     };
     assert_eq!(
-        with(r#""version":"3""#, r#""version":"9""#),
+        with(r#""version":"4""#, r#""version":"9""#),
         CheckpointProblem::Version {
             found: "9".into(),
-            known: "3"
+            known: "4"
         }
     );
     assert_eq!(

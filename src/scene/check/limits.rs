@@ -272,6 +272,21 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 problems.push(parameter(what, value, must_be));
             }
         }
+        if control.growth.is_nan() || control.growth <= 1.0 {
+            let must_be =
+                "it must be above 1, or steps that were short once stay so; infinite for no limit";
+            problems.push(parameter(
+                "growth factor of the step",
+                control.growth,
+                must_be,
+            ));
+        }
+        for &end in &self.step_ends {
+            if !end.is_finite() || end <= 0.0 {
+                let must_be = "it must be finite and after the start, in seconds";
+                problems.push(parameter("time at which a step ends", end, must_be));
+            }
+        }
         if let Some(smallest) = control.smallest
             && !(smallest.is_finite() && smallest >= 0.0)
         {

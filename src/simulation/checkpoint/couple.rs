@@ -6,7 +6,7 @@ use crate::scalar::Real;
 use crate::simulation::contact::{Acting, Couple};
 
 impl<T: Real, const D: usize> Couple<T, D> {
-    pub(super) fn put(&self, acting: &Acting<T, D>, name: &str, file: &mut Checkpoint) {
+    pub(super) fn put(&self, name: &str, file: &mut Checkpoint) {
         let Self {
             coupling: _,
             sides: _,
@@ -15,7 +15,7 @@ impl<T: Real, const D: usize> Couple<T, D> {
             exclusion: _,
             reference: _,
             stiffness,
-            acting: _,
+            acting,
             work,
             // It follows from positions.
             list: _,

@@ -1,25 +1,20 @@
 //! What a checkpoint holds of a group: what it is made of, what couplings have done to it, and what is counted.
-//! What an evaluation between steps has set aside is put in place of what that has left.
+//! Of walls it is what follows the bodies that they are.
 
 use super::held::{put_held, take_held};
 use super::particles::{check_run, put_particles, take_particles};
 use super::workspace::{put_neighborhood, put_workspace, take_neighborhood, take_workspace};
 use crate::material::eos::GuardCounts;
 use crate::output::checkpoint::{Checkpoint, Read, damaged};
-use crate::particles::Columns;
 use crate::scalar::Real;
 use crate::scheme::Scheme;
 use crate::simulation::couplings::Structure;
-use crate::simulation::group::{Aside, Group};
-use crate::simulation::held::Held;
+use crate::simulation::group::Group;
 use crate::simulation::soundness::NEGATIVE_ENERGY;
 use crate::simulation::sub_cycle::SubCycle;
-use crate::sweep::{Records, Results};
 
 impl<T: Real, const D: usize> Group<T, D> {
-    pub(super) fn put(&self, aside: Option<&Aside<T, D>>, name: &str, file: &mut Checkpoint) {
-        // What was set aside before lists were built is not taken up.
-        let aside = aside.filter(|aside| aside.rebuilds == self.neighborhood.rebuilds);
+    pub(super) fn put(&self, name: &str, file: &mut Checkpoint) {
         let Self {
             particles,
             neighborhood,
@@ -43,31 +38,10 @@ impl<T: Real, const D: usize> Group<T, D> {
             limited,
         } = self;
         let slots = particles.columns.slots();
-        let evaluated_gravity = work.evaluated_gravity.map(Real::to_f64);
-        let mut own = Put {
-            columns: &particles.columns,
-            rates: &work.rates,
-            coupling: &work.coupling,
-            apart: sub_cycle.as_ref().map_or(&[], |apart| &apart.forces),
-            held,
-            records: &work.records,
-            work_records: &work.work_records,
-            records_of_rates: work.records_of_rates,
-            first_kick: work.first_kick,
-            gravity: [*gravity, evaluated_gravity],
-            body_force: *body_force,
-            guards: *guards,
-            limited,
-            served: neighborhood.served,
-            placed_time: neighborhood.placed_time,
-        };
-        if let Some(aside) = aside {
-            own = Put::of(aside);
-        }
-        put_particles(particles, own.columns, scheme, name, file);
-        put_neighborhood(neighborhood, (slots, own.placed_time), name, file);
-        file.put_one(format!("{name}/served"), own.served);
-        put_workspace(work, &own, (scheme, !walls.is_empty()), name, file);
+        put_particles(particles, scheme, name, file);
+        put_neighborhood(neighborhood, slots, name, file);
+        file.put_one(format!("{name}/served"), neighborhood.served);
+        put_workspace(work, (scheme, !walls.is_empty()), name, file);
         for (k, wall) in walls.iter().enumerate() {
             if let Some(structure) = &wall.structure {
                 let Structure {
@@ -90,7 +64,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
         if let Some(SubCycle {
             most: _,
-            forces: _,
+            forces,
             work,
             steps,
             spreads: _,
@@ -99,26 +73,26 @@ impl<T: Real, const D: usize> Group<T, D> {
             spread: _,
         }) = sub_cycle
         {
-            file.put_reals(format!("{name}/apart/forces"), D, own.apart.as_flattened());
+            file.put_reals(format!("{name}/apart/forces"), D, forces.as_flattened());
             file.put(format!("{name}/apart/work"), 1, work);
             file.put_one(format!("{name}/apart/steps"), *steps);
             file.put_reals(format!("{name}/apart/pending"), D, pending.as_flattened());
         }
-        put_held(own.held, name, file);
+        put_held(held, name, file);
         let layers: Vec<u64> = emitters.iter().map(|(_, own)| own.handed_over()).collect();
         file.put(format!("{name}/handed_over"), 1, layers);
-        let [gravity, evaluated_gravity] = own.gravity;
+        let evaluated_gravity = work.evaluated_gravity.map(Real::to_f64);
         file.put(format!("{name}/gravity"), 1, gravity);
         file.put(format!("{name}/evaluated_gravity"), 1, evaluated_gravity);
-        file.put_reals(format!("{name}/body_force"), 1, &own.body_force);
+        file.put_reals(format!("{name}/body_force"), 1, body_force);
         let GuardCounts {
             compression,
             expansion,
             cut_off,
-        } = own.guards;
+        } = *guards;
         let guards = [compression, expansion, cut_off];
         file.put(format!("{name}/guards"), 1, guards);
-        let (names, counts): (Vec<&str>, Vec<u64>) = own.limited.iter().copied().unzip();
+        let (names, counts): (Vec<&str>, Vec<u64>) = limited.iter().copied().unzip();
         file.put_text(format!("{name}/limits"), names.join("\n"));
         file.put(format!("{name}/limited"), 1, counts);
     }
@@ -138,7 +112,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.work = take_workspace(columns, &scheme, name, file)?;
         // Lists follow from the places and lengths that they were built from.
         let (mut listed, placed_time) = taken;
-        let mut exchange = |columns: &mut Columns<T, D>| {
+        let mut exchange = |columns: &mut crate::particles::Columns<T, D>| {
             for (field, column) in &mut listed {
                 core::mem::swap(columns.column_mut(*field), column);
             }
@@ -201,67 +175,6 @@ impl<T: Real, const D: usize> Group<T, D> {
             self.limited.push((known, count));
         }
         Ok(())
-    }
-}
-
-/// What an evaluation between steps sets aside: the file has that, or what is there now.
-pub(super) struct Put<'a, T: Real, const D: usize> {
-    pub columns: &'a Columns<T, D>,
-    pub rates: &'a Results<T, D>,
-    pub coupling: &'a Results<T, D>,
-    pub apart: &'a [[T; D]],
-    pub held: &'a Held<D>,
-    pub records: &'a Records<T>,
-    pub work_records: &'a Records<T>,
-    pub records_of_rates: bool,
-    pub first_kick: Option<[f64; 2]>,
-    pub gravity: [[f64; D]; 2],
-    pub body_force: [T; D],
-    pub guards: GuardCounts,
-    pub limited: &'a [(&'static str, u64)],
-    pub served: u32,
-    pub placed_time: f64,
-}
-
-impl<'a, T: Real, const D: usize> Put<'a, T, D> {
-    fn of(aside: &'a Aside<T, D>) -> Self {
-        let Aside {
-            columns,
-            rates,
-            coupling,
-            apart,
-            held,
-            records,
-            work_records,
-            records_of_rates,
-            first_kick,
-            gravity,
-            body_force,
-            guards,
-            limited,
-            served,
-            rebuilds: _,
-            // They follow from the time at which they are.
-            transforms: _,
-            placed_time,
-        } = aside;
-        Self {
-            columns,
-            rates,
-            coupling,
-            apart,
-            held,
-            records,
-            work_records,
-            records_of_rates: *records_of_rates,
-            first_kick: *first_kick,
-            gravity: *gravity,
-            body_force: *body_force,
-            guards: *guards,
-            limited,
-            served: *served,
-            placed_time: *placed_time,
-        }
     }
 }
 

@@ -12,6 +12,7 @@ mod workspace;
 
 use super::energy::Work;
 use super::ledger::Impulses;
+use super::view::{Shown, rounding};
 use super::{Criterion, Simulation, Vote, width};
 use crate::error::{CheckpointProblem, Error, Result};
 use crate::once::once;
@@ -21,10 +22,11 @@ use crate::sweep::{InstructionSet, Root};
 use std::path::Path;
 
 /// The version of what is held. It rises with every change of it.
-const VERSION: &str = "3";
+const VERSION: &str = "4";
 
 /// Parts of a scene that are hashed only where there are any.
-const RARE: [&str; 3] = [
+const RARE: [&str; 4] = [
+    "times at which steps end",
     "events",
     "the box in which it is awake",
     "schemes that come later",
@@ -37,7 +39,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// [checkpoint and restart](crate::simulation#checkpoint-and-restart). The file appears at once and whole: a crash
     /// while it is written leaves the one before.
     ///
-    /// After an [evaluation](Self::evaluate) between steps it holds what the next step starts from.
+    /// It holds the state that the next step starts from, and the time that is [shown](crate::simulation#readings) where that
+    /// is another.
     ///
     /// # Errors
     /// [`Error::File`] if the file cannot be written, and [`Error::Failed`] after a step that has failed: its state is
@@ -58,6 +61,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             path: path.to_path_buf(),
             problem,
         })?;
+        if let Ok(shown) = file.get_one::<f64>("shown") {
+            if (shown - self.time).abs() <= rounding(shown) {
+                self.show_at(shown);
+            } else {
+                let next = self.next_step()?;
+                self.show(shown, next)?;
+            }
+        }
         Ok(self)
     }
 
@@ -74,6 +85,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             control: _,
             accelerations: _,
             loads: _,
+            step_ends: _,
             events: _,
             awake: _,
             happened,
@@ -83,6 +95,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             evaluations,
             rates_at_hand,
             first_step,
+            step_before,
             last_vote,
             // What a process has counted, as it has its times.
             votes: _,
@@ -90,16 +103,32 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             work,
             evaluated,
             kept_impulses,
-            aside,
+            aside: _,
+            shown,
             due,
             failed: _,
             watch: _,
         } = self;
-        // The next step takes up what was set aside.
-        let now: Vec<_> = couples.iter().map(|own| own.acting.clone()).collect();
-        let (acting, evaluated, evaluations) = match aside {
-            Some(aside) => (&aside.acting, &aside.evaluated, &aside.evaluations),
-            None => (&now, evaluated, evaluations),
+        // The next step starts from the state after the last one. While another is shown, no particles enter.
+        let last = self.last_step();
+        let groups = last.map_or(groups, |last| &last.groups);
+        let couples = last.map_or(couples, |last| &last.couples);
+        let time = last.map_or(time, |last| &last.time);
+        let steps = last.map_or(steps, |last| &last.steps);
+        let evaluations = last.map_or(evaluations, |last| &last.evaluations);
+        let rates_at_hand = last.map_or(rates_at_hand, |last| &last.rates_at_hand);
+        let first_step = last.map_or(first_step, |last| &last.first_step);
+        let step_before = last.map_or(step_before, |last| &last.step_before);
+        let last_vote = last.map_or(last_vote, |last| &last.last_vote);
+        let impulses = last.map_or(impulses, |last| &last.impulses);
+        let work = last.map_or(work, |last| &last.work);
+        let evaluated = last.map_or(evaluated, |last| &last.evaluated);
+        let due = last.map_or(due, |last| &last.due);
+        let happened = last.map_or(happened, |last| &last.happened);
+        let kept_impulses = last.map_or(kept_impulses, |last| &last.impulses_of_states);
+        let time = match shown {
+            Shown::Rounded(own) => own,
+            _ => time,
         };
         let mut file = Checkpoint::default();
         file.put_text("format", FORMAT);
@@ -116,6 +145,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             file.put_text(format!("hash of {part}"), format!("{hash:016x}"));
         }
         file.put_one("time".into(), *time);
+        if *time != self.time {
+            file.put_one("shown".into(), self.time);
+        }
         file.put_one("steps".into(), *steps);
         file.put_one("evaluations".into(), *evaluations);
         file.put_one("rates_at_hand".into(), u32::from(*rates_at_hand));
@@ -123,6 +155,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         file.put_one("due".into(), *due);
         if let Some(step) = first_step {
             file.put_one("first_step".into(), *step);
+        }
+        if let Some(step) = step_before {
+            file.put_one("step_before".into(), *step);
         }
         if let Some(vote) = last_vote {
             let Vote {
@@ -158,12 +193,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 file.put_one(format!("event{k}/time"), *at);
             }
         }
-        for (k, (couple, acting)) in couples.iter().zip(acting).enumerate() {
-            couple.put(acting, &format!("coupling{k}"), &mut file);
+        for (k, couple) in couples.iter().enumerate() {
+            couple.put(&format!("coupling{k}"), &mut file);
         }
         for (k, group) in groups.iter().enumerate() {
-            let aside = aside.as_ref().and_then(|aside| aside.groups.get(k));
-            group.put(aside, &format!("group{k}"), &mut file);
+            group.put(&format!("group{k}"), &mut file);
         }
         file
     }
@@ -196,6 +230,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.first_step = None;
         if file.has("first_step") {
             self.first_step = Some(file.get_one("first_step")?);
+        }
+        self.step_before = None;
+        if file.has("step_before") {
+            self.step_before = Some(file.get_one("step_before")?);
         }
         self.last_vote = None;
         if file.has("last_vote/step") {

@@ -2,7 +2,7 @@
 //! Columns are put under the names of their fields.
 
 use crate::output::checkpoint::{Checkpoint, Read, damaged};
-use crate::particles::{Columns, Field};
+use crate::particles::Field;
 use crate::scalar::Real;
 use crate::scheme::Scheme;
 use crate::simulation::population::{BodyState, Moves, Particles, Removed};
@@ -21,13 +21,12 @@ pub(super) fn column_name<T: Real, const D: usize>(scheme: &Scheme<T, D>, field:
 
 pub(super) fn put_particles<T: Real, const D: usize>(
     particles: &Particles<T, D>,
-    columns: &Columns<T, D>,
     scheme: &Scheme<T, D>,
     name: &str,
     file: &mut Checkpoint,
 ) {
     let Particles {
-        columns: _,
+        columns,
         bodies,
         mobile: _,
         ids,

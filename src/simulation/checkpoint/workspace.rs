@@ -1,7 +1,6 @@
 //! What a checkpoint holds of a group's lists and workspace: where lists were built, rates, sums, and saved states.
 //! Lists follow from the places that they were built from, and are built again.
 
-use super::group::Put;
 use super::particles::column_name;
 use crate::output::checkpoint::{Checkpoint, Read, damaged};
 use crate::particles::{Columns, Field, Output, Outputs};
@@ -95,7 +94,7 @@ pub(super) fn take_workspace<T: Real, const D: usize>(
 
 pub(super) fn put_neighborhood<T: Real, const D: usize>(
     neighborhood: &Neighborhood<T, D>,
-    (slots, placed_time): (usize, f64),
+    slots: usize,
     name: &str,
     file: &mut Checkpoint,
 ) {
@@ -111,7 +110,7 @@ pub(super) fn put_neighborhood<T: Real, const D: usize>(
         listed_h,
         listed_time,
         listed_reach,
-        placed_time: _,
+        placed_time,
         skin,
         skins: _,
         served: _,
@@ -127,7 +126,7 @@ pub(super) fn put_neighborhood<T: Real, const D: usize>(
     file.put_reals(format!("{name}/listed_smoothing_length"), 1, lengths);
     file.put_one(format!("{name}/listed_time"), *listed_time);
     file.put_one(format!("{name}/listed_reach"), *listed_reach);
-    file.put_one(format!("{name}/placed_time"), placed_time);
+    file.put_one(format!("{name}/placed_time"), *placed_time);
     file.put_one(format!("{name}/skin"), *skin);
     file.put_one(format!("{name}/rebuilds"), *rebuilds);
     file.put_one(format!("{name}/sorted_entries"), *sorted_entries as u64);
@@ -135,22 +134,21 @@ pub(super) fn put_neighborhood<T: Real, const D: usize>(
 
 pub(super) fn put_workspace<T: Real, const D: usize>(
     work: &Workspace<T, D>,
-    own: &Put<'_, T, D>,
     (scheme, has_walls): (&Scheme<T, D>, bool),
     name: &str,
     file: &mut Checkpoint,
 ) {
     let Workspace {
-        records: _,
-        work_records: _,
-        records_of_rates: _,
-        rates: _,
+        records,
+        work_records,
+        records_of_rates,
+        rates,
         evaluated_gravity: _,
         worked,
-        first_kick: _,
+        first_kick,
         lengths_time,
         sums,
-        coupling: _,
+        coupling,
         // A prediction is taken back in the step that makes it.
         predicted: _,
         is_predicted: _,
@@ -161,23 +159,23 @@ pub(super) fn put_workspace<T: Real, const D: usize>(
         settling: _,
     } = work;
     // Only sums over walls read records without packing them.
-    let records = if own.records_of_rates && has_walls {
-        own.records
+    let records = if *records_of_rates && has_walls {
+        records
     } else {
         &Records::default()
     };
     put_records(records, &format!("{name}/records"), file);
-    put_records(own.work_records, &format!("{name}/work_records"), file);
-    let of_rates = u32::from(own.records_of_rates);
+    put_records(work_records, &format!("{name}/work_records"), file);
+    let of_rates = u32::from(*records_of_rates);
     file.put_one(format!("{name}/records_of_rates"), of_rates);
     file.put_one(format!("{name}/lengths_time"), *lengths_time);
-    let first_kick = own.first_kick.unwrap_or([f64::NAN; 2]);
+    let first_kick = first_kick.unwrap_or([f64::NAN; 2]);
     file.put(format!("{name}/first_kick"), 1, first_kick);
     let all = [
-        ("rates", own.rates),
+        ("rates", rates),
         ("worked", worked),
         ("sums", sums),
-        ("coupling", own.coupling),
+        ("coupling", coupling),
     ];
     for (what, rows) in all {
         put_rows(rows, &format!("{name}/{what}"), file);

@@ -250,7 +250,7 @@ pub(super) fn of<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Stab
         least: named(seen),
         criterion,
         median: watch.median_step(),
-        set_by: simulation.votes.clone(),
+        set_by: simulation.votes().to_vec(),
     });
     let total = simulation.phases().total().as_secs_f64() + watch.spent.as_secs_f64();
     let mut report = StabilityReport {

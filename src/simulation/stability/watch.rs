@@ -54,7 +54,7 @@ impl Measure {
 }
 
 /// A run that is watched.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(in super::super) struct Watch<const D: usize> {
     pub thresholds: Thresholds,
     pub begun: f64,
