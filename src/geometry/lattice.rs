@@ -11,6 +11,9 @@ pub(crate) const FEWER: &str =
     "it must fit into memory and stay below 4e9: is the spacing in metres?";
 /// What a length must be.
 pub(crate) const POSITIVE: &str = "it must be finite and positive, in metres";
+/// What the extent of a box from its low to its high corner must be.
+pub(crate) const SWAPPED: &str =
+    "it must be positive: the corners are swapped along that axis; the low one comes first, in metres";
 /// Share of the spacing that lengths given as multiples of it are off by rounding, and no more.
 const ROUNDING: f64 = 1e-9;
 

@@ -47,7 +47,7 @@ pub use boolean::{Complement, Intersection, Union};
 pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
 pub use half_space::HalfSpace;
-pub(crate) use lattice::{FEWER, MOST_PARTICLES, POSITIVE, filled};
+pub(crate) use lattice::{FEWER, MOST_PARTICLES, POSITIVE, SWAPPED, filled};
 pub use lattice::{fill, layers};
 #[cfg(feature = "meshes")]
 pub use mesh::Mesh;

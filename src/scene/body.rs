@@ -2,7 +2,7 @@
 //! Boxes and shapes are filled with a lattice; points may be the user's own.
 
 use crate::boundary::Slip;
-use crate::geometry::{FEWER, Flaw, MOST_PARTICLES, POSITIVE, Shape, filled};
+use crate::geometry::{FEWER, Flaw, MOST_PARTICLES, POSITIVE, SWAPPED, Shape, filled};
 use crate::material::Material;
 use crate::particles::Field;
 use crate::scalar::Real;
@@ -82,6 +82,8 @@ impl<T: Real, const D: usize> Body<T, D> {
             body.spacing = spacing;
         } else if let Some(bad) = size.iter().find(|s| !s.is_finite()) {
             body.shape = Err(("size", *bad, "corners must be finite, in metres"));
+        } else if let Some(bad) = size.iter().find(|s| **s < 0.0) {
+            body.shape = Err(("size", *bad, SWAPPED));
         } else if !fits {
             body.shape = Err(("number of particles", total, FEWER));
         }

@@ -5,7 +5,7 @@ use super::Simulation;
 use super::group::Group;
 use super::stages::Moment;
 use crate::effect::When;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::integrator::System;
 use crate::scalar::Real;
 use crate::term::Stage;
@@ -14,7 +14,7 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
     fn evaluate(&mut self, offset: f64) -> Result<()> {
         let time = self.time + offset;
         self.evaluated = time;
-        self.load_groups(time);
+        self.load_groups(time)?;
         for group in &mut self.groups {
             group.work.evaluated_gravity = group.gravity.map(T::from_f64);
         }
@@ -72,7 +72,7 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
         }
         // Loads and walls at the middle of the drift, and walls go straight through it as particles do:
         // a tank that moves is then a tank at rest in a frame that does.
-        self.load_groups(begin + half);
+        self.load_groups(begin + half)?;
         self.place_structures(begin + half, false);
         // Groups that sub-cycle feel the others in kicks alone, so they may be at the end of the drift already.
         self.sub_cycle(begin + half, half)?;
@@ -150,6 +150,14 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
     }
 }
 
+/// What an acceleration of all particles must be.
+pub(crate) const ACCELERATION: &str = "it must be a finite number whose square is one of the scalar too, in m/s²";
+
+/// Whether the square of a number is finite in the scalar.
+pub(crate) fn is_square_finite<T: Real>(value: f64) -> bool {
+    T::from_f64(value * value).to_f64().is_finite()
+}
+
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// Groups that do not sub-cycle.
     fn together(&mut self) -> impl Iterator<Item = &mut Group<T, D>> {
@@ -203,10 +211,19 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     /// Tells groups what the uniform loads give at `time` \[s\].
-    fn load_groups(&mut self, time: f64) {
+    fn load_groups(&mut self, time: f64) -> Result<()> {
         let gravity = self.body_acceleration(time);
+        if let Some(value) = gravity.into_iter().find(|a| !is_square_finite::<T>(*a)) {
+            return Err(Error::Function {
+                what: "acceleration of the scene (Scene::acceleration)".into(),
+                value,
+                time,
+                must_be: ACCELERATION,
+            });
+        }
         for group in &mut self.groups {
             group.gravity = gravity;
         }
+        Ok(())
     }
 }

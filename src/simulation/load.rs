@@ -132,17 +132,19 @@ impl<const D: usize> Load<D> {
     /// Adds what it gives a particle to that field; the first value after which the sum is not finite, if there is one.
     pub(crate) fn add<T: Real>(&self, at: &LoadPoint<'_, D>, sum: &mut [T]) -> Option<f64> {
         match &self.kind {
-            Kind::Acceleration(law) => add(sum, &law(at)),
-            Kind::Heating(law) => add(sum, &[law(at)]),
+            // Steps are chosen by the size of accelerations.
+            Kind::Acceleration(law) => add(sum, &law(at), |a| a * a),
+            Kind::Heating(law) => add(sum, &[law(at)], |q| q),
         }
     }
 }
 
-fn add<T: Real>(sum: &mut [T], values: &[f64]) -> Option<f64> {
+/// Adds values to sums; the first after which what `must_be_finite` makes of the sum is not finite.
+fn add<T: Real>(sum: &mut [T], values: &[f64], must_be_finite: impl Fn(T) -> T) -> Option<f64> {
     let mut wrong = None;
     for (sum, &value) in sum.iter_mut().zip(values) {
         *sum += T::from_f64(value);
-        if !sum.to_f64().is_finite() {
+        if !must_be_finite(*sum).to_f64().is_finite() {
             wrong = wrong.or(Some(value));
         }
     }

@@ -179,6 +179,7 @@ pub use which::Which;
 pub(crate) use which::find;
 pub use work::Work;
 
+pub(crate) use advance::{ACCELERATION, is_square_finite};
 pub(crate) use asleep::Awake;
 pub(crate) use contact::{Acting, Couple};
 pub(crate) use couplings::Structure;

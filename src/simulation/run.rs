@@ -46,6 +46,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 error,
                 Error::NotFinite { .. }
                     | Error::Load { .. }
+                    | Error::Function { .. }
                     | Error::WallJump { .. }
                     | Error::SoundSpeedTooLow { .. }
             )
@@ -114,7 +115,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 ..vote
             };
         }
-        self.check_walls(vote.step)?;
+        self.check_motions(vote.step)?;
         self.last_vote = Some(vote);
         self.due += vote.step;
         self.impulses.time = self.time;
@@ -141,7 +142,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Steps until `end` \[s\]; the last step is shortened to end there.
     ///
     /// # Errors
-    /// [`Error::NotFinite`] when the run has broken, [`Error::Load`] when a load has, [`Error::StepCollapsed`] when the
+    /// [`Error::NotFinite`] when the run has broken, [`Error::Load`] when a load has, [`Error::Function`]
+    /// when a function of time has, [`Error::StepCollapsed`] when the
     /// step has become tiny, [`Error::SoundSpeedTooLow`] when a liquid meets something faster than its sound, [`Error::WallJump`]
     /// when a wall leaves its velocity, [`Error::Failed`] after any of these, and [`Error::Argument`] if a fixed step
     /// exceeds the stability limit.

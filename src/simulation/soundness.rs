@@ -4,6 +4,7 @@
 use super::Simulation;
 use super::limits::are_finite;
 use super::population::Particles;
+use crate::boundary::Pose;
 use crate::effect::StepProgram;
 use crate::error::{Error, Problem, Result};
 use crate::parallel::{GRAIN, reduce, runs};
@@ -61,9 +62,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             .collect()
     }
 
-    /// Refuses a step of `dt` \[s\] in which a wall moves beside its own velocity, as one that jumps does.
-    pub(super) fn check_walls(&self, dt: f64) -> Result<()> {
+    /// Refuses a step of `dt` \[s\] at whose end a boundary, a wall or a clamp is nowhere, or in which a wall moves beside its
+    /// own velocity, as one that jumps does.
+    pub(super) fn check_motions(&self, dt: f64) -> Result<()> {
         let (time, end) = (self.time, self.time + dt);
+        self.check_boundaries(end)?;
+        self.check_clamps(end)?;
         let spacing = self.spacing();
         for wall in self.groups.iter().flat_map(|group| &group.walls) {
             let Some(motion) = &wall.motion else {
@@ -89,8 +93,61 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                     end,
                 });
             }
+            if let Some(value) = not_finite(&after) {
+                return Err(no_motion(format!("wall `{}`", wall.name), value, end));
+            }
         }
         Ok(())
+    }
+
+    /// Refuses boundaries that move to where no place is.
+    fn check_boundaries(&self, time: f64) -> Result<()> {
+        let Some(group) = self.groups.first() else {
+            return Ok(());
+        };
+        for boundary in group.boundaries.iter().filter(|own| own.moves()) {
+            for image in 0..boundary.images() {
+                if let Some(value) = boundary.transform(image, time).not_finite() {
+                    return Err(Error::Function {
+                        what: format!("transform of image {image} of the {}", boundary.name()),
+                        value,
+                        time,
+                        must_be: "rotation, shift and velocity must be finite numbers",
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Refuses clamps that move to where no place is.
+    fn check_clamps(&self, time: f64) -> Result<()> {
+        for group in &self.groups {
+            for clamp in group.held.clamps.iter().filter(|own| !own.released) {
+                let pose = clamp.motion.as_ref().map(|motion| motion.pose(time));
+                if let Some(value) = pose.as_ref().and_then(not_finite) {
+                    let body = &group.particles.bodies[clamp.body].name;
+                    return Err(no_motion(format!("a clamp of body `{body}`"), value, time));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A number of a pose that is not finite.
+pub(crate) fn not_finite<const D: usize>(pose: &Pose<D>) -> Option<f64> {
+    let linear = pose.linear.iter().flat_map(|a| a.iter());
+    let shift = pose.shift.iter().flat_map(|b| b.iter());
+    linear.chain(shift).copied().find(|x| !x.is_finite())
+}
+
+fn no_motion(of: String, value: f64, time: f64) -> Error {
+    Error::Function {
+        what: format!("motion of {of}"),
+        value,
+        time,
+        must_be: "place, velocity and acceleration must be finite numbers: look for gaps in its table",
     }
 }
 

@@ -24,7 +24,7 @@ const DENSITIES: f64 = 4.0;
 const FARTHEST: f64 = 1e-3 / f64::EPSILON;
 
 /// Images that a boundary can give a particle.
-const MOST_IMAGES: usize = 64;
+pub(super) const MOST_IMAGES: usize = 64;
 
 /// Spacings between a particle at the one end of a period and the image of one at the other, below which they are one place.
 const SEAM: f64 = 0.3;

@@ -3,6 +3,7 @@
 
 mod groups;
 mod held;
+mod images;
 mod limits;
 mod memory;
 mod scheme;
@@ -14,7 +15,7 @@ use crate::error::Problem;
 use crate::neighbors::Cells;
 use crate::scalar::Real;
 use crate::scheme::EnergyForm;
-use crate::simulation::{Load, UniformLoad};
+use crate::simulation::{ACCELERATION, Load, UniformLoad, is_square_finite};
 
 /// Share of the spacing below which two particles of different bodies cannot be neighbours by intent.
 const TOO_CLOSE: f64 = 0.6;
@@ -61,9 +62,11 @@ impl<T: Real, const D: usize> Scene<T, D> {
         self.check_events(&mut problems);
         self.check_exchanges(&mut problems);
         let before = problems.len();
+        self.check_transforms(&mut problems);
         self.check_boundaries(&mut problems);
         if problems.len() == before {
             self.check_periods(&mut problems);
+            self.check_images(&mut problems);
         }
         self.check_openings(&mut problems);
         for plan in &plans {
@@ -154,13 +157,12 @@ impl<T: Real, const D: usize> Scene<T, D> {
     }
 
     fn check_loads(&self, problems: &mut Vec<Problem>) {
-        let bad = |load: &UniformLoad<D>| load(0.0).into_iter().find(|a| !a.is_finite());
+        let bad = |load: &UniformLoad<D>| {
+            let given = load(0.0).into_iter();
+            given.into_iter().find(|a| !is_square_finite::<T>(*a))
+        };
         if let Some(value) = self.accelerations.iter().find_map(bad) {
-            problems.push(Problem::Parameter {
-                what: "acceleration at t = 0".into(),
-                value,
-                must_be: "it must be finite, in m/s²",
-            });
+            problems.push(parameter("acceleration at t = 0", value, ACCELERATION));
         }
         for load in &self.loads {
             self.check_load(load, problems);
