@@ -69,7 +69,8 @@ impl<const D: usize> Wall<D> {
     }
 
     /// Layers of particles around the box from `low` to `high` \[m\] in which liquid is kept, on every
-    /// side that `closed` names (lower and upper end of each axis), `layers` thick.
+    /// side that `closed` names (lower and upper end of each axis), `layers` thick. That is a count, where the thickness of
+    /// [`geometry::layers`](crate::geometry::layers) is in metres.
     ///
     /// Edges and corners belong to it. The spacing is fitted to the box along each axis, as in
     /// [`Body::block`](crate::scene::Body::block).

@@ -78,7 +78,12 @@ impl<T: Real, const D: usize> Scene<T, D> {
         if !problems.is_empty() {
             return Err(Error::Build(BuildError { problems }));
         }
-        simulation.evaluate()?;
+        let evaluated = simulation.evaluate();
+        let problems = simulation.torn_surfaces();
+        if !problems.is_empty() {
+            return Err(Error::Build(BuildError { problems }));
+        }
+        evaluated?;
         let vote = simulation.largest_fixed_step()?;
         match fixed {
             Some(step) if step > vote.step => Err(Error::Build(BuildError {

@@ -160,6 +160,8 @@ fn hash_body<T: Real, const D: usize>(body: &Body<T, D>, hash: &mut Hash) {
         masses,
         // A scene with an error is not built.
         shape: _,
+        // Known by its densities.
+        hydrostatic: _,
     } = body;
     text(hash, (name, material, spacing, slip, points.len()));
     hash.numbers(points.as_flattened());

@@ -10,10 +10,15 @@ use crate::error::{Error, Problem, Result};
 use crate::parallel::{GRAIN, reduce, runs};
 use crate::particles::{Columns, Field};
 use crate::scalar::Real;
+use crate::scheme::Smoothing;
 use std::ops::Range;
 
 /// Share of a full neighbourhood below which a particle has no neighbours to be measured by.
 const ALONE: f64 = 1e-6;
+
+/// Share of the density of the start below which a sum lacks neighbours, and share of the bulk modulus above which a law bears tension.
+const LACKING: f64 = 0.9;
+const TENSION: f64 = 1e-3;
 
 /// The name under which gas of negative energy is counted.
 pub(super) const NEGATIVE_ENERGY: &str = "negative internal energy";
@@ -60,6 +65,15 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 isolated(&group.particles, reach)
             })
             .collect()
+    }
+
+    /// Surfaces at which a summed density puts a solid or liquid under tension: one for each body.
+    pub(crate) fn torn_surfaces(&self) -> Vec<Problem> {
+        let summed = self
+            .groups
+            .iter()
+            .filter(|group| matches!(group.scheme.smoothing, Smoothing::Consistent { .. }));
+        summed.flat_map(|group| torn_surfaces(&group.particles)).collect()
     }
 
     /// Refuses a step of `dt` \[s\] at whose end a boundary, a wall or a clamp is nowhere, or in which a wall moves beside its
@@ -174,6 +188,40 @@ fn isolated<T: Real, const D: usize>(
             particle: particles.ids[slot] as usize - body.ids.start,
             position: particles.position(slot),
             reach,
+        })
+    })
+}
+
+/// The first particle of each body whose summed density is far below that which it starts with, and whose law answers with
+/// tension.
+fn torn_surfaces<T: Real, const D: usize>(
+    particles: &Particles<T, D>,
+) -> impl Iterator<Item = Problem> {
+    let [density, mass, energy] = [Field::DENSITY, Field::MASS, Field::ENERGY]
+        .map(|field| particles.columns.raw(field));
+    let solids = particles.bodies.iter().filter(|body| !body.material.is_gas());
+    solids.filter_map(move |body| {
+        let stiffness = body.material.bulk_modulus();
+        let torn = |slot: usize| {
+            let start = mass[slot].to_f64() / body.spacing.powi(D as i32);
+            let summed = density[slot].to_f64();
+            let energy = energy.get(slot).map_or(0.0, |energy| energy.to_f64());
+            let (pressure, _) = body.material.state(summed, energy);
+            (summed < LACKING * start && pressure < -TENSION * stiffness)
+                .then_some((slot, [start, summed, pressure]))
+        };
+        let (slot, [start, summed, pressure]) = body.slots.clone().find_map(torn)?;
+        Some(Problem::Incompatible {
+            what: format!(
+                "body `{}` has a free surface and a law that bears tension: the summed density of particle {} at {:?} m is {summed} \
+                 kg/m³ where it starts with {start}, and the pressure there {pressure} Pa",
+                body.name,
+                particles.ids[slot] as usize - body.ids.start,
+                particles.position(slot),
+            ),
+            remedy: "a sum over neighbours lacks half of them at a surface, which a gas bears and a solid or liquid does not: take a \
+                     scheme whose density is relative to rest (schemes::impact) or by continuity (schemes::weakly_compressible), or \
+                     close the surface by a period or a plane of symmetry",
         })
     })
 }

@@ -164,8 +164,29 @@ impl<T: Real, const D: usize> Scene<T, D> {
         if let Some(value) = self.accelerations.iter().find_map(bad) {
             problems.push(parameter("acceleration at t = 0", value, ACCELERATION));
         }
+        self.check_hydrostatic(problems);
         for load in &self.loads {
             self.check_load(load, problems);
+        }
+    }
+
+    /// Bodies that start at rest under an acceleration that points against that of the scene.
+    fn check_hydrostatic(&self, problems: &mut Vec<Problem>) {
+        let given = |d: usize| self.accelerations.iter().map(|load| load(0.0)[d]).sum();
+        let given: [f64; D] = core::array::from_fn(given);
+        for body in self.bodies() {
+            let Some(own) = body.hydrostatic else {
+                continue;
+            };
+            if (0..D).map(|d| own[d] * given[d]).sum::<f64>() < 0.0 {
+                problems.push(Problem::Incompatible {
+                    what: format!(
+                        "body `{}` starts hydrostatic under {own:?} m/s², and the acceleration of the scene at t = 0 is {given:?} m/s²",
+                        body.name
+                    ),
+                    remedy: "give both the same: pressure grows along it",
+                });
+            }
         }
     }
 
