@@ -44,6 +44,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             control: _,
             accelerations: _,
             loads: _,
+            built: _,
             #[cfg(feature = "checkpoint")]
                 scene: _,
             time,

@@ -233,6 +233,8 @@ pub struct Simulation<T: Real, const D: usize> {
     pub(crate) accelerations: Vec<UniformLoad<D>>,
     /// Loads that depend on the particle.
     pub(crate) loads: Vec<Load<D>>,
+    /// Where particles were as built \[m\], group by group and by identity, if a load may ask.
+    pub(crate) built: Vec<Vec<Option<[f64; D]>>>,
     /// Hashes of the scene that it was built from, by what was hashed.
     #[cfg(feature = "checkpoint")]
     pub(crate) scene: Hashes,
@@ -305,6 +307,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             control,
             accelerations,
             loads,
+            built: Vec::new(),
             #[cfg(feature = "checkpoint")]
             scene: Hashes::new(),
             time: 0.0,

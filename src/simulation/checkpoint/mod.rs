@@ -74,6 +74,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             control: _,
             accelerations: _,
             loads: _,
+            built: _,
             events: _,
             awake: _,
             happened,
