@@ -233,6 +233,14 @@ impl fmt::Display for BuildError {
     }
 }
 
+/// What is told beside something else.
+fn in_brackets(values: &[String]) -> String {
+    if values.is_empty() {
+        return String::new();
+    }
+    format!(" ({})", values.join("; "))
+}
+
 /// Why a number is none: what no step has changed is as the scene gives it.
 fn cause_by_step(step: u64) -> &'static str {
     if step == 0 {
@@ -278,11 +286,14 @@ pub enum CheckpointProblem {
     },
     /// It is of another scene.
     #[error(
-        "it was written by another scene, which differs in {}: resume with the scene that wrote it", parts.join(", ")
+        "it was written by another scene, which differs in {}{}: resume with the scene that wrote it",
+        parts.join(", "), in_brackets(.values)
     )]
     Scene {
         /// What differs.
         parts: Vec<&'static str>,
+        /// Values of it, as far as they have names: which, and what it is in the file and in the scene.
+        values: Vec<String>,
     },
     /// The machine cannot run the loops that it was written by.
     #[error(

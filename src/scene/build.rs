@@ -122,7 +122,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         let built = self.places_as_built(&groups);
         let couples = self.couples();
         #[cfg(feature = "checkpoint")]
-        let hashes = self.hashes();
+        let (hashes, values) = (self.hashes(), self.values());
         let mut simulation = Simulation::new(
             groups,
             couples,
@@ -136,7 +136,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         .awake_inside(self.awake);
         simulation.built = built;
         #[cfg(feature = "checkpoint")]
-        let simulation = simulation.of_scene(hashes);
+        let simulation = simulation.of_scene(hashes, values);
         Ok(simulation)
     }
 

@@ -74,6 +74,8 @@ mod plan;
 
 pub use body::{Body, Start};
 pub use conversion::Conversion;
+#[cfg(feature = "checkpoint")]
+pub(crate) use fingerprint::Described;
 
 use crate::boundary::{Boundary, Inlet, Outlet, Wall};
 use crate::coupling::Coupling;

@@ -47,6 +47,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             built: _,
             #[cfg(feature = "checkpoint")]
                 scene: _,
+            #[cfg(feature = "checkpoint")]
+                described: _,
             time,
             steps,
             evaluations,

@@ -199,6 +199,8 @@ use crate::once::once;
 #[cfg(feature = "checkpoint")]
 use crate::output::checkpoint::Hashes;
 use crate::scalar::Real;
+#[cfg(feature = "checkpoint")]
+use crate::scene::Described;
 use group::Aside;
 use ledger::Impulses;
 use std::sync::Arc;
@@ -238,6 +240,9 @@ pub struct Simulation<T: Real, const D: usize> {
     /// Hashes of the scene that it was built from, by what was hashed.
     #[cfg(feature = "checkpoint")]
     pub(crate) scene: Hashes,
+    /// Values of that scene by name.
+    #[cfg(feature = "checkpoint")]
+    pub(crate) described: Described,
     time: f64,
     steps: u64,
     evaluations: u64,
@@ -310,6 +315,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             built: Vec::new(),
             #[cfg(feature = "checkpoint")]
             scene: Hashes::new(),
+            #[cfg(feature = "checkpoint")]
+            described: Described::new(),
             time: 0.0,
             steps: 0,
             evaluations: 0,
