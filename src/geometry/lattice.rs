@@ -12,8 +12,7 @@ pub(crate) const FEWER: &str =
 /// What a length must be.
 pub(crate) const POSITIVE: &str = "it must be finite and positive, in metres";
 /// What the extent of a box from its low to its high corner must be.
-pub(crate) const SWAPPED: &str =
-    "it must be positive: the corners are swapped along that axis; the low one comes first, in metres";
+pub(crate) const SWAPPED: &str = "it must be positive: low and high are swapped along that axis; the low one comes first, in metres";
 /// Layers that a wall can have at most: the kernels of the crate reach six spacings.
 const MOST_LAYERS: f64 = 10.0;
 /// Share of the spacing that lengths given as multiples of it are off by rounding, and no more.

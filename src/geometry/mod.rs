@@ -36,6 +36,8 @@ mod lattice;
 mod mesh;
 mod moved;
 mod open_cell;
+#[cfg(feature = "meshes")]
+mod overlap;
 #[cfg(test)]
 mod tests;
 

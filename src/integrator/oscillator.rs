@@ -99,14 +99,22 @@ fn growth(integrator: &dyn Integrator) -> (f64, bool) {
     }
     let end = system.state[0].hypot(system.state[1]);
     let growth = (end / begin).powf(1.0 / f64::from(STEPS));
-    (if growth.is_nan() { f64::INFINITY } else { growth }, system.has_rates())
+    (
+        if growth.is_nan() {
+            f64::INFINITY
+        } else {
+            growth
+        },
+        system.has_rates(),
+    )
 }
 
 /// What is wrong with the stability that an integrator says it has, which is finite and positive.
 pub(crate) fn problem_of(integrator: &dyn Integrator) -> Option<(&'static str, f64, &'static str)> {
     let (growth, evaluates) = growth(integrator);
     if !evaluates {
-        let must_be = "its steps must ask for rates, by System::evaluate: those of the start do not last";
+        let must_be =
+            "its steps must ask for rates, by System::evaluate: those of the start do not last";
         return Some(("number of evaluations in a step", 0.0, must_be));
     }
     let must_be = "an undamped oscillator grows in steps of that: it must be the largest ω dt that the integrator bears, over 2";
@@ -117,8 +125,8 @@ pub(crate) fn problem_of(integrator: &dyn Integrator) -> Option<(&'static str, f
 mod tests {
     use super::*;
     use crate::integrator::{
-        DriftKickDrift, KickDriftKick, LamLeapfrog, Midpoint, PositionVerlet, Predictor, RungeKutta4,
-        StrongStabilityPreserving3,
+        DriftKickDrift, KickDriftKick, LamLeapfrog, Midpoint, PositionVerlet, Predictor,
+        RungeKutta4, StrongStabilityPreserving3,
     };
 
     /// An integrator that says something else of itself.
@@ -146,8 +154,16 @@ mod tests {
             || Box::new(PositionVerlet),
             || Box::new(StrongStabilityPreserving3),
             || Box::new(RungeKutta4),
-            || Box::new(LamLeapfrog { predictor: Predictor::Fresh }),
-            || Box::new(LamLeapfrog { predictor: Predictor::Lagged }),
+            || {
+                Box::new(LamLeapfrog {
+                    predictor: Predictor::Fresh,
+                })
+            },
+            || {
+                Box::new(LamLeapfrog {
+                    predictor: Predictor::Lagged,
+                })
+            },
         ];
         for make in all {
             let own = make();

@@ -43,7 +43,11 @@ impl Values {
                         last.1 - 1
                     });
                     // What an option or a wrapper of one value holds is that value.
-                    let own = if count == 0 { String::new() } else { format!("[{count}]") };
+                    let own = if count == 0 {
+                        String::new()
+                    } else {
+                        format!("[{count}]")
+                    };
                     (own, line)
                 }
             };
@@ -78,7 +82,11 @@ impl Values {
     /// From a text of a file.
     pub fn of_text(text: &str) -> Self {
         let pairs = text.lines().filter_map(|line| line.split_once(BETWEEN));
-        Self(pairs.map(|(name, value)| (name.into(), value.into())).collect())
+        Self(
+            pairs
+                .map(|(name, value)| (name.into(), value.into()))
+                .collect(),
+        )
     }
 
     /// In words, what the values of a file are that are others in a scene, the first few.
@@ -87,14 +95,29 @@ impl Values {
             let found = all.0.iter().find(|own| own.0 == name);
             found.map(|own| short(&own.1))
         };
-        let of_file = self.0.iter().filter_map(|(name, value)| match find(scene, name) {
-            Some(own) if own == short(value) => None,
-            Some(own) => Some(format!("{name} is {} in the file and {own} in the scene", short(value))),
-            None => Some(format!("{name} is {} in the file and not in the scene", short(value))),
-        });
-        let lacking = scene.0.iter().filter(|(name, _)| find(self, name).is_none());
+        let of_file = self
+            .0
+            .iter()
+            .filter_map(|(name, value)| match find(scene, name) {
+                Some(own) if own == short(value) => None,
+                Some(own) => Some(format!(
+                    "{name} is {} in the file and {own} in the scene",
+                    short(value)
+                )),
+                None => Some(format!(
+                    "{name} is {} in the file and not in the scene",
+                    short(value)
+                )),
+            });
+        let lacking = scene
+            .0
+            .iter()
+            .filter(|(name, _)| find(self, name).is_none());
         let of_scene = lacking.map(|(name, value)| {
-            format!("{name} is {} in the scene and not in the file", short(value))
+            format!(
+                "{name} is {} in the scene and not in the file",
+                short(value)
+            )
         });
         of_file.chain(of_scene).take(MOST).collect()
     }
@@ -143,7 +166,15 @@ mod tests {
         let mut all = Values::default();
         let rows = vec![[0.0, 1.0], [2.0, last]];
         let law = Law(f64::sin, 1.5);
-        all.all("water", &Liquid { name: "a: b", viscosity, law, rows });
+        all.all(
+            "water",
+            &Liquid {
+                name: "a: b",
+                viscosity,
+                law,
+                rows,
+            },
+        );
         all
     }
 
@@ -153,11 +184,20 @@ mod tests {
         assert_eq!(Values::of_text(&own.text()), own);
         assert_eq!(own.differences(&own), Vec::<String>::new());
         let told = own.differences(&values(Some(2e-3), 3.0));
-        assert_eq!(told, ["water.viscosity is 0.001 in the file and 0.002 in the scene"]);
+        assert_eq!(
+            told,
+            ["water.viscosity is 0.001 in the file and 0.002 in the scene"]
+        );
         let told = own.differences(&values(Some(1e-3), 4.0));
-        assert_eq!(told, ["water.rows[1][1] is 3.0 in the file and 4.0 in the scene"]);
+        assert_eq!(
+            told,
+            ["water.rows[1][1] is 3.0 in the file and 4.0 in the scene"]
+        );
         let told = own.differences(&values(None, 3.0));
-        assert_eq!(told, ["water.viscosity is 0.001 in the file and None in the scene"]);
+        assert_eq!(
+            told,
+            ["water.viscosity is 0.001 in the file and None in the scene"]
+        );
     }
 
     #[test]

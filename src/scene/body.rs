@@ -194,14 +194,21 @@ impl<T: Real, const D: usize> Body<T, D> {
         }
         let material = self.material.clone();
         let rest = material.reference_density();
-        let head = |x: &[f64; D]| -> f64 {
-            (0..D).map(|d| acceleration[d] * (x[d] - surface[d])).sum()
-        };
-        let most = self.points.iter().map(head).fold(f64::NEG_INFINITY, f64::max);
+        let head =
+            |x: &[f64; D]| -> f64 { (0..D).map(|d| acceleration[d] * (x[d] - surface[d])).sum() };
+        let most = self
+            .points
+            .iter()
+            .map(head)
+            .fold(f64::NEG_INFINITY, f64::max);
         if most < 0.0 && most.is_finite() {
             let must_be = "no particle is below the surface: acceleration and surface must be such that g·(x − x_s) is \
                            positive in the liquid; gravity points down, as [0, −9.81] m/s² where y points up";
-            let flaw = ("largest head g·(x − x_s) of the hydrostatic start", most, must_be);
+            let flaw = (
+                "largest head g·(x − x_s) of the hydrostatic start",
+                most,
+                must_be,
+            );
             self.shape = self.shape.and(Err(flaw));
             return self;
         }

@@ -1,7 +1,7 @@
 //! From a scene to a simulation: checked, laid out and evaluated once, or gone on with from a checkpoint.
 
-use super::{Part, Scene};
 use super::plan::Plan;
+use super::{Part, Scene};
 use crate::error::{BuildError, Error, Problem, Result};
 use crate::once::once;
 #[cfg(feature = "checkpoint")]

@@ -4,8 +4,8 @@
 use super::{Body, Scene};
 use crate::boundary::Wall;
 use crate::output::checkpoint::{Hash, Hashes};
-use crate::scalar::Real;
 use crate::output::values::{Values, without_addresses};
+use crate::scalar::Real;
 use crate::scheme::Scheme;
 use core::fmt::Debug;
 use std::sync::Arc;
@@ -151,7 +151,10 @@ impl<T: Real, const D: usize> Scene<T, D> {
             ("inlets", all("inlets", &self.inlets)),
             ("outlets", all("outlets", &self.outlets)),
             ("the integrator", all("integrator", &self.integrator)),
-            ("what bodies do to each other", all("between", &self.contacts)),
+            (
+                "what bodies do to each other",
+                all("between", &self.contacts),
+            ),
             ("the choice of steps", all("steps", &self.control)),
             ("the skin of neighbour lists", all("skin", &self.skin)),
         ]
@@ -171,7 +174,10 @@ fn describe_body<T: Real, const D: usize>(body: &Body<T, D>, values: &mut Values
     let mut hashed = |what: &str, numbers: &[f64]| {
         let mut hash = Hash::new();
         hash.numbers(numbers);
-        values.one(format!("hash of {what} of {name}"), format!("{:016x}", hash.value()));
+        values.one(
+            format!("hash of {what} of {name}"),
+            format!("{:016x}", hash.value()),
+        );
     };
     hashed("positions", body.points.as_flattened());
     hashed("masses", &body.masses);
@@ -184,7 +190,9 @@ fn describe_body<T: Real, const D: usize>(body: &Body<T, D>, values: &mut Values
         _ => {
             let numbers = |start: &crate::scheme::Start<D>| {
                 let state = start.velocity.into_iter();
-                state.chain([start.density, start.energy]).collect::<Vec<f64>>()
+                state
+                    .chain([start.density, start.energy])
+                    .collect::<Vec<f64>>()
             };
             let all: Vec<f64> = body.starts.iter().flat_map(numbers).collect();
             hashed("starts", &all);

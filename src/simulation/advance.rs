@@ -151,7 +151,8 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
 }
 
 /// What an acceleration of all particles must be.
-pub(crate) const ACCELERATION: &str = "it must be a finite number whose square is one of the scalar too, in m/s²";
+pub(crate) const ACCELERATION: &str =
+    "it must be a finite number whose square is one of the scalar too, in m/s²";
 
 /// Whether the square of a number is finite in the scalar.
 pub(crate) fn is_square_finite<T: Real>(value: f64) -> bool {

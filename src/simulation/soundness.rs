@@ -73,7 +73,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             .groups
             .iter()
             .filter(|group| matches!(group.scheme.smoothing, Smoothing::Consistent { .. }));
-        summed.flat_map(|group| torn_surfaces(&group.particles)).collect()
+        summed
+            .flat_map(|group| torn_surfaces(&group.particles))
+            .collect()
     }
 
     /// Refuses a step of `dt` \[s\] at whose end a boundary, a wall or a clamp is nowhere, or in which a wall moves beside its
@@ -197,9 +199,12 @@ fn isolated<T: Real, const D: usize>(
 fn torn_surfaces<T: Real, const D: usize>(
     particles: &Particles<T, D>,
 ) -> impl Iterator<Item = Problem> {
-    let [density, mass, energy] = [Field::DENSITY, Field::MASS, Field::ENERGY]
-        .map(|field| particles.columns.raw(field));
-    let solids = particles.bodies.iter().filter(|body| !body.material.is_gas());
+    let [density, mass, energy] =
+        [Field::DENSITY, Field::MASS, Field::ENERGY].map(|field| particles.columns.raw(field));
+    let solids = particles
+        .bodies
+        .iter()
+        .filter(|body| !body.material.is_gas());
     solids.filter_map(move |body| {
         let stiffness = body.material.bulk_modulus();
         let torn = |slot: usize| {

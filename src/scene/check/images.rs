@@ -25,23 +25,32 @@ impl<T: Real, const D: usize> Scene<T, D> {
             }
             for image in 0..boundary.images() {
                 let by = boundary.transform(image, 0.0);
-                let what = |of: &str| {
-                    format!("{of} of image {image} of the {} at t = 0", boundary.name())
-                };
+                let what =
+                    |of: &str| format!("{of} of image {image} of the {} at t = 0", boundary.name());
                 if let Some(value) = by.not_finite() {
-                    let must_be = "rotation, shift and velocity must be finite numbers of the scalar";
+                    let must_be =
+                        "rotation, shift and velocity must be finite numbers of the scalar";
                     problems.push(parameter(&what("transform"), value, must_be));
                     break;
                 }
                 let off = by.rotation * by.rotation.transpose() - Matrix::<T, D>::identity();
-                let most = off.iter().fold(0.0, |most: f64, x| most.max(x.to_f64().abs()));
+                let most = off
+                    .iter()
+                    .fold(0.0, |most: f64, x| most.max(x.to_f64().abs()));
                 if most > ROTATION {
                     let must_be = "R Rᵀ must be one to rounding: images of another size push and are not pushed back";
-                    problems.push(parameter(&what("R Rᵀ − 1 of the rotation R"), most, must_be));
+                    problems.push(parameter(
+                        &what("R Rᵀ − 1 of the rotation R"),
+                        most,
+                        must_be,
+                    ));
                     break;
                 }
-                if by.rotation == Matrix::<T, D>::identity() && by.shift.iter().all(|s| *s == T::zero()) {
-                    let must_be = "it must not be zero: the image would stand on its particle, and act twice";
+                if by.rotation == Matrix::<T, D>::identity()
+                    && by.shift.iter().all(|s| *s == T::zero())
+                {
+                    let must_be =
+                        "it must not be zero: the image would stand on its particle, and act twice";
                     problems.push(parameter(&what("shift"), 0.0, must_be));
                     break;
                 }
@@ -92,7 +101,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 let apart = (0..D).map(|d| (y[d] - z[d]).to_f64().powi(2)).sum::<f64>();
                 let same = apart.sqrt() < SAME_PLACE * spacing;
                 let behind = second.crossed(&y, 0.0) && first.crossed(&z, 0.0);
-                let near = first.reaches(i, &x_in, reach, 0.0) && second.reaches(j, &x_in, reach, 0.0);
+                let near =
+                    first.reaches(i, &x_in, reach, 0.0) && second.reaches(j, &x_in, reach, 0.0);
                 if near && (same || behind) {
                     return Some(x);
                 }
@@ -107,7 +117,9 @@ impl<T: Real, const D: usize> Scene<T, D> {
             let in_spacings = part.scheme.kernel.support * part.scheme.h_over_dx;
             part.bodies.iter().flat_map(move |body| {
                 let own = body.spacing;
-                body.points.iter().map(move |x| (in_spacings * own, own, *x))
+                body.points
+                    .iter()
+                    .map(move |x| (in_spacings * own, own, *x))
             })
         })
     }
