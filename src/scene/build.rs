@@ -72,7 +72,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         let fixed = self.control.fixed;
         let mut simulation = self.lay_out()?;
         simulation.hold_velocities();
-        simulation.put_to_sleep();
+        simulation.put_to_sleep()?;
         simulation.take_references();
         let problems = simulation.isolated();
         if !problems.is_empty() {

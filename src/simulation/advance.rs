@@ -34,6 +34,7 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
             }
         }
         self.couple();
+        self.check_couples(time)?;
         self.hold(time);
         self.evaluations += 1;
         self.rates_at_hand = true;
@@ -209,6 +210,30 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 }
             }
         }
+    }
+
+    /// Refuses forces of couplings that are no numbers.
+    fn check_couples(&self, time: f64) -> Result<()> {
+        for own in &self.couples {
+            let forces = own.acting.forces.iter().flatten();
+            let numbers = forces.flat_map(|(_, force)| force.iter().map(|f| f.to_f64()));
+            let more = [own.acting.stored, own.acting.heat];
+            if let Some(value) = numbers.chain(more).find(|x| !x.is_finite()) {
+                let [first, second] = own
+                    .sides
+                    .map(|(group, body)| self.groups[group].particles.bodies[body].name.as_str());
+                return Err(Error::Function {
+                    what: format!(
+                        "coupling {} of `{first}` and `{second}`",
+                        own.coupling.name()
+                    ),
+                    value,
+                    time,
+                    must_be: "forces, stored energy and heat of pairs must be finite wherever two particles are",
+                });
+            }
+        }
+        Ok(())
     }
 
     /// Tells groups what the uniform loads give at `time` \[s\].

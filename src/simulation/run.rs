@@ -132,7 +132,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
         self.check_state()?;
         self.watch_step();
-        self.watch_events();
+        self.watch_events()?;
         let followed = self.follow_events();
         self.keep_failure(followed)?;
         self.book_step(start, before);

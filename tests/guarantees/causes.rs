@@ -1,7 +1,8 @@
 //! Input that is wrong without looking so: what stops a run, or keeps a scene from being built, names the cause.
 //! Each has what is right beside it, so that no check refuses what is meant.
 
-use meshfree::boundary::{Boundary, MirrorPlane, Outlet, Periodic, Translation, Wall};
+use meshfree::boundary::{Boundary, Inlet, MirrorPlane, Outlet, Periodic, Translation, Wall};
+use meshfree::coupling::{CoupledParticle, Coupling};
 use meshfree::effect::{BySum, Effect, Evolved, Setting, StepProgram};
 use meshfree::error::{Error, Result};
 use meshfree::geometry::{Cuboid, layers};
@@ -167,6 +168,84 @@ fn an_acceleration_that_is_no_number() {
     names(
         small().load(Load::heating(|_| 1e39)),
         &["the load (heating on all bodies)"],
+    );
+}
+
+/// Pushes by a force that is no number.
+#[derive(Clone, Copy, Debug)]
+struct Wild;
+
+impl<T: Real, const D: usize> Coupling<T, D> for Wild {
+    fn name(&self) -> &'static str {
+        "wild"
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: "wild".into(),
+            equation: "F = 0/0",
+            source: "this test",
+        }
+    }
+    fn reach(&self, spacings: [f64; 2]) -> f64 {
+        1.1 * spacings[0]
+    }
+    fn force(&self, _: &CoupledParticle<T, D>, _: &CoupledParticle<T, D>) -> [T; D] {
+        [T::from_f64(f64::NAN); D]
+    }
+}
+
+#[test]
+fn functions_of_the_user_that_give_no_number() {
+    let plate = Body::block("plate", catalogue::steel(), [-0.01], [0.0], DX);
+    let scene = good().group(schemes::impact_by_continuity(), [plate]);
+    names(
+        scene.couple("rod", "plate", Wild),
+        &["coupling wild of `rod` and `plate` gave NaN"],
+    );
+    names(
+        good().awake_inside(|_| [[1.0], [-1.0]]),
+        &["Scene::awake_inside", "gave -2"],
+    );
+    names(
+        good().awake_inside(|_| [[f64::NAN], [1.0]]),
+        &["Scene::awake_inside", "gave NaN"],
+    );
+    let late = |run: &Simulation<f64, 1>| [[-1.0], [if run.time() > 2e-7 { -2.0 } else { 1.0 }]];
+    names(
+        good().awake_inside(late),
+        &["Scene::awake_inside", "gave -1"],
+    );
+    let heat = Load::heating(|at| if at.time > 2e-7 { f64::NAN } else { 1.0 });
+    names(
+        good().load(heat),
+        &["the load (heating on all bodies) gave NaN"],
+    );
+}
+
+#[test]
+fn walls_and_inlets_given_twice() {
+    let tank = |name| Wall::around(name, [0.0; 2], [0.1; 2], 0.01, 3, [[true; 2]; 2]);
+    let points = tank("tank").points().to_vec();
+    let floor: Vec<_> = points.iter().copied().filter(|x| x[1] < 0.0).collect();
+    let rest: Vec<_> = points.into_iter().filter(|x| x[1] > 0.0).collect();
+    let floor = || Wall::of("floor", floor.clone(), 0.01);
+    runs(
+        pool().wall(floor()).wall(Wall::of("rest", rest, 0.01)),
+        1e-3,
+    );
+    names(
+        pool().wall(tank("tank")).wall(floor()),
+        &["`tank` and `floor` overlap"],
+    );
+    let inlet = || {
+        let opening = (0..10)
+            .map(|k| [0.0, 0.01 * (f64::from(k) + 0.5)])
+            .collect();
+        Inlet::new("water", opening, [1.0, 0.0], 0.01, 200)
+    };
+    names(
+        pool().inlet(inlet()).inlet(inlet()),
+        &["an inlet of body `water`", "enter twice"],
     );
 }
 

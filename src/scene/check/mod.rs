@@ -1,6 +1,7 @@
 //! What can be wrong with a scene: every check runs, and every problem is reported.
 //! A message names the field, the value, and what to do.
 
+mod doubled;
 mod groups;
 mod held;
 mod images;
@@ -81,6 +82,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 plan.check_overlap(&mut problems);
                 plan.check_wall_places(&mut problems);
             }
+            self.check_doubled_walls(&mut problems);
+            self.check_doubled_inlets(&mut problems);
             self.check_coupled_places(&mut problems);
             self.check_thickness(&mut problems);
         }
