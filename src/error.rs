@@ -233,6 +233,24 @@ impl fmt::Display for BuildError {
     }
 }
 
+/// What is told beside something else.
+fn in_brackets(values: &[String]) -> String {
+    if values.is_empty() {
+        return String::new();
+    }
+    format!(" ({})", values.join("; "))
+}
+
+/// Why a number is none: what no step has changed is as the scene gives it.
+fn cause_by_step(step: u64) -> &'static str {
+    if step == 0 {
+        "the scene starts so: look at what is given to that particle, its neighbours, its material, and what acts on it"
+    } else {
+        "the run has lost stability; try a smaller step factor, more artificial viscosity, or a finer spacing. What was \
+         written before stays readable"
+    }
+}
+
 /// Why a simulation cannot go on from a checkpoint.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
@@ -268,11 +286,14 @@ pub enum CheckpointProblem {
     },
     /// It is of another scene.
     #[error(
-        "it was written by another scene, which differs in {}: resume with the scene that wrote it", parts.join(", ")
+        "it was written by another scene, which differs in {}{}: resume with the scene that wrote it",
+        parts.join(", "), in_brackets(.values)
     )]
     Scene {
         /// What differs.
         parts: Vec<&'static str>,
+        /// Values of it, as far as they have names: which, and what it is in the file and in the scene.
+        values: Vec<String>,
     },
     /// The machine cannot run the loops that it was written by.
     #[error(
@@ -295,8 +316,7 @@ pub enum Error {
     /// A number became infinite or undefined.
     #[error(
         "{quantity} of particle {particle} of body `{body}` is {value} at {position:?} m, t = {time} s, step \
-         {step}: the run has lost stability; try a smaller step factor, more artificial viscosity, or a finer \
-         spacing. What was written before stays readable"
+         {step}: {}", cause_by_step(*.step)
     )]
     NotFinite {
         /// The quantity.
@@ -317,7 +337,8 @@ pub enum Error {
     /// A load gave no number to go on with.
     #[error(
         "the load ({load}) gave {value} to particle {particle} of body `{body}` at {position:?} m, t = {time} s: its \
-         function must give finite numbers, in m/s² or W/kg, wherever a particle comes"
+         function must give finite numbers of the scalar wherever a particle comes, in m/s², whose squares are finite too, \
+         or in W/kg"
     )]
     Load {
         /// What it is, and on which body.
@@ -332,6 +353,18 @@ pub enum Error {
         position: Vec<f64>,
         /// When \[s\].
         time: f64,
+    },
+    /// A function of time gave no number to go on with.
+    #[error("the {what} gave {value} at t = {time} s: {must_be}")]
+    Function {
+        /// Which function of the scene, and what of it.
+        what: String,
+        /// The value.
+        value: f64,
+        /// When \[s\].
+        time: f64,
+        /// What it must give.
+        must_be: &'static str,
     },
     /// A liquid meets something faster than its sound runs.
     #[error(

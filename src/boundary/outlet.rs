@@ -1,6 +1,8 @@
 //! Outlets: where particles leave the simulation, and what they must do to be taken out.
 //! What leaves is counted, with its mass and momentum.
 
+use crate::geometry::SWAPPED;
+
 /// A reason to take particles out.
 ///
 /// They leave when neighbour lists are next made, so put a plane a support behind the place where the
@@ -76,7 +78,11 @@ impl<const D: usize> Outlet<D> {
                     (
                         "size",
                         size,
-                        "the box must have a positive size along every axis",
+                        if size < 0.0 {
+                            SWAPPED
+                        } else {
+                            "the box must have a positive size along every axis"
+                        },
                     )
                 }),
             Reason::Faster { speed } => (speed.is_nan() || *speed <= 0.0).then_some((

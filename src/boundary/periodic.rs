@@ -2,6 +2,7 @@
 //! Images shifted by the period close the domain on itself.
 
 use super::Boundary;
+use crate::geometry::SWAPPED;
 use crate::scalar::Real;
 use crate::sweep::Transform;
 use crate::tensor::Vector;
@@ -82,11 +83,12 @@ impl<T: Real, const D: usize> Boundary<T, D> for Periodic {
         if period.is_finite() && period >= 2.0 * reach {
             return Vec::new();
         }
-        vec![(
-            "period",
-            period,
-            "must be finite and at least twice the kernel's reach: enlarge the domain or refine",
-        )]
+        let must_be = if period < 0.0 && period.is_finite() {
+            SWAPPED
+        } else {
+            "must be finite and at least twice the kernel's reach: enlarge the domain or refine"
+        };
+        vec![("period", period, must_be)]
     }
 }
 

@@ -2,7 +2,7 @@
 //! A wall particle takes its pressure from the liquid before it (Adami, Hu & Adams 2012).
 
 use super::Motion;
-use crate::geometry::{Cuboid, FEWER, Flaw, MOST_PARTICLES, POSITIVE, Shape};
+use crate::geometry::{Cuboid, FEWER, Flaw, MOST_PARTICLES, POSITIVE, SWAPPED, Shape};
 use crate::tensor::{Vector, length};
 use std::sync::Arc;
 
@@ -69,7 +69,8 @@ impl<const D: usize> Wall<D> {
     }
 
     /// Layers of particles around the box from `low` to `high` \[m\] in which liquid is kept, on every
-    /// side that `closed` names (lower and upper end of each axis), `layers` thick.
+    /// side that `closed` names (lower and upper end of each axis), `layers` thick. That is a count, where the thickness of
+    /// [`geometry::layers`](crate::geometry::layers) is in metres.
     ///
     /// Edges and corners belong to it. The spacing is fitted to the box along each axis, as in
     /// [`Body::block`](crate::scene::Body::block).
@@ -91,11 +92,16 @@ impl<const D: usize> Wall<D> {
             return refused(("spacing", spacing, POSITIVE));
         }
         if let Some(&bad) = size.iter().find(|s| !(s.is_finite() && **s > 0.0)) {
-            return refused((
-                "size",
-                bad,
-                "corners must be finite and in order, in metres",
-            ));
+            let must_be = if bad < 0.0 && bad.is_finite() {
+                SWAPPED
+            } else {
+                "corners must be finite and in order, in metres"
+            };
+            return refused(("size", bad, must_be));
+        }
+        if layers == 0 {
+            let must_be = "it must be at least one, and as many as the kernel reaches: a count, and no length";
+            return refused(("number of layers", 0.0, must_be));
         }
         let most = 2.0 * MOST_PARTICLES;
         let counts = size.map(|s| (s / spacing).round().clamp(1.0, most) as i64);

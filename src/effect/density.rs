@@ -128,6 +128,10 @@ impl<T: Real, const D: usize> Law<T, D> for ConsistentSmoothing {
         for n in 0..h.len() {
             let h = &mut h[n];
             let summed = sums.get(Output::KERNEL_SUM, 0, first + n);
+            // A particle counts itself: slots without a sum are of clusters that outlets have emptied, and stay as they are.
+            if summed == T::zero() {
+                continue;
+            }
             let slope = sums.get(Output::SLOPE_IN_H, 0, first + n);
             let wanted = mass[n] * (eta / *h).powi(D as u32);
             // f = ρ(h) − m (η/h)^D and f′ = ∂ρ/∂h + D m η^D/h^(D+1).

@@ -1,7 +1,7 @@
 //! A box along the axes, in 2D a rectangle, in 1D an interval.
 //! With e = max(low − x, x − high): d(x) = |max(e, 0)| outside, max(e) inside.
 
-use super::{Shape, product};
+use super::{POSITIVE, SWAPPED, Shape, product};
 
 /// A box from its lowest to its highest corner \[m\].
 ///
@@ -41,11 +41,8 @@ impl<const D: usize> Shape<D> for Cuboid<D> {
         let size = |d: usize| self.high[d] - self.low[d];
         let empty = (0..D).map(size).find(|s| s.is_nan() || *s <= 0.0);
         empty.map_or_else(Vec::new, |bad| {
-            vec![(
-                "size of the box",
-                bad,
-                "it must be positive: the low corner comes first, in metres",
-            )]
+            let must_be = if bad < 0.0 { SWAPPED } else { POSITIVE };
+            vec![("size of the box", bad, must_be)]
         })
     }
 }

@@ -11,6 +11,10 @@ pub(crate) const FEWER: &str =
     "it must fit into memory and stay below 4e9: is the spacing in metres?";
 /// What a length must be.
 pub(crate) const POSITIVE: &str = "it must be finite and positive, in metres";
+/// What the extent of a box from its low to its high corner must be.
+pub(crate) const SWAPPED: &str = "it must be positive: low and high are swapped along that axis; the low one comes first, in metres";
+/// Layers that a wall can have at most: the kernels of the crate reach six spacings.
+const MOST_LAYERS: f64 = 10.0;
 /// Share of the spacing that lengths given as multiples of it are off by rounding, and no more.
 const ROUNDING: f64 = 1e-9;
 
@@ -84,7 +88,8 @@ pub(crate) fn filled<const D: usize>(
 /// ```
 ///
 /// # Errors
-/// As [`fill`], and if `thickness` is not finite and positive.
+/// As [`fill`], and if `thickness` is not finite and positive, or more than ten spacings: it is a length, where
+/// [`Wall::around`](crate::boundary::Wall::around) takes a count.
 pub fn layers<const D: usize>(
     shape: &(impl Shape<D> + ?Sized),
     spacing: f64,
@@ -93,6 +98,16 @@ pub fn layers<const D: usize>(
 ) -> Result<Vec<[f64; D]>> {
     if !(thickness.is_finite() && thickness > 0.0) {
         return Err(argument(("thickness of the wall", thickness, POSITIVE)));
+    }
+    let count = thickness / spacing;
+    if count.is_finite() && count > MOST_LAYERS {
+        return Err(Error::Argument(Problem::Incompatible {
+            what: format!(
+                "a wall {thickness} m thick is {count:.0} layers of particles {spacing} m apart, and no kernel reaches farther than \
+                 {MOST_LAYERS}"
+            ),
+            remedy: "give the thickness in metres: the number of layers times the spacing",
+        }));
     }
     let near = thickness + ROUNDING * spacing;
     // The first layer is half a spacing from the surface of a box that fits the lattice.

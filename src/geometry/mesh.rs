@@ -2,6 +2,7 @@
 //! Inside is where the winding number is one; the distance is that to the nearest triangle.
 
 use super::Shape;
+use super::overlap::correction;
 use crate::error::{Error, Problem, Result};
 use std::collections::HashMap;
 use std::fmt;
@@ -177,10 +178,11 @@ impl Mesh {
         let mut nodes = Vec::new();
         let count = triangles.len();
         build(&mut triangles, 0, count, &mut nodes);
+        let twice = correction(&triangles, nodes[0].low, nodes[0].high);
         Ok(Self {
             triangles,
             nodes,
-            volume: volume.abs(),
+            volume: volume.abs() + twice,
         })
     }
 
@@ -228,7 +230,27 @@ impl Mesh {
         Self::new(&corners, &triangles)
     }
 
-    /// The volume that it holds \[m³\].
+    /// The volume that it holds \[m³\]: that of the points whose winding number is above zero, each counted once, as
+    /// [`fill`](super::fill) has it.
+    ///
+    /// It is exact where no shells of the surface overlap. What shells hold together is taken off by 512 × 512 lines through the
+    /// mesh, and known to about a thousandth of the section of the mesh times its length there; what a shell that is inside out
+    /// seems to take away is added likewise. A shell inside out within another is a cavity.
+    ///
+    /// ```
+    /// use meshfree::geometry::Mesh;
+    /// // Two tetrahedra of 1/6 m³ in one file, of which the second is half as large and wholly in the first.
+    /// let faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+    /// let corners = |low: f64, edge: f64| {
+    ///     let high = low + edge;
+    ///     [[low; 3], [high, low, low], [low, high, low], [low, low, high]]
+    /// };
+    /// let points = [corners(0.0, 1.0), corners(0.1, 0.5)].concat();
+    /// let both: Vec<[usize; 3]> = (0..8).map(|k| faces[k % 4].map(|n| n + 4 * (k / 4))).collect();
+    /// let volume = Mesh::new(&points, &both)?.volume();
+    /// assert!((6.0 * volume - 1.0).abs() < 1e-3, "{volume}");
+    /// # Ok::<(), meshfree::error::Error>(())
+    /// ```
     #[must_use]
     pub fn volume(&self) -> f64 {
         self.volume

@@ -36,6 +36,8 @@ mod lattice;
 mod mesh;
 mod moved;
 mod open_cell;
+#[cfg(feature = "meshes")]
+mod overlap;
 #[cfg(test)]
 mod tests;
 
@@ -47,7 +49,7 @@ pub use boolean::{Complement, Intersection, Union};
 pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
 pub use half_space::HalfSpace;
-pub(crate) use lattice::{FEWER, MOST_PARTICLES, POSITIVE, filled};
+pub(crate) use lattice::{FEWER, MOST_PARTICLES, POSITIVE, SWAPPED, filled};
 pub use lattice::{fill, layers};
 #[cfg(feature = "meshes")]
 pub use mesh::Mesh;

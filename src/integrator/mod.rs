@@ -22,6 +22,7 @@
 
 mod lam;
 mod leapfrog;
+pub(crate) mod oscillator;
 mod runge_kutta;
 
 pub use lam::{LamLeapfrog, Predictor};
@@ -102,7 +103,8 @@ pub trait Integrator: Debug + Send + Sync {
     /// # Errors
     /// Passes on what an evaluation reports.
     fn step(&self, system: &mut dyn System, dt: f64) -> Result<()>;
-    /// Largest stable ω dt on an undamped oscillator, relative to the leapfrog's 2.
+    /// Largest stable ω dt on an undamped oscillator, relative to the leapfrog's 2. A scene tries it on one, and is refused if
+    /// that grows.
     fn stability(&self) -> f64 {
         1.0
     }

@@ -1,13 +1,16 @@
 //! What is wrong with a kernel: numbers that no lattice can have, and a shape that does not integrate to one.
 //! Asked once, when a scheme is composed.
 
-use super::Kernel;
+use super::{Kernel, lattice};
 
 /// Support in smoothing lengths beyond which neighbours are too many for any purpose.
 const WIDEST: f64 = 10.0;
 
 /// Share by which the integrals may differ from one: a truncated Gaussian ends at e⁻⁹.
 const EXACT: f64 = 0.01;
+
+/// What a stable step may be over that of one kind of wave, which was rounded.
+const LONGER: f64 = 1.05;
 
 /// All that is wrong with a kernel, as `(what, value, what it must be)`.
 pub(crate) fn problems_of<K: Kernel<D>, const D: usize>(
@@ -65,6 +68,14 @@ pub(crate) fn problems_of<K: Kernel<D>, const D: usize>(
         "it must be one within a hundredth: look at whether the slope is that of the shape";
     if moment.is_nan() || (moment - 1.0).abs() >= EXACT {
         problems.push(("first moment of the slope", moment, must_be));
+    }
+    let longest = lattice::longest_step(kernel, kernel.h_over_dx());
+    if kernel.stable_step() > LONGER * longest {
+        problems.push((
+            "stable step",
+            kernel.stable_step(),
+            "waves along an axis of a cubic lattice grow with that: it must be 2h/(c ω) for the highest frequency ω",
+        ));
     }
     let value: f64 = kernel.shape(0.0) + kernel.slope_over_q(0.0);
     if !value.is_finite() {

@@ -21,6 +21,41 @@ pub(crate) fn lattice_unity<K: Kernel<D>, const D: usize>(kernel: &K, h_over_dx:
     })
 }
 
+/// The longest step of an undamped leapfrog, in units of h/c, for longitudinal waves along an axis of a cubic lattice at rest: 2/(h k),
+/// where k is the largest of the wave numbers Σ V F x sin(k x) that a difference of neighbours makes. It is one of several limits, so
+/// no kernel bears more.
+pub(crate) fn longest_step<K: Kernel<D>, const D: usize>(kernel: &K, h_over_dx: f64) -> f64 {
+    const WAVES: u32 = 256;
+    let layers = (kernel.support() * h_over_dx).ceil();
+    if !(h_over_dx > 0.0 && (1.0..=MOST_LAYERS).contains(&layers)) {
+        return f64::NAN;
+    }
+    // −V F of all neighbours in a layer of the lattice, in units of the spacing.
+    let side = layers as i64;
+    let across = (2 * side + 1).pow(D as u32 - 1);
+    let norm = kernel.normalisation() / h_over_dx.powi(D as i32 + 2);
+    let of_layer = |layer: i64| -> f64 {
+        let slopes = (0..across).map(|k| {
+            let offsets = [k % (2 * side + 1), k / (2 * side + 1)];
+            let beside = offsets[..D - 1].iter().map(|n| (n - side).pow(2));
+            let r2 = (layer * layer + beside.sum::<i64>()) as f64;
+            -Kernel::<D>::slope_over_q(kernel, r2.sqrt() / h_over_dx)
+        });
+        norm * slopes.sum::<f64>()
+    };
+    let sums: Vec<f64> = (1..=side).map(of_layer).collect();
+    let wave_number = |n: u32| {
+        let k = core::f64::consts::PI * f64::from(n) / f64::from(WAVES);
+        let layers = sums.iter().enumerate().map(|(n, sum)| {
+            let x = (n + 1) as f64;
+            2.0 * sum * x * (k * x).sin()
+        });
+        layers.sum::<f64>().abs()
+    };
+    let largest = (1..WAVES).map(wave_number).fold(0.0, f64::max);
+    2.0 / (h_over_dx * largest)
+}
+
 /// Layers of a lattice that a kernel can reach over.
 const MOST_LAYERS: f64 = 32.0;
 

@@ -124,7 +124,8 @@ pub trait Kernel<const D: usize>: Copy + Debug + Send + Sync + 'static {
     /// What is wrong with its parameters, as `(field, value, what it must be)`; empty if nothing.
     ///
     /// Beside it every scene checks that support and h/dx are numbers that a lattice can have, that the shape ends
-    /// at the support, and that shape and slope integrate to one within a hundredth.
+    /// at the support, that shape and slope integrate to one within a hundredth, and that the stable step is none with which
+    /// waves along an axis of a lattice grow.
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         Vec::new()
     }

@@ -3,6 +3,7 @@
 
 use super::Sample;
 use crate::error::{Error, Problem, Result};
+use crate::geometry::SWAPPED;
 use crate::output::vti::Vti;
 use std::path::Path;
 
@@ -63,7 +64,10 @@ impl<const D: usize> SampleGrid<D> {
                 return refused("number of points", 0.0, "it must be one at least");
             }
             let extent = high[d] - low[d];
-            if !extent.is_finite() || extent < 0.0 || (counts[d] > 1 && extent == 0.0) {
+            if extent < 0.0 {
+                return refused("extent", extent, SWAPPED);
+            }
+            if !extent.is_finite() || (counts[d] > 1 && extent == 0.0) {
                 let must_be = "it must be positive and finite, in metres, or zero with one point";
                 return refused("extent", extent, must_be);
             }

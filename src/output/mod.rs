@@ -10,6 +10,8 @@ pub mod png;
 pub mod progress;
 pub mod svg;
 pub mod table;
+#[cfg(feature = "checkpoint")]
+pub(crate) mod values;
 pub mod vti;
 mod vtk;
 pub mod vtu;

@@ -2,7 +2,7 @@
 //! Boxes and shapes are filled with a lattice; points may be the user's own.
 
 use crate::boundary::Slip;
-use crate::geometry::{FEWER, Flaw, MOST_PARTICLES, POSITIVE, Shape, filled};
+use crate::geometry::{FEWER, Flaw, MOST_PARTICLES, POSITIVE, SWAPPED, Shape, filled};
 use crate::material::Material;
 use crate::particles::Field;
 use crate::scalar::Real;
@@ -28,6 +28,8 @@ pub struct Body<T: Real, const D: usize> {
     pub(crate) shape: Result<(), Flaw>,
     /// Fields that start with values of their own.
     pub(crate) fields: Vec<StartField>,
+    /// The acceleration \[m/s²\] in which it starts hydrostatic.
+    pub(crate) hydrostatic: Option<[f64; D]>,
     /// Masses \[kg\] of their own; without them density times the spacing to the power D.
     pub(crate) masses: Vec<f64>,
 }
@@ -82,6 +84,8 @@ impl<T: Real, const D: usize> Body<T, D> {
             body.spacing = spacing;
         } else if let Some(bad) = size.iter().find(|s| !s.is_finite()) {
             body.shape = Err(("size", *bad, "corners must be finite, in metres"));
+        } else if let Some(bad) = size.iter().find(|s| **s < 0.0) {
+            body.shape = Err(("size", *bad, SWAPPED));
         } else if !fits {
             body.shape = Err(("number of particles", total, FEWER));
         }
@@ -143,6 +147,7 @@ impl<T: Real, const D: usize> Body<T, D> {
             slip: Slip::Free,
             shape: Ok(()),
             fields: Vec::new(),
+            hydrostatic: None,
             masses: Vec::new(),
         }
     }
@@ -172,7 +177,9 @@ impl<T: Real, const D: usize> Body<T, D> {
     /// Starts all particles at the pressure that a liquid at rest has under `acceleration` \[m/s²\] with a
     /// free surface through `surface` \[m\], p = ρ₀ g·(x − x_s): its density is that of the material there.
     ///
-    /// Above the surface, and where the law does not reach the pressure, particles keep their density.
+    /// Above the surface, and where the law does not reach the pressure, particles keep their density. A body with no
+    /// particle below its surface is refused, as where the acceleration points up, and so is one in a scene whose
+    /// [acceleration](crate::scene::Scene::acceleration) points against that given here.
     #[must_use]
     pub fn hydrostatic(mut self, acceleration: [f64; D], surface: [f64; D]) -> Self {
         for (what, given) in [
@@ -187,9 +194,27 @@ impl<T: Real, const D: usize> Body<T, D> {
         }
         let material = self.material.clone();
         let rest = material.reference_density();
+        let head =
+            |x: &[f64; D]| -> f64 { (0..D).map(|d| acceleration[d] * (x[d] - surface[d])).sum() };
+        let most = self
+            .points
+            .iter()
+            .map(head)
+            .fold(f64::NEG_INFINITY, f64::max);
+        if most < 0.0 && most.is_finite() {
+            let must_be = "no particle is below the surface: acceleration and surface must be such that g·(x − x_s) is \
+                           positive in the liquid; gravity points down, as [0, −9.81] m/s² where y points up";
+            let flaw = (
+                "largest head g·(x − x_s) of the hydrostatic start",
+                most,
+                must_be,
+            );
+            self.shape = self.shape.and(Err(flaw));
+            return self;
+        }
+        self.hydrostatic = Some(acceleration);
         self.start(|x, start| {
-            let depth: f64 = (0..D).map(|d| acceleration[d] * (x[d] - surface[d])).sum();
-            let pressure = rest * depth;
+            let pressure = rest * head(&x);
             match material.eos().density_at(pressure, start.energy) {
                 Some(density) if pressure > 0.0 => Start { density, ..start },
                 _ => start,

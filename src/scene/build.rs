@@ -1,13 +1,13 @@
 //! From a scene to a simulation: checked, laid out and evaluated once, or gone on with from a checkpoint.
 
-use super::Scene;
 use super::plan::Plan;
+use super::{Part, Scene};
 use crate::error::{BuildError, Error, Problem, Result};
 use crate::once::once;
 #[cfg(feature = "checkpoint")]
 use crate::output::checkpoint::Checkpoint;
 use crate::scalar::Real;
-use crate::simulation::Simulation;
+use crate::simulation::{Group, Simulation};
 #[cfg(feature = "checkpoint")]
 use std::path::Path;
 
@@ -72,13 +72,18 @@ impl<T: Real, const D: usize> Scene<T, D> {
         let fixed = self.control.fixed;
         let mut simulation = self.lay_out()?;
         simulation.hold_velocities();
-        simulation.put_to_sleep();
+        simulation.put_to_sleep()?;
         simulation.take_references();
         let problems = simulation.isolated();
         if !problems.is_empty() {
             return Err(Error::Build(BuildError { problems }));
         }
-        simulation.evaluate()?;
+        let evaluated = simulation.evaluate();
+        let problems = simulation.torn_surfaces();
+        if !problems.is_empty() {
+            return Err(Error::Build(BuildError { problems }));
+        }
+        evaluated?;
         let vote = simulation.largest_fixed_step()?;
         match fixed {
             Some(step) if step > vote.step => Err(Error::Build(BuildError {
@@ -113,11 +118,12 @@ impl<T: Real, const D: usize> Scene<T, D> {
             return Err(Error::Build(BuildError { problems }));
         }
         let domain = self.domain();
-        let groups = self.plans().map(Plan::lay_out).collect();
+        let groups: Vec<_> = self.plans().map(Plan::lay_out).collect();
+        let built = self.places_as_built(&groups);
         let couples = self.couples();
         #[cfg(feature = "checkpoint")]
-        let hashes = self.hashes();
-        let simulation = Simulation::new(
+        let (hashes, values) = (self.hashes(), self.values());
+        let mut simulation = Simulation::new(
             groups,
             couples,
             domain,
@@ -129,9 +135,31 @@ impl<T: Real, const D: usize> Scene<T, D> {
         .with_step_ends(self.step_ends)
         .with_events(self.events)
         .awake_inside(self.awake);
+        simulation.built = built;
         #[cfg(feature = "checkpoint")]
-        let simulation = simulation.of_scene(hashes);
+        let simulation = simulation.of_scene(hashes, values);
         Ok(simulation)
+    }
+
+    /// Where particles of each group are as built \[m\], by identity, if loads may ask. An inlet gives away the identities of
+    /// those that have left, so its body has none.
+    fn places_as_built(&self, groups: &[Group<T, D>]) -> Vec<Vec<Option<[f64; D]>>> {
+        if self.loads.is_empty() {
+            return Vec::new();
+        }
+        let of_group = |(part, group): (&Part<T, D>, &Group<T, D>)| {
+            let mut places = vec![None; group.particles.ids.len()];
+            for (body, state) in part.bodies.iter().zip(&group.particles.bodies) {
+                if self.inlets.iter().any(|inlet| inlet.body == body.name) {
+                    continue;
+                }
+                for (place, x) in places[state.ids.clone()].iter_mut().zip(&body.points) {
+                    *place = Some(*x);
+                }
+            }
+            places
+        };
+        self.parts.iter().zip(groups).map(of_group).collect()
     }
 
     /// The box around bodies and walls \[m\], where walls alone bound the scene.

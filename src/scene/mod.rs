@@ -36,6 +36,7 @@
 //! | the same acceleration on all particles, by time: gravity, a frame that is shaken | [`Scene::acceleration`] | yes |
 //! | an acceleration by place, velocity, density, body and time: a well, drag, a frame that turns | [`Scene::load`] with [`Load::acceleration`] | no |
 //! | a heat source by the same | [`Scene::load`] with [`Load::heating`] | |
+//! | either, by the place in the material: where a particle was as built | the same, with [`LoadPoint::as_built`](crate::simulation::LoadPoint::as_built) | no |
 //! | either, from an [event](Scene::event) on | the same, with [`LoadPoint::since`](crate::simulation::LoadPoint::since) | no |
 //!
 //! # Several schemes
@@ -73,6 +74,8 @@ mod plan;
 
 pub use body::{Body, Start};
 pub use conversion::Conversion;
+#[cfg(feature = "checkpoint")]
+pub(crate) use fingerprint::Described;
 
 use crate::boundary::{Boundary, Inlet, Outlet, Wall};
 use crate::coupling::Coupling;
@@ -423,7 +426,11 @@ impl<T: Real, const D: usize> Scene<T, D> {
     }
 
     /// The instruction set of the pair loop; the best that the machine has if not given.
-    /// [`InstructionSet::Baseline`] gives the same bits on every machine.
+    ///
+    /// [`InstructionSet::Baseline`] has no fused multiply-add, so its sums, products and roots round alike on every machine. It
+    /// does not make a whole run the same to the bit everywhere: laws of materials call `powf`, `exp` and `ln` of the standard
+    /// library, whose last digits Rust leaves to the platform and the version of the compiler. One program on machines of one
+    /// kind gives the same bits.
     #[must_use]
     pub fn instructions(mut self, set: InstructionSet) -> Self {
         self.instructions = set;
@@ -432,7 +439,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
 
     /// How the pair loop takes roots in `f64`; the faster way for the processor if not given, so that two makes of
     /// processor may differ in their last bits. [`Root::Products`] gives the same bits on all that have the
-    /// instruction set; on [`InstructionSet::Baseline`] both ways are the divider's.
+    /// instruction set, as far as the [laws of materials](Self::instructions) do; on [`InstructionSet::Baseline`] both ways are
+    /// the divider's.
     ///
     /// ```
     /// use meshfree::prelude::*;

@@ -90,6 +90,18 @@ impl<T: Real, const D: usize> Scheme<T, D> {
                 own.name, own.unit, own.factor
             ));
         }
+        // What flows between particles goes back and forth and grows in steps that are too long.
+        let flows = self.program.evolved.iter().filter(|own| {
+            let mut sums = own.rates.iter().flat_map(|rate| rate.sums().iter());
+            let own_sums = &self.program.sums;
+            sums.any(|sum| own_sums.iter().any(|own| own.sum == sum))
+        });
+        for own in flows.filter(|_| self.program.limits.is_empty()) {
+            let (name, _) = self.program.name_of(own.field);
+            lines.push(format!(
+                "  limits the step: nothing for {name}, which sums over pairs change (StepProgram::limit)"
+            ));
+        }
         for limit in &self.program.limits {
             lines.push(format!("  limits the step: {}", limit.name()));
         }

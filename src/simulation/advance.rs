@@ -5,7 +5,7 @@ use super::Simulation;
 use super::group::Group;
 use super::stages::Moment;
 use crate::effect::When;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::integrator::System;
 use crate::scalar::Real;
 use crate::term::Stage;
@@ -14,7 +14,7 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
     fn evaluate(&mut self, offset: f64) -> Result<()> {
         let time = self.time + offset;
         self.evaluated = time;
-        self.load_groups(time);
+        self.load_groups(time)?;
         for group in &mut self.groups {
             group.work.evaluated_gravity = group.gravity.map(T::from_f64);
         }
@@ -34,6 +34,7 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
             }
         }
         self.couple();
+        self.check_couples(time)?;
         self.hold(time);
         self.evaluations += 1;
         self.rates_at_hand = true;
@@ -72,7 +73,7 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
         }
         // Loads and walls at the middle of the drift, and walls go straight through it as particles do:
         // a tank that moves is then a tank at rest in a frame that does.
-        self.load_groups(begin + half);
+        self.load_groups(begin + half)?;
         self.place_structures(begin + half, false);
         // Groups that sub-cycle feel the others in kicks alone, so they may be at the end of the drift already.
         self.sub_cycle(begin + half, half)?;
@@ -150,6 +151,15 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
     }
 }
 
+/// What an acceleration of all particles must be.
+pub(crate) const ACCELERATION: &str =
+    "it must be a finite number whose square is one of the scalar too, in m/s²";
+
+/// Whether the square of a number is finite in the scalar.
+pub(crate) fn is_square_finite<T: Real>(value: f64) -> bool {
+    T::from_f64(value * value).to_f64().is_finite()
+}
+
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// Groups that do not sub-cycle.
     fn together(&mut self) -> impl Iterator<Item = &mut Group<T, D>> {
@@ -202,11 +212,44 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
     }
 
+    /// Refuses forces of couplings that are no numbers.
+    fn check_couples(&self, time: f64) -> Result<()> {
+        for own in &self.couples {
+            let forces = own.acting.forces.iter().flatten();
+            let numbers = forces.flat_map(|(_, force)| force.iter().map(|f| f.to_f64()));
+            let more = [own.acting.stored, own.acting.heat];
+            if let Some(value) = numbers.chain(more).find(|x| !x.is_finite()) {
+                let [first, second] = own
+                    .sides
+                    .map(|(group, body)| self.groups[group].particles.bodies[body].name.as_str());
+                return Err(Error::Function {
+                    what: format!(
+                        "coupling {} of `{first}` and `{second}`",
+                        own.coupling.name()
+                    ),
+                    value,
+                    time,
+                    must_be: "forces, stored energy and heat of pairs must be finite wherever two particles are",
+                });
+            }
+        }
+        Ok(())
+    }
+
     /// Tells groups what the uniform loads give at `time` \[s\].
-    fn load_groups(&mut self, time: f64) {
+    fn load_groups(&mut self, time: f64) -> Result<()> {
         let gravity = self.body_acceleration(time);
+        if let Some(value) = gravity.into_iter().find(|a| !is_square_finite::<T>(*a)) {
+            return Err(Error::Function {
+                what: "acceleration of the scene (Scene::acceleration)".into(),
+                value,
+                time,
+                must_be: ACCELERATION,
+            });
+        }
         for group in &mut self.groups {
             group.gravity = gravity;
         }
+        Ok(())
     }
 }

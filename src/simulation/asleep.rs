@@ -6,6 +6,7 @@ use super::evolve::state;
 use super::forces::Forces;
 use super::held::Held;
 use super::population::Particles;
+use crate::error::{Error, Result};
 use crate::particles::Field;
 use crate::scalar::Real;
 use crate::scheme::{EnergyForm, Scheme};
@@ -105,11 +106,22 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     /// Puts to sleep what is outside of the box now, and wakes what is inside: between steps.
-    pub(crate) fn put_to_sleep(&mut self) {
+    pub(crate) fn put_to_sleep(&mut self) -> Result<()> {
         let Some(awake) = self.awake.clone() else {
-            return;
+            return Ok(());
         };
         let bounds = awake(self);
+        let extents = (0..D).map(|d| bounds[1][d] - bounds[0][d]);
+        // From one infinity to the same one nothing lies, which is no number either.
+        if let Some(value) = extents.into_iter().find(|own| own.is_nan() || *own < 0.0) {
+            return Err(Error::Function {
+                what: "box in which the scene is awake (Scene::awake_inside), along an axis,"
+                    .into(),
+                value,
+                time: self.time,
+                must_be: "it must not be negative: the low corner comes first, in metres",
+            });
+        }
         for group in &mut self.groups {
             let (held, particles) = (&mut group.held, &mut group.particles);
             let now = held.outside(particles, &bounds);
@@ -120,6 +132,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 own.keep_rows(particles, &group.scheme);
             }
         }
+        Ok(())
     }
 }
 

@@ -46,8 +46,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             accelerations: _,
             loads: _,
             step_ends: _,
+            built: _,
             #[cfg(feature = "checkpoint")]
                 scene: _,
+            #[cfg(feature = "checkpoint")]
+                described: _,
             time,
             steps,
             evaluations,

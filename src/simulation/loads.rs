@@ -11,6 +11,9 @@ use crate::particles::{Columns, Field, Output};
 use crate::scalar::Real;
 use crate::sweep::Results;
 
+/// When loads are evaluated \[s\], what has happened by then, and where particles were as built \[m\] by identity.
+type Now<'a, const D: usize> = (f64, &'a Happened, &'a [Option<[f64; D]>]);
+
 /// A value of a load that is no number to go on with.
 struct Wrong<'a, const D: usize> {
     load: &'a Load<D>,
@@ -21,13 +24,14 @@ struct Wrong<'a, const D: usize> {
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// Adds what loads give a group at `time` \[s\] to the rates of an evaluation.
     pub(super) fn apply_loads(&mut self, group: usize, time: f64) -> Result<()> {
+        let built = self.built.get(group).map_or(&[][..], Vec::as_slice);
         let group = &mut self.groups[group];
         let particles = &mut group.particles;
         let Some(Wrong { load, value, slot }) = apply_loads(
             particles,
             &mut group.work.rates,
             &self.loads,
-            (time, &self.happened),
+            (time, &self.happened, built),
         ) else {
             return Ok(());
         };
@@ -73,7 +77,7 @@ fn apply_loads<'a, T: Real, const D: usize>(
     particles: &mut Particles<T, D>,
     rates: &mut Results<T, D>,
     loads: &'a [Load<D>],
-    now: (f64, &Happened),
+    now: Now<'_, D>,
 ) -> Option<Wrong<'a, D>> {
     for (field, sum) in [
         (Field::LOAD_ACCELERATION, Output::FORCE),
@@ -101,7 +105,7 @@ fn apply_loads<'a, T: Real, const D: usize>(
 fn evaluate_load<'a, T: Real, const D: usize>(
     particles: &Particles<T, D>,
     load: &'a Load<D>,
-    (time, happened): (f64, &Happened),
+    (time, happened, built): Now<'_, D>,
     values: &mut [T],
 ) -> Option<Wrong<'a, D>> {
     let width = load.field().components(D);
@@ -118,6 +122,7 @@ fn evaluate_load<'a, T: Real, const D: usize>(
         let add = |(slot, sum): (usize, &mut [T])| {
             let at = LoadPoint {
                 position: particles.exact_position(slot),
+                as_built: built.get(particles.ids[slot] as usize).copied().flatten(),
                 velocity: velocities[slot].map(Real::to_f64),
                 density: densities[slot].to_f64(),
                 time,

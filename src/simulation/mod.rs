@@ -195,6 +195,7 @@ pub use which::Which;
 pub(crate) use which::find;
 pub use work::Work;
 
+pub(crate) use advance::{ACCELERATION, is_square_finite};
 pub(crate) use asleep::Awake;
 pub(crate) use contact::{Acting, Couple};
 pub(crate) use couplings::Structure;
@@ -215,6 +216,8 @@ use crate::once::once;
 use crate::output::checkpoint::Hashes;
 use crate::scalar::Real;
 use kept::Kept;
+#[cfg(feature = "checkpoint")]
+use crate::scene::Described;
 use ledger::Impulses;
 use std::sync::Arc;
 use view::Shown;
@@ -240,9 +243,14 @@ pub struct Simulation<T: Real, const D: usize> {
     pub(crate) loads: Vec<Load<D>>,
     /// Times \[s\] at which steps end, in their order.
     step_ends: Vec<f64>,
+    /// Where particles were as built \[m\], group by group and by identity, if a load may ask.
+    pub(crate) built: Vec<Vec<Option<[f64; D]>>>,
     /// Hashes of the scene that it was built from, by what was hashed.
     #[cfg(feature = "checkpoint")]
     pub(crate) scene: Hashes,
+    /// Values of that scene by name.
+    #[cfg(feature = "checkpoint")]
+    pub(crate) described: Described,
     time: f64,
     steps: u64,
     evaluations: u64,
@@ -317,8 +325,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             accelerations,
             loads,
             step_ends: Vec::new(),
+            built: Vec::new(),
             #[cfg(feature = "checkpoint")]
             scene: Hashes::new(),
+            #[cfg(feature = "checkpoint")]
+            described: Described::new(),
             time: 0.0,
             steps: 0,
             evaluations: 0,

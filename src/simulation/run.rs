@@ -82,7 +82,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     /// Remembers an error after which the state is not to be trusted.
-    fn keep_failure<R>(&mut self, outcome: Result<R>) -> Result<R> {
+    pub(super) fn keep_failure<R>(&mut self, outcome: Result<R>) -> Result<R> {
         if let Err(error) = &outcome {
             self.failed = Some(error.to_string());
         }
@@ -95,6 +95,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             Err(
                 error @ (Error::NotFinite { .. }
                 | Error::Load { .. }
+                | Error::Function { .. }
                 | Error::WallJump { .. }
                 | Error::SoundSpeedTooLow { .. }),
             ) => self.keep_failure(Err(error)),
@@ -139,7 +140,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     fn take_step_here(&mut self, next: Vote, limit: f64) -> Result<f64> {
         let (start, before) = (crate::clock::Instant::now(), self.phases());
         self.advance(next, limit)?;
-        self.watch_events();
+        let watched = self.watch_events();
+        self.keep_broken(watched)?;
         let followed = self.follow_events();
         self.keep_failure(followed)?;
         self.book_step(start, before);
@@ -163,8 +165,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             self.last_vote = Some(next);
             return Err(self.collapsed(vote.step));
         }
-        let walls = self.check_walls(vote.step);
-        self.keep_failure(walls)?;
+        let motions = self.check_motions(vote.step);
+        self.keep_failure(motions)?;
         self.due += vote.step;
         self.impulses.time = self.time;
         // The integrator sees the simulation as a system, and is shared with it while it steps.
@@ -193,7 +195,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// the state of the run.
     ///
     /// # Errors
-    /// [`Error::NotFinite`] when the run has broken, [`Error::Load`] when a load has, [`Error::StepCollapsed`] when the
+    /// [`Error::NotFinite`] when the run has broken, [`Error::Load`] when a load has, [`Error::Function`]
+    /// when a function of time has, [`Error::StepCollapsed`] when the
     /// step has become tiny, [`Error::SoundSpeedTooLow`] when a liquid meets something faster than its sound, [`Error::WallJump`]
     /// when a wall leaves its velocity, [`Error::Failed`] after any of these, and [`Error::Argument`] if a fixed step
     /// exceeds the stability limit.

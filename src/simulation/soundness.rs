@@ -4,15 +4,21 @@
 use super::Simulation;
 use super::limits::are_finite;
 use super::population::Particles;
+use crate::boundary::Pose;
 use crate::effect::StepProgram;
 use crate::error::{Error, Problem, Result};
 use crate::parallel::{GRAIN, reduce, runs};
 use crate::particles::{Columns, Field};
 use crate::scalar::Real;
+use crate::scheme::Smoothing;
 use std::ops::Range;
 
 /// Share of a full neighbourhood below which a particle has no neighbours to be measured by.
 const ALONE: f64 = 1e-6;
+
+/// Share of the density of the start below which a sum lacks neighbours, and share of the bulk modulus above which a law bears tension.
+const LACKING: f64 = 0.9;
+const TENSION: f64 = 1e-3;
 
 /// The name under which gas of negative energy is counted.
 pub(super) const NEGATIVE_ENERGY: &str = "negative internal energy";
@@ -61,9 +67,23 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             .collect()
     }
 
-    /// Refuses a step of `dt` \[s\] in which a wall moves beside its own velocity, as one that jumps does.
-    pub(super) fn check_walls(&self, dt: f64) -> Result<()> {
+    /// Surfaces at which a summed density puts a solid or liquid under tension: one for each body.
+    pub(crate) fn torn_surfaces(&self) -> Vec<Problem> {
+        let summed = self
+            .groups
+            .iter()
+            .filter(|group| matches!(group.scheme.smoothing, Smoothing::Consistent { .. }));
+        summed
+            .flat_map(|group| torn_surfaces(&group.particles))
+            .collect()
+    }
+
+    /// Refuses a step of `dt` \[s\] at whose end a boundary, a wall or a clamp is nowhere, or in which a wall moves beside its
+    /// own velocity, as one that jumps does.
+    pub(super) fn check_motions(&self, dt: f64) -> Result<()> {
         let (time, end) = (self.time, self.time + dt);
+        self.check_boundaries(end)?;
+        self.check_clamps(end)?;
         let spacing = self.spacing();
         for wall in self.groups.iter().flat_map(|group| &group.walls) {
             let Some(motion) = &wall.motion else {
@@ -89,8 +109,61 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                     end,
                 });
             }
+            if let Some(value) = not_finite(&after) {
+                return Err(no_motion(format!("wall `{}`", wall.name), value, end));
+            }
         }
         Ok(())
+    }
+
+    /// Refuses boundaries that move to where no place is.
+    fn check_boundaries(&self, time: f64) -> Result<()> {
+        let Some(group) = self.groups.first() else {
+            return Ok(());
+        };
+        for boundary in group.boundaries.iter().filter(|own| own.moves()) {
+            for image in 0..boundary.images() {
+                if let Some(value) = boundary.transform(image, time).not_finite() {
+                    return Err(Error::Function {
+                        what: format!("transform of image {image} of the {}", boundary.name()),
+                        value,
+                        time,
+                        must_be: "rotation, shift and velocity must be finite numbers",
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Refuses clamps that move to where no place is.
+    fn check_clamps(&self, time: f64) -> Result<()> {
+        for group in &self.groups {
+            for clamp in group.held.clamps.iter().filter(|own| !own.released) {
+                let pose = clamp.motion.as_ref().map(|motion| motion.pose(time));
+                if let Some(value) = pose.as_ref().and_then(not_finite) {
+                    let body = &group.particles.bodies[clamp.body].name;
+                    return Err(no_motion(format!("a clamp of body `{body}`"), value, time));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A number of a pose that is not finite.
+pub(crate) fn not_finite<const D: usize>(pose: &Pose<D>) -> Option<f64> {
+    let linear = pose.linear.iter().flat_map(|a| a.iter());
+    let shift = pose.shift.iter().flat_map(|b| b.iter());
+    linear.chain(shift).copied().find(|x| !x.is_finite())
+}
+
+fn no_motion(of: String, value: f64, time: f64) -> Error {
+    Error::Function {
+        what: format!("motion of {of}"),
+        value,
+        time,
+        must_be: "place, velocity and acceleration must be finite numbers: look for gaps in its table",
     }
 }
 
@@ -117,6 +190,43 @@ fn isolated<T: Real, const D: usize>(
             particle: particles.ids[slot] as usize - body.ids.start,
             position: particles.position(slot),
             reach,
+        })
+    })
+}
+
+/// The first particle of each body whose summed density is far below that which it starts with, and whose law answers with
+/// tension.
+fn torn_surfaces<T: Real, const D: usize>(
+    particles: &Particles<T, D>,
+) -> impl Iterator<Item = Problem> {
+    let [density, mass, energy] =
+        [Field::DENSITY, Field::MASS, Field::ENERGY].map(|field| particles.columns.raw(field));
+    let solids = particles
+        .bodies
+        .iter()
+        .filter(|body| !body.material.is_gas());
+    solids.filter_map(move |body| {
+        let stiffness = body.material.bulk_modulus();
+        let torn = |slot: usize| {
+            let start = mass[slot].to_f64() / body.spacing.powi(D as i32);
+            let summed = density[slot].to_f64();
+            let energy = energy.get(slot).map_or(0.0, |energy| energy.to_f64());
+            let (pressure, _) = body.material.state(summed, energy);
+            (summed < LACKING * start && pressure < -TENSION * stiffness)
+                .then_some((slot, [start, summed, pressure]))
+        };
+        let (slot, [start, summed, pressure]) = body.slots.clone().find_map(torn)?;
+        Some(Problem::Incompatible {
+            what: format!(
+                "body `{}` has a free surface and a law that bears tension: the summed density of particle {} at {:?} m is {summed} \
+                 kg/m³ where it starts with {start}, and the pressure there {pressure} Pa",
+                body.name,
+                particles.ids[slot] as usize - body.ids.start,
+                particles.position(slot),
+            ),
+            remedy: "a sum over neighbours lacks half of them at a surface, which a gas bears and a solid or liquid does not: take a \
+                     scheme whose density is relative to rest (schemes::impact) or by continuity (schemes::weakly_compressible), or \
+                     close the surface by a period or a plane of symmetry",
         })
     })
 }

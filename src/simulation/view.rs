@@ -99,7 +99,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// The same, with the rates of an evaluation between steps.
     fn leave_last_step(&mut self) {
         if let Shown::Between(_) = mem::replace(&mut self.shown, Shown::LastStep) {
-            self.watch_events();
+            // An event that gives no number ends the run at its next step.
+            let watched = self.watch_events();
+            let _ = self.keep_failure(watched);
             if self.exchange_schemes() {
                 self.rates_at_hand = false;
             }

@@ -42,6 +42,13 @@ impl<T: Real, const D: usize> Transform<T, D> {
             velocity: other.rotation * self.velocity + other.velocity,
         }
     }
+    /// A number of it that is not finite.
+    pub(crate) fn not_finite(&self) -> Option<f64> {
+        let rotation = self.rotation.iter();
+        let moved = self.shift.iter().chain(self.velocity.iter());
+        let numbers = rotation.chain(moved).map(|x| x.to_f64());
+        numbers.into_iter().find(|x| !x.is_finite())
+    }
     /// Whether it changes velocities.
     pub(crate) fn turns(&self) -> bool {
         let Self {

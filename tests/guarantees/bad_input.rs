@@ -356,14 +356,6 @@ fn bodies_without_particles_and_scenes_without_bodies() {
             .contains("give it a shape at least one spacing large"),
         "{found}"
     );
-    let turned = Body::block("turned", catalogue::copper(), [1.0], [0.0], DX);
-    let found = problem(Scene::<f64, 1>::new(schemes::impact()).body(turned));
-    assert_eq!(
-        found,
-        Problem::EmptyBody {
-            body: "turned".into()
-        }
-    );
     let found = problem(Scene::<f64, 1>::new(schemes::impact()));
     assert_eq!(found, Problem::EmptyScene);
     assert!(
@@ -434,12 +426,7 @@ fn names_that_the_scene_does_not_have() {
 
 #[test]
 fn boundaries_that_make_no_sense() {
-    for (low, high) in [
-        (0.0, 1e-3),
-        (1.0, 0.0),
-        (0.0, f64::NAN),
-        (f64::NEG_INFINITY, 0.0),
-    ] {
+    for (low, high) in [(0.0, 1e-3), (0.0, f64::NAN), (f64::NEG_INFINITY, 0.0)] {
         let found = problem(good().boundary(Periodic::along(0, low, high)));
         is_parameter(&found, "period", "at least twice the kernel's reach");
     }
@@ -491,7 +478,9 @@ fn walls_around_what_is_no_box() {
             "finite and positive, in metres",
         );
     }
-    for corner in [0.0, -0.1, f64::NAN, f64::INFINITY] {
+    let found = tank([0.0; 2], [0.1, -0.1], 0.01, 3);
+    is_parameter(&found, "size of wall `tank`", "low and high are swapped");
+    for corner in [0.0, f64::NAN, f64::INFINITY] {
         let found = tank([0.0; 2], [0.1, corner], 0.01, 3);
         is_parameter(
             &found,
@@ -507,11 +496,11 @@ fn walls_around_what_is_no_box() {
             "is the spacing in metres?",
         );
     }
-    assert_eq!(
-        tank([0.0; 2], [0.1; 2], 0.01, 0),
-        Problem::EmptyBody {
-            body: "tank".into()
-        }
+    let found = tank([0.0; 2], [0.1; 2], 0.01, 0);
+    is_parameter(
+        &found,
+        "number of layers of wall `tank`",
+        "a count, and no length",
     );
 }
 
@@ -1295,6 +1284,7 @@ fn a_viscosity_of_infinite_signal() {
             .contains("signal of the artificial viscosity of particle"),
         "{error}"
     );
+    assert!(error.to_string().contains("the scene starts so"), "{error}");
     // Nor does a step that time does not feel run for ever.
     let error = with(1e300).unwrap().run_until(1e-6).unwrap_err();
     assert!(matches!(error, Error::StepCollapsed { .. }), "{error}");
@@ -1313,6 +1303,7 @@ impl Integrator for Unfit {
         "unfit".into()
     }
     fn step(&self, system: &mut dyn System, dt: f64) -> Result<(), Error> {
+        system.evaluate(0.0)?;
         system.kick(dt);
         system.drift(dt, 0.0)
     }

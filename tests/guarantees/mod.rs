@@ -5,6 +5,7 @@ mod absent_effects;
 mod allocations;
 mod approach;
 mod bad_input;
+mod causes;
 mod counted_work;
 mod filling;
 mod invariance;

@@ -706,7 +706,7 @@ fn another_scene_is_refused_with_what_differs() {
         2,
     );
     let differs = |scene: Scene<f64, 2>| match problem(scene, &path) {
-        CheckpointProblem::Scene { parts } => parts.join(", "),
+        CheckpointProblem::Scene { parts, .. } => parts.join(", "),
         other => panic!("{other}"),
     };
     let base = || scene(0.02, 0.0).wall(closed_tank()).acceleration(down);

@@ -4,7 +4,7 @@
 use super::parameter;
 use crate::error::Problem;
 use crate::geometry::Flaw;
-use crate::integrator::Integrator;
+use crate::integrator::{Integrator, oscillator};
 use crate::neighbors::Cells;
 use crate::scalar::Real;
 use crate::scene::plan::Plan;
@@ -16,6 +16,10 @@ use crate::tensor::{Matrix, Vector, length};
 /// Speed of light \[m/s\]: mechanics here is Newton's, and what is faster has the wrong unit.
 const LIGHT: f64 = 299_792_458.0;
 
+/// Mach number above which a solid or liquid cannot start: its kinetic energy is 5000 c², and the strongest known impacts, of
+/// meteoroids at 72 km/s, are below 20 c.
+const FASTEST: f64 = 100.0;
+
 /// Factor by which the density of a solid or liquid may start off that of its law: a strong shock compresses a
 /// monatomic gas by four ((γ + 1)/(γ − 1), γ = 5/3), and nothing denser by more.
 const DENSITIES: f64 = 4.0;
@@ -24,7 +28,7 @@ const DENSITIES: f64 = 4.0;
 const FARTHEST: f64 = 1e-3 / f64::EPSILON;
 
 /// Images that a boundary can give a particle.
-const MOST_IMAGES: usize = 64;
+pub(super) const MOST_IMAGES: usize = 64;
 
 /// Spacings between a particle at the one end of a period and the image of one at the other, below which they are one place.
 const SEAM: f64 = 0.3;
@@ -72,12 +76,19 @@ pub(super) fn check_starts<T: Real, const D: usize>(body: &Body<T, D>) -> Option
     }
     let material = &body.material;
     let rest = material.reference_density();
-    let least_energy = -material.state(rest, 0.0).1.powi(2);
+    let sound_at_rest = material.state(rest, 0.0).1;
+    let least_energy = -sound_at_rest.powi(2);
     let is_gas = material.is_gas();
     body.starts.iter().find_map(|start| {
         let mass = T::from_f64(start.density * body.spacing.powi(D as i32)).to_f64();
         if let Some(&fast) = start.velocity.iter().find(|v| v.abs() >= LIGHT) {
             return Some(("velocity", fast, "it must be below that of light, in m/s"));
+        }
+        let speed = start.velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
+        if !is_gas && speed > FASTEST * sound_at_rest {
+            let must_be = "it must be at most a hundred times the sound speed of the material at rest, beyond which no law of a \
+                           solid or liquid holds: is it in m/s?";
+            return Some(("velocity", speed, must_be));
         }
         if start.energy > LIGHT * LIGHT {
             let must_be = "it must be below 9e16 J/kg, the square of the speed of light";
@@ -311,6 +322,9 @@ fn integrator_flaws(integrator: &dyn Integrator) -> Vec<Flaw> {
     if integrator.slots() > MOST_STATES {
         let must_be = "it must be at most 64: each is a copy of all particles";
         flaws.push(("number of kept states", integrator.slots() as f64, must_be));
+    }
+    if flaws.is_empty() {
+        flaws.extend(oscillator::problem_of(integrator));
     }
     flaws
 }

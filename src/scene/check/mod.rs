@@ -1,8 +1,10 @@
 //! What can be wrong with a scene: every check runs, and every problem is reported.
 //! A message names the field, the value, and what to do.
 
+mod doubled;
 mod groups;
 mod held;
+mod images;
 mod limits;
 mod memory;
 mod scheme;
@@ -14,7 +16,7 @@ use crate::error::Problem;
 use crate::neighbors::Cells;
 use crate::scalar::Real;
 use crate::scheme::EnergyForm;
-use crate::simulation::{Load, UniformLoad};
+use crate::simulation::{ACCELERATION, Load, UniformLoad, is_square_finite};
 
 /// Share of the spacing below which two particles of different bodies cannot be neighbours by intent.
 const TOO_CLOSE: f64 = 0.6;
@@ -61,9 +63,11 @@ impl<T: Real, const D: usize> Scene<T, D> {
         self.check_events(&mut problems);
         self.check_exchanges(&mut problems);
         let before = problems.len();
+        self.check_transforms(&mut problems);
         self.check_boundaries(&mut problems);
         if problems.len() == before {
             self.check_periods(&mut problems);
+            self.check_images(&mut problems);
         }
         self.check_openings(&mut problems);
         for plan in &plans {
@@ -78,6 +82,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 plan.check_overlap(&mut problems);
                 plan.check_wall_places(&mut problems);
             }
+            self.check_doubled_walls(&mut problems);
+            self.check_doubled_inlets(&mut problems);
             self.check_coupled_places(&mut problems);
             self.check_thickness(&mut problems);
         }
@@ -154,16 +160,36 @@ impl<T: Real, const D: usize> Scene<T, D> {
     }
 
     fn check_loads(&self, problems: &mut Vec<Problem>) {
-        let bad = |load: &UniformLoad<D>| load(0.0).into_iter().find(|a| !a.is_finite());
+        let bad = |load: &UniformLoad<D>| {
+            let given = load(0.0).into_iter();
+            given.into_iter().find(|a| !is_square_finite::<T>(*a))
+        };
         if let Some(value) = self.accelerations.iter().find_map(bad) {
-            problems.push(Problem::Parameter {
-                what: "acceleration at t = 0".into(),
-                value,
-                must_be: "it must be finite, in m/s²",
-            });
+            problems.push(parameter("acceleration at t = 0", value, ACCELERATION));
         }
+        self.check_hydrostatic(problems);
         for load in &self.loads {
             self.check_load(load, problems);
+        }
+    }
+
+    /// Bodies that start at rest under an acceleration that points against that of the scene.
+    fn check_hydrostatic(&self, problems: &mut Vec<Problem>) {
+        let given = |d: usize| self.accelerations.iter().map(|load| load(0.0)[d]).sum();
+        let given: [f64; D] = core::array::from_fn(given);
+        for body in self.bodies() {
+            let Some(own) = body.hydrostatic else {
+                continue;
+            };
+            if (0..D).map(|d| own[d] * given[d]).sum::<f64>() < 0.0 {
+                problems.push(Problem::Incompatible {
+                    what: format!(
+                        "body `{}` starts hydrostatic under {own:?} m/s², and the acceleration of the scene at t = 0 is {given:?} m/s²",
+                        body.name
+                    ),
+                    remedy: "give both the same: pressure grows along it",
+                });
+            }
         }
     }
 

@@ -17,7 +17,9 @@ use super::{Criterion, Simulation, Vote, width};
 use crate::error::{CheckpointProblem, Error, Result};
 use crate::once::once;
 use crate::output::checkpoint::{Checkpoint, Hashes, Read, damaged};
+use crate::output::values::Values;
 use crate::scalar::Real;
+use crate::scene::Described;
 use crate::sweep::{InstructionSet, Root};
 use std::path::Path;
 
@@ -51,8 +53,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     /// The same, as of a scene.
-    pub(crate) fn of_scene(self, scene: Hashes) -> Self {
-        Self { scene, ..self }
+    pub(crate) fn of_scene(self, scene: Hashes, described: Described) -> Self {
+        Self {
+            scene,
+            described,
+            ..self
+        }
     }
 
     /// Goes on from the state in a file.
@@ -86,10 +92,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             accelerations: _,
             loads: _,
             step_ends: _,
+            built: _,
             events: _,
             awake: _,
             happened,
             scene,
+            described,
             time,
             steps,
             evaluations,
@@ -143,6 +151,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
         for (part, hash) in scene {
             file.put_text(format!("hash of {part}"), format!("{hash:016x}"));
+        }
+        for (part, values) in described {
+            file.put_text(format!("values of {part}"), values.text());
         }
         file.put_one("time".into(), *time);
         if *time != self.time {
@@ -345,7 +356,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         };
         let parts: Vec<_> = differing.chain(RARE.into_iter().filter(lacks)).collect();
         if !parts.is_empty() {
-            return Err(CheckpointProblem::Scene { parts });
+            // Files of before there were values have none.
+            let values = |part: &&'static str| {
+                let own = self.described.iter().find(|own| own.0 == *part)?;
+                let found = file.text(&format!("values of {part}")).ok()?;
+                Some(Values::of_text(found).differences(&own.1))
+            };
+            let values = parts.iter().filter_map(values).flatten().collect();
+            return Err(CheckpointProblem::Scene { parts, values });
         }
         let set = file.text("instructions")?;
         let lacks =
