@@ -5,7 +5,7 @@ use super::contact::Couple;
 use super::event::{Event, Happened};
 use super::group::Group;
 use super::ledger::Impulses;
-use super::{SetAside, Simulation, Vote, energy, stability};
+use super::{SetAside, Simulation, Vote, energy, stability, stored};
 use crate::scalar::Real;
 
 /// What steps change.
@@ -26,6 +26,7 @@ pub(super) struct Kept<T: Real, const D: usize> {
     aside: Option<SetAside<T, D>>,
     due: f64,
     watch: Option<Box<stability::Watch<D>>>,
+    stores: stored::Stores<D>,
     events: Vec<Event<T, D>>,
     happened: Happened,
     /// Layers that inlets have handed over, group by group.
@@ -61,6 +62,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             due,
             failed: _,
             watch,
+            stores,
             events,
             happened,
             awake: _,
@@ -82,6 +84,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             aside: aside.clone(),
             due: *due,
             watch: watch.take(),
+            stores: stores.clone(),
             events: core::mem::take(events),
             happened: happened.clone(),
             handed_over,
@@ -107,6 +110,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.due = kept.due;
         self.failed = None;
         self.watch = kept.watch;
+        self.stores = kept.stores;
         self.events = kept.events;
         self.happened = kept.happened;
         for (own, layers) in self.emitters().zip(kept.handed_over) {

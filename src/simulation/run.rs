@@ -79,9 +79,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     fn take_step(&mut self, limit: f64) -> Result<f64> {
         let (start, before) = (crate::clock::Instant::now(), self.phases());
-        if !self.rates_at_hand {
+        let changed = !self.rates_at_hand;
+        if changed {
             crate::integrator::System::evaluate(self, 0.0)?;
         }
+        self.begin_stores(changed);
         let mut vote = self.vote()?;
         if let Some(fixed) = self.control.fixed {
             let limit = self.largest_fixed_step()?;
@@ -130,6 +132,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             None => self.votes.push((name, 1)),
         }
         self.check_state()?;
+        let looked = self.look_at_stores();
+        self.keep_failure(looked)?;
         self.watch_step();
         self.watch_events();
         let followed = self.follow_events();
@@ -141,7 +145,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Steps until `end` \[s\]; the last step is shortened to end there.
     ///
     /// # Errors
-    /// [`Error::NotFinite`] when the run has broken, [`Error::Load`] when a load has, [`Error::StepCollapsed`] when the
+    /// [`Error::NotFinite`] when the run has broken, [`Error::StoredEnergy`] when it gains energy from nowhere, [`Error::Load`] when a load has, [`Error::StepCollapsed`] when the
     /// step has become tiny, [`Error::SoundSpeedTooLow`] when a liquid meets something faster than its sound, [`Error::WallJump`]
     /// when a wall leaves its velocity, [`Error::Failed`] after any of these, and [`Error::Argument`] if a fixed step
     /// exceeds the stability limit.
