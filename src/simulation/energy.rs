@@ -41,6 +41,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Starts to keep the energy ledger, from the present state on. It costs a sum over particles in
     /// every kick, and with walls that turn or deform a sweep over them.
     pub fn keep_energy(&mut self) {
+        self.stores.forget(self.groups.len());
         let (kinetic, compression) = self.stored();
         self.work = Some(Work {
             start: kinetic + compression,

@@ -171,6 +171,15 @@ impl<const D: usize> Default for Stores<D> {
     }
 }
 
+impl<const D: usize> Stores<D> {
+    /// Lets the account of a part begin anew.
+    pub fn forget(&mut self, part: usize) {
+        if let Some(own) = self.accounts.get_mut(part) {
+            *own = None;
+        }
+    }
+}
+
 #[cfg(feature = "checkpoint")]
 impl<const D: usize> Stores<D> {
     /// As rows of a file; that of an account that has not begun is no number.

@@ -13,4 +13,5 @@ mod neighbours;
 mod restart;
 mod step_limits;
 mod step_program;
+mod stored_energy;
 mod vtk;
