@@ -334,6 +334,33 @@ pub enum Error {
         /// In which step.
         step: u64,
     },
+    /// More energy is stored than went in.
+    #[error(
+        "`{part}` stores {gain} J more than the work that went into it, above {limit} of the {supplied} J supplied so far, at \
+         t = {time} s, step {step}, most of it at particle {particle} of body `{body}` at {position:?} m: the integration in \
+         time gains energy from nowhere; take a smaller step factor, steps that do not alternate, or some damping \
+         (a viscosity, AcousticDamping). Simulation::limit_stored_energy moves the limit"
+    )]
+    StoredEnergy {
+        /// The bodies that share the energy, or the coupling.
+        part: String,
+        /// Energy from nowhere \[J\].
+        gain: f64,
+        /// The largest energy supplied so far \[J\].
+        supplied: f64,
+        /// The largest share of it that may be gained.
+        limit: f64,
+        /// The body of the particle that has gained most.
+        body: String,
+        /// The particle's number in the body.
+        particle: usize,
+        /// Where \[m\].
+        position: Vec<f64>,
+        /// When \[s\].
+        time: f64,
+        /// In which step.
+        step: u64,
+    },
     /// A load gave no number to go on with.
     #[error(
         "the load ({load}) gave {value} to particle {particle} of body `{body}` at {position:?} m, t = {time} s: its \

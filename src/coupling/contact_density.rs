@@ -143,6 +143,9 @@ impl<T: Real, const D: usize> Coupling<T, D> for ContactDensity {
             source: "after Wu, Zhang, Kong & Hu 2026",
         }
     }
+    fn books_energy(&self) -> bool {
+        true
+    }
     fn reach(&self, spacings: [f64; 2]) -> f64 {
         H_OVER_DX * (spacings[0] + spacings[1])
     }

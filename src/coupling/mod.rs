@@ -238,6 +238,11 @@ pub trait Coupling<T: Real, const D: usize>: Debug + Send + Sync {
     fn act(&self, pair: &CoupledPair<T, D>) -> PairForce<T, D> {
         PairForce::of(self.force(&pair.on, &pair.from))
     }
+    /// Whether [`act`](Self::act) and [`pressure`](Self::pressure) say all energy that it stores, so that the ledger may hold it
+    /// against its work ([`StoredEnergy`](crate::simulation::StoredEnergy)); not so by default.
+    fn books_energy(&self) -> bool {
+        false
+    }
     /// Whether it acts on the pairs that are within reach as built, however far they move, and on no others.
     fn as_built(&self) -> bool {
         false

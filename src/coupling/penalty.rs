@@ -97,6 +97,9 @@ impl<T: Real, const D: usize> Coupling<T, D> for Penalty {
             source: "Hallquist, Goudreau & Benson 1985",
         }
     }
+    fn books_energy(&self) -> bool {
+        true
+    }
     fn reach(&self, spacings: [f64; 2]) -> f64 {
         0.5 * (spacings[0] + spacings[1])
     }

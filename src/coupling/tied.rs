@@ -57,6 +57,9 @@ impl<T: Real, const D: usize> Coupling<T, D> for Tied {
             source: "Hrennikoff 1941",
         }
     }
+    fn books_energy(&self) -> bool {
+        true
+    }
     fn reach(&self, spacings: [f64; 2]) -> f64 {
         0.5 * REACH * (spacings[0] + spacings[1])
     }

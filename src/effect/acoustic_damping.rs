@@ -29,6 +29,7 @@ pub struct AcousticDamping {
 
 impl<const D: usize> Effect<D> for AcousticDamping {
     type Terms = ();
+    const BOOKS_ENERGY: bool = true;
     fn terms(&self, _setting: &Setting) {}
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
         let setting = *program.setting();

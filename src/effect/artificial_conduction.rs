@@ -86,6 +86,7 @@ const FLOW: Output = Output::scalar(14);
 
 impl<const D: usize> Effect<D> for ArtificialConduction {
     type Terms = (In<stage::Rates, Self>,);
+    const BOOKS_ENERGY: bool = true;
     fn terms(&self, _setting: &Setting) -> Self::Terms {
         (In::new(*self),)
     }

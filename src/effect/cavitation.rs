@@ -16,6 +16,7 @@ pub struct Cavitation;
 
 impl<const D: usize> Effect<D> for Cavitation {
     type Terms = ();
+    const BOOKS_ENERGY: bool = true;
     fn terms(&self, _setting: &Setting) {}
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
         program.law(Stage::Bounds, *self);
@@ -39,6 +40,7 @@ pub struct ExpansionMemory;
 
 impl<const D: usize> Effect<D> for ExpansionMemory {
     type Terms = ();
+    const BOOKS_ENERGY: bool = true;
     fn terms(&self, _setting: &Setting) {}
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
         program.carry(Field::EXPANSION);

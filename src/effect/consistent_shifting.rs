@@ -91,6 +91,7 @@ impl<const D: usize> Effect<D> for ConsistentShifting {
         In<stage::Flow, Crowding>,
         In<stage::Continuity, ShiftedContinuity>,
     );
+    const BOOKS_ENERGY: bool = true;
     fn terms(&self, setting: &Setting) -> Self::Terms {
         let over_kernel_at_spacing = 1.0 / setting.kernel_at_spacing;
         (

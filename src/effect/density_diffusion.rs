@@ -24,6 +24,7 @@ pub struct DensityDiffusion<W>(pub W);
 
 impl<const D: usize, W: Term<D>> Effect<D> for DensityDiffusion<W> {
     type Terms = (In<stage::Continuity, W>,);
+    const BOOKS_ENERGY: bool = true;
     fn terms(&self, _setting: &Setting) -> Self::Terms {
         (In::new(self.0.clone()),)
     }

@@ -47,6 +47,7 @@ impl<A> During<A> {
 impl<const D: usize, A: Effect<D, Terms = ()>> Effect<D> for During<A> {
     type Terms = ();
     const NEEDS: Fields = A::NEEDS;
+    const BOOKS_ENERGY: bool = A::BOOKS_ENERGY;
     fn terms(&self, _setting: &Setting) {}
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
         let rates = |program: &StepProgram<T, D>| {

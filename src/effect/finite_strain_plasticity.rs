@@ -66,6 +66,7 @@ const DISTORTION: Field = Field::scalar(11);
 
 impl<const D: usize> Effect<D> for FiniteStrainPlasticity {
     type Terms = ();
+    const BOOKS_ENERGY: bool = true;
     fn terms(&self, _setting: &Setting) {}
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
         program.declare(PIOLA, "piola_stress", "Pa", 0.0);
@@ -73,6 +74,8 @@ impl<const D: usize> Effect<D> for FiniteStrainPlasticity {
         program.declare(STRAIN, "plastic_strain", "1", 0.0);
         program.declare(WORK, "plastic_work", "J/kg", 0.0);
         program.declare(DISTORTION, "distortion", "J/kg", 0.0);
+        program.store(DISTORTION);
+        program.dissipate(WORK);
         program.law(Stage::State, *self);
         for (name, field) in [("plastic work", WORK), ("distortion", DISTORTION)] {
             program.ledger(LedgerColumn {

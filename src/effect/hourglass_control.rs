@@ -47,6 +47,7 @@ const POWER: Output = Output::scalar(15);
 
 impl<const D: usize> Effect<D> for HourglassControl {
     type Terms = (In<stage::Rates, Self>,);
+    const BOOKS_ENERGY: bool = true;
     fn terms(&self, _setting: &Setting) -> Self::Terms {
         (In::new(*self),)
     }

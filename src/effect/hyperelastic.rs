@@ -55,6 +55,8 @@ pub(super) fn register<T: Real, const D: usize>(
 pub(super) fn declare<T: Real, const D: usize>(program: &mut StepProgram<T, D>, document: TermDoc) {
     program.declare(PIOLA, "piola_stress", "Pa", 0.0);
     program.declare(ELASTIC, "elastic_energy", "J/kg", 0.0);
+    program.store(ELASTIC);
+    program.replace_pressure();
     program.ledger(LedgerColumn {
         name: "elastic energy",
         unit: "J",

@@ -68,12 +68,14 @@ impl<const D: usize> Effect<D> for Hypoelastic {
         In<stage::Rates, Self>,
         In<stage::Continuity, VelocityGradient>,
     );
+    const BOOKS_ENERGY: bool = true;
     fn terms(&self, _setting: &Setting) -> Self::Terms {
         (In::new(*self), In::new(VelocityGradient))
     }
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
         program.declare(STRESS, "deviatoric_stress", "Pa", 0.0);
         program.declare(DISTORTION, "distortion", "J/kg", 0.0);
+        program.store(DISTORTION);
         program.declare(DEFORMATION, "deformation_rate", "1/s", 0.0);
         let stress = Evolved::kicked(STRESS)
             .at(When::Drift)

@@ -87,6 +87,7 @@ fn register<T: Real, E: Sheet>(law: InPlaneStress<E>, program: &mut StepProgram<
 
 impl Effect<2> for InPlaneStress<StVenantKirchhoff> {
     type Terms = ();
+    const BOOKS_ENERGY: bool = true;
     fn terms(&self, _setting: &Setting) {}
     fn register<T: Real>(&self, program: &mut StepProgram<T, 2>) {
         register(*self, program);
@@ -95,6 +96,7 @@ impl Effect<2> for InPlaneStress<StVenantKirchhoff> {
 
 impl Effect<2> for InPlaneStress<NeoHookean> {
     type Terms = ();
+    const BOOKS_ENERGY: bool = true;
     fn terms(&self, _setting: &Setting) {}
     fn register<T: Real>(&self, program: &mut StepProgram<T, 2>) {
         register(*self, program);

@@ -30,6 +30,7 @@ impl<const D: usize, X: Term<D>> Effect<D> for Laminar<X> {
         In<stage::Walls, VelocityAtWall>,
         In<stage::Walls, ViscosityAtWall>,
     );
+    const BOOKS_ENERGY: bool = true;
     fn terms(&self, _setting: &Setting) -> Self::Terms {
         (
             In::new(self.0.clone()),
@@ -107,6 +108,7 @@ pub struct GeneralisedNewtonian;
 
 impl<const D: usize> Effect<D> for GeneralisedNewtonian {
     type Terms = (In<stage::Flow, VelocityGradient>,);
+    const BOOKS_ENERGY: bool = true;
     fn terms(&self, _setting: &Setting) -> Self::Terms {
         (In::new(VelocityGradient),)
     }

@@ -24,6 +24,10 @@ pub trait Effect<const D: usize>: Clone + Debug + Send + Sync + 'static {
     ///
     /// [`Field::VELOCITY_GRADIENT`]: crate::particles::Field::VELOCITY_GRADIENT
     const NEEDS: Fields = Fields::NONE;
+    /// Whether all energy that its forces store is declared by [`StepProgram::store`], or they store none and take energy
+    /// alone, as a viscosity does. `false` by default: of a scheme with such an effect nothing is said about
+    /// [stored energy](crate::simulation::Simulation::stored_energy).
+    const BOOKS_ENERGY: bool = false;
     /// The terms, for a scheme with this kernel and spacing.
     fn terms(&self, setting: &Setting) -> Self::Terms;
     /// Says what it does beside its terms.
@@ -70,6 +74,7 @@ impl<const D: usize, A: Effects<D>, B: Effect<D>> Effects<D> for (A, B) {
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
         self.0.register(program);
         self.1.register(program);
+        program.books_energy &= B::BOOKS_ENERGY;
     }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         let mut problems = self.0.problems();
@@ -82,6 +87,7 @@ impl<const D: usize, A: Effects<D>, B: Effect<D>> Effects<D> for (A, B) {
 impl<const D: usize, A: Effect<D, Terms = ()>> Effect<D> for Option<A> {
     type Terms = ();
     const NEEDS: Fields = A::NEEDS;
+    const BOOKS_ENERGY: bool = A::BOOKS_ENERGY;
     fn terms(&self, _setting: &Setting) {}
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
         if let Some(effect) = self {

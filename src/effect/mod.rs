@@ -11,6 +11,7 @@
 //! | [laws](Law) | what happens to single particles after the sweep of a stage | [`StepProgram::law`] |
 //! | [limits](Limit) of the step | the largest that a particle bears | [`StepProgram::limit`] |
 //! | a column of the ledger | the sum of a field over every body | [`StepProgram::ledger`] |
+//! | energy that it stores or dissipates | fields of both | [`StepProgram::store`], [`StepProgram::dissipate`], [`Effect::BOOKS_ENERGY`] |
 //! | requirements | what it asks of materials and integrator | [`StepProgram::require`] |
 //!
 //! The pair terms of a list fuse into one loop a stage; the rest is objects that a step calls a handful of times.

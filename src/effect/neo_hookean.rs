@@ -36,6 +36,7 @@ pub struct NeoHookean;
 
 impl<const D: usize> Effect<D> for NeoHookean {
     type Terms = ();
+    const BOOKS_ENERGY: bool = true;
     fn terms(&self, _setting: &Setting) {}
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
         let document = TermDoc {

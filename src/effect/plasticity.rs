@@ -72,10 +72,12 @@ const THICKNESS_STRAIN: Field = PlaneStress::THICKNESS_STRAIN;
 
 impl<const D: usize> Effect<D> for Plasticity {
     type Terms = ();
+    const BOOKS_ENERGY: bool = true;
     fn terms(&self, _setting: &Setting) {}
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
         program.declare(STRAIN, "plastic_strain", "1", 0.0);
         program.declare(WORK, "plastic_work", "J/kg", 0.0);
+        program.dissipate(WORK);
         program.law(Stage::Continuity, *self);
         program.ledger(LedgerColumn {
             name: "plastic work",

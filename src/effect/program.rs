@@ -82,6 +82,12 @@ pub struct StepProgram<T: Real, const D: usize> {
     pub(crate) requirements: Vec<Requirement<T>>,
     pub(crate) step_factor: f64,
     pub(crate) wall_normals: bool,
+    /// Fields of energy over mass that is stored, and of what has been dissipated.
+    pub(crate) stored: Vec<Field>,
+    pub(crate) dissipated: Vec<Field>,
+    /// Whether all effects say what they store, and whether the pressure is that of the equation of state.
+    pub(crate) books_energy: bool,
+    pub(crate) presses: bool,
     needed: Fields,
 }
 
@@ -109,6 +115,10 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
             requirements: Vec::new(),
             step_factor: 1.0,
             wall_normals: false,
+            stored: Vec::new(),
+            dissipated: Vec::new(),
+            books_energy: true,
+            presses: true,
             needed: Fields::NONE,
         }
     }
@@ -182,6 +192,22 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
     /// [`Budget::totals`]: crate::simulation::Budget::totals
     pub fn ledger(&mut self, column: LedgerColumn) {
         self.ledger.push(column);
+    }
+
+    /// Says that a field holds energy over mass \[J/kg\] that is stored, as a function of the state alone: beside that of
+    /// the equation of state, or in place of it where the effect [replaces the pressure](Self::replace_pressure).
+    pub fn store(&mut self, field: Field) {
+        self.stored.push(field);
+    }
+
+    /// Says that a field holds energy over mass \[J/kg\] that was dissipated since the start, and is in the internal energy.
+    pub fn dissipate(&mut self, field: Field) {
+        self.dissipated.push(field);
+    }
+
+    /// Says that forces do not follow from the pressure of the equation of state, which then stores nothing.
+    pub fn replace_pressure(&mut self) {
+        self.presses = false;
     }
 
     /// Says what the effect is beside its terms, for people.

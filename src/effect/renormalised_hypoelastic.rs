@@ -33,6 +33,7 @@ impl<const D: usize> Effect<D> for RenormalisedHypoelastic {
         In<stage::Rates, Self>,
         In<stage::Continuity, VelocityGradient>,
     );
+    const BOOKS_ENERGY: bool = true;
     fn terms(&self, _setting: &Setting) -> Self::Terms {
         (In::new(*self), In::new(VelocityGradient))
     }

@@ -65,6 +65,7 @@ const LONGEST: f64 = 0.1;
 
 impl<const D: usize> Effect<D> for Shifting {
     type Terms = (In<stage::Continuity, ConcentrationGradient<D>>,);
+    const BOOKS_ENERGY: bool = true;
     fn terms(&self, setting: &Setting) -> Self::Terms {
         let repulsion = match self {
             Self::Concentration { .. } => 0.2,

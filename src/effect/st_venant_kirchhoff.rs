@@ -42,6 +42,7 @@ pub struct StVenantKirchhoff;
 
 impl<const D: usize> Effect<D> for StVenantKirchhoff {
     type Terms = ();
+    const BOOKS_ENERGY: bool = true;
     fn terms(&self, _setting: &Setting) {}
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
         let document = TermDoc {

@@ -58,6 +58,7 @@ impl<const D: usize> Effect<D> for TotalLagrangian {
         In<stage::Density, DisplacementGradient>,
         In<stage::Rates, StressForce>,
     );
+    const BOOKS_ENERGY: bool = true;
     fn terms(&self, _setting: &Setting) -> Self::Terms {
         (
             In::new(ReferenceMoment),

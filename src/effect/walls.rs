@@ -13,6 +13,7 @@ pub struct NoWalls;
 
 impl<const D: usize> Effect<D> for NoWalls {
     type Terms = ();
+    const BOOKS_ENERGY: bool = true;
     fn terms(&self, _setting: &Setting) {}
 }
 
@@ -36,6 +37,7 @@ impl Default for ExtrapolatedPressure {
 
 impl<const D: usize> Effect<D> for ExtrapolatedPressure {
     type Terms = (In<stage::Walls, LiquidNearWall>,);
+    const BOOKS_ENERGY: bool = true;
     fn terms(&self, _setting: &Setting) -> Self::Terms {
         (In::new(LiquidNearWall),)
     }
@@ -124,6 +126,7 @@ impl<const D: usize> Effect<D> for RiemannWalls {
         In<stage::Walls, LiquidNearWall>,
         In<stage::Walls, VelocityBeforeWall>,
     );
+    const BOOKS_ENERGY: bool = true;
     fn terms(&self, _setting: &Setting) -> Self::Terms {
         (In::new(LiquidNearWall), In::new(VelocityBeforeWall))
     }

@@ -40,6 +40,7 @@ const WORK: Field = Plasticity::WORK;
 
 impl<const D: usize> Effect<D> for YieldingHourglass {
     type Terms = ();
+    const BOOKS_ENERGY: bool = true;
     fn terms(&self, _setting: &Setting) {}
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
         program.law(Stage::State, *self);

@@ -45,6 +45,18 @@ pub trait EosObject<T: Real>: sealed::Sealed + Debug + Send + Sync + 'static {
         let law = |rho: f64| self.state(rho, 0.0);
         cold::compression_energy(law, self.reference_density(), density)
     }
+    /// Energy over mass \[J/kg\] that is stored at a density \[kg/m³\] and internal energy \[J/kg\], a pressure cut-off
+    /// counted; `None` where it is no function of these. See [`EquationOfState::stored_energy`].
+    ///
+    /// ```
+    /// use meshfree::material::{Material, catalogue, eos::Linear};
+    /// let water = Material::<f64>::new("water", Linear::new(1000.0, 20.0));
+    /// // ½ c₀² ε² for small strains.
+    /// let stored = water.eos().stored_energy(1001.0, 0.0);
+    /// assert!(stored.is_some_and(|energy| (energy / 2e-4 - 1.0).abs() < 2e-3));
+    /// assert_eq!(catalogue::copper::<f64>().eos().stored_energy(9000.0, 0.0), None);
+    /// ```
+    fn stored_energy(&self, density: f64, energy: f64) -> Option<f64>;
     /// Pressures \[Pa\] and sound speeds \[m/s\] of a row of particles from densities \[kg/m³\] and
     /// specific internal energies \[J/kg\] (zero where absent), and how often guards acted. As many
     /// particles as the shortest slice has; nothing is allocated.
@@ -126,6 +138,27 @@ impl<T: Real, E: EquationOfState> EosObject<T> for Erased<E> {
         within
             .then(|| cold::density_at(law, self.law.reference_density(), pressure))
             .flatten()
+    }
+    fn stored_energy(&self, density: f64, energy: f64) -> Option<f64> {
+        let rest = self.law.reference_density();
+        let law = |rho: f64| {
+            let state = self.law.state(rho, energy);
+            (state.pressure, state.sound_speed)
+        };
+        let of = |density: f64| {
+            let own = self.law.stored_energy(density, energy);
+            let sum = || cold::compression_energy(law, rest, density);
+            own.or_else(|| (!self.law.uses_energy()).then(sum))
+        };
+        // Beyond the cut-off the pressure is constant, so only work against it is stored.
+        let cut = self
+            .cut_off
+            .filter(|least| !self.law.uses_energy() && density < rest && law(density).0 < *least);
+        let Some(least) = cut else {
+            return of(density);
+        };
+        let begins = cold::density_at(law, rest, least)?;
+        Some(of(begins)? + least * (1.0 / begins - 1.0 / density))
     }
     fn evaluate(
         &self,

@@ -95,6 +95,7 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
         }
         self.evolve(&mut program);
         self.walls.register(&mut program);
+        program.books_energy &= W::BOOKS_ENERGY;
         self.effects.register(&mut program);
         if let Some(switch) = switch {
             program.start(Field::VISCOSITY_COEFFICIENT, switch.start());

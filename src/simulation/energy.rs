@@ -42,6 +42,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// every kick, and with walls that turn or deform a sweep over them.
     pub fn keep_energy(&mut self) {
         self.on_both(|own| {
+            own.stores.forget(own.groups.len());
             let (kinetic, compression) = own.stored();
             own.work = Some(Work {
                 start: kinetic + compression,

@@ -5,7 +5,7 @@ use super::contact::Couple;
 use super::event::Happened;
 use super::group::Group;
 use super::ledger::Impulses;
-use super::{Simulation, Vote, energy, stability};
+use super::{Simulation, Vote, energy, stability, stored};
 use crate::scalar::Real;
 use core::mem::swap;
 
@@ -28,6 +28,7 @@ pub(super) struct Kept<T: Real, const D: usize> {
     pub impulses_of_states: Vec<Impulses>,
     pub due: f64,
     pub watch: Option<Box<stability::Watch<D>>>,
+    pub stores: stored::Stores<D>,
     pub happened: Happened,
     /// Layers that inlets have handed over, group by group.
     pub handed_over: Vec<u64>,
@@ -68,6 +69,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             due,
             failed: _,
             watch,
+            stores,
             events: _,
             happened,
             awake: _,
@@ -89,6 +91,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             impulses_of_states: kept_impulses.clone(),
             due: *due,
             watch: watch.clone(),
+            stores: stores.clone(),
             happened: happened.clone(),
             handed_over,
         };
@@ -115,6 +118,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             impulses_of_states,
             due,
             watch,
+            stores,
             happened,
             handed_over,
         } = kept;
@@ -140,6 +144,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         swap(&mut self.kept_impulses, impulses_of_states);
         swap(&mut self.due, due);
         swap(&mut self.watch, watch);
+        swap(&mut self.stores, stores);
         swap(&mut self.happened, happened);
     }
 

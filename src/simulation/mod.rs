@@ -15,7 +15,9 @@
 //! particle that set the step. [`StepControl`] holds the factors; a fixed step is checked against the
 //! limit in every step, and a step that falls below a millionth of the first ends the run with
 //! [`Error::StepCollapsed`]. After every step, the last included, all of the state is looked at: a number that is not
-//! finite is an [`Error::NotFinite`], and a simulation that has failed takes no further step ([`Error::Failed`]).
+//! finite is an [`Error::NotFinite`]. In every 32nd step stored energy is compared with the work done on it
+//! ([`StoredEnergy`]), and a run that gains half of its energy from nowhere ends with [`Error::StoredEnergy`]. A simulation
+//! that has failed takes no further step ([`Error::Failed`]).
 //!
 //! # Readings
 //!
@@ -46,6 +48,7 @@
 //! | work, stored energy, heat and penetration of couplings | [`Simulation::contacts`], [`Simulation::largest_penetration`] |
 //! | force and impulse on a wall | [`Simulation::wall_force`], [`Simulation::wall_impulse`] |
 //! | energy of a liquid, work on it, dissipation | [`Simulation::energy`] |
+//! | stored energy, as a function of the state, beside the work that went into it | [`Simulation::stored_energy`] |
 //! | what left through outlets | [`Simulation::removed`] |
 //! | what sleeps outside of a box, and what that has taken | [`Simulation::asleep`] |
 //! | memory | [`Simulation::bytes`] |
@@ -170,6 +173,7 @@ mod soundness;
 mod stability;
 mod stages;
 mod state;
+mod stored;
 mod sub_cycle;
 mod view;
 mod walls;
@@ -191,6 +195,7 @@ pub use query::{ParticleView, ParticleViews};
 pub use stability::{
     Arrangement, Breach, Extreme, StabilityReport, StepHistory, Thresholds, Verdict,
 };
+pub use stored::{StoredBalance, StoredEnergy, StoredPart};
 pub use which::Which;
 pub(crate) use which::find;
 pub use work::Work;
@@ -277,6 +282,8 @@ pub struct Simulation<T: Real, const D: usize> {
     failed: Option<String>,
     /// What a watched run keeps.
     watch: Option<Box<stability::Watch<D>>>,
+    /// What is kept of stored energy.
+    stores: stored::Stores<D>,
     /// What is looked at after every step, and what has happened.
     events: Vec<Event<T, D>>,
     happened: Happened,
@@ -347,6 +354,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             due: 0.0,
             failed: None,
             watch: None,
+            stores: stored::Stores::default(),
             events: Vec::new(),
             happened: Happened::new(),
             awake: None,

@@ -104,9 +104,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     fn find_step(&mut self) -> Result<Vote> {
-        if !self.rates_at_hand {
+        let changed = !self.rates_at_hand;
+        if changed {
             crate::integrator::System::evaluate(self, 0.0)?;
         }
+        self.begin_stores(changed);
         let mut vote = self.vote()?;
         if let Some(fixed) = self.control.fixed {
             let limit = self.largest_fixed_step()?;
@@ -183,6 +185,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
         let sound = self.check_state();
         self.keep_broken(sound)?;
+        let looked = self.look_at_stores();
+        self.keep_failure(looked)?;
         self.watch_step();
         Ok(())
     }
@@ -195,8 +199,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// the state of the run.
     ///
     /// # Errors
-    /// [`Error::NotFinite`] when the run has broken, [`Error::Load`] when a load has, [`Error::Function`]
-    /// when a function of time has, [`Error::StepCollapsed`] when the
+    /// [`Error::NotFinite`] when the run has broken, [`Error::StoredEnergy`] when it gains energy from nowhere,
+    /// [`Error::Load`] when a load has, [`Error::Function`] when a function of time has, [`Error::StepCollapsed`] when the
     /// step has become tiny, [`Error::SoundSpeedTooLow`] when a liquid meets something faster than its sound, [`Error::WallJump`]
     /// when a wall leaves its velocity, [`Error::Failed`] after any of these, and [`Error::Argument`] if a fixed step
     /// exceeds the stability limit.

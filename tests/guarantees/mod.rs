@@ -16,4 +16,5 @@ mod readings;
 mod restart;
 mod step_limits;
 mod step_program;
+mod stored_energy;
 mod vtk;

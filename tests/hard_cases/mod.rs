@@ -1,6 +1,7 @@
 //! Hard cases: where others fail, the cure, a criterion in numbers, and a control without the cure that must fail it.
 //! `cargo test --test checks hard_cases -- --nocapture` prints the rows of `docs/hard-cases.md`.
 
+mod alternating_steps;
 mod at_rest;
 mod corner_impact;
 mod elliptic_drop;

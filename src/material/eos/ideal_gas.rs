@@ -70,6 +70,10 @@ impl EquationOfState for IdealGas {
             guards,
         }
     }
+    /// e: a gas stores nothing else.
+    fn stored_energy(&self, _density: f64, energy: f64) -> Option<f64> {
+        Some(energy)
+    }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         Problems::default()
             .must(

@@ -68,6 +68,12 @@ impl EquationOfState for Linear {
             guards: Guards::none(),
         }
     }
+    /// c₀² (ln(ρ/ρ₀) + ρ₀/ρ − 1).
+    fn stored_energy(&self, density: f64, _energy: f64) -> Option<f64> {
+        let strain = density / self.reference_density - 1.0;
+        let c2 = self.sound_speed * self.sound_speed;
+        (strain > -1.0).then(|| c2 * (strain.ln_1p() - strain / (1.0 + strain)))
+    }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         Problems::default()
             .positive("reference_density", self.reference_density)

@@ -162,6 +162,15 @@ pub trait EquationOfState: Clone + Debug + Send + Sync + 'static {
     fn uses_energy(&self) -> bool;
     /// Pressure, sound speed and guards at density ρ \[kg/m³\] and internal energy e \[J/kg\].
     fn state<L: Lane>(&self, density: L, energy: L) -> EosState<L>;
+    /// Energy over mass \[J/kg\] that the material stores at density ρ \[kg/m³\] and internal energy e \[J/kg\], where
+    /// it is a function of these: ∫ p/ρ² dρ from the density at rest where the pressure depends on density alone, and e
+    /// of a gas. `None` by default: a law that does not [use energy](Self::uses_energy) is then integrated by
+    /// quadrature, and of one that does nothing can be said.
+    ///
+    /// [`Simulation::stored_energy`](crate::simulation::Simulation::stored_energy) holds it against the work of forces.
+    fn stored_energy(&self, _density: f64, _energy: f64) -> Option<f64> {
+        None
+    }
     /// What is wrong with the parameters, as `(field, value, what it must be)`; empty if nothing.
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         Vec::new()

@@ -52,6 +52,11 @@ impl EquationOfState for Murnaghan {
             self.derivative,
         )
     }
+    /// K₀/(n ρ₀) ((wⁿ⁻¹ − 1)/(n − 1) + 1/w − 1) with w = ρ/ρ₀, up to twice the density at rest.
+    fn stored_energy(&self, density: f64, _energy: f64) -> Option<f64> {
+        let c2 = self.bulk_modulus / self.reference_density;
+        power_law::stored_energy(density / self.reference_density, c2, self.derivative)
+    }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         let derivative = self.derivative;
         power_law::problems(self.reference_density)

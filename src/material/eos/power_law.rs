@@ -56,6 +56,22 @@ fn power<L: Lane>(eta: L, exponent: f64) -> (L, L) {
     }
 }
 
+/// ∫ p/ρ² dρ \[J/kg\] from rest to `ratio` = ρ/ρ₀, with c² = K₀/ρ₀ \[m²/s²\]: for w = ρ/ρ₀ the integral of
+/// (wⁿ − 1)/w² over w is (wⁿ⁻¹ − 1)/(n − 1) + 1/w − 1. Beyond the range of the law there is none.
+pub(super) fn stored_energy(ratio: f64, c2: f64, exponent: f64) -> Option<f64> {
+    if !(ratio > 0.0 && ratio <= GREATEST_RATIO) {
+        return None;
+    }
+    let (strain, power) = (ratio - 1.0, exponent - 1.0);
+    // Both parts are ±η to the first order, so each is taken without rounding of its own.
+    let growth = if power == 0.0 {
+        strain.ln_1p()
+    } else {
+        (power * strain.ln_1p()).exp_m1() / power
+    };
+    Some(c2 / exponent * (growth - strain / ratio))
+}
+
 /// What both laws ask of their parameters.
 pub(super) fn problems(reference_density: f64) -> Problems {
     Problems::default().positive("reference_density", reference_density)

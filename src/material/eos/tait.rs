@@ -62,6 +62,11 @@ impl EquationOfState for Tait {
         let bulk_modulus = self.reference_density * self.sound_speed * self.sound_speed;
         power_law::state(density, self.reference_density, bulk_modulus, self.gamma)
     }
+    /// c₀²/γ ((wᵞ⁻¹ − 1)/(γ − 1) + 1/w − 1) with w = ρ/ρ₀, up to twice the density at rest.
+    fn stored_energy(&self, density: f64, _energy: f64) -> Option<f64> {
+        let c2 = self.sound_speed * self.sound_speed;
+        power_law::stored_energy(density / self.reference_density, c2, self.gamma)
+    }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         power_law::problems(self.reference_density)
             .positive("sound_speed", self.sound_speed)

@@ -395,3 +395,69 @@ fn tnt_detonates_at_its_measured_speed() {
     assert!((slowest / 6930.0 - 1.0).abs() < 5e-3, "{slowest}");
     assert!((pressure / 21e9 - 1.0).abs() < 1e-2, "{pressure}");
 }
+
+/// ∫ p/ρ² dρ by Simpson's rule on the law's own pressure, whose error is of the fourth order in the step.
+fn work_of_compression<T: Real>(material: &crate::material::Material<T>, density: f64) -> f64 {
+    let (rest, cells) = (material.reference_density(), 20_000);
+    let step = (density - rest) / f64::from(2 * cells);
+    let at = |k: u32| {
+        let rho = rest + step * f64::from(k);
+        material.state(rho, 0.0).0 / (rho * rho)
+    };
+    let cell = |k: u32| at(2 * k) + 4.0 * at(2 * k + 1) + at(2 * k + 2);
+    step / 3.0 * (0..cells).map(cell).sum::<f64>()
+}
+
+#[test]
+fn stored_energies_are_the_work_of_the_pressure() {
+    use crate::material::Material;
+    let cut = |material: Material<f64>| material.with_pressure_cut_off(-1e5);
+    let water = Material::<f64>::new("water", Tait::new(1000.0, 1480.0));
+    let rigid = Material::new("copper", Murnaghan::new(8930.0, 137e9, 5.0));
+    let slow = Material::new("one", Tait::new(1000.0, 30.0).with_gamma(1.0));
+    let fraction = Material::new("fraction", Tait::new(1000.0, 30.0).with_gamma(7.15));
+    let linear = Material::new("linear", Linear::new(1000.0, 20.0));
+    let wrapped = Material::new(
+        "wrapped",
+        TensionCutOff::new(Tait::new(1000.0, 1480.0), -1e5),
+    );
+    let cases = [
+        water.clone(),
+        cut(water),
+        cut(linear.clone()),
+        linear,
+        rigid,
+        slow,
+        fraction,
+        wrapped,
+    ];
+    for material in cases {
+        let stored = |ratio: f64| {
+            let density = ratio * material.reference_density();
+            material.eos().stored_energy(density, 0.0).unwrap()
+        };
+        assert_eq!(stored(1.0), 0.0, "{}", material.name);
+        // Beyond twice the density at rest the power laws have no closed form, and are summed.
+        for ratio in [0.5, 0.9, 0.999, 1.001, 1.1, 1.9, 2.5] {
+            let density = ratio * material.reference_density();
+            let (closed, sum) = (stored(ratio), work_of_compression(&material, density));
+            let off = (closed / sum - 1.0).abs();
+            assert!(off < 1e-7, "{} at {ratio}: {closed} {sum}", material.name);
+        }
+        // ½ c² ε² to the first order, without rounding.
+        let (_, c) = material.state(material.reference_density(), 0.0);
+        let off = stored(1.0 + 1e-6) / (0.5e-12 * c * c) - 1.0;
+        assert!(off.abs() < 1e-4, "{}: {off}", material.name);
+    }
+}
+
+#[test]
+fn what_depends_on_energy_is_not_said_to_be_stored() {
+    use crate::material::Material;
+    let gas = Material::<f64>::new("gas", IdealGas::new(1.4, 1.0));
+    assert_eq!(gas.eos().stored_energy(2.0, 3.0), Some(3.0));
+    let copper = Material::<f64>::new("copper", MieGruneisen::new(8930.0, 3940.0, 1.49, 2.02));
+    assert_eq!(copper.eos().stored_energy(9000.0, 0.0), None);
+    let cut = copper.with_pressure_cut_off(-1e9);
+    assert_eq!(cut.eos().stored_energy(8000.0, 0.0), None);
+}

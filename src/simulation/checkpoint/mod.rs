@@ -116,6 +116,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             due,
             failed: _,
             watch: _,
+            stores,
         } = self;
         // The next step starts from the state after the last one. While another is shown, no particles enter.
         let last = self.last_step();
@@ -193,6 +194,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 file.put_one("work/asleep".into(), *asleep);
             }
         }
+        let (width, rows) = stores.rows();
+        file.put_one("stored energy/limit".into(), stores.limit());
+        file.put("stored energy/accounts".into(), width, rows);
         file.put("impulses".into(), 1, &impulses.values);
         for (k, kept) in kept_impulses.iter().enumerate() {
             file.put(format!("kept{k}/impulses"), 1, &kept.values);
@@ -279,6 +283,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 wall,
                 asleep,
             });
+        }
+        // Files of before there were any begin them anew.
+        if file.has("stored energy/limit") {
+            let limit = file.get_one("stored energy/limit")?;
+            let rows: Vec<f64> = file.get("stored energy/accounts")?;
+            self.stores.take_rows(limit, &rows);
         }
         let time = self.time;
         let values = file.get("impulses")?;

@@ -9,7 +9,7 @@ mod watch;
 
 pub use arrangement::Arrangement;
 pub use report::{Breach, Extreme, StabilityReport, StepHistory, Thresholds, Verdict};
-pub(super) use watch::Watch;
+pub(super) use watch::{Seen, Watch};
 
 use super::Simulation;
 use crate::once::once;

@@ -70,6 +70,15 @@ impl fmt::Display for StabilityReport {
                 significant(closure, 3)
             )?;
         }
+        match &self.stored_energy {
+            Some(own) => writeln!(
+                f,
+                "  {:<26} {} of the energy supplied",
+                "gain of stored energy",
+                significant(own.value, 3)
+            )?,
+            None => writeln!(f, "  {:<26} not checkable", "gain of stored energy")?,
+        }
         if let Some(nearest) = &self.nearest {
             let value = significant(nearest.value, 3);
             writeln!(f, "  {:<26} {value} spacings, {nearest}", "nearest pair")?;

@@ -22,6 +22,9 @@ pub struct Thresholds {
     /// Largest change of the energy of a closed scene whose bodies carry internal energy, over it; 1 %. 10⁻¹⁰ can be asked of
     /// compatible energy.
     pub energy_closure: f64,
+    /// Largest gain of [stored energy](Simulation::stored_energy) beyond the work that went into it, over the largest energy
+    /// supplied; 1 %. What is 50 % stops the run.
+    pub stored_energy: f64,
     /// Least distance of two particles in local spacings; 0.2.
     pub nearest: f64,
     /// Least distance of nearest neighbours that one in a thousand particles may be below; 0.5.
@@ -51,6 +54,7 @@ impl Default for Thresholds {
             momentum: 1e-10,
             energy_gain: 1e-3,
             energy_closure: 0.01,
+            stored_energy: 0.01,
             nearest: 0.2,
             quantile: 0.5,
             clumping: 0.2,
@@ -150,6 +154,9 @@ pub struct StabilityReport {
     pub energy_gain: Option<f64>,
     /// Change of the energy of a closed scene whose bodies carry internal energy.
     pub energy_closure: Option<f64>,
+    /// Largest gain of [stored energy](Simulation::stored_energy) over the energy supplied since the scene was built, with the
+    /// particle that gained most; `None` where nothing can be said.
+    pub stored_energy: Option<Extreme>,
     /// The smallest distance of two particles that was seen, in local spacings.
     pub nearest: Option<Extreme>,
     /// The least quantile of nearest neighbours that was seen.
@@ -264,6 +271,7 @@ pub(super) fn of<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Stab
         momentum,
         energy_gain,
         energy_closure,
+        stored_energy: simulation.largest_gain().map(named),
         nearest,
         quantile,
         close: watch.worst_close.max(now.map_or(0.0, |now| now.close)),
@@ -356,6 +364,15 @@ fn judge(
             value,
             limit,
             at: Some(at),
+        });
+    }
+    let stored = report.stored_energy.as_ref();
+    if let Some(own) = stored.filter(|own| own.value > limits.stored_energy) {
+        breaches.push(Breach {
+            measure: "stored energy",
+            value: own.value,
+            limit: limits.stored_energy,
+            at: Some(own.clone()),
         });
     }
     let rounding = 1e3 * epsilon;
