@@ -75,6 +75,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                     group: _,
                     body: _,
                     accelerations,
+                    spins: _,
                     before,
                     drift,
                     evaluated,
