@@ -1,13 +1,11 @@
 //! Walls and bodies without slip that turn: a full drum, and liquid between two cylinders.
 //! Liquid in a drum turns as a solid with it, and between cylinders the torque is that of Couette's flow.
 
-use meshfree::boundary::Rotation;
-use meshfree::geometry::{Ball, Shape, fill, layers};
+use meshfree::geometry::{fill, layers};
 use meshfree::material::eos::Linear;
 use meshfree::material::{Liquid, SoundSpeed};
 use meshfree::prelude::*;
 use meshfree::scene::Start;
-use meshfree::scheme::Scheme;
 use meshfree::term::viscosity::Inviscid;
 use meshfree::term::{Antuono, CentralViscosity, LaminarViscosity};
 
