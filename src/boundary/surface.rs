@@ -18,6 +18,9 @@ pub struct WallSurface<'a, T, const D: usize> {
     turn: Option<Matrix<f64, D>>,
     pose: Option<Pose<D>>,
     accelerations: Option<&'a [[f64; D]]>,
+    /// The velocity gradient of the whole wall, and those of its particles where they differ.
+    gradient: Option<Matrix<f64, D>>,
+    gradients: &'a [Matrix<f64, D>],
     slip: Slip,
     scalar: PhantomData<T>,
 }
@@ -28,7 +31,12 @@ impl<'a, T: Real, const D: usize> WallSurface<'a, T, D> {
         (rest, normals): (&'a [[f64; D]], &'a [[f64; D]]),
         (pose, slip): (Option<Pose<D>>, Slip),
         accelerations: Option<&'a [[f64; D]]>,
+        gradients: &'a [Matrix<f64, D>],
     ) -> Self {
+        // v = A′ X + b′ at x = A X + b, so ∂v/∂x = A′ A⁻¹.
+        let gradient = (pose.as_ref())
+            .filter(|pose| pose.linear[1] != Matrix::<f64, D>::zeros())
+            .and_then(|pose| Some(pose.linear[1] * inverse(&pose.linear[0], 0.0)?));
         let turn = pose
             .as_ref()
             .filter(|_| !normals.is_empty())
@@ -42,6 +50,8 @@ impl<'a, T: Real, const D: usize> WallSurface<'a, T, D> {
             turn,
             pose,
             accelerations,
+            gradient,
+            gradients,
             slip,
             scalar: PhantomData,
         }
@@ -67,6 +77,14 @@ impl<'a, T: Real, const D: usize> WallSurface<'a, T, D> {
             (None, Some(pose)) => pose.of(2, &self.rest[at]),
             (None, None) => [0.0; D],
         }
+    }
+
+    /// The velocity gradient ∂vₐ/∂x_b \[1/s\], row a, of the wall around the particle in a slot: its spin, if it is rigid.
+    /// None where its velocity is the same everywhere.
+    #[must_use]
+    pub fn velocity_gradient(&self, slot: usize) -> Option<Matrix<f64, D>> {
+        let own = self.gradients.get(self.number(slot)).copied();
+        own.or(self.gradient)
     }
 
     /// The unit vector from the liquid into the wall at the particle in a slot, where the wall law asked for

@@ -14,8 +14,10 @@ pub enum Slip {
     /// with 1 to 16 kN on the ends, bottom, lid and sides take up to 280 N along the tank.
     #[default]
     Free,
-    /// The liquid sticks: wall particles mirror its velocity, v_w = 2 v_wall − v_liquid
-    /// (Adami, Hu & Adams 2012, eq. 23).
+    /// The liquid sticks: wall particles mirror its velocity in the frame of the wall,
+    /// v_w = v_wall(x_w) − Σ (v_f − v_wall(x_f)) W/Σ W with the velocity that the wall's motion has at a place. Where it does not
+    /// turn that is 2 v_wall − v_liquid (Adami, Hu & Adams 2012, eq. 23); where it does, the liquid sticks to the surface
+    /// and not to the particles behind it. A body turns at each of its particles as its neighbours do, and is taken for rigid around it.
     None,
 }
 

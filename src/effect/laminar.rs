@@ -43,8 +43,12 @@ impl<const D: usize, X: Term<D>> Effect<D> for Laminar<X> {
     }
 }
 
-/// What a wall without slip shows: v_w = 2 v_wall − Σ v_f W/Σ W (Adami, Hu & Adams 2012, eq. 23) and the mean
-/// viscosity; one with slip has none.
+/// What a wall without slip shows: v_w = v_wall(x_w) − Σ (v_f − v_wall(x_f)) W/Σ W and the mean viscosity; one with slip
+/// has none.
+///
+/// It is 2 v_wall − Σ v_f W/Σ W of Adami, Hu & Adams 2012, eq. 23, in the frame of the wall, and the same where that does
+/// not turn. Where it does, the velocity of the wall at its particles is not that at its surface: with ∇v_wall = L it is
+/// 2 v_wall(x_w) − Σ v_f W/Σ W − L·Σ r W/Σ W.
 #[derive(Clone, Copy, Debug)]
 struct NoSlip;
 
@@ -59,6 +63,7 @@ impl<T: Real, const D: usize> Law<T, D> for NoSlip {
         Outputs::of(&[
             Output::UNITY,
             Output::LIQUID_VELOCITY,
+            Output::LIQUID_ARM,
             Output::LIQUID_VISCOSITY,
         ])
     }
@@ -67,18 +72,26 @@ impl<T: Real, const D: usize> Law<T, D> for NoSlip {
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let (sums, first) = (chunk.around.sums, chunk.first);
-        let sticks = chunk.around.wall.is_some_and(|wall| wall.sticks());
+        let wall = chunk.around.wall.filter(|wall| wall.sticks());
         let dry = T::from_f64(super::walls::DRY);
         let [velocity, viscosity] = chunk.columns([Field::VELOCITY, Field::DYNAMIC_VISCOSITY]);
         for (n, (v, viscosity)) in velocity.chunks_exact_mut(D).zip(viscosity).enumerate() {
             let unity = sums.get(Output::UNITY, 0, first + n);
-            if !sticks || unity <= dry {
+            let Some(wall) = wall.filter(|_| unity > dry) else {
                 *viscosity = T::zero();
                 continue;
-            }
+            };
             for (d, v) in v.iter_mut().enumerate() {
                 let liquid = sums.get(Output::LIQUID_VELOCITY, d, first + n);
                 *v = *v + *v - liquid / unity;
+            }
+            if let Some(gradient) = wall.velocity_gradient(first + n) {
+                for (d, v) in v.iter_mut().enumerate() {
+                    for k in 0..D {
+                        let arm = sums.get(Output::LIQUID_ARM, k, first + n) / unity;
+                        *v -= T::from_f64(gradient[(d, k)]) * arm;
+                    }
+                }
             }
             *viscosity = sums.get(Output::LIQUID_VISCOSITY, 0, first + n) / unity;
         }

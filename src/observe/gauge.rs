@@ -17,7 +17,7 @@ pub struct WaveGauge<const D: usize> {
 impl<const D: usize> WaveGauge<D> {
     /// From `foot` \[m\] along `axis` (2 is z), upwards. A foot on the floor reads thin layers
     /// too, for the floor is mirrored; keep the line a support away from other walls, which take away part of
-    /// the liquid's side.
+    /// the liquid's side; by planes and periods it sees images.
     ///
     /// # Errors
     /// If the foot is not finite, the axis not below the dimension, or the line
@@ -79,20 +79,30 @@ impl<const D: usize> WaveGauge<D> {
         let h = simulation.smoothing_length();
         let norm = normalisation(D) / h.powi(D as i32);
         let mut particles = Vec::new();
-        for particle in simulation.all() {
-            let x = particle.position();
+        let mut images = Vec::new();
+        let mut add = |x: [f64; D], share: f64| {
             let aside2: f64 = (0..D)
                 .filter(|&d| d != self.axis)
                 .map(|d| (x[d] - foot[d]).powi(2))
                 .sum();
             let above = x[self.axis] - foot[self.axis];
             if aside2 < 4.0 * h * h && above >= 0.0 {
-                let share = particle.mass() / particle.density() * norm;
                 particles.push((above, aside2, share));
                 // The floor below the foot is mirrored, or liquid next to it would seem half empty.
                 if above < 2.0 * h {
                     particles.push((-above, aside2, share));
                 }
+            }
+        };
+        for particle in simulation.all() {
+            let (x, share) = (
+                particle.position(),
+                particle.mass() / particle.density() * norm,
+            );
+            add(x, share);
+            simulation.images_of(&x, 2.0 * h, &mut images);
+            for image in &images {
+                add(image.at, share);
             }
         }
         particles.sort_by(|a, b| a.0.total_cmp(&b.0));

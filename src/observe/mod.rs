@@ -38,6 +38,11 @@
 //! outside of the scene: farther than the kernel reaches from the box around its bodies and walls as
 //! built. Where walls alone do not bound a scene, because it has none or has other boundaries or inlets
 //! too, liquid can come anywhere, and every place is accepted.
+//!
+//! # Planes and periods
+//!
+//! Probes, gauges and samples see the images behind planes and across periods beside the particles, so that they read by
+//! them what they would read in the whole of a symmetric or repeated scene. A sample behind a plane sees none of its images.
 
 mod gauge;
 mod grid;

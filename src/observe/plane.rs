@@ -59,6 +59,9 @@ impl<const D: usize> FlowPlane<D> {
     }
 
     /// Mass flow \[kg/s\] since the last reading; zero at the first.
+    ///
+    /// Across a [period](crate::boundary::Periodic) particles come back on the other side of the plane, and mass beyond it
+    /// does not grow: along a period a flow is Σ m v·n over the liquid, over the length of the period.
     pub fn mass_flow<T: Real>(&mut self, simulation: &Simulation<T, D>) -> f64 {
         let now = (simulation.time(), self.mass_beyond(simulation));
         let before = self.last.replace(now);

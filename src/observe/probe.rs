@@ -20,7 +20,8 @@ const RINGS: usize = 2;
 ///
 /// The pressure at a point of the surface is p = Σ V p W / Σ V W over liquid and wall: the sides lie half
 /// a spacing before and behind it, so the mean is that of the surface to second order. What liquid and
-/// wall leave empty counts with no pressure, as the dry part of a sensor does.
+/// wall leave empty counts with no pressure, as the dry part of a sensor does. Behind a plane of symmetry, or one that is a wall, and
+/// one period on it sees the images of liquid and walls.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PressureProbe<const D: usize> {
     centre: Place<D>,
@@ -146,8 +147,7 @@ impl<const D: usize> PressureProbe<D> {
                 (place, points)
             })
             .unzip();
-        simulation.near(&places, |probe, particle| {
-            let x = particle.position();
+        simulation.near(&places, |probe, particle, x| {
             let volume = particle.mass() / particle.density() * norm;
             let side = usize::from(!particle.is_mobile());
             for (point, sum) in &mut points[probe] {
@@ -175,7 +175,8 @@ impl<const D: usize> PressureProbe<D> {
     }
 
     /// The force \[N\] of the liquid on the wall particles behind the disc, along the normal and into the
-    /// wall, over the area of their columns: the pressure that the wall really feels.
+    /// wall, over the area of their columns: the pressure that the wall really feels. Of a plane it is the force of its images, each
+    /// spread over a spacing, over the area of the disc, which is a spacing wide at least.
     ///
     /// Its sum over time is the impulse that the wall got. Within a support of an edge it reads low, by 12 % one
     /// spacing above a floor: the wall around the corner takes its share. On a plate thinner than two supports it
@@ -183,15 +184,18 @@ impl<const D: usize> PressureProbe<D> {
     /// [`contact_pressures`](Self::contact_pressures) makes once for many probes.
     #[must_use]
     pub fn contact_pressure<T: Real>(&self, simulation: &Simulation<T, D>) -> f64 {
-        self.felt(simulation, &simulation.wall_particle_forces())
+        Self::contact_pressures(core::slice::from_ref(self), simulation)[0]
     }
 
     /// [`contact_pressure`](Self::contact_pressure) \[Pa\] of each of many probes.
     #[must_use]
     pub fn contact_pressures<T: Real>(probes: &[Self], simulation: &Simulation<T, D>) -> Vec<f64> {
         let forces = simulation.wall_particle_forces();
-        let felt = probes.iter().map(|probe| probe.felt(simulation, &forces));
-        felt.collect()
+        let planes = simulation.plane_forces();
+        let felt = |probe: &Self| {
+            probe.felt(simulation, &forces) + probe.felt_by_planes(simulation, &planes)
+        };
+        probes.iter().map(felt).collect()
     }
 
     /// The pressure \[Pa\] that places and forces of all wall particles make on the disc.
@@ -219,6 +223,37 @@ impl<const D: usize> PressureProbe<D> {
             return 0.0;
         }
         force / (columns as f64 * spacing.powi(D as i32 - 1))
+    }
+
+    /// The pressure \[Pa\] that forces on planes, where images are, make on the disc.
+    fn felt_by_planes<T: Real>(
+        &self,
+        simulation: &Simulation<T, D>,
+        forces: &[([f64; D], [f64; D])],
+    ) -> f64 {
+        let pose = self.centre.pose(simulation);
+        let centre = Vector::<f64, D>::from(pose.of(0, &self.centre.point));
+        let normal = pose.linear[0] * Vector::from(self.normal);
+        let spacing = simulation.spacing();
+        let radius = 0.5 * self.diameter.max(spacing);
+        let deepest = -simulation.reach();
+        let mut sum = 0.0;
+        for (x, on) in forces {
+            let r = Vector::from(*x) - centre;
+            let along = r.dot(&normal);
+            let aside = length(&(r - normal * along));
+            if (deepest..=0.0).contains(&along) {
+                // The part of a spacing around it that is on the disc.
+                let share = ((radius + 0.5 * spacing - aside) / spacing).clamp(0.0, 1.0);
+                sum -= share * Vector::from(*on).dot(&normal);
+            }
+        }
+        // The integral of that share over the plane.
+        sum / match D {
+            1 => 1.0,
+            2 => 2.0 * radius,
+            _ => core::f64::consts::PI * (radius * radius + spacing * spacing / 12.0),
+        }
     }
 }
 

@@ -90,6 +90,8 @@ struct Source<const D: usize> {
     h: f64,
     /// Its volume over hᴰ, times the norm of the weight.
     share: f64,
+    /// The boundaries that make it, a bit for each, if it is an image.
+    boundaries: u64,
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
@@ -103,8 +105,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// particles.
     ///
     /// Pressure and what else follows from the state is that of the last evaluation
-    /// ([`evaluate`](Simulation::evaluate) makes one). Walls are not sampled, and images behind boundaries neither: by a
-    /// period or a symmetry plane a point sees one side.
+    /// ([`evaluate`](Simulation::evaluate) makes one). Walls are not sampled. By a period a point sees the images of the other end, and
+    /// on a plane those behind it, which are mirrored: there the filling is 1. A point behind a plane sees none of them.
     ///
     /// It costs a look at every particle, a sort of those near the points, and for each point a pass over the particles
     /// in the cells around it: (5 h)ᴰ of volume, 56 particles in 2D and 420 in 3D with h of 1.5 spacings. The points
@@ -135,18 +137,48 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let mut reach = 0.0_f64;
         let (mut sources, mut numbers) = (Vec::new(), Vec::new());
         let norm = normalisation(D);
+        let mut images = Vec::new();
         for particle in carriers {
             let (x, h) = (particle.position(), particle.smoothing_length());
             // Most of a scene is often out of reach of all points.
-            let near = |d: usize| low[d] - 2.0 * h < x[d] && x[d] < high[d] + 2.0 * h;
-            let Some(own) = particle.numbers(field).filter(|_| (0..D).all(near)) else {
+            let near =
+                |x: &[f64; D]| (0..D).all(|d| low[d] - 2.0 * h < x[d] && x[d] < high[d] + 2.0 * h);
+            self.images_of(&x, 2.0 * h, &mut images);
+            images.retain(|image| near(&image.at));
+            let is_near = near(&x);
+            if !is_near && images.is_empty() {
+                continue;
+            }
+            let Some(own) = particle.numbers(field) else {
                 continue;
             };
             let volume = particle.mass() / particle.density();
             let share = norm * volume / h.powi(D as i32);
             reach = reach.max(2.0 * h);
-            sources.push(Source { x, h, share });
-            numbers.extend(own.iter().map(|number| number.to_f64()));
+            if is_near {
+                let boundaries = 0;
+                sources.push(Source {
+                    x,
+                    h,
+                    share,
+                    boundaries,
+                });
+                numbers.extend(own.iter().map(|number| number.to_f64()));
+            }
+            for image in &images {
+                let (x, boundaries) = (image.at, image.boundaries);
+                sources.push(Source {
+                    x,
+                    h,
+                    share,
+                    boundaries,
+                });
+                let first = numbers.len();
+                numbers.extend(image.transform.of_field(field, own));
+                if field == Field::POSITION {
+                    numbers[first..].copy_from_slice(&x);
+                }
+            }
         }
         let positions: Vec<[f64; D]> = sources.iter().map(|source| source.x).collect();
         let all: Vec<u32> = (0..sources.len() as u32).collect();
@@ -164,10 +196,19 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let sums = sums.chunks_exact_mut(components);
             let points = &points[piece * POINTS..];
             for ((sums, filling), point) in sums.zip(filling).zip(points) {
+                let behind = self.boundaries_before(point, 1e-6 * reach);
                 let [from, to] = [-reach, reach].map(|r| point.map(|x| x + r));
                 cells.for_each_run(from, to, |run| {
                     for source in run.iter().map(|&k| k as usize) {
-                        let Source { x, h, share } = &sources[source];
+                        let Source {
+                            x,
+                            h,
+                            share,
+                            boundaries,
+                        } = &sources[source];
+                        if boundaries & behind != 0 {
+                            continue;
+                        }
                         let r2: f64 = (0..D).map(|d| (x[d] - point[d]).powi(2)).sum();
                         if r2 < 4.0 * h * h {
                             let part = share * weight(r2.sqrt() / h);

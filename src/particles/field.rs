@@ -396,6 +396,8 @@ quantities! {
     LIQUID_MOMENT, Vector, "liquid_moment", "kg/m²";
     /// Σⱼ Vⱼ vⱼ Wᵢⱼ over liquid, from which a wall takes the velocity that makes the liquid stick.
     LIQUID_VELOCITY, Vector, "liquid_velocity", "m/s";
+    /// Σⱼ Vⱼ rᵢⱼ Wᵢⱼ over liquid, the arm by which its velocity is seen from a wall that turns.
+    LIQUID_ARM, Vector, "liquid_arm", "m";
     /// Σⱼ Vⱼ μⱼ Wᵢⱼ over liquid, from which a wall takes its viscosity.
     LIQUID_VISCOSITY, Scalar, "liquid_viscosity", "Pa s";
     /// The gradient of the concentration, Σⱼ Vⱼ ∇W with a weight that grows as particles meet.

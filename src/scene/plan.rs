@@ -6,7 +6,9 @@ use crate::boundary::{Emitter, Inlet, Slip, Wall};
 use crate::particles::{Columns, Field, Fields};
 use crate::scalar::Real;
 use crate::scheme::{Scheme, Smoothing};
-use crate::simulation::{BodyState, Exchange, Group, Particles, Structure, WallState, width};
+use crate::simulation::{
+    BodyState, Exchange, Group, Particles, Spins, Structure, WallState, width,
+};
 use crate::sweep::Interaction;
 use std::sync::Arc;
 
@@ -242,6 +244,10 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                         group,
                         body,
                         accelerations: vec![[0.0; D]; wall.points.len()],
+                        spins: match wall.slip {
+                            Slip::None => Spins::new(&wall.points, wall.spacing),
+                            Slip::Free => Spins::default(),
+                        },
                         before: vec![[0.0; D]; apart.unwrap_or(0)],
                         drift: vec![[[0.0; D]; 2]; apart.filter(|_| spreads).unwrap_or(0)],
                         evaluated: f64::NAN,
@@ -364,7 +370,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             return self.liquid_interactions();
         }
         let (bodies, boundaries) = (self.bodies.len(), self.scene.boundaries.len());
-        let blocks = bodies + boundaries;
+        let blocks = bodies * (1 + boundaries);
         // Boundaries feel nothing, so their rows name no contact that a scene would pay for.
         let mut all = vec![Interaction::None; blocks * blocks];
         for body in 0..bodies {
@@ -389,8 +395,14 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             }
         }
         for (k, boundary) in self.scene.boundaries.iter().enumerate() {
-            for body in 0..bodies {
-                all[body * blocks + bodies + k] = boundary.interaction();
+            for (body, of) in (0..bodies).flat_map(|body| (0..bodies).map(move |of| (body, of))) {
+                // Bodies do across a period or a plane of symmetry what they do to each other.
+                let own = all[body * blocks + of];
+                all[body * blocks + bodies + of * boundaries + k] = match boundary.interaction() {
+                    Interaction::Bonded => own,
+                    _ if own == Interaction::None => own,
+                    other => other,
+                };
             }
         }
         all
@@ -401,10 +413,11 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
     fn liquid_interactions(&self) -> Vec<Interaction> {
         let (bodies, walls) = (self.bodies.len(), self.walls.len());
         let boundaries = self.scene.boundaries.len();
-        let blocks = bodies + walls + boundaries * (1 + walls);
-        let is_wall = |block: usize| {
-            (bodies..bodies + walls).contains(&block) || block >= bodies + walls + boundaries
-        };
+        let direct = bodies + walls;
+        let blocks = direct * (1 + boundaries);
+        let images = |of: usize| direct + boundaries * of..direct + boundaries * (of + 1);
+        let is_wall =
+            |block: usize| (bodies..direct).contains(&block) || block >= images(bodies).start;
         let mut all = vec![Interaction::None; blocks * blocks];
         for on in 0..bodies + walls {
             for from in 0..blocks {
@@ -418,15 +431,10 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             let structure = |(wall, origin): &(Wall<D>, Origin)| {
                 wall.name == name && matches!(origin, Origin::Structure(..))
             };
-            if let Some(body) = self.bodies.iter().position(|body| body.name == name) {
-                return vec![body];
-            }
-            let found = self.walls.iter().position(structure);
-            found.map_or(Vec::new(), |wall| {
-                let images = bodies + walls + boundaries * (1 + wall);
-                let images = images..images + boundaries;
-                images.chain([bodies + wall]).collect()
-            })
+            let body = self.bodies.iter().position(|body| body.name == name);
+            let wall = || self.walls.iter().position(structure);
+            let found = body.or_else(|| Some(bodies + wall()?));
+            found.map_or(Vec::new(), |own| images(own).chain([own]).collect())
         };
         let contacts = self.scene.contacts.iter();
         let apart = contacts.filter(|own| own.2 == Interaction::None);

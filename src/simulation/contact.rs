@@ -4,6 +4,7 @@
 use super::Simulation;
 use super::couplings::coupled_particle;
 use super::group::Group;
+use super::group::shared_with_image;
 use super::pair_images::velocity;
 use super::pair_list::PairList;
 use super::population::Particles;
@@ -63,7 +64,7 @@ pub(crate) struct Acting<T, const D: usize> {
     pub penetration: [f64; 2],
     /// Pairs that act.
     pub pairs: usize,
-    /// The force \[N\] of images on both sides, boundary by boundary.
+    /// The force \[N\] of boundaries on both sides, by images, boundary by boundary.
     pub images: [Vec<[f64; D]>; 2],
 }
 
@@ -324,15 +325,26 @@ impl<T: Real, const D: usize> Couple<T, D> {
             if own.force.iter().any(|force| *force != T::zero()) {
                 acting.pairs += 1;
             }
+            let force = own.force.map(Real::to_f64);
+            let part = |chain: usize| {
+                if second == 0 {
+                    return ([0.0; D], force);
+                }
+                let turn = &list.images.transforms[chain].rotation;
+                shared_with_image(force, |d, k| turn[(d, k)].to_f64())
+            };
+            let image = |chain: usize| list.images.boundary(chain);
             for d in 0..D {
-                let force = own.force[d].to_f64();
                 match chains {
-                    [None, None] => acting.force[d] += force,
+                    [None, None] => acting.force[d] += force[d],
                     [None, Some(chain)] => {
-                        acting.images[0][list.images.boundary(chain)][d] += force;
+                        let (mutual, given) = part(chain);
+                        acting.force[d] += mutual[d];
+                        acting.images[0][image(chain)][d] += given[d];
                     }
+                    // What the first side feels of the other half of the pair is counted there.
                     [Some(chain), _] => {
-                        acting.images[second][list.images.boundary(chain)][d] -= force;
+                        acting.images[second][image(chain)][d] -= part(chain).1[d];
                     }
                 }
                 list.forces[a as usize][d] += own.force[d];

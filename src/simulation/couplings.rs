@@ -4,6 +4,7 @@
 use super::Simulation;
 use super::group::Group;
 use super::population::{BodyState, Particles};
+use super::spin::Spins;
 use super::walls::WallState;
 use super::workspace::Workspace;
 use crate::boundary::Boundary;
@@ -23,6 +24,8 @@ pub(crate) struct Structure<T, const D: usize> {
     /// What its particles have been accelerated by at the last evaluation \[m/s²\], in the order of the
     /// scene: the pressure of a wall follows from it. The mean since the evaluation before where the body sub-cycles.
     pub accelerations: Vec<[f64; D]>,
+    /// How it turns at each of its particles at that evaluation, where liquid sticks to it.
+    pub spins: Spins<D>,
     /// Velocities \[m/s\] at that evaluation where the body sub-cycles; else none.
     pub before: Vec<[f64; D]>,
     /// Where the last drift has begun \[m\] and the mean velocity in it \[m/s\], where the body has its
@@ -119,7 +122,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         alone: Option<usize>,
     ) -> impl Iterator<Item = (usize, usize, [f64; D])> {
         let own = self.stepping(alone).flat_map(Group::reactions);
-        let own = own.map(|(on, from, force)| (on, from, *force));
         let couples = self.couples.iter().filter(move |_| alone.is_none());
         let first_boundary = self.body_count() + self.wall_count();
         own.chain(couples.flat_map(move |couple| {
@@ -273,8 +275,20 @@ impl<T: Real, const D: usize> WallState<T, D> {
                 }
             }
         }
+        let first = self.slots.start;
         if let Some(structure) = self.structure.as_mut().filter(|_| evaluated) {
             structure.evaluated = time;
+            let columns = &own.columns;
+            let (x, v) = (
+                columns.vectors(Field::POSITION),
+                columns.vectors(Field::VELOCITY),
+            );
+            let mass = columns.raw(Field::MASS);
+            structure.spins.find(|at| {
+                let slot = own.slot_of[first + at] as usize;
+                let is_there = mass[slot] > T::zero();
+                is_there.then(|| (x[slot].map(Real::to_f64), v[slot].map(Real::to_f64)))
+            });
         }
     }
 }

@@ -51,6 +51,16 @@ pub(crate) struct Group<T: Real, const D: usize> {
     pub limited: Vec<(&'static str, u64)>,
 }
 
+/// What of a force by an image of another body is between the two, (f + R f)/2, and what the boundary gives, (f − R f)/2.
+pub(super) fn shared_with_image<const D: usize>(
+    force: [f64; D],
+    turn: impl Fn(usize, usize) -> f64,
+) -> ([f64; D], [f64; D]) {
+    let turned: [f64; D] = core::array::from_fn(|d| (0..D).map(|k| turn(d, k) * force[k]).sum());
+    let half = |sign: f64| core::array::from_fn(|d| 0.5 * (force[d] + sign * turned[d]));
+    (half(1.0), half(-1.0))
+}
+
 pub(crate) fn width<T: Real>() -> usize {
     <T::Wide<false> as Lane>::WIDTH
 }
@@ -118,36 +128,49 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
     }
 
-    /// The scene index of a block: images of a wall count as the wall, and a structure as the
-    /// body that it is.
-    pub fn index(&self, block: u32) -> usize {
-        let (block, bodies, boundaries) = (
-            block as usize,
-            self.particles.bodies.len(),
-            self.boundaries.len(),
-        );
-        let direct = bodies + self.walls.len() + boundaries;
-        self.indices[if block < direct {
-            block
-        } else {
-            bodies + (block - direct) / boundaries
-        }]
+    /// The body or wall of a block, by its number in the group, and the boundary if the block is of images.
+    fn origin(&self, block: u32) -> (usize, Option<usize>) {
+        let direct = self.particles.bodies.len() + self.walls.len();
+        match (block as usize).checked_sub(direct) {
+            None => (block as usize, None),
+            Some(image) => {
+                let count = self.boundaries.len();
+                (image / count, Some(image % count))
+            }
+        }
     }
 
     /// Forces between blocks at the last evaluation, with their scene indices: which feels,
-    /// which exerts, and the force \[N\].
-    pub fn reactions(&self) -> impl Iterator<Item = (usize, usize, &[f64; D])> {
-        self.work
-            .rates
-            .reactions()
-            .chain(self.work.coupling.reactions())
-            .map(|reaction| {
-                (
-                    self.index(reaction.on),
-                    self.index(reaction.from),
-                    &reaction.force,
-                )
-            })
+    /// which exerts, and the force \[N\]. A structure is the body that it is.
+    ///
+    /// A force f by images of another body, which a boundary with the rotation R shows, is half of a pair: the other body
+    /// feels −R f by images of the first. So (f + R f)/2 is what the two do to each other, all of it across a period and what is along a
+    /// plane of symmetry, and the boundary gives the rest. By its own images a body feels the boundary, and by those of a
+    /// wall the wall.
+    pub fn reactions(&self) -> impl Iterator<Item = (usize, usize, [f64; D])> {
+        let direct = self.particles.bodies.len() + self.walls.len();
+        let is_wall = |own: usize| {
+            let wall = own.checked_sub(self.particles.bodies.len());
+            wall.is_some_and(|wall| self.walls[wall].structure.is_none())
+        };
+        let rates = self.work.rates.reactions();
+        let all = rates.chain(self.work.coupling.reactions());
+        all.flat_map(move |reaction| {
+            let on = self.indices[self.origin(reaction.on).0];
+            let (own, boundary) = self.origin(reaction.from);
+            let (from, force) = (self.indices[own], reaction.force);
+            let (mutual, given) = match boundary {
+                Some(_) if on == from => ([0.0; D], force),
+                Some(boundary) if !is_wall(own) => {
+                    let time = self.neighborhood.placed_time;
+                    let turn = self.boundaries[boundary].transform(0, time).rotation;
+                    shared_with_image(force, |d, k| turn[(d, k)].to_f64())
+                }
+                _ => (force, [0.0; D]),
+            };
+            let boundary = boundary.map(|own| (on, self.indices[direct + own], given));
+            core::iter::once((on, from, mutual)).chain(boundary)
+        })
     }
 
     /// Adds a force \[N\] of a coupling on a particle: to its rates, or apart from them where it sub-cycles.

@@ -22,7 +22,7 @@ pub(crate) struct Chain {
 
 impl<T: Real, const D: usize> Neighborhood<T, D> {
     /// Finds which images are needed. Later boundaries also mirror the images of earlier ones, which
-    /// fills edges and corners. The images of bodies and of each wall are blocks of their own.
+    /// fills edges and corners. The images of each body and of each wall are blocks of their own.
     pub(super) fn place_images(
         &mut self,
         particles: &Particles<T, D>,
@@ -35,22 +35,21 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         if boundaries.is_empty() {
             return;
         }
-        let bodies = particles.bodies.iter().map(|body| body.slots.clone());
-        let bodies: Vec<Range<usize>> = bodies.collect();
         let columns = &particles.columns;
-        self.place_images_of(columns, &bodies, None, boundaries, time);
+        for body in &particles.bodies {
+            self.place_images_of(columns, &body.slots, None, boundaries, time);
+        }
         for wall in walls {
-            let own = [wall.slots.clone()];
-            self.place_images_of(columns, &own, Some(wall), boundaries, time);
+            self.place_images_of(columns, &wall.slots, Some(wall), boundaries, time);
         }
         self.place_transforms(boundaries, time);
     }
 
-    /// One block of images a boundary, of the particles in `sources`: those of bodies, or of a wall.
+    /// One block of images a boundary, of the particles in `sources`: those of a body, or of a wall.
     fn place_images_of(
         &mut self,
         columns: &Columns<T, D>,
-        sources: &[Range<usize>],
+        sources: &Range<usize>,
         wall: Option<&WallState<T, D>>,
         boundaries: &[Arc<dyn Boundary<T, D>>],
         time: f64,
@@ -65,7 +64,7 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
                 candidates.clear();
                 let near = |x: &[T; D]| boundary.reaches(k, x, reach, time);
                 let positions = columns.vectors(Field::POSITION);
-                for slot in sources.iter().flat_map(Clone::clone) {
+                for slot in sources.clone() {
                     if near(&positions[slot]) {
                         candidates.push((slot as u32, None, positions[slot]));
                     }

@@ -5,7 +5,7 @@ use super::Simulation;
 use super::group::Group;
 use super::population::BodyState;
 use super::which::{Which, find};
-use crate::error::Result;
+use crate::error::{Error, Problem, Result};
 use crate::once::once;
 use crate::particles::Field;
 use crate::scalar::Real;
@@ -304,7 +304,13 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// The force \[N\] that body, wall or boundary `from` exerts on body `on` at the last evaluation. Indices count
     /// bodies in the order of the scene, then walls, then boundaries. A structure, which is a wall to the liquids of a
-    /// scene, is the body that it is.
+    /// scene, is the body that it is. What a wall or a boundary feels is what the body exerts: the opposite of what that
+    /// feels.
+    ///
+    /// By images across a [period](crate::boundary::Periodic), or behind a plane of symmetry, bodies feel each other. A force f by
+    /// the image of another body counts with (f + R f)/2 as that body's and with the rest as the boundary's, R being the
+    /// rotation of the image: all is the body's across a period, and what lies along the plane behind a plane. A body
+    /// feels its own images as the boundary, and those of a wall as the wall.
     ///
     /// ```
     /// use meshfree::prelude::*;
@@ -322,7 +328,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// ```
     ///
     /// # Errors
-    /// If there is no such body, wall or boundary; the error lists those that there are.
+    /// If there is no such body, wall or boundary; the error lists those that there are. If neither is a body: walls and boundaries do
+    /// not feel each other.
     pub fn force_between(&self, on: impl Which, from: impl Which) -> Result<[f64; D]> {
         let named = self.bodies().chain(self.walls()).map(Cow::Borrowed);
         let boundaries = self.groups[0].boundaries.iter();
@@ -336,7 +343,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let kind = "body, wall or boundary";
         let (on, ()) = find(&on, kind, blocks())?;
         let (from, ()) = find(&from, kind, blocks())?;
-        Ok(self.force_of_block(on, from))
+        match [on, from].map(|block| block < self.body_count()) {
+            [true, _] => Ok(self.force_of_block(on, from)),
+            [false, true] => Ok(self.force_of_block(from, on).map(|force| -force)),
+            [false, false] => Err(Error::Argument(Problem::Incompatible {
+                what: "a force between two walls or boundaries is asked for, which do not feel each other".into(),
+                remedy: "name a body on one side, as in force_between(\"water\", \"tank\")",
+            })),
+        }
     }
 
     /// Whether a body feels another body, a wall or a boundary at the last evaluation.

@@ -168,8 +168,10 @@ mod query;
 mod reference;
 mod run;
 mod settle;
+mod shown;
 mod snapshot;
 mod soundness;
+mod spin;
 mod stability;
 mod stages;
 mod state;
@@ -211,6 +213,7 @@ pub(crate) use held::{Clamp, Rigid};
 pub(crate) use pair_list::PairList;
 pub use population::Removed;
 pub(crate) use population::{BodyState, Particles};
+pub(crate) use spin::Spins;
 pub(crate) use sub_cycle::SubCycle;
 pub(crate) use walls::WallState;
 

@@ -251,7 +251,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     /// The groups that observers read: those of liquids, which meet all other bodies as walls, or all.
-    fn observed(&self) -> impl Iterator<Item = &Group<T, D>> {
+    pub(super) fn observed(&self) -> impl Iterator<Item = &Group<T, D>> {
         let is_liquid = |group: &Group<T, D>| group.scheme.meets_walls();
         let any = self.groups.iter().any(is_liquid);
         self.groups
@@ -259,12 +259,13 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             .filter(move |group| !any || is_liquid(group))
     }
 
-    /// Shows every particle, of bodies and walls, that is within reach of a place, with the number of that
-    /// place; places and reaches \[m\] are pairs. Once over all particles, however many places there are.
+    /// Shows every particle, of bodies and walls, and every image of one, that is within reach of a place, with the number of
+    /// that place and where it is \[m\]; places and reaches \[m\] are pairs. Once over all particles, however many places
+    /// there are.
     pub(crate) fn near(
         &self,
         places: &[([f64; D], f64)],
-        mut visit: impl FnMut(usize, ParticleView<'_, T, D>),
+        mut visit: impl FnMut(usize, ParticleView<'_, T, D>, [f64; D]),
     ) {
         // Most particles are outside of the box around all places, and no more is looked at then.
         let (mut low, mut high) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
@@ -286,7 +287,39 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                     for (k, (place, reach)) in places.iter().enumerate() {
                         let r2: f64 = (0..D).map(|d| (x[d].to_f64() - place[d]).powi(2)).sum();
                         if r2 < reach * reach {
-                            visit(k, ParticleView { group, slot });
+                            let particle = ParticleView { group, slot };
+                            visit(k, particle, particle.position());
+                        }
+                    }
+                }
+            }
+        }
+        if !self.groups[0].boundaries.is_empty() {
+            self.images_near(places, visit);
+        }
+    }
+
+    /// The same of images.
+    fn images_near(
+        &self,
+        places: &[([f64; D], f64)],
+        mut visit: impl FnMut(usize, ParticleView<'_, T, D>, [f64; D]),
+    ) {
+        let most = places
+            .iter()
+            .fold(0.0_f64, |most, (_, reach)| most.max(*reach));
+        let mut images = Vec::new();
+        for group in self.observed() {
+            let walls = group.walls.iter().map(|wall| wall.slots.clone());
+            let bodies = group.particles.bodies.iter().map(|body| body.slots.clone());
+            for slot in bodies.chain(walls).flatten() {
+                let particle = ParticleView { group, slot };
+                self.images_of(&particle.position(), most, &mut images);
+                for image in &images {
+                    for (k, (place, reach)) in places.iter().enumerate() {
+                        let r2: f64 = (0..D).map(|d| (image.at[d] - place[d]).powi(2)).sum();
+                        if r2 < reach * reach {
+                            visit(k, particle, image.at);
                         }
                     }
                 }

@@ -241,6 +241,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                 wall.structure
                     .as_ref()
                     .map(|structure| structure.accelerations.as_slice()),
+                (wall.structure.as_ref()).map_or(&[], |structure| &structure.spins.gradients),
             );
             let around = Around {
                 sums: &self.work.sums,

@@ -83,6 +83,20 @@ impl<T: Real, const D: usize> Transform<T, D> {
             self.turn_values(field, values);
         }
     }
+    /// The numbers of a field of the image.
+    pub(crate) fn of_field(
+        &self,
+        field: Field,
+        own: &[T],
+    ) -> impl Iterator<Item = f64> + use<T, D> {
+        let mut values = own.to_vec();
+        match field.shape() {
+            Shape::Point => values.copy_from_slice(&self.point(&core::array::from_fn(|d| own[d]))),
+            Shape::Velocity => self.turn(0, &mut values),
+            _ => self.turn_values(field, &mut values),
+        }
+        values.into_iter().map(Real::to_f64)
+    }
     fn turn_values(&self, field: Field, values: &mut [T]) {
         let rotation = &self.rotation;
         match field.shape() {

@@ -40,26 +40,30 @@ impl<const D: usize> Term<D> for LiquidNearWall {
     }
 }
 
-/// The sum from which a wall particle takes the velocity of the liquid before it, Σ V v W.
+/// The sums from which a wall particle takes the velocity of the liquid before it relative to the wall, Σ V v W and Σ V r W.
+///
+/// Where the velocity of the wall is the linear field v_w + L·(x − x_w), as that of anything rigid is, the liquid moves
+/// relative to it by v_f − v_w + L·r at a place x_w − r.
 #[derive(Clone, Copy, Debug)]
 pub struct VelocityAtWall;
 
 impl<const D: usize> Term<D> for VelocityAtWall {
     const READS: Fields = Fields::of(&[Field::MASS, Field::DENSITY, Field::VELOCITY]);
-    const WRITES: Outputs = Outputs::of(&[Output::LIQUID_VELOCITY]);
+    const WRITES: Outputs = Outputs::of(&[Output::LIQUID_VELOCITY, Output::LIQUID_ARM]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
         let volume = pair.j(Field::MASS) / pair.j(Field::DENSITY) * (pair.w * pair.mobile);
         for d in 0..D {
             let v = pair.j_at(Field::VELOCITY, d);
             sums.add_product_at(Output::LIQUID_VELOCITY, d, volume, v);
+            sums.add_product_at(Output::LIQUID_ARM, d, volume, pair.r[d]);
         }
     }
     fn document(&self) -> TermDoc {
         TermDoc {
             name: "velocity of the liquid at walls, mirrored where it sticks".into(),
-            equation: "Σ v_f W / Σ W, v_w = 2 v_wall − Σ v_f W / Σ W",
-            source: "Adami, Hu & Adams 2012, eqs. 22, 23",
+            equation: "v_w = v_wall(x_w) − Σ (v_f − v_wall(x_f)) W / Σ W",
+            source: "Adami, Hu & Adams 2012, eqs. 22, 23, in the frame of the wall",
         }
     }
 }

@@ -5,8 +5,10 @@
 mod common;
 mod tank;
 
+mod across_boundaries;
 mod advice;
 mod dam_break;
+mod drum;
 mod floating;
 mod gauges;
 mod gentle_flows;

@@ -113,6 +113,12 @@ fn a_half_with_a_plane_of_symmetry_is_half_of_the_whole() {
                 "{name}: {all:e} {part:e}"
             );
         }
+        // And of the force along the plane.
+        let [whole, part] = [first.force[1], second.force[1]];
+        assert!(
+            (whole - 2.0 * part).abs() <= 1e-9 * whole.abs(),
+            "{name}: {whole} {part}"
+        );
         // What the half gains along the normal of the plane, the plane has given: kernels and couplings.
         let ledger = half.ledger();
         let gained = ledger.whole.momentum[0] - start_of_half();

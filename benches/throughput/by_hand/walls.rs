@@ -8,8 +8,8 @@ use meshfree::particles::{Field, Output};
 use meshfree::scalar::Lane;
 use meshfree::term::{LiquidNearWall, VelocityAtWall, ViscosityAtWall};
 
-/// What a loop sums beside the pressure of the liquid: its velocity for walls as Riemann problems, or velocity and viscosity for
-/// walls without slip.
+/// What a loop sums beside the pressure of the liquid: its velocity for walls as Riemann problems, or velocity, arm and viscosity
+/// for walls without slip.
 const BEFORE: u8 = 1;
 const NO_SLIP: u8 = 2;
 
@@ -17,7 +17,8 @@ const NO_SLIP: u8 = 2;
 const PRESSURE: usize = 1;
 const MOMENT: usize = 2;
 const VELOCITY: usize = 5;
-const VISCOSITY: usize = 8;
+const ARM: usize = 8;
+const VISCOSITY: usize = 11;
 
 #[derive(Clone, Copy)]
 struct Wall<const WHAT: u8>;
@@ -31,6 +32,7 @@ impl<const WHAT: u8> Written for Wall<WHAT> {
             (Output::LIQUID_MOMENT, 3),
             (Output::vector(15), count(BEFORE, 3)),
             (Output::LIQUID_VELOCITY, count(NO_SLIP, 3)),
+            (Output::LIQUID_ARM, count(NO_SLIP, 3)),
             (Output::LIQUID_VISCOSITY, count(NO_SLIP, 1)),
         ]
     }
@@ -65,6 +67,9 @@ impl<const WHAT: u8> Written for Wall<WHAT> {
             }
         }
         if WHAT & NO_SLIP != 0 {
+            for d in 0..3 {
+                sums[ARM + d] = volume.mul_add(r[d], sums[ARM + d]);
+            }
             sums[VISCOSITY] = volume.mul_add(Row::splat(other[mu]), sums[VISCOSITY]);
         }
     }

@@ -49,6 +49,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                     group: _,
                     body: _,
                     accelerations,
+                    spins: _,
                     before,
                     drift,
                     evaluated,
