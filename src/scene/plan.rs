@@ -49,7 +49,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         let part = &self.parts[number];
         let is_liquid = |part: &Part<T, D>| part.scheme.meets_walls();
         let mut walls = Vec::new();
-        // Walls without a liquid are the fault of the scene's own scheme.
+        // Without a liquid they stand in the first group, which does not feel them.
         if is_liquid(part) || (number == 0 && !self.parts.iter().any(is_liquid)) {
             let own = self.walls.iter().enumerate();
             walls.extend(own.map(|(k, wall)| (wall.clone(), Origin::Wall(k))));
@@ -364,8 +364,9 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             return self.liquid_interactions();
         }
         let (bodies, boundaries) = (self.bodies.len(), self.scene.boundaries.len());
-        let blocks = bodies + boundaries;
-        // Boundaries feel nothing, so their rows name no contact that a scene would pay for.
+        let walls = self.walls.len();
+        let blocks = bodies + walls + boundaries * (1 + walls);
+        // Solids meet walls of particles by couplings. Boundaries feel nothing, so their rows name no contact that a scene would pay for.
         let mut all = vec![Interaction::None; blocks * blocks];
         for body in 0..bodies {
             all[body * blocks..body * blocks + bodies].fill(self.scheme.between);
@@ -390,7 +391,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         }
         for (k, boundary) in self.scene.boundaries.iter().enumerate() {
             for body in 0..bodies {
-                all[body * blocks + bodies + k] = boundary.interaction();
+                all[body * blocks + bodies + walls + k] = boundary.interaction();
             }
         }
         all

@@ -150,6 +150,7 @@ mod query;
 mod reference;
 mod run;
 mod settle;
+mod side;
 mod snapshot;
 mod soundness;
 mod stability;
@@ -189,6 +190,7 @@ pub(crate) use held::{Clamp, Rigid};
 pub(crate) use pair_list::PairList;
 pub use population::Removed;
 pub(crate) use population::{BodyState, Particles};
+pub(crate) use side::{MetWall, Side};
 pub(crate) use sub_cycle::SubCycle;
 pub(crate) use walls::WallState;
 
