@@ -28,7 +28,8 @@ fn boxed(name: &str, material: Material<f64>, [i, j]: [f64; 2], [m, n]: [f64; 2]
 
 /// Water of `depth` spacings in a tank of `width`, around boxes that are given by two corners in spacings.
 fn water(width: i32, depth: i32, around: &[[[f64; 2]; 2]]) -> Body<f64, 2> {
-    let cells = (0..depth).flat_map(|j| (0..width).map(move |i| [f64::from(i) + 0.5, f64::from(j) + 0.5]));
+    let cells =
+        (0..depth).flat_map(|j| (0..width).map(move |i| [f64::from(i) + 0.5, f64::from(j) + 0.5]));
     let free = |x: &[f64; 2]| {
         let within = |[low, high]: &[[f64; 2]; 2]| (0..2).all(|d| low[d] < x[d] && x[d] < high[d]);
         !around.iter().any(within)
@@ -106,7 +107,10 @@ fn blocks_that_sink_lie_on_the_floor() {
         let gained = simulation.ledger().bodies[1].1.momentum[1] - before;
         let [floor, wet] = [floor, wet].map(|sum| sum / weight);
         let gap = lowest(&simulation, "block") + 0.5;
-        println!("elastic {elastic}: gap {gap}, floor {floor}, water {wet}, gained {}", gained / weight);
+        println!(
+            "elastic {elastic}: gap {gap}, floor {floor}, water {wet}, gained {}",
+            gained / weight
+        );
         assert!((gap - 1.0).abs() < 0.5, "{gap}");
         assert!((floor + wet - 1.0).abs() < 0.01, "{floor} {wet}");
         assert!(floor > 0.2, "{floor}");
@@ -127,9 +131,7 @@ fn blocks_without_contact_sink_through_the_floor() {
 }
 
 /// What is solid in the scene of all.
-const SOLIDS: [&str; 7] = [
-    "log", "stone", "crate", "pad", "mat", "brick", "lid",
-];
+const SOLIDS: [&str; 7] = ["log", "stone", "crate", "pad", "mat", "brick", "lid"];
 
 /// A tank with a shelf above the water. In it float a rigid log and an elastic mat, sink a rigid stone and an elastic pad, falls
 /// a rigid crate onto the log, and lie a rigid brick and an elastic lid, dry, on the shelf.
@@ -204,14 +206,32 @@ fn all_hold(end: f64) {
     let ledger = simulation.ledger();
     let weight = ledger.whole.mass * G * end;
     let [x, y] = simulation.wall_impulse("tank").unwrap();
-    let lacks = [ledger.whole.momentum[0] + x, ledger.whole.momentum[1] + y + weight];
-    println!("momentum {:?}, lacks {lacks:?} of {weight}", ledger.whole.momentum);
-    assert!(lacks.iter().all(|lacks| lacks.abs() < 1e-10 * weight), "{lacks:?}");
+    let lacks = [
+        ledger.whole.momentum[0] + x,
+        ledger.whole.momentum[1] + y + weight,
+    ];
+    println!(
+        "momentum {:?}, lacks {lacks:?} of {weight}",
+        ledger.whole.momentum
+    );
+    assert!(
+        lacks.iter().all(|lacks| lacks.abs() < 1e-10 * weight),
+        "{lacks:?}"
+    );
     for contact in simulation.contacts() {
         let [first, second] = &contact.bodies;
         if contact.largest_penetration > 0.0 || contact.pairs > 0 {
-            let Contact { pairs, stored, heat, work, largest_penetration, .. } = &contact;
-            println!("{first} and {second}: {pairs} pairs, stored {stored:.3e}, heat {heat:.3e}, work {work:.3?}, deepest {largest_penetration:.3}");
+            let Contact {
+                pairs,
+                stored,
+                heat,
+                work,
+                largest_penetration,
+                ..
+            } = &contact;
+            println!(
+                "{first} and {second}: {pairs} pairs, stored {stored:.3e}, heat {heat:.3e}, work {work:.3?}, deepest {largest_penetration:.3}"
+            );
         }
     }
     assert_eq!(simulation.particles(), particles);
@@ -225,7 +245,11 @@ fn all_hold(end: f64) {
     for body in SOLIDS {
         println!("{body} at {} spacings", lowest(&simulation, body));
     }
-    println!("{} steps, {:?}", simulation.steps(), simulation.indicators().verdict());
+    println!(
+        "{} steps, {:?}",
+        simulation.steps(),
+        simulation.indicators().verdict()
+    );
 }
 
 #[test]

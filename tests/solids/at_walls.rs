@@ -182,7 +182,11 @@ fn blocks_rub_on_walls_as_coulomb_has_it() {
         let [[x, _], [u, _]] = middle(&simulation);
         let heat = simulation.contacts()[0].heat;
         println!("slope {tangent}, mu {mu}, v {v}, belt {belt}: {x}, {u}, heat {heat}");
-        ([x - before[0][0], u - before[1][0]], before[1][0], simulation)
+        (
+            [x - before[0][0], u - before[1][0]],
+            before[1][0],
+            simulation,
+        )
     };
     // It sticks.
     let ([x, u], ..) = slides(0.4, 0.45, 0.0, 0.0, 0.3);
@@ -221,7 +225,11 @@ impl meshfree::boundary::Motion<2> for Tilts {
         // It begins to turn gently.
         let begin = 0.2;
         let (angle, rate, growth) = if time < begin {
-            (0.5 * self.0 / begin * time * time, self.0 / begin * time, self.0 / begin)
+            (
+                0.5 * self.0 / begin * time * time,
+                self.0 / begin * time,
+                self.0 / begin,
+            )
         } else {
             (self.0 * (time - 0.5 * begin), self.0, 0.0)
         };
@@ -259,7 +267,11 @@ fn a_floor_tilts_until_friction_gives_way() {
     // The slope is 0.3 at an angle of 0.2915, after 0.829 s.
     let gives_way = 0.3_f64.atan() / -rate + 0.1;
     let [early, late] = [at(gives_way - 0.05) - at(0.1), at(1.1) - at(0.1)];
-    println!("slips by {} spacings before and {} after", early / DX, late / DX);
+    println!(
+        "slips by {} spacings before and {} after",
+        early / DX,
+        late / DX
+    );
     assert!(early.abs() < 0.05 * DX, "{}", early / DX);
     assert!(late > 0.2 * DX, "{}", late / DX);
 }
@@ -293,14 +305,27 @@ fn blocks_slide_across_a_period() {
         let impulse = simulation.wall_impulse("floor").unwrap()[1] - before;
         let borne = -impulse / (weight * (simulation.time() - 0.2));
         let speed = ledger.momentum[0] / ledger.mass;
-        let sides: Vec<_> = simulation.body("block").unwrap().map(|p| p.position()).collect();
-        println!("{name}: bears {borne}, at least {least}, speed {speed}, {:?}", sides[0]);
+        let sides: Vec<_> = simulation
+            .body("block")
+            .unwrap()
+            .map(|p| p.position())
+            .collect();
+        println!(
+            "{name}: bears {borne}, at least {least}, speed {speed}, {:?}",
+            sides[0]
+        );
         assert!((borne - 1.0).abs() < 0.01, "{name}: {borne}");
         assert!((speed - 1.0).abs() < 1e-3, "{name}: {speed}");
         // It has gone 2 m, three periods and a third.
         let x = (0.3 + 0.01 + 2.0) % period;
-        assert!((sides[0][0] - x).abs() < 0.05 * DX, "{name}: {:?} {x}", sides[0]);
-        let far = sides.iter().filter(|x| x[0] < -1e-9 || x[0] > period + 1e-9);
+        assert!(
+            (sides[0][0] - x).abs() < 0.05 * DX,
+            "{name}: {:?} {x}",
+            sides[0]
+        );
+        let far = sides
+            .iter()
+            .filter(|x| x[0] < -1e-9 || x[0] > period + 1e-9);
         assert_eq!(far.count(), 0, "{name}");
     }
 }
@@ -326,14 +351,23 @@ fn a_shaken_box_works_on_what_is_in_it() {
     let [x, y] = simulation.wall_impulse("tank").unwrap();
     let weight = ledger.mass * G * (simulation.time() - 0.05);
     assert!((ledger.momentum[0] + x).abs() < 1e-12 * weight, "{x}");
-    assert!((ledger.momentum[1] + y + weight).abs() < 1e-6 * weight, "{y}");
+    assert!(
+        (ledger.momentum[1] + y + weight).abs() < 1e-6 * weight,
+        "{y}"
+    );
     let contact = &simulation.contacts()[0];
     // The block lies where it lay, so that gravity has given nothing.
     let kept = ledger.kinetic + contact.stored + contact.heat + contact.work[1];
     println!("{contact:?}, kinetic {}, kept {kept}", ledger.kinetic);
-    assert!(contact.work[1] < -1.0 && kept.abs() < 0.02 * contact.heat, "{kept}");
+    assert!(
+        contact.work[1] < -1.0 && kept.abs() < 0.02 * contact.heat,
+        "{kept}"
+    );
     let energy = simulation.energy().unwrap();
-    assert!((energy.wall_work / -contact.work[1] - 1.0).abs() < 1e-9, "{energy:?}");
+    assert!(
+        (energy.wall_work / -contact.work[1] - 1.0).abs() < 1e-9,
+        "{energy:?}"
+    );
 }
 
 /// What passes an outlet leaves as a whole, and what it was is counted.
@@ -403,7 +437,10 @@ fn contact_with_walls_is_named() {
     );
     let inside = rigid(0.0, -0.01).wall(floor(-8, 20));
     let inside = problems(inside.couple("block", "floor", Penalty::new()));
-    assert!(matches!(inside[..], [Problem::Overlap { .. }]), "{inside:?}");
+    assert!(
+        matches!(inside[..], [Problem::Overlap { .. }]),
+        "{inside:?}"
+    );
     // A plane turns images; walls of particles do instead.
     one(
         rigid(0.0, 0.04).boundary(MirrorPlane::wall([0.0; 2], [0.0, -1.0])),
