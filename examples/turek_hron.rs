@@ -297,6 +297,9 @@ impl Case {
             )
             .wall(Wall::of("channel", walls.collect(), dx).no_slip())
             .wall(self.cylinder())
+            // It stands on the cylinder and does not reach the channel.
+            .between("beam", "channel", Interaction::None)
+            .between("beam", "cylinder", Interaction::None)
             .boundary(Periodic::along(0, low, high))
             .load(relax.on("water"))
             .fix("beam", |[x, _]| *x < ROOT + 1e-6)

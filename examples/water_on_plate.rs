@@ -126,6 +126,8 @@ impl Case {
             .group(schemes::total_lagrangian().with(NeoHookean), [self.plate()])
             .wall(tank)
             .fix("plate", move |[x, _]| !(edge..WATER[0] - edge).contains(x))
+            // It lies below the walls.
+            .between("plate", "tank", Interaction::None)
             .load(Load::acceleration(move |at| at.velocity.map(|v| -drag * v)).on("water"))
             .load(Load::acceleration(move |at| at.velocity.map(|v| -10.0 * drag * v)).on("plate"))
             .sub_cycle("plate", self.steps)

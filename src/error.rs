@@ -85,6 +85,21 @@ pub enum Problem {
         /// Recommended.
         recommended: f64,
     },
+    /// A body that nothing is said of to a wall of particles.
+    #[error(
+        "body `{body}` of the scheme {scheme} meets wall `{wall}`, which is made of particles, by contact only, and the scene does \
+         not say which: write `.couple(\"{body}\", \"{wall}\", ContactDensity::new())`, with `.friction(mu)` behind `new()` where \
+         it rubs (Penalty in place of ContactDensity for a body that is less than two particles thick), or \
+         `.between(\"{body}\", \"{wall}\", Interaction::None)` if they never meet"
+    )]
+    ContactNotNamed {
+        /// The body.
+        body: String,
+        /// Its scheme.
+        scheme: String,
+        /// The wall.
+        wall: String,
+    },
     /// A particle that a density relative to rest cannot measure.
     #[error(
         "particle {particle} of body `{body}` at {position:?} m has no neighbour that the kernel reaches ({reach} m), \

@@ -75,14 +75,14 @@ pub struct CoupledParticle<T, const D: usize> {
     pub position: [T; D],
     /// Velocity \[m/s\].
     pub velocity: [T; D],
-    /// Mass \[kg\].
+    /// Mass \[kg\]; infinite of a wall of particles, which no force moves.
     pub mass: T,
-    /// Density \[kg/m³\].
+    /// Density \[kg/m³\]; infinite of a wall of particles.
     pub density: T,
     /// Spacing of its body as built \[m\].
     pub spacing: T,
     /// Stiffness \[Pa\] of what lies between the two bodies: the harmonic mean of the ρc² of both as built, which is
-    /// the same for particles of both.
+    /// the same for particles of both. Before a wall of particles, which does not yield, it is twice that of the body.
     pub stiffness: T,
     /// What [`Coupling::gather`] has summed over the particles of the other side.
     pub sum: T,
@@ -109,6 +109,14 @@ impl<T: Real, const D: usize> CoupledPair<T, D> {
     /// From the second to the first \[m\].
     pub fn apart(&self) -> [T; D] {
         core::array::from_fn(|d| self.on.position[d] - self.from.position[d])
+    }
+    /// The reduced mass m₁m₂/(m₁ + m₂) \[kg\]; before a wall that of the first.
+    pub fn reduced_mass(&self) -> T {
+        if self.from.mass.to_f64().is_infinite() {
+            self.on.mass
+        } else {
+            self.on.mass * self.from.mass / (self.on.mass + self.from.mass)
+        }
     }
     /// Half the sum of both spacings \[m\].
     pub fn spacing(&self) -> T {

@@ -117,8 +117,7 @@ impl<T: Real, const D: usize> Coupling<T, D> for Penalty {
         );
         let mut pressing = k * depth;
         if self.damping > 0.0 {
-            let mass = pair.on.mass * pair.from.mass / (pair.on.mass + pair.from.mass);
-            let c = T::from_f64(2.0 * self.damping) * (k * mass).sqrt();
+            let c = T::from_f64(2.0 * self.damping) * (k * pair.reduced_mass()).sqrt();
             let part = |d: usize| (pair.on.velocity[d] - pair.from.velocity[d]) * normal[d];
             pressing -= c * (0..D).map(part).sum::<T>();
         }

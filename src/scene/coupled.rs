@@ -4,7 +4,7 @@
 use super::{Body, Coupled, Part, Scene};
 use crate::coupling::{Coupling, LiquidStructure};
 use crate::scalar::Real;
-use crate::simulation::{Acting, Couple, PairList, SubCycle};
+use crate::simulation::{Acting, Couple, MetWall, PairList, Side, SubCycle};
 use crate::sweep::Interaction;
 use std::sync::Arc;
 
@@ -49,34 +49,55 @@ impl<T: Real, const D: usize> Scene<T, D> {
         })
     }
 
+    /// The number of a wall of particles.
+    pub(super) fn wall_number(&self, name: &str) -> Option<usize> {
+        self.walls.iter().position(|wall| wall.name == name)
+    }
+
+    /// What a coupling by forces names, with its scene index, its spacing \[m\] and where its particles are as built \[m\].
+    pub(super) fn side_of(&self, name: &str) -> Option<(Side<D>, usize, f64, Vec<[f64; D]>)> {
+        if let Some((group, body)) = self.place_of(name) {
+            let before = self.parts[..group].iter().map(|part| part.bodies.len());
+            let index = before.sum::<usize>() + body;
+            let own = &self.parts[group].bodies[body];
+            let side = Side::Body { group, body };
+            return Some((side, index, own.spacing, own.points.clone()));
+        }
+        let number = self.wall_number(name)?;
+        let wall = &self.walls[number];
+        let met = MetWall {
+            name: wall.name.clone(),
+            rest: wall.points.clone(),
+            spacing: wall.spacing,
+            motion: wall.motion.clone(),
+            sliding: wall.sliding,
+        };
+        let index = self.bodies().count() + number;
+        let built = met.places(0.0);
+        Some((Side::Wall(Arc::new(met)), index, wall.spacing, built))
+    }
+
     /// What acts by forces between particles.
     pub(super) fn couples(&self) -> Vec<Couple<T, D>> {
         let couple = |own: &Coupled<T, D>| {
-            let sides = [self.place_of(&own.first)?, self.place_of(&own.second)?];
-            let body = |(group, body): (usize, usize)| &self.parts[group].bodies[body];
-            let reach = own.coupling.reach(sides.map(|side| body(side).spacing));
-            let before = |(group, body)| -> usize {
-                self.parts[..group]
-                    .iter()
-                    .map(|part| part.bodies.len())
-                    .sum::<usize>()
-                    + body
-            };
+            let sides = [self.side_of(&own.first)?, self.side_of(&own.second)?];
+            let reach = own.coupling.reach(sides.each_ref().map(|side| side.2));
             let by_reference = own.exclusion > 0.0 || own.coupling.as_built();
-            let reference = |side| -> Vec<[f64; D]> {
+            let indices = sides.each_ref().map(|side| side.1);
+            let reference = sides.each_ref().map(|side| {
                 if by_reference {
-                    body(side).points.clone()
+                    side.3.clone()
                 } else {
                     Vec::new()
                 }
-            };
+            });
             (reach > 0.0).then(|| Couple {
                 coupling: own.coupling.clone(),
-                sides,
-                indices: sides.map(before),
+                sides: sides.map(|side| side.0),
+                indices,
                 reach,
                 exclusion: own.exclusion,
-                reference: sides.map(reference),
+                reference,
                 stiffness: f64::NAN,
                 acting: Acting::default(),
                 work: [0.0; 2],

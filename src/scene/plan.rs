@@ -51,7 +51,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         let part = &self.parts[number];
         let is_liquid = |part: &Part<T, D>| part.scheme.meets_walls();
         let mut walls = Vec::new();
-        // Walls without a liquid are the fault of the scene's own scheme.
+        // Without a liquid they stand in the first group, which does not feel them.
         if is_liquid(part) || (number == 0 && !self.parts.iter().any(is_liquid)) {
             let own = self.walls.iter().enumerate();
             walls.extend(own.map(|(k, wall)| (wall.clone(), Origin::Wall(k))));
@@ -370,8 +370,10 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             return self.liquid_interactions();
         }
         let (bodies, boundaries) = (self.bodies.len(), self.scene.boundaries.len());
-        let blocks = bodies * (1 + boundaries);
-        // Boundaries feel nothing, so their rows name no contact that a scene would pay for.
+        let direct = bodies + self.walls.len();
+        let blocks = direct * (1 + boundaries);
+        // Solids meet walls of particles by couplings. Boundaries feel nothing, so their rows name no contact that a scene
+        // would pay for.
         let mut all = vec![Interaction::None; blocks * blocks];
         for body in 0..bodies {
             all[body * blocks..body * blocks + bodies].fill(self.scheme.between);
@@ -398,7 +400,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             for (body, of) in (0..bodies).flat_map(|body| (0..bodies).map(move |of| (body, of))) {
                 // Bodies do across a period or a plane of symmetry what they do to each other.
                 let own = all[body * blocks + of];
-                all[body * blocks + bodies + of * boundaries + k] = match boundary.interaction() {
+                all[body * blocks + direct + of * boundaries + k] = match boundary.interaction() {
                     Interaction::Bonded => own,
                     _ if own == Interaction::None => own,
                     other => other,

@@ -2,16 +2,14 @@
 //! Pairs act in the order of the numbers of their particles, so results do not depend on threads or on lists.
 
 use super::Simulation;
-use super::couplings::coupled_particle;
 use super::group::Group;
 use super::group::shared_with_image;
 use super::pair_images::velocity;
 use super::pair_list::PairList;
-use super::population::Particles;
+use super::side::{Side, carry};
 use crate::boundary::Boundary;
 use crate::coupling::{CoupledPair, Coupling};
 use crate::error::{Error, Problem, Result};
-use crate::parallel::largest;
 use crate::particles::Field;
 use crate::scalar::Real;
 use crate::tensor::Vector;
@@ -22,12 +20,13 @@ const SKIN: f64 = 0.4;
 /// Distance in spacings that a pair has at least, as far as its approach is concerned.
 const NEAREST: f64 = 0.5;
 
-/// Two bodies, or a body and itself, that act on each other by forces between their particles.
+/// Two bodies, a body and itself, or a body and a wall of particles, that act on each other by forces between their
+/// particles.
 #[derive(Clone, Debug)]
 pub(crate) struct Couple<T: Real, const D: usize> {
     pub coupling: Arc<dyn Coupling<T, D>>,
-    /// The group and the body there, of both sides.
-    pub sides: [(usize, usize); 2],
+    /// A body, and a body or a wall.
+    pub sides: [Side<D>; 2],
     /// Their scene indices.
     pub indices: [usize; 2],
     /// How near particles act on each other \[m\].
@@ -36,7 +35,7 @@ pub(crate) struct Couple<T: Real, const D: usize> {
     pub exclusion: f64,
     /// Where particles are as built \[m\], where pairs are chosen by that.
     pub reference: [Vec<[f64; D]>; 2],
-    /// The harmonic mean of ρc² of both bodies \[Pa\]; no number before the first evaluation.
+    /// The harmonic mean of ρc² of both sides \[Pa\]; no number before the first evaluation.
     pub stiffness: f64,
     /// What the last evaluation has left.
     pub acting: Acting<T, D>,
@@ -64,8 +63,10 @@ pub(crate) struct Acting<T, const D: usize> {
     pub penetration: [f64; 2],
     /// Pairs that act.
     pub pairs: usize,
-    /// The force \[N\] of boundaries on both sides, by images, boundary by boundary.
+    /// The force \[N\] of boundaries on both sides, by images, boundary by boundary; images of a wall count as the wall.
     pub images: [Vec<[f64; D]>; 2],
+    /// When it was \[s\].
+    pub time: f64,
 }
 
 impl<T, const D: usize> Default for Acting<T, D> {
@@ -80,6 +81,7 @@ impl<T, const D: usize> Default for Acting<T, D> {
             penetration: [0.0; 2],
             pairs: 0,
             images: [Vec::new(), Vec::new()],
+            time: f64::NAN,
         }
     }
 }
@@ -89,7 +91,7 @@ impl<T, const D: usize> Default for Acting<T, D> {
 pub struct Contact {
     /// The name of the coupling.
     pub name: &'static str,
-    /// The bodies; a body that meets itself is there twice.
+    /// The bodies; a body that meets itself is there twice, and a wall second.
     pub bodies: [String; 2],
     /// Pairs that act.
     pub pairs: usize,
@@ -99,7 +101,8 @@ pub struct Contact {
     pub stored: f64,
     /// Heat of friction since the start \[J\].
     pub heat: f64,
-    /// What it has worked on both bodies since the start \[J\].
+    /// What it has worked on both since the start \[J\]; what a wall that moves has worked on the body is the opposite of
+    /// the second.
     pub work: [f64; 2],
     /// How much nearer than a mean spacing the nearest pair is, in spacings; zero if none is nearer.
     pub penetration: f64,
@@ -113,10 +116,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub fn contacts(&self) -> Vec<Contact> {
         let contact = |own: &Couple<T, D>| Contact {
             name: own.coupling.name(),
-            bodies: own.sides.map(|(group, body)| {
-                let bodies = &self.groups[group].particles.bodies;
-                bodies[body].name.clone()
-            }),
+            bodies: (own.sides.each_ref()).map(|side| side.name(&self.groups).to_owned()),
             pairs: own.acting.pairs,
             force: own.acting.force.to_vec(),
             stored: own.acting.stored,
@@ -165,46 +165,42 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 impl<T: Real, const D: usize> Couple<T, D> {
     /// Whether it is of a body with itself.
     pub fn is_self(&self) -> bool {
-        self.sides[0] == self.sides[1]
-    }
-
-    /// The number of particles that a body has had.
-    fn count(&self, side: usize, groups: &[Group<T, D>]) -> usize {
-        let (group, body) = self.sides[side];
-        groups[group].particles.bodies[body].ids.len()
-    }
-
-    /// The slot of a particle of a side, if it is there.
-    fn slot(&self, side: usize, id: u32, groups: &[Group<T, D>]) -> Option<usize> {
-        let (group, body) = self.sides[side];
-        let particles = &groups[group].particles;
-        let slot = particles.slot_of[particles.bodies[body].ids.start + id as usize];
-        (slot != u32::MAX).then_some(slot as usize)
+        let [first, second] = self.sides.each_ref().map(Side::body);
+        first == second
     }
 
     fn spacing(&self, groups: &[Group<T, D>]) -> f64 {
-        let [first, second] = self
-            .sides
-            .map(|(group, body)| groups[group].particles.bodies[body].spacing);
+        let [first, second] = self.sides.each_ref().map(|side| side.spacing(groups));
         0.5 * (first + second)
     }
 
     fn work_in_kick(&self, side: usize, groups: &[Group<T, D>], dt: f64) -> f64 {
-        let group = &groups[self.sides[side].0];
-        let columns = &group.particles.columns;
-        let (mass, v) = (columns.raw(Field::MASS), columns.vectors(Field::VELOCITY));
         let mut work = 0.0;
-        for &(id, force) in &self.acting.forces[side] {
-            let Some(slot) = self.slot(side, id, groups) else {
-                continue;
-            };
-            for d in 0..D {
-                // Where a group sub-cycles, the kick is that of couplings alone.
-                let a = group.sub_cycle.as_ref().map_or_else(
-                    || group.work.acceleration(mass, slot * D + d),
-                    |apart| apart.forces[slot][d] / mass[slot],
-                );
-                work += force[d].to_f64() * (v[slot][d].to_f64() + 0.5 * dt * a.to_f64());
+        match &self.sides[side] {
+            Side::Body { group, .. } => {
+                let group = &groups[*group];
+                let columns = &group.particles.columns;
+                let (mass, v) = (columns.raw(Field::MASS), columns.vectors(Field::VELOCITY));
+                for &(id, force) in &self.acting.forces[side] {
+                    let Some((_, slot)) = self.sides[side].slot(id, groups) else {
+                        continue;
+                    };
+                    for d in 0..D {
+                        // Where a group sub-cycles, the kick is that of couplings alone.
+                        let a = group.sub_cycle.as_ref().map_or_else(
+                            || group.work.acceleration(mass, slot * D + d),
+                            |apart| apart.forces[slot][d] / mass[slot],
+                        );
+                        work += force[d].to_f64() * (v[slot][d].to_f64() + 0.5 * dt * a.to_f64());
+                    }
+                }
+            }
+            Side::Wall(wall) => {
+                let pose = wall.pose(self.acting.time);
+                for &(id, force) in &self.acting.forces[side] {
+                    let v = wall.velocity(&pose, id as usize);
+                    work += (0..D).map(|d| force[d].to_f64() * v[d]).sum::<f64>();
+                }
             }
         }
         dt * work
@@ -213,27 +209,33 @@ impl<T: Real, const D: usize> Couple<T, D> {
     /// Forces between all pairs within reach, on the groups of both sides.
     fn act(&mut self, groups: &mut [Group<T, D>], approach: f64, time: f64) {
         if self.stiffness.is_nan() {
-            let [a, b] = self
-                .sides
-                .map(|(group, body)| stiffness_of(&groups[group].particles, body));
+            let [a, b] = self.sides.each_ref().map(|side| side.stiffness(groups));
             self.stiffness = 2.0 / (1.0 / a + 1.0 / b);
         }
         if !self.list_serves(groups, time) {
             self.list(groups, time);
         }
-        let boundaries = &groups[self.sides[0].0].boundaries;
+        let boundaries = &groups[0].boundaries;
         let boundary_count = boundaries.len();
         self.list.images.place(boundaries, time);
         let spacing = self.spacing(groups);
         let mut list = core::mem::take(&mut self.list);
-        self.see(&mut list, groups);
+        self.see(&mut list, groups, time);
         let as_built = self.coupling.as_built();
         let reach = if as_built { f64::INFINITY } else { self.reach };
         let gap = |x: &[T; D], y: &[T; D]| -> f64 {
             let square = (0..D).map(|d| (x[d].to_f64() - y[d].to_f64()).powi(2));
             square.sum::<f64>().sqrt()
         };
+        let is_self = self.is_self();
+        let with_wall = self.sides[1].is_wall();
         let acting = &mut self.acting;
+        if let Side::Wall(wall) = &self.sides[1]
+            && let Some(carried) = wall.carries([acting.time, time])
+        {
+            carry(&mut acting.anchors, carried);
+        }
+        acting.time = time;
         acting.stored = 0.0;
         if self.coupling.gathers() {
             for &[a, b] in &list.pairs {
@@ -284,6 +286,7 @@ impl<T: Real, const D: usize> Couple<T, D> {
         list.forces.clear();
         list.forces.resize(list.rows.len(), [T::zero(); D]);
         list.anchors.clear();
+        let second = usize::from(!is_self);
         let mut before = acting.anchors.iter().peekable();
         for &[a, b] in &list.pairs {
             let [on, from] = [a, b].map(|row| list.particles[row as usize]);
@@ -292,7 +295,6 @@ impl<T: Real, const D: usize> Couple<T, D> {
                 continue;
             }
             let numbers = [a, b].map(|row| list.rows[row as usize]);
-            let second = usize::from(self.sides[0] != self.sides[1]);
             let ids =
                 [(0, numbers[0]), (second, numbers[1])].map(|(side, id)| list.images.key(side, id));
             let chains = [a, b].map(|row| list.image_rows[row as usize].map(|own| own[1] as usize));
@@ -302,7 +304,7 @@ impl<T: Real, const D: usize> Couple<T, D> {
                 before.next();
             }
             let rest = if as_built {
-                let at = |side: usize| list.listed[side.min(second)][numbers[side] as usize];
+                let at = |side: usize| list.listed[side.min(second)].places[numbers[side] as usize];
                 (0..D)
                     .map(|d| (at(0)[d] - at(1)[d]).powi(2))
                     .sum::<f64>()
@@ -337,6 +339,9 @@ impl<T: Real, const D: usize> Couple<T, D> {
             for d in 0..D {
                 match chains {
                     [None, None] => acting.force[d] += force[d],
+                    [None, Some(_)] if with_wall => acting.force[d] += force[d],
+                    // The other half of the pair has an image of the wall.
+                    [Some(_), _] if with_wall => {}
                     [None, Some(chain)] => {
                         let (mutual, given) = part(chain);
                         acting.force[d] += mutual[d];
@@ -368,7 +373,7 @@ impl<T: Real, const D: usize> Couple<T, D> {
         }
         core::mem::swap(&mut acting.anchors, &mut list.anchors);
         acting.penetration[1] = acting.penetration[1].max(acting.penetration[0]);
-        if self.sides[0] == self.sides[1] {
+        if is_self {
             acting.force = [0.0; D];
         }
         self.list = list;
@@ -387,29 +392,25 @@ impl<T: Real, const D: usize> Couple<T, D> {
             if image || force.iter().all(|force| *force == T::zero()) {
                 continue;
             }
-            if let Some(slot) = self.slot(side, id, groups) {
-                groups[self.sides[side].0].push(slot, force);
-                self.acting.forces[side].push((id, force));
+            if let Some((group, slot)) = self.sides[side].slot(id, groups) {
+                groups[group].push(slot, force);
+            } else if !self.sides[side].is_wall() {
+                continue;
             }
+            self.acting.forces[side].push((id, force));
         }
     }
 
     /// Reads the particles of all rows.
-    fn see(&self, list: &mut PairList<T, D>, groups: &[Group<T, D>]) {
-        let spacings = self
-            .sides
-            .map(|(group, body)| T::from_f64(groups[group].particles.bodies[body].spacing));
+    fn see(&self, list: &mut PairList<T, D>, groups: &[Group<T, D>], time: f64) {
+        let poses = self.sides.each_ref().map(|side| side.pose(time));
         let stiffness = T::from_f64(self.stiffness);
         list.particles.clear();
         for (row, &id) in list.rows.iter().enumerate() {
             let side = usize::from(row >= list.split);
-            let columns = &groups[self.sides[side].0].particles.columns;
-            let mut particle = coupled_particle(columns, 0, spacings[side]);
             let (id, chain) = list.images.source(side, id);
-            match self.slot(side, id, groups) {
-                Some(slot) => particle = coupled_particle(columns, slot, spacings[side]),
-                None => particle.position = [T::from_f64(f64::NAN); D],
-            }
+            let own = (&poses[side], &list.listed[side]);
+            let mut particle = self.sides[side].see(id, own.0, own.1, groups);
             if let Some(chain) = chain {
                 let own = &list.images.transforms[chain];
                 particle.position = own.point(&particle.position);
@@ -422,35 +423,18 @@ impl<T: Real, const D: usize> Couple<T, D> {
 
     /// Whether no particle has moved so far that the list could miss a pair.
     fn list_serves(&self, groups: &[Group<T, D>], time: f64) -> bool {
-        if self.list.listed[0].is_empty() {
+        if self.list.listed[0].places.is_empty() {
             return false;
         }
         if self.coupling.as_built() {
             return true;
         }
-        let moved = |side: usize| {
-            let (group, body) = self.sides[side];
-            let particles = &groups[group].particles;
-            let body = &particles.bodies[body];
-            let x = particles.columns.vectors(Field::POSITION);
-            let listed = &self.list.listed[side];
-            let far = |slot: usize| {
-                let before = &listed[particles.ids[slot] as usize - body.ids.start];
-                let square = (0..D).map(|d| (x[slot][d].to_f64() - before[d]).powi(2));
-                let square = square.sum::<f64>();
-                // One that was not there has come from anywhere.
-                if square.is_nan() {
-                    f64::INFINITY
-                } else {
-                    square
-                }
-            };
-            largest(body.slots.clone(), far).sqrt()
-        };
+        let times = [self.list.time, time];
+        let moved = |side: usize| self.sides[side].gone(&self.list.listed[side], groups, times);
         let first = moved(0);
         let second = if self.is_self() { first } else { moved(1) };
-        let boundaries: &[Arc<dyn Boundary<T, D>>] = &groups[self.sides[0].0].boundaries;
-        let carried = self.list.images.carried(boundaries, [self.list.time, time]);
+        let boundaries: &[Arc<dyn Boundary<T, D>>] = &groups[0].boundaries;
+        let carried = self.list.images.carried(boundaries, times);
         first + second + carried <= self.list.skin
     }
 
@@ -463,26 +447,17 @@ impl<T: Real, const D: usize> Couple<T, D> {
         let reach = self.reach + if as_built { 0.0 } else { skin };
         // Images of places as built are those of the scene as built.
         list.time = if as_built { 0.0 } else { time };
-        let boundaries = &groups[self.sides[0].0].boundaries;
+        let boundaries = &groups[0].boundaries;
         list.images.clear();
         for side in 0..if self.is_self() { 1 } else { 2 } {
             let listed = &mut list.listed[side];
-            listed.clear();
             if as_built {
-                listed.extend_from_slice(&self.reference[side]);
-                list.images.add(side, listed, boundaries, reach, list.time);
-                continue;
+                listed.places.clone_from(&self.reference[side]);
+            } else {
+                self.sides[side].list(listed, groups, time);
             }
-            listed.resize(self.count(side, groups), [f64::NAN; D]);
-            let (group, body) = self.sides[side];
-            let particles = &groups[group].particles;
-            let body = &particles.bodies[body];
-            for slot in body.slots.clone() {
-                let id = particles.ids[slot] as usize - body.ids.start;
-                let x = particles.columns.vectors(Field::POSITION)[slot];
-                listed[id] = x.map(Real::to_f64);
-            }
-            list.images.add(side, listed, boundaries, reach, time);
+            let places = &mut listed.places;
+            list.images.add(side, places, boundaries, reach, list.time);
         }
         list.find(self.is_self(), reach);
         if self.is_self() && self.exclusion > 0.0 {
@@ -505,14 +480,4 @@ impl<T: Real, const D: usize> Couple<T, D> {
         list.number(self.is_self());
         self.list = list;
     }
-}
-
-/// The largest ρc² of a body \[Pa\].
-fn stiffness_of<T: Real, const D: usize>(particles: &Particles<T, D>, body: usize) -> f64 {
-    let columns = &particles.columns;
-    let (rho, c) = (columns.raw(Field::DENSITY), columns.raw(Field::SOUND_SPEED));
-    let own = particles.bodies[body].slots.clone();
-    own.fold(0.0, |most: f64, slot| {
-        most.max(rho[slot].to_f64() * c[slot].to_f64().powi(2))
-    })
 }

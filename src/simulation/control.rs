@@ -212,7 +212,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
         for couple in &self.couples {
             if couple.acting.step < all.step {
-                let [(group, body), _] = couple.sides;
+                let (group, body) = couple.sides[0].body().unwrap_or_default();
                 let group = &self.groups[group];
                 all = Vote {
                     step: couple.acting.step,

@@ -2,6 +2,8 @@
 //! Kept on request, because summing momentum in every kick is not free.
 
 use super::Simulation;
+use super::contact::Couple;
+use super::side::Side;
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::sweep::Results;
@@ -145,6 +147,26 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
     }
 
+    /// Power \[W\] of walls on solids by contact: of all that they move by, or of what slides beside that alone.
+    fn contact_power(&self, whole: bool) -> f64 {
+        let of = |couple: &Couple<T, D>| {
+            let Side::Wall(wall) = &couple.sides[1] else {
+                return 0.0;
+            };
+            let pose = wall.pose(couple.acting.time);
+            let power = couple.acting.forces[1].iter().map(|(id, force)| {
+                let v = if whole {
+                    wall.velocity(&pose, *id as usize)
+                } else {
+                    wall.sliding
+                };
+                (0..D).map(|d| -force[d].to_f64() * v[d]).sum::<f64>()
+            });
+            power.sum()
+        };
+        self.couples.iter().map(of).sum()
+    }
+
     /// Power \[W\] of the walls on the bodies with the forces at hand.
     fn wall_power(&self) -> f64 {
         let moving = || {
@@ -152,7 +174,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             walls.filter_map(|(k, wall)| wall.motion.as_ref().map(|motion| (k, motion)))
         };
         if moving().next().is_none() {
-            return 0.0;
+            return self.contact_power(false);
         }
         // Kicks begin and end a step; the pose of the last evaluation is that of the forces.
         let time = self.evaluated;
@@ -161,15 +183,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             (0..D).all(|d| length(&turning.column(d).into_owned()) == 0.0)
         });
         if rigid {
-            return moving()
-                .map(|(k, motion)| {
-                    let v = motion.pose(time).shift[1];
-                    let force = self.force_on_wall(k);
-                    (0..D).map(|d| -force[d] * v[d]).sum::<f64>()
-                })
-                .sum();
+            let carried = moving().map(|(k, motion)| {
+                let v = motion.pose(time).shift[1];
+                let force = self.force_on_wall(k);
+                (0..D).map(|d| -force[d] * v[d]).sum::<f64>()
+            });
+            return carried.sum::<f64>() + self.contact_power(false);
         }
-        let mut power = 0.0;
+        let mut power = self.contact_power(true);
         for group in &self.groups {
             let mut rows = Results::default();
             group.sum_on_walls(

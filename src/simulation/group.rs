@@ -272,9 +272,14 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.neighborhood.served = 0;
         self.neighborhood.listed_time = time;
         self.work.first_kick = None;
+        self.held
+            .note_periods(&self.particles, &self.boundaries, time);
         self.particles
             .wrap(&self.boundaries, &self.scheme.program, time);
-        let removed = self.particles.remove(&self.outlets);
+        let held = &self.held;
+        let removed = self
+            .particles
+            .remove(&self.outlets, |body| held.is_rigid(body));
         self.work.rates.permute(&removed);
         let sort = self.neighborhood.wants_sort();
         let reach = self.neighborhood.reach(&self.particles);

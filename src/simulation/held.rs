@@ -7,7 +7,7 @@ use super::forces::Forces;
 use super::group::Group;
 use super::population::Particles;
 use super::workspace::Workspace;
-use crate::boundary::Motion;
+use crate::boundary::{Boundary, Motion};
 use crate::particles::Field;
 use crate::scalar::Real;
 use nalgebra::{Matrix3, SymmetricEigen, UnitQuaternion, Vector3};
@@ -63,6 +63,8 @@ pub(crate) struct Rigid<const D: usize> {
     pub centre: [f64; D],
     /// From principal axes to space.
     pub turn: UnitQuaternion<f64>,
+    /// What periods have brought its particles back by \[m\], by number; the centre goes on.
+    pub back: Vec<[f64; D]>,
 }
 
 /// How a clamp stands.
@@ -150,6 +152,31 @@ impl<const D: usize> Rigid<D> {
             inertia: moments,
             centre,
             turn,
+            back: vec![[0.0; D]; points.len()],
+        }
+    }
+
+    /// Takes note of what periods are about to bring back at `time` \[s\].
+    fn note_periods<T: Real>(
+        &mut self,
+        particles: &Particles<T, D>,
+        boundaries: &[Arc<dyn Boundary<T, D>>],
+        time: f64,
+    ) {
+        for (id, back) in self.back.iter_mut().enumerate() {
+            let slots = particles.slots_of(self.body, id as u32);
+            if slots.is_empty() {
+                continue;
+            }
+            let mut x = particles.columns.vectors(Field::POSITION)[slots.start];
+            for boundary in boundaries {
+                if let Some(through) = boundary.wrap(&x, time) {
+                    x = through.point(&x);
+                    for d in 0..D {
+                        back[d] += through.shift[d].to_f64();
+                    }
+                }
+            }
         }
     }
 
@@ -244,9 +271,10 @@ impl<const D: usize> Rigid<D> {
                 ]);
                 for d in 0..D {
                     let k = slot * D + d;
-                    x[k] = T::from_f64(at[d]);
+                    let at = at[d] + self.back[id][d];
+                    x[k] = T::from_f64(at);
                     if let Some(residual) = residual.get_mut(k) {
-                        *residual = T::from_f64(at[d] - x[k].to_f64());
+                        *residual = T::from_f64(at - x[k].to_f64());
                     }
                     velocity[k] = T::from_f64(speed[d]);
                 }
@@ -319,6 +347,26 @@ impl<const D: usize> Held<D> {
                 }
             }
         }
+    }
+
+    /// Lets rigid bodies know what periods are about to bring back of them at `time` \[s\].
+    pub fn note_periods<T: Real>(
+        &mut self,
+        particles: &Particles<T, D>,
+        boundaries: &[Arc<dyn Boundary<T, D>>],
+        time: f64,
+    ) {
+        if boundaries.is_empty() {
+            return;
+        }
+        for own in &mut self.rigid {
+            own.note_periods(particles, boundaries, time);
+        }
+    }
+
+    /// Whether a body of the group leaves as a whole, or not at all.
+    pub fn is_rigid(&self, body: usize) -> bool {
+        self.rigid.iter().any(|own| own.body == body)
     }
 
     /// Moves rigid bodies over `dt` \[s\] as such.

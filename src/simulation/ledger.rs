@@ -220,11 +220,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             value,
         };
         for couple in &self.couples {
-            for ((group, _), (index, work)) in
+            for (side, (index, work)) in
                 (couple.sides.iter()).zip(couple.indices.into_iter().zip(couple.work))
             {
+                let Some((group, _)) = side.body() else {
+                    continue;
+                };
                 // A group that sub-cycles has the work of all of its couplings.
-                if self.groups[*group].sub_cycle.is_none() {
+                if self.groups[group].sub_cycle.is_none() {
                     let total = of_couplings("work of couplings", work);
                     bodies[index].1.add_total(&total);
                 }

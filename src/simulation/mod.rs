@@ -169,6 +169,7 @@ mod reference;
 mod run;
 mod settle;
 mod shown;
+mod side;
 mod snapshot;
 mod soundness;
 mod spin;
@@ -214,6 +215,7 @@ pub(crate) use pair_list::PairList;
 pub use population::Removed;
 pub(crate) use population::{BodyState, Particles};
 pub(crate) use spin::Spins;
+pub(crate) use side::{MetWall, Side};
 pub(crate) use sub_cycle::SubCycle;
 pub(crate) use walls::WallState;
 

@@ -2,6 +2,7 @@
 //! A list serves until both sides together have moved by its skin.
 
 use super::pair_images::PairImages;
+use super::side::Listed;
 use crate::coupling::CoupledParticle;
 use crate::neighbors::Cells;
 use crate::scalar::Real;
@@ -14,8 +15,8 @@ pub(crate) struct PairList<T: Real, const D: usize> {
     pub split: usize,
     /// Pairs of rows, in the order of the particles' numbers.
     pub pairs: Vec<[u32; 2]>,
-    /// Where all particles of both bodies were \[m\], by number; empty before the first list.
-    pub listed: [Vec<[f64; D]>; 2],
+    /// Where all particles of both sides were \[m\], by number, and then their images; empty before the first list.
+    pub listed: [Listed<D>; 2],
     /// How far both sides together may move before it is made anew \[m\].
     pub skin: f64,
     pub particles: Vec<CoupledParticle<T, D>>,
@@ -38,7 +39,7 @@ impl<T: Real, const D: usize> Default for PairList<T, D> {
             rows: Vec::new(),
             split: 0,
             pairs: Vec::new(),
-            listed: [Vec::new(), Vec::new()],
+            listed: [Listed::default(), Listed::default()],
             skin: 0.0,
             particles: Vec::new(),
             forces: Vec::new(),
@@ -76,6 +77,7 @@ impl<T: Real, const D: usize> PairList<T, D> {
             images,
             ..
         } = self;
+        let listed = listed.each_ref().map(|own| own.places.as_slice());
         found.clear();
         let [first, second] = [0, usize::from(!is_self)].map(|side| images.counts[side] as u32);
         let other = usize::from(!is_self);
@@ -85,7 +87,7 @@ impl<T: Real, const D: usize> PairList<T, D> {
             let there = |id: &u32| !listed[0][*id as usize][0].is_nan();
             near[0].extend(all(0).filter(there));
         } else {
-            let boxes = [0, 1].map(|side| extent(&listed[side], all(side)));
+            let boxes = [0, 1].map(|side| extent(listed[side], all(side)));
             // Bodies that are far from each other may come nearer by all of their gap.
             let gap = (0..D)
                 .map(|d| (boxes[1][0][d] - boxes[0][1][d]).max(boxes[0][0][d] - boxes[1][1][d]));
@@ -104,7 +106,7 @@ impl<T: Real, const D: usize> PairList<T, D> {
         if near[0].is_empty() || near[other].is_empty() {
             return;
         }
-        let cells = Cells::build(&listed[other], &near[other], reach);
+        let cells = Cells::build(listed[other], &near[other], reach);
         for &a in &near[0] {
             let x = listed[0][a as usize];
             cells.for_each_run(x.map(|x| x - reach), x.map(|x| x + reach), |run| {
@@ -142,7 +144,7 @@ impl<T: Real, const D: usize> PairList<T, D> {
         let sides: &[&[usize]] = if is_self { &[&[0, 1]] } else { &[&[0], &[1]] };
         for (side, places) in sides.iter().enumerate() {
             row_of.clear();
-            row_of.resize(listed[side].len(), u32::MAX);
+            row_of.resize(listed[side].places.len(), u32::MAX);
             for pair in &*found {
                 for &place in *places {
                     row_of[pair[place] as usize] = 0;

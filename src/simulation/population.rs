@@ -292,9 +292,10 @@ impl<T: Real, const D: usize> Particles<T, D> {
         self.reorder(order, walls.map(|(slots, _)| slots))
     }
 
-    /// Takes out what outlets take; the slots behind the last particle of a body repeat it. The order, as that of [`Moves`].
+    /// Takes out what outlets take; the slots behind the last particle of a body repeat it. What is `whole` leaves when they
+    /// take all of it. The order, as that of [`Moves`].
     #[must_use]
-    pub fn remove(&mut self, outlets: &[Outlet<D>]) -> Vec<u32> {
+    pub fn remove(&mut self, outlets: &[Outlet<D>], whole: impl Fn(usize) -> bool) -> Vec<u32> {
         if outlets.is_empty() {
             return Vec::new();
         }
@@ -303,10 +304,17 @@ impl<T: Real, const D: usize> Particles<T, D> {
         for k in 0..self.bodies.len() {
             let (slots, end) = (self.bodies[k].slots.clone(), self.bodies[k].end);
             let mut kept = slots.start;
+            let state = |columns: &Columns<T, D>, slot: usize| {
+                [Field::POSITION, Field::VELOCITY]
+                    .map(|field| columns.vectors(field)[slot].map(Real::to_f64))
+            };
+            let leaves = |[x, v]: [[f64; D]; 2]| outlets.iter().any(|own| own.takes(&x, &v));
+            if whole(k) && !slots.clone().all(|slot| leaves(state(&self.columns, slot))) {
+                continue;
+            }
             for slot in slots.clone() {
-                let x = self.columns.vectors(Field::POSITION)[slot].map(Real::to_f64);
-                let v = self.columns.vectors(Field::VELOCITY)[slot].map(Real::to_f64);
-                if !outlets.iter().any(|outlet| outlet.takes(&x, &v)) {
+                let [x, v] = state(&self.columns, slot);
+                if !leaves([x, v]) {
                     order[kept] = slot as u32;
                     kept += 1;
                     continue;

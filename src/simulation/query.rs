@@ -4,6 +4,7 @@
 use super::Simulation;
 use super::group::Group;
 use super::population::{BodyState, Removed};
+use super::side::Side;
 use super::walls::WallState;
 use super::which::{Which, find};
 use crate::boundary::Pose;
@@ -329,7 +330,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// The force \[N\] of the bodies on every wall particle at the last evaluation, with its position
     /// \[m\]: the forces on the bodies with the opposite sign. A sweep over the walls, when asked for.
-    /// Structures are walls to the liquids of a scene.
+    /// Structures are walls to the liquids of a scene; what solids press on walls by contact comes after.
     #[must_use]
     pub fn wall_particle_forces(&self) -> Vec<([f64; D], [f64; D])> {
         let mut rows = Results::default();
@@ -344,6 +345,16 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 let force = rows.vector(Output::FORCE, slot);
                 forces.push((x.map(Real::to_f64), force.map(Real::to_f64)));
             }
+        }
+        for couple in &self.couples {
+            let Side::Wall(wall) = &couple.sides[1] else {
+                continue;
+            };
+            let pose = wall.pose(couple.acting.time);
+            forces.extend(couple.acting.forces[1].iter().map(|(id, force)| {
+                let x = pose.of(0, &wall.rest[*id as usize]);
+                (x, force.map(Real::to_f64))
+            }));
         }
         forces
     }

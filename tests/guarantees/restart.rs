@@ -408,6 +408,8 @@ fn liquid_wall_elastic_and_plastic_bodies_go_on() {
             .fix("plate", |[x, _]| !(0.0..0.1).contains(x))
             .couple("plate", "block", ContactDensity::new())
             .between("water", "block", Interaction::None)
+            .between("plate", "tank", Interaction::None)
+            .between("block", "tank", Interaction::None)
             .sub_cycle("plate", 8)
             .acceleration(|_| [0.0, -9.81])
     };

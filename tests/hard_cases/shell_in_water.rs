@@ -86,6 +86,7 @@ fn sheet(thick: usize, young: f64, most: u32, alpha: f64) -> Found {
         .fix("sheet", |[_, y]| *y < 2.0 * DX)
         .sub_cycle("sheet", most)
         .between("left", "right", Interaction::None)
+        .between("sheet", "tank", Interaction::None)
         .acceleration(move |_| down);
     let mut own = scene.varied().build().expect("a scene");
     let end = lasting(0.4);

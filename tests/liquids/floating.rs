@@ -2,6 +2,7 @@
 //! The box is a wall to the water, and the water's forces move it as one.
 
 use meshfree::boundary::Wall;
+use meshfree::coupling::ContactDensity;
 use meshfree::material::Material;
 use meshfree::material::catalogue;
 use meshfree::material::eos::Linear;
@@ -59,6 +60,7 @@ fn a_box_floats_at_the_draught_of_archimedes() {
             .group(schemes::impact_by_continuity(), [floats])
             .wall(Wall::of("tank", tank, dx))
             .rigid("box")
+            .couple("box", "tank", ContactDensity::new())
             .acceleration(|_| [0.0, -9.81])
             .build()
             .unwrap();

@@ -45,6 +45,7 @@ pub(super) fn scene() -> Scene<f64, 2> {
         .group(schemes::total_lagrangian().with(NeoHookean), [plate])
         .wall(tank)
         .fix("plate", |[x, _]| !(0.0..LENGTH).contains(x))
+        .between("plate", "tank", Interaction::None)
         .sub_cycle("plate", 32)
         .acceleration(|_| [0.0, -GRAVITY])
 }
@@ -135,6 +136,7 @@ fn stiff(spread: bool) -> (f64, f64) {
         .group(schemes::total_lagrangian().with(NeoHookean), [body])
         .wall(tank)
         .fix("plate", |[x, _]| !(0.0..LENGTH).contains(x))
+        .between("plate", "tank", Interaction::None)
         .sub_cycle("plate", 128)
         .acceleration(move |_| [0.0, -gravity]);
     let scene = if spread {

@@ -5,7 +5,7 @@ use super::TOO_CLOSE;
 use crate::error::Problem;
 use crate::neighbors::Cells;
 use crate::scalar::Real;
-use crate::scene::{Body, Part, Scene};
+use crate::scene::{Body, Coupled, Part, Scene};
 use crate::sweep::Interaction;
 
 impl<T: Real, const D: usize> Scene<T, D> {
@@ -74,6 +74,11 @@ impl<T: Real, const D: usize> Scene<T, D> {
                     value,
                     must_be,
                 });
+            }
+            let walls = [&own.first, &own.second].map(|name| self.wall_number(name).is_some());
+            if walls.contains(&true) {
+                self.check_reach_to_wall(own, problems);
+                continue;
             }
             let sides = [&own.first, &own.second].map(|body| self.known_place(body, problems));
             let [Some(first), Some(second)] = sides else {
@@ -147,28 +152,49 @@ impl<T: Real, const D: usize> Scene<T, D> {
         }
     }
 
-    /// Bodies of different groups that are coupled by forces and start in each other.
+    /// The reach of a coupling with a wall of particles.
+    fn check_reach_to_wall(&self, own: &Coupled<T, D>, problems: &mut Vec<Problem>) {
+        let sides = [&own.first, &own.second].map(|name| self.side_of(name).map(|side| side.2));
+        let [Some(first), Some(second)] = sides else {
+            for name in [&own.first, &own.second] {
+                if self.wall_number(name).is_none() {
+                    self.known_place(name, problems);
+                }
+            }
+            return;
+        };
+        let reach = own.coupling.reach([first, second]);
+        if !(reach.is_finite() && reach > 0.0) && !own.coupling.is_wall() {
+            problems.push(Problem::Parameter {
+                what: format!("reach of the coupling {}", own.coupling.name()),
+                value: reach,
+                must_be: "it must be finite and positive, in metres: contact with a wall of particles is by forces",
+            });
+        }
+    }
+
+    /// Bodies of different groups, or a body and a wall, that are coupled by forces and start in each other.
     pub(super) fn check_coupled_places(&self, problems: &mut Vec<Problem>) {
         for own in &self.couplings {
             let sides = [&own.first, &own.second].map(|body| self.place_of(body));
-            let [Some(first), Some(second)] = sides else {
-                continue;
-            };
-            // Bodies of one group are looked at with it, and walls with their liquid.
-            if first.0 == second.0 || own.coupling.is_wall() {
+            // Bodies of one group are looked at with it, and walls of liquids with these.
+            let [first, second] = sides.map(|place| place.map(|(group, _)| group));
+            if first == second || own.coupling.is_wall() {
                 continue;
             }
-            let [first, second] =
-                [first, second].map(|(group, body)| &self.parts[group].bodies[body]);
-            let spacing = 0.5 * (first.spacing + second.spacing);
+            let sides = [&own.first, &own.second].map(|name| self.side_of(name));
+            let [Some((.., near, own_points)), Some((.., far, points))] = sides else {
+                continue;
+            };
+            let spacing = 0.5 * (near + far);
             let reach = TOO_CLOSE * spacing;
-            let all: Vec<u32> = (0..second.points.len() as u32).collect();
-            let cells = Cells::build(&second.points, &all, reach);
+            let all: Vec<u32> = (0..points.len() as u32).collect();
+            let cells = Cells::build(&points, &all, reach);
             let mut nearest = (reach * reach, None);
-            for x in &first.points {
+            for x in &own_points {
                 cells.for_each_run(x.map(|x| x - reach), x.map(|x| x + reach), |run| {
                     for &other in run {
-                        let y = &second.points[other as usize];
+                        let y = &points[other as usize];
                         let square = (0..D).map(|d| (x[d] - y[d]).powi(2)).sum::<f64>();
                         if square < nearest.0 {
                             nearest = (square, Some(*x));
@@ -178,8 +204,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
             }
             if let (square, Some(position)) = nearest {
                 problems.push(Problem::Overlap {
-                    first: first.name.clone(),
-                    second: second.name.clone(),
+                    first: own.first.clone(),
+                    second: own.second.clone(),
                     distance: square.sqrt(),
                     spacing,
                     position: position.to_vec(),

@@ -1,9 +1,20 @@
 //! What can be wrong with clamps and rigid bodies.
 //! They are of bodies that there are, hold something, and are solids.
 
+use crate::boundary::Boundary;
 use crate::error::Problem;
 use crate::scalar::Real;
 use crate::scene::Scene;
+use crate::tensor::{Matrix, Vector};
+
+/// Whether the images of a boundary are shifted by what does not change, and are no more.
+fn shifts<T: Real, const D: usize>(boundary: &dyn Boundary<T, D>) -> bool {
+    let images = (0..boundary.images()).map(|k| boundary.transform(k, 0.0));
+    let mut shifts = images.map(|own| {
+        own.rotation == Matrix::<T, D>::identity() && own.velocity == Vector::<T, D>::zeros()
+    });
+    !boundary.moves() && shifts.all(|shifts| shifts)
+}
 
 impl<T: Real, const D: usize> Scene<T, D> {
     pub(super) fn check_held(&self, problems: &mut Vec<Problem>) {
@@ -56,12 +67,14 @@ impl<T: Real, const D: usize> Scene<T, D> {
                     "take KickDriftKick",
                 );
             }
-            if !self.boundaries.is_empty() || !self.outlets.is_empty() {
+            if let Some(boundary) = self.boundaries.iter().find(|own| !shifts(&***own)) {
                 incompatible(
                     format!(
-                        "body `{body}` is rigid in a scene with boundaries or outlets, which it cannot cross"
+                        "body `{body}` is rigid in a scene with the boundary {}, whose images turn or move otherwise than it",
+                        boundary.name()
                     ),
-                    "bound the scene by walls of particles",
+                    "bound the scene by walls of particles (Scene::wall), which it meets by a contact that Scene::couple \
+                     names, or leave Scene::rigid out and give it an elastic material",
                 );
             }
         }

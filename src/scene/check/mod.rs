@@ -8,6 +8,7 @@ mod images;
 mod limits;
 mod memory;
 mod scheme;
+mod solids_at_walls;
 mod thin;
 mod walls;
 
@@ -57,6 +58,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         self.check_factors(&mut problems);
         self.check_groups(&mut problems);
         self.check_couplings(&mut problems);
+        self.check_solids_at_walls(&mut problems);
         self.check_sub_cycles(&mut problems);
         self.check_spreading(&mut problems);
         self.check_held(&mut problems);
@@ -108,7 +110,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             .iter()
             .flat_map(|(first, second, _)| [first, second])
         {
-            if !self.bodies().any(|body| body.name == *name) {
+            if self.place_of(name).is_none() && self.wall_number(name).is_none() {
                 problems.push(self.unknown_body(name));
             }
         }

@@ -68,15 +68,6 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
     pub(super) fn check_walls(&self, problems: &mut Vec<Problem>) {
         let spacing = self.bodies.first().map_or(0.0, |body| body.spacing);
         for (k, (wall, origin)) in self.walls.iter().enumerate() {
-            if !self.scheme.meets_walls() {
-                problems.push(Problem::Incompatible {
-                    what: format!(
-                        "wall `{}` is made of particles, which the scheme {} does not see",
-                        wall.name, self.scheme.name
-                    ),
-                    remedy: "take a scheme of liquids (schemes::weakly_compressible), or a MirrorPlane",
-                });
-            }
             // The buffers of inlets, which are numbered after the walls, face nothing.
             if self.scheme.program.wall_normals
                 && matches!(origin, Origin::Wall(k) if *k < self.scene.walls.len())
@@ -103,9 +94,10 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                     remedy: "leave out density_with_rates, or Wall::no_slip",
                 });
             }
-            let names = self.bodies.iter().map(|body| &body.name);
+            let names = self.scene.bodies().map(|body| &body.name);
             let earlier = self.walls[..k].iter().map(|(wall, _)| &wall.name);
-            if names.chain(earlier).any(|name| *name == wall.name) {
+            let named = matches!(origin, Origin::Wall(_));
+            if named && names.chain(earlier).any(|name| *name == wall.name) {
                 problems.push(Problem::Incompatible {
                     what: format!("two bodies or walls are called `{}`", wall.name),
                     remedy: "give every body and wall a name of its own",
@@ -130,7 +122,11 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             }
             // A lattice that is fitted to a box is stretched by less than half a particle in a row.
             let off = wall.spacing - spacing;
-            let fine = matches!(origin, Origin::Structure(..)) && off < 0.0;
+            let fine = match origin {
+                Origin::Structure(..) => off < 0.0,
+                // What no liquid meets may have any spacing.
+                Origin::Wall(_) => !self.scheme.meets_walls() && wall.spacing > 0.0,
+            };
             if off.is_nan() || (off.abs() > 0.1 * spacing && !fine) {
                 let must_be = match origin {
                     Origin::Wall(_) => "it must be that of the liquid: fill both on one lattice",
@@ -167,6 +163,9 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         let Some(spacing) = self.bodies.first().map(|body| body.spacing) else {
             return;
         };
+        if !self.scheme.meets_walls() {
+            return;
+        }
         let liquid: Vec<[f64; D]> = self
             .bodies
             .iter()

@@ -30,10 +30,11 @@ impl<T: Real, const D: usize> Couple<T, D> {
             penetration: [now, most],
             pairs,
             images,
+            time,
         } = acting;
         file.put(format!("{name}/force"), 1, force);
         let numbers = [
-            *step, *stiffness, work[0], work[1], *stored, *heat, *now, *most,
+            *step, *stiffness, work[0], work[1], *stored, *heat, *now, *most, *time,
         ];
         file.put(format!("{name}/numbers"), 1, numbers);
         file.put_one(format!("{name}/pairs"), *pairs as u64);
@@ -56,8 +57,17 @@ impl<T: Real, const D: usize> Couple<T, D> {
             let numbers = file.get_all_reals::<T>(&of(what), count * D)?;
             Ok(numbers.as_chunks::<D>().0.to_vec())
         };
-        let [step, stiffness, first, second, stored, heat, now, most] =
-            file.get_array(&of("numbers"))?;
+        let [
+            step,
+            stiffness,
+            first,
+            second,
+            stored,
+            heat,
+            now,
+            most,
+            evaluated,
+        ] = file.get_array(&of("numbers"))?;
         (self.stiffness, self.work) = (stiffness, [first, second]);
         let mut forces = [Vec::new(), Vec::new()];
         for (side, own) in forces.iter_mut().enumerate() {
@@ -83,6 +93,7 @@ impl<T: Real, const D: usize> Couple<T, D> {
             penetration: [now, most],
             pairs: file.get_one::<u64>(&of("pairs"))? as usize,
             images,
+            time: evaluated,
         };
         Ok(())
     }

@@ -39,9 +39,11 @@ pub(super) fn put_held<const D: usize>(held: &Held<D>, name: &str, file: &mut Ch
             inertia: _,
             centre,
             turn,
+            back,
         } = own;
         file.put(format!("{name}/rigid{k}/centre"), 1, centre);
         file.put(format!("{name}/rigid{k}/turn"), 1, turn.coords.as_slice());
+        file.put(format!("{name}/rigid{k}/back"), D, back.as_flattened());
     }
     if let Some(Asleep {
         particles,
@@ -99,6 +101,9 @@ pub(super) fn take_held<const D: usize>(
         own.centre = file.get_array(&format!("{name}/rigid{k}/centre"))?;
         let turn: [f64; 4] = file.get_array(&format!("{name}/rigid{k}/turn"))?;
         own.turn = UnitQuaternion::new_unchecked(Quaternion::from_vector(turn.into()));
+        let back = file.get::<f64>(&format!("{name}/rigid{k}/back"))?;
+        own.back.clear();
+        own.back.extend_from_slice(back.as_chunks::<D>().0);
     }
     Ok(())
 }

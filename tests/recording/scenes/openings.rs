@@ -116,7 +116,9 @@ fn structures(scenes: &mut Scenes) {
     scenes.add("structure-beside-riemann-walls", 40, move || {
         let side = [[true, false], [false; 2]];
         let side = Wall::around("side", [0.0; 2], [0.2, 0.2], DX, 4, side);
-        drop_on_block::<f64>(weak().walls(RiemannWalls::default()), |block| block).wall(side)
+        drop_on_block::<f64>(weak().walls(RiemannWalls::default()), |block| block)
+            .wall(side)
+            .between("block", "side", Interaction::None)
     });
     scenes.add("structure-finer-than-liquid-in-space", 10, move || {
         let drop = Body::block("drop", water(), [0.0; 3], [0.05; 3], DX);
@@ -166,5 +168,7 @@ fn structures(scenes: &mut Scenes) {
             .body(drop)
             .group(schemes::impact(), [left, right])
             .wall(side.motion(Translation::steady([0.2, 0.0])))
+            .between("left", "side", Interaction::None)
+            .between("right", "side", Interaction::None)
     });
 }

@@ -1,0 +1,310 @@
+//! The sides of a coupling by forces: a body, or a wall of particles, which is the second.
+//! A wall is where its motion has it, whatever the liquids of a scene have made of its particles.
+
+use super::couplings::coupled_particle;
+use super::group::Group;
+use super::population::Particles;
+use crate::boundary::{Boundary, Motion, Pose};
+use crate::coupling::CoupledParticle;
+use crate::parallel::largest;
+use crate::particles::Field;
+use crate::scalar::Real;
+use crate::tensor::{Matrix, Vector};
+use std::sync::Arc;
+
+/// What takes part in a coupling by forces.
+#[derive(Clone, Debug)]
+pub(crate) enum Side<const D: usize> {
+    Body { group: usize, body: usize },
+    Wall(Arc<MetWall<D>>),
+}
+
+/// A wall of particles that bodies meet by a coupling.
+#[derive(Clone, Debug)]
+pub(crate) struct MetWall<const D: usize> {
+    pub name: String,
+    /// Where its particles are as built \[m\], by number.
+    pub rest: Vec<[f64; D]>,
+    pub spacing: f64,
+    pub motion: Option<Arc<dyn Motion<D>>>,
+    /// Velocity of its surface beside its motion \[m/s\].
+    pub sliding: [f64; D],
+}
+
+impl<const D: usize> MetWall<D> {
+    /// Where it is at `time` \[s\].
+    pub fn pose(&self, time: f64) -> Pose<D> {
+        let motion = self.motion.as_ref();
+        motion.map_or_else(Pose::rest, |motion| motion.pose(time))
+    }
+
+    /// Where its particles are at `time` \[m\].
+    pub fn places(&self, time: f64) -> Vec<[f64; D]> {
+        let pose = self.pose(time);
+        self.rest.iter().map(|x| pose.of(0, x)).collect()
+    }
+
+    /// The velocity of its surface \[m/s\] at one of its particles.
+    pub fn velocity(&self, pose: &Pose<D>, id: usize) -> [f64; D] {
+        let v = pose.of(1, &self.rest[id]);
+        core::array::from_fn(|d| v[d] + self.sliding[d])
+    }
+
+    /// The farthest that any of its particles has gone between two times \[m\]: that of a corner of the box around them,
+    /// because a pose is affine.
+    fn gone(&self, times: [f64; 2]) -> f64 {
+        if self.motion.is_none() {
+            return 0.0;
+        }
+        let start = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
+        let [low, high] = self.rest.iter().fold(start, |[low, high], x| {
+            [
+                core::array::from_fn(|d| low[d].min(x[d])),
+                core::array::from_fn(|d| high[d].max(x[d])),
+            ]
+        });
+        let poses = times.map(|time| self.pose(time));
+        let corners = (0..1_usize << D).map(|corner| {
+            let x = core::array::from_fn(|d| {
+                if corner >> d & 1 == 0 {
+                    low[d]
+                } else {
+                    high[d]
+                }
+            });
+            let [then, now] = poses.each_ref().map(|pose| pose.of(0, &x));
+            (0..D).map(|d| (now[d] - then[d]).powi(2)).sum::<f64>()
+        });
+        corners.fold(0.0, f64::max).sqrt()
+    }
+
+    /// What brings places on its surface, seen from it, from one time to another \[s\]: they turn with it, and are carried
+    /// by what slides. None where nothing moves.
+    pub fn carries(&self, [then, now]: [f64; 2]) -> Option<(Matrix<f64, D>, [f64; D])> {
+        let slides = self.sliding.iter().any(|v| *v != 0.0);
+        if then == now || !then.is_finite() || (self.motion.is_none() && !slides) {
+            return None;
+        }
+        let [before, after] = [then, now].map(|time| self.pose(time).linear[0]);
+        let turn = if before == after {
+            Matrix::identity()
+        } else {
+            after * inverse(&before)
+        };
+        Some((turn, self.sliding.map(|v| v * (now - then))))
+    }
+}
+
+/// The inverse of a matrix of up to three rows; the unit matrix where there is none.
+fn inverse<const D: usize>(matrix: &Matrix<f64, D>) -> Matrix<f64, D> {
+    let mut all = nalgebra::Matrix3::identity();
+    for a in 0..D {
+        for b in 0..D {
+            all[(a, b)] = matrix[(a, b)];
+        }
+    }
+    let all = all
+        .try_inverse()
+        .unwrap_or_else(nalgebra::Matrix3::identity);
+    Matrix::from_fn(|a, b| all[(a, b)])
+}
+
+/// Where particles of a side were listed, and what they have been shifted by since they came back through periods.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Listed<const D: usize> {
+    pub places: Vec<[f64; D]>,
+    /// Of a wall: by how much boundaries had brought its particles back \[m\]; empty if by nothing.
+    pub back: Vec<[f64; D]>,
+}
+
+impl<const D: usize> Side<D> {
+    /// The group and the body there, if it is a body.
+    pub fn body(&self) -> Option<(usize, usize)> {
+        match *self {
+            Self::Body { group, body } => Some((group, body)),
+            Self::Wall(_) => None,
+        }
+    }
+
+    pub fn is_wall(&self) -> bool {
+        matches!(self, Self::Wall(_))
+    }
+
+    pub fn name<'a, T: Real>(&'a self, groups: &'a [Group<T, D>]) -> &'a str {
+        match self {
+            Self::Body { group, body } => &groups[*group].particles.bodies[*body].name,
+            Self::Wall(wall) => &wall.name,
+        }
+    }
+
+    pub fn spacing<T: Real>(&self, groups: &[Group<T, D>]) -> f64 {
+        match self {
+            Self::Body { group, body } => groups[*group].particles.bodies[*body].spacing,
+            Self::Wall(wall) => wall.spacing,
+        }
+    }
+
+    /// The number of particles that it has had.
+    pub fn count<T: Real>(&self, groups: &[Group<T, D>]) -> usize {
+        match self {
+            Self::Body { group, body } => groups[*group].particles.bodies[*body].ids.len(),
+            Self::Wall(wall) => wall.rest.len(),
+        }
+    }
+
+    /// The group and the slot there of a particle of a body, if it is there.
+    pub fn slot<T: Real>(&self, id: u32, groups: &[Group<T, D>]) -> Option<(usize, usize)> {
+        let (group, body) = self.body()?;
+        let particles = &groups[group].particles;
+        let slot = particles.slot_of[particles.bodies[body].ids.start + id as usize];
+        (slot != u32::MAX).then_some((group, slot as usize))
+    }
+
+    /// The largest ρc² \[Pa\]; a wall does not yield.
+    pub fn stiffness<T: Real>(&self, groups: &[Group<T, D>]) -> f64 {
+        match self {
+            Self::Body { group, body } => stiffness_of(&groups[*group].particles, *body),
+            Self::Wall(_) => f64::INFINITY,
+        }
+    }
+
+    /// Lists where its particles are at `time` \[s\], by number; those that are not there are no number away.
+    pub fn list<T: Real>(&self, listed: &mut Listed<D>, groups: &[Group<T, D>], time: f64) {
+        listed.places.clear();
+        listed.back.clear();
+        match self {
+            Self::Body { group, body } => {
+                listed.places.resize(self.count(groups), [f64::NAN; D]);
+                let particles = &groups[*group].particles;
+                let body = &particles.bodies[*body];
+                for slot in body.slots.clone() {
+                    let id = particles.ids[slot] as usize - body.ids.start;
+                    let x = particles.columns.vectors(Field::POSITION)[slot];
+                    listed.places[id] = x.map(Real::to_f64);
+                }
+            }
+            Self::Wall(wall) => {
+                listed.places = wall.places(time);
+                listed.come_back(&groups[0].boundaries, time);
+            }
+        }
+    }
+
+    /// The farthest that a particle has gone since it was listed, at the first of two times \[s\], to the other \[m\].
+    pub fn gone<T: Real>(
+        &self,
+        listed: &Listed<D>,
+        groups: &[Group<T, D>],
+        times: [f64; 2],
+    ) -> f64 {
+        let (group, body) = match self {
+            Self::Body { group, body } => (*group, *body),
+            Self::Wall(wall) => return wall.gone(times),
+        };
+        let particles = &groups[group].particles;
+        let body = &particles.bodies[body];
+        let x = particles.columns.vectors(Field::POSITION);
+        let far = |slot: usize| {
+            let before = &listed.places[particles.ids[slot] as usize - body.ids.start];
+            let square = (0..D).map(|d| (x[slot][d].to_f64() - before[d]).powi(2));
+            let square = square.sum::<f64>();
+            // One that was not there has come from anywhere.
+            if square.is_nan() {
+                f64::INFINITY
+            } else {
+                square
+            }
+        };
+        largest(body.slots.clone(), far).sqrt()
+    }
+
+    /// Where it is at `time` \[s\], if it is a wall.
+    pub fn pose(&self, time: f64) -> Pose<D> {
+        match self {
+            Self::Body { .. } => Pose::rest(),
+            Self::Wall(wall) => wall.pose(time),
+        }
+    }
+
+    /// What couplings see of one of its particles, in a pose of its.
+    pub fn see<T: Real>(
+        &self,
+        id: u32,
+        pose: &Pose<D>,
+        listed: &Listed<D>,
+        groups: &[Group<T, D>],
+    ) -> CoupledParticle<T, D> {
+        let spacing = T::from_f64(self.spacing(groups));
+        match self {
+            Self::Body { group, .. } => {
+                let columns = &groups[*group].particles.columns;
+                match self.slot(id, groups) {
+                    Some((_, slot)) => coupled_particle(columns, slot, spacing),
+                    None => CoupledParticle {
+                        position: [T::from_f64(f64::NAN); D],
+                        ..coupled_particle(columns, 0, spacing)
+                    },
+                }
+            }
+            Self::Wall(wall) => {
+                let x = pose.of(0, &wall.rest[id as usize]);
+                let back = listed.back.get(id as usize).copied().unwrap_or([0.0; D]);
+                let infinite = T::from_f64(f64::INFINITY);
+                CoupledParticle {
+                    position: core::array::from_fn(|d| T::from_f64(x[d] + back[d])),
+                    velocity: wall.velocity(pose, id as usize).map(T::from_f64),
+                    mass: infinite,
+                    density: infinite,
+                    spacing,
+                    stiffness: T::zero(),
+                    sum: T::zero(),
+                    gradient: [T::zero(); D],
+                    pressure: T::zero(),
+                }
+            }
+        }
+    }
+}
+
+impl<const D: usize> Listed<D> {
+    /// Brings places of a wall back through periods, as boundaries bring back particles.
+    fn come_back<T: Real>(&mut self, boundaries: &[Arc<dyn Boundary<T, D>>], time: f64) {
+        let count = self.places.len();
+        for boundary in boundaries {
+            for (id, x) in self.places.iter_mut().enumerate() {
+                let Some(through) = boundary.wrap(&x.map(T::from_f64), time) else {
+                    continue;
+                };
+                if self.back.is_empty() {
+                    self.back = vec![[0.0; D]; count];
+                }
+                for d in 0..D {
+                    let shift = through.shift[d].to_f64();
+                    x[d] += shift;
+                    self.back[id][d] += shift;
+                }
+            }
+        }
+    }
+}
+
+/// The largest ρc² of a body \[Pa\].
+fn stiffness_of<T: Real, const D: usize>(particles: &Particles<T, D>, body: usize) -> f64 {
+    let columns = &particles.columns;
+    let (rho, c) = (columns.raw(Field::DENSITY), columns.raw(Field::SOUND_SPEED));
+    let own = particles.bodies[body].slots.clone();
+    own.fold(0.0, |most: f64, slot| {
+        most.max(rho[slot].to_f64() * c[slot].to_f64().powi(2))
+    })
+}
+
+/// Brings places that a wall remembers from one time to another.
+pub(super) fn carry<T: Real, const D: usize>(
+    places: &mut [([u32; 2], [T; D])],
+    (turn, shift): (Matrix<f64, D>, [f64; D]),
+) {
+    for (_, place) in places {
+        let turned = turn * Vector::from(place.map(Real::to_f64));
+        *place = core::array::from_fn(|d| T::from_f64(turned[d] + shift[d]));
+    }
+}
