@@ -219,9 +219,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let numbers = forces.flat_map(|(_, force)| force.iter().map(|f| f.to_f64()));
             let more = [own.acting.stored, own.acting.heat];
             if let Some(value) = numbers.chain(more).find(|x| !x.is_finite()) {
-                let [first, second] = own
-                    .sides
-                    .map(|(group, body)| self.groups[group].particles.bodies[body].name.as_str());
+                let [first, second] = own.sides.each_ref().map(|side| side.name(&self.groups));
                 return Err(Error::Function {
                     what: format!(
                         "coupling {} of `{first}` and `{second}`",

@@ -214,8 +214,8 @@ pub(crate) use held::{Clamp, Rigid};
 pub(crate) use pair_list::PairList;
 pub use population::Removed;
 pub(crate) use population::{BodyState, Particles};
-pub(crate) use spin::Spins;
 pub(crate) use side::{MetWall, Side};
+pub(crate) use spin::Spins;
 pub(crate) use sub_cycle::SubCycle;
 pub(crate) use walls::WallState;
 
@@ -225,9 +225,9 @@ use crate::once::once;
 #[cfg(feature = "checkpoint")]
 use crate::output::checkpoint::Hashes;
 use crate::scalar::Real;
-use kept::Kept;
 #[cfg(feature = "checkpoint")]
 use crate::scene::Described;
+use kept::Kept;
 use ledger::Impulses;
 use std::sync::Arc;
 use view::Shown;

@@ -130,6 +130,14 @@ impl<const D: usize> Side<D> {
         matches!(self, Self::Wall(_))
     }
 
+    /// Whether it is a wall whose surface moves.
+    pub fn moves(&self) -> bool {
+        let Self::Wall(wall) = self else {
+            return false;
+        };
+        wall.motion.is_some() || wall.sliding.iter().any(|v| *v != 0.0)
+    }
+
     pub fn name<'a, T: Real>(&'a self, groups: &'a [Group<T, D>]) -> &'a str {
         match self {
             Self::Body { group, body } => &groups[*group].particles.bodies[*body].name,

@@ -5,6 +5,7 @@ use super::Simulation;
 use super::contact::Couple;
 use super::group::Group;
 use super::population::BodyState;
+use super::side::Side;
 use super::stability::Seen;
 use crate::error::{Error, Result};
 use crate::output::table::significant;
@@ -330,9 +331,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         match self.couple_of(k) {
             None => names(&mut self.groups.iter().filter(|group| !has_energy(group))),
             Some(couple) => {
-                let [first, second] = couple
-                    .sides
-                    .map(|(group, body)| &self.groups[group].particles.bodies[body].name);
+                let [first, second] = couple.sides.each_ref().map(|side| side.name(&self.groups));
                 format!("{} of {first} and {second}", couple.coupling.name())
             }
         }
@@ -358,11 +357,16 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             return self.unsaid_of_group(group);
         }
         if let Some(couple) = self.couple_of(k) {
-            let apart = |(group, _): &(usize, usize)| self.groups[*group].sub_cycle.is_some();
+            let apart = |side: &Side<D>| {
+                let body = side.body();
+                body.is_some_and(|(group, _)| self.groups[group].sub_cycle.is_some())
+            };
             return if !couple.coupling.books_energy() {
                 Some("the coupling does not say what it stores")
             } else if couple.sides.iter().any(apart) {
                 Some("a side sub-cycles, and its work is booked with that of its other couplings")
+            } else if couple.sides.iter().any(Side::moves) {
+                Some("the work of a wall that moves is not booked")
             } else {
                 None
             };
@@ -419,7 +423,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             return Ok(sum);
         }
         if let Some(couple) = self.couple_of(k) {
-            for &(number, body) in &couple.sides {
+            for (number, body) in couple.sides.iter().filter_map(Side::body) {
                 let group = &self.groups[number];
                 let body = &group.particles.bodies[body];
                 for slot in body.slots.clone() {
@@ -455,7 +459,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     fn strongest(&self, couple: &Couple<T, D>) -> Option<(usize, usize)> {
         let mut found = (0.0, None);
         for (side, forces) in couple.acting.forces.iter().enumerate() {
-            let (number, body) = couple.sides[side];
+            let Some((number, body)) = couple.sides[side].body() else {
+                continue;
+            };
             let particles = &self.groups[number].particles;
             for (id, force) in forces {
                 let square: f64 = force.iter().map(|f| f.to_f64().powi(2)).sum();

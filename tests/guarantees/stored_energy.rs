@@ -3,8 +3,7 @@
 
 use meshfree::coupling::{ContactDensity, Penalty};
 use meshfree::effect::{
-    AcousticDamping, FiniteStrainPlasticity, Hypoelastic, NeoHookean, Plasticity,
-    StVenantKirchhoff,
+    AcousticDamping, FiniteStrainPlasticity, Hypoelastic, NeoHookean, Plasticity, StVenantKirchhoff,
 };
 use meshfree::material::eos::{IdealGas, Linear};
 use meshfree::material::{Liquid, Material, SoundSpeed};
@@ -70,8 +69,14 @@ fn equal_steps_of_an_undamped_plate_gain_nothing() {
     let neo_hookean = || schemes::total_lagrangian().with(NeoHookean);
     let kirchhoff = schemes::total_lagrangian().with(StVenantKirchhoff);
     for (name, largest) in [
-        ("neo-Hookean", sound("", plate::<f64>(neo_hookean(), 1.0), 1600)),
-        ("St Venant–Kirchhoff", sound("", plate::<f64>(kirchhoff, 1.0), 1600)),
+        (
+            "neo-Hookean",
+            sound("", plate::<f64>(neo_hookean(), 1.0), 1600),
+        ),
+        (
+            "St Venant–Kirchhoff",
+            sound("", plate::<f64>(kirchhoff, 1.0), 1600),
+        ),
         ("f32", sound("", plate::<f32>(neo_hookean(), 1.0), 1600)),
     ] {
         println!("{name}: {largest:e}");
@@ -102,10 +107,16 @@ fn alternating_steps_of_an_undamped_plate_are_stopped() {
     else {
         panic!("{error}");
     };
-    assert_eq!((part.as_str(), body.as_str(), limit), ("plate", "plate", 0.5));
+    assert_eq!(
+        (part.as_str(), body.as_str(), limit),
+        ("plate", "plate", 0.5)
+    );
     assert!(gain > 0.5 * supplied && gain < 5.0 * supplied);
     // Nothing but the start has supplied energy, and the ledger closes all the same.
-    assert!((supplied / before - 1.0).abs() < 1e-6, "{supplied} {before}");
+    assert!(
+        (supplied / before - 1.0).abs() < 1e-6,
+        "{supplied} {before}"
+    );
     let whole = now.ledger().whole;
     assert!((whole.total_energy() / before - 1.0).abs() < 1e-6);
     // The internal energy has been taken for what was stored, and is below zero.
@@ -135,8 +146,14 @@ fn the_verdict_comes_before_the_error_and_both_can_be_moved() {
     let own = report.stored_energy.clone().expect("a plate is checkable");
     assert!(own.value > 0.01 && own.value < 0.5, "{own:?}");
     assert!(report.verdict.failed.is_none());
-    let breach = report.verdict.breaches.iter().find(|own| own.measure == "stored energy");
-    let at = breach.and_then(|own| own.at.clone()).expect("it has a place");
+    let breach = report
+        .verdict
+        .breaches
+        .iter()
+        .find(|own| own.measure == "stored energy");
+    let at = breach
+        .and_then(|own| own.at.clone())
+        .expect("it has a place");
     assert!(at.body == "plate" && at.time <= now.time());
     // With other limits it has nothing to say, and the run is not stopped.
     let mut free = scene().build().unwrap();
@@ -174,7 +191,10 @@ fn what_a_load_works_is_supplied() {
     let own = balance(&now);
     let whole = now.ledger().whole;
     let supplied = whole.kinetic + whole.internal;
-    assert!(supplied > 0.0 && own.supplied >= 0.98 * supplied, "{own:?} {supplied}");
+    assert!(
+        supplied > 0.0 && own.supplied >= 0.98 * supplied,
+        "{own:?} {supplied}"
+    );
     assert!(own.largest < 0.01, "{own:?}");
 }
 
@@ -189,7 +209,11 @@ fn solids_contact_and_plastic_impact_are_not_blamed() {
     let yielding = || soft().with_yield_stress(2e4);
     let elastic = || schemes::total_lagrangian().with(NeoHookean);
     let hypoelastic = || schemes::impact_by_continuity().with(Hypoelastic);
-    sound("hypoelastic blocks", two(hypoelastic().into(), soft(), 2.0), 400);
+    sound(
+        "hypoelastic blocks",
+        two(hypoelastic().into(), soft(), 2.0),
+        400,
+    );
     sound(
         "plastic blocks",
         two(hypoelastic().with(Plasticity).into(), yielding(), 4.0),
@@ -232,7 +256,11 @@ fn liquids_and_gas_are_not_blamed() {
             .acceleration(|_| [0.0, -9.81])
     };
     sound("dam break", dam(water()), 800);
-    sound("dam break without tension", dam(water().with_pressure_cut_off(0.0)), 800);
+    sound(
+        "dam break without tension",
+        dam(water().with_pressure_cut_off(0.0)),
+        800,
+    );
     let gas = Material::<f64>::new("gas", IdealGas::new(1.4, 1.0));
     let block = |name, x: f64, v: f64| {
         let body = Body::block(name, gas.clone(), [x], [x + 1.0], 0.02);
@@ -247,10 +275,17 @@ fn liquids_and_gas_are_not_blamed() {
 #[test]
 fn what_cannot_be_said_is_said_not_to_be() {
     let rod = Body::block("rod", catalogue::copper(), [0.0], [0.01], 1e-3).velocity([10.0]);
-    let mut now = Scene::<f64, 1>::new(schemes::impact()).body(rod).build().unwrap();
+    let mut now = Scene::<f64, 1>::new(schemes::impact())
+        .body(rod)
+        .build()
+        .unwrap();
     now.step().unwrap();
     let stored = now.stored_energy();
     assert_eq!((stored.body("rod"), stored.largest()), (None, None));
     assert!(stored.to_string().contains("not checkable"), "{stored}");
-    assert!(now.stability().to_string().contains("gain of stored energy      not checkable"));
+    assert!(
+        now.stability()
+            .to_string()
+            .contains("gain of stored energy      not checkable")
+    );
 }
