@@ -138,7 +138,7 @@ pub struct StabilityReport {
     pub particles: usize,
     /// Least and largest density over that at rest.
     pub density: Option<[Extreme; 2]>,
-    /// Least and largest smoothing length over the first, where it varies.
+    /// Least and largest smoothing length over that with which the body started, where it varies.
     pub smoothing: Option<[Extreme; 2]>,
     /// Limits that were applied, by name, and evaluations in which an equation of state left its range.
     pub limits: Vec<(&'static str, u64)>,

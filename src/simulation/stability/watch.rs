@@ -205,9 +205,10 @@ impl<const D: usize> Watch<D> {
         for group in &simulation.groups {
             let rest = |body: usize| group.particles.bodies[body].material.reference_density();
             let density = extremes(&group.particles, Field::DENSITY, rest);
-            let lengths = extremes(&group.particles, Field::SMOOTHING_LENGTH, |_| {
-                group.neighborhood.smoothing_length
-            });
+            let first = |body: usize| {
+                group.scheme.h_over_dx() * group.particles.bodies[body].spacing
+            };
+            let lengths = extremes(&group.particles, Field::SMOOTHING_LENGTH, first);
             for (all, found) in [(&mut self.density, density), (&mut self.smoothing, lengths)] {
                 for (side, (value, slot)) in found.into_iter().enumerate() {
                     let sign = if side == 0 { 1.0 } else { -1.0 };
