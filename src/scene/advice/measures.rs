@@ -18,8 +18,13 @@ pub(super) struct Measures {
     pub gravity: f64,
     /// Largest uniform acceleration \[m/s²\], of loads and of the frames of walls.
     pub acceleration: f64,
+    /// Largest uniform acceleration along each axis \[m/s²\].
+    pub pull: Vec<f64>,
     /// Largest speed of a wall \[m/s\].
     pub walls: f64,
+    /// Along each axis: the largest speed \[m/s\] of each wall, and the longest way of any \[m\].
+    pub wall_speeds: Vec<Vec<f64>>,
+    pub wall_ways: Vec<f64>,
     /// Whether something stands still beside the bodies: walls or boundaries.
     pub at_rest: bool,
 }
@@ -27,6 +32,7 @@ pub(super) struct Measures {
 impl Measures {
     pub fn of<T: Real, const D: usize>(scene: &Scene<T, D>, end: f64, known: &Known) -> Self {
         let mut acceleration: f64 = 0.0;
+        let mut pull = vec![0.0_f64; D];
         for time in times(end) {
             let mut sum = [0.0; D];
             for own in &scene.accelerations {
@@ -34,21 +40,35 @@ impl Measures {
                 sum = core::array::from_fn(|d| sum[d] + a[d]);
             }
             acceleration = acceleration.max(norm(&sum));
+            for (own, sum) in pull.iter_mut().zip(sum) {
+                *own = own.max(sum.abs());
+            }
         }
         let mut walls: f64 = 0.0;
+        let (mut wall_speeds, mut wall_ways) = (vec![Vec::new(); D], vec![0.0_f64; D]);
         for wall in &scene.walls {
             walls = walls.max(norm(&wall.sliding));
             if let Some(motion) = &wall.motion {
                 let corners = corners(&wall.points);
                 walls = walls.max(fastest(&**motion, &corners, end, 1));
+                for axis in 0..D {
+                    let [way, speed] = along(&**motion, &corners, end, axis);
+                    wall_speeds[axis].push(speed);
+                    wall_ways[axis] = wall_ways[axis].max(way);
+                }
                 acceleration = acceleration.max(fastest(&**motion, &corners, end, 2));
+            } else {
+                wall_speeds.iter_mut().for_each(|own| own.push(0.0));
             }
         }
         Self {
             end,
             gravity: known.gravity,
             acceleration,
+            pull,
             walls,
+            wall_speeds,
+            wall_ways,
             at_rest: !(scene.walls.is_empty() && scene.boundaries.is_empty()),
         }
     }
@@ -72,6 +92,24 @@ pub(super) fn fastest<const D: usize>(
         speeds.fold(0.0, f64::max)
     };
     times(end).map(at).fold(0.0, f64::max)
+}
+
+/// The longest way \[m\] and the largest speed \[m/s\] along an axis that a motion gives some points, over a run to `end` \[s\].
+fn along<const D: usize>(
+    motion: &dyn Motion<D>,
+    points: &[[f64; D]],
+    end: f64,
+    axis: usize,
+) -> [f64; 2] {
+    let mut most = [0.0_f64; 2];
+    for time in times(end) {
+        let pose = motion.pose(time);
+        for x in points {
+            most[0] = most[0].max((pose.of(0, x)[axis] - x[axis]).abs());
+            most[1] = most[1].max(pose.of(1, x)[axis].abs());
+        }
+    }
+    most
 }
 
 /// How far a motion takes some points from where they were \[m\], at most.
