@@ -22,9 +22,8 @@ pub(super) struct Measures {
     pub pull: Vec<f64>,
     /// Largest speed of a wall \[m/s\].
     pub walls: f64,
-    /// Along each axis: the largest speed \[m/s\] of each wall, and the longest way of any \[m\].
-    pub wall_speeds: Vec<Vec<f64>>,
-    pub wall_ways: Vec<f64>,
+    /// Along each axis: the largest difference of the velocities \[m/s\] of two walls or solids, and of the ways \[m\] of two walls.
+    pub closing: Vec<[f64; 2]>,
     /// Whether something stands still beside the bodies: walls or boundaries.
     pub at_rest: bool,
 }
@@ -45,20 +44,11 @@ impl Measures {
             }
         }
         let mut walls: f64 = 0.0;
-        let (mut wall_speeds, mut wall_ways) = (vec![Vec::new(); D], vec![0.0_f64; D]);
         for wall in &scene.walls {
             walls = walls.max(norm(&wall.sliding));
             if let Some(motion) = &wall.motion {
                 let corners = corners(&wall.points);
                 walls = walls.max(fastest(&**motion, &corners, end, 1));
-                for axis in 0..D {
-                    let [way, speed] = along(&**motion, &corners, end, axis);
-                    wall_speeds[axis].push(speed);
-                    wall_ways[axis] = wall_ways[axis].max(way);
-                }
-                acceleration = acceleration.max(fastest(&**motion, &corners, end, 2));
-            } else {
-                wall_speeds.iter_mut().for_each(|own| own.push(0.0));
             }
         }
         Self {
@@ -67,8 +57,7 @@ impl Measures {
             acceleration,
             pull,
             walls,
-            wall_speeds,
-            wall_ways,
+            closing: (0..D).map(|axis| closing(scene, end, axis)).collect(),
             at_rest: !(scene.walls.is_empty() && scene.boundaries.is_empty()),
         }
     }
@@ -94,20 +83,38 @@ pub(super) fn fastest<const D: usize>(
     times(end).map(at).fold(0.0, f64::max)
 }
 
-/// The longest way \[m\] and the largest speed \[m/s\] along an axis that a motion gives some points, over a run to `end` \[s\].
-fn along<const D: usize>(
-    motion: &dyn Motion<D>,
-    points: &[[f64; D]],
-    end: f64,
-    axis: usize,
-) -> [f64; 2] {
+/// The largest difference along an axis of the velocities \[m/s\] of two walls at one time, or of walls and solids at the start, and
+/// of the ways \[m\] of two walls: each in the mean over its corners.
+fn closing<T: Real, const D: usize>(scene: &Scene<T, D>, end: f64, axis: usize) -> [f64; 2] {
+    let solids = scene.parts.iter().filter(|part| !part.scheme.meets_walls());
+    let solids = solids.flat_map(|part| &part.bodies);
+    let starts: Vec<f64> = solids.map(|body| velocity(body)[axis]).collect();
+    let walls: Vec<_> = (scene.walls.iter())
+        .map(|wall| (wall.motion.as_deref(), corners(&wall.points)))
+        .collect();
+    let range = |values: &mut dyn Iterator<Item = f64>| {
+        let none = [f64::INFINITY, f64::NEG_INFINITY];
+        let [low, high] = values.fold(none, |[a, b], v| [a.min(v), b.max(v)]);
+        (high - low).max(0.0)
+    };
     let mut most = [0.0_f64; 2];
     for time in times(end) {
-        let pose = motion.pose(time);
-        for x in points {
-            most[0] = most[0].max((pose.of(0, x)[axis] - x[axis]).abs());
-            most[1] = most[1].max(pose.of(1, x)[axis].abs());
-        }
+        let moved = |order: usize| {
+            let of = move |(motion, corners): &(Option<&dyn Motion<D>>, Vec<[f64; D]>)| {
+                let Some(pose) = motion.map(|motion| motion.pose(time)) else {
+                    return 0.0;
+                };
+                let rest = if order == 0 { 1.0 } else { 0.0 };
+                let ways = corners
+                    .iter()
+                    .map(|x| pose.of(order, x)[axis] - rest * x[axis]);
+                ways.sum::<f64>() / corners.len().max(1) as f64
+            };
+            walls.iter().map(of)
+        };
+        let solids = starts.iter().copied().filter(|_| time == 0.0);
+        most[0] = most[0].max(range(&mut moved(1).chain(solids)));
+        most[1] = most[1].max(range(&mut moved(0)));
     }
     most
 }

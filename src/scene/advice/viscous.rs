@@ -3,7 +3,7 @@
 
 use super::bands::{REYNOLDS, UNDER_PRESSURE, VISCOUS, VISIBLE, WALL_REYNOLDS};
 use super::liquids::Flow;
-use super::measures::{Measures, extents, velocity};
+use super::measures::{Measures, extents};
 use super::{Advice, Known, Need};
 use crate::boundary::Slip;
 use crate::material::SoundSpeed;
@@ -92,16 +92,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
         let Some(thin) = (0..D).min_by(|&a, &b| sizes[a].total_cmp(&sizes[b])) else {
             return;
         };
-        // How fast the slowest and the fastest of what is around it move across it.
-        let solids = self.parts.iter().filter(|part| !part.scheme.meets_walls());
-        let speeds = solids
-            .flat_map(|part| &part.bodies)
-            .map(|own| velocity(own)[thin].abs());
-        let speeds = speeds.chain(measures.wall_speeds[thin].iter().copied());
-        let none = [f64::INFINITY, 0.0_f64];
-        let [least, most] = speeds.fold(none, |[a, b], v| [a.min(v), b.max(v)]);
-        let closing = (most - least).max(0.0);
-        let last = (sizes[thin] - measures.wall_ways[thin]).max(body.spacing);
+        let [closing, way] = measures.closing[thin];
+        let last = (sizes[thin] - way).max(body.spacing);
         let film = if closing > 0.0 && last < flow.length {
             let rate = 0.5 * closing * flow.length / last.powi(2);
             1.5 * viscosity.viscosity(rate) * closing * flow.length.powi(2) / last.powi(3)
