@@ -19,7 +19,8 @@ pub struct Around<'a, T: Real, const D: usize> {
     pub material: &'a Material<T>,
     /// The wall, at [`Stage::Walls`](crate::term::Stage).
     pub wall: Option<&'a WallSurface<'a, T, D>>,
-    /// The smoothing length where it is the same for all, as built \[m\].
+    /// The smoothing length η dx \[m\] with the spacing dx of the body, which is that of its particles as built; of walls the
+    /// largest of the bodies in the group.
     pub smoothing_length: f64,
     /// First moment −Σ V r·∇W/D of the lattice; one in schemes whose particles carry their own.
     pub lattice_consistency_factor: f64,

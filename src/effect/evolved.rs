@@ -27,7 +27,7 @@ pub enum Update {
     /// Y ← Y e^(g dt/D) for a length that spans a volume which grows by g, held between two limits; what is held
     /// is counted.
     Within {
-        /// Smallest length in units of the smoothing length as built.
+        /// Smallest length in units of the smoothing length η dx of the body as built.
         smallest: f64,
         /// Largest length in the same units.
         largest: f64,

@@ -15,7 +15,8 @@ const STEP_FACTOR: f64 = 0.55;
 ///
 /// The time step is proportional to h/c₀, and in slow flow c₀ decides nothing else than how far the
 /// density departs from ρ₀: by about Ma² = (v/c₀)² of it. So a liquid may take an artificial c₀ of ten
-/// times the greatest speed (Monaghan 1994). The pressure of an impact that the sound speed does
+/// times the greatest speed (Monaghan 1994), where inertia makes the pressure: Δp compresses by Δp/(ρ c₀²), whatever makes it, and
+/// viscosity in a thin film makes more (see [advice](crate::scene::advice)). The pressure of an impact that the sound speed does
 /// decide, ρ₀ c v behind a wave of the water-hammer kind, is then that of the artificial one, too low
 /// by the same factor.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

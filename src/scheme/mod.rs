@@ -89,9 +89,9 @@ pub enum Smoothing {
     ///
     #[doc = include_str!("../../docs/equations/smoothing_divergence.html")]
     Divergence {
-        /// Smallest h in units of the first.
+        /// Smallest h in units of η dx, the first of the body.
         smallest: f64,
-        /// Largest h in units of the first.
+        /// Largest h in units of η dx.
         largest: f64,
     },
     /// Solved together with the density, with grad-h terms: η is h/dx
@@ -99,9 +99,9 @@ pub enum Smoothing {
     ///
     #[doc = include_str!("../../docs/equations/smoothing_consistent.html")]
     Consistent {
-        /// Smallest h in units of the first.
+        /// Smallest h in units of η dx, the first of the body.
         smallest: f64,
-        /// Largest h in units of the first.
+        /// Largest h in units of η dx.
         largest: f64,
     },
 }

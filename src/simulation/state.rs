@@ -240,7 +240,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                 rates: &self.work.rates,
                 material: &body.material,
                 wall: None,
-                smoothing_length: self.neighborhood.smoothing_length,
+                smoothing_length: self.scheme.h_over_dx() * body.spacing,
                 lattice_consistency_factor: self.scheme.lattice_consistency_factor,
                 dt: moment.dt,
                 time: moment.time,

@@ -206,3 +206,92 @@ fn a_drop_needs_surface_tension_and_slow_oil_viscosity() {
     // Of the real liquid; the artificial sound speed is ten times the flow, just not enough.
     near(line(&advice, "U/c"), 0.01 / 1450.0, 1e-6, Need::Skip);
 }
+
+/// Oil between two plates that stick to it, 10 × 1 mm; the upper comes down at 10 mm/s for 10 ms. The other moves too if told so.
+fn film(sound_speed: f64, sticks: bool, both: bool) -> Advice {
+    use meshfree::boundary::Translation;
+    let oil = meshfree::material::Liquid::new(1000.0, 1450.0, 1.0).linear();
+    let oil = oil.material("oil", SoundSpeed::Chosen(sound_speed));
+    let dx = 1e-4;
+    let plate = |name, low: f64| {
+        let water = catalogue::water();
+        let points = Body::<f64, 2>::block(name, water, [0.0, low], [1e-2, low + 4.0 * dx], dx);
+        let wall = Wall::of(name, points.points().to_vec(), dx);
+        if sticks { wall.no_slip() } else { wall }
+    };
+    let down = || Translation::steady([0.0, -0.01]);
+    let lower = plate("lower", -4.0 * dx);
+    Scene::<f64, 2>::new(schemes::weakly_compressible())
+        .body(Body::block("oil", oil, [0.0; 2], [1e-2, 1e-3], dx))
+        .wall(if both { lower.motion(down()) } else { lower })
+        .wall(plate("upper", 1e-3).motion(down()))
+        .advise(0.01, &Known::default())
+}
+
+#[test]
+fn viscous_pressure_of_a_film_asks_for_a_sound_speed() {
+    // 1.5 μ V L²/h³ with h = 0.9 mm in the end.
+    let pressure = 1.5 * 0.01 * 1e-4 / 0.9e-3_f64.powi(3);
+    let number = |c: f64| pressure / (1000.0 * c * c);
+    let slow = film(4.0, true, false);
+    let found = line(&slow, "p_v/(rho c2)");
+    near(found, number(4.0), 1e-6, Need::Impossible);
+    assert!(found.is_missing());
+    let least = (pressure / 30.0).sqrt();
+    assert!(found.reason.contains(&format!("{least:.3} m/s")), "{found}");
+    let allowed = film(1.01 * least, true, false);
+    near(
+        line(&allowed, "p_v/(rho c2)"),
+        0.03 / 1.0201,
+        1e-6,
+        Need::Optional,
+    );
+    let fast = film(20.0, true, false);
+    near(line(&fast, "p_v/(rho c2)"), number(20.0), 1e-6, Need::Skip);
+    // Plates that do not close, or along which the oil slides, make none.
+    for advice in [film(4.0, true, true), film(4.0, false, false)] {
+        assert!(
+            advice
+                .lines
+                .iter()
+                .all(|line| line.number != "p_v/(rho c2)"),
+            "{advice}"
+        );
+    }
+}
+
+#[test]
+fn slow_viscous_flow_under_pressure_is_named() {
+    // Glowinski's disc: 5 cm/s in 6 cm of a liquid of 0.01 Pa s, 588 Pa at the bottom. And without its weight.
+    let advice = |gravity: f64, viscosity: f64| {
+        let liquid = meshfree::material::Liquid::new(1000.0, 1450.0, viscosity);
+        let liquid = liquid.material("liquid", SoundSpeed::artificial(1.5));
+        let known = Known {
+            speed: Some(0.05),
+            ..Known::default()
+        };
+        Scene::<f64, 2>::new(schemes::weakly_compressible())
+            .body(Body::block("liquid", liquid, [0.0; 2], [0.02, 0.06], 0.002))
+            .acceleration(move |_| [0.0, -gravity])
+            .advise(1.0, &known)
+    };
+    let number = "p/(mu U/L + rho U2)";
+    let heavy = advice(9.81, 0.01);
+    let expected = 1000.0 * 0.06 * 9.81 / (0.01 * 0.05 / 0.06 + 2.5);
+    near(line(&heavy, number), expected, 1e-6, Need::Recommend);
+    assert_eq!(line(&heavy, number).present, Some(false));
+    near(
+        line(&advice(0.5, 0.01), number),
+        expected * 0.5 / 9.81,
+        1e-6,
+        Need::Optional,
+    );
+    let weightless = advice(0.0, 0.01);
+    assert_eq!(line(&weightless, number).need, Need::Skip);
+    // Water, at Re 3000, is not slow.
+    let water = advice(9.81, 1e-3);
+    assert!(
+        water.lines.iter().all(|line| line.number != number),
+        "{water}"
+    );
+}

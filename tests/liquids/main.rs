@@ -25,5 +25,6 @@ mod penalty_structure;
 mod riemann_walls;
 mod sampling;
 mod sloshing;
+mod slow;
 mod sound_and_volume;
 mod structures;

@@ -247,3 +247,45 @@ fn sound_in_a_gas_converges_with_the_second_order_of_the_spacing() {
     println!("sound: {errors:?}, order {order:.3}");
     assert!((1.8..2.2).contains(&order), "{errors:?}, order {order}");
 }
+
+/// Sod's tube of two bodies with spacings 1:8, so equal masses: smoothing lengths of the dense one are limited relative to its own
+/// first length, and not to that of the other. In either order of the bodies.
+#[test]
+fn each_body_has_limits_of_its_own_smoothing_length() {
+    let gas = ideal(1.4);
+    let side = |name: &str, [low, high]: [f64; 2], dx: f64, [p, rho]: [f64; 2]| {
+        Body::block(name, Material::new("gas", gas), [low], [high], dx)
+            .density(rho)
+            .energy(gas.energy(p, rho))
+    };
+    let dx = 0.5 / 400.0;
+    let bodies = || {
+        let dense = side("dense", [-0.5, 0.0], dx, [1.0, 1.0]);
+        [dense, side("thin", [0.0, 0.5], 8.0 * dx, [0.1, 0.125])]
+    };
+    let eta = meshfree::schemes::gas().compose::<f64, 1>().h_over_dx();
+    let run = |bodies: [Body<f64, 1>; 2]| {
+        let [first, second] = bodies;
+        let mut tube = Scene::new(meshfree::schemes::gas())
+            .body(first)
+            .body(second)
+            .boundary(MirrorPlane::symmetry([-0.5], [-1.0]))
+            .boundary(MirrorPlane::symmetry([0.5], [1.0]))
+            .build()
+            .unwrap();
+        tube.run_until(0.2).unwrap();
+        let ratios = tube
+            .all()
+            .map(|p| p.smoothing_length() * p.density() / p.mass());
+        let most = ratios.fold(0.0, f64::max);
+        (density_error(&tube), tube.limited_smoothing_lengths(), most)
+    };
+    let [dense, thin] = bodies();
+    let (error, limited, most) = run([dense, thin]);
+    println!("L1 {error:.5}, limited {limited}, largest h/dx {most:.4} of {eta}");
+    assert_eq!(limited, 0);
+    assert!(most < 1.01 * eta, "{most}");
+    assert!(error < 0.015, "{error}");
+    let [dense, thin] = bodies();
+    assert_eq!(run([thin, dense]).1, 0);
+}

@@ -4,6 +4,7 @@
 mod advice;
 mod asleep;
 mod bad_solids;
+mod beams_in_space;
 mod clamped_wall;
 mod conservation;
 mod contact;

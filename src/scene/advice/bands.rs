@@ -93,6 +93,14 @@ scales! {
     MACH "physical sound speed", "U/c":
         Skip "density keeps within 1 %: an artificial sound speed of ten times the flow is enough", below 0.1;
         => Require "density changes by more than 1 %";
+    VISCOUS "sound speed above that of viscous pressure", "p_v/(rho c2)":
+        Skip "viscous pressure compresses the liquid by less than 1 %", below 0.01;
+        Optional "viscous pressure compresses the liquid by 1 to 3 %, and forces are low by some per cent", below 0.03;
+        => Impossible "viscous pressure compresses the liquid, and forces come out far too low";
+    UNDER_PRESSURE "shifting", "p/(mu U/L + rho U2)":
+        Skip "pressure is of the order of the stresses of the flow", below 3.0;
+        Optional "pressure hardens the lattice of particles against shear: slow viscous flow comes out slower by 10 to 20 %", below 30.0;
+        => Recommend "pressure hardens the lattice of particles against shear: slow viscous flow comes out at about half of its speed";
     CROSSINGS "physical sound speed", "t c/L":
         Require "waves cross few times and decide what happens", below 100.0;
         Optional "waves cross often: what matters is whether the pressure of impacts does", below 1e4;
@@ -172,6 +180,9 @@ scales! {
     GAS "gas beside the liquid", "rho_2/rho_1":
         Skip "the gas is light", below 1e-2;
         => Require "the gas is as heavy as to be felt";
+    BENDING "spacing across what bends in space", "thickness/dx in 3D":
+        Optional "first frequencies of bending are low by 13 % at four particles, 7 % at six", below 7.5;
+        => Skip "first frequencies of bending are low by less than 5 %";
     RESOLUTION "spacing across a thin part", "thickness/dx":
         Impossible "too few particles across to bend or flow: take a finer spacing", below 4.0;
         Optional "at the limit of what bends or flows", below 5.0;

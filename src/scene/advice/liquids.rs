@@ -1,15 +1,12 @@
-//! Advice on liquids: sound, viscosity, gravity, surface tension, cavitation, gas, and walls that give way.
+//! Advice on liquids: sound, gravity, surface tension, cavitation, gas, and walls that give way.
 //! Speeds are what bodies start with, what walls have, and √(a L) of uniform accelerations.
 
 use super::bands::{
-    ADDED_MASS, BOND, CAVITATION, CROSSINGS, DEFLECTION, FROUDE, GAS, MACH, REYNOLDS, SHOCK,
-    VISIBLE, WALL_REYNOLDS, WEBER,
+    ADDED_MASS, BOND, CAVITATION, CROSSINGS, DEFLECTION, FROUDE, GAS, MACH, SHOCK, WEBER,
 };
 use super::measures::{Measures, fastest_of, length, norm, thickness, velocity};
 use super::{Advice, Known, Need};
-use crate::boundary::Slip;
 use crate::material::SoundSpeed;
-use crate::particles::Field;
 use crate::scalar::Real;
 use crate::scene::{Body, Part, Scene};
 use crate::scheme::EnergyForm;
@@ -20,13 +17,13 @@ use crate::term::Stage;
 const PLATE: f64 = 0.014;
 
 /// A liquid, or a gas, and its scales.
-struct Flow {
+pub(super) struct Flow {
     /// U \[m/s\].
-    speed: f64,
+    pub speed: f64,
     /// L \[m\].
-    length: f64,
-    density: f64,
-    spacing: f64,
+    pub length: f64,
+    pub density: f64,
+    pub spacing: f64,
 }
 
 impl<T: Real, const D: usize> Scene<T, D> {
@@ -42,6 +39,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 let flow = self.flow(body, measures, known);
                 self.advise_on_sound(part, body, &flow, measures, known, advice);
                 self.advise_on_viscosity(part, body, &flow, known, advice);
+                self.advise_on_viscous_pressure(body, &flow, measures, known, advice);
+                self.advise_under_pressure(part, body, &flow, measures, known, advice);
                 self.advise_on_gravity(&body.name, flow.speed, flow.length, measures, advice);
                 advise_on_surface(&body.name, &flow, measures, known, advice);
                 advise_on_cavitation(part, body, &flow, known, advice);
@@ -105,55 +104,6 @@ impl<T: Real, const D: usize> Scene<T, D> {
         }
         let energy = Some(part.scheme.energy != EnergyForm::None);
         advice.add(SHOCK.line(&body.name, flow.speed / c, energy));
-    }
-
-    fn advise_on_viscosity(
-        &self,
-        part: &Part<T, D>,
-        body: &Body<T, D>,
-        flow: &Flow,
-        known: &Known,
-        advice: &mut Advice,
-    ) {
-        if flow.speed == 0.0 {
-            return advice.lacks(format!("the speed of `{}`: give Known::speed", body.name));
-        }
-        let Some(viscosity) = body.material.rheology() else {
-            return advice.lacks(format!(
-                "viscosity of `{}`: its material has none",
-                body.name
-            ));
-        };
-        let nu = viscosity.viscosity(flow.speed / flow.length) / flow.density;
-        let acts = part.scheme.fields().contains(Field::DYNAMIC_VISCOSITY);
-        let reynolds = flow.speed * flow.length / nu;
-        advice.add(REYNOLDS.line(&body.name, reynolds, Some(acts)));
-        match known.artificial_viscosity {
-            Some(alpha) => {
-                let c = body.material.impedance() / flow.density;
-                let h = part.scheme.h_over_dx() * flow.spacing;
-                let line = VISIBLE.line(&body.name, alpha * h * c / 10.0 / nu, Some(acts));
-                let unseen = line.need == Need::Impossible && reynolds >= 1e4;
-                advice.add(if unseen {
-                    line.rather(Need::Skip, "which does not matter at this Reynolds number")
-                } else {
-                    line
-                });
-            }
-            None => advice.lacks(
-                "whether artificial viscosity hides that of the liquid: give Known::artificial_viscosity".into(),
-            ),
-        }
-        let structures = self.bodies().any(|own| own.slip == Slip::None);
-        let sticks = structures || self.walls.iter().any(|wall| wall.slip == Slip::None);
-        if !self.walls.is_empty() || structures {
-            let line = WALL_REYNOLDS.line(
-                &body.name,
-                flow.speed * flow.spacing / nu,
-                Some(sticks && acts),
-            );
-            advice.add(line);
-        }
     }
 
     /// Gravity on what moves at U \[m/s\] and is L \[m\] large.

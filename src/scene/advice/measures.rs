@@ -18,8 +18,12 @@ pub(super) struct Measures {
     pub gravity: f64,
     /// Largest uniform acceleration \[m/s²\], of loads and of the frames of walls.
     pub acceleration: f64,
+    /// Largest uniform acceleration along each axis \[m/s²\].
+    pub pull: Vec<f64>,
     /// Largest speed of a wall \[m/s\].
     pub walls: f64,
+    /// Along each axis: the largest difference of the velocities \[m/s\] of two walls or solids, and of the ways \[m\] of two walls.
+    pub closing: Vec<[f64; 2]>,
     /// Whether something stands still beside the bodies: walls or boundaries.
     pub at_rest: bool,
 }
@@ -27,6 +31,7 @@ pub(super) struct Measures {
 impl Measures {
     pub fn of<T: Real, const D: usize>(scene: &Scene<T, D>, end: f64, known: &Known) -> Self {
         let mut acceleration: f64 = 0.0;
+        let mut pull = vec![0.0_f64; D];
         for time in times(end) {
             let mut sum = [0.0; D];
             for own in &scene.accelerations {
@@ -34,6 +39,9 @@ impl Measures {
                 sum = core::array::from_fn(|d| sum[d] + a[d]);
             }
             acceleration = acceleration.max(norm(&sum));
+            for (own, sum) in pull.iter_mut().zip(sum) {
+                *own = own.max(sum.abs());
+            }
         }
         let mut walls: f64 = 0.0;
         for wall in &scene.walls {
@@ -41,14 +49,15 @@ impl Measures {
             if let Some(motion) = &wall.motion {
                 let corners = corners(&wall.points);
                 walls = walls.max(fastest(&**motion, &corners, end, 1));
-                acceleration = acceleration.max(fastest(&**motion, &corners, end, 2));
             }
         }
         Self {
             end,
             gravity: known.gravity,
             acceleration,
+            pull,
             walls,
+            closing: (0..D).map(|axis| closing(scene, end, axis)).collect(),
             at_rest: !(scene.walls.is_empty() && scene.boundaries.is_empty()),
         }
     }
@@ -72,6 +81,42 @@ pub(super) fn fastest<const D: usize>(
         speeds.fold(0.0, f64::max)
     };
     times(end).map(at).fold(0.0, f64::max)
+}
+
+/// The largest difference along an axis of the velocities \[m/s\] of two walls at one time, or of walls and solids at the start, and
+/// of the ways \[m\] of two walls: each in the mean over its corners.
+fn closing<T: Real, const D: usize>(scene: &Scene<T, D>, end: f64, axis: usize) -> [f64; 2] {
+    let solids = scene.parts.iter().filter(|part| !part.scheme.meets_walls());
+    let solids = solids.flat_map(|part| &part.bodies);
+    let starts: Vec<f64> = solids.map(|body| velocity(body)[axis]).collect();
+    let walls: Vec<_> = (scene.walls.iter())
+        .map(|wall| (wall.motion.as_deref(), corners(&wall.points)))
+        .collect();
+    let range = |values: &mut dyn Iterator<Item = f64>| {
+        let none = [f64::INFINITY, f64::NEG_INFINITY];
+        let [low, high] = values.fold(none, |[a, b], v| [a.min(v), b.max(v)]);
+        (high - low).max(0.0)
+    };
+    let mut most = [0.0_f64; 2];
+    for time in times(end) {
+        let moved = |order: usize| {
+            let of = move |(motion, corners): &(Option<&dyn Motion<D>>, Vec<[f64; D]>)| {
+                let Some(pose) = motion.map(|motion| motion.pose(time)) else {
+                    return 0.0;
+                };
+                let rest = if order == 0 { 1.0 } else { 0.0 };
+                let ways = corners
+                    .iter()
+                    .map(|x| pose.of(order, x)[axis] - rest * x[axis]);
+                ways.sum::<f64>() / corners.len().max(1) as f64
+            };
+            walls.iter().map(of)
+        };
+        let solids = starts.iter().copied().filter(|_| time == 0.0);
+        most[0] = most[0].max(range(&mut moved(1).chain(solids)));
+        most[1] = most[1].max(range(&mut moved(0)));
+    }
+    most
 }
 
 /// How far a motion takes some points from where they were \[m\], at most.

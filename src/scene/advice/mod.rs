@@ -41,6 +41,8 @@
 //! | viscosity | U L/ν | ≥ 10⁴ | < 10³ |
 //! | viscosity, against that of the scheme | (α h c/10)/ν | Re ≥ 10⁴ | impossible ≥ 1 |
 //! | no-slip walls | U dx/ν | ≥ 50 | < 10 |
+//! | sound speed above that of viscous pressure | p_v/(ρ c²), p_v of lubrication theory: 1.5 μ V L²/h³ of a film that plates close with V, 12 μ U L/h² of a gap with [`Known::gap`] and [`Known::speed`] | < 0.01 | impossible ≥ 0.03 |
+//! | shifting, in slow viscous flow (Re < 10³) | p/(μ U/L + ρ U²) | < 3 | recommended ≥ 30 |
 //! | gravity | U/√(g L), or a/g | ≥ 10 | < 10 |
 //! | surface tension | ρ U² L/σ; ρ a L²/σ | ≥ 10³ | < 100; < 10 |
 //! | two-way coupling | 0.014 (ρ U²/E)(L/t)³ | < 10⁻³ | ≥ 10⁻² |
@@ -48,6 +50,7 @@
 //! | cavitation | (p − p_v)/(ρ U²/2) | ≥ 1 | < 0 |
 //! | gas beside the liquid | ρ₂/ρ₁ | < 0.01 without pockets | ≥ 0.01 |
 //! | spacing across a wall, gap or film | thickness/dx | ≥ 5 | impossible < 4 |
+//! | spacing across what bends in three dimensions | thickness/dx | ≥ 7.5 | never: it costs accuracy |
 //!
 //! They are estimates of orders of magnitude, and their bands customary ones: a number near a bound says little.
 //! An [ablation](crate::study::ablation) tells what an effect really changes.
@@ -58,6 +61,7 @@ mod liquids;
 mod measures;
 mod print;
 mod solids;
+mod viscous;
 
 pub use bands::{Band, Scale};
 pub use known::Known;

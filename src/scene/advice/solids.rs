@@ -2,8 +2,8 @@
 //! A body that runs into a plane of symmetry meets its own image there, as one that closes at twice its speed.
 
 use super::bands::{
-    ASYMMETRY, CROSSINGS, FOURIER, JOHNSON, NONLINEAR, OPENS, RATE, RESOLUTION, SHOCK, STATIC,
-    THERMAL, YIELD,
+    ASYMMETRY, BENDING, CROSSINGS, FOURIER, JOHNSON, NONLINEAR, OPENS, RATE, RESOLUTION, SHOCK,
+    STATIC, THERMAL, YIELD,
 };
 use super::measures::{
     Measures, extents, farthest, fastest, length, middle, norm, thickness, velocity,
@@ -273,6 +273,11 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 } else {
                     line
                 });
+                let slender = length(body) >= 3.0 * thickness(body);
+                if D == 3 && !liquid && !rigid && slender {
+                    let line = BENDING.line(&body.name, thickness(body) / body.spacing, None);
+                    advice.add(line);
+                }
                 if let (true, Some(gap)) = (liquid, known.gap) {
                     let of = format!("{} in the narrowest gap", body.name);
                     advice.add(RESOLUTION.line(&of, gap / body.spacing, None));

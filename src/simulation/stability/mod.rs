@@ -2,6 +2,7 @@
 //! Kept on request, since a look at every particle in every step is not free; off, it costs one question a step.
 
 mod arrangement;
+mod compression;
 mod print;
 mod report;
 mod voids;

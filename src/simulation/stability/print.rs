@@ -145,6 +145,13 @@ impl fmt::Display for StabilityReport {
                 Some(at) => writeln!(f, ", first {at}")?,
                 None => writeln!(f)?,
             }
+            if let ("compression", Some(c)) = (own.measure, self.sound_speed) {
+                writeln!(
+                    f,
+                    "  the pressure of the flow is too high for the sound speed, and forces are too low: take {} m/s or more",
+                    significant(c, 3)
+                )?;
+            }
         }
         Ok(())
     }

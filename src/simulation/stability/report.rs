@@ -12,6 +12,11 @@ use crate::scalar::Real;
 pub struct Thresholds {
     /// Least and largest density over that at rest of the material; 0 and infinity. One over it is the Jacobian.
     pub density: [f64; 2],
+    /// Largest ρ/ρ₀ − 1 of a liquid whose scheme carries no energy; 0.03. It is left where more than one in a hundred
+    /// particles of a body exceed it for longer than sound takes to cross the body. Pressure of the flow does that where
+    /// the sound speed is too low for it; a wave of an impact passes, and surfaces and cavities, which expand, do not count.
+    /// Liquids that are meant to be compressed so need more.
+    pub compression: f64,
     /// Largest share of particle steps in which a limit or a guard of an equation of state acted; 10⁻⁴.
     pub limited: f64,
     /// Largest residual of momentum over Σ m |v|; 10⁻¹⁰, or a thousand roundings of the scalar. Forces that are no pair
@@ -50,6 +55,7 @@ impl Default for Thresholds {
     fn default() -> Self {
         Self {
             density: [0.0, f64::INFINITY],
+            compression: 0.03,
             limited: 1e-4,
             momentum: 1e-10,
             energy_gain: 1e-3,
@@ -142,7 +148,10 @@ pub struct StabilityReport {
     pub particles: usize,
     /// Least and largest density over that at rest.
     pub density: Option<[Extreme; 2]>,
-    /// Least and largest smoothing length over the first, where it varies.
+    /// The sound speed \[m/s\] at which the pressure found keeps [`Thresholds::compression`], where that is left. The pressure
+    /// grows with the sound speed, the more the farther the liquid has given way: see what a run with this one says.
+    pub sound_speed: Option<f64>,
+    /// Least and largest smoothing length over that with which the body started, where it varies.
     pub smoothing: Option<[Extreme; 2]>,
     /// Limits that were applied, by name, and evaluations in which an equation of state left its range.
     pub limits: Vec<(&'static str, u64)>,
@@ -191,7 +200,7 @@ pub(super) fn of<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Stab
     let watch = if let Some(watch) = &simulation.watch {
         &**watch
     } else {
-        fresh = super::Watch::new(simulation, Thresholds::default());
+        fresh = super::Watch::of_now(simulation, Thresholds::default());
         &fresh
     };
     let named = |seen: Seen<D>| {
@@ -265,6 +274,7 @@ pub(super) fn of<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Stab
         steps: watch.steps,
         particles: simulation.particles(),
         density: both(watch.density),
+        sound_speed: watch.compression.sound_speed(),
         smoothing: both(watch.smoothing),
         limits,
         limited: applied as f64 / watch.particle_steps.max(1.0),
@@ -353,6 +363,7 @@ fn judge(
         let (measure, limit) = match measure {
             Measure::Thin => ("density", limits.density[0]),
             Measure::Dense => ("density", limits.density[1]),
+            Measure::Compressed => ("compression", limits.compression),
             Measure::Nearest => ("nearest", limits.nearest),
             Measure::Quantile => ("quantile", limits.quantile),
             Measure::Step => ("step", limits.step * median),

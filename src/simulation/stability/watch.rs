@@ -5,6 +5,7 @@ use super::super::Simulation;
 use super::super::group::Group;
 use super::super::population::Particles;
 use super::arrangement::{self, Sums};
+use super::compression::Compression;
 use super::report::Thresholds;
 use crate::clock::Instant;
 use crate::parallel::{GRAIN, reduce, runs};
@@ -36,6 +37,7 @@ pub(in super::super) struct Seen<const D: usize> {
 pub(in super::super) enum Measure {
     Thin,
     Dense,
+    Compressed,
     Nearest,
     Quantile,
     Step,
@@ -43,9 +45,10 @@ pub(in super::super) enum Measure {
 }
 
 impl Measure {
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Thin,
         Self::Dense,
+        Self::Compressed,
         Self::Nearest,
         Self::Quantile,
         Self::Step,
@@ -67,6 +70,8 @@ pub(in super::super) struct Watch<const D: usize> {
     pub removed: u64,
     /// The least and the largest density over that at rest, and smoothing length over the first.
     pub density: [Option<Seen<D>>; 2],
+    /// How far and how long liquids are compressed.
+    pub compression: Compression,
     pub smoothing: [Option<Seen<D>>; 2],
     pub nearest: Option<Seen<D>>,
     pub quantile: Option<Seen<D>>,
@@ -143,6 +148,7 @@ impl<const D: usize> Watch<D> {
             guards: simulation.guard_counts().total(),
             removed: simulation.removed().particles,
             density: [None; 2],
+            compression: Compression::of(simulation),
             smoothing: [None; 2],
             nearest: None,
             quantile: None,
@@ -169,6 +175,14 @@ impl<const D: usize> Watch<D> {
         };
         watch.make_room(simulation);
         watch.look_at_bounds(simulation);
+        watch
+    }
+
+    /// A look at the present state alone, of which no duration is known.
+    pub fn of_now<T: Real>(simulation: &Simulation<T, D>, thresholds: Thresholds) -> Self {
+        let mut watch = Self::new(simulation, thresholds);
+        watch.compression.forget_durations();
+        watch.look_at_compression(simulation);
         watch
     }
 
@@ -205,9 +219,9 @@ impl<const D: usize> Watch<D> {
         for group in &simulation.groups {
             let rest = |body: usize| group.particles.bodies[body].material.reference_density();
             let density = extremes(&group.particles, Field::DENSITY, rest);
-            let lengths = extremes(&group.particles, Field::SMOOTHING_LENGTH, |_| {
-                group.neighborhood.smoothing_length
-            });
+            let first =
+                |body: usize| group.scheme.h_over_dx() * group.particles.bodies[body].spacing;
+            let lengths = extremes(&group.particles, Field::SMOOTHING_LENGTH, first);
             for (all, found) in [(&mut self.density, density), (&mut self.smoothing, lengths)] {
                 for (side, (value, slot)) in found.into_iter().enumerate() {
                     let sign = if side == 0 { 1.0 } else { -1.0 };
@@ -222,6 +236,17 @@ impl<const D: usize> Watch<D> {
         let [least, most] = self.thresholds.density;
         self.hold(Measure::Thin, thin, |value| value < least);
         self.hold(Measure::Dense, dense, |value| value > most);
+        self.look_at_compression(simulation);
+    }
+
+    fn look_at_compression<T: Real>(&mut self, simulation: &Simulation<T, D>) {
+        let lasting = self
+            .compression
+            .look(simulation, self.thresholds.compression);
+        if let Some((group, slot, value)) = lasting {
+            let seen = simulation.seen(&simulation.groups[group], slot, value);
+            self.hold(Measure::Compressed, Some(seen), |_| true);
+        }
     }
 
     fn look_at_step<T: Real>(&mut self, simulation: &Simulation<T, D>) {
