@@ -15,8 +15,8 @@
 //! use meshfree::prelude::*;
 //!
 //! fn main() -> Result<(), Error> {
-//! #   std::env::set_current_dir(std::env::temp_dir()).map_err(|source| Error::File {
-//! #       action: "enter", path: std::env::temp_dir(), source })?;
+//! #   std::env::set_current_dir(std::env::temp_dir()).map_err(|cause| Error::File {
+//! #       action: "enter", path: std::env::temp_dir(), cause })?;
 //!     let copper = catalogue::copper;
 //!     let striker = Body::block("striker", copper(), [0.000], [0.010], 1e-4);
 //!     let target = Body::block("target", copper(), [0.010], [0.050], 1e-4);
@@ -58,8 +58,8 @@
 //! use meshfree::prelude::*;
 //!
 //! fn main() -> Result<(), Error> {
-//! #   std::env::set_current_dir(std::env::temp_dir()).map_err(|source| Error::File {
-//! #       action: "enter", path: std::env::temp_dir(), source })?;
+//! #   std::env::set_current_dir(std::env::temp_dir()).map_err(|cause| Error::File {
+//! #       action: "enter", path: std::env::temp_dir(), cause })?;
 //!     // Water at rest, 0.6 m long and 0.3 m high; its sound speed is ten times the speed that is expected.
 //!     let (spacing, gravity) = (0.03, [0.0, -9.81]);
 //!     let water = catalogue::weakly_compressible_water(3.5);
