@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{Example, Failure, Movie, Options, Own, Shade, evenly, picture, watch};
+use common::{Example, Failure, Movie, Options, Own, Records, Shade, evenly, picture, watch};
 use meshfree::boundary::{Outlet, Wall};
 use meshfree::effect::NeoHookean;
 use meshfree::material::eos::Linear;
@@ -12,7 +12,6 @@ use meshfree::output::csv::CsvWriter;
 use meshfree::output::svg::{Axis, Figure, Marker, Panel, Series};
 use meshfree::prelude::*;
 use meshfree::study::records::Record;
-use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 const EXAMPLE: Example = Example {
@@ -30,11 +29,7 @@ const EXAMPLE: Example = Example {
             value: "M/S",
             help: "artificial sound speed of the water; 20",
         },
-        Own {
-            name: "--reference",
-            value: "DIR",
-            help: "measured records (../shared/data)",
-        },
+        Records::OPTION,
     ],
 };
 
@@ -109,6 +104,7 @@ impl Case {
 }
 
 fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
+    let records = Records::of(options)?;
     let case = Case {
         youngs: options.number("--youngs-modulus", 12e6)?,
         sound_speed: options.number("--sound-speed", 20.0)?,
@@ -163,8 +159,6 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
         Ok(())
     })?;
 
-    let usual = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
-    let folder = options.text("--reference").map_or(usual, PathBuf::from);
     let mut figure = Figure::new().columns(2).shared_legend();
     let kinds = [("x", "dx_m", "tip, along"), ("y", "dy_m", "tip, up")];
     for (line, (axis, column, label)) in samples.iter().zip(kinds) {
@@ -183,13 +177,11 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
                 Marker::Cross,
             ),
         ] {
-            let path = folder.join(format!("fsi_elastic_gate_antoci/{file}_{axis}.csv"));
-            match curve(&path, column) {
-                Ok(curve) => {
-                    let series = Series::markers(name, curve).reference().marker(marker);
-                    panel = panel.series(series);
-                }
-                Err(error) => println!("without {}: {error}", path.display()),
+            let file = format!("fsi_elastic_gate_antoci/{file}_{axis}.csv");
+            if let Some(record) = records.read(&file) {
+                let curve = curve(&record, column)?;
+                let series = Series::markers(name, curve).reference().marker(marker);
+                panel = panel.series(series);
             }
         }
         figure = figure.panel(panel);
@@ -214,8 +206,7 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
     Ok(())
 }
 
-fn curve(path: &Path, column: &str) -> Result<Vec<(f64, f64)>, Failure> {
-    let record = Record::read(path)?;
+fn curve(record: &Record, column: &str) -> Result<Vec<(f64, f64)>, Failure> {
     let times = record.column("time_s")?;
     Ok(times.into_iter().zip(record.column(column)?).collect())
 }

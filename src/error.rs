@@ -469,14 +469,14 @@ pub enum Error {
         particle: usize,
     },
     /// A file could not be written or read.
-    #[error("cannot {action} {}: {source}", path.display())]
+    #[error("cannot {action} {}: {cause}", path.display())]
     File {
         /// Read or write.
         action: &'static str,
         /// The file.
         path: PathBuf,
-        /// Why.
-        source: std::io::Error,
+        /// Why. It is part of the error's text, and so no [`source`](std::error::Error::source) of it.
+        cause: std::io::Error,
     },
     /// A checkpoint that cannot be resumed from.
     #[error("cannot resume from {}: {problem}", path.display())]
@@ -487,9 +487,130 @@ pub enum Error {
         problem: CheckpointProblem,
     },
     /// An argument of a call after building makes no sense.
-    #[error("{0}")]
+    #[error(transparent)]
     Argument(#[from] Problem),
 }
 
 /// The crate's result.
 pub type Result<T> = core::result::Result<T, Error>;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn build() -> BuildError {
+        BuildError {
+            problems: vec![Problem::EmptyScene],
+        }
+    }
+
+    /// One error of each variant. The match makes a new variant a new line here.
+    fn each() -> Vec<Error> {
+        let (body, position) = (|| "rod".to_string(), || vec![0.5]);
+        let all = vec![
+            Error::Build(build()),
+            Error::NotFinite {
+                quantity: "velocity",
+                value: f64::NAN,
+                body: body(),
+                particle: 3,
+                position: position(),
+                time: 1.0,
+                step: 7,
+            },
+            Error::Load {
+                load: "gravity".into(),
+                value: f64::NAN,
+                body: body(),
+                particle: 3,
+                position: position(),
+                time: 1.0,
+            },
+            Error::SoundSpeedTooLow {
+                body: body(),
+                particle: 3,
+                speed: 4.0,
+                sound_speed: 2.0,
+                position: position(),
+                time: 1.0,
+            },
+            Error::WallJump {
+                wall: "piston".into(),
+                distance: 0.1,
+                time: 1.0,
+                end: 2.0,
+            },
+            Error::Failed {
+                cause: build().to_string(),
+            },
+            Error::StepCollapsed {
+                step: 1e-20,
+                time: 1.0,
+                criterion: "sound",
+                body: body(),
+                particle: 3,
+            },
+            Error::File {
+                action: "read",
+                path: "pulse.csv".into(),
+                cause: std::io::Error::other("line 3 is not a number"),
+            },
+            Error::Checkpoint {
+                path: "run.meshfree".into(),
+                problem: CheckpointProblem::Damaged {
+                    detail: "its end is missing".into(),
+                },
+            },
+            Error::Argument(Problem::EmptyScene),
+        ];
+        let mut seen = [false; 10];
+        for error in &all {
+            let variant = match error {
+                Error::Build(_) => 0,
+                Error::NotFinite { .. } => 1,
+                Error::Load { .. } => 2,
+                Error::SoundSpeedTooLow { .. } => 3,
+                Error::WallJump { .. } => 4,
+                Error::Failed { .. } => 5,
+                Error::StepCollapsed { .. } => 6,
+                Error::File { .. } => 7,
+                Error::Checkpoint { .. } => 8,
+                Error::Argument(_) => 9,
+            };
+            seen[variant] = true;
+        }
+        assert_eq!(seen, [true; 10]);
+        all
+    }
+
+    #[test]
+    fn each_text_appears_once_along_the_chain_of_sources() {
+        for error in each() {
+            let mut texts = vec![error.to_string()];
+            let mut source = std::error::Error::source(&error);
+            while let Some(error) = source {
+                texts.push(error.to_string());
+                source = error.source();
+            }
+            for (place, text) in texts.iter().enumerate() {
+                let repeated = texts[..place].iter().any(|above| above.contains(text));
+                assert!(!repeated, "`{text}` stands twice in {texts:#?}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_text_of_a_file_error_says_why() {
+        let cause = std::io::Error::other("the disk is full");
+        let (action, path) = ("write", "out/run.vtu".into());
+        let error = Error::File {
+            action,
+            path,
+            cause,
+        };
+        assert_eq!(
+            error.to_string(),
+            "cannot write out/run.vtu: the disk is full"
+        );
+    }
+}

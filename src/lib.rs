@@ -11,12 +11,11 @@
 //! A copper rod strikes another at 20 m/s; after 2 µs a wave runs through each.
 //!
 //! ```
-//! use meshfree::output::csv::CsvWriter;
 //! use meshfree::prelude::*;
 //!
 //! fn main() -> Result<(), Error> {
-//! #   std::env::set_current_dir(std::env::temp_dir()).map_err(|source| Error::File {
-//! #       action: "enter", path: std::env::temp_dir(), source })?;
+//! #   std::env::set_current_dir(std::env::temp_dir()).map_err(|cause| Error::File {
+//! #       action: "enter", path: std::env::temp_dir(), cause })?;
 //!     let copper = catalogue::copper;
 //!     let striker = Body::block("striker", copper(), [0.000], [0.010], 1e-4);
 //!     let target = Body::block("target", copper(), [0.010], [0.050], 1e-4);
@@ -52,14 +51,11 @@
 //! A column of water is let go in a tank; a sensor on the far wall is read after every step, and a picture is drawn.
 //!
 //! ```
-//! use meshfree::observe::PressureProbe;
-//! use meshfree::output::csv::CsvWriter;
-//! use meshfree::output::svg::{Axis, Cloud, Figure, Panel};
 //! use meshfree::prelude::*;
 //!
 //! fn main() -> Result<(), Error> {
-//! #   std::env::set_current_dir(std::env::temp_dir()).map_err(|source| Error::File {
-//! #       action: "enter", path: std::env::temp_dir(), source })?;
+//! #   std::env::set_current_dir(std::env::temp_dir()).map_err(|cause| Error::File {
+//! #       action: "enter", path: std::env::temp_dir(), cause })?;
 //!     // Water at rest, 0.6 m long and 0.3 m high; its sound speed is ten times the speed that is expected.
 //!     let (spacing, gravity) = (0.03, [0.0, -9.81]);
 //!     let water = catalogue::weakly_compressible_water(3.5);
@@ -92,7 +88,7 @@
 //! }
 //! ```
 //!
-//! A spacing of 5 mm looks like water. `docs/tutorials.md` goes on from here to solids with strength and to a liquid
+//! A spacing of 5 mm looks like water. The [tutorials](crate#pages) go on from here to solids with strength and to a liquid
 //! that bends a plate.
 //!
 //! # Map
@@ -122,7 +118,7 @@
 //! | [`neighbors`] | neighbour search, useful on its own |
 //! | [`particles`], [`tensor`], [`scalar`] | columns of fields, small matrices, numbers and lanes |
 //!
-//! No module depends on itself through others; `docs/architecture.md` in the repository draws the
+//! No module depends on itself through others; the page on [architecture](crate#pages) draws the
 //! layers, follows the data of a step, and gives the reasons of what was decided.
 //!
 //! # Choosing a scheme
@@ -165,13 +161,13 @@
 //!
 //! # Accuracy and cost
 //!
-//! What an error costs is measured on seventeen problems with known answers in `docs/accuracy_and_cost.md`, for each scheme that
+//! What an error costs is measured on seventeen problems with known answers on the page [accuracy and cost](crate#pages), for each scheme that
 //! suits them, and on a problem of one's own by [`study::work_precision`]. In short:
 //!
 //! - Errors fall with the power 0.8 to 1 of the spacing where fronts, contacts or free surfaces are, at first order in smooth flow
 //!   with an artificial viscosity, and at second in total-Lagrangian bending.
 //! - A step costs about 0.5 µs a particle and core in one dimension, 1 µs for a liquid and 2 to 3 µs for a solid with shocks
-//!   in three (x86-64 with AVX-512; `docs/speed.md` has the machine and the command); `f32` takes about three fifths of
+//!   in three (x86-64 with AVX-512; the page on [speed](crate#pages) has the machine and the command); `f32` takes about three fifths of
 //!   that, in time and in memory.
 //! - Halving the spacing costs 2ᴰ⁺¹ times as much.
 //! - Momentum is kept to rounding by every scheme, and with
@@ -183,7 +179,7 @@
 //!
 //! # Extending
 //!
-//! Eight traits are meant to be implemented in a crate of your own. Each has an example that compiles, and `docs/extending.md` has
+//! Eight traits are meant to be implemented in a crate of your own. Each has an example that compiles, and the page on [extending](crate#pages) has
 //! them one after another:
 //!
 //! | trait | example | what it asks for |
@@ -216,6 +212,37 @@
 //! In a release build leave `lto` at its default or above: with `lto = "off"` what the loop calls is not inlined across
 //! units of code, and steps take two to six times as long.
 //!
+//! # Pages
+//!
+//! Pages of the repository, with figures and tables:
+//!
+//! | page | what it holds |
+//! |---|---|
+//! | [tutorials](https://github.com/meshfree/meshfree/blob/main/docs/tutorials.md) | four programs, from a rod to a liquid with a structure |
+//! | [gallery](https://github.com/meshfree/meshfree/blob/main/docs/gallery.md) | a picture of each example |
+//! | [theory](https://github.com/meshfree/meshfree/blob/main/docs/theory.md) | what is solved |
+//! | [extending](https://github.com/meshfree/meshfree/blob/main/docs/extending.md) | a kernel, law, boundary, integrator or effect of your own |
+//! | [validation](https://github.com/meshfree/meshfree/blob/main/docs/validation.md) | every case with its reference and its error |
+//! | [rods](https://github.com/meshfree/meshfree/blob/main/docs/rods.md) | rods, with convergence |
+//! | [rods with strength](https://github.com/meshfree/meshfree/blob/main/docs/rod_strength.md) | rods that yield |
+//! | [artificial viscosities](https://github.com/meshfree/meshfree/blob/main/docs/viscosity_frontier.md) | rise and overshoot of a front by each artificial viscosity |
+//! | [gentle and closed flows](https://github.com/meshfree/meshfree/blob/main/docs/liquids.md) | waves, channels, cavities and vortices |
+//! | [dam breaks and sloshing](https://github.com/meshfree/meshfree/blob/main/docs/dam_breaks.md) | dam breaks and a rolling tank, with experiments |
+//! | [sloshing](https://github.com/meshfree/meshfree/blob/main/docs/sloshing.md) | a tank at 30 g |
+//! | [crushed cells](https://github.com/meshfree/meshfree/blob/main/docs/cellular_filler.md) | water in cells that are crushed |
+//! | [solids](https://github.com/meshfree/meshfree/blob/main/docs/solids.md) | plates, rings and bars |
+//! | [contact](https://github.com/meshfree/meshfree/blob/main/docs/contact.md) | contact of solids |
+//! | [liquid and structure](https://github.com/meshfree/meshfree/blob/main/docs/liquid_structure.md) | plates, gates and beams in a flow |
+//! | [hard cases](https://github.com/meshfree/meshfree/blob/main/docs/hard-cases.md) | cases that break methods, each with a control |
+//! | [accuracy and cost](https://github.com/meshfree/meshfree/blob/main/docs/accuracy_and_cost.md) | error and cost on seventeen problems |
+//! | [error indicators](https://github.com/meshfree/meshfree/blob/main/docs/error_indicators.md) | what limits the accuracy of a run |
+//! | [what effects cost](https://github.com/meshfree/meshfree/blob/main/docs/effects.md) | what each effect costs |
+//! | [defaults](https://github.com/meshfree/meshfree/blob/main/docs/defaults.md) | reasons for the defaults |
+//! | [speed](https://github.com/meshfree/meshfree/blob/main/docs/speed.md) | speed, memory and time to compile |
+//! | [compared with other codes](https://github.com/meshfree/meshfree/blob/main/docs/comparison.md) | what other codes have, and how fast they are |
+//! | [architecture](https://github.com/meshfree/meshfree/blob/main/docs/architecture.md) | layers, the data of a step, decisions |
+//! | [licences](https://github.com/meshfree/meshfree/blob/main/docs/licences.md) | licences, versions, sources of data |
+//!
 //! # Features
 //!
 //! | feature | default | what it adds | by |
@@ -227,11 +254,13 @@
 //! | `meshes` | no | shapes from STL files | `stl_io` |
 //! | `precompiled` | no | nothing but time: what runs a scene is compiled with the crate, in all dimensions and scalars, and not with each program | |
 //!
-//! With `precompiled` the crate takes a minute of two cores to compile for release, once, and a program less: `rod_impact`
-//! 28 s for 35 each time that a line of it changes. It pays while one works on a program, or has several; bits are the same.
+//! On two cores the first program above takes 40 s to compile for release from nothing, and 10 s when a line of it changes.
+//! With `precompiled` it takes 76 s from nothing and 4 s for a line; bits are the same ([speed](crate#pages)).
 //!
 //! Without default features the crate builds for `wasm32-unknown-unknown`, where the clock stands still.
 #![warn(missing_docs)]
+// Items name the feature that they need; docs.rs sets this and builds with a nightly compiler.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 pub mod boundary;
 mod clock;

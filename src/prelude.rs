@@ -13,7 +13,8 @@ pub use crate::coupling::{ContactDensity, Coupling, Penalty, Tied};
 #[doc(no_inline)]
 pub use crate::effect::{
     AcousticDamping, Cavitation, DensityDiffusion, Effect, ExpansionMemory, ExtrapolatedPressure,
-    GeneralisedNewtonian, Laminar, RiemannWalls, VolumeConsistency,
+    GeneralisedNewtonian, Hypoelastic, Laminar, NeoHookean, Plasticity, RiemannWalls,
+    StVenantKirchhoff, VolumeConsistency,
 };
 #[doc(no_inline)]
 pub use crate::error::{BuildError, Error};
@@ -29,9 +30,15 @@ pub use crate::kernel::{
     CubicSpline, Gaussian, Kernel, QuarticSpline, QuinticSpline, WendlandC2, WendlandC4, WendlandC6,
 };
 #[doc(no_inline)]
-pub use crate::material::eos::{EosState, EquationOfState, Guards};
+pub use crate::material::eos::{EosState, EquationOfState, Guards, IdealGas, Linear, Tait};
 #[doc(no_inline)]
 pub use crate::material::{Material, catalogue};
+#[doc(no_inline)]
+pub use crate::observe::{PressureProbe, WaveGauge};
+#[doc(no_inline)]
+pub use crate::output::csv::CsvWriter;
+#[doc(no_inline)]
+pub use crate::output::svg::{Axis, Cloud, Figure, Panel, Series};
 #[doc(no_inline)]
 pub use crate::particles::{Field, Fields};
 #[doc(no_inline)]

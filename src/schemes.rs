@@ -30,7 +30,7 @@
 //!
 //! [`ls_dyna_renormalised`] and [`ls_dyna_fluid_renormalised`] correct the gradients of the last two.
 //!
-//! What an error costs with them, on seventeen problems with known answers, is in `docs/accuracy_and_cost.md`.
+//! What an error costs with them, on seventeen problems with known answers, is in [accuracy and cost](crate#pages).
 
 use crate::effect::{
     Cavitation, DensityDiffusion, ExtrapolatedPressure, HourglassControl, NoWalls,
@@ -65,13 +65,13 @@ pub type DiffusiveLiquid<V, X> =
 /// midpoint reconstruction χ = 1/3, limited viscosity α = 2, β = 2, compatible energy, cubic spline at
 /// h/dx 1.2.
 ///
-/// The default for rods: steep fronts without overshoot (`docs/rods.md`), waves at the right speed, bodies at rest free of
+/// The default for rods: steep fronts without overshoot ([rods](crate#pages)), waves at the right speed, bodies at rest free of
 /// stress, contact that opens.
 ///
 /// The error is the width of fronts, so a finer spacing buys more than any setting.
 /// [`DriftKickDrift`](crate::integrator::DriftKickDrift) gives the same error with fewer pairs. Where rods are only compressed h/dx 1.0
 /// gives the same error in 0.8 of the time. In one dimension, where rods stay in
-/// tension, 1.3 leaves less ripple between neighbours than 1.2, and a front a little wider (`docs/accuracy_and_cost.md`).
+/// tension, 1.3 leaves less ripple between neighbours than 1.2, and a front a little wider ([accuracy and cost](crate#pages)).
 #[must_use]
 pub fn impact() -> ImpactBuilder {
     // Less viscosity is steeper (α = 1.5: 0.080 µs), but leaves 2.5e-9 of the plateau at a joint 0.85 µs
@@ -105,7 +105,7 @@ pub type SolidBuilder = SchemeBuilder<
 /// that strain and those of the force ([`RenormalisedHypoelastic`]).
 ///
 /// A plate of ten rows swings with a period 3 % too long, where without the corrections it is 11 % too short; at h/dx 1.0 it
-/// is 1.9 % (`docs/solids.md`). Add what the body does beyond elasticity, and a cure of the tensile instability after it:
+/// is 1.9 % ([solids](crate#pages)). Add what the body does beyond elasticity, and a cure of the tensile instability after it:
 ///
 /// ```
 /// use meshfree::effect::{HourglassFree, Plasticity};
@@ -115,7 +115,7 @@ pub type SolidBuilder = SchemeBuilder<
 /// assert!(scheme.to_string().contains("corrected gradients"));
 /// ```
 ///
-/// Where there are no shocks, α = 0.2 lost two fifths less energy of colliding rings (`docs/solids.md`); with less,
+/// Where there are no shocks, α = 0.2 lost two fifths less energy of colliding rings ([solids](crate#pages)); with less,
 /// `.without_midpoint_reconstruction()` keeps pressures of neighbours from alternating, and without any viscosity bodies break.
 ///
 /// Bodies that meet are groups of their own with a coupling between them.
@@ -146,7 +146,7 @@ pub fn lam2002() -> SchemeBuilder<CubicSpline, MonaghanGingold> {
 /// density diffusion off the hydrostatic state (Fourtakas, δ = 0.1), artificial viscosity α = 0.02,
 /// Wendland C2 at h/dx 1.5, walls that do not hold what separates.
 ///
-/// What to change where a scene is not violent; the numbers, and more, are in `docs/accuracy_and_cost.md`:
+/// What to change where a scene is not violent; the numbers, and more, are in [accuracy and cost](crate#pages):
 ///
 /// | scene | change | what it buys |
 /// |---|---|---|
@@ -164,7 +164,7 @@ pub fn lam2002() -> SchemeBuilder<CubicSpline, MonaghanGingold> {
 ///
 /// Not h/dx 1.3, with which finer spacings make waves and pressure at rest worse. At 1.5 the front of a dam break is nearer than
 /// at 2.0. [`DriftKickDrift`](crate::integrator::DriftKickDrift) takes half as many pairs again here. What still water does is in
-/// `docs/liquids.md`.
+/// [gentle and closed flows](crate#pages).
 #[must_use]
 pub fn weakly_compressible() -> DiffusiveLiquid<MonaghanGingold, Fourtakas> {
     SchemeBuilder::liquid(
@@ -191,7 +191,7 @@ pub type GasBuilder = SchemeBuilder<
 /// Gases: summed density with a smoothing length that is consistent with it between a fifth and five times η dx of the body
 /// (grad-h terms), signal-velocity viscosity, compatible energy, Wendland C4; bodies are one gas where they meet.
 ///
-/// What to change, and why, by the numbers of `docs/defaults.md`:
+/// What to change, and why, by the numbers of [defaults](crate#pages):
 ///
 /// | scene | change |
 /// |---|---|
@@ -308,11 +308,12 @@ pub type StructureBuilder<V> =
 /// compatible energy. Add a stress: `.with(NeoHookean)`.
 ///
 /// Neighbours that stay cannot pair, so h may be small, and bending asks for it: particles at a free surface see the
-/// strain of those behind them (`docs/defaults.md` has periods of a plate). On a lattice 0.8 reaches the neighbours across the diagonal of a face; in a disordered body a particle may lack some.
+/// strain of those behind them ([defaults](crate#pages) has periods of a plate). On a lattice 0.8 reaches the neighbours across the diagonal of a face; in a disordered body a particle may lack some.
 ///
 /// In three dimensions it does not reach across the diagonal of a cube, and a body that is wrung gets zigzags that come and go:
-/// take `.h_over_dx(1.0)` there, with a tenth of them (`docs/solids.md`). What bends in three dimensions is too soft with it: with n × n
-/// particles in its section a beam loses 13 % of its first frequency at n = 4, 7 % at 6 and 5 % at 8, at 0.8 7, 4 and 3 %.
+/// take `.h_over_dx(1.0)` there, with a tenth of them ([solids](crate#pages)). What bends in three dimensions is too soft with
+/// it: with n × n particles in its section a beam loses 13 % of its first frequency at n = 4, 7 % at 6 and 5 % at 8, at 0.8 7, 4
+/// and 3 %.
 #[must_use]
 pub fn total_lagrangian() -> StructureBuilder<Inviscid> {
     SchemeBuilder::total_lagrangian(WendlandC2, Inviscid)
@@ -322,7 +323,7 @@ pub fn total_lagrangian() -> StructureBuilder<Inviscid> {
 }
 
 /// As [`total_lagrangian`], with the viscosity of Monaghan and Gingold, α = 1, β = 2, for shocks. It bears a load of its own,
-/// in proportion to the spacing: where shocks are weak, as in a Taylor bar (`docs/solids.md`), α = 0.1 is nearer.
+/// in proportion to the spacing: where shocks are weak, as in a Taylor bar ([solids](crate#pages)), α = 0.1 is nearer.
 #[must_use]
 pub fn total_lagrangian_impact() -> StructureBuilder<MonaghanGingold> {
     total_lagrangian()

@@ -1,5 +1,6 @@
 //! All examples in one program, which compiles in half the time of a program for each, since loops and driver that
-//! they share are compiled once. It runs each in its quick setting, or those whose names contain a word that it is given.
+//! they share are compiled once. It reads the help of each and runs it in its quick setting, or those whose names contain a
+//! word that it is given.
 
 // Examples are programs; what one of them exports, another does not use. Their tests are run elsewhere, and what these use is dead here.
 #![allow(missing_docs, dead_code, unused_imports, clippy::duplicate_mod)]
@@ -25,7 +26,7 @@ macro_rules! examples {
             let asked = |name: &str| words.is_empty() || words.iter().any(|word| name.contains(word.as_str()));
             let all = [$(stringify!($name)),*];
             let mut failed = missing(&all);
-            $(if asked(stringify!($name)) && !passes(stringify!($name)) {
+            $(if asked(stringify!($name)) && !(explains(stringify!($name), $path) && passes(stringify!($name))) {
                 failed.push(stringify!($name).to_owned());
             })+
             if !failed.is_empty() {
@@ -48,6 +49,47 @@ fn missing(all: &[&str]) -> Vec<String> {
     names.filter(|name| !all.contains(&name.as_str())).collect()
 }
 
+/// The example as a process.
+fn process(name: &str) -> Command {
+    let mut process = Command::new(std::env::current_exe().expect("this program"));
+    process.env(BE, name);
+    process
+}
+
+/// The first line of an example's description, as its source has it.
+fn description(path: &str) -> String {
+    let main = Path::new(env!("CARGO_MANIFEST_DIR")).join(path.trim_start_matches("../"));
+    let mut sources = vec![main.clone()];
+    if main.ends_with("main.rs") {
+        sources.push(main.with_file_name("options.rs"));
+    }
+    let texts = sources.into_iter().map(std::fs::read_to_string);
+    let text: String = texts.filter_map(Result::ok).collect();
+    let begun = ["about: \"", "about = \""]
+        .iter()
+        .find_map(|key| text.split_once(key));
+    let (_, rest) = begun.expect("a description");
+    let end = ["\"", "\\n", "\n"]
+        .iter()
+        .filter_map(|end| rest.find(end))
+        .min();
+    rest[..end.expect("its end")].to_owned()
+}
+
+/// Whether the help of an example begins with its description, and says how it is called.
+fn explains(name: &str, path: &str) -> bool {
+    let shown = process(name).arg("--help").output().expect("a process");
+    let help = String::from_utf8_lossy(&shown.stdout);
+    let well = shown.status.success()
+        && help.starts_with(&description(path))
+        && help.contains("Usage: ")
+        && help.contains("--quick");
+    if !well {
+        println!("== example {name}: its help is\n{help}");
+    }
+    well
+}
+
 /// Whether an example ends well in its quick setting, in a process of its own. What it writes stays in `target/tmp/examples`.
 fn passes(name: &str) -> bool {
     let out = Path::new(env!("CARGO_TARGET_TMPDIR"))
@@ -56,9 +98,8 @@ fn passes(name: &str) -> bool {
     let _ = std::fs::remove_dir_all(&out);
     println!("== example {name}");
     let begun = Instant::now();
-    let own = std::env::current_exe().expect("this program");
-    let mut run = Command::new(own);
-    run.env(BE, name).args(["--quick", "--out"]).arg(out);
+    let mut run = process(name);
+    run.args(["--quick", "--out"]).arg(out);
     let ended = run.status().expect("a process");
     println!(
         "== example {name}: {ended}, {:.1} s",

@@ -81,6 +81,120 @@ fn links_lead_to_what_is_there() {
     assert!(broken.is_empty(), "{}", broken.join("\n"));
 }
 
+/// The crate's source files and their texts.
+fn sources() -> Vec<(PathBuf, String)> {
+    let mut folders = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("src")];
+    let mut found = Vec::new();
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                let text = fs::read_to_string(&path).expect("a file");
+                found.push((path, text));
+            }
+        }
+    }
+    found
+}
+
+/// Rustdoc shows the first paragraph of an item in the index of its module.
+#[test]
+fn index_lines_are_whole_sentences() {
+    let mut broken = Vec::new();
+    let mut checked = 0;
+    for (path, text) in sources() {
+        let lines: Vec<_> = text.lines().map(str::trim).collect();
+        let mut begin = 0;
+        while begin < lines.len() {
+            if !lines[begin].starts_with("///") {
+                begin += 1;
+                continue;
+            }
+            let about = |line: &&&str| line.starts_with("///") || line.starts_with('#');
+            let end = begin + lines[begin..].iter().take_while(about).count();
+            let first = lines[begin..end].iter();
+            let first = first.take_while(|line| line.starts_with("/// "));
+            let last = first.last().copied().unwrap_or_default();
+            if lines.get(end).is_some_and(|item| item.starts_with("pub ")) && !last.is_empty() {
+                checked += 1;
+                let closing = last.trim_end_matches(['"', '\'', ')', '`', ']']);
+                if !closing.ends_with(['.', '?', '!']) {
+                    broken.push(format!("{}:{}: {last}", path.display(), begin + 1));
+                }
+            }
+            begin = end;
+        }
+    }
+    assert!(checked > 1000, "only {checked} items were found");
+    assert!(broken.is_empty(), "{}", broken.join("\n"));
+}
+
+#[test]
+fn rustdoc_links_every_page_and_names_no_file() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let text = fs::read_to_string(root.join("src/lib.rs")).expect("the crate's page");
+    let missing: Vec<_> = pages()
+        .into_iter()
+        .skip(1)
+        .filter_map(|page| Some(page.file_name()?.to_str()?.to_owned()))
+        .filter(|name| name != "SUMMARY.md" && !text.contains(&format!("/docs/{name}) |")))
+        .collect();
+    assert!(missing.is_empty(), "the table of pages lacks {missing:?}");
+    let mut named = Vec::new();
+    for (path, text) in sources() {
+        let docs = text
+            .lines()
+            .filter(|line| line.trim_start().starts_with("//"));
+        let files = docs.filter(|line| line.contains("`docs/") && line.contains(".md`"));
+        named.extend(files.map(|line| format!("{}: {line}", path.display())));
+    }
+    assert!(
+        named.is_empty(),
+        "a reader of docs.rs has no such file:\n{}",
+        named.join("\n")
+    );
+}
+
+/// Effects that have no equation: the absence of walls, and a window of time around another effect.
+const WITHOUT_EQUATION: [&str; 2] = ["NoWalls", "During"];
+
+#[test]
+fn every_effect_has_its_equation() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/effect");
+    let files = fs::read_dir(folder).expect("the folder of effects");
+    let (mut with, mut without) = (0, Vec::new());
+    for file in files {
+        let text = fs::read_to_string(file.expect("an entry").path()).expect("a file");
+        let effects = text.lines().filter(|line| line.starts_with("impl"));
+        let effects = effects.filter_map(|line| Some(line.split_once("Effect<D> for ")?.1));
+        for effect in effects {
+            let name: String = effect.chars().take_while(|c| c.is_alphanumeric()).collect();
+            // What describes a public type stands right above it.
+            let types = ["struct", "enum"].map(|kind| format!("\npub {kind} {name}"));
+            let place = types.iter().find_map(|own| text.find(own));
+            let Some(place) = place.filter(|_| !WITHOUT_EQUATION.contains(&name.as_str())) else {
+                continue;
+            };
+            // Variants of an enum have theirs.
+            let above = text[..place].rfind("\n\n").unwrap_or(0);
+            let end = text[place..]
+                .find("\n}")
+                .map_or(text.len(), |end| place + end);
+            if text[above..end].contains("docs/equations/") {
+                with += 1;
+            } else {
+                without.push(name);
+            }
+        }
+    }
+    assert!(
+        with > 25 && without.is_empty(),
+        "{with} with an equation, not {without:?}"
+    );
+}
+
 #[test]
 fn the_book_has_every_page() {
     let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");

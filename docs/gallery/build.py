@@ -4,7 +4,7 @@ python3 docs/gallery/build.py [NAME ...]    all, or those named; needs cargo and
 python3 docs/gallery/build.py NAME=FILE     a plot that is there already
 """
 
-import collections
+import re
 import struct
 import subprocess
 import sys
@@ -14,7 +14,6 @@ from pathlib import Path
 HERE = Path(__file__).parent
 ROOT = HERE.parent.parent
 WIDTH = 640
-COLOURS = 80
 
 # Example: the plot that it leaves, and the options that suit a gallery.
 PICTURES = {
@@ -69,24 +68,48 @@ def pixels(png):
     return rows
 
 
-def with_palette(rows):
-    """A PNG file of few colours: rounded ones, the most frequent kept, and the nearest taken for others."""
-    rows = [[tuple(min(255, (v + 8) // 17 * 17) for v in p) for p in row] for row in rows]
-    counts = collections.Counter(p for row in rows for p in row)
-    palette = [colour for colour, _ in counts.most_common(COLOURS)]
-    index = {
-        colour: min(range(len(palette)), key=lambda k: sum((a - b) ** 2 for a, b in zip(palette[k], colour)))
-        for colour in counts
-    }
-    lines = b"".join(b"\0" + bytes(index[p] for p in row) for row in rows)
+def written(rows):
+    """A PNG file of these rows, in full colour: each row by the filter that leaves the smallest numbers."""
+    step, line = 3, 3 * len(rows[0])
+    above, lines = bytes(line), []
+    for pixels_of_row in rows:
+        row = bytes(v for p in pixels_of_row for v in p)
+        left = bytes(step) + row[:-step]
+        corner = bytes(step) + above[:-step]
+
+        def paeth(a, b, c):
+            guess = a + b - c
+            return min((a, b, c), key=lambda value: abs(guess - value))
+
+        guesses = [
+            bytes(line),
+            left,
+            above,
+            bytes((a + b) // 2 for a, b in zip(left, above)),
+            bytes(paeth(a, b, c) for a, b, c in zip(left, above, corner)),
+        ]
+        filtered = [bytes((v - g) & 255 for v, g in zip(row, guess)) for guess in guesses]
+        best = min(range(5), key=lambda how: sum(min(v, 256 - v) for v in filtered[how]))
+        lines.append(bytes([best]) + filtered[best])
+        above = row
 
     def chunk(kind, content):
         return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
 
-    header = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 3, 0, 0, 0)
-    colours = b"".join(bytes(colour) for colour in palette)
-    body = [(b"IHDR", header), (b"PLTE", colours), (b"IDAT", zlib.compress(lines, 9)), (b"IEND", b"")]
+    header = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 2, 0, 0, 0)
+    body = [(b"IHDR", header), (b"IDAT", zlib.compress(b"".join(lines), 9)), (b"IEND", b"")]
     return b"\x89PNG\r\n\x1a\n" + b"".join(chunk(kind, content) for kind, content in body)
+
+
+def check_bar(plot, rows):
+    """Fails unless the ends of a plot's colour bar, which is 12 wide, are in the picture as the plot has them."""
+    fills = re.findall(r'<rect [^>]*width="12" [^>]*fill="#([0-9a-f]{6})"', plot.read_text(encoding="utf-8"))
+    colours = {p for row in rows for p in row}
+    for fill in {fills[0], fills[-1]} if fills else ():
+        wanted = tuple(bytes.fromhex(fill))
+        nearest = min(colours, key=lambda p: sum(abs(a - b) for a, b in zip(p, wanted)))
+        if max(abs(a - b) for a, b in zip(nearest, wanted)) > 2:
+            sys.exit(f"{plot}: the end #{fill} of its colour bar became {nearest}")
 
 
 def main(names):
@@ -100,7 +123,9 @@ def main(names):
             plot = out / file
         convert = ["rsvg-convert", "--width", str(WIDTH), "--background-color", "white", plot]
         png = subprocess.run(convert, capture_output=True, check=True).stdout
-        small = with_palette(pixels(png))
+        rows = pixels(png)
+        small = written(rows)
+        check_bar(Path(plot), pixels(small))
         (HERE / f"{name}.png").write_bytes(small)
         print(name, len(small), "bytes")
 

@@ -17,9 +17,11 @@
 #![allow(dead_code, unused_imports)]
 
 mod options;
+mod records;
 mod watch;
 
 pub use options::{Example, Options, Own};
+pub use records::Records;
 pub use watch::{Movie, Shade, Summary, evenly, picture, save_picture, watch};
 
 use std::process::ExitCode;

@@ -38,6 +38,7 @@ pub struct Options {
     /// Threads; all cores if not given
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
+    /// How particles act on each other
     #[arg(long, value_name = "NAME")]
     pub scheme: String,
     /// End of the run [s]
@@ -58,20 +59,18 @@ pub type BadOption = String;
 
 impl Example {
     fn command(&self) -> Command {
-        let command = Options::augment_args(
-            Command::new(self.name)
-                .about(self.about)
-                .allow_negative_numbers(true),
-        )
-        .mut_arg("scheme", |arg| {
-            arg.required(false)
-                .value_parser(PossibleValuesParser::new(self.schemes))
-                .default_value(self.schemes.first().copied().unwrap_or_default())
-        })
-        .mut_arg("out", |arg| {
-            arg.required(false)
-                .default_value(format!("out/{}", self.name))
-        });
+        // The description last: the options bring one of their own.
+        let command = Options::augment_args(Command::new(self.name).allow_negative_numbers(true))
+            .about(self.about)
+            .mut_arg("scheme", |arg| {
+                arg.required(false)
+                    .value_parser(PossibleValuesParser::new(self.schemes))
+                    .default_value(self.schemes.first().copied().unwrap_or_default())
+            })
+            .mut_arg("out", |arg| {
+                arg.required(false)
+                    .default_value(format!("out/{}", self.name))
+            });
         self.own.iter().fold(command, |command, own| {
             let id = own.name.trim_start_matches('-');
             let taken = command.get_arguments().any(|arg| arg.get_id() == id);
@@ -176,5 +175,39 @@ impl Options {
         self.text(name).map_or(Ok(default), |value| {
             positive(value).map_err(|takes| format!("{name}: `{value}` is not accepted; {takes}"))
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const EXAMPLE: Example = Example {
+        name: "tank",
+        about: "Water in a tank.\nA second line.",
+        schemes: &["default", "riemann"],
+        own: &[Own {
+            name: "--case",
+            value: "NAME",
+            help: "deep or flat",
+        }],
+    };
+
+    #[test]
+    fn help_begins_with_the_description_and_lists_values() {
+        for ask in ["-h", "--help"] {
+            let help = EXAMPLE.read(["tank", ask]).unwrap_err().to_string();
+            assert!(
+                help.starts_with("Water in a tank.\nA second line."),
+                "{help}"
+            );
+            for text in [
+                "[possible values: default, riemann]",
+                "deep or flat",
+                "f64 or f32",
+            ] {
+                assert!(help.contains(text), "{help}");
+            }
+        }
     }
 }

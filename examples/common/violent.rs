@@ -4,18 +4,17 @@
 // Each example uses a part of this.
 #![allow(dead_code)]
 
-use super::common::{Failure, Options, Own};
+use super::common::{Failure, Options, Own, Records};
 use meshfree::observe::{PressureProbe, WaveGauge};
 use meshfree::output::csv::CsvWriter;
 use meshfree::output::progress::Progress;
 use meshfree::output::vtu::{Pvd, Vtu};
 use meshfree::prelude::*;
 use meshfree::simulation::Phases;
-use meshfree::study::records::Record;
 use meshfree::term::viscosity::{MonaghanGingold, Riemann};
 use meshfree::term::{Fourtakas, LaminarViscosity};
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 /// One option of an example alone, and what the examples of violent flow share beside what all take.
@@ -69,7 +68,7 @@ const SHARED: [Own; 14] = [
         "N",
         "particle files and pictures (20; 0 for none)",
     ),
-    own("--reference", "DIR", "measured records (../shared/data)"),
+    Records::OPTION,
     own("--case", "NAME", "see above"),
     own("--bars", "", "compares with the measured numbers"),
 ];
@@ -98,7 +97,7 @@ pub struct Choices {
     pub jitter: Option<f64>,
     pub seed: u64,
     pub frames: usize,
-    pub reference: PathBuf,
+    pub records: Records,
     pub bars: bool,
 }
 
@@ -124,7 +123,6 @@ impl Choices {
                 |_| format!("{name}: `{text}` is not accepted; it takes a whole number, 0 or more");
             text.trim().parse::<u32>().map_err(refused)
         };
-        let usual = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
         Ok(Self {
             scheme: options.scheme.clone(),
             alpha: not_negative("--alpha")?,
@@ -139,20 +137,9 @@ impl Choices {
             jitter: not_negative("--jitter")?,
             seed: whole("--seed", 1)?.into(),
             frames: whole("--frames", if options.quick { 4 } else { 20 })? as usize,
-            reference: options.text("--reference").map_or(usual, PathBuf::from),
+            records: Records::of(options)?,
             bars: options.has("--bars"),
         })
-    }
-
-    /// The record of that name, or a note that it is not there.
-    pub fn record(&self, name: &str) -> Option<Record> {
-        match Record::read(self.reference.join(name)) {
-            Ok(record) => Some(record),
-            Err(error) => {
-                println!("without the record {name}: {error}");
-                None
-            }
-        }
     }
 
     /// Layers of wall particles that the kernel does not look through.

@@ -59,7 +59,7 @@ pub fn flat(case: &Flat, history: &History, choices: &Choices) -> Result<(), Fai
                 ),
                 ("koshizuka_oka_1996_mps.csv", ["T", "Z"], 1.0),
             ] {
-                if let Some(record) = choices.record(&format!("dambreak2d_front/{file}")) {
+                if let Some(record) = choices.records.read(&format!("dambreak2d_front/{file}")) {
                     let times = record.column(columns[0])?.into_iter().map(|t| t * unit);
                     let points: Vec<_> = times.zip(record.column(columns[1])?).collect();
                     front(&format!("slope of the front dZ/dT, {file}"), &points);
@@ -130,7 +130,7 @@ fn lobovsky(
                 "buchner_2002.csv",
             ),
         ] {
-            if let Some(record) = choices.record(&format!("dambreak2d_pressure/{file}")) {
+            if let Some(record) = choices.records.read(&format!("dambreak2d_pressure/{file}")) {
                 let rows = record.column("T")?.into_iter().zip(record.column("P")?);
                 let late: Vec<f64> = rows
                     .filter(|(t, _)| (3.6..4.6).contains(t))
@@ -192,7 +192,10 @@ pub fn obstacle(history: &History, spacing: f64, choices: &Choices) -> Result<()
             bars.push(Bar::near(&what, mean("h4_m"), h4, 0.0165));
         }
     }
-    if let Some(record) = choices.record("spheric02_dambreak3d/water_heights.csv") {
+    if let Some(record) = choices
+        .records
+        .read("spheric02_dambreak3d/water_heights.csv")
+    {
         let measured = record
             .column("time_s")?
             .into_iter()

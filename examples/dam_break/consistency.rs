@@ -37,9 +37,11 @@ fn accounted_for(levels: [f64; 4]) -> f64 {
 
 /// Prints means over quarter seconds from 0.5 s on, computed and measured.
 pub fn print(history: &History, choices: &Choices) -> Result<(), Failure> {
-    let [Some(heights), Some(pressures)] = ["water_heights", "pressures"]
-        .map(|name| choices.record(&format!("spheric02_dambreak3d/{name}.csv")))
-    else {
+    let [Some(heights), Some(pressures)] = ["water_heights", "pressures"].map(|name| {
+        choices
+            .records
+            .read(&format!("spheric02_dambreak3d/{name}.csv"))
+    }) else {
         return Ok(());
     };
     let heights = history_of(&heights, &MEASURED)?;

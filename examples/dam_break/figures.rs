@@ -106,7 +106,7 @@ fn measured(
     label: &str,
     columns: [&str; 2],
 ) -> Result<Option<Series>, Failure> {
-    let Some(record) = choices.record(file) else {
+    let Some(record) = choices.records.read(file) else {
         return Ok(None);
     };
     let (x, y) = (record.column(columns[0])?, record.column(columns[1])?);
@@ -207,7 +207,7 @@ pub fn histories(
                 ("P_median", ""),
                 ("P_97.5pct", ""),
             ] {
-                if let Some(record) = choices.record(&file) {
+                if let Some(record) = choices.records.read(&file) {
                     let points = record.column("T")?.into_iter().zip(record.column(column)?);
                     panel = panel.series(Series::line(label, points).reference());
                 }
@@ -255,8 +255,10 @@ pub fn obstacle(
     folder: &Path,
 ) -> Result<(), Failure> {
     let until = history.time.last().copied().unwrap_or(0.0);
-    let heights = choices.record("spheric02_dambreak3d/water_heights.csv");
-    let pressures = choices.record("spheric02_dambreak3d/pressures.csv");
+    let heights = choices
+        .records
+        .read("spheric02_dambreak3d/water_heights.csv");
+    let pressures = choices.records.read("spheric02_dambreak3d/pressures.csv");
     let smooth = history.smoothed(2e-3);
     let mut figure = Figure::new();
     let names = (1..=4).map(|k| (format!("h{k}"), true));

@@ -212,7 +212,7 @@ fn figure(
     let mut panel = Panel::new(time, pressure)
         .title("sensor 1, left wall, 93 mm above the bottom; mean over 1 ms")
         .series(Series::line("computed", points));
-    if let Some(record) = choices.record(PRESSURE) {
+    if let Some(record) = choices.records.read(PRESSURE) {
         let values = record.column("p_median_Pa")?.into_iter().map(|p| 1e-3 * p);
         let points = record.column("time_s")?.into_iter().zip(values);
         panel = panel.series(Series::line("Souto-Iglesias et al. 2011", points).reference());
@@ -252,7 +252,7 @@ fn bars(history: &History, spacing: f64, choices: &Choices) {
     ];
     let until = history.time.last().copied().unwrap_or(0.0);
     let smooth = history.smoothed(1e-3);
-    let measured = choices.record(PRESSURE).and_then(|record| {
+    let measured = choices.records.read(PRESSURE).and_then(|record| {
         Some(History {
             time: record.column("time_s").ok()?,
             names: vec!["left_pa".into()],

@@ -92,7 +92,7 @@ fn smooth(record: &Record) -> Result<Roll, Failure> {
 pub fn asked_for(options: &Options, choices: &Choices) -> Result<(Roll, &'static str), Failure> {
     match options.text("--case") {
         Some("sine") => Ok((sine(), "sine")),
-        None | Some("record") => Ok(match choices.record(RECORD) {
+        None | Some("record") => Ok(match choices.records.read(RECORD) {
             Some(record) => (smooth(&record)?, "record"),
             None => (sine(), "sine"),
         }),

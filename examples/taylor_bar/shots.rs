@@ -1,15 +1,21 @@
 //! What a bar is compared with: the finite-element benchmark, and measured shots of the same metal.
 //! Shots come from the records beside the crate, if they are there.
 
+use super::common::Records;
 use super::{Bar, Failure};
 use meshfree::output::csv::Csv;
-use std::path::Path;
 
 /// Final length and radius of the foot \[m\] of the copper of Simo 1992 in later finite-element codes.
 const BENCHMARK: [f64; 2] = [21.425e-3, 7.225e-3];
 
 /// Lines that say how a bar's final length and foot diameter \[m\] compare.
-pub fn compared(material: &str, bar: Bar, length: f64, foot: f64) -> Result<String, Failure> {
+pub fn compared(
+    material: &str,
+    bar: Bar,
+    length: f64,
+    foot: f64,
+    records: Option<&Records>,
+) -> Result<String, Failure> {
     let near = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-3;
     let benchmark = [
         (bar.length, 32.4e-3),
@@ -30,12 +36,10 @@ pub fn compared(material: &str, bar: Bar, length: f64, foot: f64) -> Result<Stri
         "6061" => "6061-T6 aluminium",
         _ => return Ok(String::new()),
     };
-    let records =
-        Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data/taylor_impact/experiments.csv");
-    if !records.exists() {
+    let Some(shots) = records.and_then(|own| own.path("taylor_impact/experiments.csv")) else {
         return Ok(String::new());
-    }
-    let table = Csv::read(records)?;
+    };
+    let table = Csv::read(shots)?;
     let text = |name: &str| table.text_column(name).ok_or(format!("no column {name}"));
     let [materials, sources] = [text("material")?, text("source")?];
     let number = |name: &str, row: usize| -> Option<f64> {

@@ -48,8 +48,11 @@ const PROBLEMS: &[(&str, Make)] = &[
     ("plate", plate::problem),
 ];
 
-/// What an error costs: all problems, and the page of them, into docs/ and out/work_precision
+/// The command line.
 #[derive(Parser)]
+#[command(
+    about = "What an error costs: all problems, and the page of them, into docs/ and out/work_precision."
+)]
 struct Line {
     /// Three coarse spacings of each problem, into out/work_precision
     #[arg(long)]

@@ -178,10 +178,10 @@ impl Page {
             self.choices.markdown(),
             self.body
         );
-        let fail = |source| Error::File {
+        let fail = |cause| Error::File {
             action: "write",
             path: path.into(),
-            source,
+            cause,
         };
         if let Some(folder) = path.parent() {
             std::fs::create_dir_all(folder).map_err(fail)?;

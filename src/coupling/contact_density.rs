@@ -13,7 +13,7 @@ const H_OVER_DX: f64 = 1.3;
 /// Layers of a half space that the kernel reaches.
 const LAYERS: i32 = 3;
 
-/// Presses bodies apart by the density of one that particles of the other see,
+/// Presses bodies apart by the density of one that particles of the other see.
 ///
 /// σᵢ = Σⱼ Vⱼ Wᵢⱼ,  pᵢ = K max(0, σᵢ − θᵢ),  Fᵢⱼ = −(pᵢ + pⱼ) Vᵢ Vⱼ ∇Wᵢⱼ
 ///

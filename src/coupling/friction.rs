@@ -4,7 +4,7 @@
 use super::PairForce;
 use crate::scalar::Real;
 
-/// Coulomb friction of a pair with sticking by a spring,
+/// Coulomb friction of a pair with sticking by a spring.
 ///
 /// F_t = −k_t u,  |F_t| ≤ μ F_n
 ///

@@ -7,7 +7,7 @@ use super::{CoupledPair, CoupledParticle, Coupling, PairForce};
 use crate::scalar::Real;
 use crate::term::TermDoc;
 
-/// Pushes apart pairs that are nearer than the mean spacing s \[m\] of their bodies,
+/// Pushes apart pairs that are nearer than the mean spacing s \[m\] of their bodies.
 ///
 /// F = max(0, k (s − r) − c v_n),  k = M s^(D−2),  c = 2 ζ √(k m),  1/m = 1/mᵢ + 1/mⱼ
 ///

@@ -6,7 +6,7 @@ use super::{CoupledPair, CoupledParticle, Coupling, PairForce};
 use crate::scalar::Real;
 use crate::term::TermDoc;
 
-/// Ties pairs that are nearer than 1.6 mean spacings as built to their distance L \[m\] then,
+/// Ties pairs that are nearer than 1.6 mean spacings as built to their distance L \[m\] then.
 ///
 /// F = −k (r − L) r/|r|,  k = M s^(D−2)/D
 ///

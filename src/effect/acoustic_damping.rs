@@ -9,6 +9,8 @@ use crate::term::{Stage, TermDoc};
 /// Damps sound by a bulk viscosity ζ = λ ρ c h: liquid shows its neighbours the pressure p − ζ ∇·v
 /// (after Sun, Pilloton, Antuono & Colagrossi 2023).
 ///
+#[doc = include_str!("../../docs/equations/acoustic_damping.html")]
+///
 /// The sound of a weakly compressible liquid is not that of the real one, and what an impact leaves
 /// ringing in a corner no dissipation between particles reaches. A wave of wave number k decays by
 /// exp(−λ c h k² t/2); shear is not touched. The step shortens, at λ = 0.3 by a quarter.

@@ -18,9 +18,9 @@ pub enum ConductionSignal {
     Velocity,
 }
 
-/// Artificial conduction of internal energy e \[J/kg\]:
+/// Artificial conduction of internal energy e \[J/kg\].
 ///
-/// mᵢ deᵢ/dt += Σⱼ mᵢ mⱼ α v (eᵢ − eⱼ)/ρ̄ r̂ᵢⱼ·∇W
+#[doc = include_str!("../../docs/equations/artificial_conduction.html")]
 ///
 /// with the mean density ρ̄ \[kg/m³\] and a [speed](ConductionSignal) v \[m/s\]. A density that is a kernel sum is smooth where
 /// gas of one energy meets gas of another, and the energy of particles is not, so their product, the pressure, has a
@@ -60,7 +60,7 @@ pub enum ConductionSignal {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ArtificialConduction {
-    /// Strength α; 0.5. Price (2008) has 1, which smears more and turns no fewer neighbours (`docs/defaults.md`). Zero is none.
+    /// Strength α; 0.5. Price (2008) has 1, which smears more and turns no fewer neighbours ([defaults](crate#pages)). Zero is none.
     pub strength: f64,
     /// The speed; that of the pressures by default.
     pub signal: ConductionSignal,

@@ -6,15 +6,15 @@ use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
 use crate::term::{In, Layout, Pair, Sums, Term, TermDoc, stage};
 
-/// The artificial pressure of Monaghan (2000) for liquids in tension:
+/// The artificial pressure of Monaghan (2000) for liquids in tension.
 ///
-/// mᵢ dvᵢ/dt = −Σⱼ Vᵢ Vⱼ (Rᵢ + Rⱼ)/s ∇W fⁿ,  R = ε max(−p, 0),  f = W(r)/W(Δx)
+#[doc = include_str!("../../docs/equations/artificial_pressure.html")]
 ///
 /// with the volumes V, the pressure p \[Pa\] and the first moment s of the lattice, as in the pressure force. Particles in
 /// tension attract each other the more the nearer they are, up to where the gradient of the kernel is largest, and a
 /// liquid breaks up into clumps (Swegle, Hicks & Attaway 1995). fⁿ grows from one at the spacing to 22 at no distance
 /// (Wendland C2 at h/dx 1.5, n = 4), so from ε = 0.2 on near pairs repel. Forces are central and opposite: linear and angular
-/// momentum stay. They derive from no energy, and ε = 0.5 drives a liquid apart (`docs/hard-cases.md`).
+/// momentum stay. They derive from no energy, and ε = 0.5 drives a liquid apart ([hard cases](crate#pages)).
 ///
 /// The paper has p/ρ² and masses, and a hundredth of positive pressures as well; that is left out. Solids have
 /// [`ArtificialStress`](super::ArtificialStress). A liquid with a
@@ -45,7 +45,7 @@ use crate::term::{In, Layout, Pair, Sums, Term, TermDoc, stage};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ArtificialPressure {
     /// Share ε of the tension; 0.3: with the 0.2 of the paper voids open in a spinning patch that starts off the lattice, and 0.5
-    /// is too much (`docs/hard-cases.md`).
+    /// is too much ([hard cases](crate#pages)).
     pub share: f64,
     /// Exponent n of the kernel ratio; 4 as in the paper. Larger ones act nearer alone.
     pub exponent: u32,

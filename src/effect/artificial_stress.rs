@@ -8,11 +8,11 @@ use crate::scalar::{Lane, Real};
 use crate::tensor::Symmetric;
 use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 
-/// The artificial stress of Gray, Monaghan & Swift (2001, section 4) for [`Hypoelastic`] solids: with σ = S − p,
+/// The artificial stress of Gray, Monaghan & Swift (2001, section 4) for [`Hypoelastic`] solids.
 ///
-/// R = −ε Σ max(σₐ, 0) eₐ ⊗ eₐ,  mᵢ dvᵢ/dt = Σⱼ Vᵢ Vⱼ (Rᵢ/sᵢ + Rⱼ/sⱼ)·∇W fⁿ,  f = W(r)/W(Δx)
+#[doc = include_str!("../../docs/equations/artificial_stress.html")]
 ///
-/// over the principal stresses σₐ \[Pa\] and their directions eₐ. In tension SPH particles attract each other the more
+/// over the principal stresses σₐ \[Pa\] of σ = S − p and their directions eₐ. In tension SPH particles attract each other the more
 /// the nearer they are, and a stretched solid breaks up into clumps; R takes the attraction away within about a
 /// spacing Δx, and f⁴ leaves little of it at two. The paper has σ/ρ² and masses, here are the volumes V and
 /// first moments s of the other forces of the scheme; for equal particles the two agree.

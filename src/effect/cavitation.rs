@@ -1,5 +1,5 @@
 //! Liquid at its tension cut-off: densities that are held, with or without memory of the expansion.
-//! Both are of this crate; what else was tried stands in `docs/sloshing.md`.
+//! Both are of this crate; what else was tried is on the page [sloshing](crate#pages).
 
 use super::{Chunk, Effect, Law, Setting, StepProgram, Tally};
 use crate::error::Problem;
@@ -9,6 +9,8 @@ use crate::term::{Stage, TermDoc};
 
 /// Keeps a liquid that has cavitated at its [cut-off](crate::material::Material::with_pressure_cut_off) from
 /// thinning out: spray is still water, and volumes m/ρ weigh its forces.
+///
+#[doc = include_str!("../../docs/equations/cavitation.html")]
 ///
 /// It is held at nine tenths of the density ρ_t of the cut-off; with [`ExpansionMemory`] at ρ_t.
 #[derive(Clone, Copy, Debug, Default)]
@@ -24,8 +26,11 @@ impl<const D: usize> Effect<D> for Cavitation {
 }
 
 /// Lets liquid that has cavitated at its [cut-off](crate::material::Material::with_pressure_cut_off) close
-/// where it opened: below the density ρ_t of the cut-off continuity goes on in
-/// τ = ln(ρ/ρ_t), dτ/dt = Σⱼ Vⱼ vᵢⱼ·∇W, while pairs see ρ_t; pressure comes back with τ = 0.
+/// where it opened. Below the density ρ_t of the cut-off continuity goes on in the expansion τ.
+///
+#[doc = include_str!("../../docs/equations/expansion_memory.html")]
+///
+/// Pairs see ρ_t meanwhile; pressure comes back with τ = 0.
 ///
 /// ρ_t \[kg/m³\] is the density of the equation of state at the cut-off. With volumes that no longer grow,
 /// dτ/dt is the rate of Σ V W, so a drop that has left a neighbourhood

@@ -10,17 +10,16 @@ use crate::scalar::{Lane, Real};
 use crate::sweep::two_sum;
 use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 
-/// Moves particles of a liquid with u + δu, against the gradient of their concentration, and tells their densities:
+/// Moves particles of a liquid with u + δu, against the gradient of their concentration, and tells their densities.
 ///
-/// δuᵢ = −a h c Σⱼ Vⱼ (1 + 0.2 (W/W₀)⁴) ∇W,
-/// dρᵢ/dt += ρᵢ Σⱼ Vⱼ (δuᵢ − δuⱼ)·∇W/s + Σⱼ Vⱼ (ρᵢ δuᵢ + ρⱼ δuⱼ)·∇W/s
+#[doc = include_str!("../../docs/equations/consistent_shifting.html")]
 ///
 /// with the sound speed c \[m/s\], the kernel W₀ at the spacing and the first moment s of the lattice (Sun et al. 2019). The first sum is
 /// what the motion δu compresses, the second the mass that crosses into moved volumes. [`Shifting`](super::Shifting) has
 /// neither: what it moves keeps its density.
 ///
 /// **For flow in a plane.** In a closed tank in three dimensions it drives water into the walls, one particle in 25 within 80 ms at
-/// 30 g (`docs/sloshing.md`), for a reason that is not known yet: take [`Shifting::STANDARD`](super::Shifting::STANDARD) there.
+/// 30 g ([sloshing](crate#pages)), for a reason that is not known yet: take [`Shifting::STANDARD`](super::Shifting::STANDARD) there.
 ///
 /// **Free surface**, by the first moment of the neighbourhood over that of the lattice, which is ½ at a flat surface: below
 /// 0.95 the part of δu along Σ V ∇W, out of or into the liquid, fades, and is gone at 0.75; below 0.6 the rest
@@ -32,7 +31,7 @@ use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 ///
 /// The paper's term in momentum, Σ V (ρᵢ uᵢ δuᵢ + ρⱼ uⱼ δuⱼ)·∇W, is left out: alone it depends on the frame in which u is
 /// measured, and what would make up for that is no force between pairs. A tank at 30 g with each form, and what a does there, is in
-/// `docs/defaults.md`.
+/// [defaults](crate#pages).
 ///
 /// It costs a sweep in every evaluation and two vectors a particle.
 ///

@@ -13,11 +13,11 @@ use crate::scalar::Real;
 use crate::tensor::Symmetric;
 use crate::term::{Stage, TermDoc};
 
-/// Damage D of [`Hypoelastic`] solids by the [law of failure](crate::material::Material::with_failure) of their material:
+/// Damage D of [`Hypoelastic`] solids by the [law of failure](crate::material::Material::with_failure) of their material.
 ///
-/// D ← min(D + ΔD, 1),  at D = 1: S ← 0 and p ← max(p, 0)
+#[doc = include_str!("../../docs/equations/damage.html")]
 ///
-/// for ever. Below one damage weakens nothing. The law sees each step's stress of the last evaluation's pressure and the
+/// A particle that has failed stays so. Below one damage weakens nothing. The law sees each step's stress of the last evaluation's pressure and the
 /// deviatoric stress after plastic flow. What failed keeps mass, momentum and energy; particles that have failed
 /// are counted once each in [`limits`](crate::simulation::Simulation::limits), under `failure`, and their mass is in the
 /// ledger. The energy of distortion that a particle held when it failed stays in its internal energy.

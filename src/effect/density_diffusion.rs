@@ -12,6 +12,10 @@ use crate::term::{In, Term, stage};
 /// [`RiemannDiffusion`](crate::term::RiemannDiffusion), or one of your own that adds to
 /// [`Output::DENSITY_DIFFUSION`].
 ///
+#[doc = include_str!("../../docs/equations/density_diffusion.html")]
+///
+/// Each term has its ψ.
+///
 /// ```
 /// use meshfree::prelude::*;
 /// use meshfree::term::Antuono;

@@ -7,9 +7,9 @@ use crate::particles::{Field, Fields};
 use crate::scalar::Real;
 use crate::term::{Stage, TermDoc};
 
-/// Holds densities that follow from continuity above a share of that at rest,
+/// Holds densities that follow from continuity above a share of that at rest.
 ///
-/// ρ ← max(ρ, s ρ₀)
+#[doc = include_str!("../../docs/equations/density_floor.html")]
 ///
 /// In debris a particle whose neighbours all leave goes on expanding by continuity, though nothing is left that it could
 /// measure: its density falls without end, and its volume m/ρ outweighs all others in their gradients and forces. A

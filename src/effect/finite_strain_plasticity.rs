@@ -15,9 +15,9 @@ use crate::tensor::{Matrix, Symmetric, determinant, inverse};
 use crate::term::{Stage, TermDoc};
 
 /// The stress of a [total-Lagrangian](TotalLagrangian) solid that yields. Of the deformation gradient F a part is plastic and
-/// keeps volume; with the elastic, volume-free b̄ = J^(−2/3) F Cₚ⁻¹ Fᵀ
+/// keeps volume; b̄ is elastic and free of volume.
 ///
-/// s = G dev b̄,  √(3/2 s:s)/J ≤ Y(ε, ε̇, T, p, ρ),  P = (s − J p) F⁻ᵀ
+#[doc = include_str!("../../docs/equations/finite_strain_plasticity.html")]
 ///
 /// with J = det F, the [shear modulus](crate::material::Material::with_shear_modulus) G, the yield stress Y of the material's
 /// [law of strength](crate::material::Material::with_strength), and p by its equation of state from density and internal

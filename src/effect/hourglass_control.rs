@@ -9,9 +9,9 @@ use crate::scalar::{Lane, Real};
 use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 
 /// Hourglass control of [total-Lagrangian](TotalLagrangian) solids: a pair whose distance differs from what the mean of
-/// the two deformation gradients makes of it is pulled or pushed back,
+/// the two deformation gradients makes of it is pulled or pushed back.
 ///
-/// fᵢⱼ = ½ α Ē V₀ᵢ V₀ⱼ W/|X|² (δᵢ + δⱼ) x/|x|,  δᵢ = (Fᵢ X − x)·x/|x|
+#[doc = include_str!("../../docs/equations/hourglass_control.html")]
 ///
 /// with x = xᵢⱼ, X = Xᵢⱼ and Ē the mean of Young's moduli (Ganzenmüller 2015). It is exactly zero under any linear
 /// deformation, and lies along x, so it keeps momentum and angular momentum.
@@ -23,7 +23,7 @@ use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 /// [`YieldingHourglass`](super::YieldingHourglass) cuts it there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HourglassControl {
-    /// Strength α; 0.1 by default, ten times less than what begins to stiffen bending (`docs/defaults.md`).
+    /// Strength α; 0.1 by default, ten times less than what begins to stiffen bending ([defaults](crate#pages)).
     pub strength: f64,
 }
 

@@ -12,11 +12,9 @@ use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 /// Stiffness against hourglass modes, for [`Hypoelastic`] solids. Particles may move in zigzag without any change of
 /// the velocity gradient, so without stress, and what then looks like a tensile instability grows from it. Each particle
 /// integrates its mismatch q \[m\] with the motion that its gradient predicts for its neighbours, and pairs resist
-/// differences of it:
+/// differences of it.
 ///
-/// dqᵢ/dt = Σⱼ wᵢⱼ (vᵢⱼ − ∇vᵢ·rᵢⱼ) + W qᵢ,  wᵢⱼ = −Vⱼ rᵢⱼ·∇W/D
-///
-/// mᵢ dvᵢ/dt = Σⱼ (D + 2) ξ G Vᵢ Vⱼ F (qᵢⱼ·rᵢⱼ)/r² rᵢⱼ/s̄
+#[doc = include_str!("../../docs/equations/hourglass_free.html")]
 ///
 /// with the shear modulus G \[Pa\], ∇W = F r, and W the spin at the middle of the drift. In a motion that is linear in
 /// space q stays zero, and with it the force.

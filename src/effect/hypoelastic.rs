@@ -11,9 +11,9 @@ use crate::scalar::{Lane, Real};
 use crate::tensor::Symmetric;
 use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, VelocityGradient, stage};
 
-/// A hypoelastic solid: beside the pressure of its equation of state it bears a deviatoric stress S,
+/// A hypoelastic solid: beside the pressure of its equation of state it bears a deviatoric stress S.
 ///
-/// dS/dt = 2 G (D − tr D/3) + W S − S W,  mᵢ dvᵢ/dt = Σⱼ Vᵢ Vⱼ (Sᵢ/sᵢ + Sⱼ/sⱼ)·∇W
+#[doc = include_str!("../../docs/equations/hypoelastic.html")]
 ///
 /// with the [shear modulus](crate::material::Material::with_shear_modulus) G of each body, and D and W the symmetric
 /// and antisymmetric parts of the corrected velocity gradient at the middle of each drift. So waves of shear and

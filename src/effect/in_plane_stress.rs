@@ -16,7 +16,7 @@ use crate::term::{Stage, TermDoc};
 ///
 /// With F of the plane and the stretch λ₃ across it,
 ///
-/// P₃₃(F, λ₃) = 0,  P = ∂ψ(F, λ₃)/∂F
+#[doc = include_str!("../../docs/equations/in_plane_stress.html")]
 ///
 /// λ₃² = 1 − 2λ/(λ + 2μ) (E₁₁ + E₂₂) for [`StVenantKirchhoff`], and μ (λ₃² − 1) + λ ln(J λ₃) = 0 for [`NeoHookean`] (with
 /// J = det F of the plane), to rounding. The stored energy is that of the sheet, so it is kept as in plane strain. A St

@@ -9,9 +9,16 @@ use crate::sweep::Results;
 use crate::term::{In, Stage, Term, VelocityAtWall, VelocityGradient, ViscosityAtWall, stage};
 
 /// A physical viscosity, of the liquids' own dynamic viscosity:
-/// [`LaminarViscosity`](crate::term::LaminarViscosity) or [`CentralViscosity`](crate::term::CentralViscosity).
+/// [`LaminarViscosity`](crate::term::LaminarViscosity), which follows, or
+/// [`CentralViscosity`](crate::term::CentralViscosity).
 ///
-/// Walls [without slip](crate::boundary::Wall::no_slip) show the liquid its mirrored velocity and its viscosity.
+#[doc = include_str!("../../docs/equations/laminar_viscosity.html")]
+///
+/// Walls [without slip](crate::boundary::Wall::no_slip) show the liquid its viscosity and its mirrored velocity
+///
+#[doc = include_str!("../../docs/equations/wall_velocity.html")]
+///
+/// (Adami, Hu & Adams 2012, eq. 23).
 ///
 /// ```
 /// use meshfree::effect::Laminar;
@@ -99,9 +106,13 @@ impl<T: Real, const D: usize> Law<T, D> for NoSlip {
     }
 }
 
-/// Lets the viscosity follow the shear rate γ̇ = √(2 D:D) by the
+/// Lets the viscosity follow the shear rate by the
 /// [law of each material](crate::material::Material::with_rheology), for liquids that are not
-/// Newtonian. D is the symmetric part of the velocity gradient without its trace, to which a wall
+/// Newtonian.
+///
+#[doc = include_str!("../../docs/equations/shear_rate.html")]
+///
+/// D is the symmetric part of the velocity gradient without its trace, to which a wall
 /// without slip shows the velocity that makes the liquid stick.
 ///
 /// It costs a sweep for the velocity gradient, and goes with [`Laminar`]. Without it such a material keeps the

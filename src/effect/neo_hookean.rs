@@ -7,9 +7,9 @@ use crate::scalar::Real;
 use crate::tensor::Matrix;
 use crate::term::TermDoc;
 
-/// The stress of a [total-Lagrangian](super::TotalLagrangian) solid by the compressible neo-Hookean law,
+/// The stress of a [total-Lagrangian](super::TotalLagrangian) solid by the compressible neo-Hookean law.
 ///
-/// P = μ (F − F⁻ᵀ) + λ ln J F⁻ᵀ,  ψ = ½ μ (tr FᵀF − 3 − 2 ln J) + ½ λ (ln J)²
+#[doc = include_str!("../../docs/equations/neo_hookean.html")]
 ///
 /// with J = det F, μ the [shear modulus](crate::material::Material::with_shear_modulus) and λ = K − 2μ/3 by the
 /// [bulk modulus](crate::material::Material::bulk_modulus) at rest. It stiffens without bound as a volume vanishes. In two

@@ -8,9 +8,9 @@ use crate::scalar::{Lane, Real};
 use crate::sweep::two_sum;
 use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 
-/// Moves particles apart that are nearer to each other than the spacing:
+/// Moves particles apart that are nearer to each other than the spacing.
 ///
-/// δxᵢ = −a h c dt Σⱼ Vⱼ max(f − 1, 0) ∇W,  f = W(r)/W(Δx)
+#[doc = include_str!("../../docs/equations/pairing_control.html")]
 ///
 /// with the sound speed c \[m/s\]. [`Shifting`](super::Shifting) follows the gradient of the concentration, which at a free
 /// surface points out of the liquid, so it is silent there, and pairs that form in a jet of two or three particles
@@ -24,7 +24,7 @@ use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PairingControl {
     /// Strength a; 0.005, the least that keeps pairs apart in a spinning patch: more swells a liquid that is stretched
-    /// (`docs/defaults.md`).
+    /// ([defaults](crate#pages)).
     pub strength: f64,
 }
 

@@ -13,12 +13,12 @@ use crate::term::{Stage, TermDoc};
 /// Plane stress, for [`Hypoelastic`] solids in two dimensions: thin sheets, whose longitudinal waves run at
 /// √(E/ρ(1 − ν²)).
 ///
-/// ε̇_zz = −ν/(1 − ν) (ε̇_xx + ε̇_yy),  p = S_zz,  so that σ_zz = S_zz − p = 0
+#[doc = include_str!("../../docs/equations/plane_stress.html")]
 ///
 /// with Poisson's ratio ν of the material at rest. Where [`Plasticity`](super::Plasticity) lets a particle flow, what
 /// ε_zz changes beyond that follows from the return itself: δ solves
 ///
-/// S_zz(δ) Y/σ(δ) = p − K δ,  S(δ) = S + 2 G δ (e_z ⊗ e_z − 1/3)
+#[doc = include_str!("../../docs/equations/plane_stress_return.html")]
 ///
 /// with the stress σ of von Mises of S(δ), its yield stress Y after flow, and bulk modulus K (the condition of Simo &
 /// Taylor 1986, solved by the strain and not by their projection). The pressure of the equation of state does not act.

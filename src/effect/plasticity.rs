@@ -14,10 +14,10 @@ use crate::scalar::Real;
 use crate::tensor::Symmetric;
 use crate::term::{Stage, TermDoc};
 
-/// Plasticity with the condition of von Mises, beside [`Hypoelastic`]: after each elastic change of the deviatoric
-/// stress S, with σ = √(3/2 S:S),
+/// Plasticity with the condition of von Mises, beside [`Hypoelastic`]: the deviatoric stress S returns to the yield surface after
+/// each elastic change.
 ///
-/// σ − 3GΔ = Y(ε + Δ, Δ/dt, T, p, ρ),  S ← S Y/σ,  ε ← ε + Δ,  w ← w + Y Δ/ρ
+#[doc = include_str!("../../docs/equations/plasticity.html")]
 ///
 /// wherever σ is above the [yield stress](crate::material::Material::strength) Y. The increment Δ of the equivalent
 /// plastic strain solves the equation to rounding, with hardening and rate at the end of the step, so no step limit

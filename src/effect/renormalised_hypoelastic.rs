@@ -7,9 +7,9 @@ use crate::scalar::{Lane, Real};
 use crate::term::{In, Layout, Pair, Sums, Term, TermDoc, VelocityGradient, corrected, stage};
 
 /// The [`Hypoelastic`] solid with a force by corrected gradients, for
-/// [renormalised](crate::scheme::SchemeBuilder::renormalised) schemes:
+/// [renormalised](crate::scheme::SchemeBuilder::renormalised) schemes.
 ///
-/// mᵢ dvᵢ/dt = Σⱼ Vᵢ Vⱼ (Sᵢ Lᵢ + Sⱼ Lⱼ)·∇W, L the inverse of −Σⱼ Vⱼ rᵢⱼ ⊗ ∇W
+#[doc = include_str!("../../docs/equations/renormalised_hypoelastic.html")]
 ///
 /// Strain follows from the velocity gradient that L corrects, so this force is the one whose power is Σ V S:∇v, and
 /// angular momentum is conserved with the linear one. [`Hypoelastic`] divides by one number a particle instead, the first

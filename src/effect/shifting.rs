@@ -11,13 +11,16 @@ use crate::term::{ConcentrationGradient, In, Stage, stage};
 /// How particles are kept evenly spread.
 ///
 /// Where a flow strains, a lattice breaks up, and the kernel sums of a disordered neighbourhood read
-/// as pressure: vortices decay far too fast without it (`docs/defaults.md`).
+/// as pressure: vortices decay far too fast without it ([defaults](crate#pages)).
 ///
 /// Densities do not follow the shifts, and drift where viscosity is too weak to keep order:
 /// [`VolumeConsistency`](super::VolumeConsistency) holds them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shifting {
-    /// Against the gradient of their concentration, by A h |v| dt, at most 0.3 h²
+    /// Against the gradient of their concentration.
+    ///
+    #[doc = include_str!("../../docs/equations/shifting_concentration.html")]
+    ///
     /// (Lind et al. 2012; Skillen et al. 2013, eq. 15). The speed is that in the frame of the scene, so
     /// a tank that moves fast is better given as an [acceleration](crate::scene::Scene::acceleration).
     Concentration {
@@ -27,12 +30,14 @@ pub enum Shifting {
         /// nothing closes them.
         free_surface: bool,
     },
-    /// By a background pressure that moves particles and not their momentum: by
-    /// −dt² p_b/m Σ (Vᵢ² + Vⱼ²) ∇W/2 in a step (Adami, Hu & Adams 2013, eq. 8). For flow without free
-    /// surface.
+    /// By a background pressure that moves particles and not their momentum.
+    ///
+    #[doc = include_str!("../../docs/equations/shifting_transport.html")]
+    ///
+    /// (Adami, Hu & Adams 2013, eq. 8). For flow without free surface.
     ///
     /// The stress by which Adami et al. make momentum follow (their eq. 13) is left out: vortices are nearer without
-    /// (`docs/defaults.md`).
+    /// ([defaults](crate#pages)).
     TransportVelocity {
         /// Background pressure in units of ρ c².
         background: f64,

@@ -7,9 +7,9 @@ use crate::scalar::Real;
 use crate::tensor::Matrix;
 use crate::term::TermDoc;
 
-/// The stress of a [total-Lagrangian](super::TotalLagrangian) solid by Hooke's law in Green's strain E = ½ (FᵀF − 1),
+/// The stress of a [total-Lagrangian](super::TotalLagrangian) solid by Hooke's law in Green's strain E = ½ (FᵀF − 1).
 ///
-/// P = F (λ tr E + 2 μ E),  ψ = ½ λ (tr E)² + μ E:E
+#[doc = include_str!("../../docs/equations/st_venant_kirchhoff.html")]
 ///
 /// with μ the [shear modulus](crate::material::Material::with_shear_modulus) and λ = K − 2μ/3 by the
 /// [bulk modulus](crate::material::Material::bulk_modulus) at rest. For large rotations and moderate strains: it softens

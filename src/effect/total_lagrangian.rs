@@ -8,9 +8,9 @@ use crate::scalar::{Lane, Real};
 use crate::tensor::{Matrix, determinant, inverse};
 use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 
-/// The kinematics and the force of a total-Lagrangian solid, in reference positions X,
+/// The kinematics and the force of a total-Lagrangian solid, in reference positions X.
 ///
-/// Fᵢ = 1 + Σⱼ V₀ⱼ (uⱼ − uᵢ) ⊗ Lᵢ∇₀W,  ρ = ρ₀/det F,  mᵢ dvᵢ/dt = Σⱼ V₀ᵢ V₀ⱼ (Pᵢ Lᵢ + Pⱼ Lⱼ) ∇₀W(Xᵢⱼ)
+#[doc = include_str!("../../docs/equations/total_lagrangian.html")]
 ///
 /// with the displacement u = x − X, the first Piola–Kirchhoff stress P of an effect beside it, and the inverse L of the
 /// kernel's first moment matrix, taken once. Neighbours are never searched again. The kernel sees no motion, so the body

@@ -13,7 +13,7 @@ use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 /// neighbours and not their masses (Colagrossi & Landrini 2003). What they lack is something against single particles that cross the
 /// interface, a repulsion between particles of different liquids:
 ///
-/// mᵢ dvᵢ/dt −= ε Σⱼ Vᵢ Vⱼ (|pᵢ| + |pⱼ|)/s ∇W
+#[doc = include_str!("../../docs/equations/two_phase.html")]
 ///
 /// with the first moment s of the lattice (Grenier et al. 2009). It is central and opposite: momentum and angular momentum stay.
 /// Walls do not feel it.

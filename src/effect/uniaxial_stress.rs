@@ -12,7 +12,7 @@ use crate::term::{Stage, TermDoc};
 
 /// Uniaxial stress, for [`Hypoelastic`] solids in one dimension: slender bars, whose waves run at √(E/ρ).
 ///
-/// ε̇_yy = ε̇_zz = −ν ε̇_xx,  p = S_yy,  so that σ_yy = σ_zz = S_yy − p = 0 and dσ_xx/dt = E ε̇_xx
+#[doc = include_str!("../../docs/equations/uniaxial_stress.html")]
 ///
 /// with Young's modulus E = 9KG/(3K + G) and Poisson's ratio ν of the material at rest;
 /// [`Plasticity`](super::Plasticity) keeps lateral stress at zero too. The pressure of the equation of state does not

@@ -8,17 +8,18 @@ use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
 use crate::term::{In, Layout, Pair, Sums, Term, TermDoc, stage};
 
-/// Holds densities to the space that particles really take, in flow that walls or periods enclose:
-/// dρᵢ/dt += κ (c/h) (Σⱼ mⱼ Wᵢⱼ/U₀ − ρᵢ), with U₀ = Σ V W on the lattice.
+/// Holds densities to the space that particles really take, in flow that walls or periods enclose.
 ///
-/// Continuity integrates velocities, and knows nothing of where disorder and [`Shifting`](super::Shifting) have
+#[doc = include_str!("../../docs/equations/volume_consistency.html")]
+///
+/// with U₀ = Σ V W on the lattice. Continuity integrates velocities, and knows nothing of where disorder and [`Shifting`](super::Shifting) have
 /// moved particles: volumes m/ρ and the space between particles part. This is the re-initialisation of density
 /// by kernel sums (Colagrossi & Landrini 2003) done a little in every step; walls fill space too.
 ///
 /// What is summed are masses, which stay. Sums of the volumes m/ρ at hand would do the same in a full neighbourhood; but where liquid
 /// has cavitated or ends, particles are thin, and by their larger volumes press those behind them: water in an open-cell structure
 /// that does not move drove a twentieth of itself out of the open end in a quarter of a millisecond, and by masses stays
-/// (`docs/cellular_filler.md`).
+/// ([crushed cells](crate#pages)).
 ///
 /// So the liquids of a scheme must have one density at rest. U₀ belongs to one smoothing length, so the law does not go with lengths
 /// that vary or differ. At a free surface neighbourhoods are not full, and the liquid within the kernel's reach of it loses its

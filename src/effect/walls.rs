@@ -20,8 +20,11 @@ impl<const D: usize> Effect<D> for NoWalls {
 /// Share of a full neighbourhood below which a wall particle sees no liquid.
 pub(super) const DRY: f64 = 1e-6;
 
-/// Walls whose pressure extrapolates that of the liquid before them,
-/// p_w = [Σ p_f W + (g − a_w)·Σ ρ_f r_wf W] / Σ W (Adami, Hu & Adams 2012, eq. 27), not below a floor.
+/// Walls whose pressure extrapolates that of the liquid before them.
+///
+#[doc = include_str!("../../docs/equations/extrapolated_pressure.html")]
+///
+/// (Adami, Hu & Adams 2012, eq. 27), not below a floor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExtrapolatedPressure {
     /// The lowest pressure \[Pa\] that a wall can show the liquid: 0 by default, so nothing sticks.
@@ -94,7 +97,9 @@ impl<T: Real, const D: usize> Law<T, D> for ExtrapolatedPressure {
 }
 
 /// Walls that meet liquid as in a one-sided Riemann problem: liquid that moves into a wall at the speed u \[m/s\]
-/// feels ρβu \[Pa\] more than the [extrapolated pressure](ExtrapolatedPressure), β = min(6 |u|, c).
+/// feels ρβu \[Pa\] more than the [extrapolated pressure](ExtrapolatedPressure).
+///
+#[doc = include_str!("../../docs/equations/riemann_walls.html")]
 ///
 /// It is the pressure p* between the liquid and its mirror image by Zhang, Hu & Adams 2017 (eqs. 13, 14), whose
 /// limiter 3 sees twice the speed u. Theirs acts on approach alone; here liquid that leaves feels as much less,

@@ -9,9 +9,9 @@ use crate::particles::{Field, Fields};
 use crate::scalar::Real;
 use crate::term::{Stage, TermDoc};
 
-/// Cuts the stiffness of [`HourglassControl`](super::HourglassControl) where a [`FiniteStrainPlasticity`](super::FiniteStrainPlasticity) solid has flowed,
+/// Cuts the stiffness of [`HourglassControl`](super::HourglassControl) where a [`FiniteStrainPlasticity`](super::FiniteStrainPlasticity) solid has flowed.
 ///
-/// E ← E Y/(Y + 3 G ε)
+#[doc = include_str!("../../docs/equations/yielding_hourglass.html")]
 ///
 /// with the plastic strain ε, the yield stress Y there at rest, and the shear modulus G: the secant of the stress that is borne over
 /// that of the same strain without flow. A control of full stiffness is an elastic spring of the body as built, and resists

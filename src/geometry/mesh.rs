@@ -192,10 +192,10 @@ impl Mesh {
     /// [`Error::File`] if it cannot be read, or is cut short or no STL, and as [`new`](Self::new).
     pub fn read(path: impl AsRef<Path>, unit: f64) -> Result<Self> {
         let path = path.as_ref();
-        let failed = |source| Error::File {
+        let failed = |cause| Error::File {
             action: "read",
             path: path.into(),
-            source,
+            cause,
         };
         if !(unit.is_finite() && unit > 0.0) {
             return Err(Error::Argument(Problem::Parameter {

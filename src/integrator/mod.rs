@@ -12,7 +12,7 @@
 //! | [`RungeKutta4`] | 4 | 4 | 1.41 | no | reference in time |
 //!
 //! The two leapfrogs have the same error. Where density is summed and work is done in kicks (`schemes::impact`) drift–kick–drift
-//! evaluates fewer pairs; where density is integrated (`schemes::weakly_compressible`), more (`docs/accuracy_and_cost.md`).
+//! evaluates fewer pairs; where density is integrated (`schemes::weakly_compressible`), more ([accuracy and cost](crate#pages)).
 //!
 //! The stable step is on an undamped oscillator, relative to the leapfrog's ω dt = 2; the time step of
 //! a simulation is multiplied by it. Midpoint has none without damping and is kept short. An integrator

@@ -4,6 +4,7 @@
 use super::*;
 use crate::for_each_kernel;
 use crate::scalar::Lanes;
+use approx::assert_relative_eq;
 use core::f64::consts::PI;
 
 /// Surface of the unit ball.
@@ -71,8 +72,18 @@ fn is_finite_at_zero<const D: usize, K: Kernel<D>>(kernel: K) {
     assert!(kernel.shape(0.0) > 0.0 && at_zero.is_finite() && at_zero < 0.0);
     // Continuous towards zero, in f32 too: no cancellation.
     for q in [1e-30, 1e-6, 1e-4] {
-        assert!((kernel.slope_over_q(q) / at_zero - 1.0).abs() < 3e-4);
-        assert!((kernel.slope_over_q(q as f32) as f64 / at_zero - 1.0).abs() < 3e-4);
+        assert_relative_eq!(
+            kernel.slope_over_q(q),
+            at_zero,
+            epsilon = 0.0,
+            max_relative = 3e-4
+        );
+        assert_relative_eq!(
+            kernel.slope_over_q(q as f32) as f64,
+            at_zero,
+            epsilon = 0.0,
+            max_relative = 3e-4
+        );
     }
 }
 

@@ -24,10 +24,10 @@ use std::path::Path;
 
 /// The crate's error for `action` on the file at `path`.
 fn file_error<'a>(action: &'static str, path: &'a Path) -> impl Fn(io::Error) -> Error + 'a {
-    move |source| Error::File {
+    move |cause| Error::File {
         action,
         path: path.to_path_buf(),
-        source,
+        cause,
     }
 }
 

@@ -293,7 +293,7 @@ impl<T: Real, const D: usize> Body<T, D> {
     /// A lattice strikes a wall row by row, all of a row at once, and a pressure sensor reads spikes; particles that
     /// have lost their order strike one after the other, as water does. In a coarse dam break in space the peak at the
     /// foot of a wall falls from 20 to 7 kPa and its mean stays (`tests/liquids/off_lattice.rs`); in a plane, where a
-    /// row is one particle, nothing is gained (`docs/dam_breaks.md`). Runs of other seeds say what of a violent flow is
+    /// row is one particle, nothing is gained ([dam breaks and sloshing](crate#pages)). Runs of other seeds say what of a violent flow is
     /// chance.
     ///
     /// A fifth is enough. It may be from 0 to 0.3, beyond which neighbours are too close. Give it before what starts

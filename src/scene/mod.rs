@@ -338,7 +338,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
     /// Lets what liquids give the group of a body that sub-cycles act as a constant force over each of their steps, in place of
     /// an impulse at its begin and end, and lets the liquids meet its mean velocity in the step. A train of impulses drives all
     /// modes of the body that swing a whole number of times in a step of the liquid; with eight steps in one of the
-    /// liquid's and more it shakes them (`docs/sloshing.md`).
+    /// liquid's and more it shakes them ([sloshing](crate#pages)).
     ///
     /// The force comes half a step late, so that modes of about four steps of the liquid and less gain energy from it: give
     /// the body an artificial viscosity (α = 0.2: [`MonaghanGingold`](crate::term::viscosity::MonaghanGingold)), which damps these

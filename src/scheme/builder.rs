@@ -280,31 +280,40 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
     }
 }
 
-/// Methods that choose a form of the force, each from the forms that it goes with.
+/// The forms that the force of a builder can be changed to. Implemented by [`SchemeBuilder`] where the form of its force is
+/// a set of [`MIDPOINT`](super::forms::MIDPOINT), [`RENORMALISED`](super::forms::RENORMALISED) and
+/// [`ENERGY`](super::forms::ENERGY).
+pub trait ForceForm: Sized {
+    /// The builder with midpoint reconstruction.
+    type Midpoint;
+    /// The builder without it.
+    type Plain;
+    /// The builder with corrected gradients.
+    type Renormalised;
+    #[doc(hidden)]
+    fn into_midpoint(self) -> Self::Midpoint;
+    #[doc(hidden)]
+    fn into_plain(self) -> Self::Plain;
+    #[doc(hidden)]
+    fn into_renormalised(self) -> Self::Renormalised;
+}
+
+/// Implements the forms for one form of the force.
 macro_rules! forms {
     ($( $from:literal => [$midpoint:expr, $plain:expr, $renormalised:expr] ),*) => {$(
-        impl<K, V, W, E, const MODES: u8> SchemeBuilder<K, V, W, E, MODES, $from> {
-            /// Adds midpoint reconstruction of the pressure with strength χ; see
-            /// [`MidpointReconstruction`](crate::term::MidpointReconstruction).
-            #[must_use]
-            pub fn midpoint_reconstruction(
-                self,
-                strength: f64,
-            ) -> SchemeBuilder<K, V, W, E, MODES, { $midpoint }> {
-                self.set(|own| own.curvature = strength).map(|k, v, w, e| (k, v, w, e))
-            }
-            /// Leaves midpoint reconstruction of the pressure out.
-            #[must_use]
-            pub fn without_midpoint_reconstruction(
-                self,
-            ) -> SchemeBuilder<K, V, W, E, MODES, { $plain }> {
+        #[doc(hidden)]
+        impl<K, V, W, E, const MODES: u8> ForceForm for SchemeBuilder<K, V, W, E, MODES, $from> {
+            type Midpoint = SchemeBuilder<K, V, W, E, MODES, { $midpoint }>;
+            type Plain = SchemeBuilder<K, V, W, E, MODES, { $plain }>;
+            type Renormalised = SchemeBuilder<K, V, W, E, MODES, { $renormalised }>;
+            fn into_midpoint(self) -> Self::Midpoint {
                 self.map(|k, v, w, e| (k, v, w, e))
             }
-            /// Corrects gradients of pressure force and compression, so that they are exact for linear fields, for
-            /// the price of a sweep.
-            #[must_use]
-            pub fn renormalised(self) -> SchemeBuilder<K, V, W, E, MODES, { $renormalised }> {
-                self.without_consistency_factor().map(|k, v, w, e| (k, v, w, e))
+            fn into_plain(self) -> Self::Plain {
+                self.map(|k, v, w, e| (k, v, w, e))
+            }
+            fn into_renormalised(self) -> Self::Renormalised {
+                self.map(|k, v, w, e| (k, v, w, e))
             }
         }
     )*};
@@ -320,6 +329,29 @@ forms! {
     0b101 => [0b101, 0b100, 0b111],
     0b110 => [0b111, 0b110, 0b110],
     0b111 => [0b111, 0b110, 0b111]
+}
+
+impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MODES, FORCE>
+where
+    Self: ForceForm,
+{
+    /// Adds midpoint reconstruction of the pressure with strength χ; see
+    /// [`MidpointReconstruction`](crate::term::MidpointReconstruction).
+    #[must_use]
+    pub fn midpoint_reconstruction(self, strength: f64) -> <Self as ForceForm>::Midpoint {
+        self.set(|own| own.curvature = strength).into_midpoint()
+    }
+    /// Leaves midpoint reconstruction of the pressure out.
+    #[must_use]
+    pub fn without_midpoint_reconstruction(self) -> <Self as ForceForm>::Plain {
+        self.into_plain()
+    }
+    /// Corrects gradients of pressure force and compression, so that they are exact for linear fields, for
+    /// the price of a sweep.
+    #[must_use]
+    pub fn renormalised(self) -> <Self as ForceForm>::Renormalised {
+        self.without_consistency_factor().into_renormalised()
+    }
 }
 
 impl<K, V, W, E, const MODES: u8> SchemeBuilder<K, V, W, E, MODES, 0> {

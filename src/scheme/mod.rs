@@ -37,6 +37,7 @@ mod builder;
 mod compile;
 /// Bits that tell the forms of the pair force apart in the type of a builder.
 pub mod forms {
+    pub use super::builder::ForceForm;
     pub use super::force::{ENERGY, KICKED, MIDPOINT, REFERENCE, RENORMALISED};
 }
 

@@ -43,10 +43,10 @@ impl Record {
         let path = path.as_ref();
         fs::read_to_string(path)
             .and_then(|text| Self::parse(&text))
-            .map_err(|source| Error::File {
+            .map_err(|cause| Error::File {
                 action: "read",
                 path: path.to_path_buf(),
-                source,
+                cause,
             })
     }
 

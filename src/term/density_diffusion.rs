@@ -22,7 +22,9 @@ fn factor<L: Lane, const D: usize, P: Layout>(pair: &Pair<'_, L, D, P>, delta: f
 
 /// Diffusion of the whole density difference.
 ///
-/// dρᵢ/dt += δ h c Σⱼ Vⱼ 2 (ρⱼ − ρᵢ) rⱼᵢ·∇W/r² (Molteni & Colagrossi 2009).
+#[doc = include_str!("../../docs/equations/molteni.html")]
+///
+/// (Molteni & Colagrossi 2009).
 ///
 /// It smooths the hydrostatic gradient too, which lets a free surface rise slowly: for violent flow
 /// of short duration.
@@ -59,7 +61,7 @@ impl<const D: usize> Term<D> for Molteni {
 
 /// Diffusion of what differs from the hydrostatic state.
 ///
-/// dρᵢ/dt += δ h/c Σⱼ Vⱼ 2 (pⱼ − pᵢ − ρ̄ g·rⱼᵢ) rⱼᵢ·∇W/r²
+#[doc = include_str!("../../docs/equations/fourtakas.html")]
 ///
 /// (Fourtakas et al. 2019, eqs. 12 to 14, with density differences written as pressure differences over
 /// c², so that the hydrostatic part needs no inverse of the equation of state). The mean density makes
@@ -122,8 +124,9 @@ impl<const D: usize> Term<D> for Fourtakas {
 
 /// Diffusion of what differs from a linear field: δ-SPH.
 ///
-/// dρᵢ/dt += δ h c Σⱼ Vⱼ [2 (ρⱼ − ρᵢ) − (∇ρᵢ + ∇ρⱼ)·rⱼᵢ] rⱼᵢ·∇W/r² with corrected gradients
-/// (Antuono et al. 2010, eq. 9).
+#[doc = include_str!("../../docs/equations/antuono.html")]
+///
+/// with corrected gradients (Antuono et al. 2010, eq. 9).
 ///
 /// It costs a sweep for the gradient, and needs to know nothing of body forces.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -165,8 +168,11 @@ impl<const D: usize> Term<D> for Antuono {
 
 /// What a Riemann solver between two particles adds to the continuity equation.
 ///
-/// The velocity of the contact is v* = v̄ + (pᵢ − pⱼ)/(2 ρ̄ c̄) along the pair, so
-/// dρᵢ/dt += Σⱼ Vⱼ (pᵢ − pⱼ + ρ̄ g·rⱼᵢ) |r| F/c̄ (Zhang, Hu & Adams 2017, eqs. 8, 12, with the hydrostatic
+/// With the velocity v* of the contact along the pair,
+///
+#[doc = include_str!("../../docs/equations/riemann_diffusion.html")]
+///
+/// (Zhang, Hu & Adams 2017, eqs. 8, 12, with the hydrostatic
 /// part left out). Join it with [`Riemann`](crate::term::viscosity::Riemann) as viscosity.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct RiemannDiffusion;

@@ -7,7 +7,7 @@ use crate::scalar::Lane;
 
 /// Laminar viscosity by central differences of the velocity along the pair.
 ///
-/// mᵢ dvᵢ/dt = Σⱼ Vᵢ Vⱼ 2 μ̄ᵢⱼ F vᵢⱼ with μ̄ = 2 μᵢμⱼ/(μᵢ + μⱼ)
+#[doc = include_str!("../../docs/equations/laminar_viscosity.html")]
 ///
 /// (Morris, Fox & Zhu 1997, eq. 22, with the harmonic mean of Hu & Adams 2006 for unlike viscosities).
 /// F is their (r·∇W)/(r² + 0.01 h²) without the 0.01 h²: it is finite by itself, and the addend
@@ -19,7 +19,7 @@ pub struct LaminarViscosity;
 
 /// Laminar viscosity along the line of centres.
 ///
-/// mᵢ dvᵢ/dt = Σⱼ Vᵢ Vⱼ 2 (D + 2) μ̄ᵢⱼ (vᵢⱼ·r)/r² ∇W with the same μ̄
+#[doc = include_str!("../../docs/equations/central_viscosity.html")]
 ///
 /// (Cleary 1998; Monaghan 2005, eq. 4.29 in the form for D dimensions; instead of their 0.01 h² a mere
 /// 10⁻⁶ h² keeps the fraction finite). It conserves linear and

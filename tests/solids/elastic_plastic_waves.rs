@@ -1,6 +1,7 @@
 //! Waves in solids that yield, against theory: plate impact, a bar that is free to widen, and shear forth and back.
 //! What the laws of strength and the return to them make of single stresses is tested beside them.
 
+use approx::assert_relative_eq;
 use meshfree::effect::{Hypoelastic, Plasticity, UniaxialStress};
 use meshfree::material::eos::Linear;
 use meshfree::material::strength::{LinearHardening, PerfectPlasticity, Strength};
@@ -133,7 +134,7 @@ fn a_plate_impact_has_precursor_and_plastic_wave() {
         .all()
         .map(|p| p.mass() * YIELD * strain(&p) / p.density())
         .sum();
-    assert!((work / path - 1.0).abs() < 1e-3, "{work} {path}");
+    assert_relative_eq!(work, path, epsilon = 0.0, max_relative = 1e-3);
     let compression: f64 = late
         .all()
         .map(|p| p.mass() / p.density() * p.pressure().powi(2) / (2.0 * BULK))
@@ -146,7 +147,7 @@ fn a_plate_impact_has_precursor_and_plastic_wave() {
     let e = before / longitudinal + (0.05 - before) / C;
     let exact = 2.0 / 3.0 * e - YIELD / (3.0 * SHEAR);
     let flowed = mean(&profile(late, strain), 0.1, 0.4);
-    assert!((flowed / exact - 1.0).abs() < 0.01, "{flowed} {exact}");
+    assert_relative_eq!(flowed, exact, epsilon = 0.0, max_relative = 0.01);
     println!(
         "plastic strain over exact {}, energy {drift:e}, work over path {}, elastic {alone}",
         flowed / exact,
@@ -198,7 +199,7 @@ fn waves_run_at_the_speeds_of_a_slender_bar() {
     let widened = profile(late, |p| p.scalar(UniaxialStress::LATERAL_STRAIN).unwrap());
     let lateral = mean(&widened, 0.08, 0.27);
     let exact = POISSON * plateau / YOUNG + 0.5 * (plateau - YIELD) / HARDENING;
-    assert!((lateral / exact - 1.0).abs() < 0.01, "{lateral} {exact}");
+    assert_relative_eq!(lateral, exact, epsilon = 0.0, max_relative = 0.01);
     let drift = late.ledger().whole.total_energy() / (0.5 * 2.0 * RHO * 0.05 * 0.05) - 1.0;
     assert!(drift.abs() < 1e-12, "{drift}");
     // Without yield one wave of ρ c v.
@@ -238,7 +239,7 @@ fn cyclic_shear_yields_both_ways() {
         let shear = sign * stress.at(0, 1) * 3f64.sqrt() / YIELD;
         assert!((shear - 1.0).abs() < 1e-4, "{shear}");
         let equivalent = (1.5 * stress.contract(&stress)).sqrt();
-        assert!((equivalent / YIELD - 1.0).abs() < 1e-12, "{equivalent}");
+        assert_relative_eq!(equivalent, YIELD, epsilon = 0.0, max_relative = 1e-12);
         let flowed = middle.scalar(Plasticity::STRAIN).unwrap() * 3f64.sqrt();
         assert!(
             (flowed / (sheared + path) - 1.0).abs() < 2e-3,

@@ -1,6 +1,7 @@
 //! In time and space: bodies that are held until something happens, loads that begin with it, effects in a window of time, and
 //! particles that leave a box. What is conserved closes with what is booked, and a run that resumes has the same bits.
 
+use approx::assert_relative_eq;
 use meshfree::effect::During;
 use meshfree::prelude::*;
 use meshfree::simulation::Simulation;
@@ -244,8 +245,18 @@ fn what_leaves_a_box_is_counted() -> Result<(), Error> {
     run.run_until(0.012)?;
     let (gone, left) = (run.removed(), run.ledger().whole);
     assert!(gone.particles > 20 && run.particles() + gone.particles as usize == 100);
-    assert!(((gone.mass + left.mass) / mass - 1.0).abs() < 1e-12);
-    assert!(((gone.momentum[0] + left.momentum[0]) / momentum - 1.0).abs() < 1e-9);
+    assert_relative_eq!(
+        gone.mass + left.mass,
+        mass,
+        epsilon = 0.0,
+        max_relative = 1e-12
+    );
+    assert_relative_eq!(
+        gone.momentum[0] + left.momentum[0],
+        momentum,
+        epsilon = 0.0,
+        max_relative = 1e-9
+    );
     assert!(run.all().all(|particle| particle.position()[0] < 0.13));
     Ok(())
 }

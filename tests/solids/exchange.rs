@@ -1,6 +1,7 @@
 //! Schemes in exchange for others at an event: an effect with pair terms in a window of time. A step outside of the window
 //! is to the bit, the pair and the byte one without the effect, and a run that resumes has the same bits.
 
+use approx::assert_relative_eq;
 use meshfree::prelude::*;
 use meshfree::simulation::Simulation;
 
@@ -73,7 +74,7 @@ fn an_effect_with_pairs_acts_in_its_window_alone() -> Result<(), Error> {
     run.run_until(last)?;
     assert_eq!(bytes(&run), few);
     let momentum = run.ledger().whole.momentum[0];
-    assert!((momentum / before - 1.0).abs() < 1e-12);
+    assert_relative_eq!(momentum, before, epsilon = 0.0, max_relative = 1e-12);
     // Longer than the run it is the effect throughout, but for a first step without.
     let mut long = window(0.0, f64::INFINITY).build()?;
     let mut always = column(with()).build()?;

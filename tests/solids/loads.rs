@@ -1,6 +1,7 @@
 //! Loads that depend on the particle, against exact solutions: wells, drag, heat, and the energy that they give.
 //! A particle alone follows an ordinary differential equation, and an integrator has its order on it.
 
+use approx::assert_relative_eq;
 use meshfree::boundary::Periodic;
 use meshfree::error::{Error, Problem};
 use meshfree::integrator::{DriftKickDrift, Integrator, KickDriftKick, RungeKutta4};
@@ -73,11 +74,16 @@ fn a_well_swings_with_the_period_and_the_energy_of_the_integrator() {
         assert!((a + omega * omega * now).abs() < 1e-15, "{a}");
         assert!((now / x - (f64::from(n) * phase).cos()).abs() < 1e-11);
         let energy = v * v + share * now * now;
-        assert!((energy / (share * x * x) - 1.0).abs() < 1e-12, "{energy}");
+        assert_relative_eq!(energy, share * x * x, epsilon = 0.0, max_relative = 1e-12);
     }
     // Its period is short by (ω dt)²/24.
     let short = 1.0 - omega * dt / phase;
-    assert!((short / ((omega * dt).powi(2) / 24.0) - 1.0).abs() < 1e-3);
+    assert_relative_eq!(
+        short,
+        (omega * dt).powi(2) / 24.0,
+        epsilon = 0.0,
+        max_relative = 1e-3
+    );
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Shapes from triangle meshes against boxes and balls, through STL files, whole and broken.
 //! A sphere of facets has the distance of a sphere within the height of a facet's arc.
 
+use approx::assert_relative_eq;
 use meshfree::error::Error;
 use meshfree::geometry::{Cuboid, Mesh, Shape, fill};
 use std::collections::HashMap;
@@ -171,8 +172,13 @@ fn a_sphere_of_triangles_is_one_within_its_facets() {
     );
     assert!(worst < 1.01 * depth && depth < 5e-3, "{worst:e} {depth:e}");
     assert!(winding < 0.03, "{winding}");
-    assert!((mesh.volume() / ball - 1.0).abs() < 3.0 * depth);
-    assert!((filled / mesh.volume() - 1.0).abs() < 5e-3);
+    assert_relative_eq!(
+        mesh.volume(),
+        ball,
+        epsilon = 0.0,
+        max_relative = 3.0 * depth
+    );
+    assert_relative_eq!(filled, mesh.volume(), epsilon = 0.0, max_relative = 5e-3);
 }
 
 #[test]
@@ -185,7 +191,7 @@ fn files_in_both_forms_and_units_are_read() {
     ] {
         let mesh = read(name, &bytes, 1e-3).unwrap();
         assert_eq!(mesh.triangles(), 12, "{name}");
-        assert!((mesh.volume() / 1.125e-9 - 1.0).abs() < 1e-12, "{name}");
+        assert_relative_eq!(mesh.volume(), 1.125e-9, epsilon = 0.0, max_relative = 1e-12);
         assert!((mesh.signed_distance(&[0.0, 5e-4, 1.25e-3]) + 2.5e-4).abs() < 1e-15);
     }
 }

@@ -1,6 +1,7 @@
 //! Smoothing lengths that follow the flow: by the divergence of velocity, within limits.
 //! h^D ρ stays what it was, and a length that is held at a limit is counted.
 
+use approx::assert_relative_eq;
 use meshfree::kernel::CubicSpline;
 use meshfree::material::catalogue;
 use meshfree::scene::{Body, Scene};
@@ -30,7 +31,7 @@ fn smoothing_length_times_density_is_constant_where_density_is_integrated() {
     let mut compressed = 0;
     for particle in simulation.all() {
         let product = particle.smoothing_length() * particle.density();
-        assert!((product / first - 1.0).abs() < 1e-9, "{product} {first}");
+        assert_relative_eq!(product, first, epsilon = 0.0, max_relative = 1e-9);
         compressed += usize::from(particle.density() > 1.03 * 8930.0);
     }
     assert!(compressed > 20, "{compressed}");
@@ -45,5 +46,5 @@ fn a_length_held_at_a_limit_is_counted() {
         .all()
         .map(|p| p.smoothing_length())
         .fold(f64::INFINITY, f64::min);
-    assert!((least / (0.99 * 1.2e-4) - 1.0).abs() < 1e-12, "{least}");
+    assert_relative_eq!(least, 0.99 * 1.2e-4, epsilon = 0.0, max_relative = 1e-12);
 }

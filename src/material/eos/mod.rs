@@ -78,7 +78,7 @@ use core::ops::AddAssign;
 pub struct EosState<L: Lane> {
     /// Pressure p \[Pa\], positive in compression.
     pub pressure: L,
-    /// Adiabatic sound speed c \[m/s\]:
+    /// Adiabatic sound speed c \[m/s\].
     ///
     #[doc = include_str!("../../../docs/equations/sound_speed.html")]
     pub sound_speed: L,

@@ -4,6 +4,7 @@
 use super::*;
 use crate::for_each_eos;
 use crate::scalar::{Lanes, Real};
+use approx::assert_relative_eq;
 use proptest::prelude::*;
 
 /// c² from central differences of p(ρ, e), or nothing where p has a kink nearby.
@@ -177,7 +178,7 @@ fn full_returns_its_hugoniot() {
     for eta in [0.01, 0.1, 0.3, 0.6] {
         let (density, p) = (8930.0 * (1.0 + eta), law.hugoniot_pressure(eta));
         let state = law.state(density, 0.5 * p * eta / density);
-        assert!((state.pressure / p - 1.0).abs() < 1e-12);
+        assert_relative_eq!(state.pressure, p, epsilon = 0.0, max_relative = 1e-12);
     }
 }
 
@@ -197,8 +198,13 @@ fn cubic_sound_speed_in_closed_form() {
             + gamma * e
             + gamma * p / rho;
         let state = law.state(rho, e);
-        assert!((state.pressure / p - 1.0).abs() < 1e-12);
-        assert!((state.sound_speed / squared.sqrt() - 1.0).abs() < 1e-12);
+        assert_relative_eq!(state.pressure, p, epsilon = 0.0, max_relative = 1e-12);
+        assert_relative_eq!(
+            state.sound_speed,
+            squared.sqrt(),
+            epsilon = 0.0,
+            max_relative = 1e-12
+        );
     }
 }
 
@@ -260,7 +266,7 @@ fn tillotson_is_continuous_in_energy() {
     assert!((p - (75.2e9 * 0.1 + 65e9 * 0.01)).abs() < 1.0);
     // Thin and hot: an ideal gas with γ − 1 = a.
     let p = law.state(0.27, 5e7).pressure;
-    assert!((p / (0.5 * 0.27 * 5e7) - 1.0).abs() < 1e-6);
+    assert_relative_eq!(p, 0.5 * 0.27 * 5e7, epsilon = 0.0, max_relative = 1e-6);
 }
 
 #[test]
@@ -326,14 +332,29 @@ fn gases_in_closed_form() {
     let usual =
         (gamma - 1.0) * rho * (e + gamma * p_inf / ((gamma - 1.0) * 1000.0)) - gamma * p_inf;
     let state = law.state(rho, e);
-    assert!((state.pressure / usual - 1.0).abs() < 1e-12);
-    assert!((state.sound_speed.powi(2) / (gamma * (usual + p_inf) / rho) - 1.0).abs() < 1e-12);
+    assert_relative_eq!(state.pressure, usual, epsilon = 0.0, max_relative = 1e-12);
+    assert_relative_eq!(
+        state.sound_speed.powi(2),
+        gamma * (usual + p_inf) / rho,
+        epsilon = 0.0,
+        max_relative = 1e-12
+    );
     assert_eq!(law.state(1000.0, 0.0).pressure, 0.0);
 
     let gas = Polynomial::new(1.2, [0.0, 0.0, 0.0, 0.0, 0.4, 0.4, 0.0]);
     let (one, other) = (gas.state(4.0, 3e5), air.state(4.0, 3e5));
-    assert!((one.pressure / other.pressure - 1.0).abs() < 1e-12);
-    assert!((one.sound_speed / other.sound_speed - 1.0).abs() < 1e-12);
+    assert_relative_eq!(
+        one.pressure,
+        other.pressure,
+        epsilon = 0.0,
+        max_relative = 1e-12
+    );
+    assert_relative_eq!(
+        one.sound_speed,
+        other.sound_speed,
+        epsilon = 0.0,
+        max_relative = 1e-12
+    );
 }
 
 /// A compression of 10⁻⁵ keeps its digits in `f32`.
@@ -354,7 +375,12 @@ fn small_compressions_in_single_precision() {
             law.state(1000.01f32, 0.0),
             law.state(f64::from(1000.01f32), 0.0),
         );
-        assert!((f64::from(p.pressure) / exact.pressure - 1.0).abs() < 5e-7);
+        assert_relative_eq!(
+            f64::from(p.pressure),
+            exact.pressure,
+            epsilon = 0.0,
+            max_relative = 5e-7
+        );
     }
 }
 
@@ -392,8 +418,8 @@ fn tnt_detonates_at_its_measured_speed() {
             (slowest, pressure) = (speed, p);
         }
     }
-    assert!((slowest / 6930.0 - 1.0).abs() < 5e-3, "{slowest}");
-    assert!((pressure / 21e9 - 1.0).abs() < 1e-2, "{pressure}");
+    assert_relative_eq!(slowest, 6930.0, epsilon = 0.0, max_relative = 5e-3);
+    assert_relative_eq!(pressure, 21e9, epsilon = 0.0, max_relative = 1e-2);
 }
 
 /// ∫ p/ρ² dρ by Simpson's rule on the law's own pressure, whose error is of the fourth order in the step.

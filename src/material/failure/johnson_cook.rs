@@ -4,7 +4,7 @@
 use super::{Failure, FailureState};
 use crate::material::strength::ROOM_TEMPERATURE;
 
-/// The law of Johnson & Cook (1985), equations 4 and 5:
+/// The law of Johnson & Cook (1985), equations 4 and 5.
 ///
 /// ```text
 /// D = Σ Δε/ε_f,   ε_f = (D₁ + D₂ e^(D₃ σ*)) (1 + D₄ ln ε̇*) (1 + D₅ T*)

@@ -5,7 +5,7 @@ use super::ViscosityLaw;
 use super::cross::plateaus;
 use crate::scalar::Lane;
 
-/// The law of Carreau (1972) with the exponent of Yasuda, Armstrong & Cohen (1981):
+/// The law of Carreau (1972) with the exponent of Yasuda, Armstrong & Cohen (1981).
 ///
 /// ```text
 /// μ(γ̇) = μ∞ + (μ₀ − μ∞) [1 + (λγ̇)ᵃ]^((n−1)/a)

@@ -5,7 +5,7 @@ use super::ViscosityLaw;
 use crate::material::eos::guard::Problems;
 use crate::scalar::Lane;
 
-/// The law of Cross (1965):
+/// The law of Cross (1965).
 ///
 /// ```text
 /// μ(γ̇) = μ∞ + (μ₀ − μ∞) / (1 + (λγ̇)ᵐ)

@@ -6,7 +6,7 @@ use crate::material::eos::guard::Problems;
 use crate::scalar::{Lane, Real};
 
 /// The law of Herschel & Bulkley (1926), regularised by Papanastasiou (1987), with n = 1 the
-/// law of Bingham (1922):
+/// law of Bingham (1922).
 ///
 /// ```text
 /// μ(γ̇) = min(K γ̇ⁿ⁻¹ + τ_y (1 − e^(−mγ̇)) / γ̇, μ_greatest)

@@ -5,7 +5,7 @@ use super::{ViscosityLaw, at_most};
 use crate::material::eos::guard::Problems;
 use crate::scalar::Lane;
 
-/// The power law of Ostwald (1925) and de Waele (1923), held between two viscosities:
+/// The power law of Ostwald (1925) and de Waele (1923), held between two viscosities.
 ///
 /// ```text
 /// μ(γ̇) = min(max(K γ̇ⁿ⁻¹, μ_least), μ_greatest)

@@ -4,7 +4,7 @@
 use super::{PlasticState, Strength};
 use crate::material::eos::guard::Problems;
 
-/// The rate factor of Cowper & Symonds (1957) on the yield stress Y_s of another law:
+/// The rate factor of Cowper & Symonds (1957) on the yield stress Y_s of another law.
 ///
 /// ```text
 /// Y = Y_s (1 + (ε̇/D)^(1/p))

@@ -4,7 +4,7 @@
 use super::{PlasticState, Strength};
 use crate::material::eos::guard::Problems;
 
-/// The condition of Drucker & Prager (1952), σ + β I₁ = k with the trace I₁ = −3 p of the stress:
+/// The condition of Drucker & Prager (1952), σ + β I₁ = k with the trace I₁ = −3 p of the stress.
 ///
 /// ```text
 /// Y = max(k + 3 β p, 0),   k = 2 Y_c Y_t/(Y_c + Y_t),   β = (Y_c − Y_t)/(Y_c + Y_t)

@@ -4,7 +4,7 @@
 use super::ROOM_TEMPERATURE;
 use crate::material::eos::guard::Problems;
 
-/// How plastic work w \[J/kg\] warms a solid (Taylor & Quinney 1934):
+/// How plastic work w \[J/kg\] warms a solid (Taylor & Quinney 1934).
 ///
 /// ```text
 /// T = T₀ + χ w/c

@@ -3,7 +3,7 @@
 
 use super::{PlasticState, PowerHardening, ROOM_TEMPERATURE, Strength};
 
-/// The law of Johnson & Cook (1983), equation 1:
+/// The law of Johnson & Cook (1983), equation 1.
 ///
 /// ```text
 /// Y = (A + B εⁿ) (1 + C ln ε̇*) (1 − T*ᵐ),   ε̇* = ε̇/ε̇₀,   T* = (T − T_r)/(T_m − T_r)

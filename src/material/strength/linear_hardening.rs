@@ -4,7 +4,7 @@
 use super::{PlasticState, Strength};
 use crate::material::eos::guard::Problems;
 
-/// Linear isotropic hardening (Odqvist 1933, with Y a linear function of the length ε of the plastic path):
+/// Linear isotropic hardening (Odqvist 1933, with Y a linear function of the length ε of the plastic path).
 ///
 /// ```text
 /// Y = Y₀ + H ε

@@ -4,7 +4,7 @@
 use super::{PlasticState, Strength};
 use crate::material::eos::guard::Problems;
 
-/// Perfect plasticity with the condition of von Mises (1913):
+/// Perfect plasticity with the condition of von Mises (1913).
 ///
 /// ```text
 /// Y = Y₀

@@ -4,7 +4,7 @@
 use super::{PlasticState, Strength};
 use crate::material::eos::guard::Problems;
 
-/// The law of Ludwik (1909):
+/// The law of Ludwik (1909).
 ///
 /// ```text
 /// Y = A + B εⁿ

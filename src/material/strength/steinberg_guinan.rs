@@ -4,7 +4,7 @@
 use super::{PlasticState, Strength};
 use crate::material::eos::guard::Problems;
 
-/// The law of Steinberg, Cochran & Guinan (1980), equation 2:
+/// The law of Steinberg, Cochran & Guinan (1980), equation 2.
 ///
 /// ```text
 /// Y = min(Y₀ (1 + β (ε + ε₀))ⁿ, Y_max) (1 + A p/η^(1/3) − B (T − 300 K)),   η = ρ/ρ₀

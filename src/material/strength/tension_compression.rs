@@ -4,7 +4,7 @@
 use super::{PlasticState, Strength};
 use crate::material::eos::guard::Problems;
 
-/// Two yield stresses by the sign of pressure, as polymers have them in hydrocodes (LS-DYNA's material 124):
+/// Two yield stresses by the sign of pressure, as polymers have them in hydrocodes (LS-DYNA's material 124).
 ///
 /// ```text
 /// Y = ½ (Y_c + Y_t) + ½ (Y_c − Y_t) s(p/p₀),   s(x) = x (3 − x²)/2 within ±1, and ±1 beyond

@@ -98,3 +98,47 @@ pub(in crate::output) fn level_color(level: usize) -> Color {
     }
     viridis((level as f64 + 0.5) / LEVELS as f64)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::svg::{Cloud, Figure, Panel};
+
+    /// Colours of the rectangles of the bar in a written figure, from the bottom to the top.
+    fn bar(figure: &str) -> Vec<String> {
+        let width = format!(" width=\"{WIDTH}\" ");
+        let rectangles = figure.lines().filter(|line| line.starts_with("<rect "));
+        let of_bar = rectangles.filter(|line| line.contains(&width));
+        let fill = |line: &str| Some(line.split_once("fill=\"")?.1.split_once('"')?.0.to_owned());
+        of_bar.filter_map(fill).collect()
+    }
+
+    #[test]
+    fn the_ends_of_a_bar_have_the_colours_of_the_map_and_of_the_particles_there() {
+        let points = [(0.0, 0.0, 0.0), (1.0, 0.0, 1.0), (2.0, 0.0, 0.5)];
+        let values = Axis::linear("pressure", "Pa").range(0.0, 1.0);
+        let cloud = Cloud::new(values, points).diameter(0.5);
+        let panel = Panel::new(Axis::linear("x", "m"), Axis::linear("y", "m")).cloud(cloud);
+        let path = std::env::temp_dir().join(format!("meshfree_bar_{}.svg", std::process::id()));
+        Figure::new().panel(panel).save(&path).expect("a figure");
+        let figure = std::fs::read_to_string(&path).expect("the figure");
+        std::fs::remove_file(&path).expect("the figure");
+        let bar = bar(&figure);
+        assert_eq!(bar.len(), LEVELS);
+        // viridis by van der Walt and Smith: #440154 to #fde725.
+        let ends = [
+            (&bar[0], [0x44, 0x01, 0x54]),
+            (&bar[LEVELS - 1], [0xfd, 0xe7, 0x25]),
+        ];
+        for (own, exact) in ends {
+            let channel = |c: usize| i32::from_str_radix(&own[1 + 2 * c..3 + 2 * c], 16);
+            for (c, exact) in exact.into_iter().enumerate() {
+                let written = channel(c).expect("a colour");
+                // Half a level of 64 is up to four of 256.
+                assert!((written - exact).abs() <= 5, "{own}, the map has {exact}");
+            }
+            let uses = figure.matches(own.as_str()).count();
+            assert!(uses >= 2, "no particle has the colour {own} of the bar");
+        }
+    }
+}

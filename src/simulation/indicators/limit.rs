@@ -49,7 +49,7 @@ impl fmt::Display for LimitedBy {
 pub struct Limit {
     /// What limits.
     pub by: LimitedBy,
-    /// The relative error that it leaves, to its order of magnitude:
+    /// The relative error that it leaves, to its order of magnitude.
     ///
     /// | limit | estimate | of |
     /// |---|---|---|

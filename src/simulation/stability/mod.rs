@@ -27,8 +27,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.on_both(|own| own.watch = Some(Box::new(Watch::new(own, thresholds))));
     }
 
-    /// How sound the run is: of all steps since [`keep_stability`](Self::keep_stability), or of the present state alone. Voids,
-    /// momentum and energy are summed when asked for. Printed it is a short table.
+    /// How sound the run is, of all steps since [`keep_stability`](Self::keep_stability). Without these the report is of the
+    /// present state alone, and its verdict is unknown, not stable. Voids, momentum and energy are summed when asked for.
+    /// Printed it is a short table.
     ///
     /// ```
     /// use meshfree::prelude::*;
@@ -38,6 +39,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// let mut patch = Scene::<f64, 2>::new(schemes::weakly_compressible())
     ///     .body(Body::block("patch", water, [-0.5; 2], [0.5; 2], 0.05).start(spin))
     ///     .build()?;
+    /// // Nothing is known of steps that nobody watched.
+    /// assert!(!patch.stability().verdict.is_stable() && patch.stability().verdict.breaches.is_empty());
     /// patch.keep_stability(Thresholds::default());
     /// patch.run_until(0.1)?;
     /// let report = patch.stability();

@@ -138,6 +138,12 @@ impl fmt::Display for StabilityReport {
         if self.verdict.is_stable() {
             return writeln!(f, "verdict: stable");
         }
+        if !self.verdict.watched {
+            writeln!(
+                f,
+                "verdict: unknown, because no step was watched: call `keep_stability` before the run"
+            )?;
+        }
         for own in &self.verdict.breaches {
             let [value, limit] = [own.value, own.limit].map(|own| significant(own, 3));
             write!(f, "verdict: {} is {value}, limit {limit}", own.measure)?;

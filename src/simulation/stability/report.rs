@@ -118,6 +118,9 @@ pub struct Breach {
 /// Whether a run was stable.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Verdict {
+    /// Whether steps were watched, by [`keep_stability`](Simulation::keep_stability). Without, what follows is of the
+    /// present state alone.
+    pub watched: bool,
     /// What was left, the first in time before others, then sums.
     pub breaches: Vec<Breach>,
     /// The error that ended the run, if one did.
@@ -125,10 +128,10 @@ pub struct Verdict {
 }
 
 impl Verdict {
-    /// Whether nothing was left, and no error ended the run.
+    /// Whether steps were watched, nothing was left, and no error ended the run.
     #[must_use]
     pub fn is_stable(&self) -> bool {
-        self.breaches.is_empty() && self.failed.is_none()
+        self.watched && self.breaches.is_empty() && self.failed.is_none()
     }
     /// Whether a measure was left.
     #[must_use]
@@ -444,6 +447,7 @@ fn judge(
         }
     }
     Verdict {
+        watched: report.steps > 0,
         breaches,
         failed: None,
     }

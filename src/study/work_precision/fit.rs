@@ -12,7 +12,7 @@
 //!
 //! As if two more values had been seen, each 5 % off: three values leave no scatter to judge by, and no law
 //! of this form is better than that before its spacings are fine. With 3 % for 5 %, 83 of 100 finest runs of
-//! `docs/accuracy_and_cost.md` were in the intervals of the laws through the coarser ones, and now 93 are. The search runs over
+//! [accuracy and cost](crate#pages) were in the intervals of the laws through the coarser ones, and now 93 are. The search runs over
 //! grids of p and F/C, the last just around the laws within 90 %, so the same values give the same answer to the bit.
 //!
 //! What is coarse follows other laws: there an error has parts of several orders. So values at the largest x are left out, one

@@ -6,7 +6,9 @@ use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
 use crate::term::{Layout, Pair, Sums, TermDoc};
 
-/// Monaghan–Gingold with ᾱ = ½ (αᵢ + αⱼ) and β = 2 ᾱ, where each α is at least
+/// Monaghan–Gingold with ᾱ = ½ (αᵢ + αⱼ) and β = 2 ᾱ, whose α rises ahead of shocks.
+///
+/// Each α is at least
 ///
 /// α_loc = α_max H² A/(v² + H² A), A = ξ max(−d(∇·v)/dt, 0) where ∇·v < 0,
 ///

@@ -14,10 +14,10 @@
 //!
 //! The last three see little in a weak shock: at an impact of 20 m/s on copper the velocity jump is
 //! 0.3 % of the sound speed, and a law that grows with that ratio leaves the front ringing. A law with
-//! a fixed α does not. `docs/viscosity_frontier.md` measures all of them on one front.
+//! a fixed α does not. The page on [artificial viscosities](crate#pages) measures all of them on one front.
 //!
-//! In gases the signal velocity wears vortices down that Cullen and Dehnen's law keeps (`docs/accuracy_and_cost.md`), and the latter leaves
-//! more heat where cold gas starts in collision (`docs/hard-cases.md`).
+//! In gases the signal velocity wears vortices down that Cullen and Dehnen's law keeps ([accuracy and cost](crate#pages)), and the latter leaves
+//! more heat where cold gas starts in collision ([hard cases](crate#pages)).
 //!
 //! Every law is zero for receding pairs, and symmetric in the two particles, so it conserves linear
 //! and angular momentum and turns kinetic energy into heat, never back.
@@ -145,7 +145,7 @@ const LINEAR_SIGNAL: f64 = 0.6;
 /// 0.01 h²).
 ///
 /// The signal is 0.6 α c̄ + 2 β |μ|. The second part is the slope of the β μ² that dissipates: with the 0.6 β |μ| of Monaghan, neighbours
-/// in a strong shock of cold gas are stopped and turned back within a step, and Noh's plateau errs (`docs/hard-cases.md`).
+/// in a strong shock of cold gas are stopped and turned back within a step, and Noh's plateau errs ([hard cases](crate#pages)).
 #[inline(always)]
 fn between<L: Lane, const D: usize, P: Layout>(
     pair: &Pair<'_, L, D, P>,

@@ -6,7 +6,7 @@ use crate::particles::{Field, Fields};
 use crate::scalar::{Lane, Real};
 use crate::term::{Layout, Pair, TermDoc};
 
-/// Monaghan–Gingold with ᾱ = ½ (αᵢ + αⱼ) and β = 2 ᾱ, where each α obeys
+/// Monaghan–Gingold with ᾱ = ½ (αᵢ + αⱼ) and β = 2 ᾱ, whose α rises in shocks and decays behind them.
 ///
 /// dα/dt = −(α − α_min) ℓ c/h + max(−∇·v, 0) (α_max − α).
 ///
