@@ -3,8 +3,7 @@
 
 use meshfree::coupling::{ContactDensity, Penalty};
 use meshfree::effect::{
-    AcousticDamping, FiniteStrainPlasticity, Hypoelastic, NeoHookean, Plasticity,
-    StVenantKirchhoff,
+    AcousticDamping, FiniteStrainPlasticity, Hypoelastic, NeoHookean, Plasticity, StVenantKirchhoff,
 };
 use meshfree::material::eos::{IdealGas, Linear};
 use meshfree::material::{Liquid, Material, SoundSpeed};
@@ -29,14 +28,17 @@ fn plate<T: Real>(scheme: impl Into<Scheme<T, 2>>, speed: f64) -> Scene<T, 2> {
         .fix("plate", |[x, _]| *x < 0.0)
 }
 
-/// Full steps with halves between them, which an undamped leapfrog resonates with.
-fn alternate<T: Real, const D: usize>(
-    now: &mut Simulation<T, D>,
-    steps: usize,
-) -> Result<(), Error> {
+/// Three full steps and two halves, again and again: a wave whose phase grows by π in these, at ω dt = 0.77, resonates with the
+/// pattern and grows by 0.85 % a step (the trace of the product of the five maps is beyond 2), as a run that was read often did.
+fn cut(k: u64) -> f64 {
+    if k % 5 < 3 { 1.0 } else { 0.5 }
+}
+
+/// Takes steps by that pattern.
+fn alternate<T: Real, const D: usize>(now: &mut Simulation<T, D>, steps: u64) -> Result<(), Error> {
     let full = now.step()?;
     for k in 0..steps {
-        now.step_at_most(if k % 2 == 0 { 0.5 * full } else { full })?;
+        now.step_at_most(cut(k) * full)?;
     }
     Ok(())
 }
@@ -70,8 +72,14 @@ fn equal_steps_of_an_undamped_plate_gain_nothing() {
     let neo_hookean = || schemes::total_lagrangian().with(NeoHookean);
     let kirchhoff = schemes::total_lagrangian().with(StVenantKirchhoff);
     for (name, largest) in [
-        ("neo-Hookean", sound("", plate::<f64>(neo_hookean(), 1.0), 1600)),
-        ("St Venant–Kirchhoff", sound("", plate::<f64>(kirchhoff, 1.0), 1600)),
+        (
+            "neo-Hookean",
+            sound("", plate::<f64>(neo_hookean(), 1.0), 1600),
+        ),
+        (
+            "St Venant–Kirchhoff",
+            sound("", plate::<f64>(kirchhoff, 1.0), 1600),
+        ),
         ("f32", sound("", plate::<f32>(neo_hookean(), 1.0), 1600)),
     ] {
         println!("{name}: {largest:e}");
@@ -102,14 +110,21 @@ fn alternating_steps_of_an_undamped_plate_are_stopped() {
     else {
         panic!("{error}");
     };
-    assert_eq!((part.as_str(), body.as_str(), limit), ("plate", "plate", 0.5));
+    assert_eq!(
+        (part.as_str(), body.as_str(), limit),
+        ("plate", "plate", 0.5)
+    );
     assert!(gain > 0.5 * supplied && gain < 5.0 * supplied);
     // Nothing but the start has supplied energy, and the ledger closes all the same.
-    assert!((supplied / before - 1.0).abs() < 1e-6, "{supplied} {before}");
+    assert!(
+        (supplied / before - 1.0).abs() < 1e-6,
+        "{supplied} {before}"
+    );
     let whole = now.ledger().whole;
     assert!((whole.total_energy() / before - 1.0).abs() < 1e-6);
-    // The internal energy has been taken for what was stored, and is below zero.
-    assert!(whole.internal < 0.0 && whole.total("elastic energy") > Some(0.0));
+    // What is stored has not been taken from anything.
+    let elastic = whole.total("elastic energy").unwrap();
+    assert!(((elastic - whole.internal) / gain - 1.0).abs() < 1e-3);
     assert!(particle < now.particles() && position[0] > -0.02 && position[0] < 0.3);
     assert_eq!((time, step), (now.time(), now.steps()));
     assert!(matches!(now.step(), Err(Error::Failed { .. })));
@@ -125,9 +140,8 @@ fn the_verdict_comes_before_the_error_and_both_can_be_moved() {
     now.keep_stability(Thresholds::default());
     let full = now.step().unwrap();
     for k in 0..20_000 {
-        now.step_at_most(if k % 2 == 0 { 0.5 * full } else { full })
-            .unwrap();
-        if now.stability_share() > 0.01 {
+        now.step_at_most(cut(k) * full).unwrap();
+        if now.stored_energy().largest() > Some(0.01) {
             break;
         }
     }
@@ -135,8 +149,14 @@ fn the_verdict_comes_before_the_error_and_both_can_be_moved() {
     let own = report.stored_energy.clone().expect("a plate is checkable");
     assert!(own.value > 0.01 && own.value < 0.5, "{own:?}");
     assert!(report.verdict.failed.is_none());
-    let breach = report.verdict.breaches.iter().find(|own| own.measure == "stored energy");
-    let at = breach.and_then(|own| own.at.clone()).expect("it has a place");
+    let breach = report
+        .verdict
+        .breaches
+        .iter()
+        .find(|own| own.measure == "stored energy");
+    let at = breach
+        .and_then(|own| own.at.clone())
+        .expect("it has a place");
     assert!(at.body == "plate" && at.time <= now.time());
     // With other limits it has nothing to say, and the run is not stopped.
     let mut free = scene().build().unwrap();
@@ -146,20 +166,9 @@ fn the_verdict_comes_before_the_error_and_both_can_be_moved() {
     });
     free.limit_stored_energy(f64::INFINITY);
     for k in 0..now.steps() {
-        free.step_at_most(if k % 2 == 1 { 0.5 * full } else { full })
-            .unwrap();
+        free.step_at_most(cut(k) * full).unwrap();
     }
     assert!(!free.stability().verdict.breaks("stored energy"));
-}
-
-trait Share {
-    fn stability_share(&self) -> f64;
-}
-
-impl<T: Real, const D: usize> Share for Simulation<T, D> {
-    fn stability_share(&self) -> f64 {
-        self.stored_energy().largest().unwrap_or(0.0)
-    }
 }
 
 /// A load that works on a plate supplies it with what it then stores.
@@ -174,7 +183,10 @@ fn what_a_load_works_is_supplied() {
     let own = balance(&now);
     let whole = now.ledger().whole;
     let supplied = whole.kinetic + whole.internal;
-    assert!(supplied > 0.0 && own.supplied >= 0.98 * supplied, "{own:?} {supplied}");
+    assert!(
+        supplied > 0.0 && own.supplied >= 0.98 * supplied,
+        "{own:?} {supplied}"
+    );
     assert!(own.largest < 0.01, "{own:?}");
 }
 
@@ -189,7 +201,11 @@ fn solids_contact_and_plastic_impact_are_not_blamed() {
     let yielding = || soft().with_yield_stress(2e4);
     let elastic = || schemes::total_lagrangian().with(NeoHookean);
     let hypoelastic = || schemes::impact_by_continuity().with(Hypoelastic);
-    sound("hypoelastic blocks", two(hypoelastic().into(), soft(), 2.0), 400);
+    sound(
+        "hypoelastic blocks",
+        two(hypoelastic().into(), soft(), 2.0),
+        400,
+    );
     sound(
         "plastic blocks",
         two(hypoelastic().with(Plasticity).into(), yielding(), 4.0),
@@ -205,7 +221,7 @@ fn solids_contact_and_plastic_impact_are_not_blamed() {
         two(elastic().into(), soft(), 2.0).couple("a", "b", ContactDensity::new()),
         400,
     );
-    let damped = elastic().with(AcousticDamping { strength: 0.2 });
+    let damped = schemes::total_lagrangian_impact().with(NeoHookean);
     sound("damped plate", plate::<f64>(damped, 1.0), 400);
     let struck = |[x, _]: [f64; 2], start| Start {
         velocity: [if x < 0.01 { 0.0 } else { -2.0 }, 0.0],
@@ -232,7 +248,11 @@ fn liquids_and_gas_are_not_blamed() {
             .acceleration(|_| [0.0, -9.81])
     };
     sound("dam break", dam(water()), 800);
-    sound("dam break without tension", dam(water().with_pressure_cut_off(0.0)), 800);
+    sound(
+        "dam break without tension",
+        dam(water().with_pressure_cut_off(0.0)),
+        800,
+    );
     let gas = Material::<f64>::new("gas", IdealGas::new(1.4, 1.0));
     let block = |name, x: f64, v: f64| {
         let body = Body::block(name, gas.clone(), [x], [x + 1.0], 0.02);
@@ -247,10 +267,43 @@ fn liquids_and_gas_are_not_blamed() {
 #[test]
 fn what_cannot_be_said_is_said_not_to_be() {
     let rod = Body::block("rod", catalogue::copper(), [0.0], [0.01], 1e-3).velocity([10.0]);
-    let mut now = Scene::<f64, 1>::new(schemes::impact()).body(rod).build().unwrap();
+    let mut now = Scene::<f64, 1>::new(schemes::impact())
+        .body(rod)
+        .build()
+        .unwrap();
     now.step().unwrap();
     let stored = now.stored_energy();
     assert_eq!((stored.body("rod"), stored.largest()), (None, None));
     assert!(stored.to_string().contains("not checkable"), "{stored}");
-    assert!(now.stability().to_string().contains("gain of stored energy      not checkable"));
+    assert!(
+        now.stability()
+            .to_string()
+            .contains("gain of stored energy      not checkable")
+    );
+}
+
+/// The accounts are part of a checkpoint: what goes on from it says the same, to the bit.
+#[cfg(feature = "checkpoint")]
+#[test]
+fn accounts_go_on_from_a_checkpoint() {
+    let folder = std::env::temp_dir().join(format!("meshfree-stored-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let file = folder.join("plate.safetensors");
+    let scene = || plate::<f64>(schemes::total_lagrangian().with(NeoHookean), 1.0);
+    let mut whole = scene().build().unwrap();
+    whole.limit_stored_energy(0.25);
+    alternate(&mut whole, 100).unwrap();
+    whole.save(&file).unwrap();
+    let mut resumed = scene().resume(&file).unwrap();
+    for now in [&mut whole, &mut resumed] {
+        alternate(now, 100).unwrap();
+    }
+    let stored = whole.stored_energy();
+    assert!(stored.largest() > Some(0.0));
+    assert_eq!(stored, resumed.stored_energy());
+    // The limit is kept too.
+    let [a, b] = [&mut whole, &mut resumed].map(|now| alternate(now, 20_000).unwrap_err());
+    assert_eq!(a.to_string(), b.to_string());
+    assert!(matches!(a, Error::StoredEnergy { limit: 0.25, .. }));
+    std::fs::remove_dir_all(folder).unwrap();
 }
