@@ -353,7 +353,7 @@ pub enum Error {
     #[error(
         "`{part}` stores {gain} J more than the work that went into it, above {limit} of the {supplied} J supplied so far, at \
          t = {time} s, step {step}, most of it at particle {particle} of body `{body}` at {position:?} m: the integration in \
-         time gains energy from nowhere; take a smaller step factor, steps that do not alternate, or some damping \
+         time gains energy from nowhere; take a smaller step factor, steps that repeat no pattern, or some damping \
          (a viscosity, AcousticDamping). Simulation::limit_stored_energy moves the limit"
     )]
     StoredEnergy {

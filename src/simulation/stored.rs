@@ -33,8 +33,8 @@ const ROUNDINGS: [f64; 2] = [4.0, 1e3];
 ///
 /// supplied = kinetic and stored energy at the start + net work and heat from outside since,
 ///
-/// of which the second is the change of kinetic and internal energy of a part that carries internal energy. A look
-/// costs about as much as a hundredth of a step.
+/// of which the second is the change of kinetic and internal energy of a part that carries internal energy. A look is
+/// one sum over the particles.
 ///
 /// | part | stored, as a function of the state | the work that forces took |
 /// |---|---|---|
@@ -260,27 +260,22 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub fn stored_energy(&self) -> StoredEnergy {
         let stands = self.stands();
         let body = |(group, body): (&Group<T, D>, &BodyState<T>)| {
-            let stored = (stands && group.scheme.program.books_energy)
-                .then(|| {
-                    body.slots
-                        .clone()
-                        .map(|slot| Some(energies(group, body, slot)?[0]))
-                })
-                .and_then(|mut all| {
-                    let mass = group.particles.columns.raw(Field::MASS);
-                    let mut slots = body.slots.clone();
-                    all.try_fold(0.0, |sum, own| {
-                        Some(sum + slots.next().map_or(0.0, |slot| mass[slot].to_f64()) * own?)
-                    })
-                });
+            let mass = group.particles.columns.raw(Field::MASS);
+            let add = |sum: f64, slot: usize| {
+                let [stored, _] = energies(group, body, slot)?;
+                Some(sum + mass[slot].to_f64() * stored)
+            };
+            let said = stands && group.scheme.program.books_energy;
+            let stored = said
+                .then(|| body.slots.clone().try_fold(0.0, add))
+                .flatten();
             (body.name.clone(), stored)
         };
         let part = |k: usize| {
             let measured = self.unsaid(k).map_or_else(|| self.measured(k), Err);
             let account = self.stores.accounts.get(k).and_then(Option::as_ref);
             let balance = measured.map(|own| {
-                let fresh = account.is_none();
-                let gain = if fresh { 0.0 } else { own.gain(account) };
+                let gain = account.map_or(0.0, |_| own.gain(account));
                 let start = own.kinetic + own.stored;
                 StoredBalance {
                     stored: own.stored,

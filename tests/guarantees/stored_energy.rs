@@ -28,14 +28,17 @@ fn plate<T: Real>(scheme: impl Into<Scheme<T, 2>>, speed: f64) -> Scene<T, 2> {
         .fix("plate", |[x, _]| *x < 0.0)
 }
 
-/// Full steps with halves between them, which an undamped leapfrog resonates with.
-fn alternate<T: Real, const D: usize>(
-    now: &mut Simulation<T, D>,
-    steps: usize,
-) -> Result<(), Error> {
+/// Three full steps and two halves, again and again: a wave whose phase grows by π in these, at ω dt = 0.77, resonates with the
+/// pattern and grows by 0.85 % a step (the trace of the product of the five maps is beyond 2), as a run that was read often did.
+fn cut(k: u64) -> f64 {
+    if k % 5 < 3 { 1.0 } else { 0.5 }
+}
+
+/// Takes steps by that pattern.
+fn alternate<T: Real, const D: usize>(now: &mut Simulation<T, D>, steps: u64) -> Result<(), Error> {
     let full = now.step()?;
     for k in 0..steps {
-        now.step_at_most(if k % 2 == 0 { 0.5 * full } else { full })?;
+        now.step_at_most(cut(k) * full)?;
     }
     Ok(())
 }
@@ -119,8 +122,9 @@ fn alternating_steps_of_an_undamped_plate_are_stopped() {
     );
     let whole = now.ledger().whole;
     assert!((whole.total_energy() / before - 1.0).abs() < 1e-6);
-    // The internal energy has been taken for what was stored, and is below zero.
-    assert!(whole.internal < 0.0 && whole.total("elastic energy") > Some(0.0));
+    // What is stored has not been taken from anything.
+    let elastic = whole.total("elastic energy").unwrap();
+    assert!(((elastic - whole.internal) / gain - 1.0).abs() < 1e-3);
     assert!(particle < now.particles() && position[0] > -0.02 && position[0] < 0.3);
     assert_eq!((time, step), (now.time(), now.steps()));
     assert!(matches!(now.step(), Err(Error::Failed { .. })));
@@ -136,9 +140,8 @@ fn the_verdict_comes_before_the_error_and_both_can_be_moved() {
     now.keep_stability(Thresholds::default());
     let full = now.step().unwrap();
     for k in 0..20_000 {
-        now.step_at_most(if k % 2 == 0 { 0.5 * full } else { full })
-            .unwrap();
-        if now.stability_share() > 0.01 {
+        now.step_at_most(cut(k) * full).unwrap();
+        if now.stored_energy().largest() > Some(0.01) {
             break;
         }
     }
@@ -163,20 +166,9 @@ fn the_verdict_comes_before_the_error_and_both_can_be_moved() {
     });
     free.limit_stored_energy(f64::INFINITY);
     for k in 0..now.steps() {
-        free.step_at_most(if k % 2 == 1 { 0.5 * full } else { full })
-            .unwrap();
+        free.step_at_most(cut(k) * full).unwrap();
     }
     assert!(!free.stability().verdict.breaks("stored energy"));
-}
-
-trait Share {
-    fn stability_share(&self) -> f64;
-}
-
-impl<T: Real, const D: usize> Share for Simulation<T, D> {
-    fn stability_share(&self) -> f64 {
-        self.stored_energy().largest().unwrap_or(0.0)
-    }
 }
 
 /// A load that works on a plate supplies it with what it then stores.
@@ -229,7 +221,7 @@ fn solids_contact_and_plastic_impact_are_not_blamed() {
         two(elastic().into(), soft(), 2.0).couple("a", "b", ContactDensity::new()),
         400,
     );
-    let damped = elastic().with(AcousticDamping { strength: 0.2 });
+    let damped = schemes::total_lagrangian_impact().with(NeoHookean);
     sound("damped plate", plate::<f64>(damped, 1.0), 400);
     let struck = |[x, _]: [f64; 2], start| Start {
         velocity: [if x < 0.01 { 0.0 } else { -2.0 }, 0.0],
@@ -288,4 +280,30 @@ fn what_cannot_be_said_is_said_not_to_be() {
             .to_string()
             .contains("gain of stored energy      not checkable")
     );
+}
+
+/// The accounts are part of a checkpoint: what goes on from it says the same, to the bit.
+#[cfg(feature = "checkpoint")]
+#[test]
+fn accounts_go_on_from_a_checkpoint() {
+    let folder = std::env::temp_dir().join(format!("meshfree-stored-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let file = folder.join("plate.safetensors");
+    let scene = || plate::<f64>(schemes::total_lagrangian().with(NeoHookean), 1.0);
+    let mut whole = scene().build().unwrap();
+    whole.limit_stored_energy(0.25);
+    alternate(&mut whole, 100).unwrap();
+    whole.save(&file).unwrap();
+    let mut resumed = scene().resume(&file).unwrap();
+    for now in [&mut whole, &mut resumed] {
+        alternate(now, 100).unwrap();
+    }
+    let stored = whole.stored_energy();
+    assert!(stored.largest() > Some(0.0));
+    assert_eq!(stored, resumed.stored_energy());
+    // The limit is kept too.
+    let [a, b] = [&mut whole, &mut resumed].map(|now| alternate(now, 20_000).unwrap_err());
+    assert_eq!(a.to_string(), b.to_string());
+    assert!(matches!(a, Error::StoredEnergy { limit: 0.25, .. }));
+    std::fs::remove_dir_all(folder).unwrap();
 }
