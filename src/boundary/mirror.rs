@@ -2,7 +2,6 @@
 //! Every particle near the plane sees its reflection, and what would cross becomes it (Lam, Shen & Gong 2002, 4.1).
 
 use super::Boundary;
-use crate::scalar::Real;
 use crate::sweep::{Interaction, Transform};
 use crate::tensor::{Matrix, Vector, length};
 
@@ -52,8 +51,8 @@ impl<const D: usize> MirrorPlane<D> {
     }
 
     /// How far a point is along the normal \[m\].
-    fn height<T: Real>(&self, x: &[T; D]) -> f64 {
-        (0..D).map(|d| x[d].to_f64() * self.normal[d]).sum()
+    fn height(&self, x: &[f64; D]) -> f64 {
+        (0..D).map(|d| x[d] * self.normal[d]).sum()
     }
 
     /// How far the plane is along its normal \[m\].
@@ -62,7 +61,7 @@ impl<const D: usize> MirrorPlane<D> {
     }
 }
 
-impl<T: Real, const D: usize> Boundary<T, D> for MirrorPlane<D> {
+impl<const D: usize> Boundary<D> for MirrorPlane<D> {
     fn name(&self) -> String {
         match self.interaction {
             Interaction::Unilateral => "wall".into(),
@@ -72,23 +71,23 @@ impl<T: Real, const D: usize> Boundary<T, D> for MirrorPlane<D> {
     fn images(&self) -> usize {
         1
     }
-    fn transform(&self, _image: usize, time: f64) -> Transform<T, D> {
+    fn transform(&self, _image: usize, time: f64) -> Transform<f64, D> {
         let unit = |a: usize, b: usize| f64::from(u8::from(a == b));
         let n = &self.normal;
-        let along = |size: f64| Vector::from_fn(|a, _| T::from_f64(2.0 * size * n[a]));
+        let along = |size: f64| Vector::from_fn(|a, _| 2.0 * size * n[a]);
         Transform {
-            rotation: Matrix::from_fn(|a, b| T::from_f64(unit(a, b) - 2.0 * n[a] * n[b])),
+            rotation: Matrix::from_fn(|a, b| unit(a, b) - 2.0 * n[a] * n[b]),
             shift: along(self.offset(time)),
             velocity: along(self.velocity),
         }
     }
-    fn reaches(&self, _image: usize, x: &[T; D], reach: f64, time: f64) -> bool {
+    fn reaches(&self, _image: usize, x: &[f64; D], reach: f64, time: f64) -> bool {
         self.offset(time) - self.height(x) < reach
     }
     fn moves(&self) -> bool {
         self.velocity != 0.0
     }
-    fn crossed(&self, x: &[T; D], time: f64) -> bool {
+    fn crossed(&self, x: &[f64; D], time: f64) -> bool {
         self.height(x) > self.offset(time)
     }
     fn interaction(&self) -> Interaction {

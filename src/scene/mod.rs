@@ -111,7 +111,7 @@ pub struct Scene<T: Real, const D: usize> {
     walls: Vec<Wall<D>>,
     outlets: Vec<Outlet<D>>,
     inlets: Vec<Inlet<D>>,
-    boundaries: Vec<Arc<dyn Boundary<T, D>>>,
+    boundaries: Vec<Arc<dyn Boundary<D>>>,
     integrator: Arc<dyn Integrator>,
     contacts: Vec<(String, String, Interaction)>,
     couplings: Vec<Coupled<T, D>>,
@@ -257,7 +257,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
 
     /// Adds a boundary.
     #[must_use]
-    pub fn boundary(mut self, boundary: impl Boundary<T, D> + 'static) -> Self {
+    pub fn boundary(mut self, boundary: impl Boundary<D> + 'static) -> Self {
         self.boundaries.push(Arc::new(boundary));
         self
     }

@@ -437,7 +437,7 @@ impl<T: Real, const D: usize> Couple<T, D> {
         };
         let first = moved(0);
         let second = if self.is_self() { first } else { moved(1) };
-        let boundaries: &[Arc<dyn Boundary<T, D>>] = &groups[self.sides[0].0].boundaries;
+        let boundaries: &[Arc<dyn Boundary<D>>] = &groups[self.sides[0].0].boundaries;
         let carried = self.list.images.carried(boundaries, [self.list.time, time]);
         first + second + carried <= self.list.skin
     }

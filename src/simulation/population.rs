@@ -212,13 +212,13 @@ impl<T: Real, const D: usize> Particles<T, D> {
     /// Lets particles that have left a period, or crossed a plane, re-enter.
     pub fn wrap(
         &mut self,
-        boundaries: &[Arc<dyn Boundary<T, D>>],
+        boundaries: &[Arc<dyn Boundary<D>>],
         program: &StepProgram<T, D>,
         time: f64,
     ) {
         for (b, boundary) in boundaries.iter().enumerate() {
             for slot in 0..self.mobile {
-                let x = self.columns.vectors(Field::POSITION)[slot];
+                let x = self.columns.vectors(Field::POSITION)[slot].map(Real::to_f64);
                 let through = if boundary.crossed(&x, time) {
                     boundary.transform(0, time)
                 } else if let Some(through) = boundary.wrap(&x, time) {
@@ -226,6 +226,7 @@ impl<T: Real, const D: usize> Particles<T, D> {
                 } else {
                     continue;
                 };
+                let through = through.to_scalar::<T>();
                 let body = self.bodies.iter().position(|own| own.slots.contains(&slot));
                 let velocity = Vector::from(self.columns.vectors(Field::VELOCITY)[slot]);
                 let [x, residual, v] = self.columns.many_mut([

@@ -169,10 +169,9 @@ impl<T: Real, const D: usize> Scene<T, D> {
             for image in 0..images {
                 // A shift that changes no direction, back from which particles re-enter.
                 let by = boundary.transform(image, 0.0);
-                let shift = Vector::<f64, D>::from_fn(|d, _| by.shift[d].to_f64());
-                let period = length(&shift);
-                let straight = by.rotation == Matrix::<T, D>::identity();
-                let along = shift / period;
+                let period = length(&by.shift);
+                let straight = by.rotation == Matrix::<f64, D>::identity();
+                let along = by.shift / period;
                 let parallel = |other: &Vector<f64, D>| other.dot(&along).abs() > 0.999_999;
                 // The way back is the same period.
                 let known = periods[before..].iter().any(&parallel);
