@@ -4,6 +4,7 @@
 use super::{Boundary, Periodic};
 use crate::sweep::Transform;
 use crate::tensor::Vector;
+use std::sync::Arc;
 
 /// Periods of a homogeneous shear flow (Lees & Edwards 1972, J. Phys. C 5, 1921).
 ///
@@ -135,6 +136,10 @@ impl<const D: usize> Boundary<D> for LeesEdwards {
         // NaN and points inside both stay where they are.
         let left = up != 0.0 || along != 0.0;
         (left && up.is_finite() && along.is_finite()).then(|| self.copy([up, along], time))
+    }
+    fn seen_from(&self, origin: &[f64; D]) -> Option<Arc<dyn Boundary<D>>> {
+        let [flow, gradient] = [&self.flow, &self.gradient].map(|own| own.counted_from(origin));
+        Some(Arc::new(Self::new(flow, gradient, self.shear_rate)))
     }
     fn problems(&self, reach: f64) -> Vec<(&'static str, f64, &'static str)> {
         let of = |own: &Periodic, names: [&'static str; 2]| {

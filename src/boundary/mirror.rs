@@ -2,8 +2,10 @@
 //! Every particle near the plane sees its reflection, and what would cross becomes it (Lam, Shen & Gong 2002, 4.1).
 
 use super::Boundary;
+use crate::origin::local;
 use crate::sweep::{Interaction, Transform};
 use crate::tensor::{Matrix, Vector, length};
+use std::sync::Arc;
 
 /// A plane that reflects positions and velocities.
 ///
@@ -92,6 +94,12 @@ impl<const D: usize> Boundary<D> for MirrorPlane<D> {
     }
     fn interaction(&self) -> Interaction {
         self.interaction
+    }
+    fn seen_from(&self, origin: &[f64; D]) -> Option<Arc<dyn Boundary<D>>> {
+        Some(Arc::new(Self {
+            point: local(&self.point, origin),
+            ..self.clone()
+        }))
     }
     fn problems(&self, _reach: f64) -> Vec<(&'static str, f64, &'static str)> {
         let finite = self.normal.iter().chain(&self.point).all(|x| x.is_finite());

@@ -28,11 +28,13 @@ mod mirror;
 mod motion;
 mod outlet;
 mod periodic;
+mod seen;
 mod surface;
 mod wall;
 
 use crate::sweep::{Interaction, Transform};
 use core::fmt::Debug;
+use std::sync::Arc;
 
 pub(crate) use inlet::Emitter;
 pub use inlet::Inlet;
@@ -41,6 +43,7 @@ pub use mirror::MirrorPlane;
 pub use motion::{Crush, Motion, Pose, Rotation, Translation};
 pub use outlet::Outlet;
 pub use periodic::Periodic;
+pub(crate) use seen::{boundary_from, motion_from};
 pub use surface::WallSurface;
 pub use wall::{Slip, Wall};
 
@@ -107,6 +110,14 @@ pub trait Boundary<const D: usize>: Debug + Send + Sync {
     /// What particles and images do to each other.
     fn interaction(&self) -> Interaction {
         Interaction::Bonded
+    }
+    /// The same boundary for places that are counted from `origin` \[m\].
+    ///
+    /// A simulation counts places from an [origin of its own](crate::scene#place), and asks the boundary that this gives.
+    /// Without it, it adds the origin to every place that it asks for: right to the rounding of `f64` there. A
+    /// boundary that knows where it is gives itself, moved by −`origin`, and so the same bits wherever the scene is.
+    fn seen_from(&self, _origin: &[f64; D]) -> Option<Arc<dyn Boundary<D>>> {
+        None
     }
     /// What is wrong with the boundary for a kernel that reaches `reach` \[m\].
     fn problems(&self, _reach: f64) -> Vec<(&'static str, f64, &'static str)> {

@@ -4,6 +4,7 @@
 use super::Boundary;
 use crate::sweep::Transform;
 use crate::tensor::Vector;
+use std::sync::Arc;
 
 /// Periodicity along one axis, from `low` to `high` \[m\].
 #[derive(Clone, Debug, PartialEq)]
@@ -18,6 +19,17 @@ impl Periodic {
     #[must_use]
     pub fn along(axis: usize, low: f64, high: f64) -> Self {
         Self { axis, low, high }
+    }
+
+    /// The same for places that are counted from an origin \[m\].
+    pub(super) fn counted_from<const D: usize>(&self, origin: &[f64; D]) -> Self {
+        // An axis that the dimension does not have is refused elsewhere.
+        let origin = origin.get(self.axis).copied().unwrap_or(0.0);
+        Self {
+            low: self.low - origin,
+            high: self.high - origin,
+            ..*self
+        }
     }
 
     /// Its axis.
@@ -72,6 +84,9 @@ impl<const D: usize> Boundary<D> for Periodic {
         let periods = self.periods(x[self.axis]);
         // NaN and points inside both stay where they are.
         (periods != 0.0 && periods.is_finite()).then(|| self.shift(-periods))
+    }
+    fn seen_from(&self, origin: &[f64; D]) -> Option<Arc<dyn Boundary<D>>> {
+        Some(Arc::new(self.counted_from(origin)))
     }
     fn problems(&self, reach: f64) -> Vec<(&'static str, f64, &'static str)> {
         let period = self.length();

@@ -139,14 +139,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let (x, h) = (particle.position(), particle.smoothing_length());
             // Most of a scene is often out of reach of all points.
             let near = |d: usize| low[d] - 2.0 * h < x[d] && x[d] < high[d] + 2.0 * h;
-            let Some(own) = particle.numbers(field).filter(|_| (0..D).all(near)) else {
+            let Some(own) = particle.values(field).filter(|_| (0..D).all(near)) else {
                 continue;
             };
             let volume = particle.mass() / particle.density();
             let share = norm * volume / h.powi(D as i32);
             reach = reach.max(2.0 * h);
             sources.push(Source { x, h, share });
-            numbers.extend(own.iter().map(|number| number.to_f64()));
+            numbers.extend(own);
         }
         let positions: Vec<[f64; D]> = sources.iter().map(|source| source.x).collect();
         let all: Vec<u32> = (0..sources.len() as u32).collect();

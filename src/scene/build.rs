@@ -1,9 +1,9 @@
 //! From a scene to a simulation: checked, laid out and evaluated once, or gone on with from a checkpoint.
 
 use super::Scene;
-use super::plan::Plan;
 use crate::error::{BuildError, Error, Problem, Result};
 use crate::once::once;
+use crate::origin::{is_chosen, middle};
 #[cfg(feature = "checkpoint")]
 use crate::output::checkpoint::Checkpoint;
 use crate::scalar::Real;
@@ -113,8 +113,9 @@ impl<T: Real, const D: usize> Scene<T, D> {
             return Err(Error::Build(BuildError { problems }));
         }
         let domain = self.domain();
-        let groups = self.plans().map(Plan::lay_out).collect();
-        let couples = self.couples();
+        let origin = self.origin();
+        let groups = self.plans().map(|plan| plan.lay_out(origin)).collect();
+        let couples = self.couples(&origin);
         #[cfg(feature = "checkpoint")]
         let hashes = self.hashes();
         let simulation = Simulation::new(
@@ -131,6 +132,18 @@ impl<T: Real, const D: usize> Scene<T, D> {
         #[cfg(feature = "checkpoint")]
         let simulation = simulation.of_scene(hashes);
         Ok(simulation)
+    }
+
+    /// The place \[m\] from which columns of particles count: the middle of the box around all particles of bodies and walls
+    /// and the openings of inlets.
+    pub(super) fn origin(&self) -> [f64; D] {
+        if !is_chosen::<T>() {
+            return [0.0; D];
+        }
+        let bodies = self.bodies().flat_map(|body| &body.points);
+        let walls = self.walls.iter().flat_map(|wall| &wall.points);
+        let openings = self.inlets.iter().flat_map(|inlet| &inlet.opening);
+        middle(bodies.chain(walls).chain(openings))
     }
 
     /// The box around bodies and walls \[m\], where walls alone bound the scene.

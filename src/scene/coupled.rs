@@ -3,6 +3,7 @@
 
 use super::{Body, Coupled, Part, Scene};
 use crate::coupling::{Coupling, LiquidStructure};
+use crate::origin::local;
 use crate::scalar::Real;
 use crate::simulation::{Acting, Couple, PairList, SubCycle};
 use crate::sweep::Interaction;
@@ -49,8 +50,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
         })
     }
 
-    /// What acts by forces between particles.
-    pub(super) fn couples(&self) -> Vec<Couple<T, D>> {
+    /// What acts by forces between particles, in places that are counted from an origin \[m\].
+    pub(super) fn couples(&self, origin: &[f64; D]) -> Vec<Couple<T, D>> {
         let couple = |own: &Coupled<T, D>| {
             let sides = [self.place_of(&own.first)?, self.place_of(&own.second)?];
             let body = |(group, body): (usize, usize)| &self.parts[group].bodies[body];
@@ -64,11 +65,12 @@ impl<T: Real, const D: usize> Scene<T, D> {
             };
             let by_reference = own.exclusion > 0.0 || own.coupling.as_built();
             let reference = |side| -> Vec<[f64; D]> {
-                if by_reference {
-                    body(side).points.clone()
+                let points = if by_reference {
+                    &body(side).points[..]
                 } else {
-                    Vec::new()
-                }
+                    &[]
+                };
+                points.iter().map(|x| local(x, origin)).collect()
             };
             (reach > 0.0).then(|| Couple {
                 coupling: own.coupling.clone(),

@@ -6,6 +6,7 @@ use super::evolve::state;
 use super::forces::Forces;
 use super::held::Held;
 use super::population::Particles;
+use crate::origin::local;
 use crate::particles::Field;
 use crate::scalar::Real;
 use crate::scheme::{EnergyForm, Scheme};
@@ -112,6 +113,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let bounds = awake(self);
         for group in &mut self.groups {
             let (held, particles) = (&mut group.held, &mut group.particles);
+            let bounds = bounds.map(|corner| local(&corner, &particles.origin));
             let now = held.outside(particles, &bounds);
             let asleep = held.asleep.as_mut();
             if let Some(own) = asleep.filter(|own| own.particles != now) {

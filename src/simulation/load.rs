@@ -9,7 +9,7 @@ use core::fmt;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct LoadPoint<'a, const D: usize> {
-    /// Position x \[m\].
+    /// Position x \[m\] in the scene, in `f64`.
     pub position: [f64; D],
     /// Velocity v \[m/s\], predicted to the time of the evaluation by leapfrogs.
     pub velocity: [f64; D],

@@ -37,7 +37,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             value,
             body: body.name.clone(),
             particle: particles.ids[slot] as usize - body.ids.start,
-            position: particles.position(slot),
+            position: particles.position(slot).to_vec(),
             time,
         })
     }
@@ -117,7 +117,7 @@ fn evaluate_load<'a, T: Real, const D: usize>(
         let (own, repeats) = values[run.start * width..run.end * width].split_at_mut(live);
         let add = |(slot, sum): (usize, &mut [T])| {
             let at = LoadPoint {
-                position: particles.exact_position(slot),
+                position: particles.position(slot),
                 velocity: velocities[slot].map(Real::to_f64),
                 density: densities[slot].to_f64(),
                 time,

@@ -21,7 +21,7 @@ use crate::sweep::{InstructionSet, Root};
 use std::path::Path;
 
 /// The version of what is held. It rises with every change of it.
-const VERSION: &str = "3";
+const VERSION: &str = "4";
 
 /// Parts of a scene that are hashed only where there are any.
 const RARE: [&str; 3] = [
@@ -115,6 +115,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         for (part, hash) in scene {
             file.put_text(format!("hash of {part}"), format!("{hash:016x}"));
         }
+        file.put("origin".into(), 1, self.origin());
         file.put_one("time".into(), *time);
         file.put_one("steps".into(), *steps);
         file.put_one("evaluations".into(), *evaluations);
@@ -186,6 +187,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         for group in &mut self.groups {
             group.instructions = set;
             group.root = root;
+        }
+        // It follows from bodies and walls, which are those of the file.
+        let origin: [f64; D] = file.get_array("origin")?;
+        if origin != self.origin() {
+            return Err(damaged("its places count from another origin"));
         }
         self.time = file.get_one("time")?;
         self.steps = file.get_one("steps")?;
