@@ -655,10 +655,10 @@ fn another_version_width_and_machine_are_named() {
         problem(rods::<f64>(), &copy)
     };
     assert_eq!(
-        with(r#""version":"3""#, r#""version":"9""#),
+        with(r#""version":"4""#, r#""version":"9""#),
         CheckpointProblem::Version {
             found: "9".into(),
-            known: "3"
+            known: "4"
         }
     );
     assert_eq!(

@@ -71,6 +71,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         }
         self.check_loads(&mut problems);
         if problems.is_empty() {
+            self.check_extent(&mut problems);
             self.check_memory(&mut problems);
         }
         if problems.is_empty() {
