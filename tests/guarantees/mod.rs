@@ -9,6 +9,7 @@ mod counted_work;
 mod filling;
 mod invariance;
 mod neighbours;
+mod place;
 #[cfg(feature = "checkpoint")]
 mod restart;
 mod step_limits;
