@@ -274,6 +274,7 @@ pub mod material;
 pub mod neighbors;
 pub mod observe;
 mod once;
+mod origin;
 pub mod output;
 mod parallel;
 pub mod particles;

@@ -3,6 +3,7 @@
 
 use super::{Motion, Pose, Wall};
 use crate::geometry::{MOST_PARTICLES, POSITIVE};
+use crate::origin::local;
 use crate::tensor::{Vector, length};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -61,8 +62,9 @@ impl<const D: usize> Inlet<D> {
         self.velocity.map(|v| v / size)
     }
 
-    /// The buffer behind the opening, `layers` thick, and what moves it.
-    pub(crate) fn buffer(&self, layers: usize) -> (Wall<D>, Emitter<D>) {
+    /// The buffer behind the opening, `layers` thick, and what hands its layers over in places that are counted from an
+    /// origin \[m\].
+    pub(crate) fn buffer(&self, layers: usize, origin: &[f64; D]) -> (Wall<D>, Emitter<D>) {
         let direction = self.direction();
         let behind = |x: &[f64; D], k: usize| {
             let back = (k as f64 + 0.5) * self.spacing;
@@ -73,7 +75,9 @@ impl<const D: usize> Inlet<D> {
             .collect();
         let handed_over = Arc::new(AtomicU64::new(0));
         let emitter = Emitter {
-            front: self.opening.iter().map(|x| behind(x, 0)).collect(),
+            front: (self.opening.iter())
+                .map(|x| local(&behind(x, 0), origin))
+                .collect(),
             velocity: self.velocity,
             spacing: self.spacing,
             handed_over: Arc::clone(&handed_over),

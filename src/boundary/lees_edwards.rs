@@ -2,9 +2,9 @@
 //! Periodic along the flow, and across it with copies that slide past each other.
 
 use super::{Boundary, Periodic};
-use crate::scalar::Real;
 use crate::sweep::Transform;
 use crate::tensor::Vector;
+use std::sync::Arc;
 
 /// Periods of a homogeneous shear flow (Lees & Edwards 1972, J. Phys. C 5, 1921).
 ///
@@ -29,7 +29,7 @@ use crate::tensor::Vector;
 /// let unit = |axis| Periodic::along(axis, 0.0, 1.0);
 /// let shear = LeesEdwards::new(unit(0), unit(1), rate);
 /// // What leaves at the top after 0.1 s was as fast as the top, and enters at the bottom as fast as that.
-/// let back = Boundary::<f64, 2>::wrap(&shear, &[0.5, 1.25], 0.1).expect("it has left");
+/// let back = Boundary::<2>::wrap(&shear, &[0.5, 1.25], 0.1).expect("it has left");
 /// let [x, y] = back.point(&[0.5, 1.25]);
 /// assert!((x - 0.3).abs() < 1e-15 && (y, back.velocity[0]) == (0.25, -2.0));
 ///
@@ -83,7 +83,7 @@ impl LeesEdwards {
     }
 
     /// The transform to a copy some periods up the gradient and along the flow.
-    fn copy<T: Real, const D: usize>(&self, [up, along]: [f64; 2], time: f64) -> Transform<T, D> {
+    fn copy<const D: usize>(&self, [up, along]: [f64; 2], time: f64) -> Transform<f64, D> {
         let shift = |d: usize| {
             if d == self.flow.axis() {
                 up * self.slide(time) + along * self.flow.length()
@@ -101,14 +101,14 @@ impl LeesEdwards {
             }
         };
         Transform {
-            shift: Vector::from_fn(|d, _| T::from_f64(shift(d))),
-            velocity: Vector::from_fn(|d, _| T::from_f64(velocity(d))),
+            shift: Vector::from_fn(|d, _| shift(d)),
+            velocity: Vector::from_fn(|d, _| velocity(d)),
             ..Transform::identity()
         }
     }
 }
 
-impl<T: Real, const D: usize> Boundary<T, D> for LeesEdwards {
+impl<const D: usize> Boundary<D> for LeesEdwards {
     fn name(&self) -> String {
         let [flow, gradient] = [&self.flow, &self.gradient].map(Periodic::axis);
         format!("sheared period along axes {flow} and {gradient}")
@@ -116,12 +116,12 @@ impl<T: Real, const D: usize> Boundary<T, D> for LeesEdwards {
     fn images(&self) -> usize {
         COPIES.len()
     }
-    fn transform(&self, image: usize, time: f64) -> Transform<T, D> {
+    fn transform(&self, image: usize, time: f64) -> Transform<f64, D> {
         self.copy(COPIES[image], time)
     }
-    fn reaches(&self, image: usize, x: &[T; D], reach: f64, time: f64) -> bool {
+    fn reaches(&self, image: usize, x: &[f64; D], reach: f64, time: f64) -> bool {
         let [up, along] = COPIES[image];
-        let [x, y] = [&self.flow, &self.gradient].map(|own| x[own.axis()].to_f64());
+        let [x, y] = [&self.flow, &self.gradient].map(|own| x[own.axis()]);
         let y = y + up * self.gradient.length();
         let x = x + up * self.slide(time) + along * self.flow.length();
         self.gradient.nears(y, reach) && self.flow.nears(x, reach)
@@ -129,17 +129,21 @@ impl<T: Real, const D: usize> Boundary<T, D> for LeesEdwards {
     fn moves(&self) -> bool {
         self.shear_rate != 0.0
     }
-    fn wrap(&self, x: &[T; D], time: f64) -> Option<Transform<T, D>> {
-        let [x, y] = [&self.flow, &self.gradient].map(|own| x[own.axis()].to_f64());
+    fn wrap(&self, x: &[f64; D], time: f64) -> Option<Transform<f64, D>> {
+        let [x, y] = [&self.flow, &self.gradient].map(|own| x[own.axis()]);
         let up = -self.gradient.periods(y);
         let along = -self.flow.periods(x + up * self.slide(time));
         // NaN and points inside both stay where they are.
         let left = up != 0.0 || along != 0.0;
         (left && up.is_finite() && along.is_finite()).then(|| self.copy([up, along], time))
     }
+    fn seen_from(&self, origin: &[f64; D]) -> Option<Arc<dyn Boundary<D>>> {
+        let [flow, gradient] = [&self.flow, &self.gradient].map(|own| own.counted_from(origin));
+        Some(Arc::new(Self::new(flow, gradient, self.shear_rate)))
+    }
     fn problems(&self, reach: f64) -> Vec<(&'static str, f64, &'static str)> {
         let of = |own: &Periodic, names: [&'static str; 2]| {
-            let problems = Boundary::<T, D>::problems(own, reach).into_iter();
+            let problems = Boundary::<D>::problems(own, reach).into_iter();
             let named = move |(what, value, must_be)| {
                 (names[usize::from(what == "period")], value, must_be)
             };
@@ -190,8 +194,8 @@ mod tests {
         let through: Transform<f64, 2> = shear().wrap(&[0.5, 1.25], 7.0).unwrap();
         assert_eq!(through.point(&[0.5, 1.25]), [0.5, -0.75]);
         assert!(!through.turns());
-        assert!(Boundary::<f64, 2>::wrap(&shear(), &[0.5, 0.5], 7.0).is_none());
-        assert!(Boundary::<f64, 2>::wrap(&shear(), &[f64::NAN, 0.5], 7.0).is_none());
+        assert!(Boundary::<2>::wrap(&shear(), &[0.5, 0.5], 7.0).is_none());
+        assert!(Boundary::<2>::wrap(&shear(), &[f64::NAN, 0.5], 7.0).is_none());
     }
 
     /// Every point around the domain is the image of just one point in it, at any slide.
@@ -201,14 +205,14 @@ mod tests {
             for (x, y) in (-2..12).flat_map(|a| (-12..12).map(move |b| (a, b))) {
                 let around = [f64::from(x) * 0.1 + 0.05, f64::from(y) * 0.1 + 0.05];
                 let inside = (0..10).contains(&x) && (-10..10).contains(&y);
-                let Some(home) = Boundary::<f64, 2>::wrap(&shear(), &around, time) else {
+                let Some(home) = Boundary::<2>::wrap(&shear(), &around, time) else {
                     assert!(inside);
                     continue;
                 };
                 let home = home.point(&around);
                 let images = (0..COPIES.len())
-                    .filter(|&k| Boundary::<f64, 2>::reaches(&shear(), k, &home, REACH, time))
-                    .map(|k| Boundary::<f64, 2>::transform(&shear(), k, time).point(&home));
+                    .filter(|&k| Boundary::<2>::reaches(&shear(), k, &home, REACH, time))
+                    .map(|k| Boundary::<2>::transform(&shear(), k, time).point(&home));
                 let near = |image: &[f64; 2]| (0..2).all(|d| (image[d] - around[d]).abs() < 1e-9);
                 assert_eq!(images.filter(near).count(), 1, "{around:?} at {time} s");
             }
@@ -219,7 +223,7 @@ mod tests {
     fn what_is_wrong_is_named() {
         let period = |axis, high| Periodic::along(axis, 0.0, high);
         let names = |shear: LeesEdwards| -> Vec<&str> {
-            let problems = Boundary::<f64, 2>::problems(&shear, REACH);
+            let problems = Boundary::<2>::problems(&shear, REACH);
             problems.iter().map(|problem| problem.0).collect()
         };
         let wrong = LeesEdwards::new(period(0, 0.3), period(2, 1.0), f64::NAN);

@@ -2,9 +2,10 @@
 //! Every particle near the plane sees its reflection, and what would cross becomes it (Lam, Shen & Gong 2002, 4.1).
 
 use super::Boundary;
-use crate::scalar::Real;
+use crate::origin::local;
 use crate::sweep::{Interaction, Transform};
 use crate::tensor::{Matrix, Vector, length};
+use std::sync::Arc;
 
 /// A plane that reflects positions and velocities.
 ///
@@ -52,8 +53,8 @@ impl<const D: usize> MirrorPlane<D> {
     }
 
     /// How far a point is along the normal \[m\].
-    fn height<T: Real>(&self, x: &[T; D]) -> f64 {
-        (0..D).map(|d| x[d].to_f64() * self.normal[d]).sum()
+    fn height(&self, x: &[f64; D]) -> f64 {
+        (0..D).map(|d| x[d] * self.normal[d]).sum()
     }
 
     /// How far the plane is along its normal \[m\].
@@ -62,7 +63,7 @@ impl<const D: usize> MirrorPlane<D> {
     }
 }
 
-impl<T: Real, const D: usize> Boundary<T, D> for MirrorPlane<D> {
+impl<const D: usize> Boundary<D> for MirrorPlane<D> {
     fn name(&self) -> String {
         match self.interaction {
             Interaction::Unilateral => "wall".into(),
@@ -72,27 +73,33 @@ impl<T: Real, const D: usize> Boundary<T, D> for MirrorPlane<D> {
     fn images(&self) -> usize {
         1
     }
-    fn transform(&self, _image: usize, time: f64) -> Transform<T, D> {
+    fn transform(&self, _image: usize, time: f64) -> Transform<f64, D> {
         let unit = |a: usize, b: usize| f64::from(u8::from(a == b));
         let n = &self.normal;
-        let along = |size: f64| Vector::from_fn(|a, _| T::from_f64(2.0 * size * n[a]));
+        let along = |size: f64| Vector::from_fn(|a, _| 2.0 * size * n[a]);
         Transform {
-            rotation: Matrix::from_fn(|a, b| T::from_f64(unit(a, b) - 2.0 * n[a] * n[b])),
+            rotation: Matrix::from_fn(|a, b| unit(a, b) - 2.0 * n[a] * n[b]),
             shift: along(self.offset(time)),
             velocity: along(self.velocity),
         }
     }
-    fn reaches(&self, _image: usize, x: &[T; D], reach: f64, time: f64) -> bool {
+    fn reaches(&self, _image: usize, x: &[f64; D], reach: f64, time: f64) -> bool {
         self.offset(time) - self.height(x) < reach
     }
     fn moves(&self) -> bool {
         self.velocity != 0.0
     }
-    fn crossed(&self, x: &[T; D], time: f64) -> bool {
+    fn crossed(&self, x: &[f64; D], time: f64) -> bool {
         self.height(x) > self.offset(time)
     }
     fn interaction(&self) -> Interaction {
         self.interaction
+    }
+    fn seen_from(&self, origin: &[f64; D]) -> Option<Arc<dyn Boundary<D>>> {
+        Some(Arc::new(Self {
+            point: local(&self.point, origin),
+            ..self.clone()
+        }))
     }
     fn problems(&self, _reach: f64) -> Vec<(&'static str, f64, &'static str)> {
         let finite = self.normal.iter().chain(&self.point).all(|x| x.is_finite());

@@ -28,11 +28,13 @@ mod mirror;
 mod motion;
 mod outlet;
 mod periodic;
+mod seen;
 mod surface;
 mod wall;
 
 use crate::sweep::{Interaction, Transform};
 use core::fmt::Debug;
+use std::sync::Arc;
 
 pub(crate) use inlet::Emitter;
 pub use inlet::Inlet;
@@ -41,14 +43,14 @@ pub use mirror::MirrorPlane;
 pub use motion::{Crush, Motion, Pose, Rotation, Translation};
 pub use outlet::Outlet;
 pub use periodic::Periodic;
+pub(crate) use seen::{boundary_from, motion_from};
 pub use surface::WallSurface;
 pub use wall::{Slip, Wall};
 
-use crate::scalar::Real;
-
 /// A boundary that acts through images of particles.
 ///
-/// Where nothing is said a body ends freely; a free surface needs no boundary.
+/// Where nothing is said a body ends freely; a free surface needs no boundary. Places are those of the scene, in `f64`
+/// whatever the scalar of the simulation.
 ///
 /// ```
 /// use meshfree::boundary::Boundary;
@@ -59,7 +61,7 @@ use crate::scalar::Real;
 /// #[derive(Clone, Debug)]
 /// struct Glide { period: f64 }
 ///
-/// impl Boundary<f64, 2> for Glide {
+/// impl Boundary<2> for Glide {
 ///     fn name(&self) -> String { format!("glide of period {} m", self.period) }
 ///     fn images(&self) -> usize { 2 }
 ///     fn transform(&self, image: usize, _time: f64) -> Transform<f64, 2> {
@@ -78,17 +80,17 @@ use crate::scalar::Real;
 /// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a boundary in {D} dimensions",
-    note = "implement `Boundary<{T}, {D}>`: how many images a particle has, the transform of each, and which particles are near enough to need it"
+    note = "implement `Boundary<{D}>`: how many images a particle has, the transform of each, and which particles are near enough to need it"
 )]
-pub trait Boundary<T: Real, const D: usize>: Debug + Send + Sync {
+pub trait Boundary<const D: usize>: Debug + Send + Sync {
     /// Its name in reports.
     fn name(&self) -> String;
     /// How many images a particle can have.
     fn images(&self) -> usize;
     /// The transform that makes image `image` at `time` \[s\]. Its velocity is the rate of its shift.
-    fn transform(&self, image: usize, time: f64) -> Transform<T, D>;
+    fn transform(&self, image: usize, time: f64) -> Transform<f64, D>;
     /// Whether image `image` of a particle at `x` \[m\] lies within `reach` \[m\] of the domain.
-    fn reaches(&self, image: usize, x: &[T; D], reach: f64, time: f64) -> bool;
+    fn reaches(&self, image: usize, x: &[f64; D], reach: f64, time: f64) -> bool;
     /// Whether the boundary moves, so that transforms must be renewed in every step.
     fn moves(&self) -> bool {
         false
@@ -98,16 +100,24 @@ pub trait Boundary<T: Real, const D: usize>: Debug + Send + Sync {
     /// When lists are made such a particle becomes its own image 0, which has come out in front as it went in
     /// behind. The momentum that this gives is in the [ledger](crate::simulation::Ledger::boundary_impulse). A body
     /// that starts behind is refused.
-    fn crossed(&self, _x: &[T; D], _time: f64) -> bool {
+    fn crossed(&self, _x: &[f64; D], _time: f64) -> bool {
         false
     }
     /// How a particle at `x` \[m\] that has left at `time` \[s\] re-enters; `None` if it has not left.
-    fn wrap(&self, _x: &[T; D], _time: f64) -> Option<Transform<T, D>> {
+    fn wrap(&self, _x: &[f64; D], _time: f64) -> Option<Transform<f64, D>> {
         None
     }
     /// What particles and images do to each other.
     fn interaction(&self) -> Interaction {
         Interaction::Bonded
+    }
+    /// The same boundary for places that are counted from `origin` \[m\].
+    ///
+    /// A simulation counts places from an [origin of its own](crate::scene#place), and asks the boundary that this gives.
+    /// Without it, it adds the origin to every place that it asks for: right to the rounding of `f64` there. A
+    /// boundary that knows where it is gives itself, moved by −`origin`, and so the same bits wherever the scene is.
+    fn seen_from(&self, _origin: &[f64; D]) -> Option<Arc<dyn Boundary<D>>> {
+        None
     }
     /// What is wrong with the boundary for a kernel that reaches `reach` \[m\].
     fn problems(&self, _reach: f64) -> Vec<(&'static str, f64, &'static str)> {

@@ -2,6 +2,7 @@
 //! A motion is evaluated once a wall and step, and applied to all of its particles.
 
 use crate::error::{Error, Problem, Result};
+use crate::origin::local;
 use crate::tensor::{Matrix, Vector};
 use core::fmt;
 
@@ -29,6 +30,17 @@ impl<const D: usize> Pose<D> {
     #[must_use]
     pub fn of(&self, order: usize, x: &[f64; D]) -> [f64; D] {
         (self.linear[order] * Vector::from(*x) + self.shift[order]).into()
+    }
+    /// The same for places that are counted from `origin` o \[m\]: x − o = A (X − o) + b + A o − o.
+    #[must_use]
+    pub fn seen_from(mut self, origin: &[f64; D]) -> Self {
+        let origin = Vector::from(*origin);
+        let [place, rates @ ..] = &mut self.shift;
+        *place += self.linear[0] * origin - origin;
+        for (shift, linear) in rates.iter_mut().zip(&self.linear[1..]) {
+            *shift += linear * origin;
+        }
+        self
     }
     /// This pose with place and velocity of the middle of a straight way between two poses at two
     /// times \[s\], as particles go in a drift.
@@ -65,6 +77,13 @@ pub trait Motion<const D: usize>: Send + Sync {
     fn name(&self) -> String;
     /// The pose at `time` \[s\].
     fn pose(&self, time: f64) -> Pose<D>;
+    /// The same for places that are counted from `origin` \[m\], as a simulation [counts them](crate::scene#place).
+    ///
+    /// By default it follows from the pose, and is right to the rounding of `f64` there. A motion about a place that
+    /// it knows takes that place less `origin`, and so has the same bits wherever the scene is.
+    fn pose_from(&self, origin: &[f64; D], time: f64) -> Pose<D> {
+        self.pose(time).seen_from(origin)
+    }
 }
 
 impl<const D: usize> fmt::Debug for dyn Motion<D> {
@@ -260,6 +279,9 @@ impl<const D: usize> Motion<D> for Rotation<D> {
         "rotation".into()
     }
     fn pose(&self, time: f64) -> Pose<D> {
+        self.pose_from(&[0.0; D], time)
+    }
+    fn pose_from(&self, origin: &[f64; D], time: f64) -> Pose<D> {
         let [angle, rate, growth] = (self.angle)(time);
         let (sine, cosine) = angle.sin_cos();
         // In the plane: R, R′ = dR/dθ, R″ = −R; elsewhere the identity does not change.
@@ -274,7 +296,7 @@ impl<const D: usize> Motion<D> for Rotation<D> {
         let first = plane([-sine, -cosine, cosine, -sine], 0.0);
         let second = plane([-cosine, sine, -sine, -cosine], 0.0);
         let linear = [turn, first * rate, first * growth + second * (rate * rate)];
-        let centre = Vector::from(self.centre);
+        let centre = Vector::from(local(&self.centre, origin));
         Pose {
             shift: [
                 centre - linear[0] * centre,
@@ -315,13 +337,16 @@ impl<const D: usize> Motion<D> for Crush<D> {
         format!("crush along axis {}", self.axis)
     }
     fn pose(&self, time: f64) -> Pose<D> {
+        self.pose_from(&[0.0; D], time)
+    }
+    fn pose_from(&self, origin: &[f64; D], time: f64) -> Pose<D> {
         let strain = (self.strain)(time);
         let mut pose = Pose::<D>::rest();
         for (order, strain) in strain.into_iter().enumerate() {
             // An axis that the dimension does not have leaves the wall at rest.
             if self.axis < D {
                 pose.linear[order][(self.axis, self.axis)] -= strain;
-                pose.shift[order][self.axis] = strain * self.fixed;
+                pose.shift[order][self.axis] = strain * (self.fixed - origin[self.axis]);
             }
         }
         pose

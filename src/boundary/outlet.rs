@@ -2,6 +2,7 @@
 //! What leaves is counted, with its mass and momentum.
 
 use crate::geometry::SWAPPED;
+use crate::origin::local;
 
 /// A reason to take particles out.
 ///
@@ -54,6 +55,21 @@ impl<const D: usize> Outlet<D> {
             Reason::Outside { low, high } => (0..D).any(|d| x[d] < low[d] || x[d] > high[d]),
             Reason::Faster { speed } => v.iter().map(|v| v * v).sum::<f64>() > speed * speed,
         }
+    }
+
+    /// The same for places that are counted from an origin \[m\].
+    pub(crate) fn seen_from(&self, origin: &[f64; D]) -> Self {
+        Self(match &self.0 {
+            Reason::Beyond { point, normal } => Reason::Beyond {
+                point: local(point, origin),
+                normal: *normal,
+            },
+            Reason::Outside { low, high } => Reason::Outside {
+                low: local(low, origin),
+                high: local(high, origin),
+            },
+            Reason::Faster { speed } => Reason::Faster { speed: *speed },
+        })
     }
 
     /// What is wrong with it, as `(what, value, what it must be)`.

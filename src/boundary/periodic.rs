@@ -3,9 +3,9 @@
 
 use super::Boundary;
 use crate::geometry::SWAPPED;
-use crate::scalar::Real;
 use crate::sweep::Transform;
 use crate::tensor::Vector;
+use std::sync::Arc;
 
 /// Periodicity along one axis, from `low` to `high` \[m\].
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +20,17 @@ impl Periodic {
     #[must_use]
     pub fn along(axis: usize, low: f64, high: f64) -> Self {
         Self { axis, low, high }
+    }
+
+    /// The same for places that are counted from an origin \[m\].
+    pub(super) fn counted_from<const D: usize>(&self, origin: &[f64; D]) -> Self {
+        // An axis that the dimension does not have is refused elsewhere.
+        let origin = origin.get(self.axis).copied().unwrap_or(0.0);
+        Self {
+            low: self.low - origin,
+            high: self.high - origin,
+            ..*self
+        }
     }
 
     /// Its axis.
@@ -42,38 +53,41 @@ impl Periodic {
         self.low - reach < x && x < self.high + reach
     }
 
-    fn shift<T: Real, const D: usize>(&self, periods: f64) -> Transform<T, D> {
+    fn shift<const D: usize>(&self, periods: f64) -> Transform<f64, D> {
         let period = periods * self.length();
         let component = |d: usize| if d == self.axis { period } else { 0.0 };
         Transform {
-            shift: Vector::from_fn(|d, _| T::from_f64(component(d))),
+            shift: Vector::from_fn(|d, _| component(d)),
             ..Transform::identity()
         }
     }
 }
 
-impl<T: Real, const D: usize> Boundary<T, D> for Periodic {
+impl<const D: usize> Boundary<D> for Periodic {
     fn name(&self) -> String {
         format!("period along axis {}", self.axis)
     }
     fn images(&self) -> usize {
         2
     }
-    fn transform(&self, image: usize, _time: f64) -> Transform<T, D> {
+    fn transform(&self, image: usize, _time: f64) -> Transform<f64, D> {
         self.shift(if image == 0 { 1.0 } else { -1.0 })
     }
-    fn reaches(&self, image: usize, x: &[T; D], reach: f64, _time: f64) -> bool {
-        let x = x[self.axis].to_f64();
+    fn reaches(&self, image: usize, x: &[f64; D], reach: f64, _time: f64) -> bool {
+        let x = x[self.axis];
         if image == 0 {
             x < self.low + reach
         } else {
             x > self.high - reach
         }
     }
-    fn wrap(&self, x: &[T; D], _time: f64) -> Option<Transform<T, D>> {
-        let periods = self.periods(x[self.axis].to_f64());
+    fn wrap(&self, x: &[f64; D], _time: f64) -> Option<Transform<f64, D>> {
+        let periods = self.periods(x[self.axis]);
         // NaN and points inside both stay where they are.
         (periods != 0.0 && periods.is_finite()).then(|| self.shift(-periods))
+    }
+    fn seen_from(&self, origin: &[f64; D]) -> Option<Arc<dyn Boundary<D>>> {
+        Some(Arc::new(self.counted_from(origin)))
     }
     fn problems(&self, reach: f64) -> Vec<(&'static str, f64, &'static str)> {
         let period = self.length();
@@ -101,6 +115,6 @@ mod tests {
         let period = Periodic::along(1, -1.0, 1.0);
         let back: Transform<f64, 2> = period.wrap(&[0.3, 1.25], 0.0).unwrap();
         assert_eq!(back.point(&[0.3, 1.25]), [0.3, -0.75]);
-        assert!(Boundary::<f64, 2>::wrap(&period, &[5.0, 0.5], 0.0).is_none());
+        assert!(Boundary::<2>::wrap(&period, &[5.0, 0.5], 0.0).is_none());
     }
 }

@@ -167,19 +167,24 @@ impl<const D: usize> Wall<D> {
         let Some(fluid_side) = &self.fluid_side else {
             return Vec::new();
         };
-        let step = 1e-3 * self.spacing;
+        // A power of two, and the difference of the places themselves: far from zero these are rounded.
+        let farthest = self.points.as_flattened().iter();
+        let farthest = farthest.fold(0.0_f64, |most, x| most.max(x.abs()));
+        let step = (1e-3 * self.spacing).max(16.0 * f64::EPSILON * farthest);
+        let step = 2.0_f64.powi(step.log2().floor() as i32);
         let normal = |x: &[f64; D]| {
             let rise = Vector::<f64, D>::from_fn(|d, _| {
                 let beside = |side: f64| {
                     let mut x = *x;
                     x[d] += side * step;
-                    fluid_side.signed_distance(&x)
+                    (x[d], fluid_side.signed_distance(&x))
                 };
-                beside(1.0) - beside(-1.0)
+                let (after, before) = (beside(1.0), beside(-1.0));
+                (after.1 - before.1) / (after.0 - before.0)
             });
-            // A distance rises by twice the step; less than half of that is no direction.
+            // A distance rises by one in one; less than half of that is no direction.
             let size = length(&rise);
-            if size > step {
+            if size > 0.5 {
                 (rise / size).into()
             } else {
                 [0.0; D]

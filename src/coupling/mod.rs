@@ -71,7 +71,7 @@ use core::fmt::Debug;
 /// A particle of a body that is coupled.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoupledParticle<T, const D: usize> {
-    /// Position \[m\].
+    /// Position \[m\], counted from the [origin](crate::scene#place) of the scene: differences are places apart.
     pub position: [T; D],
     /// Velocity \[m/s\].
     pub velocity: [T; D],

@@ -31,6 +31,8 @@ pub struct Around<'a, T: Real, const D: usize> {
     pub time: f64,
     /// What the loads give \[m/s²\].
     pub gravity: [f64; D],
+    /// The place \[m\] in the scene from which [`Field::POSITION`] and [`Field::REFERENCE_POSITION`] count.
+    pub origin: [f64; D],
     /// Whether the sums are those of a sweep in the middle of a drift, and not of the rates.
     pub in_drift: bool,
 }

@@ -109,7 +109,11 @@ pub fn layers<const D: usize>(
             remedy: "give the thickness in metres: the number of layers times the spacing",
         }));
     }
-    let near = thickness + ROUNDING * spacing;
+    // Far from zero places are rounded by more.
+    let (low, high) = shape.bounds();
+    let places = low.iter().chain(&high).filter(|x| x.is_finite());
+    let farthest = places.fold(0.0_f64, |most, x| most.max(x.abs()));
+    let near = thickness + (ROUNDING * spacing).max(4.0 * f64::EPSILON * farthest);
     // The first layer is half a spacing from the surface of a box that fits the lattice.
     let steps = (near / spacing + 0.5).floor();
     let far = steps * spacing * (D as f64).sqrt();

@@ -163,7 +163,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                     share,
                     boundaries,
                 });
-                numbers.extend(own.iter().map(|number| number.to_f64()));
+                numbers.extend(particle.values(field).into_iter().flatten());
             }
             for image in &images {
                 let (x, boundaries) = (image.at, image.boundaries);

@@ -293,7 +293,7 @@ impl Shape {
 quantities! {
     /// A quantity that a particle carries.
     Field, field_index, Fields, "A set of [`Field`]s, usable in constants.";
-    /// Position x.
+    /// Position x, counted from the [origin](crate::scene#place) of the scene.
     POSITION, Point, "position", "m";
     /// The rounding error of the position, kept where the scalar is `f32`.
     POSITION_RESIDUAL, Vector, "position_residual", "m";
@@ -351,7 +351,7 @@ quantities! {
     LOAD_ACCELERATION, Vector, "load_acceleration", "m/s²";
     /// Rate of specific internal energy by heat sources.
     LOAD_HEATING, Scalar, "load_heating", "W/kg";
-    /// Position X in the reference configuration, as built: where terms of a sweep read it, lists and kernels are those
+    /// Position X in the reference configuration, as built, counted as the position: where terms of a sweep read it, lists and kernels are those
     /// of the reference configuration.
     REFERENCE_POSITION, Point, "reference_position", "m";
     /// Acceleration of a kick, by which the work of its pair forces changes with its length.

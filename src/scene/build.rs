@@ -1,9 +1,9 @@
 //! From a scene to a simulation: checked, laid out and evaluated once, or gone on with from a checkpoint.
 
-use super::plan::Plan;
 use super::{Part, Scene};
 use crate::error::{BuildError, Error, Problem, Result};
 use crate::once::once;
+use crate::origin::middle;
 #[cfg(feature = "checkpoint")]
 use crate::output::checkpoint::Checkpoint;
 use crate::scalar::Real;
@@ -118,9 +118,10 @@ impl<T: Real, const D: usize> Scene<T, D> {
             return Err(Error::Build(BuildError { problems }));
         }
         let domain = self.domain();
-        let groups: Vec<_> = self.plans().map(Plan::lay_out).collect();
+        let origin = self.origin();
+        let groups: Vec<_> = self.plans().map(|plan| plan.lay_out(origin)).collect();
         let built = self.places_as_built(&groups);
-        let couples = self.couples();
+        let couples = self.couples(&origin);
         #[cfg(feature = "checkpoint")]
         let (hashes, values) = (self.hashes(), self.values());
         let mut simulation = Simulation::new(
@@ -160,6 +161,15 @@ impl<T: Real, const D: usize> Scene<T, D> {
             places
         };
         self.parts.iter().zip(groups).map(of_group).collect()
+    }
+
+    /// The place \[m\] from which columns of particles count: the middle of the box around all particles of bodies and walls
+    /// and the openings of inlets.
+    pub(super) fn origin(&self) -> [f64; D] {
+        let bodies = self.bodies().flat_map(|body| &body.points);
+        let walls = self.walls.iter().flat_map(|wall| &wall.points);
+        let openings = self.inlets.iter().flat_map(|inlet| &inlet.opening);
+        middle(bodies.chain(walls).chain(openings))
     }
 
     /// The box around bodies and walls \[m\], where walls alone bound the scene.

@@ -2,7 +2,9 @@
 //! A liquid meets the solids of other groups as walls unless a coupling or [`Interaction::None`] says otherwise.
 
 use super::{Body, Coupled, Part, Scene};
+use crate::boundary::motion_from;
 use crate::coupling::{Coupling, LiquidStructure};
+use crate::origin::local;
 use crate::scalar::Real;
 use crate::simulation::{Acting, Couple, MetWall, PairList, Side, SubCycle};
 use crate::sweep::Interaction;
@@ -54,22 +56,28 @@ impl<T: Real, const D: usize> Scene<T, D> {
         self.walls.iter().position(|wall| wall.name == name)
     }
 
-    /// What a coupling by forces names, with its scene index, its spacing \[m\] and where its particles are as built \[m\].
-    pub(super) fn side_of(&self, name: &str) -> Option<(Side<D>, usize, f64, Vec<[f64; D]>)> {
+    /// What a coupling by forces names, with its scene index, its spacing \[m\] and where its particles are as built \[m\],
+    /// in places that are counted from an origin \[m\].
+    pub(super) fn side_of(
+        &self,
+        name: &str,
+        origin: &[f64; D],
+    ) -> Option<(Side<D>, usize, f64, Vec<[f64; D]>)> {
+        let from = |points: &[[f64; D]]| points.iter().map(|x| local(x, origin)).collect();
         if let Some((group, body)) = self.place_of(name) {
             let before = self.parts[..group].iter().map(|part| part.bodies.len());
             let index = before.sum::<usize>() + body;
             let own = &self.parts[group].bodies[body];
             let side = Side::Body { group, body };
-            return Some((side, index, own.spacing, own.points.clone()));
+            return Some((side, index, own.spacing, from(&own.points)));
         }
         let number = self.wall_number(name)?;
         let wall = &self.walls[number];
         let met = MetWall {
             name: wall.name.clone(),
-            rest: wall.points.clone(),
+            rest: from(&wall.points),
             spacing: wall.spacing,
-            motion: wall.motion.clone(),
+            motion: wall.motion.as_ref().map(|own| motion_from(own, origin)),
             sliding: wall.sliding,
         };
         let index = self.bodies().count() + number;
@@ -77,10 +85,13 @@ impl<T: Real, const D: usize> Scene<T, D> {
         Some((Side::Wall(Arc::new(met)), index, wall.spacing, built))
     }
 
-    /// What acts by forces between particles.
-    pub(super) fn couples(&self) -> Vec<Couple<T, D>> {
+    /// What acts by forces between particles, in places that are counted from an origin \[m\].
+    pub(super) fn couples(&self, origin: &[f64; D]) -> Vec<Couple<T, D>> {
         let couple = |own: &Coupled<T, D>| {
-            let sides = [self.side_of(&own.first)?, self.side_of(&own.second)?];
+            let sides = [
+                self.side_of(&own.first, origin)?,
+                self.side_of(&own.second, origin)?,
+            ];
             let reach = own.coupling.reach(sides.each_ref().map(|side| side.2));
             let by_reference = own.exclusion > 0.0 || own.coupling.as_built();
             let indices = sides.each_ref().map(|side| side.1);

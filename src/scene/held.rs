@@ -2,7 +2,8 @@
 //! Regions choose particles by where they are as built.
 
 use super::Scene;
-use crate::boundary::Motion;
+use crate::boundary::{Motion, motion_from};
+use crate::origin::local;
 use crate::particles::Field;
 use crate::scalar::Real;
 use crate::simulation::{Clamp, Group, Rigid};
@@ -121,20 +122,27 @@ impl<T: Real, const D: usize> Scene<T, D> {
 
     /// Gives a group what it holds.
     pub(super) fn hold(&self, number: usize, group: &mut Group<T, D>) {
+        let origin = &group.particles.origin.clone();
         for (k, body) in self.parts[number].bodies.iter().enumerate() {
             let clamps = self.clamps.iter().filter(|own| own.body == body.name);
             group.held.clamps.extend(clamps.map(|own| {
                 let until = own.until.as_ref();
+                let particles = own.particles(&body.points).into_iter();
                 Clamp {
                     until: until.and_then(|name| self.events.iter().position(|e| e.name == *name)),
-                    ..Clamp::new(k, own.particles(&body.points), own.motion.clone())
+                    ..Clamp::new(
+                        k,
+                        particles.map(|(k, x)| (k, local(&x, origin))).collect(),
+                        own.motion.as_ref().map(|own| motion_from(own, origin)),
+                    )
                 }
             }));
             if self.rigid.contains(&body.name) {
                 let slots = group.particles.bodies[k].slots.clone();
                 let mass = &group.particles.columns.raw(Field::MASS)[slots];
                 let mass: Vec<f64> = mass.iter().map(|mass| mass.to_f64()).collect();
-                group.held.rigid.push(Rigid::new(k, &body.points, &mass));
+                let points: Vec<_> = body.points.iter().map(|x| local(x, origin)).collect();
+                group.held.rigid.push(Rigid::new(k, &points, &mass));
             }
         }
     }

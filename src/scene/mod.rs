@@ -56,6 +56,23 @@
 //! Parts of a body are clamped by [`Scene::fix`] and [`Scene::clamp`], and a body moves as a rigid one by
 //! [`Scene::rigid`]. Particles sleep outside of a box by [`Scene::awake_inside`], and leave by [`Scene::outlet`].
 //!
+//! # Place
+//!
+//! Where a scene is changes nothing. Places are given and read in `f64`, and a simulation counts them from an origin of its
+//! own, [`Simulation::origin`](crate::simulation::Simulation::origin): the middle of the box around all particles of bodies and walls
+//! and the openings of inlets, for all groups together. Positions in `f32` are then as exact at map coordinates as anywhere, and
+//! a scene that is moved by a whole number of a power of two, of which its places are whole numbers too, has the same bits.
+//! Moved by anything else it differs by the rounding of its places in `f64`.
+//!
+//! | sees places of the scene, in `f64` | sees places counted from the origin |
+//! |---|---|
+//! | bodies, walls, boundaries, openings, motions, regions of clamps, the box in which it is awake | columns: [`Field::POSITION`](crate::particles::Field::POSITION) and `REFERENCE_POSITION` in [laws](crate::effect::Around::origin) |
+//! | [loads](crate::simulation::LoadPoint), [`set_field`](crate::simulation::Simulation::set_field), events | particles of [couplings](crate::coupling::CoupledParticle) |
+//! | [particles](crate::simulation::ParticleView) that are read, observers, files, pictures, reports, errors | columns in checkpoints, which hold the origin |
+//!
+//! Loads by place and [boundaries](crate::boundary::Boundary::seen_from) and [motions](crate::boundary::Motion::pose_from) of one's own are
+//! asked with the origin added, so that their values have its rounding. How far a scene in `f32` may reach is checked as it is built.
+//!
 //! Solids do not see walls of particles; a [`MirrorPlane`](crate::boundary::MirrorPlane) holds solids and liquids.
 
 pub mod advice;
@@ -114,7 +131,7 @@ pub struct Scene<T: Real, const D: usize> {
     walls: Vec<Wall<D>>,
     outlets: Vec<Outlet<D>>,
     inlets: Vec<Inlet<D>>,
-    boundaries: Vec<Arc<dyn Boundary<T, D>>>,
+    boundaries: Vec<Arc<dyn Boundary<D>>>,
     integrator: Arc<dyn Integrator>,
     contacts: Vec<(String, String, Interaction)>,
     couplings: Vec<Coupled<T, D>>,
@@ -262,7 +279,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
 
     /// Adds a boundary.
     #[must_use]
-    pub fn boundary(mut self, boundary: impl Boundary<T, D> + 'static) -> Self {
+    pub fn boundary(mut self, boundary: impl Boundary<D> + 'static) -> Self {
         self.boundaries.push(Arc::new(boundary));
         self
     }

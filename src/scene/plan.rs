@@ -2,7 +2,8 @@
 //! It is what the checks look at, and it lays out the columns from which a simulation starts.
 
 use super::{Body, FOLLOWING_SKINS, Part, SKINS, Scene};
-use crate::boundary::{Emitter, Inlet, Slip, Wall};
+use crate::boundary::{Emitter, Inlet, Slip, Wall, boundary_from, motion_from};
+use crate::origin::local;
 use crate::particles::{Columns, Field, Fields};
 use crate::scalar::Real;
 use crate::scheme::{Scheme, Smoothing};
@@ -93,9 +94,9 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         all.filter(move |(_, inlet)| own(inlet))
     }
 
-    /// Lays the group out: a column for each field that the scheme or a contact names.
-    pub fn lay_out(mut self) -> Group<T, D> {
-        let emitters = self.place_inlets();
+    /// Lays the group out: a column for each field that the scheme or a contact names, and places counted from an origin \[m\].
+    pub fn lay_out(mut self, origin: [f64; D]) -> Group<T, D> {
+        let emitters = self.place_inlets(&origin);
         let interactions = self.interactions();
         let unilateral = interactions.contains(&Interaction::Unilateral);
         let fields_of = |scheme: &Scheme<T, D>| {
@@ -125,8 +126,9 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             for slot in start..end {
                 let k = (slot - start).min(body.points.len() - 1);
                 let own = (&body.material, body.spacing);
+                let x = local(&body.points[k], &origin);
                 self.scheme
-                    .place(&mut columns, slot, own, body.points[k], &body.starts[k]);
+                    .place(&mut columns, slot, own, x, &body.starts[k]);
                 if let Some(mass) = body.masses.get(k) {
                     columns.raw_mut(Field::MASS)[slot] = T::from_f64(*mass);
                 }
@@ -151,13 +153,13 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             });
         }
         let mut walls = Vec::new();
-        for (wall, origin) in &self.walls {
+        for (wall, from) in &self.walls {
             let own = start..start + wall.points.len();
             start = own.end.next_multiple_of(width);
             for slot in own.start..start {
                 self.place_wall(&mut columns, wall, slot);
             }
-            walls.push(self.wall_state(wall, *origin, own, start));
+            walls.push(self.wall_state(wall, *from, own, start, &origin));
         }
         let widest = bodies
             .iter()
@@ -166,10 +168,12 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         let support = self.scheme.kernel.support * h;
         let skins = self.skins().map(|skin| skin * support);
         let mobile = walls.first().map_or(slots, |wall| wall.slots.start);
+        let boundaries = self.scene.boundaries.iter();
+        let boundaries = boundaries.map(|own| boundary_from(own, &origin));
         let mut group = Group::new(
-            Particles::new(columns, bodies, mobile),
+            Particles::new(columns, bodies, mobile, origin),
             walls,
-            self.scene.boundaries.clone(),
+            boundaries.collect(),
             self.scheme.clone(),
             interactions,
             h,
@@ -180,7 +184,8 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         group.root = self.scene.root;
         // What keeps its neighbours stays whole.
         if !self.scheme.density.keeps_neighbors() {
-            group.outlets.clone_from(&self.scene.outlets);
+            let outlets = self.scene.outlets.iter();
+            group.outlets = outlets.map(|own| own.seen_from(&origin)).collect();
         }
         group.emitters = emitters;
         group.exchanges = exchanges;
@@ -224,11 +229,12 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
     fn wall_state(
         &self,
         wall: &Wall<D>,
-        origin: Origin,
+        from: Origin,
         slots: std::ops::Range<usize>,
         end: usize,
+        origin: &[f64; D],
     ) -> WallState<T, D> {
-        let (index, structure) = match origin {
+        let (index, structure) = match from {
             Origin::Wall(index) => (index, None),
             Origin::Structure(group, body) => {
                 let part = &self.scene.parts[self.number];
@@ -264,9 +270,9 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             name: wall.name.clone(),
             slots,
             end,
-            rest: wall.points.clone(),
+            rest: wall.points.iter().map(|x| local(x, origin)).collect(),
             normals,
-            motion: wall.motion.clone(),
+            motion: wall.motion.as_ref().map(|own| motion_from(own, origin)),
             slip: wall.slip,
             sliding: wall.sliding,
             container_frame: wall.container_frame,
@@ -310,11 +316,11 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
     }
 
     /// Puts a buffer behind every inlet, before the structures, and returns what hands its layers over.
-    fn place_inlets(&mut self) -> Vec<(usize, Emitter<D>)> {
+    fn place_inlets(&mut self, origin: &[f64; D]) -> Vec<(usize, Emitter<D>)> {
         let reach = self.scheme.kernel.support * self.scheme.h_over_dx;
         let (mut buffers, mut emitters) = (Vec::new(), Vec::new());
         for (k, inlet) in self.inlets() {
-            let (wall, emitter) = inlet.buffer(reach.ceil() as usize + 1);
+            let (wall, emitter) = inlet.buffer(reach.ceil() as usize + 1, origin);
             buffers.push((wall, Origin::Wall(self.scene.walls.len() + k)));
             let fed = self.bodies.iter().position(|body| body.name == inlet.body);
             emitters.extend(fed.map(|body| (body, emitter)));

@@ -7,6 +7,7 @@ use super::forces::Forces;
 use super::held::Held;
 use super::population::Particles;
 use crate::error::{Error, Result};
+use crate::origin::local;
 use crate::particles::Field;
 use crate::scalar::Real;
 use crate::scheme::{EnergyForm, Scheme};
@@ -124,6 +125,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
         for group in &mut self.groups {
             let (held, particles) = (&mut group.held, &mut group.particles);
+            let bounds = bounds.map(|corner| local(&corner, &particles.origin));
             let now = held.outside(particles, &bounds);
             let asleep = held.asleep.as_mut();
             if let Some(own) = asleep.filter(|own| own.particles != now) {

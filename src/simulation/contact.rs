@@ -433,7 +433,7 @@ impl<T: Real, const D: usize> Couple<T, D> {
         let moved = |side: usize| self.sides[side].gone(&self.list.listed[side], groups, times);
         let first = moved(0);
         let second = if self.is_self() { first } else { moved(1) };
-        let boundaries: &[Arc<dyn Boundary<T, D>>] = &groups[0].boundaries;
+        let boundaries: &[Arc<dyn Boundary<D>>] = &groups[0].boundaries;
         let carried = self.list.images.carried(boundaries, times);
         first + second + carried <= self.list.skin
     }

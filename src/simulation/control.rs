@@ -266,7 +266,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 particle: group.particles.ids[meeting.slot] as usize - body.ids.start,
                 speed: meeting.speed,
                 sound_speed: meeting.speed / meeting.mach,
-                position: group.particles.position(meeting.slot),
+                position: group.particles.position(meeting.slot).to_vec(),
                 time: self.time,
             });
         }
@@ -332,7 +332,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             value,
             body: body.name.clone(),
             particle: (group.particles.ids[slot] as usize).saturating_sub(body.ids.start),
-            position: group.particles.position(slot),
+            position: group.particles.position(slot).to_vec(),
             time: self.time,
             step: self.steps,
         }

@@ -227,7 +227,7 @@ impl<T: Real, const D: usize> WallState<T, D> {
     fn follow(
         &mut self,
         own: &mut Particles<T, D>,
-        boundaries: &[Arc<dyn Boundary<T, D>>],
+        boundaries: &[Arc<dyn Boundary<D>>],
         (others, work): (&Particles<T, D>, &Workspace<T, D>),
         (time, evaluated): (f64, bool),
     ) {
@@ -269,9 +269,9 @@ impl<T: Real, const D: usize> WallState<T, D> {
                     .many_mut([Field::POSITION, Field::POSITION_RESIDUAL, Field::VELOCITY]);
             // The group of the structure lets particles re-enter a period when its lists are built.
             for boundary in boundaries {
-                let now = core::array::from_fn(|d| x[slot * D + d]);
+                let now = core::array::from_fn(|d| x[slot * D + d].to_f64());
                 if let Some(back) = boundary.wrap(&now, time) {
-                    back.re_enter(slot, x, residual, v);
+                    back.to_scalar().re_enter(slot, x, residual, v);
                 }
             }
         }

@@ -16,6 +16,16 @@ impl<T: Real, const D: usize> ParticleView<'_, T, D> {
         let column = self.group.particles.columns.raw(field);
         column.get(self.slot * width..(self.slot + 1) * width)
     }
+    /// The same in `f64`, with places as those of the scene.
+    pub(crate) fn values(&self, field: Field) -> Option<impl Iterator<Item = f64>> {
+        let origin = &self.group.particles.origin;
+        let is_place = field.shape() == Shape::Point;
+        let numbers = self.numbers(field)?.iter().enumerate();
+        Some(numbers.map(move |(k, value)| match value.to_f64() {
+            place if is_place => place + origin[k],
+            value => value,
+        }))
+    }
     /// A vector field, or `None` if the particle does not carry it or it is no vector.
     #[must_use]
     pub fn vector(&self, field: Field) -> Option<[f64; D]> {
@@ -23,8 +33,8 @@ impl<T: Real, const D: usize> ParticleView<'_, T, D> {
             field.shape(),
             Shape::Point | Shape::Velocity | Shape::Vector
         );
-        let numbers = self.numbers(field).filter(|_| is_vector)?;
-        Some(core::array::from_fn(|d| numbers[d].to_f64()))
+        let mut values = self.values(field).filter(|_| is_vector)?;
+        Some(core::array::from_fn(|_| values.next().unwrap_or(f64::NAN)))
     }
     /// A symmetric tensor, or `None` if the particle does not carry it or it is none.
     #[must_use]
@@ -52,8 +62,7 @@ impl<T: Real, const D: usize> ParticleView<'_, T, D> {
         let field = carried
             .iter()
             .find(|&field| program.name_of(field).0 == name)?;
-        let numbers = self.numbers(field)?.iter();
-        Some(numbers.map(|value| value.to_f64()).collect())
+        self.values(field).map(Iterator::collect)
     }
 }
 

@@ -27,7 +27,7 @@ pub(crate) struct Group<T: Real, const D: usize> {
     /// The schemes that it obeys by turns, its first among them; none if that is all.
     pub exchanges: Vec<Exchange<T, D>>,
     pub walls: Vec<WallState<T, D>>,
-    pub boundaries: Vec<Arc<dyn Boundary<T, D>>>,
+    pub boundaries: Vec<Arc<dyn Boundary<D>>>,
     pub outlets: Vec<Outlet<D>>,
     /// Inlets, each with the body that it feeds.
     pub emitters: Vec<(usize, Emitter<D>)>,
@@ -69,7 +69,7 @@ impl<T: Real, const D: usize> Group<T, D> {
     pub fn new(
         particles: Particles<T, D>,
         walls: Vec<WallState<T, D>>,
-        boundaries: Vec<Arc<dyn Boundary<T, D>>>,
+        boundaries: Vec<Arc<dyn Boundary<D>>>,
         scheme: Arc<Scheme<T, D>>,
         interactions: Vec<Interaction>,
         smoothing_length: f64,

@@ -160,7 +160,7 @@ impl<const D: usize> Rigid<D> {
     fn note_periods<T: Real>(
         &mut self,
         particles: &Particles<T, D>,
-        boundaries: &[Arc<dyn Boundary<T, D>>],
+        boundaries: &[Arc<dyn Boundary<D>>],
         time: f64,
     ) {
         for (id, back) in self.back.iter_mut().enumerate() {
@@ -168,12 +168,12 @@ impl<const D: usize> Rigid<D> {
             if slots.is_empty() {
                 continue;
             }
-            let mut x = particles.columns.vectors(Field::POSITION)[slots.start];
+            let mut x = particles.columns.vectors(Field::POSITION)[slots.start].map(Real::to_f64);
             for boundary in boundaries {
                 if let Some(through) = boundary.wrap(&x, time) {
                     x = through.point(&x);
                     for d in 0..D {
-                        back[d] += through.shift[d].to_f64();
+                        back[d] += through.shift[d];
                     }
                 }
             }
@@ -353,7 +353,7 @@ impl<const D: usize> Held<D> {
     pub fn note_periods<T: Real>(
         &mut self,
         particles: &Particles<T, D>,
-        boundaries: &[Arc<dyn Boundary<T, D>>],
+        boundaries: &[Arc<dyn Boundary<D>>],
         time: f64,
     ) {
         if boundaries.is_empty() {

@@ -27,7 +27,7 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         &mut self,
         particles: &Particles<T, D>,
         walls: &[WallState<T, D>],
-        boundaries: &[Arc<dyn Boundary<T, D>>],
+        boundaries: &[Arc<dyn Boundary<D>>],
         time: f64,
     ) {
         self.images.clear();
@@ -51,7 +51,7 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         columns: &Columns<T, D>,
         sources: &Range<usize>,
         wall: Option<&WallState<T, D>>,
-        boundaries: &[Arc<dyn Boundary<T, D>>],
+        boundaries: &[Arc<dyn Boundary<D>>],
         time: f64,
     ) {
         let (slots, reach) = (columns.slots(), self.listed_reach);
@@ -60,9 +60,9 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         for (b, boundary) in boundaries.iter().enumerate() {
             let start = self.images.len();
             for k in 0..boundary.images() {
-                let own = boundary.transform(k, time);
+                let own = boundary.transform(k, time).to_scalar();
                 candidates.clear();
-                let near = |x: &[T; D]| boundary.reaches(k, x, reach, time);
+                let near = |x: &[T; D]| boundary.reaches(k, &x.map(Real::to_f64), reach, time);
                 let positions = columns.vectors(Field::POSITION);
                 for slot in sources.clone() {
                     if near(&positions[slot]) {
@@ -102,11 +102,12 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
     }
 
     /// Brings the transforms of images up to date.
-    pub(super) fn place_transforms(&mut self, boundaries: &[Arc<dyn Boundary<T, D>>], time: f64) {
+    pub(super) fn place_transforms(&mut self, boundaries: &[Arc<dyn Boundary<D>>], time: f64) {
         self.placed_time = time;
         self.transforms.clear();
         for chain in &self.chains {
             let own = boundaries[chain.boundary as usize].transform(chain.image as usize, time);
+            let own = own.to_scalar();
             let whole = match chain.parent {
                 Some(parent) => self.transforms[parent as usize].then(&own),
                 None => own,

@@ -9,7 +9,7 @@ use core::fmt;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct LoadPoint<'a, const D: usize> {
-    /// Position x \[m\].
+    /// Position x \[m\] in the scene, in `f64`.
     pub position: [f64; D],
     /// Where the particle was in the scene as built \[m\], which stays with the material; nothing for bodies that an
     /// [inlet](crate::boundary::Inlet) feeds.

@@ -41,7 +41,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             value,
             body: body.name.clone(),
             particle: particles.ids[slot] as usize - body.ids.start,
-            position: particles.position(slot),
+            position: particles.position(slot).to_vec(),
             time,
         })
     }
@@ -121,7 +121,7 @@ fn evaluate_load<'a, T: Real, const D: usize>(
         let (own, repeats) = values[run.start * width..run.end * width].split_at_mut(live);
         let add = |(slot, sum): (usize, &mut [T])| {
             let at = LoadPoint {
-                position: particles.exact_position(slot),
+                position: particles.position(slot),
                 as_built: built.get(particles.ids[slot] as usize).copied().flatten(),
                 velocity: velocities[slot].map(Real::to_f64),
                 density: densities[slot].to_f64(),

@@ -131,7 +131,8 @@
 //!
 //! The format is [safetensors](https://github.com/huggingface/safetensors). In Python,
 //! `safetensors.numpy.load_file("rods.safetensors")["group0/particles/position"]` has a row for each slot; `group0/ids`
-//! says which particle is in it, and slots from `group0/body_ends` on repeat the last of a body.
+//! says which particle is in it, and slots from `group0/body_ends` on repeat the last of a body. Positions count from
+//! `origin`.
 
 mod advance;
 mod approach;

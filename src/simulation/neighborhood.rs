@@ -125,7 +125,7 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
     pub fn outdated(
         &self,
         particles: &Particles<T, D>,
-        boundaries: &[Arc<dyn Boundary<T, D>>],
+        boundaries: &[Arc<dyn Boundary<D>>],
         open: bool,
         (shift, time): ([f64; D], f64),
     ) -> bool {
@@ -152,8 +152,8 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
             .filter(|boundary| moved || boundary.moves())
             .map(|boundary| {
                 (0..boundary.images()).fold(0.0_f64, |most, k| {
-                    let now = boundary.transform(k, time);
-                    let then = boundary.transform(k, self.listed_time);
+                    let now = boundary.transform(k, time).to_scalar::<T>();
+                    let then = boundary.transform(k, self.listed_time).to_scalar::<T>();
                     let by = now.rotation * shift - shift;
                     most.max(length(&(now.shift - then.shift + by)).to_f64())
                 })
@@ -177,7 +177,7 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         &mut self,
         particles: &Particles<T, D>,
         walls: &[WallState<T, D>],
-        boundaries: &[Arc<dyn Boundary<T, D>>],
+        boundaries: &[Arc<dyn Boundary<D>>],
         (time, reach): (f64, f64),
         instructions: InstructionSet,
     ) {

@@ -59,7 +59,7 @@ impl<T: Real, const D: usize> PairImages<T, D> {
         &mut self,
         side: usize,
         places: &mut Vec<[f64; D]>,
-        boundaries: &[Arc<dyn Boundary<T, D>>],
+        boundaries: &[Arc<dyn Boundary<D>>],
         reach: f64,
         time: f64,
     ) {
@@ -72,12 +72,11 @@ impl<T: Real, const D: usize> PairImages<T, D> {
         for (b, boundary) in boundaries.iter().enumerate() {
             let earlier = images.len();
             for k in 0..boundary.images() {
-                let own = boundary.transform(k, time);
+                let own = boundary.transform(k, time).to_scalar::<T>();
                 let digit = radix * (k as u32 + 1);
                 let image = |x: &[f64; D]| {
-                    let x = x.map(T::from_f64);
-                    let near = boundary.reaches(k, &x, reach, time);
-                    near.then(|| own.point(&x).map(Real::to_f64))
+                    let near = boundary.reaches(k, x, reach, time);
+                    near.then(|| own.point(&x.map(T::from_f64)).map(Real::to_f64))
                 };
                 for (id, x) in places.iter().enumerate().filter(|(_, x)| !x[0].is_nan()) {
                     if let Some(at) = image(x) {
@@ -124,12 +123,12 @@ impl<T: Real, const D: usize> PairImages<T, D> {
     }
 
     /// What images are at `time` \[s\].
-    pub fn place(&mut self, boundaries: &[Arc<dyn Boundary<T, D>>], time: f64) {
+    pub fn place(&mut self, boundaries: &[Arc<dyn Boundary<D>>], time: f64) {
         self.transforms.clear();
         for chain in &self.chains {
             let links = chain.links.iter();
             let whole = links.fold(Transform::identity(), |whole, &[b, k]| {
-                whole.then(&boundaries[b].transform(k, time))
+                whole.then(&boundaries[b].transform(k, time).to_scalar())
             });
             self.transforms.push(whole);
         }
@@ -160,14 +159,14 @@ impl<T: Real, const D: usize> PairImages<T, D> {
     }
 
     /// How far the farthest image has been moved by boundaries alone since it was listed \[m\], where they move.
-    pub fn carried(&self, boundaries: &[Arc<dyn Boundary<T, D>>], times: [f64; 2]) -> f64 {
+    pub fn carried(&self, boundaries: &[Arc<dyn Boundary<D>>], times: [f64; 2]) -> f64 {
         if !boundaries.iter().any(|own| own.moves()) {
             return 0.0;
         }
         let shift = |chain: &Chain, time: f64| {
             let links = chain.links.iter();
             let whole = links.fold(Transform::identity(), |whole, &[b, k]| {
-                whole.then(&boundaries[b].transform(k, time))
+                whole.then(&boundaries[b].transform(k, time).to_scalar())
             });
             whole.point(&[T::zero(); D]).map(Real::to_f64)
         };

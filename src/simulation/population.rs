@@ -7,6 +7,7 @@ use crate::effect::StepProgram;
 use crate::error::{Error, Problem, Result};
 use crate::material::Material;
 use crate::neighbors::Grid;
+use crate::origin::global;
 use crate::parallel::{GRAIN, cut, for_each, sort_by_key};
 use crate::particles::{Columns, Field};
 use crate::scalar::Real;
@@ -57,13 +58,20 @@ pub(crate) struct Particles<T: Real, const D: usize> {
     pub removed: Removed<D>,
     /// How many particles' numbers the groups before it have.
     pub first_id: usize,
+    /// The place \[m\] from which columns of places count.
+    pub origin: [f64; D],
     /// What list builds have done to them since saved states were last told.
     pub moved: Moves<T, D>,
 }
 
 impl<T: Real, const D: usize> Particles<T, D> {
-    /// Columns with bodies, of which the slots below `mobile` are.
-    pub fn new(columns: Columns<T, D>, bodies: Vec<BodyState<T>>, mobile: usize) -> Self {
+    /// Columns with bodies, of which the slots below `mobile` are, with places counted from an origin \[m\].
+    pub fn new(
+        columns: Columns<T, D>,
+        bodies: Vec<BodyState<T>>,
+        mobile: usize,
+        origin: [f64; D],
+    ) -> Self {
         let ids = (0..columns.slots() as u32).collect::<Vec<_>>();
         let mut slot_of = ids.clone();
         for body in &bodies {
@@ -79,6 +87,7 @@ impl<T: Real, const D: usize> Particles<T, D> {
             slot_of,
             removed: Removed::default(),
             first_id: 0,
+            origin,
             moved: Moves::default(),
         }
     }
@@ -88,20 +97,15 @@ impl<T: Real, const D: usize> Particles<T, D> {
         self.bodies.iter().map(|body| body.slots.len()).sum()
     }
 
-    /// Place \[m\] of the particle in a slot.
-    pub fn position(&self, slot: usize) -> Vec<f64> {
-        let x = self.columns.vectors(Field::POSITION)[slot];
-        x.iter().map(|x| x.to_f64()).collect()
-    }
-
-    /// The same, with what rounding has lost.
-    pub fn exact_position(&self, slot: usize) -> [f64; D] {
+    /// Place \[m\] in the scene of the particle in a slot.
+    pub fn position(&self, slot: usize) -> [f64; D] {
         let residual = self.columns.raw(Field::POSITION_RESIDUAL);
         let x = self.columns.vectors(Field::POSITION)[slot];
-        core::array::from_fn(|d| {
+        let own = core::array::from_fn(|d| {
             let lost = residual.get(slot * D + d).map_or(0.0, |r| r.to_f64());
             x[d].to_f64() + lost
-        })
+        });
+        global(&own, &self.origin)
     }
 
     /// The slots of a particle of a body: its own, and those that repeat it; none if it has left.
@@ -212,13 +216,13 @@ impl<T: Real, const D: usize> Particles<T, D> {
     /// Lets particles that have left a period, or crossed a plane, re-enter.
     pub fn wrap(
         &mut self,
-        boundaries: &[Arc<dyn Boundary<T, D>>],
+        boundaries: &[Arc<dyn Boundary<D>>],
         program: &StepProgram<T, D>,
         time: f64,
     ) {
         for (b, boundary) in boundaries.iter().enumerate() {
             for slot in 0..self.mobile {
-                let x = self.columns.vectors(Field::POSITION)[slot];
+                let x = self.columns.vectors(Field::POSITION)[slot].map(Real::to_f64);
                 let through = if boundary.crossed(&x, time) {
                     boundary.transform(0, time)
                 } else if let Some(through) = boundary.wrap(&x, time) {
@@ -226,6 +230,7 @@ impl<T: Real, const D: usize> Particles<T, D> {
                 } else {
                     continue;
                 };
+                let through = through.to_scalar::<T>();
                 let body = self.bodies.iter().position(|own| own.slots.contains(&slot));
                 let velocity = Vector::from(self.columns.vectors(Field::VELOCITY)[slot]);
                 let [x, residual, v] = self.columns.many_mut([
@@ -341,7 +346,7 @@ impl<T: Real, const D: usize> Particles<T, D> {
         Vec::new()
     }
 
-    /// Appends one particle to a body, like its material at rest.
+    /// Appends one particle to a body, like its material at rest, at a place \[m\] that is counted from the origin.
     ///
     /// # Errors
     /// If the reserve of the body is used up.

@@ -11,6 +11,7 @@ use crate::boundary::Pose;
 use crate::error::Result;
 use crate::material::Material;
 use crate::material::eos::GuardCounts;
+use crate::origin::local;
 use crate::particles::{Field, Output, Shape};
 use crate::scalar::Real;
 use crate::scheme::Scheme;
@@ -34,10 +35,10 @@ impl<T: Real, const D: usize> ParticleView<'_, T, D> {
     pub(crate) fn is_mobile(&self) -> bool {
         self.slot < self.group.particles.mobile
     }
-    /// Position \[m\].
+    /// Position \[m\] in the scene.
     #[must_use]
     pub fn position(&self) -> [f64; D] {
-        self.group.particles.exact_position(self.slot)
+        self.group.particles.position(self.slot)
     }
     /// Velocity \[m/s\].
     #[must_use]
@@ -137,6 +138,12 @@ impl<'a, T: Real, const D: usize> Iterator for ParticleViews<'a, T, D> {
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
+    /// The place \[m\] in the scene from which columns of places count: see [place](crate::scene#place).
+    #[must_use]
+    pub fn origin(&self) -> [f64; D] {
+        self.groups[0].particles.origin
+    }
+
     /// Number of particles.
     #[must_use]
     pub fn particles(&self) -> usize {
@@ -248,7 +255,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub fn wall_pose(&self, wall: impl Which) -> Result<Pose<D>> {
         let (_, (_, wall)) = self.wall_of(&wall)?;
         let motion = wall.motion.as_ref();
-        Ok(motion.map_or_else(Pose::rest, |motion| motion.pose(self.time)))
+        // The motion is in places that are counted from the origin.
+        let back = self.origin().map(|x| -x);
+        let pose = motion.map(|motion| motion.pose_from(&back, self.time));
+        Ok(pose.unwrap_or_else(Pose::rest))
     }
 
     /// The groups that observers read: those of liquids, which meet all other bodies as walls, or all.
@@ -280,12 +290,15 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let walls = group.walls.iter().map(|wall| wall.slots.clone());
             let bodies = group.particles.bodies.iter().map(|body| body.slots.clone());
             let positions = group.particles.columns.vectors(Field::POSITION);
+            let origin = &group.particles.origin;
+            let [low, high] = [low, high].map(|corner| local(&corner, origin));
             for slots in bodies.chain(walls) {
                 for (slot, x) in slots.clone().zip(&positions[slots]) {
                     if (0..D).any(|d| !(low[d]..=high[d]).contains(&x[d].to_f64())) {
                         continue;
                     }
                     for (k, (place, reach)) in places.iter().enumerate() {
+                        let place = local(place, origin);
                         let r2: f64 = (0..D).map(|d| (x[d].to_f64() - place[d]).powi(2)).sum();
                         if r2 < reach * reach {
                             let particle = ParticleView { group, slot };
@@ -341,9 +354,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 &mut rows,
             );
             for slot in group.walls.iter().flat_map(|wall| wall.slots.clone()) {
-                let x = group.particles.columns.vectors(Field::POSITION)[slot];
                 let force = rows.vector(Output::FORCE, slot);
-                forces.push((x.map(Real::to_f64), force.map(Real::to_f64)));
+                forces.push((group.particles.position(slot), force.map(Real::to_f64)));
             }
         }
         for couple in &self.couples {

@@ -3,6 +3,7 @@
 
 use super::Simulation;
 use crate::boundary::Boundary;
+use crate::origin::{global, local};
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::sweep::{Interaction, Pass, Records, Results, SweepInput, Transform};
@@ -23,24 +24,26 @@ pub(crate) struct Shown<T, const D: usize> {
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
-    fn boundaries(&self) -> &[Arc<dyn Boundary<T, D>>] {
+    fn boundaries(&self) -> &[Arc<dyn Boundary<D>>] {
         &self.groups[0].boundaries
     }
 
-    /// The images of a particle at `x` \[m\] that lie within `reach` \[m\] of the domain. Later boundaries also show those of
+    /// The images of a particle at `x` \[m\] in the scene that lie within `reach` \[m\] of the domain. Later boundaries also show those of
     /// earlier ones.
     pub(crate) fn images_of(&self, x: &[f64; D], reach: f64, images: &mut Vec<Shown<T, D>>) {
         images.clear();
+        let origin = self.origin();
+        let x = local(x, &origin);
         for (b, boundary) in self.boundaries().iter().enumerate() {
             let earlier = images.len();
             for k in 0..boundary.images() {
                 for n in 0..=earlier {
                     let before = n.checked_sub(1).map(|n| &images[n]);
-                    let at = before.map_or(*x, |image| image.at);
-                    if !boundary.reaches(k, &at.map(T::from_f64), reach, self.time) {
+                    let at = before.map_or(x, |image| image.at);
+                    if !boundary.reaches(k, &at, reach, self.time) {
                         continue;
                     }
-                    let own = boundary.transform(k, self.time);
+                    let own = boundary.transform(k, self.time).to_scalar();
                     let (transform, others) = match before {
                         Some(image) => (image.transform.then(&own), image.boundaries),
                         None => (own.clone(), 0),
@@ -53,13 +56,17 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 }
             }
         }
+        for image in images {
+            image.at = global(&image.at, &origin);
+        }
     }
 
     /// The boundaries that a point is behind, a bit for each, and not within `least` \[m\] of: nothing that they show is there.
     pub(crate) fn boundaries_before(&self, x: &[f64; D], least: f64) -> u64 {
         let mut all = 0;
+        let x = &local(x, &self.origin());
         for (b, boundary) in self.boundaries().iter().enumerate() {
-            if boundary.crossed(&x.map(T::from_f64), self.time) {
+            if boundary.crossed(x, self.time) {
                 let image = image_of(&boundary.transform(0, self.time), x);
                 let far: f64 = (0..D).map(|d| (image[d] - x[d]).powi(2)).sum();
                 all |= u64::from(far > least * least) << b;
@@ -82,8 +89,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let is_plane =
                 |own: &Transform<T, D>| own.rotation != Transform::<T, D>::identity().rotation;
             let planes = group.boundaries.iter().enumerate();
-            let planes =
-                planes.map(|(b, own)| (b, own.transform(0, group.neighborhood.placed_time)));
+            let planes = planes.map(|(b, own)| {
+                let at = group.neighborhood.placed_time;
+                (b, own.transform(0, at).to_scalar::<T>())
+            });
             for (b, transform) in planes.filter(|(_, own)| is_plane(own)) {
                 // Nothing but images behind the plane acts.
                 let mut interactions = group.neighborhood.interactions.clone();
@@ -115,7 +124,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                     let force = rows.vector(Output::FORCE, slot).map(|f| -f.to_f64());
                     if force.iter().any(|f| *f != 0.0) {
                         let x = positions[slot].map(Real::to_f64);
-                        forces.push((image_of(&transform, &x), force));
+                        let place = image_of(&transform, &x);
+                        forces.push((global(&place, &group.particles.origin), force));
                     }
                 }
             }

@@ -276,18 +276,18 @@ impl<const D: usize> Side<D> {
 
 impl<const D: usize> Listed<D> {
     /// Brings places of a wall back through periods, as boundaries bring back particles.
-    fn come_back<T: Real>(&mut self, boundaries: &[Arc<dyn Boundary<T, D>>], time: f64) {
+    fn come_back(&mut self, boundaries: &[Arc<dyn Boundary<D>>], time: f64) {
         let count = self.places.len();
         for boundary in boundaries {
             for (id, x) in self.places.iter_mut().enumerate() {
-                let Some(through) = boundary.wrap(&x.map(T::from_f64), time) else {
+                let Some(through) = boundary.wrap(x, time) else {
                     continue;
                 };
                 if self.back.is_empty() {
                     self.back = vec![[0.0; D]; count];
                 }
                 for d in 0..D {
-                    let shift = through.shift[d].to_f64();
+                    let shift = through.shift[d];
                     x[d] += shift;
                     self.back[id][d] += shift;
                 }

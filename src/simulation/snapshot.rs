@@ -52,9 +52,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         // The same number may be another field under another scheme.
         let tuple = |particle: ParticleView<'_, T, D>| {
             let own = particle.group.scheme.program.name_of(field).0 == name;
-            let numbers = particle.numbers(field).filter(|_| own);
-            let at = |k: usize| numbers.and_then(|numbers| numbers.get(k));
-            core::array::from_fn(|k| at(k).map_or(f64::NAN, |number| number.to_f64()))
+            let numbers = particle.values(field).filter(|_| own);
+            let mut numbers = numbers.into_iter().flatten();
+            core::array::from_fn(|_| numbers.next().unwrap_or(f64::NAN))
         };
         vtu.field::<D>(name, field.shape(), self.all().map(tuple))
     }

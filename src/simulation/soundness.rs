@@ -188,7 +188,7 @@ fn isolated<T: Real, const D: usize>(
         Some(Problem::Isolated {
             body: body.name.clone(),
             particle: particles.ids[slot] as usize - body.ids.start,
-            position: particles.position(slot),
+            position: particles.position(slot).to_vec(),
             reach,
         })
     })

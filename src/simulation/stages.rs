@@ -191,6 +191,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                 dt: moment.dt,
                 time: moment.time,
                 gravity: self.gravity,
+                origin: self.particles.origin,
                 in_drift: moment.in_drift,
             };
             let live = body.slots.end;
@@ -253,6 +254,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                 dt: 0.0,
                 time,
                 gravity: self.gravity,
+                origin: self.particles.origin,
                 in_drift: false,
             };
             join(

@@ -245,6 +245,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                 dt: moment.dt,
                 time: moment.time,
                 gravity: self.gravity,
+                origin: self.particles.origin,
                 in_drift: moment.in_drift,
             };
             let columns = &self.particles.columns;

@@ -58,7 +58,7 @@ impl<T: Real, const D: usize> WallState<T, D> {
         &self,
         pose: &Pose<D>,
         particles: &mut Particles<T, D>,
-        boundaries: &[Arc<dyn Boundary<T, D>>],
+        boundaries: &[Arc<dyn Boundary<D>>],
         time: f64,
     ) {
         let run = self.slots.start..self.end;
@@ -80,13 +80,13 @@ impl<T: Real, const D: usize> WallState<T, D> {
                 *residual = core::array::from_fn(|d| T::from_f64(x[d] - rounded[d].to_f64()));
             }
             for boundary in boundaries {
-                if let Some(back) = boundary.wrap(&rounded, time) {
+                if let Some(back) = boundary.wrap(&rounded.map(Real::to_f64), time) {
                     let [x, residual, v] = columns.many_mut([
                         Field::POSITION,
                         Field::POSITION_RESIDUAL,
                         Field::VELOCITY,
                     ]);
-                    back.re_enter(slot, x, residual, v);
+                    back.to_scalar().re_enter(slot, x, residual, v);
                 }
             }
         }

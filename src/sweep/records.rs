@@ -33,6 +33,14 @@ impl<T: Real, const D: usize> Transform<T, D> {
             velocity: Vector::from_element(T::zero()),
         }
     }
+    /// The same in another scalar.
+    pub(crate) fn to_scalar<U: Real>(&self) -> Transform<U, D> {
+        Transform {
+            rotation: self.rotation.map(|x| U::from_f64(x.to_f64())),
+            shift: self.shift.map(|x| U::from_f64(x.to_f64())),
+            velocity: self.velocity.map(|x| U::from_f64(x.to_f64())),
+        }
+    }
     /// First `self`, then `other`.
     #[must_use]
     pub fn then(&self, other: &Self) -> Self {

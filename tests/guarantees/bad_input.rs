@@ -970,7 +970,7 @@ fn periods_that_do_not_hold_the_body() {
 #[derive(Clone, Debug)]
 struct Kaleidoscope(usize);
 
-impl Boundary<f64, 1> for Kaleidoscope {
+impl Boundary<1> for Kaleidoscope {
     fn name(&self) -> String {
         "kaleidoscope".into()
     }

@@ -10,6 +10,7 @@ mod counted_work;
 mod filling;
 mod invariance;
 mod neighbours;
+mod place;
 #[cfg(feature = "checkpoint")]
 mod readings;
 #[cfg(feature = "checkpoint")]

@@ -52,7 +52,7 @@ fn states(now: &Simulation<f64, 3>) -> Vec<[[f64; 3]; 2]> {
 #[derive(Debug)]
 struct Open(MirrorPlane<3>);
 
-impl Boundary<f64, 3> for Open {
+impl Boundary<3> for Open {
     fn name(&self) -> String {
         "open plane".into()
     }
@@ -63,10 +63,10 @@ impl Boundary<f64, 3> for Open {
         self.0.transform(image, time)
     }
     fn reaches(&self, image: usize, x: &[f64; 3], reach: f64, time: f64) -> bool {
-        Boundary::<f64, 3>::reaches(&self.0, image, x, reach, time)
+        Boundary::<3>::reaches(&self.0, image, x, reach, time)
     }
     fn moves(&self) -> bool {
-        Boundary::<f64, 3>::moves(&self.0)
+        Boundary::<3>::moves(&self.0)
     }
 }
 

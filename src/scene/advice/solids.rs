@@ -127,10 +127,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
         for boundary in &self.boundaries {
             for image in 0..boundary.images() {
                 let through = boundary.transform(image, 0.0);
-                let turn = |v: &[f64; D], shift: &Vector<T, D>| -> [f64; D] {
-                    let v = Vector::<T, D>::from_fn(|d, _| T::from_f64(v[d]));
-                    let turned = through.rotation * v + *shift;
-                    core::array::from_fn(|d| turned[d].to_f64())
+                let turn = |v: &[f64; D], shift: &Vector<f64, D>| -> [f64; D] {
+                    (through.rotation * Vector::from(*v) + *shift).into()
                 };
                 let there = (turn(&x, &through.shift), turn(&v, &through.velocity));
                 if let Some((closing, axis)) = closes((x, v), there) {
@@ -251,11 +249,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
         self.boundaries.iter().any(|boundary| {
             (0..boundary.images()).any(|image| {
                 let through = boundary.transform(image, 0.0);
-                let turned = through.rotation.trace().to_f64() < D as f64 - 0.5;
-                let near = |x: &[f64; D]| {
-                    let x = x.map(T::from_f64);
-                    boundary.reaches(image, &x, body.spacing, 0.0)
-                };
+                let turned = through.rotation.trace() < D as f64 - 0.5;
+                let near = |x: &[f64; D]| boundary.reaches(image, x, body.spacing, 0.0);
                 turned && body.points.iter().any(near)
             })
         })

@@ -154,7 +154,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
 
     /// The reach of a coupling with a wall of particles.
     fn check_reach_to_wall(&self, own: &Coupled<T, D>, problems: &mut Vec<Problem>) {
-        let sides = [&own.first, &own.second].map(|name| self.side_of(name).map(|side| side.2));
+        let sides =
+            [&own.first, &own.second].map(|name| self.side_of(name, &[0.0; D]).map(|side| side.2));
         let [Some(first), Some(second)] = sides else {
             for name in [&own.first, &own.second] {
                 if self.wall_number(name).is_none() {
@@ -182,7 +183,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             if first == second || own.coupling.is_wall() {
                 continue;
             }
-            let sides = [&own.first, &own.second].map(|name| self.side_of(name));
+            let sides = [&own.first, &own.second].map(|name| self.side_of(name, &[0.0; D]));
             let [Some((.., near, own_points)), Some((.., far, points))] = sides else {
                 continue;
             };

@@ -27,16 +27,14 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 let by = boundary.transform(image, 0.0);
                 let what =
                     |of: &str| format!("{of} of image {image} of the {} at t = 0", boundary.name());
-                if let Some(value) = by.not_finite() {
+                if let Some(value) = by.to_scalar::<T>().not_finite() {
                     let must_be =
                         "rotation, shift and velocity must be finite numbers of the scalar";
                     problems.push(parameter(&what("transform"), value, must_be));
                     break;
                 }
-                let off = by.rotation * by.rotation.transpose() - Matrix::<T, D>::identity();
-                let most = off
-                    .iter()
-                    .fold(0.0, |most: f64, x| most.max(x.to_f64().abs()));
+                let off = by.rotation * by.rotation.transpose() - Matrix::<f64, D>::identity();
+                let most = off.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
                 if most > ROTATION {
                     let must_be = "R Rᵀ must be one to rounding: images of another size push and are not pushed back";
                     problems.push(parameter(
@@ -46,8 +44,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
                     ));
                     break;
                 }
-                if by.rotation == Matrix::<T, D>::identity()
-                    && by.shift.iter().all(|s| *s == T::zero())
+                if by.rotation == Matrix::<f64, D>::identity() && by.shift.iter().all(|s| *s == 0.0)
                 {
                     let must_be =
                         "it must not be zero: the image would stand on its particle, and act twice";
@@ -78,31 +75,25 @@ impl<T: Real, const D: usize> Scene<T, D> {
     }
 
     /// A particle of which two boundaries make the same image, or images behind each other.
-    fn imaged_twice(
-        &self,
-        first: &dyn Boundary<T, D>,
-        second: &dyn Boundary<T, D>,
-    ) -> Option<[f64; D]> {
+    fn imaged_twice(&self, first: &dyn Boundary<D>, second: &dyn Boundary<D>) -> Option<[f64; D]> {
         let [from, other] = [first, second].map(|own| own.images());
         let pairs = (0..from).flat_map(|i| (0..other).map(move |j| (i, j)));
         let [of_first, of_second] = [first, second].map(|own| {
             let all = (0..own.images()).map(|image| own.transform(image, 0.0));
-            all.collect::<Vec<Transform<T, D>>>()
+            all.collect::<Vec<Transform<f64, D>>>()
         });
         for (i, j) in pairs {
             let [a, b] = [&of_first[i], &of_second[j]];
             // Periods are looked at by themselves.
-            if a.rotation == Matrix::<T, D>::identity() || !is_near(&a.rotation, &b.rotation) {
+            if a.rotation == Matrix::<f64, D>::identity() || !is_near(&a.rotation, &b.rotation) {
                 continue;
             }
             for (reach, spacing, x) in self.particles_and_reaches() {
-                let x_in = x.map(T::from_f64);
-                let [y, z] = [a, b].map(|by| by.point(&x_in));
-                let apart = (0..D).map(|d| (y[d] - z[d]).to_f64().powi(2)).sum::<f64>();
+                let [y, z] = [a, b].map(|by| by.point(&x));
+                let apart = (0..D).map(|d| (y[d] - z[d]).powi(2)).sum::<f64>();
                 let same = apart.sqrt() < SAME_PLACE * spacing;
                 let behind = second.crossed(&y, 0.0) && first.crossed(&z, 0.0);
-                let near =
-                    first.reaches(i, &x_in, reach, 0.0) && second.reaches(j, &x_in, reach, 0.0);
+                let near = first.reaches(i, &x, reach, 0.0) && second.reaches(j, &x, reach, 0.0);
                 if near && (same || behind) {
                     return Some(x);
                 }
@@ -126,7 +117,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
 }
 
 /// Whether two matrices are the same to rounding.
-fn is_near<T: Real, const D: usize>(a: &Matrix<T, D>, b: &Matrix<T, D>) -> bool {
+fn is_near<const D: usize>(a: &Matrix<f64, D>, b: &Matrix<f64, D>) -> bool {
     let off = *a - *b;
-    off.iter().all(|x| x.to_f64().abs() < ROTATION)
+    off.iter().all(|x| x.abs() < ROTATION)
 }

@@ -77,6 +77,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         }
         self.check_loads(&mut problems);
         if problems.is_empty() {
+            self.check_extent(&mut problems);
             self.check_memory(&mut problems);
         }
         if problems.is_empty() {
@@ -145,7 +146,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
                     must_be,
                 });
             }
-            let crossed = |x: &&[f64; D]| boundary.crossed(&x.map(T::from_f64), 0.0);
+            let crossed = |x: &&[f64; D]| boundary.crossed(x, 0.0);
             for body in self.bodies() {
                 if let Some(x) = body.points.iter().find(crossed) {
                     problems.push(Problem::Incompatible {

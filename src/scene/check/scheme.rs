@@ -100,7 +100,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             );
         }
         let boundaries = &self.scene.boundaries;
-        let leaves = |boundary: &Arc<dyn Boundary<T, D>>| {
+        let leaves = |boundary: &Arc<dyn Boundary<D>>| {
             boundary.moves() || boundary.interaction() == Interaction::Unilateral
         };
         let opens = self.interactions().contains(&Interaction::Unilateral);

@@ -51,8 +51,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         let cells = Cells::build(&body.points, &all, reach);
         let continued = |x: &[f64; D]| {
             self.boundaries.iter().any(|boundary| {
-                let x = x.map(T::from_f64);
-                (0..boundary.images()).any(|image| boundary.reaches(image, &x, reach, 0.0))
+                (0..boundary.images()).any(|image| boundary.reaches(image, x, reach, 0.0))
             })
         };
         let is_flat = |x: &&[f64; D]| {

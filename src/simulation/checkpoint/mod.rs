@@ -156,6 +156,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         for (part, values) in described {
             file.put_text(format!("values of {part}"), values.text());
         }
+        file.put("origin".into(), 1, self.origin());
         file.put_one("time".into(), *time);
         if *time != self.time {
             file.put_one("shown".into(), self.time);
@@ -235,6 +236,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         for group in &mut self.groups {
             group.instructions = set;
             group.root = root;
+        }
+        // It follows from bodies and walls, which are those of the file.
+        let origin: [f64; D] = file.get_array("origin")?;
+        if origin != self.origin() {
+            return Err(damaged("its places count from another origin"));
         }
         self.time = file.get_one("time")?;
         self.steps = file.get_one("steps")?;

@@ -33,6 +33,8 @@ pub(super) fn put_particles<T: Real, const D: usize>(
         slot_of,
         removed,
         first_id: _,
+        // Of the simulation.
+        origin: _,
         // Saved states have been told between steps.
         moved: _,
     } = particles;

@@ -100,13 +100,12 @@ pub(super) fn of<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Indi
         let group = &simulation.groups[at.group];
         let id = group.particles.first_id + group.particles.ids[at.slot] as usize;
         let (body, particle) = simulation.locate(id);
-        let x = group.particles.columns.vectors(Field::POSITION)[at.slot];
         Extreme {
             value: at.value,
             time: simulation.time(),
             body,
             particle,
-            position: x.iter().map(|x| x.to_f64()).collect(),
+            position: group.particles.position(at.slot).to_vec(),
         }
     };
     let spread = |values: Vec<At>, least: bool| {

@@ -235,12 +235,12 @@ pub(super) fn of<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Stab
     let (momentum, energy_gain, energy_closure) = residuals(simulation, watch);
     let points: Vec<[f64; D]> = simulation.all().map(|own| own.position()).collect();
     let walls = (simulation.groups.iter()).flat_map(|group| {
-        let x = group
-            .particles
-            .columns
-            .vectors(crate::particles::Field::POSITION);
         let own = group.walls.iter().filter(|wall| wall.structure.is_none());
-        own.flat_map(|wall| x[wall.slots.clone()].iter().map(|x| x.map(Real::to_f64)))
+        own.flat_map(|wall| {
+            wall.slots
+                .clone()
+                .map(|slot| group.particles.position(slot))
+        })
     });
     let occupied: Vec<_> = points.into_iter().chain(walls).collect();
     let widest = simulation.all_bodies().map(|(_, body)| body.spacing);
@@ -260,7 +260,7 @@ pub(super) fn of<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Stab
                     time: simulation.time,
                     body,
                     particle,
-                    position: group.particles.position(slot),
+                    position: group.particles.position(slot).to_vec(),
                 }
             });
         }

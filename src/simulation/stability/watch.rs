@@ -8,6 +8,7 @@ use super::arrangement::{self, Sums};
 use super::compression::Compression;
 use super::report::Thresholds;
 use crate::clock::Instant;
+use crate::origin::local;
 use crate::parallel::{GRAIN, reduce, runs};
 use crate::particles::Field;
 use crate::scalar::Real;
@@ -371,7 +372,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             value,
             time: self.time,
             id: group.particles.first_id + group.particles.ids[slot] as usize,
-            position: group.particles.columns.vectors(Field::POSITION)[slot].map(Real::to_f64),
+            position: group.particles.position(slot),
         }
     }
 
@@ -380,8 +381,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let place = |group: &Group<T, D>| {
             let own = id.checked_sub(group.particles.first_id)?;
             let slot = *group.particles.slot_of.get(own)? as usize;
-            let x = group.particles.columns.vectors(Field::POSITION).get(slot)?;
-            Some(x.map(Real::to_f64))
+            (slot < group.particles.columns.slots()).then(|| group.particles.position(slot))
         };
         self.groups.iter().rev().find_map(place).unwrap_or([0.0; D])
     }
@@ -400,6 +400,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
         let (mut count, mut first) = (0, None);
         for group in &self.groups {
+            let [low, high] = [low, high].map(|corner| local(&corner, &group.particles.origin));
             for body in &group.particles.bodies {
                 let x = &group.particles.columns.vectors(Field::POSITION)[body.slots.clone()];
                 for (n, x) in x.iter().enumerate() {

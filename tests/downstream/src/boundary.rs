@@ -2,7 +2,6 @@
 //! One period along x, turned over in y: half of what an ordinary period needs.
 
 use meshfree::boundary::Boundary;
-use meshfree::scalar::Real;
 use meshfree::sweep::Transform;
 use meshfree::tensor::{Matrix, Vector};
 
@@ -15,37 +14,36 @@ pub struct Glide {
 
 impl Glide {
     /// The image some periods on.
-    fn by<T: Real>(&self, periods: f64) -> Transform<T, 2> {
+    fn by(&self, periods: f64) -> Transform<f64, 2> {
         let over = if periods as i64 % 2 == 0 { 1.0 } else { -1.0 };
-        let [one, zero, turn] = [1.0, 0.0, over].map(T::from_f64);
         Transform {
-            rotation: Matrix::<T, 2>::new(one, zero, zero, turn),
-            shift: Vector::<T, 2>::new(T::from_f64(periods * self.period), zero),
-            velocity: Vector::<T, 2>::zeros(),
+            rotation: Matrix::<f64, 2>::new(1.0, 0.0, 0.0, over),
+            shift: Vector::<f64, 2>::new(periods * self.period, 0.0),
+            velocity: Vector::<f64, 2>::zeros(),
         }
     }
 }
 
-impl<T: Real> Boundary<T, 2> for Glide {
+impl Boundary<2> for Glide {
     fn name(&self) -> String {
         format!("glide of period {} m", self.period)
     }
     fn images(&self) -> usize {
         2
     }
-    fn transform(&self, image: usize, _time: f64) -> Transform<T, 2> {
+    fn transform(&self, image: usize, _time: f64) -> Transform<f64, 2> {
         self.by(if image == 0 { 1.0 } else { -1.0 })
     }
-    fn reaches(&self, image: usize, x: &[T; 2], reach: f64, _time: f64) -> bool {
-        let x = x[0].to_f64();
+    fn reaches(&self, image: usize, x: &[f64; 2], reach: f64, _time: f64) -> bool {
+        let x = x[0];
         if image == 0 {
             x < reach
         } else {
             x > self.period - reach
         }
     }
-    fn wrap(&self, x: &[T; 2], _time: f64) -> Option<Transform<T, 2>> {
-        let periods = (x[0].to_f64() / self.period).floor();
+    fn wrap(&self, x: &[f64; 2], _time: f64) -> Option<Transform<f64, 2>> {
+        let periods = (x[0] / self.period).floor();
         (periods != 0.0 && periods.is_finite()).then(|| self.by(-periods))
     }
     fn problems(&self, reach: f64) -> Vec<(&'static str, f64, &'static str)> {

@@ -109,7 +109,7 @@ fn an_isothermal_shock_compresses_by_the_square_of_its_mach_number() {
 }
 
 /// A strip of a length \[m\] with a flow that a glide by 0.4 m leaves as it is, drifting along it.
-fn strip(length: f64, boundary: impl Boundary<f64, 2> + 'static) -> Simulation<f64, 2> {
+fn strip(length: f64, boundary: impl Boundary<2> + 'static) -> Simulation<f64, 2> {
     let scheme = SchemeBuilder::new(WendlandC2, Inviscid)
         .density(DensityForm::NumberDensity)
         .energy(EnergyForm::None);
