@@ -561,9 +561,26 @@ mod tests {
                     detail: "its end is missing".into(),
                 },
             },
+            Error::StoredEnergy {
+                part: "plate".into(),
+                gain: 2.0,
+                supplied: 1.0,
+                limit: 0.5,
+                body: body(),
+                particle: 3,
+                position: vec![0.1],
+                time: 1.0,
+                step: 32,
+            },
+            Error::Function {
+                what: "acceleration 0".into(),
+                value: f64::NAN,
+                time: 1.0,
+                must_be: "it must be finite",
+            },
             Error::Argument(Problem::EmptyScene),
         ];
-        let mut seen = [false; 10];
+        let mut seen = [false; 12];
         for error in &all {
             let variant = match error {
                 Error::Build(_) => 0,
@@ -576,10 +593,12 @@ mod tests {
                 Error::File { .. } => 7,
                 Error::Checkpoint { .. } => 8,
                 Error::Argument(_) => 9,
+                Error::StoredEnergy { .. } => 10,
+                Error::Function { .. } => 11,
             };
             seen[variant] = true;
         }
-        assert_eq!(seen, [true; 10]);
+        assert_eq!(seen, [true; 12]);
         all
     }
 

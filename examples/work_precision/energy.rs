@@ -20,7 +20,7 @@ struct Run {
 
 fn run<const D: usize>(scene: Scene<f64, D>, end: f64) -> Result<Run, Failure> {
     let mut simulation = scene.build()?;
-    let start = simulation.ledger().total_energy();
+    let start = simulation.ledger().whole.total_energy();
     let mut kinetic = 0.0_f64;
     simulation.run_with(end, |now| {
         let own = |p: meshfree::simulation::ParticleView<'_, f64, D>| {
@@ -33,7 +33,7 @@ fn run<const D: usize>(scene: Scene<f64, D>, end: f64) -> Result<Run, Failure> {
         seconds: phases.total().as_secs_f64(),
         work: phases.work.as_secs_f64(),
         pairs: simulation.work().pairs as f64,
-        change: (simulation.ledger().total_energy() - start) / kinetic,
+        change: (simulation.ledger().whole.total_energy() - start) / kinetic,
     })
 }
 

@@ -525,12 +525,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     fn gain_at(&self, share: f64, (group, slot): (usize, usize)) -> Seen<D> {
         let particles = &self.groups[group].particles;
         let id = particles.ids.get(slot).map_or(0, |id| *id as usize);
-        let x = particles.columns.vectors(Field::POSITION).get(slot);
+        let held = slot < particles.columns.slots();
         Seen {
             value: share,
             time: self.time,
             id: particles.first_id + id,
-            position: x.map_or([0.0; D], |x| x.map(Real::to_f64)),
+            position: held.then(|| particles.position(slot)).unwrap_or([0.0; D]),
         }
     }
 
