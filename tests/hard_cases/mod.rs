@@ -2,6 +2,7 @@
 //! `cargo test --test checks hard_cases -- --nocapture` prints the rows of `docs/hard-cases.md`.
 
 mod at_rest;
+mod brick_on_floor;
 mod corner_impact;
 mod elliptic_drop;
 mod gas;
