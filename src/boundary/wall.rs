@@ -32,6 +32,8 @@ pub enum Slip {
 /// and is cut at the scheme's floor, so that a separating liquid is not held. What strikes it bounces, unless the
 /// scheme takes walls as [Riemann problems](crate::effect::RiemannWalls).
 ///
+/// Solids meet it by contact, which [`Scene::wall`](crate::scene::Scene::wall) has; two layers of any spacing do for them.
+///
 /// ```
 /// use meshfree::boundary::{Translation, Wall};
 /// let points: Vec<[f64; 2]> = (0..20).flat_map(|i| (1..4).map(move |k|

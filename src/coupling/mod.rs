@@ -20,9 +20,12 @@
 //!   ([`Scene::between`](crate::scene::Scene::between) ties them nevertheless), and within a body
 //!   ([`Scene::couple_self`](crate::scene::Scene::couple_self)).
 //!
+//! The second side of a force may also be a [wall of particles](crate::scene::Scene::wall), which stands where its motion has
+//! it and does not yield.
+//!
 //! Images count in both: what stands behind a [plane of symmetry](crate::boundary::MirrorPlane::symmetry), or one
 //! [period](crate::boundary::Periodic) on, presses and holds as if it were there. A pair with an image is half of one, so half of
-//! what it stores is booked, and its force is the boundary's.
+//! what it stores is booked, and its force is the boundary's. Images of a wall count as the wall.
 //!
 //! Either way momentum is kept to rounding, and the ledger knows what the two gave each other
 //! ([`Simulation::force_between`](crate::simulation::Simulation::force_between)).

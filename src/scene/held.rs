@@ -93,8 +93,10 @@ impl<T: Real, const D: usize> Scene<T, D> {
     /// and energy is bounded. It wants an integrator that kicks and drifts.
     ///
     /// Its material gives it mass, and stiffness where it touches others by [couplings](crate::coupling): the sound
-    /// speed may be chosen low, which makes steps longer and contacts softer. To liquids it is a wall. It meets no
-    /// periods and planes of symmetry.
+    /// speed may be chosen low, ten times the greatest speed, which makes steps longer and contacts softer. To liquids it is
+    /// a wall. It goes through [periods](crate::boundary::Periodic), meets [walls of particles](Scene::wall) by contact, and
+    /// leaves by an [outlet](Scene::outlet) when all of it has passed. Other boundaries, as planes, are refused: their
+    /// images turn, or move otherwise than it.
     ///
     /// ```
     /// use meshfree::prelude::*;

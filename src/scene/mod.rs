@@ -56,6 +56,9 @@
 //! Parts of a body are clamped by [`Scene::fix`] and [`Scene::clamp`], and a body moves as a rigid one by
 //! [`Scene::rigid`]. Particles sleep outside of a box by [`Scene::awake_inside`], and leave by [`Scene::outlet`].
 //!
+//! A [`MirrorPlane`](crate::boundary::MirrorPlane) holds solids and liquids. Walls of particles ([`Scene::wall`]) hold liquids by
+//! the wall law of their scheme, and solids by contact, which has to be named.
+//!
 //! # Place
 //!
 //! Where a scene is changes nothing. Places are given and read in `f64`, and a simulation counts them from an origin of its
@@ -72,8 +75,6 @@
 //!
 //! Loads by place and [boundaries](crate::boundary::Boundary::seen_from) and [motions](crate::boundary::Motion::pose_from) of one's own are
 //! asked with the origin added, so that their values have its rounding. How far a scene in `f32` may reach is checked as it is built.
-//!
-//! Solids do not see walls of particles; a [`MirrorPlane`](crate::boundary::MirrorPlane) holds solids and liquids.
 
 pub mod advice;
 mod asleep;
@@ -256,7 +257,42 @@ impl<T: Real, const D: usize> Scene<T, D> {
         self
     }
 
-    /// Adds a wall of particles, which a scheme of liquids asks for.
+    /// Adds a wall of particles. Liquids meet it by the wall law of their scheme, and solids by a contact that
+    /// [`couple`](Self::couple) names, the body first and the wall second. A scene in which a solid could move and nothing is
+    /// said of it and a wall is not built; [`between`](Self::between) with [`Interaction::None`] says that they never meet.
+    ///
+    /// A wall does not yield, so contact with it is twice as stiff as with a body like the solid. Its mass is infinite to
+    /// the [coupling](crate::coupling), and what it takes up is in [`wall_force`], [`wall_impulse`] and [`force_between`].
+    /// Where it moves, what it works on the solid is the opposite of the second number of
+    /// [`Contact::work`](crate::simulation::Contact). Friction sticks to its particles where it moves or turns, and is dragged
+    /// along where its surface [slides](Wall::sliding).
+    ///
+    /// [`wall_force`]: crate::simulation::Simulation::wall_force
+    /// [`wall_impulse`]: crate::simulation::Simulation::wall_impulse
+    /// [`force_between`]: crate::simulation::Simulation::force_between
+    ///
+    /// ```
+    /// use meshfree::coupling::ContactDensity;
+    /// use meshfree::error::Problem;
+    /// use meshfree::material::eos::Linear;
+    /// use meshfree::prelude::*;
+    /// // A rigid brick lies on a floor of particles.
+    /// let scene = || {
+    ///     let stone = Material::new("stone", Linear::new(2000.0, 20.0));
+    ///     let floor = Wall::around("floor", [-0.1, 0.0], [0.3, 0.2], 0.02, 3, [[false; 2], [true, false]]);
+    ///     Scene::<f64, 2>::new(schemes::impact_by_continuity())
+    ///         .body(Body::block("brick", stone, [0.0; 2], [0.2, 0.1], 0.02))
+    ///         .rigid("brick")
+    ///         .wall(floor)
+    ///         .acceleration(|t| [0.0, -9.81 * (t / 0.05).min(1.0)])
+    /// };
+    /// assert!(matches!(scene().problems()[..], [Problem::ContactNotNamed { .. }]));
+    /// let mut simulation = scene().couple("brick", "floor", ContactDensity::new().friction(0.3)).build()?;
+    /// simulation.run_until(0.2)?;
+    /// let weight = 2000.0 * 0.2 * 0.1 * 9.81;
+    /// assert!((simulation.wall_force("floor")?[1] / -weight - 1.0).abs() < 0.1);
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn wall(mut self, wall: Wall<D>) -> Self {
         self.walls.push(wall);
@@ -285,8 +321,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
     }
 
     /// Says what two bodies do to each other. Where nothing is said, they carry compression and open
-    /// without tension ([`Interaction::Unilateral`]). Of bodies in different [groups](Scene::group) one can
-    /// only say that they do nothing, [`Interaction::None`].
+    /// without tension ([`Interaction::Unilateral`]). Of bodies in different [groups](Scene::group), and of a solid and a
+    /// [wall](Scene::wall) of particles, one can only say that they do nothing, [`Interaction::None`].
     #[must_use]
     pub fn between(mut self, first: &str, second: &str, interaction: Interaction) -> Self {
         self.contacts
@@ -297,7 +333,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
     /// Says how two bodies act on each other. Where nothing is said a liquid meets a solid of another
     /// [group](Scene::group) by [`LiquidStructure`], bodies of one group meet by their kernels
     /// ([`between`](Self::between)), and all others do not meet, which has to be said. The kernels of two bodies of one
-    /// group do not meet where a coupling acts, unless `between` says that they do.
+    /// group do not meet where a coupling acts, unless `between` says that they do. The second may be a
+    /// [wall of particles](Self::wall), of which the first, a solid, is not seen otherwise.
     ///
     /// Two bodies may have several couplings. They start apart: no nearer than 0.6 mean spacings.
     #[must_use]

@@ -109,11 +109,11 @@ fn inverse<const D: usize>(matrix: &Matrix<f64, D>) -> Matrix<f64, D> {
     Matrix::from_fn(|a, b| all[(a, b)])
 }
 
-/// Where particles of a side were listed, and what they have been shifted by since they came back through periods.
+/// Where particles of a side were listed, within periods.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Listed<const D: usize> {
     pub places: Vec<[f64; D]>,
-    /// Of a wall: by how much boundaries had brought its particles back \[m\]; empty if by nothing.
+    /// By how much boundaries had brought them back \[m\]; empty if by nothing.
     pub back: Vec<[f64; D]>,
 }
 
@@ -190,6 +190,10 @@ impl<const D: usize> Side<D> {
                     let x = particles.columns.vectors(Field::POSITION)[slot];
                     listed.places[id] = x.map(Real::to_f64);
                 }
+                // What keeps its neighbours goes on through periods in its group, which does not list again.
+                if groups[*group].scheme.density.keeps_neighbors() {
+                    listed.come_back(&groups[0].boundaries, time);
+                }
             }
             Self::Wall(wall) => {
                 listed.places = wall.places(time);
@@ -213,8 +217,9 @@ impl<const D: usize> Side<D> {
         let body = &particles.bodies[body];
         let x = particles.columns.vectors(Field::POSITION);
         let far = |slot: usize| {
-            let before = &listed.places[particles.ids[slot] as usize - body.ids.start];
-            let square = (0..D).map(|d| (x[slot][d].to_f64() - before[d]).powi(2));
+            let id = particles.ids[slot] as usize - body.ids.start;
+            let (before, back) = (&listed.places[id], listed.back_of(id));
+            let square = (0..D).map(|d| (x[slot][d].to_f64() + back[d] - before[d]).powi(2));
             let square = square.sum::<f64>();
             // One that was not there has come from anywhere.
             if square.is_nan() {
@@ -247,7 +252,20 @@ impl<const D: usize> Side<D> {
             Self::Body { group, .. } => {
                 let columns = &groups[*group].particles.columns;
                 match self.slot(id, groups) {
-                    Some((_, slot)) => coupled_particle(columns, slot, spacing),
+                    Some((_, slot)) => {
+                        let own = coupled_particle(columns, slot, spacing);
+                        if listed.back.is_empty() {
+                            return own;
+                        }
+                        let back = listed.back_of(id as usize);
+                        let x = own.position;
+                        CoupledParticle {
+                            position: core::array::from_fn(|d| {
+                                T::from_f64(x[d].to_f64() + back[d])
+                            }),
+                            ..own
+                        }
+                    }
                     None => CoupledParticle {
                         position: [T::from_f64(f64::NAN); D],
                         ..coupled_particle(columns, 0, spacing)
@@ -256,7 +274,7 @@ impl<const D: usize> Side<D> {
             }
             Self::Wall(wall) => {
                 let x = pose.of(0, &wall.rest[id as usize]);
-                let back = listed.back.get(id as usize).copied().unwrap_or([0.0; D]);
+                let back = listed.back_of(id as usize);
                 let infinite = T::from_f64(f64::INFINITY);
                 CoupledParticle {
                     position: core::array::from_fn(|d| T::from_f64(x[d] + back[d])),
@@ -275,7 +293,12 @@ impl<const D: usize> Side<D> {
 }
 
 impl<const D: usize> Listed<D> {
-    /// Brings places of a wall back through periods, as boundaries bring back particles.
+    /// By how much boundaries had brought one of them back \[m\].
+    fn back_of(&self, id: usize) -> [f64; D] {
+        self.back.get(id).copied().unwrap_or([0.0; D])
+    }
+
+    /// Brings places back through periods, as boundaries bring back particles.
     fn come_back(&mut self, boundaries: &[Arc<dyn Boundary<D>>], time: f64) {
         let count = self.places.len();
         for boundary in boundaries {

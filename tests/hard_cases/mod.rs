@@ -3,6 +3,7 @@
 
 mod alternating_steps;
 mod at_rest;
+mod brick_on_floor;
 mod corner_impact;
 mod elliptic_drop;
 mod gas;
