@@ -8,7 +8,7 @@ use meshfree::error::{Error, Result};
 use meshfree::geometry::{Cuboid, layers};
 use meshfree::integrator::{Integrator, KickDriftKick, System};
 use meshfree::kernel::{CubicSpline, Kernel};
-use meshfree::material::eos::{IdealGas, Jwl, StiffenedGas};
+use meshfree::material::eos::{EosState, EquationOfState, Guards, IdealGas, Jwl, StiffenedGas};
 use meshfree::particles::{Field, Fields, Output, Outputs};
 use meshfree::prelude::*;
 use meshfree::scalar::Lane;
@@ -219,6 +219,55 @@ fn functions_of_the_user_that_give_no_number() {
     names(
         good().load(heat),
         &["the load (heating on all bodies) gave NaN"],
+    );
+}
+
+/// c² (ρ − ρ₀), and no number from a compression on.
+#[derive(Clone, Debug)]
+struct Hole;
+
+impl EquationOfState for Hole {
+    fn name(&self) -> &'static str {
+        "law with a hole"
+    }
+    fn reference_density(&self) -> f64 {
+        1000.0
+    }
+    fn uses_energy(&self) -> bool {
+        false
+    }
+    #[inline(always)]
+    fn state<L: Lane>(&self, density: L, _: L) -> EosState<L> {
+        let over = density - L::of(1000.0);
+        // The root of what is negative is none.
+        let hole = (L::of(1.0) - over).sqrt();
+        EosState {
+            pressure: over * L::of(1e6) * hole / hole,
+            sound_speed: L::of(1e3),
+            guards: Guards::none(),
+        }
+    }
+}
+
+#[test]
+fn a_law_that_gives_no_number_is_named() {
+    let body = |name, low: f64, v: f64| {
+        let material = Material::new("stuff", Hole);
+        Body::block(name, material, [low], [low + 0.02], DX).velocity([v])
+    };
+    let strike = |v: f64| {
+        let scene = Scene::<f64, 1>::new(schemes::impact());
+        scene
+            .body(body("rod", 0.0, v))
+            .body(body("other", 0.02, -v))
+    };
+    runs(strike(0.1), 1e-5);
+    names(
+        strike(10.0),
+        &[
+            "pressure by the law of the material of particle",
+            "the law makes none",
+        ],
     );
 }
 
