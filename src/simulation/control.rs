@@ -252,9 +252,13 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         );
         let energy = energy_of(columns.raw(Field::MASS)[slot], v, internal);
         let signal = group.work.rates.get(Output::SIGNAL, 0, slot).to_f64();
-        // What a law makes of numbers is its own; what it makes of none is not.
+        // What a law makes of numbers is its own; what it makes of none is not. A kick may have spoilt the energy since.
         let given = [Field::DENSITY, Field::ENERGY].map(number);
-        let by_law = if given.iter().all(|value| value.is_finite()) && given[0] > 0.0 {
+        let energy_then = if given[1].is_finite() { given[1] } else { 0.0 };
+        let material = &group.particles.bodies[group.particles.body_of(slot)].material;
+        let (pressure, sound_speed) = material.state(given[0], energy_then);
+        let is_law = !(pressure.is_finite() && sound_speed.is_finite());
+        let by_law = if is_law && given[0].is_finite() && given[0] > 0.0 {
             [LAW_PRESSURE, LAW_SOUND_SPEED]
         } else {
             ["pressure", "sound speed"]

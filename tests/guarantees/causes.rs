@@ -437,7 +437,7 @@ fn a_kernel_that_claims_more_than_it_bears() {
         Scene::<f64, 1>::new(scheme).body(rod())
     };
     runs(with(1.29), 1e-7);
-    for step in [1.5, 10.0, 1e9] {
+    for step in [2.1, 10.0, 1e9] {
         names(
             with(step),
             &["stable step of the bold kernel", "grow with that"],
@@ -658,7 +658,7 @@ impl<const D: usize> Term<D> for Unlimited {
 
 #[test]
 fn an_effect_without_a_limit_says_so() {
-    let scheme: Scheme<f64, 1> = schemes::impact().with(Unlimited(5.0)).compose();
+    let scheme: Scheme<f64, 1> = schemes::impact().with(Unlimited(20.0)).compose();
     let text = scheme.step_program();
     assert!(text.contains("limits the step: nothing for dye"), "{text}");
     // The control of the page's example: without its limit the front grows from step to step.
@@ -701,7 +701,7 @@ fn a_checkpoint_of_another_viscosity_says_which() {
     assert!(message.contains(right), "{message}");
     let message = told(scene(1e-3, 0.021, 0.0));
     assert!(
-        message.contains("0.02") && message.contains("0.021 "),
+        message.contains("0.02") && message.contains("0.021"),
         "{message}"
     );
     let message = told(scene(1e-3, 0.02, -0.001));
