@@ -256,9 +256,16 @@ fn in_brackets(values: &[String]) -> String {
     format!(" ({})", values.join("; "))
 }
 
+/// What the law of a material has made of a density and an energy that are numbers.
+pub(crate) const LAW_PRESSURE: &str = "pressure by the law of the material";
+pub(crate) const LAW_SOUND_SPEED: &str = "sound speed by the law of the material";
+
 /// Why a number is none: what no step has changed is as the scene gives it.
-fn cause_by_step(step: u64) -> &'static str {
-    if step == 0 {
+fn cause(quantity: &str, step: u64) -> &'static str {
+    if [LAW_PRESSURE, LAW_SOUND_SPEED].contains(&quantity) {
+        "density and energy are numbers there, of which the law makes none: it must give finite ones for all that a run \
+         comes to"
+    } else if step == 0 {
         "the scene starts so: look at what is given to that particle, its neighbours, its material, and what acts on it"
     } else {
         "the run has lost stability; try a smaller step factor, more artificial viscosity, or a finer spacing. What was \
@@ -331,7 +338,7 @@ pub enum Error {
     /// A number became infinite or undefined.
     #[error(
         "{quantity} of particle {particle} of body `{body}` is {value} at {position:?} m, t = {time} s, step \
-         {step}: {}", cause_by_step(*.step)
+         {step}: {}", cause(quantity, *.step)
     )]
     NotFinite {
         /// The quantity.

@@ -10,7 +10,7 @@ use super::soundness::energy_of;
 use super::stages::Moment;
 use super::view::rounding;
 use super::workspace::Workspace;
-use crate::error::{Error, Result};
+use crate::error::{Error, LAW_PRESSURE, LAW_SOUND_SPEED, Result};
 use crate::parallel::{GRAIN, reduce, runs};
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
@@ -300,13 +300,25 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         );
         let energy = energy_of(columns.raw(Field::MASS)[slot], v, internal);
         let signal = group.work.rates.get(Output::SIGNAL, 0, slot).to_f64();
+        // What a law makes of numbers is its own; what it makes of none is not. A kick may have spoilt the energy since.
+        let given = [Field::DENSITY, Field::ENERGY].map(number);
+        let energy_then = if given[1].is_finite() { given[1] } else { 0.0 };
+        let material = &group.particles.bodies[group.particles.body_of(slot)].material;
+        let (pressure, sound_speed) = material.state(given[0], energy_then);
+        let is_law = !(pressure.is_finite() && sound_speed.is_finite());
+        let by_law = if is_law && given[0].is_finite() && given[0] > 0.0 {
+            [LAW_PRESSURE, LAW_SOUND_SPEED]
+        } else {
+            ["pressure", "sound speed"]
+        };
         let candidates = [
             ("density", number(Field::DENSITY)),
-            ("pressure", number(Field::PRESSURE)),
-            ("sound speed", number(Field::SOUND_SPEED)),
+            (by_law[0], number(Field::PRESSURE)),
+            (by_law[1], number(Field::SOUND_SPEED)),
             ("position", number(Field::POSITION)),
             ("velocity", number(Field::VELOCITY)),
             ("internal energy", number(Field::ENERGY)),
+            ("dynamic viscosity", number(Field::DYNAMIC_VISCOSITY)),
             (
                 "force",
                 worst(&group.work.rates.vector(Output::FORCE, slot)),

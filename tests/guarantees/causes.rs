@@ -8,7 +8,7 @@ use meshfree::error::{Error, Result};
 use meshfree::geometry::{Cuboid, layers};
 use meshfree::integrator::{Integrator, KickDriftKick, System};
 use meshfree::kernel::{CubicSpline, Kernel};
-use meshfree::material::eos::{IdealGas, Jwl, StiffenedGas};
+use meshfree::material::eos::{EosState, EquationOfState, Guards, IdealGas, Jwl, StiffenedGas};
 use meshfree::particles::{Field, Fields, Output, Outputs};
 use meshfree::prelude::*;
 use meshfree::scalar::Lane;
@@ -222,6 +222,55 @@ fn functions_of_the_user_that_give_no_number() {
     );
 }
 
+/// c² (ρ − ρ₀), and no number from a compression on.
+#[derive(Clone, Debug)]
+struct Hole;
+
+impl EquationOfState for Hole {
+    fn name(&self) -> &'static str {
+        "law with a hole"
+    }
+    fn reference_density(&self) -> f64 {
+        1000.0
+    }
+    fn uses_energy(&self) -> bool {
+        false
+    }
+    #[inline(always)]
+    fn state<L: Lane>(&self, density: L, _: L) -> EosState<L> {
+        let over = density - L::of(1000.0);
+        // The root of what is negative is none.
+        let hole = (L::of(1.0) - over).sqrt();
+        EosState {
+            pressure: over * L::of(1e6) * hole / hole,
+            sound_speed: L::of(1e3),
+            guards: Guards::none(),
+        }
+    }
+}
+
+#[test]
+fn a_law_that_gives_no_number_is_named() {
+    let body = |name, low: f64, v: f64| {
+        let material = Material::new("stuff", Hole);
+        Body::block(name, material, [low], [low + 0.02], DX).velocity([v])
+    };
+    let strike = |v: f64| {
+        let scene = Scene::<f64, 1>::new(schemes::impact());
+        scene
+            .body(body("rod", 0.0, v))
+            .body(body("other", 0.02, -v))
+    };
+    runs(strike(0.1), 1e-5);
+    names(
+        strike(10.0),
+        &[
+            "pressure by the law of the material of particle",
+            "the law makes none",
+        ],
+    );
+}
+
 #[test]
 fn walls_and_inlets_given_twice() {
     let tank = |name| Wall::around(name, [0.0; 2], [0.1; 2], 0.01, 3, [[true; 2]; 2]);
@@ -388,7 +437,7 @@ fn a_kernel_that_claims_more_than_it_bears() {
         Scene::<f64, 1>::new(scheme).body(rod())
     };
     runs(with(1.29), 1e-7);
-    for step in [1.5, 10.0, 1e9] {
+    for step in [2.1, 10.0, 1e9] {
         names(
             with(step),
             &["stable step of the bold kernel", "grow with that"],
@@ -609,7 +658,7 @@ impl<const D: usize> Term<D> for Unlimited {
 
 #[test]
 fn an_effect_without_a_limit_says_so() {
-    let scheme: Scheme<f64, 1> = schemes::impact().with(Unlimited(5.0)).compose();
+    let scheme: Scheme<f64, 1> = schemes::impact().with(Unlimited(20.0)).compose();
     let text = scheme.step_program();
     assert!(text.contains("limits the step: nothing for dye"), "{text}");
     // The control of the page's example: without its limit the front grows from step to step.
@@ -652,7 +701,7 @@ fn a_checkpoint_of_another_viscosity_says_which() {
     assert!(message.contains(right), "{message}");
     let message = told(scene(1e-3, 0.021, 0.0));
     assert!(
-        message.contains("0.02") && message.contains("0.021 "),
+        message.contains("0.02") && message.contains("0.021"),
         "{message}"
     );
     let message = told(scene(1e-3, 0.02, -0.001));
