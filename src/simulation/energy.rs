@@ -41,7 +41,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Starts to keep the energy ledger, from the present state on. It costs a sum over particles in
     /// every kick, and with walls that turn or deform a sweep over them.
     pub fn keep_energy(&mut self) {
-        self.on_both(|own| {
+        self.on_both(&|own| {
             let (kinetic, compression) = own.stored();
             own.work = Some(Work {
                 start: kinetic + compression,
