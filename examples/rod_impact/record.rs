@@ -256,7 +256,7 @@ pub fn run(case: &Case, watch: Watch<'_>, progress: &mut dyn FnMut(f64)) -> Resu
     let mut shots = Vec::new();
     for stop in stops {
         while stop - simulation.time() > 1e-12 * stop {
-            simulation.step_at_most(stop - simulation.time())?;
+            simulation.step_until(stop)?;
             let stopped = stop - simulation.time() <= 1e-12 * stop;
             if stopped || simulation.steps().is_multiple_of(every) {
                 if lags {

@@ -43,7 +43,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Starts to keep the energy ledger, from the present state on. It costs a sum over particles in
     /// every kick, and with walls that turn or deform a sweep over them.
     pub fn keep_energy(&mut self) {
-        self.on_both(|own| {
+        self.on_both(&|own| {
             own.stores.forget(own.groups.len());
             let (kinetic, compression) = own.stored();
             own.work = Some(Work {

@@ -62,7 +62,7 @@
 //! [`Simulation::body`] runs over the particles of a body in the order in which the scene placed them,
 //! although they are sorted in memory, so the n-th is the same particle throughout. Bodies and walls are asked for by
 //! name or by index ([`Which`]), and one that the scene does not have is an error.
-//! [`Simulation::run_with`] shows the simulation to a closure after every step:
+//! [`Simulation::run_with`] shows the simulation to a closure after every step, and at the end:
 //!
 //! ```
 //! use meshfree::prelude::*;

@@ -4,9 +4,10 @@
 use super::group::Group;
 use super::neighborhood::{LASTING, Neighborhood};
 use super::population::Particles;
+use super::run::check_end;
 use super::workspace::Workspace;
 use super::{Simulation, Work, width};
-use crate::error::{Error, Problem, Result};
+use crate::error::Result;
 use crate::neighbors::listed_around;
 use crate::once::once;
 use crate::particles::Field;
@@ -87,13 +88,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     fn expected_work_here(&mut self, end: f64) -> Result<Work> {
-        if !end.is_finite() {
-            return Err(Error::Argument(Problem::Parameter {
-                what: "end of the run".into(),
-                value: end,
-                must_be: "must be a finite time in seconds",
-            }));
-        }
+        check_end(end)?;
         self.check_failure()?;
         self.on_last_step(|own| {
             let (bytes, mut kept) = (own.bytes(), own.keep());

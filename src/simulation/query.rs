@@ -454,7 +454,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         groups.map(|group| group.neighborhood.rebuilds).sum()
     }
 
-    /// Bytes held for particles, lists and records.
+    /// Bytes held for particles, lists and records of the run. While a state [between two steps](crate::simulation#readings)
+    /// is shown, or one that was [evaluated](Self::evaluate) between them, there are twice as many but for the lists.
     #[must_use]
     pub fn bytes(&self) -> usize {
         self.groups.iter().map(Group::bytes).sum()

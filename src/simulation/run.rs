@@ -45,16 +45,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     fn step_here(&mut self, limit: f64) -> Result<f64> {
-        let next = self.next_step_here()?;
-        self.take_step_here(next, limit)
+        let next = self.next_step()?;
+        self.take_step(next, limit)
     }
 
     /// The next step, from the state after the last one. Particles have entered, and rates are at hand.
     pub(super) fn next_step(&mut self) -> Result<Vote> {
-        once!(self => &mut Simulation, next_step_here() -> Result<Vote>)
-    }
-
-    fn next_step_here(&mut self) -> Result<Vote> {
         self.check_failure()?;
         let (start, before) = (crate::clock::Instant::now(), self.phases());
         for k in 0..self.groups.len() {
@@ -136,10 +132,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Takes a step of the run, of at most `limit` \[s\], and looks at what has happened.
     fn take_step(&mut self, next: Vote, limit: f64) -> Result<f64> {
-        once!(self => &mut Simulation, take_step_here(next: Vote, limit: f64) -> Result<f64>)
-    }
-
-    fn take_step_here(&mut self, next: Vote, limit: f64) -> Result<f64> {
         let (start, before) = (crate::clock::Instant::now(), self.phases());
         self.advance(next, limit)?;
         let watched = self.watch_events();
@@ -191,6 +183,51 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         Ok(())
     }
 
+    /// Takes the next step of the run if it ends by `end` \[s\], and otherwise shows the state at that time; returns by
+    /// how much time \[s\] goes on. What loops of one's own step with, as [`run_with`](Self::run_with) does:
+    ///
+    /// ```
+    /// use meshfree::prelude::*;
+    /// # let mut simulation = Scene::<f64, 1>::new(schemes::impact())
+    /// #     .body(Body::block("rod", catalogue::copper(), [0.0], [0.01], 2e-4).velocity([20.0]))
+    /// #     .build()?;
+    /// let end = 1e-6;
+    /// while simulation.time() < end {
+    ///     simulation.step_until(end)?;
+    ///     simulation.evaluate()?;
+    /// }
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`run_until`](Self::run_until).
+    pub fn step_until(&mut self, end: f64) -> Result<f64> {
+        once!(self => &mut Simulation, step_until_here(end: f64) -> Result<f64>)
+    }
+
+    fn step_until_here(&mut self, end: f64) -> Result<f64> {
+        check_end(end)?;
+        let (shown, rounding) = (self.time, rounding(end));
+        if end - shown <= rounding {
+            return Ok(0.0);
+        }
+        self.return_to_last_step();
+        let next = self.next_step()?;
+        if next.step > end - self.time + rounding {
+            self.show(end, next)?;
+        } else {
+            let taken = self.take_step(next, f64::INFINITY)?;
+            // Steps shorter than this are rounding, not time.
+            if taken < rounding && end - self.time > rounding {
+                return Err(self.collapsed(taken));
+            }
+            if end - self.time <= rounding {
+                self.show_at(end);
+            }
+        }
+        Ok(self.time - shown)
+    }
+
     /// Steps until `end` \[s\].
     ///
     /// No step is cut: steps follow from the state alone, and the run is the same to the bit whatever ends are asked for,
@@ -214,36 +251,24 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// # Errors
     /// As [`run_until`](Simulation::run_until).
     pub fn run_with(&mut self, end: f64, mut observe: impl FnMut(&Self)) -> Result<()> {
-        if !end.is_finite() {
-            return Err(Error::Argument(Problem::Parameter {
-                what: "end of the run".into(),
-                value: end,
-                must_be: "must be a finite time in seconds",
-            }));
-        }
+        check_end(end)?;
         self.check_failure()?;
-        // Steps shorter than this are rounding, not time.
-        let rounding = rounding(end);
-        if end - self.time <= rounding {
-            return Ok(());
-        }
-        self.return_to_last_step();
-        while end - self.time > rounding {
-            let next = self.next_step()?;
-            let left = end - self.time;
-            if next.step > left + rounding {
-                self.show(end, next)?;
-            } else {
-                let taken = self.take_step(next, f64::INFINITY)?;
-                if taken < rounding && end - self.time > rounding {
-                    return Err(self.collapsed(taken));
-                }
-                if end - self.time <= rounding {
-                    self.show_at(end);
-                }
-            }
+        while end - self.time > rounding(end) {
+            self.step_until(end)?;
             observe(self);
         }
         Ok(())
     }
+}
+
+/// Refuses an end that is no time.
+pub(super) fn check_end(end: f64) -> Result<()> {
+    if end.is_finite() {
+        return Ok(());
+    }
+    Err(Error::Argument(Problem::Parameter {
+        what: "end of the run".into(),
+        value: end,
+        must_be: "must be a finite time in seconds",
+    }))
 }

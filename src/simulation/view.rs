@@ -7,7 +7,6 @@ use super::group::Group;
 use super::kept::Kept;
 use crate::clock::Instant;
 use crate::error::Result;
-use crate::once::once;
 use crate::scalar::Real;
 use core::mem;
 
@@ -30,10 +29,6 @@ pub(super) fn rounding(time: f64) -> f64 {
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// Shows the state at `time` \[s\], which is before the end of the next step.
     pub(super) fn show(&mut self, time: f64, next: Vote) -> Result<()> {
-        once!(self => &mut Simulation, show_here(time: f64, next: Vote) -> Result<()>)
-    }
-
-    fn show_here(&mut self, time: f64, next: Vote) -> Result<()> {
         let (start, before) = (Instant::now(), self.phases());
         let last = self.keep();
         let stepped = self.advance(next, time - self.time);
@@ -149,9 +144,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     /// Acts on the state after the last step, and on what is shown where that is another.
-    pub(super) fn on_both(&mut self, act: impl Fn(&mut Self)) {
-        if self.last_step().is_some() {
-            self.on_last_step(&act);
+    pub(super) fn on_both(&mut self, act: &dyn Fn(&mut Self)) {
+        if let Some(mut aside) = self.aside.take() {
+            self.exchange_state(&mut aside);
+            self.on_both(act);
+            self.exchange_state(&mut aside);
+            self.aside = Some(aside);
+        } else if self.last_step().is_some() {
+            self.on_last_step(|own| act(own));
         }
         act(self);
     }

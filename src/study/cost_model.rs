@@ -145,7 +145,7 @@ impl CostModel {
         let start = Instant::now();
         let mut steps = 0;
         while simulation.time() < end && (steps < LEAST || start.elapsed() < time) {
-            simulation.step_at_most(end - simulation.time())?;
+            simulation.step_until(end)?;
             steps += 1;
             self.see(simulation);
         }

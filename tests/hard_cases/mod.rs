@@ -14,6 +14,7 @@ mod imploding_gas;
 mod jittered;
 mod kelvin_helmholtz;
 mod quadratic_viscosity;
+mod readings;
 mod ringing_walls;
 mod rods;
 mod shell_in_water;

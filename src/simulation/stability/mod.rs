@@ -24,7 +24,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// [`Thresholds::every`] steps; the share of the run's time is in [`StabilityReport::price`]. A checkpoint does not keep
     /// the watch.
     pub fn keep_stability(&mut self, thresholds: Thresholds) {
-        self.on_both(|own| own.watch = Some(Box::new(Watch::new(own, thresholds))));
+        self.on_both(&|own| own.watch = Some(Box::new(Watch::new(own, thresholds))));
     }
 
     /// How sound the run is, of all steps since [`keep_stability`](Self::keep_stability). Without these the report is of the
