@@ -89,7 +89,7 @@ struct Own {
     scale: f64,
 }
 
-impl Boundary<f64, 1> for Own {
+impl Boundary<1> for Own {
     fn name(&self) -> String {
         "own boundary".into()
     }
@@ -116,7 +116,7 @@ impl Boundary<f64, 1> for Own {
 fn a_boundary_of_ones_own_that_is_nowhere() {
     let own = |shift: f64, since: f64, scale: f64| {
         let scheme = schemes::impact_by_continuity();
-        Scene::new(scheme).body(rod()).boundary(Own {
+        Scene::<f64, 1>::new(scheme).body(rod()).boundary(Own {
             shift,
             since,
             scale,

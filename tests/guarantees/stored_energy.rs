@@ -3,7 +3,7 @@
 
 use meshfree::coupling::{ContactDensity, Penalty};
 use meshfree::effect::{
-    AcousticDamping, FiniteStrainPlasticity, Hypoelastic, NeoHookean, Plasticity, StVenantKirchhoff,
+    FiniteStrainPlasticity, Hypoelastic, NeoHookean, Plasticity, StVenantKirchhoff,
 };
 use meshfree::material::eos::{IdealGas, Linear};
 use meshfree::material::{Liquid, Material, SoundSpeed};
