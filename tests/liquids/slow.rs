@@ -146,11 +146,12 @@ fn a_film_squeezed_with_too_low_a_sound_speed_is_named() {
     println!("{low}");
     assert!(low.verdict.breaks("compression"));
     assert!(low.to_string().contains("too high for the sound speed"));
-    // What gives way makes less pressure, so that what is named is the lower.
-    assert!((0.6..1.1).contains(&(named / exact)), "{named} of {exact}");
+    // What gives way makes less pressure, so that what is named is too low, here by 23 %.
+    assert!((0.7..0.85).contains(&(named / exact)), "{named} of {exact}");
     let right = squeezed(1.2 * exact);
     println!("{:.4} at {:.3} m/s", compressed(&right), 1.2 * exact);
     println!("{right}");
     assert!(!right.verdict.breaks("compression"));
-    assert!((0.01..0.035).contains(&compressed(&right)));
+    // 0.0208 by lubrication theory.
+    assert!((compressed(&right) / 0.0208 - 1.0).abs() < 0.1);
 }

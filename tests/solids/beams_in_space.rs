@@ -86,9 +86,9 @@ fn four_particles_cost_what_the_table_says() {
         .with(HourglassFree::default());
     let updated = error(4, updated.compose());
     println!("error of the first frequency, n = 4: {near:.4}, {wide:.4}; updated {updated:.4}");
-    assert!((near + 0.069).abs() < 0.007, "{near}");
-    assert!((wide + 0.133).abs() < 0.007, "{wide}");
-    assert!((updated + 0.129).abs() < 0.015, "{updated}");
+    assert!((near + 0.069).abs() < 0.002, "{near}");
+    assert!((wide + 0.133).abs() < 0.002, "{wide}");
+    assert!((updated + 0.129).abs() < 0.003, "{updated}");
 }
 
 #[test]
