@@ -23,5 +23,6 @@ mod penalty_structure;
 mod riemann_walls;
 mod sampling;
 mod sloshing;
+mod solids_in_tank;
 mod sound_and_volume;
 mod structures;

@@ -3,6 +3,7 @@
 
 mod advice;
 mod asleep;
+mod at_walls;
 mod bad_solids;
 mod clamped_wall;
 mod conservation;
