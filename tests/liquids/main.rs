@@ -26,5 +26,6 @@ mod riemann_walls;
 mod sampling;
 mod sloshing;
 mod slow;
+mod solids_in_tank;
 mod sound_and_volume;
 mod structures;

@@ -3,6 +3,7 @@
 
 mod advice;
 mod asleep;
+mod at_walls;
 mod bad_solids;
 mod beams_in_space;
 mod clamped_wall;

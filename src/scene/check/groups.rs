@@ -165,7 +165,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
             return;
         };
         let reach = own.coupling.reach([first, second]);
-        if !(reach.is_finite() && reach > 0.0) && !own.coupling.is_wall() {
+        let acts = own.coupling.is_wall() || (reach.is_finite() && reach > 0.0);
+        if !acts {
             problems.push(Problem::Parameter {
                 what: format!("reach of the coupling {}", own.coupling.name()),
                 value: reach,
