@@ -33,5 +33,5 @@ pub(crate) fn middle<'a, const D: usize>(places: impl Iterator<Item = &'a [f64; 
 
 /// Whether scenes of a scalar have an origin of their own.
 pub(crate) fn is_chosen<T: Real>() -> bool {
-    false
+    T::COMPENSATED
 }
