@@ -1,8 +1,6 @@
 //! The origin of a scene: the place from which the columns of its particles count.
 //! Places are converted where they enter and leave a simulation, and nowhere else.
 
-use crate::scalar::Real;
-
 /// A place \[m\] of the scene, counted from its origin.
 pub(crate) fn local<const D: usize>(place: &[f64; D], origin: &[f64; D]) -> [f64; D] {
     core::array::from_fn(|d| place[d] - origin[d])
@@ -29,9 +27,4 @@ pub(crate) fn middle<'a, const D: usize>(places: impl Iterator<Item = &'a [f64; 
         let middle = low[d] + 0.5 * (high[d] - low[d]);
         if middle.is_finite() { middle } else { 0.0 }
     })
-}
-
-/// Whether scenes of a scalar have an origin of their own.
-pub(crate) fn is_chosen<T: Real>() -> bool {
-    T::COMPENSATED
 }

@@ -3,7 +3,7 @@
 use super::Scene;
 use crate::error::{BuildError, Error, Problem, Result};
 use crate::once::once;
-use crate::origin::{is_chosen, middle};
+use crate::origin::middle;
 #[cfg(feature = "checkpoint")]
 use crate::output::checkpoint::Checkpoint;
 use crate::scalar::Real;
@@ -137,9 +137,6 @@ impl<T: Real, const D: usize> Scene<T, D> {
     /// The place \[m\] from which columns of particles count: the middle of the box around all particles of bodies and walls
     /// and the openings of inlets.
     pub(super) fn origin(&self) -> [f64; D] {
-        if !is_chosen::<T>() {
-            return [0.0; D];
-        }
         let bodies = self.bodies().flat_map(|body| &body.points);
         let walls = self.walls.iter().flat_map(|wall| &wall.points);
         let openings = self.inlets.iter().flat_map(|inlet| &inlet.opening);
