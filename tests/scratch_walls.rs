@@ -1,4 +1,0 @@
-#[path = "liquids/across_boundaries.rs"]
-mod across_boundaries;
-#[path = "liquids/drum.rs"]
-mod drum;
