@@ -34,7 +34,16 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
         for group in &self.groups {
             if let Some(slot) = unsound(&group.particles, &group.scheme.program) {
-                return Err(self.broken(group, slot));
+                // A particle whose law gives no pressure spoils its neighbours as well, and is the one to name.
+                let density = group.particles.columns.raw(Field::DENSITY);
+                let source = group.particles.bodies.iter().find_map(|body| {
+                    body.slots.clone().find(|&slot| {
+                        let density = density[slot].to_f64();
+                        let lawful = || body.material.state(density, 0.0).0.is_finite();
+                        density.is_finite() && density > 0.0 && !lawful()
+                    })
+                });
+                return Err(self.broken(group, source.unwrap_or(slot)));
             }
         }
         let impulse = self.impulses.values().find(|impulse| !impulse.is_finite());

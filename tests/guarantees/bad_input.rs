@@ -672,12 +672,11 @@ fn a_run_that_breaks_says_where_and_when() {
         .build()
         .unwrap();
     let error = simulation.run_until(1.0).unwrap_err();
-    let Error::NotFinite { body, time, .. } = &error else {
+    let Error::Function { what, time, .. } = &error else {
         panic!("{error:?}");
     };
-    assert_eq!(body, "row");
     assert!(
-        *time > 0.0 && error.to_string().contains("try a smaller step factor"),
+        *time > 0.0 && what.contains("Scene::acceleration"),
         "{error}"
     );
     for end in [f64::NAN, f64::INFINITY] {
@@ -704,16 +703,9 @@ fn breaking(start: f64) -> Simulation<f64, 1> {
 fn the_state_after_the_last_step_is_looked_at() {
     let end = 1e-4;
     let mut simulation = breaking(end);
-    let error = simulation.run_until(end).unwrap_err();
-    assert_eq!(simulation.steps(), 1, "one step reaches the end");
+    let error = simulation.step_at_most(end).unwrap_err();
     assert!(
-        matches!(
-            &error,
-            Error::NotFinite {
-                quantity: "velocity",
-                ..
-            }
-        ),
+        matches!(&error, Error::Function { time, .. } if *time == end),
         "{error:?}"
     );
 }
@@ -793,7 +785,7 @@ fn numbers_that_are_finite_and_still_no_start() {
         "not negative",
     );
     let far = Body::points_of("rod", catalogue::copper(), vec![[1e300], [2e300]], 1e-3);
-    is_parameter(&with(far), "position of body `rod`", "of the origin");
+    is_parameter(&with(far), "position of body `rod`", "spacings of zero");
     let huge = Body::block("rod", catalogue::copper(), [0.0], [1e300], 1e299);
     is_parameter(&with(huge), "position of body `rod`", "in metres");
     let tiny = Body::block("rod", catalogue::copper(), [0.0], [1e-199], 1e-200);
@@ -927,7 +919,11 @@ fn a_smoothing_length_that_sees_one_side_of_a_contact() {
     }
     // Bonded, density is the same at the joint as elsewhere, and so it is if the scheme says so.
     let bonded = scheme().between_bodies(Interaction::Bonded);
-    let bonded = Scene::<f64, 1>::new(bonded).body(rod()).body(other(0.02));
+    let bonded = Scene::<f64, 1>::new(bonded)
+        .body(rod())
+        .body(other(0.02))
+        .boundary(MirrorPlane::symmetry([0.0], [-1.0]))
+        .boundary(MirrorPlane::symmetry([0.04], [1.0]));
     let bonded = bonded.build().unwrap();
     let at = |k: usize| bonded.body(0).unwrap().nth(k).unwrap().density();
     assert!((at(19) / at(10) - 1.0).abs() < 1e-9);

@@ -340,7 +340,7 @@ fn flight(skin: Option<f64>, speed: f64) -> [u64; 2] {
     };
     let fast = builds(&mut simulation, 120);
     simulation.set_velocities(|_, v| v.map(|v| 0.1 * v));
-    [fast, builds(&mut simulation, 300)]
+    [fast, builds(&mut simulation, 400)]
 }
 
 #[test]

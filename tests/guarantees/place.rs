@@ -435,6 +435,9 @@ fn mixed<T: Real>(s: [f64; 2]) -> Scene<T, 2> {
         .between("water", "block", Interaction::None)
         .between("plate", "log", Interaction::None)
         .between("block", "log", Interaction::None)
+        .between("plate", "tank", Interaction::None)
+        .between("block", "tank", Interaction::None)
+        .between("log", "tank", Interaction::None)
         .sub_cycle("plate", 8)
         .acceleration(down)
 }

@@ -1,7 +1,6 @@
 //! Hard cases: where others fail, the cure, a criterion in numbers, and a control without the cure that must fail it.
 //! `cargo test --test checks hard_cases -- --nocapture` prints the rows of `docs/hard-cases.md`.
 
-mod alternating_steps;
 mod at_rest;
 mod brick_on_floor;
 mod corner_impact;

@@ -71,6 +71,8 @@ fn gained<const D: usize>(
     (time, readings): (f64, u32),
     to: impl Fn(&mut Simulation<f64, D>, f64),
 ) -> f64 {
+    // The control is to run until it has broken.
+    own.limit_stored_energy(f64::INFINITY);
     let (start, mut most) = (energy(&own), 0.0_f64);
     for k in 1..=readings {
         to(&mut own, time * f64::from(k) / f64::from(readings));

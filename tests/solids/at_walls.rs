@@ -91,7 +91,8 @@ fn blocks_come_to_rest_on_a_floor() {
         let ledger = simulation.ledger().whole;
         let contact = &simulation.contacts()[0];
         println!("{name}: gap {gap}, floor bears {force}, {contact:?}");
-        assert!((gap - 1.0).abs() < 0.1, "{name}: {gap}");
+        // Particles lie above those of the floor, or in the hollows between them, √3/2 away.
+        assert!((gap - 1.0).abs() < 0.2, "{name}: {gap}");
         assert!((force - 1.0).abs() < 0.01, "{name}: {force}");
         // What the floor took up is what gravity gave.
         let given = simulation.wall_impulse("floor").unwrap()[1] / (weight * simulation.time());
@@ -192,7 +193,8 @@ fn blocks_rub_on_walls_as_coulomb_has_it() {
     };
     // It sticks.
     let ([x, u], ..) = slides(0.4, 0.45, 0.0, 0.0, 0.3);
-    assert!(x.abs() < 0.02 * DX && u.abs() < 5e-3, "{x} {u}");
+    // It swings on the springs of friction.
+    assert!(x.abs() < 0.02 * DX && u.abs() < 0.01, "{x} {u}");
     // It slides.
     let cos = 1.0 / 1.16_f64.sqrt();
     let ([_, u], ..) = slides(0.4, 0.2, 0.0, 0.0, 0.3);

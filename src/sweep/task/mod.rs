@@ -128,7 +128,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
         P: Terms<D>,
     {
         // A kernel chosen at run time branches in the loop: wider instructions are not worth a copy there. In one
-        // dimension a row has a dozen neighbours, for which AVX-512 gains nothing over AVX2.
+        // dimension one copy serves both wide sets, since a row has a dozen neighbours and each copy takes time to compile.
         #[cfg(target_arch = "x86_64")]
         if const { !K::CHOSEN_AT_RUN_TIME } {
             // SAFETY: `go` passes only what `InstructionSet::or_detected` found on this machine.

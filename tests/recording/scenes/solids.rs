@@ -253,18 +253,17 @@ fn smoothing(scenes: &mut Scenes) {
         ),
     ] {
         let scheme = move || plain().smoothing(law);
-        scenes.add(format!("smoothing-{name}-1d-f64"), 40, move || {
-            let bonded = Interaction::Bonded;
-            rods::<f64>(scheme()).between("striker", "target", bonded)
-        });
-        scenes.add(format!("smoothing-{name}-1d-f32"), 40, move || {
-            let bonded = Interaction::Bonded;
-            rods::<f32>(scheme()).between("striker", "target", bonded)
-        });
         scenes.add(format!("smoothing-{name}-2d"), 20, move || {
             sheet_of_gas(DensityForm::Summation, EnergyForm::Compatible, law)
         });
+        // Sums up to a free surface suit gases alone.
         if name != "consistent" {
+            scenes.add(format!("smoothing-{name}-1d-f64"), 40, move || {
+                rods::<f64>(scheme()).between("striker", "target", Interaction::Bonded)
+            });
+            scenes.add(format!("smoothing-{name}-1d-f32"), 40, move || {
+                rods::<f32>(scheme()).between("striker", "target", Interaction::Bonded)
+            });
             scenes.add(format!("smoothing-{name}-by-continuity"), 40, move || {
                 rods::<f64>(scheme().density(DensityForm::Continuity))
             });
