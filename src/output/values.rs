@@ -24,8 +24,8 @@ impl Values {
 
     /// All numbers and words in a value, by the names of fields and the places in lists.
     pub fn all(&mut self, name: &str, value: &impl Debug) {
-        // Where we are: names of what is open, each with how many of its parts had no name.
-        let mut open: Vec<(String, usize)> = vec![(name.into(), 0)];
+        // Where we are: names of what is open, each with how many of its parts had no name, and whether it is a list.
+        let mut open: Vec<(String, usize, bool)> = vec![(name.into(), 0, false)];
         for line in format!("{value:#?}").lines() {
             let line = line.trim().trim_end_matches(',');
             if line.starts_with(['}', ')', ']']) {
@@ -38,12 +38,12 @@ impl Values {
                 Some((own, value)) => (format!(".{own}"), value),
                 None if open.len() == 1 => (String::new(), line),
                 None => {
-                    let count = open.last_mut().map_or(0, |last| {
+                    let (count, is_list) = open.last_mut().map_or((0, false), |last| {
                         last.1 += 1;
-                        last.1 - 1
+                        (last.1 - 1, last.2)
                     });
                     // What an option or a wrapper of one value holds is that value.
-                    let own = if count == 0 {
+                    let own = if count == 0 && !is_list {
                         String::new()
                     } else {
                         format!("[{count}]")
@@ -55,7 +55,7 @@ impl Values {
             let path = format!("{above}{own}");
             if begins {
                 self.kind(&path, value);
-                open.push((path, 0));
+                open.push((path, 0, line.ends_with('[')));
             } else {
                 self.one(path, without_addresses(value));
             }

@@ -530,7 +530,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             value: share,
             time: self.time,
             id: particles.first_id + id,
-            position: held.then(|| particles.position(slot)).unwrap_or([0.0; D]),
+            position: if held {
+                particles.position(slot)
+            } else {
+                [0.0; D]
+            },
         }
     }
 

@@ -346,7 +346,7 @@ where
         scene.boundary(crate::boundary::Periodic::along(axis, 0.0, 8.0))
     });
     let mut simulation = scene.build().expect("a scene without problems");
-    simulation.run_until(4.0).expect("a run that holds");
+    simulation.run_until(3.0).expect("a run that holds");
     let middle = 20 + if D > 1 { 40 * 4 } else { 0 };
     (
         coefficient(&simulation, middle),
