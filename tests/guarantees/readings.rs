@@ -227,7 +227,7 @@ fn to_act_on_what_is_shown_makes_it_that_of_the_run() {
         |own| own.set_velocities(|_, [v]| [v + 1.0]),
         |own| {
             own.set_field("rod", Field::ENERGY, |_, [e]| [e + 1.0])
-                .unwrap()
+                .unwrap();
         },
         |own| assert_eq!(own.step_at_most(1e-9).unwrap(), 1e-9),
         |own| {

@@ -70,7 +70,7 @@ fn a_plate_across_a_period_carries_the_water_on_it() {
             }
             sum -= on[1] / f64::from(readings);
         }
-        println!("{} of {weight} N", sum);
+        println!("{sum} of {weight} N");
         assert!((sum / weight - 1.0).abs() < 0.005, "{sum} of {weight} N");
     }
 }
