@@ -184,7 +184,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     /// Takes the next step of the run if it ends by `end` \[s\], and otherwise shows the state at that time; returns by
-    /// how much time \[s\] goes on. What loops of one's own step with, as [`run_with`](Self::run_with) does:
+    /// how much time \[s\] goes on.
+    ///
+    /// What loops of one's own step with, as [`run_with`](Self::run_with) does:
     ///
     /// ```
     /// use meshfree::prelude::*;
