@@ -5,6 +5,7 @@ use super::grid::SampleGrid;
 use super::{normalisation, weight};
 use crate::error::{Error, Problem, Result};
 use crate::neighbors::Cells;
+use crate::origin::global;
 use crate::parallel::{cut, for_each};
 use crate::particles::{Field, Shape};
 use crate::scalar::Real;
@@ -177,6 +178,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 numbers.extend(image.transform.of_field(field, own));
                 if field == Field::POSITION {
                     numbers[first..].copy_from_slice(&x);
+                } else if field.shape() == Shape::Point {
+                    let place = core::array::from_fn(|d| numbers[first + d]);
+                    numbers[first..].copy_from_slice(&global(&place, &self.origin()));
                 }
             }
         }

@@ -49,7 +49,8 @@ pub struct StepControl {
     /// The factor by which a step may be longer than the one before; 1.2 by default, above one, and
     /// infinite for no limit. What a criterion asks for may jump up from one step to the next, and steps that jump
     /// periodically excite what is not damped. With 1.2, as in LULESH (Karlin et al. 2013), a step regains half of its length in
-    /// four, and a start whose steps grow a hundredfold takes 25. A cut by [`Simulation::step_at_most`] does not count.
+    /// four, and a start whose steps grow a hundredfold takes 25. Cuts by
+    /// [`Simulation::step_at_most`] and [`Scene::step_ends_at`](crate::scene::Scene::step_ends_at) do not count.
     pub growth: f64,
     /// A fixed step \[s\], held in every step against the limit by the factor of the scheme, or by
     /// [`courant`](Self::courant) if that is larger.

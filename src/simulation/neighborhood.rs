@@ -217,8 +217,7 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         if Arc::get_mut(&mut self.lists).is_none() {
             self.lists = Arc::default();
         }
-        let lists = Arc::get_mut(&mut self.lists).expect("they are no other's");
-        lists.rebuild(&SearchInput {
+        Arc::make_mut(&mut self.lists).rebuild(&SearchInput {
             positions: &self.listed,
             listed: &listed,
             radii,

@@ -11,7 +11,7 @@ use crate::boundary::Pose;
 use crate::error::Result;
 use crate::material::Material;
 use crate::material::eos::GuardCounts;
-use crate::origin::local;
+use crate::origin::{global, local};
 use crate::particles::{Field, Output, Shape};
 use crate::scalar::Real;
 use crate::scheme::Scheme;
@@ -364,7 +364,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             };
             let pose = wall.pose(couple.acting.time);
             forces.extend(couple.acting.forces[1].iter().map(|(id, force)| {
-                let x = pose.of(0, &wall.rest[*id as usize]);
+                let x = global(&pose.of(0, &wall.rest[*id as usize]), &self.origin());
                 (x, force.map(Real::to_f64))
             }));
         }

@@ -169,7 +169,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.keep_failure(stepped)?;
         self.time += vote.step;
         self.steps += 1;
-        self.step_before = Some(next.step);
+        // A step that the scene has shortened says nothing of what the state asks for.
+        if next.criterion != Criterion::SceneTime {
+            self.step_before = Some(next.step);
+        }
         let name = vote.criterion.name();
         match self.votes.iter_mut().find(|own| own.0 == name) {
             Some(own) => own.1 += 1,

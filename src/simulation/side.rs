@@ -9,7 +9,7 @@ use crate::coupling::CoupledParticle;
 use crate::parallel::largest;
 use crate::particles::Field;
 use crate::scalar::Real;
-use crate::tensor::{Matrix, Vector};
+use crate::tensor::{Matrix, Vector, inverse};
 use std::sync::Arc;
 
 /// What takes part in a coupling by forces.
@@ -89,24 +89,10 @@ impl<const D: usize> MetWall<D> {
         let turn = if before == after {
             Matrix::identity()
         } else {
-            after * inverse(&before)
+            after * inverse(&before, 0.0).unwrap_or_else(Matrix::identity)
         };
         Some((turn, self.sliding.map(|v| v * (now - then))))
     }
-}
-
-/// The inverse of a matrix of up to three rows; the unit matrix where there is none.
-fn inverse<const D: usize>(matrix: &Matrix<f64, D>) -> Matrix<f64, D> {
-    let mut all = nalgebra::Matrix3::identity();
-    for a in 0..D {
-        for b in 0..D {
-            all[(a, b)] = matrix[(a, b)];
-        }
-    }
-    let all = all
-        .try_inverse()
-        .unwrap_or_else(nalgebra::Matrix3::identity);
-    Matrix::from_fn(|a, b| all[(a, b)])
 }
 
 /// Where particles of a side were listed, within periods.
@@ -128,14 +114,6 @@ impl<const D: usize> Side<D> {
 
     pub fn is_wall(&self) -> bool {
         matches!(self, Self::Wall(_))
-    }
-
-    /// Whether it is a wall whose surface moves.
-    pub fn moves(&self) -> bool {
-        let Self::Wall(wall) = self else {
-            return false;
-        };
-        wall.motion.is_some() || wall.sliding.iter().any(|v| *v != 0.0)
     }
 
     pub fn name<'a, T: Real>(&'a self, groups: &'a [Group<T, D>]) -> &'a str {

@@ -300,7 +300,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Stops the run where stored energy exceeds what work and booked dissipation leave by more than this share of the
     /// largest energy supplied; 0.5 if not said, and infinity for never. See [`StoredEnergy`].
     pub fn limit_stored_energy(&mut self, share: f64) {
-        self.stores.limit = share;
+        self.on_both(&|own| own.stores.limit = share);
     }
 
     /// Parts of which there is something to say: groups with internal energy, liquids without, and couplings.
@@ -360,8 +360,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 Some("the coupling does not say what it stores")
             } else if couple.sides.iter().any(apart) {
                 Some("a side sub-cycles, and its work is booked with that of its other couplings")
-            } else if couple.sides.iter().any(Side::moves) {
-                Some("the work of a wall that moves is not booked")
             } else {
                 None
             };

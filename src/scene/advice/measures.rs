@@ -49,6 +49,7 @@ impl Measures {
             if let Some(motion) = &wall.motion {
                 let corners = corners(&wall.points);
                 walls = walls.max(fastest(&**motion, &corners, end, 1));
+                acceleration = acceleration.max(fastest(&**motion, &corners, end, 2));
             }
         }
         Self {

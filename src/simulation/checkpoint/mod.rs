@@ -133,6 +133,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let work = last.map_or(work, |last| &last.work);
         let evaluated = last.map_or(evaluated, |last| &last.evaluated);
         let due = last.map_or(due, |last| &last.due);
+        let stores = last.map_or(stores, |last| &last.stores);
         let happened = last.map_or(happened, |last| &last.happened);
         let kept_impulses = last.map_or(kept_impulses, |last| &last.impulses_of_states);
         let time = match shown {
