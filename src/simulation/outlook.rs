@@ -82,7 +82,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// ```
     ///
     /// # Errors
-    /// As [`run_until`](Simulation::run_until) if a rehearsed step fails, and [`Error::Argument`] if the end is not finite.
+    /// As [`run_until`](Simulation::run_until) if a rehearsed step fails, and [`Error::Argument`](crate::error::Error::Argument) if the end is not finite.
     pub fn expected_work(&mut self, end: f64) -> Result<Work> {
         once!(self => &mut Simulation, expected_work_here(end: f64) -> Result<Work>)
     }
