@@ -53,13 +53,21 @@ fn anchors(text: &str) -> BTreeSet<String> {
 
 #[test]
 fn links_lead_to_what_is_there() {
-    let mut broken = Vec::new();
+    // The package has none of the gallery's pictures but that of README, since they are a third of its size.
+    let packed = !Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("docs/gallery/build.py")
+        .exists();
+    let (mut broken, mut skipped) = (Vec::new(), 0);
     let mut checked = 0;
     for page in pages() {
         let text = fs::read_to_string(&page).expect("a page");
         let folder = page.parent().expect("a folder");
         for link in links(&text) {
             if link.contains("://") {
+                continue;
+            }
+            if packed && link.starts_with("gallery/") {
+                skipped += 1;
                 continue;
             }
             let (path, anchor) = link.split_once('#').unwrap_or((&link, ""));
@@ -76,6 +84,9 @@ fn links_lead_to_what_is_there() {
                 broken.push(format!("{}: {link}", page.display()));
             }
         }
+    }
+    if packed {
+        println!("skipped: {skipped} pictures of the gallery, which the repository has");
     }
     assert!(checked > 40, "only {checked} links were found");
     assert!(broken.is_empty(), "{}", broken.join("\n"));
