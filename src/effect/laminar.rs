@@ -18,7 +18,8 @@ use crate::term::{In, Stage, Term, VelocityAtWall, VelocityGradient, ViscosityAt
 ///
 #[doc = include_str!("../../docs/equations/wall_velocity.html")]
 ///
-/// (Adami, Hu & Adams 2012, eq. 23).
+/// with v_wall(x) \[m/s\] that the motion of the wall has at a place. Where it does not turn that is
+/// 2 v_wall − Σ v_f W/Σ W of Adami, Hu & Adams 2012, eq. 23.
 ///
 /// ```
 /// use meshfree::effect::Laminar;
@@ -50,12 +51,9 @@ impl<const D: usize, X: Term<D>> Effect<D> for Laminar<X> {
     }
 }
 
-/// What a wall without slip shows: v_w = v_wall(x_w) − Σ (v_f − v_wall(x_f)) W/Σ W and the mean viscosity; one with slip
-/// has none.
+/// What a wall without slip shows: the mirrored velocity of [`Laminar`] and the mean viscosity; one with slip has none.
 ///
-/// It is 2 v_wall − Σ v_f W/Σ W of Adami, Hu & Adams 2012, eq. 23, in the frame of the wall, and the same where that does
-/// not turn. Where it does, the velocity of the wall at its particles is not that at its surface: with ∇v_wall = L it is
-/// 2 v_wall(x_w) − Σ v_f W/Σ W − L·Σ r W/Σ W.
+/// With ∇v_wall = L, its velocity is 2 v_wall(x_w) − Σ v_f W/Σ W − L·Σ r W/Σ W.
 #[derive(Clone, Copy, Debug)]
 struct NoSlip;
 
