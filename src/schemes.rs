@@ -105,7 +105,7 @@ pub type SolidBuilder = SchemeBuilder<
 /// that strain and those of the force ([`RenormalisedHypoelastic`]).
 ///
 /// A plate of ten rows swings with a period 3 % too long, where without the corrections it is 11 % too short; at h/dx 1.0 it
-/// is 1.9 % ([solids](crate#pages)). Add what the body does beyond elasticity, and a cure of the tensile instability after it:
+/// is 1.9 % ([solids](crate#pages)). Add what the body does beyond elasticity, and a remedy for the tensile instability after it:
 ///
 /// ```
 /// use meshfree::effect::{HourglassFree, Plasticity};

@@ -11,7 +11,7 @@ use crate::scalar::{Lane, Real};
 use crate::tensor::Symmetric;
 use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, VelocityGradient, stage};
 
-/// A hypoelastic solid: beside the pressure of its equation of state it bears a deviatoric stress S.
+/// A hypoelastic solid: a deviatoric stress S is added to the pressure of its equation of state.
 ///
 #[doc = include_str!("../../docs/equations/hypoelastic.html")]
 ///

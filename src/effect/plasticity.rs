@@ -14,7 +14,7 @@ use crate::scalar::Real;
 use crate::tensor::Symmetric;
 use crate::term::{Stage, TermDoc};
 
-/// Plasticity with the condition of von Mises, beside [`Hypoelastic`]: the deviatoric stress S returns to the yield surface after
+/// Plasticity with the condition of von Mises, added to [`Hypoelastic`]: the deviatoric stress S returns to the yield surface after
 /// each elastic change.
 ///
 #[doc = include_str!("../../docs/equations/plasticity.html")]

@@ -194,7 +194,7 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
         self.ledger.push(column);
     }
 
-    /// Says that a field holds energy over mass \[J/kg\] that is stored, as a function of the state alone: beside that of
+    /// Says that a field holds energy over mass \[J/kg\] that is stored, as a function of the state alone: in addition to that of
     /// the equation of state, or in place of it where the effect [replaces the pressure](Self::replace_pressure).
     pub fn store(&mut self, field: Field) {
         self.stored.push(field);

@@ -1,5 +1,5 @@
-//! x″ = −x, the smallest system that an integrator can advance: whether it bears the step that it says of itself.
-//! A claim is tried and not believed, as a step above what an integrator bears ends a run some time later.
+//! x″ = −x, the smallest system that an integrator can advance: whether it is stable up to the step that it states.
+//! The limit is measured, since a step above the stable one ends a run only some time later.
 
 use super::{Integrator, System};
 use crate::error::Result;
@@ -81,7 +81,7 @@ impl System for Oscillator {
     }
 }
 
-/// How much the amplitude of an undamped oscillator grows per step, where ω dt is that which the integrator says it bears; and
+/// How much the amplitude of an undamped oscillator grows per step, where ω dt is the limit that the integrator states; and
 /// whether it asked for rates at all. What ends in an error grows without bound.
 fn growth(integrator: &dyn Integrator) -> (f64, bool) {
     let mut system = Oscillator {
@@ -117,7 +117,7 @@ pub(crate) fn problem_of(integrator: &dyn Integrator) -> Option<(&'static str, f
             "its steps must ask for rates, by System::evaluate: those of the start do not last";
         return Some(("number of evaluations in a step", 0.0, must_be));
     }
-    let must_be = "an undamped oscillator grows in steps of that: it must be the largest ω dt that the integrator bears, over 2";
+    let must_be = "an undamped oscillator grows in steps of that: it must be the largest stable ω dt of the integrator, over 2";
     (growth > GROWTH).then_some(("stability", integrator.stability(), must_be))
 }
 

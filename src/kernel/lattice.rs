@@ -23,7 +23,7 @@ pub(crate) fn lattice_unity<K: Kernel<D>, const D: usize>(kernel: &K, h_over_dx:
 
 /// The longest step of an undamped leapfrog, in units of h/c, for longitudinal waves along an axis of a cubic lattice at rest: 2/(h k),
 /// where k is the largest of the wave numbers Σ V F x sin(k x) that a difference of neighbours makes. It is one of several limits, so
-/// no kernel bears more.
+/// no kernel is stable with more.
 pub(crate) fn longest_step<K: Kernel<D>, const D: usize>(kernel: &K, h_over_dx: f64) -> f64 {
     const WAVES: u32 = 256;
     let layers = (kernel.support() * h_over_dx).ceil();

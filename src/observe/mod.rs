@@ -41,7 +41,7 @@
 //!
 //! # Planes and periods
 //!
-//! Probes, gauges and samples see the images behind planes and across periods beside the particles, so that they read by
+//! Probes, gauges and samples see the particles and their images behind planes and across periods, so that they read by
 //! them what they would read in the whole of a symmetric or repeated scene. A sample behind a plane sees none of its images.
 
 mod gauge;

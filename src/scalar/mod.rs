@@ -250,6 +250,8 @@ pub trait Real:
 {
     /// Whether positions and densities carry a second number that holds their rounding error.
     const COMPENSATED: bool;
+    /// The distance of one to the next number: twice the relative rounding error.
+    const EPSILON: f64;
     /// The name in files and on command lines: `f32` or `f64`.
     const NAME: &'static str;
     /// The block of particles that the pair loop takes at once; its width depends on the scalar
@@ -360,6 +362,7 @@ macro_rules! real {
 
         impl Real for $T {
             const COMPENSATED: bool = $compensated;
+            const EPSILON: f64 = $T::EPSILON as f64;
             const NAME: &'static str = stringify!($T);
             type Wide<const FUSED: bool> = Lanes<$T, $width, FUSED>;
             type In<S: Instructions> = S::$In;

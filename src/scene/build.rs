@@ -79,7 +79,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             return Err(Error::Build(BuildError { problems }));
         }
         let evaluated = simulation.evaluate();
-        let problems = simulation.torn_surfaces();
+        let problems = simulation.surfaces_in_tension();
         if !problems.is_empty() {
             return Err(Error::Build(BuildError { problems }));
         }

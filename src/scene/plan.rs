@@ -1,7 +1,8 @@
 //! The plan of a group: the bodies of a scene that share a scheme, with the walls that they meet.
 //! It is what the checks look at, and it lays out the columns from which a simulation starts.
 
-use super::{Body, FOLLOWING_SKINS, Part, SKINS, Scene};
+use super::numerics::{FOLLOWING_SKINS, SKINS};
+use super::{Body, Part, Scene};
 use crate::boundary::{Emitter, Inlet, Slip, Wall, boundary_from, motion_from};
 use crate::origin::local;
 use crate::particles::{Columns, Field, Fields};

@@ -147,7 +147,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
     }
 
-    /// Power \[W\] of walls on solids by contact: of all that they move by, or of what slides beside that alone.
+    /// Power \[W\] of walls on solids by contact: of all that they move by, or of sliding alone.
     fn contact_power(&self, whole: bool) -> f64 {
         let of = |couple: &Couple<T, D>| {
             let Side::Wall(wall) = &couple.sides[1] else {

@@ -48,7 +48,7 @@
 //! | work, stored energy, heat and penetration of couplings | [`Simulation::contacts`], [`Simulation::largest_penetration`] |
 //! | force and impulse on a wall | [`Simulation::wall_force`], [`Simulation::wall_impulse`] |
 //! | energy of a liquid, work on it, dissipation | [`Simulation::energy`] |
-//! | stored energy, as a function of the state, beside the work that went into it | [`Simulation::stored_energy`] |
+//! | stored energy, as a function of the state, and the work that went into it | [`Simulation::stored_energy`] |
 //! | what left through outlets | [`Simulation::removed`] |
 //! | what sleeps outside of a box, and what that has taken | [`Simulation::asleep`] |
 //! | memory | [`Simulation::bytes`] |
@@ -160,6 +160,7 @@ mod limits;
 mod load;
 mod loads;
 mod neighborhood;
+mod observed;
 mod outlook;
 mod pair_images;
 mod pair_list;
@@ -169,7 +170,6 @@ mod query;
 mod reference;
 mod run;
 mod settle;
-mod shown;
 mod side;
 mod snapshot;
 mod soundness;
@@ -231,7 +231,7 @@ use crate::scene::Described;
 use kept::Kept;
 use ledger::Impulses;
 use std::sync::Arc;
-use view::Shown;
+use view::Reading;
 
 /// An acceleration \[m/s²\] that acts on all particles as a function of time \[s\].
 pub(crate) type UniformLoad<const D: usize> = Box<dyn Fn(f64) -> [f64; D] + Send + Sync>;
@@ -281,7 +281,7 @@ pub struct Simulation<T: Real, const D: usize> {
     /// The state before an evaluation between steps.
     aside: Option<Box<Kept<T, D>>>,
     /// What readings are shown.
-    shown: Shown<T, D>,
+    shown: Reading<T, D>,
     /// Time \[s\] over which what follows the flow once a step has yet to do so.
     due: f64,
     /// What ended it, in words.
@@ -356,7 +356,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             evaluated: 0.0,
             kept_impulses: Vec::new(),
             aside: None,
-            shown: Shown::LastStep,
+            shown: Reading::LastStep,
             due: 0.0,
             failed: None,
             watch: None,

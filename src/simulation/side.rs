@@ -27,7 +27,7 @@ pub(crate) struct MetWall<const D: usize> {
     pub rest: Vec<[f64; D]>,
     pub spacing: f64,
     pub motion: Option<Arc<dyn Motion<D>>>,
-    /// Velocity of its surface beside its motion \[m/s\].
+    /// Velocity of its surface in addition to its motion \[m/s\].
     pub sliding: [f64; D],
 }
 

@@ -16,7 +16,8 @@ use std::ops::Range;
 /// Share of a full neighbourhood below which a particle has no neighbours to be measured by.
 const ALONE: f64 = 1e-6;
 
-/// Share of the density of the start below which a sum lacks neighbours, and share of the bulk modulus above which a law bears tension.
+/// Share of the density of the start below which a sum lacks neighbours, and share of the bulk modulus above which a material is in
+/// tension.
 const LACKING: f64 = 0.9;
 const TENSION: f64 = 1e-3;
 
@@ -77,17 +78,17 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     /// Surfaces at which a summed density puts a solid or liquid under tension: one for each body.
-    pub(crate) fn torn_surfaces(&self) -> Vec<Problem> {
+    pub(crate) fn surfaces_in_tension(&self) -> Vec<Problem> {
         let summed = self
             .groups
             .iter()
             .filter(|group| matches!(group.scheme.smoothing, Smoothing::Consistent { .. }));
         summed
-            .flat_map(|group| torn_surfaces(&group.particles))
+            .flat_map(|group| surfaces_in_tension(&group.particles))
             .collect()
     }
 
-    /// Refuses a step of `dt` \[s\] at whose end a boundary, a wall or a clamp is nowhere, or in which a wall moves beside its
+    /// Refuses a step of `dt` \[s\] at whose end a boundary, a wall or a clamp is nowhere, or in which a wall moves otherwise than its
     /// own velocity, as one that jumps does.
     pub(super) fn check_motions(&self, dt: f64) -> Result<()> {
         let (time, end) = (self.time, self.time + dt);
@@ -205,7 +206,7 @@ fn isolated<T: Real, const D: usize>(
 
 /// The first particle of each body whose summed density is far below that which it starts with, and whose law answers with
 /// tension.
-fn torn_surfaces<T: Real, const D: usize>(
+fn surfaces_in_tension<T: Real, const D: usize>(
     particles: &Particles<T, D>,
 ) -> impl Iterator<Item = Problem> {
     let [density, mass, energy] =
@@ -216,7 +217,7 @@ fn torn_surfaces<T: Real, const D: usize>(
         .filter(|body| !body.material.is_gas());
     solids.filter_map(move |body| {
         let stiffness = body.material.bulk_modulus();
-        let torn = |slot: usize| {
+        let in_tension = |slot: usize| {
             let start = mass[slot].to_f64() / body.spacing.powi(D as i32);
             let summed = density[slot].to_f64();
             let energy = energy.get(slot).map_or(0.0, |energy| energy.to_f64());
@@ -224,16 +225,16 @@ fn torn_surfaces<T: Real, const D: usize>(
             (summed < LACKING * start && pressure < -TENSION * stiffness)
                 .then_some((slot, [start, summed, pressure]))
         };
-        let (slot, [start, summed, pressure]) = body.slots.clone().find_map(torn)?;
+        let (slot, [start, summed, pressure]) = body.slots.clone().find_map(in_tension)?;
         Some(Problem::Incompatible {
             what: format!(
-                "body `{}` has a free surface and a law that bears tension: the summed density of particle {} at {:?} m is {summed} \
+                "body `{}` has a free surface and a material that supports tension: the summed density of particle {} at {:?} m is {summed} \
                  kg/m³ where it starts with {start}, and the pressure there {pressure} Pa",
                 body.name,
                 particles.ids[slot] as usize - body.ids.start,
                 particles.position(slot),
             ),
-            remedy: "a sum over neighbours lacks half of them at a surface, which a gas bears and a solid or liquid does not: take a \
+            remedy: "a sum over neighbours lacks half of them at a surface, which suits a gas and puts a solid or liquid in tension: take a \
                      scheme whose density is relative to rest (schemes::impact) or by continuity (schemes::weakly_compressible), or \
                      close the surface by a period or a plane of symmetry",
         })

@@ -9,8 +9,8 @@ use nalgebra::{Matrix3, Vector3};
 /// Distance in spacings up to which particles as built are neighbours.
 const NEAR: f64 = 1.8;
 
-/// Stretch beyond which two neighbours are one no more: torn apart, or on both sides of a period.
-const TORN: f64 = 2.0;
+/// Stretch beyond which two particles are no longer neighbours: after fracture, or on both sides of a period.
+const FRACTURED: f64 = 2.0;
 
 /// Share of the largest moment of the neighbours below which they do not tell how they turn about an axis.
 const FLAT: f64 = 1e-6;
@@ -34,7 +34,7 @@ impl<const D: usize> Spins<D> {
         let all: Vec<u32> = (0..points.len() as u32).collect();
         let cells = Cells::build(points, &all, near);
         let mut own = Self {
-            reach: TORN * near,
+            reach: FRACTURED * near,
             gradients: vec![Matrix::<f64, D>::zeros(); points.len()],
             ..Self::default()
         };

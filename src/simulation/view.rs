@@ -12,7 +12,7 @@ use core::mem;
 
 /// What readings are shown.
 #[derive(Debug)]
-pub(super) enum Shown<T: Real, const D: usize> {
+pub(super) enum Reading<T: Real, const D: usize> {
     /// The state after the last step.
     LastStep,
     /// The same, at a time that differs by rounding from its own, which is this \[s\].
@@ -38,24 +38,24 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             self.put_back(last);
             return stepped;
         }
-        self.shown = Shown::Between(Box::new(last));
+        self.shown = Reading::Between(Box::new(last));
         Ok(())
     }
 
     /// Shows the state after the last step at `time` \[s\], from which its own differs by rounding.
     pub(super) fn show_at(&mut self, time: f64) {
         if self.time != time {
-            self.shown = Shown::Rounded(mem::replace(&mut self.time, time));
+            self.shown = Reading::Rounded(mem::replace(&mut self.time, time));
         }
     }
 
     /// Goes back to the state after the last step, and to the rates that it has left.
     pub(super) fn return_to_last_step(&mut self) {
         self.take_up();
-        match mem::replace(&mut self.shown, Shown::LastStep) {
-            Shown::LastStep => {}
-            Shown::Rounded(time) => self.time = time,
-            Shown::Between(last) => self.put_back(*last),
+        match mem::replace(&mut self.shown, Reading::LastStep) {
+            Reading::LastStep => {}
+            Reading::Rounded(time) => self.time = time,
+            Reading::Between(last) => self.put_back(*last),
         }
     }
 
@@ -93,7 +93,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// The same, with the rates of an evaluation between steps.
     fn leave_last_step(&mut self) {
-        if let Shown::Between(_) = mem::replace(&mut self.shown, Shown::LastStep) {
+        if let Reading::Between(_) = mem::replace(&mut self.shown, Reading::LastStep) {
             // An event that gives no number ends the run at its next step.
             let watched = self.watch_events();
             let _ = self.keep_failure(watched);
@@ -119,7 +119,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Acts on the state after the last step, while another is shown.
     pub(super) fn on_last_step<R>(&mut self, act: impl FnOnce(&mut Self) -> R) -> R {
-        let (mut aside, mut shown) = (self.aside.take(), Shown::LastStep);
+        let (mut aside, mut shown) = (self.aside.take(), Reading::LastStep);
         mem::swap(&mut self.shown, &mut shown);
         let mut exchange = |own: &mut Self| {
             if let Some(aside) = &mut aside {
@@ -135,11 +135,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         result
     }
 
-    fn exchange_shown(&mut self, shown: &mut Shown<T, D>) {
+    fn exchange_shown(&mut self, shown: &mut Reading<T, D>) {
         match shown {
-            Shown::LastStep => {}
-            Shown::Rounded(time) => mem::swap(&mut self.time, time),
-            Shown::Between(last) => self.exchange_state(last),
+            Reading::LastStep => {}
+            Reading::Rounded(time) => mem::swap(&mut self.time, time),
+            Reading::Between(last) => self.exchange_state(last),
         }
     }
 
@@ -159,7 +159,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// The state after the last step, where another is shown.
     pub(super) fn last_step(&self) -> Option<&Kept<T, D>> {
         match &self.shown {
-            Shown::Between(last) => Some(last),
+            Reading::Between(last) => Some(last),
             _ => self.aside.as_deref(),
         }
     }

@@ -23,7 +23,7 @@ pub(crate) struct WallState<T, const D: usize> {
     pub normals: Vec<[f64; D]>,
     pub motion: Option<Arc<dyn Motion<D>>>,
     pub slip: Slip,
-    /// Velocity of its surface beside its motion \[m/s\].
+    /// Velocity of its surface in addition to its motion \[m/s\].
     pub sliding: [f64; D],
     pub container_frame: bool,
     /// Mass of a particle as built, in the liquid's density \[kg\].

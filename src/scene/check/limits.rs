@@ -132,11 +132,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
     /// Bodies and walls so far apart that the scalar does not hold places in one scene.
     pub(super) fn check_extent(&self, problems: &mut Vec<Problem>) {
         // Half of the distance of two numbers.
-        let rounding = if T::COMPENSATED {
-            0.5 * f64::from(f32::EPSILON)
-        } else {
-            0.5 * f64::EPSILON
-        };
+        let rounding = 0.5 * T::EPSILON;
         let origin = self.origin();
         let bodies = self.bodies();
         let bodies = bodies.map(|own| ("body", &own.name, &own.points, own.spacing));

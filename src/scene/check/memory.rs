@@ -6,7 +6,8 @@ use crate::error::Problem;
 use crate::neighbors::listed_around;
 use crate::particles::{Field, Fields};
 use crate::scalar::{Lane, Real};
-use crate::scene::{Part, SKINS, Scene};
+use crate::scene::numerics::SKINS;
+use crate::scene::{Part, Scene};
 use crate::scheme::EnergyForm;
 use crate::term::MOST_READS;
 

@@ -12,7 +12,8 @@ mod solids_at_walls;
 mod thin;
 mod walls;
 
-use super::{Body, Part, Plan, SKINS, Scene};
+use super::numerics::SKINS;
+use super::{Body, Part, Plan, Scene};
 use crate::error::Problem;
 use crate::neighbors::Cells;
 use crate::scalar::Real;

@@ -12,7 +12,7 @@ mod workspace;
 
 use super::energy::Work;
 use super::ledger::Impulses;
-use super::view::{Shown, rounding};
+use super::view::{Reading, rounding};
 use super::{Criterion, Simulation, Vote, width};
 use crate::error::{CheckpointProblem, Error, Result};
 use crate::once::once;
@@ -137,7 +137,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let happened = last.map_or(happened, |last| &last.happened);
         let kept_impulses = last.map_or(kept_impulses, |last| &last.impulses_of_states);
         let time = match shown {
-            Shown::Rounded(own) => own,
+            Reading::Rounded(own) => own,
             _ => time,
         };
         let mut file = Checkpoint::default();

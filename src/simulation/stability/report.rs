@@ -302,18 +302,9 @@ pub(super) fn of<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Stab
     let first: Vec<_> = (Measure::ALL.iter().zip(watch.first))
         .filter_map(|(measure, seen)| Some((*measure, named(seen?))))
         .collect();
-    report.verdict = judge(&report, &watch.thresholds, first, rounding::<T>());
+    report.verdict = judge(&report, &watch.thresholds, first, T::EPSILON);
     report.verdict.failed.clone_from(&simulation.failed);
     report
-}
-
-/// The relative rounding of a scalar.
-fn rounding<T: Real>() -> f64 {
-    if size_of::<T>() == 4 {
-        f64::from(f32::EPSILON)
-    } else {
-        f64::EPSILON
-    }
 }
 
 /// Residual of momentum, gain and closure of energy.

@@ -15,7 +15,7 @@ type ForceAt<const D: usize> = ([f64; D], [f64; D]);
 
 /// An image of a particle.
 #[derive(Clone, Debug)]
-pub(crate) struct Shown<T, const D: usize> {
+pub(crate) struct ObservedImage<T, const D: usize> {
     /// Where it is \[m\].
     pub at: [f64; D],
     pub transform: Transform<T, D>,
@@ -30,7 +30,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// The images of a particle at `x` \[m\] in the scene that lie within `reach` \[m\] of the domain. Later boundaries also show those of
     /// earlier ones.
-    pub(crate) fn images_of(&self, x: &[f64; D], reach: f64, images: &mut Vec<Shown<T, D>>) {
+    pub(crate) fn images_of(
+        &self,
+        x: &[f64; D],
+        reach: f64,
+        images: &mut Vec<ObservedImage<T, D>>,
+    ) {
         images.clear();
         let origin = self.origin();
         let x = local(x, &origin);
@@ -48,7 +53,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                         Some(image) => (image.transform.then(&own), image.boundaries),
                         None => (own.clone(), 0),
                     };
-                    images.push(Shown {
+                    images.push(ObservedImage {
                         at: image_of(&own, &at),
                         transform,
                         boundaries: others | 1 << b,
