@@ -129,7 +129,7 @@ impl<T: Real, const D: usize> Group<T, D> {
     }
 
     /// The body or wall of a block, by its number in the group, and the boundary if the block is of images.
-    fn origin(&self, block: u32) -> (usize, Option<usize>) {
+    fn owner(&self, block: u32) -> (usize, Option<usize>) {
         let direct = self.particles.bodies.len() + self.walls.len();
         match (block as usize).checked_sub(direct) {
             None => (block as usize, None),
@@ -156,8 +156,8 @@ impl<T: Real, const D: usize> Group<T, D> {
         let rates = self.work.rates.reactions();
         let all = rates.chain(self.work.coupling.reactions());
         all.flat_map(move |reaction| {
-            let on = self.indices[self.origin(reaction.on).0];
-            let (own, boundary) = self.origin(reaction.from);
+            let on = self.indices[self.owner(reaction.on).0];
+            let (own, boundary) = self.owner(reaction.from);
             let (from, force) = (self.indices[own], reaction.force);
             let (mutual, given) = match boundary {
                 Some(_) if on == from => ([0.0; D], force),

@@ -19,7 +19,9 @@ impl<T: Real, const D: usize> Scene<T, D> {
         for (k, second) in walls.iter().enumerate() {
             for first in &walls[..k] {
                 let spacing = first.spacing.min(second.spacing);
-                if let Some((distance, position)) = shared(&first.points, &second.points, spacing) {
+                if let Some((distance, position)) =
+                    nearest_pair(&first.points, &second.points, spacing, SAME_PLACE)
+                {
                     problems.push(Problem::Overlap {
                         first: first.name.clone(),
                         second: second.name.clone(),
@@ -37,7 +39,9 @@ impl<T: Real, const D: usize> Scene<T, D> {
         for (k, second) in self.inlets.iter().enumerate() {
             for first in &self.inlets[..k] {
                 let spacing = first.spacing.min(second.spacing);
-                if let Some((distance, _)) = shared(&first.opening, &second.opening, spacing) {
+                if let Some((distance, _)) =
+                    nearest_pair(&first.opening, &second.opening, spacing, SAME_PLACE)
+                {
                     let what = format!(
                         "distance of points of the openings of an inlet of body `{}` and one of body `{}`",
                         first.body, second.body
@@ -50,26 +54,28 @@ impl<T: Real, const D: usize> Scene<T, D> {
     }
 }
 
-/// The distance \[m\] of two points that are one, and where that is.
-fn shared<const D: usize>(
+/// The distance \[m\] of the nearest pair of two sets, if it is below this share of the spacing \[m\], and the place of its point in
+/// the second.
+pub(super) fn nearest_pair<const D: usize>(
     points: &[[f64; D]],
     others: &[[f64; D]],
     spacing: f64,
+    share: f64,
 ) -> Option<(f64, [f64; D])> {
-    let reach = SAME_PLACE * spacing;
+    let reach = share * spacing;
     let all: Vec<u32> = (0..points.len() as u32).collect();
     let cells = Cells::build(points, &all, spacing);
-    others.iter().find_map(|x| {
-        let mut found = None;
+    let mut nearest = (reach * reach, None);
+    for x in others {
         cells.for_each_run(x.map(|x| x - reach), x.map(|x| x + reach), |run| {
             for &j in run {
                 let y = &points[j as usize];
                 let square: f64 = (0..D).map(|d| (x[d] - y[d]).powi(2)).sum();
-                if square.sqrt() < reach {
-                    found = Some((square.sqrt(), *x));
+                if square < nearest.0 {
+                    nearest = (square, Some(*x));
                 }
             }
         });
-        found
-    })
+    }
+    nearest.1.map(|x| (nearest.0.sqrt(), x))
 }

@@ -2,8 +2,8 @@
 //! A liquid meets structures; all else is coupled by what the scene says, or has to be said not to meet.
 
 use super::TOO_CLOSE;
+use super::doubled::nearest_pair;
 use crate::error::Problem;
-use crate::neighbors::Cells;
 use crate::scalar::Real;
 use crate::scene::{Body, Coupled, Part, Scene};
 use crate::sweep::Interaction;
@@ -189,26 +189,13 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 continue;
             };
             let spacing = 0.5 * (near + far);
-            let reach = TOO_CLOSE * spacing;
-            let all: Vec<u32> = (0..points.len() as u32).collect();
-            let cells = Cells::build(&points, &all, reach);
-            let mut nearest = (reach * reach, None);
-            for x in &own_points {
-                cells.for_each_run(x.map(|x| x - reach), x.map(|x| x + reach), |run| {
-                    for &other in run {
-                        let y = &points[other as usize];
-                        let square = (0..D).map(|d| (x[d] - y[d]).powi(2)).sum::<f64>();
-                        if square < nearest.0 {
-                            nearest = (square, Some(*x));
-                        }
-                    }
-                });
-            }
-            if let (square, Some(position)) = nearest {
+            if let Some((distance, position)) =
+                nearest_pair(&points, &own_points, spacing, TOO_CLOSE)
+            {
                 problems.push(Problem::Overlap {
                     first: own.first.clone(),
                     second: own.second.clone(),
-                    distance: square.sqrt(),
+                    distance,
                     spacing,
                     position: position.to_vec(),
                 });
