@@ -9,8 +9,9 @@ use crate::scalar::Real;
 /// F_t = −k_t u,  |F_t| ≤ μ F_n
 ///
 /// with F_n \[N\] the normal force of the pair, k_t \[N/m\] its tangential stiffness and u \[m\] its elastic slip, the
-/// tangential way since it last slid. What slips beyond slides, and μ F_n times that way is heat. The stiffness does not
-/// depend on the normal force: a sticking contact whose spring did would gain energy as it vibrates.
+/// tangential way since it last slid. What slips beyond slides. Heat is that way times the mean of F_t at the evaluations
+/// before and after it, as work is booked, so that work, heat and stored energy balance to second order in the step. The
+/// stiffness does not depend on the normal force: a sticking contact whose spring did would gain energy as it vibrates.
 ///
 /// A pair remembers its anchor, the place in which the spring is relaxed (Cundall & Strack 1979, Géotechnique 29, 47).
 /// Static friction therefore holds without creep, and evaluating a state twice changes nothing. The anchor does not turn
@@ -24,6 +25,15 @@ pub struct Coulomb {
     pub mu: f64,
 }
 
+/// What a pair that presses remembers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Anchor<T, const D: usize> {
+    /// Where the spring is relaxed \[m\].
+    pub place: [T; D],
+    /// F_t \[N\] on the first particle at the last evaluation.
+    pub force: [T; D],
+}
+
 /// A pair that presses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touch<T, const D: usize> {
@@ -35,8 +45,8 @@ pub struct Touch<T, const D: usize> {
     pub pressing: T,
     /// Tangential stiffness k_t \[N/m\].
     pub stiffness: T,
-    /// The anchor that the last evaluation has left \[m\].
-    pub anchor: Option<[T; D]>,
+    /// What the last evaluation has left.
+    pub anchor: Option<Anchor<T, D>>,
 }
 
 impl Coulomb {
@@ -45,12 +55,15 @@ impl Coulomb {
         let (x, n) = (touch.apart, touch.normal);
         let Some(before) = touch.anchor else {
             return PairForce {
-                anchor: Some(x),
+                anchor: Some(Anchor {
+                    place: x,
+                    force: [T::zero(); D],
+                }),
                 ..PairForce::of([T::zero(); D])
             };
         };
-        let along = (0..D).fold(T::zero(), |sum, d| sum + (x[d] - before[d]) * n[d]);
-        let slip: [T; D] = core::array::from_fn(|d| x[d] - before[d] - along * n[d]);
+        let along = (0..D).fold(T::zero(), |sum, d| sum + (x[d] - before.place[d]) * n[d]);
+        let slip: [T; D] = core::array::from_fn(|d| x[d] - before.place[d] - along * n[d]);
         let size = slip.iter().fold(T::zero(), |sum, u| sum + *u * *u).sqrt();
         let limit = T::from_f64(self.mu) * touch.pressing;
         let slides = touch.stiffness * size > limit;
@@ -59,17 +72,20 @@ impl Coulomb {
         } else {
             T::one()
         };
-        let slip = slip.map(|u| u * kept);
-        let (before, size) = (size.to_f64(), (size * kept).to_f64());
+        let elastic = slip.map(|u| u * kept);
+        let force = elastic.map(|u| -touch.stiffness * u);
+        let heat = (0..D).fold(0.0, |sum, d| {
+            sum - 0.5 * (before.force[d] + force[d]).to_f64() * (slip[d] - elastic[d]).to_f64()
+        });
+        let size = (size * kept).to_f64();
         PairForce {
-            force: slip.map(|u| -touch.stiffness * u),
+            force,
             stored: 0.5 * touch.stiffness.to_f64() * size * size,
-            heat: if slides {
-                limit.to_f64() * (before - size)
-            } else {
-                0.0
-            },
-            anchor: Some(core::array::from_fn(|d| x[d] - slip[d])),
+            heat: if slides { heat.max(0.0) } else { 0.0 },
+            anchor: Some(Anchor {
+                place: core::array::from_fn(|d| x[d] - elastic[d]),
+                force,
+            }),
         }
     }
 

@@ -62,7 +62,7 @@ mod spring;
 mod tied;
 
 pub use contact_density::ContactDensity;
-pub use friction::{Coulomb, Touch};
+pub use friction::{Anchor, Coulomb, Touch};
 pub use liquid_structure::LiquidStructure;
 pub use penalty::Penalty;
 pub use tied::Tied;
@@ -104,8 +104,8 @@ pub struct CoupledPair<T, const D: usize> {
     pub from: CoupledParticle<T, D>,
     /// Their distance as built \[m\], where the coupling acts [as built](Coupling::as_built); else zero.
     pub rest: T,
-    /// The anchor of the pair \[m\] that the last evaluation has left, if it has left one.
-    pub anchor: Option<[T; D]>,
+    /// The anchor of the pair that the last evaluation has left, if it has left one.
+    pub anchor: Option<Anchor<T, D>>,
 }
 
 impl<T: Real, const D: usize> CoupledPair<T, D> {
@@ -136,8 +136,8 @@ pub struct PairForce<T, const D: usize> {
     pub stored: f64,
     /// Heat \[J\] since the last evaluation.
     pub heat: f64,
-    /// What the pair remembers for the next evaluation: a place that must not change when a state is evaluated twice.
-    pub anchor: Option<[T; D]>,
+    /// What the pair remembers for the next evaluation: it must not change when a state is evaluated twice.
+    pub anchor: Option<Anchor<T, D>>,
 }
 
 impl<T: Real, const D: usize> PairForce<T, D> {

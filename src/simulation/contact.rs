@@ -8,7 +8,7 @@ use super::pair_images::velocity;
 use super::pair_list::PairList;
 use super::side::{Side, carry};
 use crate::boundary::Boundary;
-use crate::coupling::{CoupledPair, Coupling};
+use crate::coupling::{Anchor, CoupledPair, Coupling};
 use crate::error::{Error, Problem, Result};
 use crate::particles::Field;
 use crate::scalar::Real;
@@ -54,7 +54,7 @@ pub(crate) struct Acting<T, const D: usize> {
     /// The force \[N\] on particles of both sides, by their numbers in the body.
     pub forces: [Vec<(u32, [T; D])>; 2],
     /// Anchors of pairs \[m\], in the order of the numbers of their particles.
-    pub anchors: Vec<([u32; 2], [T; D])>,
+    pub anchors: Vec<([u32; 2], Anchor<T, D>)>,
     /// Energy that it stores \[J\].
     pub stored: f64,
     /// Heat since the start \[J\].

@@ -5,7 +5,7 @@ use super::couplings::coupled_particle;
 use super::group::Group;
 use super::population::Particles;
 use crate::boundary::{Boundary, Motion, Pose};
-use crate::coupling::CoupledParticle;
+use crate::coupling::{Anchor, CoupledParticle};
 use crate::parallel::largest;
 use crate::particles::Field;
 use crate::scalar::Real;
@@ -307,13 +307,15 @@ fn stiffness_of<T: Real, const D: usize>(particles: &Particles<T, D>, body: usiz
     })
 }
 
-/// Brings places that a wall remembers from one time to another.
+/// Brings what pairs with a wall remember from one time to another.
 pub(super) fn carry<T: Real, const D: usize>(
-    places: &mut [([u32; 2], [T; D])],
+    anchors: &mut [([u32; 2], Anchor<T, D>)],
     (turn, shift): (Matrix<f64, D>, [f64; D]),
 ) {
-    for (_, place) in places {
-        let turned = turn * Vector::from(place.map(Real::to_f64));
-        *place = core::array::from_fn(|d| T::from_f64(turned[d] + shift[d]));
+    for (_, anchor) in anchors {
+        let turned = |x: [T; D]| turn * Vector::from(x.map(Real::to_f64));
+        let (place, force) = (turned(anchor.place), turned(anchor.force));
+        anchor.place = core::array::from_fn(|d| T::from_f64(place[d] + shift[d]));
+        anchor.force = core::array::from_fn(|d| T::from_f64(force[d]));
     }
 }

@@ -1,6 +1,7 @@
 //! What a checkpoint holds of couplings by forces: what acts, what it has worked, and where friction holds.
 //! The pairs follow from positions.
 
+use crate::coupling::Anchor;
 use crate::output::checkpoint::{Checkpoint, Read};
 use crate::scalar::Real;
 use crate::simulation::contact::{Acting, Couple};
@@ -46,9 +47,14 @@ impl<T: Real, const D: usize> Couple<T, D> {
             file.put(format!("{name}/particles{side}"), 1, ids);
             file.put_reals(format!("{name}/forces{side}"), D, forces.as_flattened());
         }
-        let (ids, places): (Vec<[u32; 2]>, Vec<[T; D]>) = anchors.iter().copied().unzip();
+        let (ids, anchors): (Vec<[u32; 2]>, Vec<Anchor<T, D>>) = anchors.iter().copied().unzip();
+        let rows: Vec<[[T; D]; 2]> = anchors.iter().map(|own| [own.place, own.force]).collect();
         file.put(format!("{name}/anchored"), 2, ids.as_flattened());
-        file.put_reals(format!("{name}/anchors"), D, places.as_flattened());
+        file.put_reals(
+            format!("{name}/anchors"),
+            2 * D,
+            rows.as_flattened().as_flattened(),
+        );
     }
 
     pub(super) fn take_state(&mut self, name: &str, file: &Checkpoint) -> Read<()> {
@@ -82,7 +88,9 @@ impl<T: Real, const D: usize> Couple<T, D> {
         }
         let ids = file.get::<u32>(&of("anchored"))?;
         let ids: Vec<[u32; 2]> = ids.as_chunks::<2>().0.to_vec();
-        let anchors = vectors("anchors", ids.len())?;
+        let rows = vectors("anchors", 2 * ids.len())?;
+        let anchors = rows.as_chunks::<2>().0.iter();
+        let anchors = anchors.map(|&[place, force]| Anchor { place, force });
         self.acting = Acting {
             force: file.get_array(&of("force"))?,
             step,
