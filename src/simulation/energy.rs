@@ -4,9 +4,8 @@
 use super::Simulation;
 use super::contact::Couple;
 use super::side::Side;
-use crate::particles::{Field, Output};
+use crate::particles::Field;
 use crate::scalar::Real;
-use crate::sweep::Results;
 use crate::tensor::length;
 
 /// Energies \[J\] of a liquid, and the work done on it since the start.
@@ -192,19 +191,13 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
         let mut power = self.contact_power(true);
         for group in &self.groups {
-            let mut rows = Results::default();
-            group.sum_on_walls(
-                group.particles.mobile..group.particles.columns.slots(),
-                &mut rows,
-            );
-            for wall in &group.walls {
+            for (wall, forces) in group.walls.iter().zip(group.forces_on_walls()) {
                 let Some(pose) = wall.motion.as_ref().map(|motion| motion.pose(time)) else {
                     continue;
                 };
-                for slot in wall.slots.clone() {
-                    let force = rows.vector(Output::FORCE, slot);
+                for (slot, force) in forces {
                     let v = pose.of(1, &wall.rest[wall.rest_of(&group.particles.ids, slot)]);
-                    power -= (0..D).map(|d| force[d].to_f64() * v[d]).sum::<f64>();
+                    power -= (0..D).map(|d| force[d] * v[d]).sum::<f64>();
                 }
             }
         }

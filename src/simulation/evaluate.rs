@@ -3,6 +3,7 @@
 
 use super::group::Group;
 use super::stages::Moment;
+use super::walls::WallState;
 use crate::clock::Instant;
 use crate::effect::DensityForm;
 use crate::material::eos::GuardCounts;
@@ -307,9 +308,32 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.work.coupling = rows;
     }
 
+    /// The force \[N\] on the particles of each wall by their slots, with the rates at hand: zero where the scheme meets no walls,
+    /// as those of solids do, which meet them by contact.
+    pub(super) fn forces_on_walls(&self) -> Vec<Vec<(usize, [f64; D])>> {
+        let mut rows = Results::default();
+        let meets = self.scheme.meets_walls();
+        if meets {
+            self.sum_on_walls(
+                self.particles.mobile..self.particles.columns.slots(),
+                &mut rows,
+            );
+        }
+        let force = |slot: usize| {
+            if meets {
+                rows.vector(Output::FORCE, slot).map(Real::to_f64)
+            } else {
+                [0.0; D]
+            }
+        };
+        let of =
+            |wall: &WallState<T, D>| wall.slots.clone().map(|slot| (slot, force(slot))).collect();
+        self.walls.iter().map(of).collect()
+    }
+
     /// The force of the liquid on wall particles with the rates at hand: the forces on the liquid with
     /// the opposite sign.
-    pub(super) fn sum_on_walls(&self, targets: Range<usize>, rows: &mut Results<T, D>) {
+    fn sum_on_walls(&self, targets: Range<usize>, rows: &mut Results<T, D>) {
         let input = SweepInput {
             targets,
             ..self.input()

@@ -12,10 +12,9 @@ use crate::error::Result;
 use crate::material::Material;
 use crate::material::eos::GuardCounts;
 use crate::origin::{global, local};
-use crate::particles::{Field, Output, Shape};
+use crate::particles::{Field, Shape};
 use crate::scalar::Real;
 use crate::scheme::Scheme;
-use crate::sweep::Results;
 use std::ops::Range;
 
 /// A particle as it is now.
@@ -346,17 +345,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Structures are walls to the liquids of a scene; what solids press on walls by contact comes after.
     #[must_use]
     pub fn wall_particle_forces(&self) -> Vec<([f64; D], [f64; D])> {
-        let mut rows = Results::default();
         let mut forces = Vec::new();
         for group in &self.groups {
-            group.sum_on_walls(
-                group.particles.mobile..group.particles.columns.slots(),
-                &mut rows,
-            );
-            for slot in group.walls.iter().flat_map(|wall| wall.slots.clone()) {
-                let force = rows.vector(Output::FORCE, slot);
-                forces.push((group.particles.position(slot), force.map(Real::to_f64)));
-            }
+            let at = |(slot, force)| (group.particles.position(slot), force);
+            forces.extend(group.forces_on_walls().into_iter().flatten().map(at));
         }
         for couple in &self.couples {
             let Side::Wall(wall) = &couple.sides[1] else {
