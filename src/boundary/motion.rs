@@ -3,7 +3,7 @@
 
 use crate::error::{Error, Problem, Result};
 use crate::origin::local;
-use crate::tensor::{Matrix, Vector};
+use crate::tensor::{Matrix, Vector, inverse};
 use core::fmt;
 
 /// Where the points of a moving frame are: x = A X + b, with first and second derivatives in time.
@@ -41,6 +41,13 @@ impl<const D: usize> Pose<D> {
             *shift += linear * origin;
         }
         self
+    }
+    /// ∇v \[1/s\] of a frame that turns or deforms: v = A′ X + b′ at x = A X + b, so ∂v/∂x = A′ A⁻¹.
+    pub(crate) fn velocity_gradient(&self) -> Option<Matrix<f64, D>> {
+        if self.linear[1] == Matrix::<f64, D>::zeros() {
+            return None;
+        }
+        Some(self.linear[1] * inverse(&self.linear[0], 0.0)?)
     }
     /// This pose with place and velocity of the middle of a straight way between two poses at two
     /// times \[s\], as particles go in a drift.

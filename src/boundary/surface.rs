@@ -33,10 +33,7 @@ impl<'a, T: Real, const D: usize> WallSurface<'a, T, D> {
         accelerations: Option<&'a [[f64; D]]>,
         gradients: &'a [Matrix<f64, D>],
     ) -> Self {
-        // v = A′ X + b′ at x = A X + b, so ∂v/∂x = A′ A⁻¹.
-        let gradient = (pose.as_ref())
-            .filter(|pose| pose.linear[1] != Matrix::<f64, D>::zeros())
-            .and_then(|pose| Some(pose.linear[1] * inverse(&pose.linear[0], 0.0)?));
+        let gradient = pose.as_ref().and_then(Pose::velocity_gradient);
         let turn = pose
             .as_ref()
             .filter(|_| !normals.is_empty())

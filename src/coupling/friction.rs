@@ -18,7 +18,8 @@ use crate::scalar::Real;
 /// with bodies that roll. What presses no more forgets it.
 ///
 /// The forces on both particles are opposite but not central: what they change of angular momentum is F_t times the
-/// distance of the particles, about a spacing.
+/// distance of the particles, about a spacing. Two bodies that roll on each other exchange energy with nothing by that; a wall
+/// that turns does not, since it works at the place of the body's particle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coulomb {
     /// Coefficient of friction μ.

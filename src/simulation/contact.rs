@@ -6,13 +6,13 @@ use super::group::Group;
 use super::group::shared_with_image;
 use super::pair_images::velocity;
 use super::pair_list::PairList;
-use super::side::{Side, carry};
+use super::side::{MetWall, Side, carry};
 use crate::boundary::Boundary;
 use crate::coupling::{Anchor, CoupledPair, Coupling};
 use crate::error::{Error, Problem, Result};
 use crate::particles::Field;
 use crate::scalar::Real;
-use crate::tensor::Vector;
+use crate::tensor::{Matrix, Vector};
 use std::sync::Arc;
 
 /// Skin of the lists of pairs in mean spacings.
@@ -53,6 +53,9 @@ pub(crate) struct Acting<T, const D: usize> {
     pub step: f64,
     /// The force \[N\] on particles of both sides, by their numbers in the body.
     pub forces: [Vec<(u32, [T; D])>; 2],
+    /// Σ F_a r_b \[N m\] of forces on the first side and places as seen from the particle of a wall: the surface that they act
+    /// at is that far from it.
+    pub moments: Matrix<f64, D>,
     /// Anchors of pairs \[m\], in the order of the numbers of their particles.
     pub anchors: Vec<([u32; 2], Anchor<T, D>)>,
     /// Energy that it stores \[J\].
@@ -75,6 +78,7 @@ impl<T, const D: usize> Default for Acting<T, D> {
             force: [0.0; D],
             step: f64::INFINITY,
             forces: [Vec::new(), Vec::new()],
+            moments: Matrix::zeros(),
             anchors: Vec::new(),
             stored: 0.0,
             heat: 0.0,
@@ -195,15 +199,20 @@ impl<T: Real, const D: usize> Couple<T, D> {
                     }
                 }
             }
-            Side::Wall(wall) => {
-                let pose = wall.pose(self.acting.time);
-                for &(id, force) in &self.acting.forces[side] {
-                    let v = wall.velocity(&pose, id as usize);
-                    work += (0..D).map(|d| force[d].to_f64() * v[d]).sum::<f64>();
-                }
-            }
+            Side::Wall(wall) => work = -self.power_of_wall(wall),
         }
         dt * work
+    }
+
+    /// Power \[W\] of a wall on the body, whose particles it meets where they are: friction measures its way there.
+    pub fn power_of_wall(&self, wall: &MetWall<D>) -> f64 {
+        let pose = wall.pose(self.acting.time);
+        let power = self.acting.forces[1].iter().map(|(id, force)| {
+            let v = wall.velocity(&pose, *id as usize);
+            (0..D).map(|d| -force[d].to_f64() * v[d]).sum::<f64>()
+        });
+        let turning = pose.velocity_gradient();
+        power.sum::<f64>() + turning.map_or(0.0, |l| l.dot(&self.acting.moments))
     }
 
     /// Forces between all pairs within reach, on the groups of both sides.
@@ -276,6 +285,7 @@ impl<T: Real, const D: usize> Couple<T, D> {
             }
         }
         acting.force = [0.0; D];
+        acting.moments = Matrix::zeros();
         acting.step = f64::INFINITY;
         acting.pairs = 0;
         acting.penetration[0] = 0.0;
@@ -336,6 +346,12 @@ impl<T: Real, const D: usize> Couple<T, D> {
                 shared_with_image(force, |d, k| turn[(d, k)].to_f64())
             };
             let image = |chain: usize| list.images.boundary(chain);
+            if with_wall && chains[1].is_none() {
+                let apart = Vector::<f64, D>::from_fn(|d, _| {
+                    on.position[d].to_f64() - from.position[d].to_f64()
+                });
+                acting.moments += Vector::from(force) * apart.transpose();
+            }
             for d in 0..D {
                 match chains {
                     [None, None] => acting.force[d] += force[d],

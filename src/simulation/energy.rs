@@ -152,15 +152,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let Side::Wall(wall) = &couple.sides[1] else {
                 return 0.0;
             };
-            let pose = wall.pose(couple.acting.time);
-            let power = couple.acting.forces[1].iter().map(|(id, force)| {
-                let v = if whole {
-                    wall.velocity(&pose, *id as usize)
-                } else {
-                    wall.sliding
-                };
-                (0..D).map(|d| -force[d].to_f64() * v[d]).sum::<f64>()
-            });
+            if whole {
+                return couple.power_of_wall(wall);
+            }
+            let forces = couple.acting.forces[1].iter();
+            let power =
+                forces.flat_map(|(_, force)| (0..D).map(|d| -force[d].to_f64() * wall.sliding[d]));
             power.sum()
         };
         self.couples.iter().map(of).sum()

@@ -5,6 +5,7 @@ use crate::coupling::Anchor;
 use crate::output::checkpoint::{Checkpoint, Read};
 use crate::scalar::Real;
 use crate::simulation::contact::{Acting, Couple};
+use crate::tensor::Matrix;
 
 impl<T: Real, const D: usize> Couple<T, D> {
     pub(super) fn put(&self, name: &str, file: &mut Checkpoint) {
@@ -25,6 +26,7 @@ impl<T: Real, const D: usize> Couple<T, D> {
             force,
             step,
             forces,
+            moments,
             anchors,
             stored,
             heat,
@@ -34,6 +36,7 @@ impl<T: Real, const D: usize> Couple<T, D> {
             time,
         } = acting;
         file.put(format!("{name}/force"), 1, force);
+        file.put(format!("{name}/moments"), 1, moments.as_slice());
         let numbers = [
             *step, *stiffness, work[0], work[1], *stored, *heat, *now, *most, *time,
         ];
@@ -81,6 +84,7 @@ impl<T: Real, const D: usize> Couple<T, D> {
             let values = vectors(&format!("forces{side}"), ids.len())?;
             own.extend(ids.into_iter().zip(values));
         }
+        let moments = file.get_all::<f64>(&of("moments"), D * D)?;
         let mut images = [Vec::new(), Vec::new()];
         for (side, own) in images.iter_mut().enumerate() {
             let forces = file.get::<f64>(&of(&format!("images{side}")))?;
@@ -95,6 +99,7 @@ impl<T: Real, const D: usize> Couple<T, D> {
             force: file.get_array(&of("force"))?,
             step,
             forces,
+            moments: Matrix::from_column_slice(&moments),
             anchors: ids.into_iter().zip(anchors).collect(),
             stored,
             heat,
