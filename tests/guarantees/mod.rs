@@ -5,6 +5,7 @@ mod absent_effects;
 mod allocations;
 mod approach;
 mod bad_input;
+mod bits;
 mod causes;
 mod counted_work;
 mod filling;

@@ -1,7 +1,7 @@
 //! Readings: what is observed, how often and when changes no bit of a run; what acts on a shown state makes it that of the run.
 //! The scenes of the restart test are read here, and every integrator.
 
-use super::restart::said;
+use super::bits::said;
 use crate::common::Random;
 use meshfree::integrator::{
     Integrator, LamLeapfrog, Midpoint, PositionVerlet, Predictor, StrongStabilityPreserving3,
@@ -343,4 +343,9 @@ fn steps_end_where_the_scene_asks_for_it() {
     assert!((with - 100.0).abs() < 1e-6 && (without - 100.0).abs() > 1e-3);
     assert!(bits == speed(scene().step_ends_at([1e-7, 3e-7]), 23).1);
     assert!(scene().step_ends_at([f64::NAN]).build().is_err());
+    // A step that is cut short holds nothing back: the next is as long as without.
+    let mut cut = scene().step_ends_at([1e-7, 1e-7 + 1e-12]).build().unwrap();
+    let steps: Vec<f64> = (0..30).map(|_| cut.step().unwrap()).collect();
+    let short = steps.iter().position(|step| *step < 2e-12).unwrap();
+    assert!(steps[short + 1] > 1e-9, "{}", steps[short + 1]);
 }

@@ -1,6 +1,7 @@
 //! Restart: a simulation that stops at any moment and goes on from its file ends with the same bits, in every kind of
 //! scheme; and a file that is not its own is refused with what differs.
 
+use super::bits::said;
 use super::readings::read_on_the_way;
 use crate::common::{self, Random};
 use meshfree::boundary::{Crush, Inlet, Outlet, Rotation, Wall};
@@ -43,52 +44,6 @@ impl Drop for Folder {
     fn drop(&mut self) {
         let _ = fs::remove_dir_all(&self.0);
     }
-}
-
-/// All that a simulation says of itself, to the bit.
-pub(super) fn said<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Vec<u64> {
-    let mut all = vec![
-        simulation.steps(),
-        simulation.evaluations(),
-        simulation.list_builds(),
-        simulation.guard_counts().total(),
-        simulation.removed().particles,
-        simulation.time().to_bits(),
-    ];
-    all.extend(simulation.limits().iter().map(|limit| limit.1));
-    let walls = simulation.walls().count();
-    let of_walls = (0..walls).flat_map(|wall| simulation.wall(wall).unwrap());
-    for particle in simulation.all().chain(of_walls) {
-        all.push(particle.id() as u64);
-        all.extend(particle.position().map(f64::to_bits));
-        all.extend(particle.velocity().map(f64::to_bits));
-        for field in Fields::ALL.iter() {
-            all.extend(particle.scalar(field).map(f64::to_bits));
-        }
-    }
-    let ledger = simulation.ledger();
-    all.extend(ledger.boundary_impulse.iter().map(|x| x.to_bits()));
-    for (_, budget) in &ledger.bodies {
-        all.extend(budget.momentum.iter().map(|x| x.to_bits()));
-        all.extend([budget.mass, budget.kinetic, budget.internal].map(f64::to_bits));
-    }
-    for wall in 0..walls {
-        all.extend(simulation.wall_impulse(wall).unwrap().map(f64::to_bits));
-        all.extend(simulation.wall_force(wall).unwrap().map(f64::to_bits));
-    }
-    for (x, force) in simulation.wall_particle_forces() {
-        all.extend(x.into_iter().chain(force).map(f64::to_bits));
-    }
-    let removed = simulation.removed();
-    all.extend(removed.momentum.map(f64::to_bits));
-    all.extend([removed.mass, removed.kinetic].map(f64::to_bits));
-    if let Some(energy) = simulation.energy() {
-        let works = [energy.load_work, energy.wall_work, energy.dissipated];
-        all.extend(works.map(f64::to_bits));
-    }
-    let vote = simulation.last_vote().expect("a step");
-    all.extend([vote.step.to_bits(), vote.particle as u64]);
-    all
 }
 
 /// All that a file holds, by name.
@@ -414,6 +369,26 @@ fn liquid_wall_elastic_and_plastic_bodies_go_on() {
             .acceleration(|_| [0.0, -9.81])
     };
     stop_and_go_on("mixed", scene, true, 0.01);
+}
+
+#[test]
+fn a_block_in_a_box_that_is_shaken() {
+    let scene = || {
+        let stuff = Material::new("stuff", meshfree::material::eos::Linear::new(2000.0, 20.0));
+        let shaken = Translation::new(
+            |t| [0.02 * (30.0 * t).sin() - 0.6 * t, 0.0],
+            |t| [0.6 * (30.0 * t).cos() - 0.6, 0.0],
+            |t| [-18.0 * (30.0 * t).sin(), 0.0],
+        );
+        let tank = Wall::around("tank", [0.0; 2], [0.2, 0.1], DX, 3, [[true; 2]; 2]);
+        Scene::<f64, 2>::new(schemes::impact_by_continuity())
+            .body(Body::block("block", stuff, [0.05, 0.0], [0.11, 0.06], DX))
+            .rigid("block")
+            .wall(tank.motion(shaken))
+            .couple("block", "tank", ContactDensity::new().friction(0.3))
+            .acceleration(|_| [0.0, -9.81])
+    };
+    stop_and_go_on("shaken", scene, true, 0.05);
 }
 
 #[test]

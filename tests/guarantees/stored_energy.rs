@@ -287,20 +287,27 @@ fn accounts_go_on_from_a_checkpoint() {
     std::fs::create_dir_all(&folder).unwrap();
     let file = folder.join("plate.safetensors");
     let scene = || plate::<f64>(schemes::total_lagrangian().with(NeoHookean), 1.0);
-    let mut whole = scene().build().unwrap();
-    whole.limit_stored_energy(0.25);
-    alternate(&mut whole, 100).unwrap();
-    whole.save(&file).unwrap();
-    let mut resumed = scene().resume(&file).unwrap();
-    for now in [&mut whole, &mut resumed] {
-        alternate(now, 100).unwrap();
+    // At a step and at a reading between two.
+    for reading in [0.0, 0.4] {
+        let mut whole = scene().build().unwrap();
+        alternate(&mut whole, 100).unwrap();
+        let at = whole.time() + reading * whole.vote().unwrap().step;
+        whole.run_until(at).unwrap();
+        whole.limit_stored_energy(0.25);
+        whole.save(&file).unwrap();
+        let mut resumed = scene().resume(&file).unwrap();
+        assert_eq!(whole.stored_energy(), resumed.stored_energy());
+        for now in [&mut whole, &mut resumed] {
+            now.step().unwrap();
+            alternate(now, 100).unwrap();
+        }
+        let stored = whole.stored_energy();
+        assert!(stored.largest() > Some(0.0));
+        assert_eq!(stored, resumed.stored_energy());
+        // The limit is kept too.
+        let [a, b] = [&mut whole, &mut resumed].map(|now| alternate(now, 20_000).unwrap_err());
+        assert_eq!(a.to_string(), b.to_string());
+        assert!(matches!(a, Error::StoredEnergy { limit: 0.25, .. }));
     }
-    let stored = whole.stored_energy();
-    assert!(stored.largest() > Some(0.0));
-    assert_eq!(stored, resumed.stored_energy());
-    // The limit is kept too.
-    let [a, b] = [&mut whole, &mut resumed].map(|now| alternate(now, 20_000).unwrap_err());
-    assert_eq!(a.to_string(), b.to_string());
-    assert!(matches!(a, Error::StoredEnergy { limit: 0.25, .. }));
     std::fs::remove_dir_all(folder).unwrap();
 }

@@ -295,3 +295,22 @@ fn slow_viscous_flow_under_pressure_is_named() {
         "{water}"
     );
 }
+
+#[test]
+fn tanks_that_move_accelerate_their_liquid() {
+    use meshfree::boundary::Translation;
+    // 300 m/s² of a tank, and a tenth of a metre of water in it: a/g, and no weight.
+    let pushed = Translation::new(
+        |t| [150.0 * t * t, 0.0],
+        |t| [300.0 * t, 0.0],
+        |_| [300.0, 0.0],
+    );
+    let tank = Wall::around("tank", [0.0; 2], [0.1; 2], 0.005, 3, [[true; 2]; 2]);
+    let material = catalogue::water_at(SoundSpeed::Physical);
+    let advice = Scene::<f64, 2>::new(schemes::weakly_compressible())
+        .body(Body::block("water", material, [0.0; 2], [0.1, 0.05], 0.005))
+        .wall(tank.motion(pushed))
+        .advise(0.01, &Known::default());
+    let number = "max(U/sqrt(g L), a/g)";
+    near(line(&advice, number), 300.0 / 9.81, 0.01, Need::Skip);
+}

@@ -1,7 +1,8 @@
 //! Fields sampled at points and on grids: what is exact, what is of second order, and what is refused.
 //! Scalars, vectors, tensors and matrices, the crate's own and an effect's.
 
-use meshfree::effect::{Effect, Setting, StepProgram};
+use meshfree::effect::{Effect, NeoHookean, Setting, StepProgram};
+use meshfree::material::eos::Linear;
 use meshfree::observe::SampleGrid;
 use meshfree::prelude::*;
 
@@ -144,4 +145,25 @@ fn what_cannot_be_sampled_is_refused_by_name() {
         at.contains("coordinate 1 of point 1") && at.contains("NaN"),
         "{at}"
     );
+}
+
+/// Behind a mirror both are mirrored, so an unmoved body is where it was built, far from zero as well.
+#[test]
+fn places_as_built_are_read_behind_mirrors_too() {
+    let soft = meshfree::material::Material::new("soft", Linear::new(1000.0, 50.0));
+    let soft = soft.with_shear_modulus(7e5);
+    let body = Body::<f64, 2>::block("block", soft, [1e3, 0.0], [1000.2, 0.2], SPACING);
+    let block = Scene::new(schemes::total_lagrangian().with(NeoHookean))
+        .body(body)
+        .boundary(MirrorPlane::symmetry([1e3, 0.0], [-1.0, 0.0]))
+        .build()
+        .expect("a block");
+    let points = [[1000.001, 0.1], [1000.013, 0.05], [1000.1, 0.1]];
+    let [built, now] = [Field::REFERENCE_POSITION, Field::POSITION]
+        .map(|field| block.sample(field, &points).expect("places"));
+    for point in 0..points.len() {
+        let [built, now] = [&built, &now].map(|own| own.at(point).expect("a place"));
+        let off = largest((0..2).map(|d| built[d] - now[d]));
+        assert!(off < 1e-9, "{built:?} {now:?}");
+    }
 }
