@@ -5,8 +5,6 @@ use super::{Motion, Pose, Wall};
 use crate::geometry::{MOST_PARTICLES, POSITIVE};
 use crate::origin::local;
 use crate::tensor::{Vector, length};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 /// An opening through which a body receives particles.
 ///
@@ -62,34 +60,30 @@ impl<const D: usize> Inlet<D> {
         self.velocity.map(|v| v / size)
     }
 
-    /// The buffer behind the opening, `layers` thick, and what hands its layers over in places that are counted from an
-    /// origin \[m\].
-    pub(crate) fn buffer(&self, layers: usize, origin: &[f64; D]) -> (Wall<D>, Emitter<D>) {
-        let direction = self.direction();
-        let behind = |x: &[f64; D], k: usize| {
-            let back = (k as f64 + 0.5) * self.spacing;
-            core::array::from_fn(|d| x[d] - back * direction[d])
-        };
-        let points = (0..layers)
-            .flat_map(|k| self.opening.iter().map(move |x| behind(x, k)))
-            .collect();
-        let handed_over = Arc::new(AtomicU64::new(0));
-        let emitter = Emitter {
-            front: (self.opening.iter())
-                .map(|x| local(&behind(x, 0), origin))
-                .collect(),
+    /// The buffer behind the opening, `layers` thick.
+    pub(crate) fn buffer(&self, layers: usize) -> Wall<D> {
+        let points = (0..layers).flat_map(|k| self.layer(k)).collect();
+        let inflow = Inflow::new(self.velocity, self.spacing, 0);
+        Wall::of(&format!("inlet of {}", self.body), points, self.spacing).motion(inflow)
+    }
+
+    /// A layer of the buffer as built.
+    fn layer(&self, k: usize) -> impl Iterator<Item = [f64; D]> {
+        let (direction, back) = (self.direction(), (k as f64 + 0.5) * self.spacing);
+        let behind = move |x: &[f64; D]| core::array::from_fn(|d| x[d] - back * direction[d]);
+        self.opening.iter().map(behind)
+    }
+
+    /// What hands layers of its buffer, a wall of a group, to a body there, in places that are counted from an origin \[m\].
+    pub(crate) fn emitter(&self, body: usize, wall: usize, origin: &[f64; D]) -> Emitter<D> {
+        Emitter {
+            body,
+            wall,
+            front: self.layer(0).map(|x| local(&x, origin)).collect(),
             velocity: self.velocity,
             spacing: self.spacing,
-            handed_over: Arc::clone(&handed_over),
-        };
-        let conveyor = Conveyor {
-            velocity: self.velocity,
-            step: direction.map(|n| n * self.spacing),
-            handed_over,
-        };
-        let name = format!("inlet of {}", self.body);
-        let wall = Wall::of(&name, points, self.spacing).motion(conveyor);
-        (wall, emitter)
+            layers: 0,
+        }
     }
 
     /// What is wrong with it, as `(what, value, what it must be)`.
@@ -117,22 +111,30 @@ impl<const D: usize> Inlet<D> {
 }
 
 /// Moves a buffer with the inflow, and back by one spacing for every layer handed over.
-struct Conveyor<const D: usize> {
+pub(crate) struct Inflow<const D: usize> {
     velocity: [f64; D],
-    step: [f64; D],
-    handed_over: Arc<AtomicU64>,
+    back: [f64; D],
 }
 
-impl<const D: usize> Motion<D> for Conveyor<D> {
+impl<const D: usize> Inflow<D> {
+    fn new(velocity: [f64; D], spacing: f64, layers: u64) -> Self {
+        let size = length(&Vector::from(velocity));
+        let step = velocity.map(|v| v / size * spacing);
+        Self {
+            velocity,
+            back: step.map(|step| layers as f64 * step),
+        }
+    }
+}
+
+impl<const D: usize> Motion<D> for Inflow<D> {
     fn name(&self) -> String {
         "inflow".into()
     }
     fn pose(&self, time: f64) -> Pose<D> {
-        let back = self.handed_over.load(Ordering::Relaxed) as f64;
-        let (v, step) = (self.velocity, self.step);
-        let shift = Vector::from_fn(|d, _| v[d] * time - back * step[d]);
+        let shift = Vector::from_fn(|d, _| self.velocity[d] * time - self.back[d]);
         Pose {
-            shift: [shift, Vector::from(v), Vector::zeros()],
+            shift: [shift, Vector::from(self.velocity), Vector::zeros()],
             ..Pose::rest()
         }
     }
@@ -141,33 +143,32 @@ impl<const D: usize> Motion<D> for Conveyor<D> {
 /// What hands over layers of a buffer.
 #[derive(Clone, Debug)]
 pub(crate) struct Emitter<const D: usize> {
+    /// The body that it feeds and the wall that the buffer is, of a group.
+    pub body: usize,
+    pub wall: usize,
+    /// How many layers it has handed over.
+    pub layers: u64,
     front: Vec<[f64; D]>,
     velocity: [f64; D],
     spacing: f64,
-    handed_over: Arc<AtomicU64>,
 }
 
 impl<const D: usize> Emitter<D> {
-    /// How many layers it has handed over.
-    pub fn handed_over(&self) -> u64 {
-        self.handed_over.load(Ordering::Relaxed)
-    }
-
-    /// Says how many layers it has handed over, which moves its buffer too.
-    pub fn set_handed_over(&self, layers: u64) {
-        self.handed_over.store(layers, Ordering::Relaxed);
+    /// How its buffer moves until the next layer is due.
+    pub fn inflow(&self) -> Inflow<D> {
+        Inflow::new(self.velocity, self.spacing, self.layers)
     }
 
     /// The layer that becomes liquid at `time` \[s\], with its velocity; `None` before it is due.
-    pub fn due(&self, time: f64) -> Option<(Vec<[f64; D]>, [f64; D])> {
+    pub fn due(&mut self, time: f64) -> Option<(Vec<[f64; D]>, [f64; D])> {
         let speed = length(&Vector::from(self.velocity));
-        let gone = speed * time - self.handed_over.load(Ordering::Relaxed) as f64 * self.spacing;
+        let gone = speed * time - self.layers as f64 * self.spacing;
         if gone < self.spacing {
             return None;
         }
         let by = gone / speed;
         let moved = |x: &[f64; D]| core::array::from_fn(|d| x[d] + by * self.velocity[d]);
-        self.handed_over.fetch_add(1, Ordering::Relaxed);
+        self.layers += 1;
         Some((self.front.iter().map(moved).collect(), self.velocity))
     }
 }

@@ -317,17 +317,20 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
     }
 
     /// Puts a buffer behind every inlet, before the structures, and returns what hands its layers over.
-    fn place_inlets(&mut self, origin: &[f64; D]) -> Vec<(usize, Emitter<D>)> {
+    fn place_inlets(&mut self, origin: &[f64; D]) -> Vec<Emitter<D>> {
         let reach = self.scheme.kernel.support * self.scheme.h_over_dx;
-        let (mut buffers, mut emitters) = (Vec::new(), Vec::new());
-        for (k, inlet) in self.inlets() {
-            let (wall, emitter) = inlet.buffer(reach.ceil() as usize + 1, origin);
-            buffers.push((wall, Origin::Wall(self.scene.walls.len() + k)));
-            let fed = self.bodies.iter().position(|body| body.name == inlet.body);
-            emitters.extend(fed.map(|body| (body, emitter)));
-        }
         let is_wall = |(_, origin): &(Wall<D>, Origin)| matches!(origin, Origin::Wall(_));
         let structures = self.walls.partition_point(is_wall);
+        let (mut buffers, mut emitters) = (Vec::new(), Vec::new());
+        for (k, inlet) in self.inlets() {
+            let at = structures + buffers.len();
+            buffers.push((
+                inlet.buffer(reach.ceil() as usize + 1),
+                Origin::Wall(self.scene.walls.len() + k),
+            ));
+            let fed = self.bodies.iter().position(|body| body.name == inlet.body);
+            emitters.extend(fed.map(|body| inlet.emitter(body, at, origin)));
+        }
         self.walls.splice(structures..structures, buffers);
         emitters
     }

@@ -12,32 +12,32 @@ use crate::term::Stage;
 
 impl<T: Real, const D: usize> System for Simulation<T, D> {
     fn evaluate(&mut self, offset: f64) -> Result<()> {
-        let time = self.time + offset;
-        self.evaluated = time;
+        let time = self.state.time + offset;
+        self.state.evaluated = time;
         self.load_groups(time)?;
-        for group in &mut self.groups {
+        for group in &mut self.state.groups {
             group.work.evaluated_gravity = group.gravity.map(T::from_f64);
         }
         self.place_structures(time, true);
-        self.impulses.time = time;
+        self.state.impulses.time = time;
         // What follows the flow once a step does so at the first evaluation.
-        let elapsed = core::mem::take(&mut self.due);
-        for k in 0..self.groups.len() {
+        let elapsed = core::mem::take(&mut self.state.due);
+        for k in 0..self.state.groups.len() {
             // A group that sub-cycles comes with rates of its own.
-            if self.groups[k].sub_cycle.is_none() || !self.rates_at_hand {
-                self.groups[k].evaluate(time, elapsed);
+            if self.state.groups[k].sub_cycle.is_none() || !self.state.rates_at_hand {
+                self.state.groups[k].evaluate(time, elapsed);
                 self.follow_moves(k);
                 self.apply_loads(k, time)?;
-                if self.groups[k].sub_cycle.is_some() {
-                    self.groups[k].hold(time, false);
+                if self.state.groups[k].sub_cycle.is_some() {
+                    self.state.groups[k].hold(time, false);
                 }
             }
         }
         self.couple();
         self.check_couples(time)?;
         self.hold(time);
-        self.evaluations += 1;
-        self.rates_at_hand = true;
+        self.state.evaluations += 1;
+        self.state.rates_at_hand = true;
         Ok(())
     }
 
@@ -46,8 +46,8 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
             group.heat_in_kick(dt);
         }
         self.record_kick(None, dt);
-        let time = self.time;
-        for group in &mut self.groups {
+        let time = self.state.time;
+        for group in &mut self.state.groups {
             if let Some(apart) = &mut group.sub_cycle {
                 apart.kick(&mut group.particles, dt);
             } else {
@@ -57,8 +57,8 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
     }
 
     fn drift(&mut self, dt: f64, offset: f64) -> Result<()> {
-        let (begin, half) = (self.time + offset, 0.5 * dt);
-        self.impulses.time = begin + dt;
+        let (begin, half) = (self.state.time + offset, 0.5 * dt);
+        self.state.impulses.time = begin + dt;
         self.begin_drift_of_structures();
         self.spread_impulses(dt);
         self.sub_cycle(begin, half)?;
@@ -79,8 +79,8 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
         self.sub_cycle(begin + half, half)?;
         self.end_spreading();
         self.end_drift_of_structures(dt);
-        for k in 0..self.groups.len() {
-            if self.groups[k].sub_cycle.is_none() {
+        for k in 0..self.state.groups.len() {
+            if self.state.groups[k].sub_cycle.is_none() {
                 self.end_drift(k, begin, dt);
             }
         }
@@ -92,7 +92,7 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
             group.move_particles(dv);
             group.move_by_rates(da);
         }
-        self.impulses.time += dv;
+        self.state.impulses.time += dv;
     }
 
     fn predict(&mut self, dt: f64) {
@@ -108,46 +108,48 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
     }
 
     fn save(&mut self, slot: usize) {
-        for group in &mut self.groups {
+        for group in &mut self.state.groups {
             group.save(slot);
         }
-        if self.kept_impulses.len() <= slot {
-            self.kept_impulses.resize_with(slot + 1, Default::default);
+        if self.state.kept_impulses.len() <= slot {
+            self.state
+                .kept_impulses
+                .resize_with(slot + 1, Default::default);
         }
-        self.kept_impulses[slot].clone_from(&self.impulses);
+        self.state.kept_impulses[slot].clone_from(&self.state.impulses);
     }
 
     fn load(&mut self, slot: usize) {
-        for group in &mut self.groups {
+        for group in &mut self.state.groups {
             group.load(slot);
         }
-        if let Some(kept) = self.kept_impulses.get(slot) {
-            self.impulses.clone_from(kept);
+        if let Some(kept) = self.state.kept_impulses.get(slot) {
+            self.state.impulses.clone_from(kept);
         }
     }
 
     fn combine(&mut self, slot: usize, a: f64, b: f64, dt: f64) {
         let rates = self.impulse_rates();
-        for group in &mut self.groups {
+        for group in &mut self.state.groups {
             group.combine(slot, a, b, dt);
         }
-        if let Some(kept) = self.kept_impulses.get(slot) {
-            self.impulses = kept.combine(a, &self.impulses, b, &rates, dt);
+        if let Some(kept) = self.state.kept_impulses.get(slot) {
+            self.state.impulses = kept.combine(a, &self.state.impulses, b, &rates, dt);
         }
     }
 
     fn accumulate(&mut self, slot: usize, dt: f64) {
         let rates = self.impulse_rates();
-        for group in &mut self.groups {
+        for group in &mut self.state.groups {
             group.accumulate(slot, dt);
         }
-        if let Some(kept) = self.kept_impulses.get_mut(slot) {
+        if let Some(kept) = self.state.kept_impulses.get_mut(slot) {
             *kept = kept.combine(1.0, &rates, dt, &rates, 0.0);
         }
     }
 
     fn has_rates(&self) -> bool {
-        self.rates_at_hand
+        self.state.rates_at_hand
     }
 }
 
@@ -163,17 +165,17 @@ pub(crate) fn is_square_finite<T: Real>(value: f64) -> bool {
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// Groups that do not sub-cycle.
     fn together(&mut self) -> impl Iterator<Item = &mut Group<T, D>> {
-        let groups = self.groups.iter_mut();
+        let groups = self.state.groups.iter_mut();
         groups.filter(|group| group.sub_cycle.is_none())
     }
 
     /// The middle and the second half of a drift of a group that something looks at on its way.
     pub(super) fn end_drift(&mut self, group: usize, begin: f64, dt: f64) {
         let middle = begin + 0.5 * dt;
-        if self.groups[group].scheme.sums_in_drift() {
-            self.groups[group].refresh(middle, Some([begin, begin + dt]));
+        if self.state.groups[group].scheme.sums_in_drift() {
+            self.state.groups[group].refresh(middle, Some([begin, begin + dt]));
             self.follow_moves(group);
-            let group = &mut self.groups[group];
+            let group = &mut self.state.groups[group];
             group.sum_stage(Stage::Continuity);
             group.advance(When::Drift, dt);
             let moment = Moment {
@@ -185,7 +187,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             group.apply_laws(Stage::Bounds, moment);
             group.held.keep_asleep(&mut group.particles, true);
         }
-        let group = &mut self.groups[group];
+        let group = &mut self.state.groups[group];
         if !group.drifts_at_once() {
             group.move_particles(0.5 * dt);
         }
@@ -193,20 +195,20 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Tells the kept states of a group what list builds did to its particles, and the ledger what boundaries gave.
     pub(super) fn follow_moves(&mut self, number: usize) {
-        let kept = &self.kept_impulses;
+        let kept = &self.state.kept_impulses;
         let time_of = |slot: usize| kept.get(slot).map_or(0.0, |kept| kept.time);
-        let group = &mut self.groups[number];
+        let group = &mut self.state.groups[number];
         let given = group.work.follow(&mut group.particles.moved, time_of);
         let first_boundary = group.particles.bodies.len() + group.walls.len();
         for (kept, [body, boundary], impulse) in given {
-            let group = &self.groups[number];
+            let group = &self.state.groups[number];
             let on = group.indices[body];
             let from = group.indices[first_boundary + boundary];
             for (d, value) in impulse.into_iter().enumerate() {
                 let index = self.impulse_index(on, from, d);
                 match kept {
-                    None => self.impulses.add(index, value),
-                    Some(slot) => self.kept_impulses[slot].add(index, value),
+                    None => self.state.impulses.add(index, value),
+                    Some(slot) => self.state.kept_impulses[slot].add(index, value),
                 }
             }
         }
@@ -214,12 +216,15 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Refuses forces of couplings that are no numbers.
     fn check_couples(&self, time: f64) -> Result<()> {
-        for own in &self.couples {
+        for own in &self.state.couples {
             let forces = own.acting.forces.iter().flatten();
             let numbers = forces.flat_map(|(_, force)| force.iter().map(|f| f.to_f64()));
             let more = [own.acting.stored, own.acting.heat];
             if let Some(value) = numbers.chain(more).find(|x| !x.is_finite()) {
-                let [first, second] = own.sides.each_ref().map(|side| side.name(&self.groups));
+                let [first, second] = own
+                    .sides
+                    .each_ref()
+                    .map(|side| side.name(&self.state.groups));
                 return Err(Error::Function {
                     what: format!(
                         "coupling {} of `{first}` and `{second}`",
@@ -245,7 +250,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 must_be: ACCELERATION,
             });
         }
-        for group in &mut self.groups {
+        for group in &mut self.state.groups {
             group.gravity = gravity;
         }
         Ok(())

@@ -75,7 +75,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             impulse: vec![0.0; D],
             ..Sleepers::default()
         };
-        let groups = self.groups.iter();
+        let groups = self.state.groups.iter();
         for own in groups.filter_map(|group| group.held.asleep.as_ref()) {
             all.particles += own.particles.len();
             all.fallen += own.fallen;
@@ -90,7 +90,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Energy \[J\] that sleepers have been given since the start.
     pub(super) fn given_to_sleepers(&self) -> f64 {
-        let groups = self.groups.iter();
+        let groups = self.state.groups.iter();
         let own = groups.filter_map(|group| group.held.asleep.as_ref());
         own.map(|own| own.energy).sum()
     }
@@ -98,7 +98,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// The same, awake in a box alone.
     pub(crate) fn awake_inside(mut self, awake: Option<Awake<T, D>>) -> Self {
         if awake.is_some() {
-            for group in &mut self.groups {
+            for group in &mut self.state.groups {
                 group.held.asleep = Some(Asleep::default());
             }
         }
@@ -119,11 +119,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 what: "box in which the scene is awake (Scene::awake_inside), along an axis,"
                     .into(),
                 value,
-                time: self.time,
+                time: self.state.time,
                 must_be: "it must not be negative: the low corner comes first, in metres",
             });
         }
-        for group in &mut self.groups {
+        for group in &mut self.state.groups {
             let (held, particles) = (&mut group.held, &mut group.particles);
             let bounds = bounds.map(|corner| local(&corner, &particles.origin));
             let now = held.outside(particles, &bounds);

@@ -120,7 +120,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub fn contacts(&self) -> Vec<Contact> {
         let contact = |own: &Couple<T, D>| Contact {
             name: own.coupling.name(),
-            bodies: (own.sides.each_ref()).map(|side| side.name(&self.groups).to_owned()),
+            bodies: (own.sides.each_ref()).map(|side| side.name(&self.state.groups).to_owned()),
             pairs: own.acting.pairs,
             force: own.acting.force.to_vec(),
             stored: own.acting.stored,
@@ -129,7 +129,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             penetration: own.acting.penetration[0],
             largest_penetration: own.acting.penetration[1],
         };
-        self.couples.iter().map(contact).collect()
+        self.state.couples.iter().map(contact).collect()
     }
 
     /// The largest penetration since the start, in mean spacings, of all couplings with a name.
@@ -137,10 +137,15 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// # Errors
     /// If no coupling by forces has that name; the error lists those that there are.
     pub fn largest_penetration(&self, coupling: &str) -> Result<f64> {
-        let own = (self.couples.iter()).filter(|own| own.coupling.name() == coupling);
+        let own = (self.state.couples.iter()).filter(|own| own.coupling.name() == coupling);
         let own = own.map(|own| own.acting.penetration[1]).reduce(f64::max);
         own.ok_or_else(|| {
-            let known: Vec<_> = self.couples.iter().map(|own| own.coupling.name()).collect();
+            let known: Vec<_> = self
+                .state
+                .couples
+                .iter()
+                .map(|own| own.coupling.name())
+                .collect();
             Error::Argument(Problem::UnknownName {
                 kind: "coupling by forces",
                 name: coupling.into(),
@@ -151,16 +156,20 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Gives bodies the forces of couplings between pairs, with the rates at hand.
     pub(super) fn act_in_pairs(&mut self) {
-        for couple in &mut self.couples {
-            couple.act(&mut self.groups, self.control.approach, self.evaluated);
+        for couple in &mut self.state.couples {
+            couple.act(
+                &mut self.state.groups,
+                self.control.approach,
+                self.state.evaluated,
+            );
         }
     }
 
     /// Books what couplings by forces work in a kick over `dt` \[s\].
     pub(super) fn record_couples(&mut self, dt: f64) {
-        for couple in &mut self.couples {
+        for couple in &mut self.state.couples {
             for side in 0..2 {
-                couple.work[side] += couple.work_in_kick(side, &self.groups, dt);
+                couple.work[side] += couple.work_in_kick(side, &self.state.groups, dt);
             }
         }
     }

@@ -147,7 +147,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// [`Error::SoundSpeedTooLow`] where a liquid meets faster than its sound.
     pub fn vote(&self) -> Result<Vote> {
         let vote = self.vote_with(self.control.courant)?;
-        let most = self.step_before.map(|step| self.control.growth * step);
+        let most = self
+            .state
+            .step_before
+            .map(|step| self.control.growth * step);
         Ok(match most.filter(|most| *most < vote.step) {
             Some(step) => Vote {
                 step,
@@ -160,11 +163,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// The step, or a shorter one that ends where the scene asks for an end: of two equal ones if that is farther than one.
     pub(super) fn ending_with_scene(&self, vote: Vote) -> Vote {
-        let later = |end: &&f64| **end - self.time > rounding(**end);
+        let later = |end: &&f64| **end - self.state.time > rounding(**end);
         let Some(end) = self.step_ends.iter().find(later) else {
             return vote;
         };
-        let left = end - self.time;
+        let left = end - self.state.time;
         // What is left after the first of two is one step to rounding, and is not halved again.
         let step = if left > vote.step * (1.0 + 1e-6) {
             0.5 * left
@@ -184,21 +187,21 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// What a fixed step is held against: the factor of the scheme, or a larger one that was asked for. A smaller
     /// one makes no step unstable.
     pub(crate) fn largest_fixed_step(&self) -> Result<Vote> {
-        let own = self.groups[0].scheme.step_factor;
+        let own = self.state.groups[0].scheme.step_factor;
         self.vote_with(self.control.courant.max(own))
     }
 
     fn vote_with(&self, courant: f64) -> Result<Vote> {
         let mut all: Option<Vote> = None;
-        for group in 0..self.groups.len() {
+        for group in 0..self.state.groups.len() {
             let vote = self.vote_of(group, courant)?;
-            let step = vote.step * self.groups[group].steps_at_most();
+            let step = vote.step * self.state.groups[group].steps_at_most();
             if all.is_none_or(|all| step < all.step) {
                 all = Some(Vote { step, ..vote });
             }
         }
         let mut all = all.unwrap_or(NO_VOTE);
-        for (k, group) in self.groups.iter().enumerate() {
+        for (k, group) in self.state.groups.iter().enumerate() {
             let most = group.steps_at_most();
             let limit = Vote {
                 step: all.step / most,
@@ -212,10 +215,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 };
             }
         }
-        for couple in &self.couples {
+        for couple in &self.state.couples {
             if couple.acting.step < all.step {
                 let (group, body) = couple.sides[0].body().unwrap_or_default();
-                let group = &self.groups[group];
+                let group = &self.state.groups[group];
                 all = Vote {
                     step: couple.acting.step,
                     criterion: Criterion::Effect(couple.coupling.name()),
@@ -229,12 +232,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// The vote of a group, but for pairs that approach each other.
     pub(super) fn vote_of(&self, group: usize, courant: f64) -> Result<Vote> {
         // What a user asks of the first scheme may be more than another bears.
-        let own = if group == 0 && self.groups[0].exchanges.is_empty() {
+        let own = if group == 0 && self.state.groups[0].exchanges.is_empty() {
             f64::INFINITY
         } else {
-            self.groups[group].scheme.step_factor
+            self.state.groups[group].scheme.step_factor
         };
-        let group = &self.groups[group];
+        let group = &self.state.groups[group];
         let control = StepControl {
             courant: courant.min(own) * self.integrator.stability(),
             ..self.control
@@ -253,7 +256,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// `limit`, or a shorter step that pairs of a group ask for which approach each other.
     pub(super) fn approach_of(&self, group: usize, limit: Vote) -> Result<Vote> {
-        let group = &self.groups[group];
+        let group = &self.state.groups[group];
         let approach = approach(
             &group.particles,
             &group.neighborhood,
@@ -269,7 +272,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 speed: meeting.speed,
                 sound_speed: meeting.speed / meeting.mach,
                 position: group.particles.position(meeting.slot).to_vec(),
-                time: self.time,
+                time: self.state.time,
             });
         }
         if approach.vote.step >= limit.step {
@@ -347,8 +350,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             body: body.name.clone(),
             particle: (group.particles.ids[slot] as usize).saturating_sub(body.ids.start),
             position: group.particles.position(slot).to_vec(),
-            time: self.time,
-            step: self.steps,
+            time: self.state.time,
+            step: self.state.steps,
         }
     }
 }

@@ -105,7 +105,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             }
         };
         let mut bytes = Vec::new();
-        for group in &self.groups {
+        for group in &self.state.groups {
             let (spent, scheme) = (&group.work.spent, &group.scheme);
             for stage in Stage::ALL {
                 if let Some(sweep) = scheme.sweep(stage) {
@@ -160,7 +160,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         Cost {
             lines,
             bytes,
-            steps: self.votes().to_vec(),
+            steps: self.after_step().votes.clone(),
         }
     }
 }

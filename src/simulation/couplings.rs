@@ -39,10 +39,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// What its groups do to each other: every coupling that acts, with its equation and source, once.
     #[must_use]
     pub fn couplings(&self) -> Vec<TermDoc> {
-        let walls = self.groups.iter().flat_map(|group| &group.walls);
+        let walls = self.state.groups.iter().flat_map(|group| &group.walls);
         let walls = walls.filter_map(|wall| Some(&wall.structure.as_ref()?.coupling));
         let mut all: Vec<TermDoc> = Vec::new();
-        for coupling in walls.chain(self.couples.iter().map(|couple| &couple.coupling)) {
+        for coupling in walls.chain(self.state.couples.iter().map(|couple| &couple.coupling)) {
             let own = coupling.document();
             if !all.contains(&own) {
                 all.push(own);
@@ -78,7 +78,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Gives bodies of other groups the forces of couplings, with the rates at hand.
     pub(super) fn couple(&mut self) {
-        for group in &mut self.groups {
+        for group in &mut self.state.groups {
             if let Some(apart) = &mut group.sub_cycle {
                 apart.forces.clear();
                 apart.forces.resize(group.particles.mobile, [T::zero(); D]);
@@ -102,13 +102,13 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         &mut self,
         mut act: impl FnMut(&mut Group<T, D>, usize, &mut Group<T, D>),
     ) {
-        for k in 0..self.groups.len() {
-            for wall in 0..self.groups[k].walls.len() {
-                let Some(structure) = &self.groups[k].walls[wall].structure else {
+        for k in 0..self.state.groups.len() {
+            for wall in 0..self.state.groups[k].walls.len() {
+                let Some(structure) = &self.state.groups[k].walls[wall].structure else {
                     continue;
                 };
                 let of = structure.group;
-                if let Ok([liquid, group]) = self.groups.get_disjoint_mut([k, of]) {
+                if let Ok([liquid, group]) = self.state.groups.get_disjoint_mut([k, of]) {
                     act(liquid, wall, group);
                 }
             }
@@ -122,7 +122,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         alone: Option<usize>,
     ) -> impl Iterator<Item = (usize, usize, [f64; D])> {
         let own = self.stepping(alone).flat_map(Group::reactions);
-        let couples = self.couples.iter().filter(move |_| alone.is_none());
+        let couples = self.state.couples.iter().filter(move |_| alone.is_none());
         let first_boundary = self.body_count() + self.wall_count();
         own.chain(couples.flat_map(move |couple| {
             let [first, second] = couple.indices;
@@ -145,7 +145,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             Some(alone) => *k == alone,
             None => group.sub_cycle.is_none(),
         };
-        let groups = self.groups.iter().enumerate().filter(steps);
+        let groups = self.state.groups.iter().enumerate().filter(steps);
         groups.map(|(_, group)| group)
     }
 

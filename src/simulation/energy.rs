@@ -43,9 +43,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// every kick, and with walls that turn or deform a sweep over them.
     pub fn keep_energy(&mut self) {
         self.on_both(&|own| {
-            own.stores.forget(own.groups.len());
+            own.state.stores.forget(own.state.groups.len());
             let (kinetic, compression) = own.stored();
-            own.work = Some(Work {
+            own.state.work = Some(Work {
                 start: kinetic + compression,
                 asleep: own.given_to_sleepers(),
                 ..Work::default()
@@ -56,7 +56,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// The energy ledger, or `None` if it was not [kept](Simulation::keep_energy).
     #[must_use]
     pub fn energy(&self) -> Option<EnergyLedger> {
-        let work = self.work?;
+        let work = self.state.work?;
         let (kinetic, compression) = self.stored();
         let left = self.removed().kinetic;
         let asleep = work.asleep - self.given_to_sleepers();
@@ -92,7 +92,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Adds the work of a kick over `dt` \[s\], with the velocities at its middle: of a group that sub-cycles alone, or of
     /// all others together.
     pub(super) fn record_work(&mut self, alone: Option<usize>, dt: f64) {
-        if self.work.is_none() {
+        if self.state.work.is_none() {
             return;
         }
         let (mut mass, mut momentum) = (0.0, [0.0; D]);
@@ -130,17 +130,18 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             }
         }
         let first = self
+            .state
             .groups
             .iter()
             .position(|group| group.sub_cycle.is_none());
-        let gravity = self.groups[alone.or(first).unwrap_or(0)].gravity;
+        let gravity = self.state.groups[alone.or(first).unwrap_or(0)].gravity;
         for d in 0..D {
             momentum[d] += 0.5 * dt * mass * gravity[d];
             load += dt * gravity[d] * momentum[d];
         }
         // Walls move liquids, which do not sub-cycle.
         let wall = alone.map_or_else(|| dt * self.wall_power(), |_| 0.0);
-        if let Some(work) = &mut self.work {
+        if let Some(work) = &mut self.state.work {
             work.load += load;
             work.wall += wall;
         }
@@ -160,7 +161,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 forces.flat_map(|(_, force)| (0..D).map(|d| -force[d].to_f64() * wall.sliding[d]));
             power.sum()
         };
-        self.couples.iter().map(of).sum()
+        self.state.couples.iter().map(of).sum()
     }
 
     /// Power \[W\] of the walls on the bodies with the forces at hand.
@@ -173,7 +174,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             return self.contact_power(false);
         }
         // Kicks begin and end a step; the pose of the last evaluation is that of the forces.
-        let time = self.evaluated;
+        let time = self.state.evaluated;
         let rigid = moving().all(|(_, motion)| {
             let turning = motion.pose(time).linear[1];
             (0..D).all(|d| length(&turning.column(d).into_owned()) == 0.0)
@@ -187,7 +188,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             return carried.sum::<f64>() + self.contact_power(false);
         }
         let mut power = self.contact_power(true);
-        for group in &self.groups {
+        for group in &self.state.groups {
             for (wall, forces) in group.walls.iter().zip(group.forces_on_walls()) {
                 let Some(pose) = wall.motion.as_ref().map(|motion| motion.pose(time)) else {
                     continue;

@@ -40,14 +40,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// # Errors
     /// If the scene has no such event; the error lists those that there are.
     pub fn event(&self, name: &str) -> Result<Option<f64>> {
-        let all = self.happened.iter();
+        let all = self.state.happened.iter();
         let all = all.map(|(name, at)| (std::borrow::Cow::Borrowed(name.as_str()), *at));
         Ok(find(&name, "event", all)?.1)
     }
 
     /// The same with these events, none of which has happened.
     pub(crate) fn with_events(mut self, events: Vec<Event<T, D>>) -> Self {
-        self.happened = events.iter().map(|own| (own.name.clone(), None)).collect();
+        self.state.happened = events.iter().map(|own| (own.name.clone(), None)).collect();
         self.events = events;
         self
     }
@@ -55,10 +55,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Looks at the conditions of what has not happened, after a step.
     pub(super) fn watch_events(&mut self) -> Result<()> {
         for k in 0..self.events.len() {
-            if self.happened[k].1.is_none() {
+            if self.state.happened[k].1.is_none() {
                 let condition = self.events[k].condition.clone();
                 if condition(self) {
-                    self.happened[k].1 = Some(self.time);
+                    self.state.happened[k].1 = Some(self.state.time);
                 }
             }
         }
@@ -68,8 +68,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Lets go of what is held until something that has happened.
     pub(super) fn release_clamps(&mut self) {
-        let happened = &self.happened;
-        for group in &mut self.groups {
+        let happened = &self.state.happened;
+        for group in &mut self.state.groups {
             for own in &mut group.held.clamps {
                 own.released = own.until.is_some_and(|event| happened[event].1.is_some());
             }

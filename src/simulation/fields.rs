@@ -89,7 +89,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Every field that particles carry, group by group, with its name under the scheme of the group.
     fn carried(&self) -> impl Iterator<Item = (&Group<T, D>, Field, &'static str)> {
-        self.groups.iter().flat_map(|group| {
+        self.state.groups.iter().flat_map(|group| {
             let columns = &group.particles.columns;
             let fields = columns.fields().iter();
             let there = fields.filter(|&field| !columns.raw(field).is_empty());
@@ -155,12 +155,17 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         field: Field,
         value: impl Fn([f64; D], [f64; N]) -> [f64; N],
     ) -> Result<()> {
-        let all = self.groups.iter().enumerate().flat_map(|(group, own)| {
-            let bodies = own.particles.bodies.iter().enumerate();
-            bodies.map(move |(own, body)| (&body.name, (group, own)))
-        });
+        let all = self
+            .state
+            .groups
+            .iter()
+            .enumerate()
+            .flat_map(|(group, own)| {
+                let bodies = own.particles.bodies.iter().enumerate();
+                bodies.map(move |(own, body)| (&body.name, (group, own)))
+            });
         let (_, (group, own)) = find(&body, "body", all)?;
-        let group = &mut self.groups[group];
+        let group = &mut self.state.groups[group];
         let program = &group.scheme.program;
         if let Some(problem) = program.cannot_set(field, N) {
             return Err(Error::Argument(problem));

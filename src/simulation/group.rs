@@ -29,8 +29,7 @@ pub(crate) struct Group<T: Real, const D: usize> {
     pub walls: Vec<WallState<T, D>>,
     pub boundaries: Vec<Arc<dyn Boundary<D>>>,
     pub outlets: Vec<Outlet<D>>,
-    /// Inlets, each with the body that it feeds.
-    pub emitters: Vec<(usize, Emitter<D>)>,
+    pub emitters: Vec<Emitter<D>>,
     /// What the loads give \[m/s²\].
     pub gravity: [f64; D],
     /// The same in the frame of the wall that carries the liquid.
@@ -251,12 +250,15 @@ impl<T: Real, const D: usize> Group<T, D> {
     /// If a body's reserve is used up.
     pub fn emit(&mut self, time: f64) -> Result<bool> {
         let mut any = false;
-        for (body, emitter) in &self.emitters {
+        for emitter in &mut self.emitters {
             while let Some((layer, velocity)) = emitter.due(time) {
                 any = true;
                 for x in layer {
-                    self.particles.insert(&self.scheme, *body, x, velocity)?;
+                    self.particles
+                        .insert(&self.scheme, emitter.body, x, velocity)?;
                 }
+                let buffer = &mut self.walls[emitter.wall];
+                buffer.set_motion(emitter.inflow(), &self.particles.origin);
             }
         }
         if any {

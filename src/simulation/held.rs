@@ -413,7 +413,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 work: own.work,
             }
         };
-        let groups = self.groups.iter();
+        let groups = self.state.groups.iter();
         groups
             .flat_map(|group| group.held.clamps.iter().map(move |own| of(group, own)))
             .collect()
@@ -422,7 +422,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Replaces forces on what is held at `time` \[s\], after all of them are summed; of groups that sub-cycle those of
     /// couplings alone.
     pub(super) fn hold(&mut self, time: f64) {
-        for group in &mut self.groups {
+        for group in &mut self.state.groups {
             group.hold(time, group.sub_cycle.is_some());
         }
     }
@@ -430,7 +430,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Books what clamps give in a kick over `dt` \[s\]: of a group that sub-cycles alone, or of all others and of
     /// couplings on those that do.
     pub(super) fn record_clamps(&mut self, alone: Option<usize>, dt: f64) {
-        for (k, group) in self.groups.iter_mut().enumerate() {
+        for (k, group) in self.state.groups.iter_mut().enumerate() {
             if alone.is_none_or(|alone| alone == k) {
                 let coupled = alone.is_none() && group.sub_cycle.is_some();
                 (group.held).record(&group.particles, &group.work, coupled, dt);
@@ -440,8 +440,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Gives clamped particles and rigid bodies velocities that they can have.
     pub(crate) fn hold_velocities(&mut self) {
-        let time = self.time;
-        for group in &mut self.groups {
+        let time = self.state.time;
+        for group in &mut self.state.groups {
             group.held.hold_velocities(&mut group.particles, time);
         }
     }

@@ -112,7 +112,7 @@ impl Impulses {
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// Bodies, walls and boundaries.
     fn blocks(&self) -> usize {
-        self.body_count() + self.wall_count() + self.groups[0].boundaries.len()
+        self.body_count() + self.wall_count() + self.state.groups[0].boundaries.len()
     }
 
     pub(super) fn impulse_index(&self, on: usize, from: usize, d: usize) -> usize {
@@ -131,13 +131,13 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     fn record_impulses(&mut self, alone: Option<usize>, dt: f64) {
         let blocks = self.blocks();
-        let mut impulses = core::mem::take(&mut self.impulses);
+        let mut impulses = core::mem::take(&mut self.state.impulses);
         for (on, from, force) in self.reactions(alone) {
             for (d, force) in force.iter().enumerate() {
                 impulses.add((on * blocks + from) * D + d, dt * force);
             }
         }
-        self.impulses = impulses;
+        self.state.impulses = impulses;
     }
 
     pub(super) fn impulse_rates(&self) -> Impulses {
@@ -219,7 +219,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             unit: "J",
             value,
         };
-        for couple in &self.couples {
+        for couple in &self.state.couples {
             for (side, (index, work)) in
                 (couple.sides.iter()).zip(couple.indices.into_iter().zip(couple.work))
             {
@@ -227,7 +227,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                     continue;
                 };
                 // A group that sub-cycles has the work of all of its couplings.
-                if self.groups[group].sub_cycle.is_none() {
+                if self.state.groups[group].sub_cycle.is_none() {
                     let total = of_couplings("work of couplings", work);
                     bodies[index].1.add_total(&total);
                 }
@@ -248,7 +248,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 whole.momentum[d] += budget.momentum[d];
             }
         }
-        for couple in &self.couples {
+        for couple in &self.state.couples {
             whole.add_total(&of_couplings("energy of couplings", couple.acting.stored));
             whole.add_total(&of_couplings("heat of couplings", couple.acting.heat));
         }
@@ -258,12 +258,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             .map(|d| {
                 (0..count)
                     .flat_map(|on| boundaries.clone().map(move |from| (on, from)))
-                    .map(|(on, from)| self.impulses.get(self.impulse_index(on, from, d)))
+                    .map(|(on, from)| self.state.impulses.get(self.impulse_index(on, from, d)))
                     .sum()
             })
             .collect();
         Ledger {
-            time: self.time,
+            time: self.state.time,
             bodies,
             whole,
             boundary_impulse,
@@ -279,7 +279,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let bodies = self.body_count();
         Ok(core::array::from_fn(|d| {
             (0..bodies)
-                .map(|on| -self.impulses.get(self.impulse_index(on, bodies + wall, d)))
+                .map(|on| {
+                    -self
+                        .state
+                        .impulses
+                        .get(self.impulse_index(on, bodies + wall, d))
+                })
                 .sum()
         }))
     }
@@ -335,7 +340,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// not feel each other.
     pub fn force_between(&self, on: impl Which, from: impl Which) -> Result<[f64; D]> {
         let named = self.bodies().chain(self.walls()).map(Cow::Borrowed);
-        let boundaries = self.groups[0].boundaries.iter();
+        let boundaries = self.state.groups[0].boundaries.iter();
         let boundaries = boundaries.map(|boundary| Cow::Owned(boundary.name()));
         let blocks = || {
             named
@@ -358,7 +363,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Whether a body feels another body, a wall or a boundary at the last evaluation.
     pub(super) fn feels_another(&self, on: usize) -> bool {
-        let apart = (0..self.groups.len()).filter(|&k| self.groups[k].sub_cycle.is_some());
+        let apart =
+            (0..self.state.groups.len()).filter(|&k| self.state.groups[k].sub_cycle.is_some());
         let alone = apart.flat_map(|group| self.reactions(Some(group)));
         let mut all = self.reactions(None).chain(alone);
         all.any(|(felt, exerted, by)| felt == on && exerted != on && by.iter().any(|f| *f != 0.0))
@@ -367,7 +373,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// The force \[N\] of a block on another, by scene indices.
     fn force_of_block(&self, on: usize, from: usize) -> [f64; D] {
         let mut force = [0.0; D];
-        let apart = (0..self.groups.len()).filter(|&k| self.groups[k].sub_cycle.is_some());
+        let apart =
+            (0..self.state.groups.len()).filter(|&k| self.state.groups[k].sub_cycle.is_some());
         let alone = apart.flat_map(|group| self.reactions(Some(group)));
         for (felt, exerted, by) in self.reactions(None).chain(alone) {
             if (felt, exerted) == (on, from) {

@@ -25,13 +25,13 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Adds what loads give a group at `time` \[s\] to the rates of an evaluation.
     pub(super) fn apply_loads(&mut self, group: usize, time: f64) -> Result<()> {
         let built = self.built.get(group).map_or(&[][..], Vec::as_slice);
-        let group = &mut self.groups[group];
+        let group = &mut self.state.groups[group];
         let particles = &mut group.particles;
         let Some(Wrong { load, value, slot }) = apply_loads(
             particles,
             &mut group.work.rates,
             &self.loads,
-            (time, &self.happened, built),
+            (time, &self.state.happened, built),
         ) else {
             return Ok(());
         };

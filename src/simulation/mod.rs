@@ -154,7 +154,6 @@ mod group;
 mod held;
 mod images;
 mod indicators;
-mod kept;
 mod ledger;
 mod limits;
 mod load;
@@ -169,6 +168,7 @@ mod population;
 mod query;
 mod reference;
 mod run;
+mod run_state;
 mod settle;
 mod side;
 mod snapshot;
@@ -208,7 +208,7 @@ pub(crate) use advance::{ACCELERATION, is_square_finite};
 pub(crate) use asleep::Awake;
 pub(crate) use contact::{Acting, Couple};
 pub(crate) use couplings::Structure;
-pub(crate) use event::{Event, Happened};
+pub(crate) use event::Event;
 pub(crate) use exchange::Exchange;
 pub(crate) use group::{Group, width};
 pub(crate) use held::{Clamp, Rigid};
@@ -228,8 +228,7 @@ use crate::output::checkpoint::Hashes;
 use crate::scalar::Real;
 #[cfg(feature = "checkpoint")]
 use crate::scene::Described;
-use kept::Kept;
-use ledger::Impulses;
+use run_state::State;
 use std::sync::Arc;
 use view::Reading;
 
@@ -240,10 +239,8 @@ pub(crate) type UniformLoad<const D: usize> = Box<dyn Fn(f64) -> [f64; D] + Send
 ///
 /// See the [crate page](crate) for a first program.
 pub struct Simulation<T: Real, const D: usize> {
-    /// Bodies by the schemes that they share; there is one at least.
-    pub(crate) groups: Vec<Group<T, D>>,
-    /// Bodies that act on each other, or on themselves, by forces between pairs.
-    pub(crate) couples: Vec<Couple<T, D>>,
+    /// What steps change.
+    state: State<T, D>,
     /// The box around bodies and walls as built \[m\], where walls alone bound the scene.
     pub(crate) domain: Option<[[f64; D]; 2]>,
     pub(crate) integrator: Arc<dyn Integrator>,
@@ -262,37 +259,14 @@ pub struct Simulation<T: Real, const D: usize> {
     /// Values of that scene by name.
     #[cfg(feature = "checkpoint")]
     pub(crate) described: Described,
-    time: f64,
-    steps: u64,
-    evaluations: u64,
-    rates_at_hand: bool,
-    first_step: Option<f64>,
-    /// The step before \[s\], as it was before a cut.
-    step_before: Option<f64>,
-    last_vote: Option<Vote>,
-    /// Steps by the criterion that set them.
-    votes: Vec<(&'static str, u64)>,
-    impulses: Impulses,
-    /// Work done on a liquid, where it is kept.
-    work: Option<energy::Work>,
-    /// The time \[s\] of the last evaluation.
-    evaluated: f64,
-    kept_impulses: Vec<Impulses>,
     /// The state before an evaluation between steps.
-    aside: Option<Box<Kept<T, D>>>,
+    aside: Option<Box<State<T, D>>>,
     /// What readings are shown.
     shown: Reading<T, D>,
-    /// Time \[s\] over which what follows the flow once a step has yet to do so.
-    due: f64,
     /// What ended it, in words.
     failed: Option<String>,
-    /// What a watched run keeps.
-    watch: Option<Box<stability::Watch<D>>>,
-    /// What is kept of stored energy.
-    stores: stored::Stores<D>,
-    /// What is looked at after every step, and what has happened.
+    /// What is looked at after every step.
     events: Vec<Event<T, D>>,
-    happened: Happened,
     /// The box in which it is awake.
     awake: Option<Awake<T, D>>,
 }
@@ -300,7 +274,7 @@ pub struct Simulation<T: Real, const D: usize> {
 impl<T: Real, const D: usize> core::fmt::Debug for Simulation<T, D> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.debug_struct("Simulation")
-            .field("time", &self.time)
+            .field("time", &self.state.time)
             .field("steps", &self.steps())
             .field("particles", &self.particles())
             .finish_non_exhaustive()
@@ -330,8 +304,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             groups[group].is_met = true;
         }
         Self {
-            groups,
-            couples,
+            state: State::new(groups, couples),
             domain,
             integrator,
             control,
@@ -343,26 +316,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             scene: Hashes::new(),
             #[cfg(feature = "checkpoint")]
             described: Described::new(),
-            time: 0.0,
-            steps: 0,
-            evaluations: 0,
-            rates_at_hand: false,
-            first_step: None,
-            step_before: None,
-            last_vote: None,
-            votes: Vec::new(),
-            impulses: Impulses::default(),
-            work: None,
-            evaluated: 0.0,
-            kept_impulses: Vec::new(),
             aside: None,
             shown: Reading::LastStep,
-            due: 0.0,
             failed: None,
-            watch: None,
-            stores: stored::Stores::default(),
             events: Vec::new(),
-            happened: Happened::new(),
             awake: None,
         }
     }
@@ -379,7 +336,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// After [`run_until`](Self::run_until) this is the end that was asked for.
     #[must_use]
     pub fn time(&self) -> f64 {
-        self.time
+        self.state.time
     }
 
     /// The body that a particle belongs to, and its number there.
@@ -418,7 +375,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     fn evaluate_here(&mut self) -> Result<()> {
         self.check_failure()?;
-        if self.rates_at_hand && self.aside.is_none() {
+        if self.state.rates_at_hand && self.aside.is_none() {
             self.aside = Some(Box::new(self.keep()));
         }
         crate::integrator::System::evaluate(self, 0.0)?;

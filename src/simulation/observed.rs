@@ -25,7 +25,7 @@ pub(crate) struct ObservedImage<T, const D: usize> {
 
 impl<T: Real, const D: usize> Simulation<T, D> {
     fn boundaries(&self) -> &[Arc<dyn Boundary<D>>] {
-        &self.groups[0].boundaries
+        &self.state.groups[0].boundaries
     }
 
     /// The images of a particle at `x` \[m\] in the scene that lie within `reach` \[m\] of the domain. Later boundaries also show those of
@@ -45,10 +45,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 for n in 0..=earlier {
                     let before = n.checked_sub(1).map(|n| &images[n]);
                     let at = before.map_or(x, |image| image.at);
-                    if !boundary.reaches(k, &at, reach, self.time) {
+                    if !boundary.reaches(k, &at, reach, self.state.time) {
                         continue;
                     }
-                    let own = boundary.transform(k, self.time).to_scalar();
+                    let own = boundary.transform(k, self.state.time).to_scalar();
                     let (transform, others) = match before {
                         Some(image) => (image.transform.then(&own), image.boundaries),
                         None => (own.clone(), 0),
@@ -71,8 +71,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let mut all = 0;
         let x = &local(x, &self.origin());
         for (b, boundary) in self.boundaries().iter().enumerate() {
-            if boundary.crossed(x, self.time) {
-                let image = image_of(&boundary.transform(0, self.time), x);
+            if boundary.crossed(x, self.state.time) {
+                let image = image_of(&boundary.transform(0, self.state.time), x);
                 let far: f64 = (0..D).map(|d| (image[d] - x[d]).powi(2)).sum();
                 all |= u64::from(far > least * least) << b;
             }

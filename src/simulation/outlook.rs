@@ -35,7 +35,7 @@ struct Mark {
 impl Mark {
     fn of<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Self {
         Self {
-            time: simulation.time,
+            time: simulation.state.time,
             work: simulation.work(),
             lists: simulation.phases().lists,
         }
@@ -91,25 +91,28 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         check_end(end)?;
         self.check_failure()?;
         self.on_last_step(|own| {
-            let (bytes, mut kept) = (own.bytes(), own.keep());
-            own.watch = None;
+            let (bytes, kept) = (own.bytes(), own.keep());
+            own.state.watch = None;
             let events = core::mem::take(&mut own.events);
             let rehearsed = own.rehearse(end, bytes);
-            own.exchange_state(&mut kept);
+            own.state = kept;
             (own.events, own.failed) = (events, None);
             rehearsed
         })
     }
 
     fn rehearse(&mut self, end: f64, bytes: usize) -> Result<Work> {
-        let (begin, mut marks) = (self.time, vec![Mark::of(self)]);
+        let (begin, mut marks) = (self.state.time, vec![Mark::of(self)]);
         let (to, first) = (begin + MOST.0 * (end - begin), self.work());
-        while self.time < end {
-            let (steps, pairs) = (self.steps - first.steps, self.work().pairs - first.pairs);
-            if steps >= LEAST && (self.time >= to || pairs >= MOST.1) {
+        while self.state.time < end {
+            let (steps, pairs) = (
+                self.state.steps - first.steps,
+                self.work().pairs - first.pairs,
+            );
+            if steps >= LEAST && (self.state.time >= to || pairs >= MOST.1) {
                 break;
             }
-            self.step_to(end - self.time)?;
+            self.step_to(end - self.state.time)?;
             marks.push(Mark::of(self));
         }
         // The scene was built with lists.
@@ -145,7 +148,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let largest = spacings.fold(f64::MIN_POSITIVE, f64::max);
             Builds::ahead(neighborhood, largest, a_step, evaluations)
         };
-        let builds: Vec<_> = self.groups.iter().map(ahead).collect();
+        let builds: Vec<_> = self.state.groups.iter().map(ahead).collect();
         let seen = last.work.list_builds - from.work.list_builds;
         let a_step = if seen >= SEEN {
             seen as f64 / taken as f64
@@ -155,7 +158,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let spent = Spent::of(marks, a_build);
         let entries = |group: &Group<T, D>| group.neighborhood.lists.entries() as f64;
         let of_groups = |longer: &dyn Fn(usize) -> f64| -> f64 {
-            let groups = self.groups.iter().enumerate();
+            let groups = self.state.groups.iter().enumerate();
             groups.map(|(k, group)| entries(group) * longer(k)).sum()
         };
         let longer = of_groups(&|k| builds[k].longer) / of_groups(&|_| 1.0).max(1.0);

@@ -82,7 +82,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// ```
     #[must_use]
     pub fn phases(&self) -> Phases {
-        self.groups
+        self.state
+            .groups
             .iter()
             .fold(Phases::default(), |sum, group| sum.and(&group.work.phases))
     }
@@ -90,6 +91,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Books what a step took that no other phase has counted.
     pub(super) fn book_step(&mut self, start: Instant, before: Phases) {
         let counted = self.phases().since(&before).total();
-        self.groups[0].work.phases.integration += start.elapsed().saturating_sub(counted);
+        self.state.groups[0].work.phases.integration += start.elapsed().saturating_sub(counted);
     }
 }

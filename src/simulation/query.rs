@@ -140,13 +140,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// The place \[m\] in the scene from which columns of places count: see [place](crate::scene#place).
     #[must_use]
     pub fn origin(&self) -> [f64; D] {
-        self.groups[0].particles.origin
+        self.state.groups[0].particles.origin
     }
 
     /// Number of particles.
     #[must_use]
     pub fn particles(&self) -> usize {
-        self.groups
+        self.state
+            .groups
             .iter()
             .map(|group| group.particles.count())
             .sum()
@@ -154,12 +155,13 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Every body with its group, in the order of the scene.
     pub(super) fn all_bodies(&self) -> impl Iterator<Item = (&Group<T, D>, &BodyState<T>)> + Clone {
-        let groups = self.groups.iter();
+        let groups = self.state.groups.iter();
         groups.flat_map(|group| group.particles.bodies.iter().map(move |body| (group, body)))
     }
 
     pub(super) fn body_count(&self) -> usize {
-        self.groups
+        self.state
+            .groups
             .iter()
             .map(|group| group.particles.bodies.len())
             .sum()
@@ -191,7 +193,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Sets every velocity \[m/s\] as a function of position \[m\] and present velocity, between steps.
     pub fn set_velocities(&mut self, velocity: impl Fn([f64; D], [f64; D]) -> [f64; D]) {
-        for group in &mut self.groups {
+        for group in &mut self.state.groups {
             for slot in 0..group.particles.mobile {
                 let now = ParticleView { group, slot };
                 let next = velocity(now.position(), now.velocity());
@@ -207,7 +209,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     pub(super) fn wall_count(&self) -> usize {
-        let walls = self.groups.iter().flat_map(|group| &group.walls);
+        let walls = self.state.groups.iter().flat_map(|group| &group.walls);
         let indices = walls
             .filter(|wall| wall.structure.is_none())
             .map(|wall| wall.index + 1);
@@ -216,7 +218,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// A wall of the scene by its index, and the first group of liquids that meets it.
     pub(super) fn find_wall(&self, index: usize) -> Option<OfWall<'_, T, D>> {
-        self.groups.iter().find_map(|group| {
+        self.state.groups.iter().find_map(|group| {
             let own = |wall: &&WallState<T, D>| wall.structure.is_none() && wall.index == index;
             Some((group, group.walls.iter().find(own)?))
         })
@@ -256,15 +258,16 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let motion = wall.motion.as_ref();
         // The motion is in places that are counted from the origin.
         let back = self.origin().map(|x| -x);
-        let pose = motion.map(|motion| motion.pose_from(&back, self.time));
+        let pose = motion.map(|motion| motion.pose_from(&back, self.state.time));
         Ok(pose.unwrap_or_else(Pose::rest))
     }
 
     /// The groups that observers read: those of liquids, which meet all other bodies as walls, or all.
     pub(super) fn observed(&self) -> impl Iterator<Item = &Group<T, D>> {
         let is_liquid = |group: &Group<T, D>| group.scheme.meets_walls();
-        let any = self.groups.iter().any(is_liquid);
-        self.groups
+        let any = self.state.groups.iter().any(is_liquid);
+        self.state
+            .groups
             .iter()
             .filter(move |group| !any || is_liquid(group))
     }
@@ -307,7 +310,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 }
             }
         }
-        if !self.groups[0].boundaries.is_empty() {
+        if !self.state.groups[0].boundaries.is_empty() {
             self.images_near(places, visit);
         }
     }
@@ -346,11 +349,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     #[must_use]
     pub fn wall_particle_forces(&self) -> Vec<([f64; D], [f64; D])> {
         let mut forces = Vec::new();
-        for group in &self.groups {
+        for group in &self.state.groups {
             let at = |(slot, force)| (group.particles.position(slot), force);
             forces.extend(group.forces_on_walls().into_iter().flatten().map(at));
         }
-        for couple in &self.couples {
+        for couple in &self.state.couples {
             let Side::Wall(wall) = &couple.sides[1] else {
                 continue;
             };
@@ -366,7 +369,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// What has left through outlets.
     #[must_use]
     pub fn removed(&self) -> Removed<D> {
-        let removed = self.groups.iter().map(|group| &group.particles.removed);
+        let removed = self
+            .state
+            .groups
+            .iter()
+            .map(|group| &group.particles.removed);
         removed.fold(Removed::default(), |sum, other| sum.and(other))
     }
 
@@ -398,7 +405,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Counts of what guards did, by kind, since the start.
     #[must_use]
     pub fn guard_counts(&self) -> GuardCounts {
-        self.groups
+        self.state
+            .groups
             .iter()
             .fold(GuardCounts::default(), |mut sum, group| {
                 sum += group.guards;
@@ -412,7 +420,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     #[must_use]
     pub fn limits(&self) -> Vec<(&'static str, u64)> {
         let mut all: Vec<(&'static str, u64)> = Vec::new();
-        for (name, count) in self.groups.iter().flat_map(|group| &group.limited) {
+        for (name, count) in self.state.groups.iter().flat_map(|group| &group.limited) {
             match all.iter_mut().find(|own| own.0 == *name) {
                 Some(own) => own.1 += count,
                 None => all.push((name, *count)),
@@ -442,7 +450,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Builds of the neighbour lists since the start.
     #[must_use]
     pub fn list_builds(&self) -> u64 {
-        let groups = self.groups_after_step().iter();
+        let groups = self.after_step().groups.iter();
         groups.map(|group| group.neighborhood.rebuilds).sum()
     }
 
@@ -450,18 +458,18 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// is shown, or one that was [evaluated](Self::evaluate) between them, there are twice as many but for the lists.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.groups.iter().map(Group::bytes).sum()
+        self.state.groups.iter().map(Group::bytes).sum()
     }
 
     /// The scheme of the bodies: that of the scene itself, whose first group they are.
     #[must_use]
     pub fn scheme(&self) -> &Scheme<T, D> {
-        &self.groups[0].scheme
+        &self.state.groups[0].scheme
     }
 
     /// The schemes of all groups, that of the scene first.
     pub fn schemes(&self) -> impl Iterator<Item = &Scheme<T, D>> {
-        self.groups.iter().map(|group| &*group.scheme)
+        self.state.groups.iter().map(|group| &*group.scheme)
     }
 
     /// The integrator's name.

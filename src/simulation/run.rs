@@ -53,10 +53,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub(super) fn next_step(&mut self) -> Result<Vote> {
         self.check_failure()?;
         let (start, before) = (crate::clock::Instant::now(), self.phases());
-        for k in 0..self.groups.len() {
-            let entered = self.groups[k].emit(self.time);
+        for k in 0..self.state.groups.len() {
+            let entered = self.state.groups[k].emit(self.state.time);
             if self.keep_failure(entered)? {
-                self.rates_at_hand = false;
+                self.state.rates_at_hand = false;
             }
         }
         let next = self.find_step();
@@ -66,11 +66,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// The error that describes a step in which time does not go on, by the last vote.
     pub(super) fn collapsed(&self, step: f64) -> Error {
-        let vote = self.last_vote.unwrap_or(control::NO_VOTE);
+        let vote = self.state.last_vote.unwrap_or(control::NO_VOTE);
         let (body, particle) = self.locate(vote.particle);
         Error::StepCollapsed {
             step,
-            time: self.time,
+            time: self.state.time,
             criterion: vote.criterion.name(),
             body,
             particle,
@@ -100,7 +100,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     fn find_step(&mut self) -> Result<Vote> {
-        let changed = !self.rates_at_hand;
+        let changed = !self.state.rates_at_hand;
         if changed {
             crate::integrator::System::evaluate(self, 0.0)?;
         }
@@ -122,9 +122,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 ..vote
             };
         }
-        let first = *self.first_step.get_or_insert(vote.step);
+        let first = *self.state.first_step.get_or_insert(vote.step);
         if vote.step < self.control.smallest.unwrap_or(1e-6 * first) {
-            self.last_vote = Some(vote);
+            self.state.last_vote = Some(vote);
             return Err(self.collapsed(vote.step));
         }
         Ok(self.ending_with_scene(vote))
@@ -153,30 +153,30 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         } else {
             next
         };
-        self.last_vote = Some(vote);
+        self.state.last_vote = Some(vote);
         // A step that time does not feel would be taken for ever.
-        if self.time + vote.step <= self.time {
-            self.last_vote = Some(next);
+        if self.state.time + vote.step <= self.state.time {
+            self.state.last_vote = Some(next);
             return Err(self.collapsed(vote.step));
         }
         let motions = self.check_motions(vote.step);
         self.keep_failure(motions)?;
-        self.due += vote.step;
-        self.impulses.time = self.time;
+        self.state.due += vote.step;
+        self.state.impulses.time = self.state.time;
         // The integrator sees the simulation as a system, and is shared with it while it steps.
         let integrator = self.integrator.clone();
         let stepped = crate::parallel::inside(|| integrator.step(self, vote.step));
         self.keep_failure(stepped)?;
-        self.time += vote.step;
-        self.steps += 1;
+        self.state.time += vote.step;
+        self.state.steps += 1;
         // A step that the scene has shortened says nothing of what the state asks for.
         if next.criterion != Criterion::SceneTime {
-            self.step_before = Some(next.step);
+            self.state.step_before = Some(next.step);
         }
         let name = vote.criterion.name();
-        match self.votes.iter_mut().find(|own| own.0 == name) {
+        match self.state.votes.iter_mut().find(|own| own.0 == name) {
             Some(own) => own.1 += 1,
-            None => self.votes.push((name, 1)),
+            None => self.state.votes.push((name, 1)),
         }
         let sound = self.check_state();
         self.keep_broken(sound)?;
@@ -212,25 +212,25 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     fn step_until_here(&mut self, end: f64) -> Result<f64> {
         check_end(end)?;
-        let (shown, rounding) = (self.time, rounding(end));
+        let (shown, rounding) = (self.state.time, rounding(end));
         if end - shown <= rounding {
             return Ok(0.0);
         }
         self.return_to_last_step();
         let next = self.next_step()?;
-        if next.step > end - self.time + rounding {
+        if next.step > end - self.state.time + rounding {
             self.show(end, next)?;
         } else {
             let taken = self.take_step(next, f64::INFINITY)?;
             // Steps shorter than this are rounding, not time.
-            if taken < rounding && end - self.time > rounding {
+            if taken < rounding && end - self.state.time > rounding {
                 return Err(self.collapsed(taken));
             }
-            if end - self.time <= rounding {
+            if end - self.state.time <= rounding {
                 self.show_at(end);
             }
         }
-        Ok(self.time - shown)
+        Ok(self.state.time - shown)
     }
 
     /// Steps until `end` \[s\].
@@ -258,7 +258,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub fn run_with(&mut self, end: f64, mut observe: impl FnMut(&Self)) -> Result<()> {
         check_end(end)?;
         self.check_failure()?;
-        while end - self.time > rounding(end) {
+        while end - self.state.time > rounding(end) {
             self.step_until(end)?;
             observe(self);
         }

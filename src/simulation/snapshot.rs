@@ -31,7 +31,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             .scalar("number", self.all().map(|particle| particle.id() as i64))
             .vector("velocity", self.all().map(|particle| particle.velocity()));
         let mut fields: Vec<(Field, &str)> = COMMON.map(|field| (field, field.name())).to_vec();
-        for group in &self.groups {
+        for group in &self.state.groups {
             for field in group.scheme.program.state() {
                 let own = (field, group.scheme.program.name_of(field).0);
                 if !fields.contains(&own) {

@@ -30,10 +30,10 @@ const JUMP: f64 = 0.5;
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// Refuses a state in which a number is not finite.
     pub(super) fn check_state(&mut self) -> Result<()> {
-        for group in &mut self.groups {
+        for group in &mut self.state.groups {
             group.count(NEGATIVE_ENERGY, negative_energies(&group.particles));
         }
-        for group in &self.groups {
+        for group in &self.state.groups {
             if let Some(slot) = unsound(&group.particles, &group.scheme.program) {
                 // A particle whose law gives no pressure spoils its neighbours as well, and is the one to name.
                 let density = group.particles.columns.raw(Field::DENSITY);
@@ -47,8 +47,16 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 return Err(self.broken(group, source.unwrap_or(slot)));
             }
         }
-        let impulse = self.impulses.values().find(|impulse| !impulse.is_finite());
-        let work = self.work.iter().flat_map(|work| [work.load, work.wall]);
+        let impulse = self
+            .state
+            .impulses
+            .values()
+            .find(|impulse| !impulse.is_finite());
+        let work = self
+            .state
+            .work
+            .iter()
+            .flat_map(|work| [work.load, work.wall]);
         let mut sums = impulse.into_iter().chain(work);
         if let Some(value) = sums.find(|value| !value.is_finite()) {
             return Err(Error::NotFinite {
@@ -57,8 +65,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 body: "all".into(),
                 particle: 0,
                 position: Vec::new(),
-                time: self.time,
-                step: self.steps,
+                time: self.state.time,
+                step: self.state.steps,
             });
         }
         Ok(())
@@ -66,7 +74,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Particles without neighbours, where density is measured from the reference configuration: one for each body.
     pub(crate) fn isolated(&self) -> Vec<Problem> {
-        let measured = self.groups.iter().filter(|group| {
+        let measured = self.state.groups.iter().filter(|group| {
             group.scheme.density.has_reference() && group.scheme.consistent_at_rest
         });
         measured
@@ -80,6 +88,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Surfaces at which a summed density puts a solid or liquid under tension: one for each body.
     pub(crate) fn surfaces_in_tension(&self) -> Vec<Problem> {
         let summed = self
+            .state
             .groups
             .iter()
             .filter(|group| matches!(group.scheme.smoothing, Smoothing::Consistent { .. }));
@@ -91,11 +100,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Refuses a step of `dt` \[s\] at whose end a boundary, a wall or a clamp is nowhere, or in which a wall moves otherwise than its
     /// own velocity, as one that jumps does.
     pub(super) fn check_motions(&self, dt: f64) -> Result<()> {
-        let (time, end) = (self.time, self.time + dt);
+        let (time, end) = (self.state.time, self.state.time + dt);
         self.check_boundaries(end)?;
         self.check_clamps(end)?;
         let spacing = self.spacing();
-        for wall in self.groups.iter().flat_map(|group| &group.walls) {
+        for wall in self.state.groups.iter().flat_map(|group| &group.walls) {
             let Some(motion) = &wall.motion else {
                 continue;
             };
@@ -128,7 +137,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Refuses boundaries that move to where no place is.
     fn check_boundaries(&self, time: f64) -> Result<()> {
-        let Some(group) = self.groups.first() else {
+        let Some(group) = self.state.groups.first() else {
             return Ok(());
         };
         for boundary in group.boundaries.iter().filter(|own| own.moves()) {
@@ -148,7 +157,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Refuses clamps that move to where no place is.
     fn check_clamps(&self, time: f64) -> Result<()> {
-        for group in &self.groups {
+        for group in &self.state.groups {
             for clamp in group.held.clamps.iter().filter(|own| !own.released) {
                 let pose = clamp.motion.as_ref().map(|motion| motion.pose(time));
                 if let Some(value) = pose.as_ref().and_then(not_finite) {

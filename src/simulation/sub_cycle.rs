@@ -120,7 +120,7 @@ fn push<T: Real, const D: usize>(
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// Spreads what kicks have given groups that sub-cycle over a drift of `dt` \[s\] that begins; see [`SubCycle::spreads`].
     pub(super) fn spread_impulses(&mut self, dt: f64) {
-        for group in &mut self.groups {
+        for group in &mut self.state.groups {
             if let Some(apart) = &mut group.sub_cycle {
                 apart.spread(&mut group.particles, dt);
             }
@@ -129,7 +129,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Ends that.
     pub(super) fn end_spreading(&mut self) {
-        let apart = self.groups.iter_mut();
+        let apart = self.state.groups.iter_mut();
         for apart in apart.filter_map(|group| group.sub_cycle.as_mut()) {
             apart.spread.clear();
         }
@@ -138,15 +138,15 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Steps of all groups that sub-cycle since the start; see [`Scene::sub_cycle`](crate::scene::Scene::sub_cycle).
     #[must_use]
     pub fn sub_steps(&self) -> u64 {
-        let groups = self.groups_after_step().iter();
+        let groups = self.after_step().groups.iter();
         let apart = groups.filter_map(|group| group.sub_cycle.as_ref());
         apart.map(|apart| apart.steps).sum()
     }
 
     /// Takes groups that sub-cycle through `span` \[s\] from `begin` \[s\], in as many equal steps as each needs.
     pub(super) fn sub_cycle(&mut self, begin: f64, span: f64) -> Result<()> {
-        for group in 0..self.groups.len() {
-            let Some(most) = self.groups[group]
+        for group in 0..self.state.groups.len() {
+            let Some(most) = self.state.groups[group]
                 .sub_cycle
                 .as_ref()
                 .map(|apart| apart.most)
@@ -159,7 +159,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let dt = span / count;
             // A limit of zero or no number of steps at all is a step that has collapsed.
             if count.is_nan() || count > RUNAWAY * f64::from(most) {
-                self.last_vote = Some(own);
+                self.state.last_vote = Some(own);
                 return Err(self.collapsed(dt));
             }
             let integrator = self.integrator.clone();
@@ -172,7 +172,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 };
                 integrator.step(&mut alone, dt)?;
             }
-            if let Some(apart) = &mut self.groups[group].sub_cycle {
+            if let Some(apart) = &mut self.state.groups[group].sub_cycle {
                 apart.steps += count as u64;
             }
         }
@@ -192,7 +192,7 @@ struct Alone<'a, T: Real, const D: usize> {
 
 impl<T: Real, const D: usize> Alone<'_, T, D> {
     fn own(&mut self) -> &mut Group<T, D> {
-        &mut self.simulation.groups[self.group]
+        &mut self.simulation.state.groups[self.group]
     }
 
     fn push_spread(&mut self, dt: f64) {

@@ -3,8 +3,7 @@
 
 use super::Simulation;
 use super::control::Vote;
-use super::group::Group;
-use super::kept::Kept;
+use super::run_state::State;
 use crate::clock::Instant;
 use crate::error::Result;
 use crate::scalar::Real;
@@ -18,7 +17,7 @@ pub(super) enum Reading<T: Real, const D: usize> {
     /// The same, at a time that differs by rounding from its own, which is this \[s\].
     Rounded(f64),
     /// A copy that has taken a shortened step; the state after the last step is kept here.
-    Between(Box<Kept<T, D>>),
+    Between(Box<State<T, D>>),
 }
 
 /// Times \[s\] that are one, near a time \[s\].
@@ -31,8 +30,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub(super) fn show(&mut self, time: f64, next: Vote) -> Result<()> {
         let (start, before) = (Instant::now(), self.phases());
         let last = self.keep();
-        let stepped = self.advance(next, time - self.time);
-        self.time = time;
+        let stepped = self.advance(next, time - self.state.time);
+        self.state.time = time;
         self.book_step(start, before);
         if stepped.is_err() {
             self.put_back(last);
@@ -44,8 +43,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Shows the state after the last step at `time` \[s\], from which its own differs by rounding.
     pub(super) fn show_at(&mut self, time: f64) {
-        if self.time != time {
-            self.shown = Reading::Rounded(mem::replace(&mut self.time, time));
+        if self.state.time != time {
+            self.shown = Reading::Rounded(mem::replace(&mut self.state.time, time));
         }
     }
 
@@ -54,7 +53,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.take_up();
         match mem::replace(&mut self.shown, Reading::LastStep) {
             Reading::LastStep => {}
-            Reading::Rounded(time) => self.time = time,
+            Reading::Rounded(time) => self.state.time = time,
             Reading::Between(last) => self.put_back(*last),
         }
     }
@@ -98,7 +97,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let watched = self.watch_events();
             let _ = self.keep_failure(watched);
             if self.exchange_schemes() {
-                self.rates_at_hand = false;
+                self.state.rates_at_hand = false;
             }
         }
     }
@@ -107,7 +106,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub(super) fn forget_rates(&mut self) {
         self.aside = None;
         self.leave_last_step();
-        self.rates_at_hand = false;
+        self.state.rates_at_hand = false;
     }
 
     /// Takes up what was there before an evaluation between steps.
@@ -123,7 +122,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         mem::swap(&mut self.shown, &mut shown);
         let mut exchange = |own: &mut Self| {
             if let Some(aside) = &mut aside {
-                own.exchange_state(aside);
+                mem::swap(&mut own.state, aside);
             }
         };
         exchange(self);
@@ -138,17 +137,17 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     fn exchange_shown(&mut self, shown: &mut Reading<T, D>) {
         match shown {
             Reading::LastStep => {}
-            Reading::Rounded(time) => mem::swap(&mut self.time, time),
-            Reading::Between(last) => self.exchange_state(last),
+            Reading::Rounded(time) => mem::swap(&mut self.state.time, time),
+            Reading::Between(last) => mem::swap(&mut self.state, last),
         }
     }
 
     /// Acts on the state after the last step, and on what is shown where that is another.
     pub(super) fn on_both(&mut self, act: &dyn Fn(&mut Self)) {
         if let Some(mut aside) = self.aside.take() {
-            self.exchange_state(&mut aside);
+            mem::swap(&mut self.state, &mut aside);
             self.on_both(act);
-            self.exchange_state(&mut aside);
+            mem::swap(&mut self.state, &mut aside);
             self.aside = Some(aside);
         } else if self.last_step().is_some() {
             self.on_last_step(|own| act(own));
@@ -157,40 +156,33 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     /// The state after the last step, where another is shown.
-    pub(super) fn last_step(&self) -> Option<&Kept<T, D>> {
+    pub(super) fn last_step(&self) -> Option<&State<T, D>> {
         match &self.shown {
             Reading::Between(last) => Some(last),
             _ => self.aside.as_deref(),
         }
     }
 
-    /// The groups as the last step has left them, which have counted what it took.
-    pub(super) fn groups_after_step(&self) -> &[Group<T, D>] {
-        self.last_step().map_or(&self.groups, |last| &last.groups)
+    /// The state after the last step, which has counted what it took.
+    pub(super) fn after_step(&self) -> &State<T, D> {
+        self.last_step().unwrap_or(&self.state)
     }
 
     /// Steps taken. A state that is shown between two steps is that of neither.
     #[must_use]
     pub fn steps(&self) -> u64 {
-        self.last_step().map_or(self.steps, |last| last.steps)
+        self.after_step().steps
     }
 
     /// Evaluations of the rates so far, for steps.
     #[must_use]
     pub fn evaluations(&self) -> u64 {
-        self.last_step()
-            .map_or(self.evaluations, |last| last.evaluations)
+        self.after_step().evaluations
     }
 
     /// What set the last step.
     #[must_use]
     pub fn last_vote(&self) -> Option<Vote> {
-        self.last_step()
-            .map_or(self.last_vote, |last| last.last_vote)
-    }
-
-    /// Steps by the criterion that set them.
-    pub(super) fn votes(&self) -> &[(&'static str, u64)] {
-        self.last_step().map_or(&self.votes, |last| &last.votes)
+        self.after_step().last_vote
     }
 }

@@ -3,7 +3,7 @@
 
 use super::couplings::Structure;
 use super::population::Particles;
-use crate::boundary::{Boundary, Motion, Pose, Slip};
+use crate::boundary::{Boundary, Motion, Pose, Slip, motion_from};
 use crate::particles::Field;
 use crate::scalar::Real;
 use crate::tensor::determinant;
@@ -44,6 +44,12 @@ impl<T: Real, const D: usize> WallState<T, D> {
             Some(ends) => pose.on_chord(ends.map(|end| motion.pose(end)), ends),
             None => pose,
         })
+    }
+
+    /// Lets it move otherwise, in places that are counted from an origin \[m\].
+    pub fn set_motion(&mut self, motion: impl Motion<D> + 'static, origin: &[f64; D]) {
+        let motion: Arc<dyn Motion<D>> = Arc::new(motion);
+        self.motion = Some(motion_from(&motion, origin));
     }
 
     /// Gives its particles, which rest, the velocity of its surface.

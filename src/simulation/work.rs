@@ -48,7 +48,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             evaluations: self.evaluations(),
             list_builds: self.list_builds(),
             pairs: {
-                let groups = self.groups_after_step().iter();
+                let groups = self.after_step().groups.iter();
                 groups.map(|group| group.work.spent.pairs).sum()
             },
             bytes: self.bytes(),

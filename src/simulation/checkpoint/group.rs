@@ -80,7 +80,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             file.put_reals(format!("{name}/apart/pending"), D, pending.as_flattened());
         }
         put_held(held, name, file);
-        let layers: Vec<u64> = emitters.iter().map(|(_, own)| own.handed_over()).collect();
+        let layers: Vec<u64> = emitters.iter().map(|own| own.layers).collect();
         file.put(format!("{name}/handed_over"), 1, layers);
         let evaluated_gravity = work.evaluated_gravity.map(Real::to_f64);
         file.put(format!("{name}/gravity"), 1, gravity);
@@ -101,8 +101,10 @@ impl<T: Real, const D: usize> Group<T, D> {
     pub(super) fn take_state(&mut self, name: &str, file: &Checkpoint) -> Read<()> {
         let scheme = self.scheme.clone();
         let layers = file.get_all(&format!("{name}/handed_over"), self.emitters.len())?;
-        for ((_, emitter), layers) in self.emitters.iter().zip(layers) {
-            emitter.set_handed_over(layers);
+        for (emitter, layers) in self.emitters.iter_mut().zip(layers) {
+            emitter.layers = layers;
+            let buffer = &mut self.walls[emitter.wall];
+            buffer.set_motion(emitter.inflow(), &self.particles.origin);
         }
         take_particles(&mut self.particles, &scheme, name, file)?;
         for wall in &self.walls {

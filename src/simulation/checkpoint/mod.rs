@@ -12,6 +12,7 @@ mod workspace;
 
 use super::energy::Work;
 use super::ledger::Impulses;
+use super::run_state::State;
 use super::view::{Reading, rounding};
 use super::{Criterion, Simulation, Vote, width};
 use crate::error::{CheckpointProblem, Error, Result};
@@ -68,7 +69,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             problem,
         })?;
         if let Ok(shown) = file.get_one::<f64>("shown") {
-            if (shown - self.time).abs() <= rounding(shown) {
+            if (shown - self.state.time).abs() <= rounding(shown) {
                 self.show_at(shown);
             } else {
                 let next = self.next_step()?;
@@ -84,8 +85,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     fn put_here(&self) -> Checkpoint {
         let Self {
-            groups,
-            couples,
+            state: shown,
             domain: _,
             integrator: _,
             control: _,
@@ -95,9 +95,16 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             built: _,
             events: _,
             awake: _,
-            happened,
             scene,
             described,
+            aside: _,
+            shown: reading,
+            failed: _,
+        } = self;
+        // The next step starts from the state after the last one. While another is shown, no particles enter.
+        let State {
+            groups,
+            couples,
             time,
             steps,
             evaluations,
@@ -108,35 +115,15 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             // What a process has counted, as it has its times.
             votes: _,
             impulses,
+            kept_impulses,
             work,
             evaluated,
-            kept_impulses,
-            aside: _,
-            shown,
             due,
-            failed: _,
             watch: _,
             stores,
-        } = self;
-        // The next step starts from the state after the last one. While another is shown, no particles enter.
-        let last = self.last_step();
-        let groups = last.map_or(groups, |last| &last.groups);
-        let couples = last.map_or(couples, |last| &last.couples);
-        let time = last.map_or(time, |last| &last.time);
-        let steps = last.map_or(steps, |last| &last.steps);
-        let evaluations = last.map_or(evaluations, |last| &last.evaluations);
-        let rates_at_hand = last.map_or(rates_at_hand, |last| &last.rates_at_hand);
-        let first_step = last.map_or(first_step, |last| &last.first_step);
-        let step_before = last.map_or(step_before, |last| &last.step_before);
-        let last_vote = last.map_or(last_vote, |last| &last.last_vote);
-        let impulses = last.map_or(impulses, |last| &last.impulses);
-        let work = last.map_or(work, |last| &last.work);
-        let evaluated = last.map_or(evaluated, |last| &last.evaluated);
-        let due = last.map_or(due, |last| &last.due);
-        let stores = last.map_or(stores, |last| &last.stores);
-        let happened = last.map_or(happened, |last| &last.happened);
-        let kept_impulses = last.map_or(kept_impulses, |last| &last.impulses_of_states);
-        let time = match shown {
+            happened,
+        } = self.after_step();
+        let time = match reading {
             Reading::Rounded(own) => own,
             _ => time,
         };
@@ -159,8 +146,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
         file.put("origin".into(), 1, self.origin());
         file.put_one("time".into(), *time);
-        if *time != self.time {
-            file.put_one("shown".into(), self.time);
+        if *time != shown.time {
+            file.put_one("shown".into(), shown.time);
         }
         file.put_one("steps".into(), *steps);
         file.put_one("evaluations".into(), *evaluations);
@@ -234,7 +221,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 .ok_or_else(|| damaged("its root has no name"))?,
             Err(_) => Root::Products,
         };
-        for group in &mut self.groups {
+        for group in &mut self.state.groups {
             group.instructions = set;
             group.root = root;
         }
@@ -243,40 +230,45 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         if origin != self.origin() {
             return Err(damaged("its places count from another origin"));
         }
-        self.time = file.get_one("time")?;
-        self.steps = file.get_one("steps")?;
-        self.evaluations = file.get_one("evaluations")?;
-        self.rates_at_hand = file.get_one::<u32>("rates_at_hand")? != 0;
-        self.evaluated = file.get_one("evaluated")?;
-        self.due = file.get_one("due")?;
-        self.first_step = None;
+        self.state.time = file.get_one("time")?;
+        self.state.steps = file.get_one("steps")?;
+        self.state.evaluations = file.get_one("evaluations")?;
+        self.state.rates_at_hand = file.get_one::<u32>("rates_at_hand")? != 0;
+        self.state.evaluated = file.get_one("evaluated")?;
+        self.state.due = file.get_one("due")?;
+        self.state.first_step = None;
         if file.has("first_step") {
-            self.first_step = Some(file.get_one("first_step")?);
+            self.state.first_step = Some(file.get_one("first_step")?);
         }
-        self.step_before = None;
+        self.state.step_before = None;
         if file.has("step_before") {
-            self.step_before = Some(file.get_one("step_before")?);
+            self.state.step_before = Some(file.get_one("step_before")?);
         }
-        self.last_vote = None;
+        self.state.last_vote = None;
         if file.has("last_vote/step") {
             let name = file.text("last vote")?;
             let limits = self
+                .state
                 .groups
                 .iter()
                 .flat_map(|group| &group.scheme.program.limits);
             let limits = limits.map(|limit| limit.name());
-            let couplings = self.couples.iter().map(|couple| couple.coupling.name());
+            let couplings = self
+                .state
+                .couples
+                .iter()
+                .map(|couple| couple.coupling.name());
             let criteria = Criterion::ALL
                 .into_iter()
                 .chain(limits.chain(couplings).map(Criterion::Effect));
             let criterion = criteria.into_iter().find(|own| own.name() == name);
-            self.last_vote = Some(Vote {
+            self.state.last_vote = Some(Vote {
                 step: file.get_one("last_vote/step")?,
                 criterion: criterion.ok_or_else(|| damaged("its criterion has no name"))?,
                 particle: file.get_one::<u64>("last_vote/particle")? as usize,
             });
         }
-        self.work = None;
+        self.state.work = None;
         if file.has("work") {
             let [start, load, wall] = file.get_array("work")?;
             let asleep = if file.has("work/asleep") {
@@ -284,7 +276,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             } else {
                 0.0
             };
-            self.work = Some(Work {
+            self.state.work = Some(Work {
                 start,
                 load,
                 wall,
@@ -295,21 +287,21 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         if file.has("stored energy/limit") {
             let limit = file.get_one("stored energy/limit")?;
             let rows: Vec<f64> = file.get("stored energy/accounts")?;
-            self.stores.take_rows(limit, &rows);
+            self.state.stores.take_rows(limit, &rows);
         }
-        let time = self.time;
+        let time = self.state.time;
         let values = file.get("impulses")?;
-        self.impulses = Impulses { values, time };
-        self.kept_impulses.clear();
-        while let name = format!("kept{}", self.kept_impulses.len())
+        self.state.impulses = Impulses { values, time };
+        self.state.kept_impulses.clear();
+        while let name = format!("kept{}", self.state.kept_impulses.len())
             && file.has(&format!("{name}/impulses"))
         {
-            self.kept_impulses.push(Impulses {
+            self.state.kept_impulses.push(Impulses {
                 values: file.get(&format!("{name}/impulses"))?,
                 time: file.get_one(&format!("{name}/time"))?,
             });
         }
-        for (k, (_, at)) in self.happened.iter_mut().enumerate() {
+        for (k, (_, at)) in self.state.happened.iter_mut().enumerate() {
             let name = format!("event{k}/time");
             *at = None;
             if file.has(&name) {
@@ -317,10 +309,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             }
         }
         self.exchange_schemes();
-        for (k, couple) in self.couples.iter_mut().enumerate() {
+        for (k, couple) in self.state.couples.iter_mut().enumerate() {
             couple.take_state(&format!("coupling{k}"), file)?;
         }
-        for (k, group) in self.groups.iter_mut().enumerate() {
+        for (k, group) in self.state.groups.iter_mut().enumerate() {
             group.take_state(&format!("group{k}"), file)?;
         }
         self.release_clamps();
@@ -329,7 +321,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// The instruction set that its pair loops run on.
     fn instructions(&self) -> InstructionSet {
-        let first = self.groups.first();
+        let first = self.state.groups.first();
         let asked = first.map_or_else(InstructionSet::detect, |group| group.instructions);
         asked.or_detected()
     }

@@ -117,7 +117,7 @@ pub(super) fn limits<T: Real, const D: usize>(
     let criterion = simulation
         .vote()
         .map_or(Criterion::Acoustic, |vote| vote.criterion);
-    let scheme = &simulation.groups[0].scheme;
+    let scheme = &simulation.state.groups[0].scheme;
     let finer = (
         "half the spacing".to_string(),
         Some(2.0_f64.powi(D as i32) * steps_with(criterion, 2.0)),

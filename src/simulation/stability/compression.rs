@@ -32,7 +32,7 @@ pub(in super::super) struct Compression {
 impl Compression {
     pub fn of<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Self {
         let mut liquids = Vec::new();
-        for (number, group) in simulation.groups.iter().enumerate() {
+        for (number, group) in simulation.state.groups.iter().enumerate() {
             if !group.scheme.meets_walls() || group.scheme.energy != EnergyForm::None {
                 continue;
             }
@@ -84,7 +84,7 @@ impl Compression {
     ) -> Option<(usize, usize, f64)> {
         let mut found = None;
         for liquid in &mut self.liquids {
-            let particles = &simulation.groups[liquid.group].particles;
+            let particles = &simulation.state.groups[liquid.group].particles;
             let body = &particles.bodies[liquid.body];
             let density = &particles.columns.raw(Field::DENSITY)[body.slots.clone()];
             let over = 1.0 / body.material.reference_density();
@@ -109,8 +109,8 @@ impl Compression {
                 liquid.since = None;
                 continue;
             }
-            let since = *liquid.since.get_or_insert(simulation.time);
-            if simulation.time - since < liquid.crossing {
+            let since = *liquid.since.get_or_insert(simulation.state.time);
+            if simulation.state.time - since < liquid.crossing {
                 continue;
             }
             let least = sound_speed_for(&body.material, value, limit);

@@ -24,7 +24,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// [`Thresholds::every`] steps; the share of the run's time is in [`StabilityReport::price`]. A checkpoint does not keep
     /// the watch.
     pub fn keep_stability(&mut self, thresholds: Thresholds) {
-        self.on_both(&|own| own.watch = Some(Box::new(Watch::new(own, thresholds))));
+        self.on_both(&|own| own.state.watch = Some(Box::new(Watch::new(own, thresholds))));
     }
 
     /// How sound the run is, of all steps since [`keep_stability`](Self::keep_stability). Without these the report is of the
@@ -59,9 +59,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Looks at the state after a step, if it is watched.
     pub(super) fn watch_step(&mut self) {
-        if let Some(mut watch) = self.watch.take() {
+        if let Some(mut watch) = self.state.watch.take() {
             watch.look(self);
-            self.watch = Some(watch);
+            self.state.watch = Some(watch);
         }
     }
 }

@@ -200,7 +200,7 @@ pub struct StabilityReport {
 /// Sums and looks at the present state, and what was watched.
 pub(super) fn of<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> StabilityReport {
     let fresh;
-    let watch = if let Some(watch) = &simulation.watch {
+    let watch = if let Some(watch) = &simulation.state.watch {
         &**watch
     } else {
         fresh = super::Watch::of_now(simulation, Thresholds::default());
@@ -217,7 +217,7 @@ pub(super) fn of<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Stab
         }
     };
     let both = |own: [Option<Seen<D>>; 2]| Some([named(own[0]?), named(own[1]?)]);
-    let now = arrangement::arrangement(&simulation.groups, &mut Vec::new());
+    let now = arrangement::arrangement(&simulation.state.groups, &mut Vec::new());
     let limits: Vec<_> = simulation
         .limits()
         .into_iter()
@@ -234,7 +234,7 @@ pub(super) fn of<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Stab
     let applied: u64 = limits.iter().map(|own| own.1).sum();
     let (momentum, energy_gain, energy_closure) = residuals(simulation, watch);
     let points: Vec<[f64; D]> = simulation.all().map(|own| own.position()).collect();
-    let walls = (simulation.groups.iter()).flat_map(|group| {
+    let walls = (simulation.state.groups.iter()).flat_map(|group| {
         let own = group.walls.iter().filter(|wall| wall.structure.is_none());
         own.flat_map(|wall| {
             wall.slots
@@ -252,12 +252,12 @@ pub(super) fn of<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Stab
         if nearest.as_ref().is_none_or(|own| now.nearest < own.value) {
             let (slot, group) = now.at;
             nearest = (slot != usize::MAX).then(|| {
-                let group = &simulation.groups[group];
+                let group = &simulation.state.groups[group];
                 let id = group.particles.first_id + group.particles.ids[slot] as usize;
                 let (body, particle) = simulation.locate(id);
                 Extreme {
                     value: now.nearest,
-                    time: simulation.time,
+                    time: simulation.state.time,
                     body,
                     particle,
                     position: group.particles.position(slot).to_vec(),
@@ -269,11 +269,11 @@ pub(super) fn of<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Stab
         least: named(seen),
         criterion,
         median: watch.median_step(),
-        set_by: simulation.votes().to_vec(),
+        set_by: simulation.after_step().votes.clone(),
     });
     let total = simulation.phases().total().as_secs_f64() + watch.spent.as_secs_f64();
     let mut report = StabilityReport {
-        time: simulation.time,
+        time: simulation.state.time,
         steps: watch.steps,
         particles: simulation.particles(),
         density: both(watch.density),

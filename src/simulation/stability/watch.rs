@@ -142,7 +142,7 @@ impl<const D: usize> Watch<D> {
         let (momentum, mass, [energy, energy_scale]) = simulation.state_sums();
         let mut watch = Self {
             thresholds,
-            begun: simulation.time,
+            begun: simulation.state.time,
             steps: 0,
             particle_steps: 0.0,
             limits: simulation.limits(),
@@ -169,8 +169,8 @@ impl<const D: usize> Watch<D> {
             dissipated: simulation.energy().map_or(0.0, |own| own.dissipated),
             load: [0.0; D],
             mass,
-            before: simulation.body_acceleration(simulation.time),
-            last: simulation.time,
+            before: simulation.body_acceleration(simulation.state.time),
+            last: simulation.state.time,
             partial: Vec::new(),
             spent: Duration::ZERO,
         };
@@ -195,12 +195,12 @@ impl<const D: usize> Watch<D> {
         self.make_room(simulation);
         self.look_at_bounds(simulation);
         self.look_at_step(simulation);
-        let now = simulation.body_acceleration(simulation.time);
-        let half = 0.5 * (simulation.time - self.last);
+        let now = simulation.body_acceleration(simulation.state.time);
+        let half = 0.5 * (simulation.state.time - self.last);
         for d in 0..D {
             self.load[d] += half * self.mass * (self.before[d] + now[d]);
         }
-        (self.before, self.last) = (now, simulation.time);
+        (self.before, self.last) = (now, simulation.state.time);
         if self.steps.is_multiple_of(self.thresholds.every.max(1)) {
             self.look_at_arrangement(simulation);
         }
@@ -210,14 +210,20 @@ impl<const D: usize> Watch<D> {
     /// Makes room for a look at all lists, in the step that has built them.
     fn make_room<T: Real>(&mut self, simulation: &Simulation<T, D>) {
         let chunks = |group: &Group<T, D>| group.neighborhood.lists.chunks().len();
-        let most = simulation.groups.iter().map(chunks).max().unwrap_or(0);
+        let most = simulation
+            .state
+            .groups
+            .iter()
+            .map(chunks)
+            .max()
+            .unwrap_or(0);
         if self.partial.capacity() < most {
             self.partial.reserve(2 * most - self.partial.len());
         }
     }
 
     fn look_at_bounds<T: Real>(&mut self, simulation: &Simulation<T, D>) {
-        for group in &simulation.groups {
+        for group in &simulation.state.groups {
             let rest = |body: usize| group.particles.bodies[body].material.reference_density();
             let density = extremes(&group.particles, Field::DENSITY, rest);
             let first =
@@ -245,13 +251,13 @@ impl<const D: usize> Watch<D> {
             .compression
             .look(simulation, self.thresholds.compression);
         if let Some((group, slot, value)) = lasting {
-            let seen = simulation.seen(&simulation.groups[group], slot, value);
+            let seen = simulation.seen(&simulation.state.groups[group], slot, value);
             self.hold(Measure::Compressed, Some(seen), |_| true);
         }
     }
 
     fn look_at_step<T: Real>(&mut self, simulation: &Simulation<T, D>) {
-        let Some(vote) = simulation.last_vote else {
+        let Some(vote) = simulation.state.last_vote else {
             return;
         };
         if vote.criterion == super::super::Criterion::End {
@@ -266,7 +272,7 @@ impl<const D: usize> Watch<D> {
             let position = simulation.position_of(vote.particle);
             let seen = Seen {
                 value: vote.step,
-                time: simulation.time,
+                time: simulation.state.time,
                 id: vote.particle,
                 position,
             };
@@ -281,12 +287,13 @@ impl<const D: usize> Watch<D> {
 
     fn look_at_arrangement<T: Real>(&mut self, simulation: &Simulation<T, D>) {
         let mut partial = core::mem::take(&mut self.partial);
-        let found = arrangement::arrangement(&simulation.groups, &mut partial);
+        let found = arrangement::arrangement(&simulation.state.groups, &mut partial);
         self.partial = partial;
         if let Some(now) = found {
             let (slot, group) = now.at;
             if slot != usize::MAX {
-                let at = |value| Some(simulation.seen(&simulation.groups[group], slot, value));
+                let at =
+                    |value| Some(simulation.seen(&simulation.state.groups[group], slot, value));
                 let least = |own: Option<Seen<D>>, value| {
                     if own.is_none_or(|own| value < own.value) {
                         at(value)
@@ -298,7 +305,7 @@ impl<const D: usize> Watch<D> {
                 self.quantile = least(self.quantile, now.quantile);
             }
             self.worst_close = self.worst_close.max(now.close);
-            self.take_noise(simulation.time, now.noise);
+            self.take_noise(simulation.state.time, now.noise);
             let (nearest, quantile) = (self.thresholds.nearest, self.thresholds.quantile);
             self.hold(Measure::Nearest, self.nearest, |value| value < nearest);
             self.hold(Measure::Quantile, self.quantile, |value| value < quantile);
@@ -370,7 +377,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     fn seen(&self, group: &Group<T, D>, slot: usize, value: f64) -> Seen<D> {
         Seen {
             value,
-            time: self.time,
+            time: self.state.time,
             id: group.particles.first_id + group.particles.ids[slot] as usize,
             position: group.particles.position(slot),
         }
@@ -383,7 +390,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let slot = *group.particles.slot_of.get(own)? as usize;
             (slot < group.particles.columns.slots()).then(|| group.particles.position(slot))
         };
-        self.groups.iter().rev().find_map(place).unwrap_or([0.0; D])
+        self.state
+            .groups
+            .iter()
+            .rev()
+            .find_map(place)
+            .unwrap_or([0.0; D])
     }
 
     /// Particles farther than a spacing outside of the box of the walls, where walls alone bound the scene, and the first.
@@ -392,6 +404,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             return (0, None);
         };
         if self
+            .state
             .groups
             .iter()
             .any(|group| group.walls.iter().any(|wall| wall.motion.is_some()))
@@ -399,7 +412,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             return (0, None);
         }
         let (mut count, mut first) = (0, None);
-        for group in &self.groups {
+        for group in &self.state.groups {
             let [low, high] = [low, high].map(|corner| local(&corner, &group.particles.origin));
             for body in &group.particles.bodies {
                 let x = &group.particles.columns.vectors(Field::POSITION)[body.slots.clone()];
@@ -442,7 +455,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Whether all bodies carry an internal energy.
     pub(super) fn carries_energy(&self) -> bool {
         let has = |group: &Group<T, D>| !group.particles.columns.raw(Field::ENERGY).is_empty();
-        self.groups.iter().all(has)
+        self.state.groups.iter().all(has)
     }
 
     /// Momentum \[kg m/s\] that walls and boundaries have given bodies since the start.
@@ -461,7 +474,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Whether what acts from outside is known to the momentum residual: uniform loads, walls and boundaries.
     pub(super) fn books_momentum(&self) -> bool {
         let own = |group: &Group<T, D>| group.emitters.is_empty() && group.held.is_empty();
-        self.loads.is_empty() && self.groups.iter().all(own) && self.removed().particles == 0
+        self.loads.is_empty() && self.state.groups.iter().all(own) && self.removed().particles == 0
     }
 
     /// Whether nothing does work on the bodies.
@@ -473,6 +486,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 .all(|w| w.motion.is_none() || w.structure.is_some())
                 && group.boundaries.iter().all(|boundary| !boundary.moves())
         };
-        self.books_momentum() && self.accelerations.is_empty() && self.groups.iter().all(still)
+        self.books_momentum()
+            && self.accelerations.is_empty()
+            && self.state.groups.iter().all(still)
     }
 }

@@ -106,25 +106,27 @@ impl<const D: usize> Stores<D> {
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// Begins the accounts at a state that has just been evaluated, or lets them go on from it.
     pub(in crate::simulation) fn begin_stores(&mut self, changed: bool) {
-        let count = self.groups.len() + 1 + self.couples.len();
-        if !changed && self.stores.accounts.len() == count && !self.lacks_liquids() {
+        let count = self.state.groups.len() + 1 + self.state.couples.len();
+        if !changed && self.state.stores.accounts.len() == count && !self.lacks_liquids() {
             return;
         }
-        self.stores.accounts.resize(count, None);
+        self.state.stores.accounts.resize(count, None);
         for k in 0..count {
             if self.unsaid(k).is_none()
                 && let Ok(now) = self.measured(k)
             {
-                let before = self.stores.accounts[k];
-                self.stores.accounts[k] = Some(self.opened(&now, before));
+                let before = self.state.stores.accounts[k];
+                self.state.stores.accounts[k] = Some(self.opened(&now, before));
             }
         }
     }
 
     /// Whether the energy of liquids is kept from now on.
     fn lacks_liquids(&self) -> bool {
-        let at = self.groups.len();
-        self.work.is_some() && self.stores.accounts[at].is_none() && self.unsaid(at).is_none()
+        let at = self.state.groups.len();
+        self.state.work.is_some()
+            && self.state.stores.accounts[at].is_none()
+            && self.unsaid(at).is_none()
     }
 
     /// An account that goes on from the present state with the gain that it had.
@@ -153,12 +155,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     fn gain_at(&self, share: f64, (group, slot): (usize, usize)) -> Seen<D> {
-        let particles = &self.groups[group].particles;
+        let particles = &self.state.groups[group].particles;
         let id = particles.ids.get(slot).map_or(0, |id| *id as usize);
         let held = slot < particles.columns.slots();
         Seen {
             value: share,
-            time: self.time,
+            time: self.state.time,
             id: particles.first_id + id,
             position: if held {
                 particles.position(slot)
@@ -170,18 +172,18 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// The largest gain of all parts since the start; `None` where nothing can be said of any.
     pub(in crate::simulation) fn largest_gain(&self) -> Option<Seen<D>> {
-        let known = self.stores.accounts.iter().flatten();
+        let known = self.state.stores.accounts.iter().flatten();
         let worst = known.map(|own| own.worst);
         worst.reduce(|a, b| if b.value > a.value { b } else { a })
     }
 
     /// Looks at the state after a step, in some.
     pub(in crate::simulation) fn look_at_stores(&mut self) -> Result<()> {
-        if !self.steps.is_multiple_of(EVERY) || !self.stands() {
+        if !self.state.steps.is_multiple_of(EVERY) || !self.stands() {
             return Ok(());
         }
-        for k in 0..self.stores.accounts.len() {
-            let Some(mut account) = self.stores.accounts[k] else {
+        for k in 0..self.state.stores.accounts.len() {
+            let Some(mut account) = self.state.stores.accounts[k] else {
                 continue;
             };
             if self.unsaid(k).is_some() {
@@ -192,7 +194,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             };
             // What has entered or left since has taken its energies along.
             if now.population != account.population {
-                self.stores.accounts[k] = Some(self.opened(&now, Some(account)));
+                self.state.stores.accounts[k] = Some(self.opened(&now, Some(account)));
                 continue;
             }
             account.gain = now.gain(Some(&account));
@@ -207,19 +209,19 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             if share > account.worst.value {
                 account.worst = self.gain_at(share, now.at);
             }
-            self.stores.accounts[k] = Some(account);
-            if share > self.stores.limit {
+            self.state.stores.accounts[k] = Some(account);
+            if share > self.state.stores.limit {
                 let (body, particle) = self.locate(account.worst.id);
                 return Err(Error::StoredEnergy {
                     part: self.name_of_part(k),
                     gain: account.gain,
                     supplied: account.supplied,
-                    limit: self.stores.limit,
+                    limit: self.state.stores.limit,
                     body,
                     particle,
                     position: account.worst.position.to_vec(),
-                    time: self.time,
-                    step: self.steps,
+                    time: self.state.time,
+                    step: self.state.steps,
                 });
             }
         }

@@ -40,9 +40,9 @@ impl Measured {
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// Whether all that follows from positions has been evaluated at the present ones.
     pub(super) fn stands(&self) -> bool {
-        let step = self.last_vote.map_or(0.0, |vote| vote.step);
-        let off = (self.evaluated - self.time).abs();
-        self.rates_at_hand && off <= 1e-9 * step + 2e-12 * self.time.abs()
+        let step = self.state.last_vote.map_or(0.0, |vote| vote.step);
+        let off = (self.state.evaluated - self.state.time).abs();
+        self.state.rates_at_hand && off <= 1e-9 * step + 2e-12 * self.state.time.abs()
     }
 
     /// The present state of a part of which something can be said.
@@ -52,13 +52,13 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
         let lost = "the pressure of a material depends on internal energy";
         let mut sum = Measured::default();
-        if let Some(group) = self.groups.get(k) {
+        if let Some(group) = self.state.groups.get(k) {
             add_bodies(&mut sum, group, k).ok_or(lost)?;
             return Ok(sum);
         }
         if let Some(couple) = self.couple_of(k) {
             for (number, body) in couple.sides.iter().filter_map(Side::body) {
-                let group = &self.groups[number];
+                let group = &self.state.groups[number];
                 let body = &group.particles.bodies[body];
                 for slot in body.slots.clone() {
                     sum.kinetic += kinetic(group, slot);
@@ -76,14 +76,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             }
             return Ok(sum);
         }
-        for (number, group) in self.groups.iter().enumerate() {
+        for (number, group) in self.state.groups.iter().enumerate() {
             add_bodies(&mut sum, group, number).ok_or(lost)?;
         }
-        for couple in &self.couples {
+        for couple in &self.state.couples {
             sum.stored += couple.acting.stored;
             sum.dissipated += couple.acting.heat;
         }
-        let work = self.work.unwrap_or_default();
+        let work = self.state.work.unwrap_or_default();
         let removed = self.removed().kinetic;
         sum.work = work.load + work.wall - sum.kinetic - removed;
         Ok(sum)
@@ -96,7 +96,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let Some((number, body)) = couple.sides[side].body() else {
                 continue;
             };
-            let particles = &self.groups[number].particles;
+            let particles = &self.state.groups[number].particles;
             for (id, force) in forces {
                 let square: f64 = force.iter().map(|f| f.to_f64().powi(2)).sum();
                 if square > found.0 {

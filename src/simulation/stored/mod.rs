@@ -151,7 +151,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         };
         let part = |k: usize| {
             let measured = self.unsaid(k).map_or_else(|| self.measured(k), Err);
-            let account = self.stores.accounts.get(k).and_then(Option::as_ref);
+            let account = self.state.stores.accounts.get(k).and_then(Option::as_ref);
             let balance = measured.map(|own| {
                 let gain = account.map_or(0.0, |_| own.gain(account));
                 let start = own.kinetic + own.stored;
@@ -169,7 +169,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             }
         };
         StoredEnergy {
-            time: self.time,
+            time: self.state.time,
             bodies: self.all_bodies().map(body).collect(),
             parts: self.stored_parts().map(part).collect(),
         }
@@ -178,6 +178,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Stops the run where stored energy exceeds what work and booked dissipation leave by more than this share of the
     /// largest energy supplied; 0.5 if not said, and infinity for never. See [`StoredEnergy`].
     pub fn limit_stored_energy(&mut self, share: f64) {
-        self.on_both(&|own| own.stores.limit = share);
+        self.on_both(&|own| own.state.stores.limit = share);
     }
 }

@@ -15,10 +15,10 @@ const NO_ENERGY: &str =
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// Parts of which there is something to say: groups with internal energy, liquids without, and couplings.
     pub(super) fn stored_parts(&self) -> impl Iterator<Item = usize> {
-        let groups = self.groups.len();
-        let of_liquids = self.groups.iter().any(|group| !has_energy(group));
-        let all = 0..groups + 1 + self.couples.len();
-        all.filter(move |&k| match self.groups.get(k) {
+        let groups = self.state.groups.len();
+        let of_liquids = self.state.groups.iter().any(|group| !has_energy(group));
+        let all = 0..groups + 1 + self.state.couples.len();
+        all.filter(move |&k| match self.state.groups.get(k) {
             Some(group) => has_energy(group),
             None => k > groups || of_liquids,
         })
@@ -30,20 +30,25 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let names: Vec<_> = bodies.map(|body| body.name.as_str()).collect();
             names.join(", ")
         };
-        if let Some(group) = self.groups.get(k) {
+        if let Some(group) = self.state.groups.get(k) {
             return names(&mut core::iter::once(group));
         }
         match self.couple_of(k) {
-            None => names(&mut self.groups.iter().filter(|group| !has_energy(group))),
+            None => names(&mut self.state.groups.iter().filter(|group| !has_energy(group))),
             Some(couple) => {
-                let [first, second] = couple.sides.each_ref().map(|side| side.name(&self.groups));
+                let [first, second] = couple
+                    .sides
+                    .each_ref()
+                    .map(|side| side.name(&self.state.groups));
                 format!("{} of {first} and {second}", couple.coupling.name())
             }
         }
     }
 
     pub(super) fn couple_of(&self, k: usize) -> Option<&Couple<T, D>> {
-        self.couples.get(k.checked_sub(self.groups.len() + 1)?)
+        self.state
+            .couples
+            .get(k.checked_sub(self.state.groups.len() + 1)?)
     }
 
     /// Why nothing can be said of a part, as the scene was built.
@@ -51,13 +56,13 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         if !self.integrator.kicks() {
             return Some("the integrator leaves no forces that belong to the end of a step");
         }
-        if let Some(group) = self.groups.get(k) {
+        if let Some(group) = self.state.groups.get(k) {
             return self.unsaid_of_group(group);
         }
         if let Some(couple) = self.couple_of(k) {
             let apart = |side: &Side<D>| {
                 let body = side.body();
-                body.is_some_and(|(group, _)| self.groups[group].sub_cycle.is_some())
+                body.is_some_and(|(group, _)| self.state.groups[group].sub_cycle.is_some())
             };
             return if !couple.coupling.books_energy() {
                 Some("the coupling does not say what it stores")
@@ -68,21 +73,22 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             };
         }
         let moves = |group: &Group<T, D>| group.boundaries.iter().any(|own| own.moves());
-        if self.work.is_none() {
+        if self.state.work.is_none() {
             Some(NO_ENERGY)
-        } else if self.groups.iter().any(has_energy) {
+        } else if self.state.groups.iter().any(has_energy) {
             Some("bodies with internal energy take part")
         } else if !self
+            .state
             .groups
             .iter()
             .all(|group| group.scheme.program.books_energy)
         {
             Some("an effect does not say what it stores")
-        } else if self.groups.iter().any(moves) {
+        } else if self.state.groups.iter().any(moves) {
             Some("the work of a boundary that moves is not booked")
-        } else if self.groups.iter().any(|group| !group.held.is_empty()) {
+        } else if self.state.groups.iter().any(|group| !group.held.is_empty()) {
             Some("the work of what holds particles is not booked")
-        } else if self.groups.iter().any(|group| !has_law(group)) {
+        } else if self.state.groups.iter().any(|group| !has_law(group)) {
             Some("the pressure of a material depends on internal energy")
         } else {
             None
