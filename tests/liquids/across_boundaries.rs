@@ -195,6 +195,34 @@ fn probes_on_planes_and_by_periods_read_the_pressure() {
     }
 }
 
+/// A jet onto a plane, on which nothing but images stands: sensors where it divides read ½ ρ v².
+#[test]
+fn a_probe_under_a_jet_reads_its_stagnation_pressure() {
+    let (speed, width, length) = (116.0, 20.0 * DX, 120.0 * DX);
+    let jet = Material::new("water", Linear::new(1000.0, 10.0 * speed));
+    let (low, high) = ([-0.5 * width, 0.0], [0.5 * width, length]);
+    let mut simulation = Scene::<f64, 2>::new(schemes::weakly_compressible())
+        .body(Body::block("jet", jet, low, high, DX).velocity([0.0, -speed]))
+        .boundary(MirrorPlane::wall([0.0; 2], [0.0, -1.0]))
+        .build()
+        .unwrap();
+    let probe = PressureProbe::disc(&simulation, "plane", [0.0; 2], [0.0, 1.0], 4.0 * DX).unwrap();
+    let (mut sums, mut readings) = ([0.0; 2], 0.0);
+    // It is steady after it has run on by twice its width, and until its end comes near.
+    for k in 0..=100 {
+        let run = 2.0 * width + f64::from(k) / 100.0 * (0.7 * length - 2.0 * width);
+        simulation.run_until(run / speed).unwrap();
+        sums[0] += probe.pressure(&simulation);
+        sums[1] += probe.contact_pressure(&simulation);
+        readings += 1.0;
+    }
+    let stagnation = 0.5 * 1000.0 * speed * speed;
+    let [read, felt] = sums.map(|sum| sum / (readings * stagnation));
+    println!("sensor {read}, contact {felt} of {stagnation} Pa");
+    assert!((read - 1.0).abs() < 0.05, "{read}");
+    assert!((felt - 1.0).abs() < 0.05, "{felt}");
+}
+
 /// What is sampled on a plane does not go through it; behind it nothing is read that is not there.
 #[test]
 fn fields_on_a_plane_are_those_of_both_sides() {

@@ -1,6 +1,7 @@
 //! Walls and bodies without slip that turn: a full drum, and liquid between two cylinders.
 //! Liquid in a drum turns as a solid with it, and between cylinders the torque is that of Couette's flow.
 
+use meshfree::effect::{ExtrapolatedPressure, VolumeConsistency};
 use meshfree::geometry::{fill, layers};
 use meshfree::material::eos::Linear;
 use meshfree::material::{Liquid, SoundSpeed};
@@ -25,12 +26,19 @@ fn laminar() -> Scheme<f64, 2> {
         .compose()
 }
 
-/// The same with forces between particles along the line between them, which keep angular momentum.
-fn central() -> Scheme<f64, 2> {
+/// A closed domain that is sheared: forces of friction along the line between particles, which keep angular momentum, particles
+/// that stay evenly spread, densities that stay those of their places, and walls that pull as well as push.
+fn sheared() -> Scheme<f64, 2> {
     schemes::weakly_compressible()
+        .h_over_dx(2.0)
         .density_diffusion(Antuono::default())
+        .walls(ExtrapolatedPressure {
+            floor: f64::NEG_INFINITY,
+        })
         .with_viscosity(Inviscid)
         .with(Laminar(CentralViscosity))
+        .with(Shifting::CLOSED)
+        .with(VolumeConsistency { strength: 0.05 })
         .compose()
 }
 
@@ -114,14 +122,14 @@ fn liquid_in_a_drum_turns_with_it() {
     }
 }
 
-/// Moments \[N\] of the liquid on the inner and the outer cylinder, over that of Couette's flow, with `count` particles across the
-/// gap.
-fn torques(scheme: Scheme<f64, 2>, count: f64, [inner, outer]: [f64; 2]) -> [f64; 2] {
+/// Moments \[N\] of the liquid on the inner and the outer cylinder, over that of Couette's flow, with 20 particles across the
+/// gap: means over all steps between two times \[s\].
+fn torques([inner, outer]: [f64; 2], [begin, end]: [f64; 2]) -> [f64; 2] {
     let radii = [0.5, 1.0];
-    let spacing = (radii[1] - radii[0]) / count;
+    let spacing = (radii[1] - radii[0]) / 20.0;
     let [small, large] = radii.map(|r| Ball::new([0.0; 2], r));
     let origin = [0.5 * spacing; 2];
-    let reach = 4.0 * spacing;
+    let reach = 5.0 * spacing;
     let mut gap = fill(&large, spacing, origin).expect("a gap");
     let core: Vec<[f64; 2]> = (fill(&small, spacing, origin)
         .expect("a cylinder")
@@ -140,45 +148,44 @@ fn torques(scheme: Scheme<f64, 2>, count: f64, [inner, outer]: [f64; 2]) -> [f64
         (outer * squares[1] - inner * squares[0]) / between,
         (inner - outer) * squares[0] * squares[1] / between,
     );
-    let mut simulation = Scene::<f64, 2>::new(scheme)
+    let mut simulation = Scene::<f64, 2>::new(sheared())
         .body(liquid(gap, spacing, |r| a + b / (r * r)))
         .wall(wall("inner", core, inner))
         .wall(wall("outer", shell, outer))
         .build()
         .expect("two cylinders");
-    simulation.run_until(0.4).expect("a start");
-    let exact = 4.0 * core::f64::consts::PI * VISCOSITY * b;
-    let (mut sums, readings) = ([0.0; 2], 20);
-    for k in 1..=readings {
-        simulation
-            .run_until(0.4 + 0.02 * f64::from(k))
-            .expect("a turn");
-        for ([x, y], [fx, fy]) in simulation.wall_particle_forces() {
-            let side = usize::from(x.hypot(y) > 0.75);
-            sums[side] += (x * fy - y * fx) / (exact * f64::from(readings));
+    simulation.run_until(begin).expect("a start");
+    let exact = 4.0 * core::f64::consts::PI * VISCOSITY * b * (end - begin);
+    let (mut sums, mut time) = ([0.0; 2], begin);
+    // Steps of walls of a lattice feel every wave of pressure: of single readings the torque scatters by a fifth.
+    let add = |now: &Simulation<f64, 2>| {
+        let dt = now.time() - time;
+        time = now.time();
+        for ([x, y], [fx, fy]) in now.wall_particle_forces() {
+            sums[usize::from(x.hypot(y) > 0.75)] += dt * (x * fy - y * fx) / exact;
         }
-    }
+    };
+    simulation.run_with(end, add).expect("a turn");
     sums
 }
 
-/// The Laplacian of a velocity takes μ ∂v/∂n for the friction, which is that of a liquid on a cylinder at rest.
-#[test]
-#[ignore = "takes half a minute"]
-fn a_cylinder_at_rest_feels_the_torque_of_couette() {
-    for (rates, at_rest) in [([OMEGA, 0.0], 1), ([0.0, OMEGA], 0)] {
-        let torques = torques(laminar(), 20.0, rates);
-        println!("{rates:?}: {torques:.4?}");
-        assert!((torques[at_rest].abs() - 1.0).abs() < 0.02, "{torques:?}");
+fn both_feel_couette(rates: [f64; 2], times: [f64; 2]) {
+    let torques = torques(rates, times);
+    println!("{rates:?}: {torques:.4?}");
+    for (torque, sign) in torques.into_iter().zip([-1.0, 1.0]) {
+        assert!((sign * torque - 1.0).abs() < 0.02, "{torques:?}");
     }
 }
 
-/// Forces along the line between particles give both cylinders the same torque.
 #[test]
-#[ignore = "takes half a minute"]
-fn central_forces_keep_angular_momentum_between_cylinders() {
+fn cylinders_feel_the_torque_of_couette() {
+    both_feel_couette([0.0, OMEGA], [0.5, 1.0]);
+}
+
+#[test]
+#[ignore = "takes a minute"]
+fn cylinders_feel_the_torque_of_couette_whichever_turns() {
     for rates in [[OMEGA, 0.0], [0.0, OMEGA]] {
-        let torques = torques(central(), 20.0, rates);
-        println!("{rates:?}: {torques:.4?}");
-        assert!((torques[0] + torques[1]).abs() < 0.03, "{torques:?}");
+        both_feel_couette(rates, [0.5, 2.5]);
     }
 }

@@ -210,7 +210,14 @@ fn all_hold(end: f64) {
     let mut simulation = all().build().unwrap();
     let particles = simulation.particles();
     let first = energy(&simulation);
-    simulation.run_until(0.5 * end).unwrap();
+    // The stone presses out the last layers of water, whose walls show an extrapolated pressure and no energy of their own.
+    let mut most = first;
+    for k in 1..=50 {
+        simulation.run_until(f64::from(k) / 100.0 * end).unwrap();
+        most = most.max(energy(&simulation));
+    }
+    println!("has {} of its energy at most", most / first);
+    assert!(most < 1.01 * first, "{most} of {first}");
     #[cfg(feature = "checkpoint")]
     let mut resumed = {
         let path = std::env::temp_dir().join(format!("meshfree-all-{}-{end}", std::process::id()));
