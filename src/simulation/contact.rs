@@ -4,7 +4,6 @@
 use super::Simulation;
 use super::group::Group;
 use super::group::shared_with_image;
-use super::pair_images::velocity;
 use super::pair_list::PairList;
 use super::side::{MetWall, Side, carry};
 use crate::boundary::Boundary;
@@ -430,7 +429,7 @@ impl<T: Real, const D: usize> Couple<T, D> {
             if let Some(chain) = chain {
                 let own = &list.images.transforms[chain];
                 particle.position = own.point(&particle.position);
-                particle.velocity = velocity(own, &particle.velocity);
+                particle.velocity = own.velocity_of(&particle.velocity);
             }
             particle.stiffness = stiffness;
             list.particles.push(particle);

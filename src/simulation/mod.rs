@@ -62,6 +62,7 @@
 //! [`Simulation::body`] runs over the particles of a body in the order in which the scene placed them,
 //! although they are sorted in memory, so the n-th is the same particle throughout. Bodies and walls are asked for by
 //! name or by index ([`Which`]), and one that the scene does not have is an error.
+//! [`ParticleView::for_each_neighbor`] shows the neighbours of a particle, with images behind planes and across periods.
 //! [`Simulation::run_with`] shows the simulation to a closure after every step, and at the end:
 //!
 //! ```
@@ -159,6 +160,7 @@ mod ledger;
 mod limits;
 mod load;
 mod loads;
+mod neighbor;
 mod neighborhood;
 mod observed;
 mod outlook;
@@ -194,6 +196,7 @@ pub use held::Clamped;
 pub use indicators::{Indicators, Limit, LimitedBy, Spread};
 pub use ledger::{Budget, Ledger, Total};
 pub use load::{Load, LoadPoint};
+pub use neighbor::Neighbor;
 pub use phases::Phases;
 pub use query::{ParticleView, ParticleViews};
 pub use stability::{

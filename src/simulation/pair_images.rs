@@ -4,7 +4,6 @@
 use crate::boundary::Boundary;
 use crate::scalar::Real;
 use crate::sweep::Transform;
-use crate::tensor::Vector;
 use std::sync::Arc;
 
 /// Images of the particles of both sides of a coupling, which stand in its list behind the particles.
@@ -176,9 +175,4 @@ impl<T: Real, const D: usize> PairImages<T, D> {
         });
         moved.fold(0.0, f64::max).sqrt()
     }
-}
-
-/// The image of a velocity.
-pub(super) fn velocity<T: Real, const D: usize>(own: &Transform<T, D>, v: &[T; D]) -> [T; D] {
-    (own.rotation * Vector::from(*v) + own.velocity).into()
 }
