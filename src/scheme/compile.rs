@@ -66,7 +66,7 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
         let integrated = own.density.is_integrated();
         let follows_divergence = matches!(own.smoothing, Smoothing::Divergence { .. });
         // A switch follows the compression once a step, by the sum that the rates make.
-        let switch = self.viscosity.switch();
+        let switch = self.viscosity.switch::<T>();
         let with_rates = integrated || follows_divergence || switch.is_some();
         let mut sweeps: [Option<Box<dyn PairSweep<T, D>>>; Stage::COUNT] = Default::default();
         sweeps[Stage::Reference.number()] = compiled.at::<stage::Reference, T, D>();
@@ -99,8 +99,13 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
         self.effects.register(&mut program);
         if let Some(switch) = switch {
             program.start(Field::VISCOSITY_COEFFICIENT, switch.start());
+            let mut writes = Fields::of(&[Field::VISCOSITY_COEFFICIENT]).union(switch.keeps());
+            if self.viscosity.needs_velocity_gradient() {
+                writes = writes.union(Fields::of(&[Field::VELOCITY_GRADIENT]));
+            }
             let law = ViscositySwitch {
                 switch,
+                writes,
                 form: own.density,
                 support: setting.kernel.support,
             };
@@ -180,7 +185,7 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
         let refers =
             |sweep: &dyn PairSweep<T, D>| sweep.fields().contains(Field::REFERENCE_POSITION);
         let mut all = sweeps.iter().flatten();
-        let varies = own.smoothing != Smoothing::Fixed || self.viscosity.switch().is_some();
+        let varies = own.smoothing != Smoothing::Fixed || self.viscosity.switch::<T>().is_some();
         let mixed = all.any(|sweep| refers(sweep.as_ref()) != total) || (total && varies);
         program.require(move |_| {
             mixed.then(|| Problem::Incompatible {
