@@ -86,6 +86,7 @@ pub(super) fn approach<T: Real, const D: usize>(
     let bearable = share * NEAREST * least_h / scheme.h_over_dx;
     let harmless = |speed: f64| speed == 0.0 || speed * limit <= bearable;
     let shifted = neighborhood
+        .chains
         .transforms
         .iter()
         .fold(0.0_f64, |most, by| most.max(length(&by.velocity).to_f64()));
@@ -148,7 +149,7 @@ fn velocities<T: Real, const D: usize>(
         .fold(no_corners(), |known, slots| corners(slots, known, own));
     let images = &neighborhood.images;
     corners(0..images.len(), direct, |k| {
-        let by = &neighborhood.transforms[images[k].transform as usize];
+        let by = &neighborhood.chains.transforms[images[k].transform as usize];
         by.velocity_of(&velocities[images[k].source as usize])
             .map(Real::to_f64)
     })

@@ -164,7 +164,6 @@ mod neighbor;
 mod neighborhood;
 mod observed;
 mod outlook;
-mod pair_images;
 mod pair_list;
 mod phases;
 mod population;

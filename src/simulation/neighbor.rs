@@ -55,7 +55,7 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
             },
             Some(image) => Entry {
                 slot: self.images[image].source as usize,
-                image: Some(&self.transforms[self.images[image].transform as usize]),
+                image: Some(&self.chains.transforms[self.images[image].transform as usize]),
             },
         };
         let list = self.lists.chunks().get(row / CHUNK);
