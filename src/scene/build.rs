@@ -72,7 +72,6 @@ impl<T: Real, const D: usize> Scene<T, D> {
         let fixed = self.control.fixed;
         let mut simulation = self.lay_out()?;
         simulation.hold_velocities();
-        simulation.put_to_sleep()?;
         simulation.take_references();
         let problems = simulation.isolated();
         if !problems.is_empty() {
@@ -134,8 +133,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             self.loads,
         )
         .with_step_ends(self.step_ends)
-        .with_events(self.events)
-        .awake_inside(self.awake);
+        .with_events(self.events);
         simulation.built = built;
         #[cfg(feature = "checkpoint")]
         let simulation = simulation.of_scene(hashes, values);

@@ -30,7 +30,6 @@ impl<T: Real, const D: usize> Scene<T, D> {
             loads,
             step_ends,
             events,
-            awake,
             exchanges,
             control,
             skin,
@@ -110,9 +109,6 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 "schemes that come later",
                 of_texts(exchanges.iter().map(text)),
             ));
-        }
-        if awake.is_some() {
-            all.push(("the box in which it is awake", of_texts([])));
         }
         all
     }

@@ -54,7 +54,7 @@
 //! ([`Scene::couple`]), and a stiff group takes steps of its own ([`Scene::sub_cycle`]).
 //!
 //! Parts of a body are clamped by [`Scene::fix`] and [`Scene::clamp`], and a body moves as a rigid one by
-//! [`Scene::rigid`]. Particles sleep outside of a box by [`Scene::awake_inside`], and leave by [`Scene::outlet`].
+//! [`Scene::rigid`]. Particles leave by [`Scene::outlet`].
 //!
 //! A [`MirrorPlane`](crate::boundary::MirrorPlane) holds solids and liquids. Walls of particles ([`Scene::wall`]) hold liquids by
 //! the wall law of their scheme, and solids by contact, which has to be named.
@@ -69,7 +69,7 @@
 //!
 //! | sees places of the scene, in `f64` | sees places counted from the origin |
 //! |---|---|
-//! | bodies, walls, boundaries, openings, motions, regions of clamps, the box in which it is awake | columns: [`Field::POSITION`](crate::particles::Field::POSITION) and `REFERENCE_POSITION` in [laws](crate::effect::Around::origin) |
+//! | bodies, walls, boundaries, openings, motions, regions of clamps | columns: [`Field::POSITION`](crate::particles::Field::POSITION) and `REFERENCE_POSITION` in [laws](crate::effect::Around::origin) |
 //! | [loads](crate::simulation::LoadPoint), [`set_field`](crate::simulation::Simulation::set_field), events | particles of [couplings](crate::coupling::CoupledParticle) |
 //! | [particles](crate::simulation::ParticleView) that are read, observers, files, pictures, reports, errors | columns in checkpoints, which hold the origin |
 //!
@@ -77,7 +77,6 @@
 //! asked with the origin added, so that their values have its rounding. How far a scene in `f32` may reach is checked as it is built.
 
 pub mod advice;
-mod asleep;
 mod body;
 mod build;
 mod check;
@@ -104,7 +103,7 @@ use crate::integrator::{Integrator, KickDriftKick};
 use crate::particles::Fields;
 use crate::scalar::Real;
 use crate::scheme::Scheme;
-use crate::simulation::{Awake, Event, Load, StepControl, UniformLoad};
+use crate::simulation::{Event, Load, StepControl, UniformLoad};
 use crate::sweep::{InstructionSet, Interaction, Root};
 use exchange::ExchangeOf;
 use held::ClampOf;
@@ -145,7 +144,6 @@ pub struct Scene<T: Real, const D: usize> {
     loads: Vec<Load<D>>,
     step_ends: Vec<f64>,
     events: Vec<Event<T, D>>,
-    awake: Option<Awake<T, D>>,
     exchanges: Vec<ExchangeOf<T, D>>,
     control: StepControl,
     skin: Option<f64>,
@@ -198,7 +196,6 @@ impl<T: Real, const D: usize> Scene<T, D> {
             loads: Vec::new(),
             step_ends: Vec::new(),
             events: Vec::new(),
-            awake: None,
             exchanges: Vec::new(),
             control,
             skin: None,

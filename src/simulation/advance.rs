@@ -183,7 +183,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             };
             group.apply_laws(Stage::Continuity, moment);
             group.apply_laws(Stage::Bounds, moment);
-            group.held.keep_asleep(&mut group.particles, true);
         }
         let group = &mut self.groups[group];
         if !group.drifts_at_once() {

@@ -116,7 +116,6 @@ impl<T: Real, const D: usize> Group<T, D> {
             self.apply_laws(Stage::Continuity, moment);
         }
         self.apply_laws(Stage::Rates, moment);
-        self.held.keep_asleep(&mut self.particles, false);
     }
 
     /// Smoothing lengths that follow the density, as far ahead as they have changed since: the nearer the search for them

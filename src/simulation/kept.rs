@@ -72,7 +72,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             stores,
             events: _,
             happened,
-            awake: _,
         } = self;
         let mut kept = Kept {
             groups: groups.clone(),

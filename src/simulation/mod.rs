@@ -50,7 +50,6 @@
 //! | energy of a liquid, work on it, dissipation | [`Simulation::energy`] |
 //! | stored energy, as a function of the state, and the work that went into it | [`Simulation::stored_energy`] |
 //! | what left through outlets | [`Simulation::removed`] |
-//! | what sleeps outside of a box, and what that has taken | [`Simulation::asleep`] |
 //! | memory | [`Simulation::bytes`] |
 //! | all of these as counts that no machine changes | [`Simulation::work`], and [`Simulation::expected_work`] of what is to come |
 //! | whether the run is sound: bounds, limits, residuals, arrangement, steps, with a verdict | [`Simulation::keep_stability`], [`Simulation::stability`] |
@@ -137,7 +136,6 @@
 
 mod advance;
 mod approach;
-mod asleep;
 #[cfg(feature = "checkpoint")]
 mod checkpoint;
 mod contact;
@@ -186,7 +184,6 @@ mod which;
 mod work;
 mod workspace;
 
-pub use asleep::Sleepers;
 pub use contact::Contact;
 pub use control::{Criterion, StepControl, Vote};
 pub use cost::{Cost, CostLine};
@@ -207,7 +204,6 @@ pub(crate) use which::find;
 pub use work::Work;
 
 pub(crate) use advance::{ACCELERATION, is_square_finite};
-pub(crate) use asleep::Awake;
 pub(crate) use contact::{Acting, Couple};
 pub(crate) use couplings::Structure;
 pub(crate) use event::{Event, Happened};
@@ -295,8 +291,6 @@ pub struct Simulation<T: Real, const D: usize> {
     /// What is looked at after every step, and what has happened.
     events: Vec<Event<T, D>>,
     happened: Happened,
-    /// The box in which it is awake.
-    awake: Option<Awake<T, D>>,
 }
 
 impl<T: Real, const D: usize> core::fmt::Debug for Simulation<T, D> {
@@ -365,7 +359,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             stores: stored::Stores::default(),
             events: Vec::new(),
             happened: Happened::new(),
-            awake: None,
         }
     }
 

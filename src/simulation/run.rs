@@ -134,8 +134,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     fn take_step(&mut self, next: Vote, limit: f64) -> Result<f64> {
         let (start, before) = (crate::clock::Instant::now(), self.phases());
         self.advance(next, limit)?;
-        let watched = self.watch_events();
-        self.keep_broken(watched)?;
+        self.watch_events();
         let followed = self.follow_events();
         self.keep_failure(followed)?;
         self.book_step(start, before);

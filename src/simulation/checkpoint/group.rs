@@ -155,9 +155,6 @@ impl<T: Real, const D: usize> Group<T, D> {
             apart.pending = pending.as_chunks::<D>().0.to_vec();
         }
         take_held(&mut self.held, name, file)?;
-        if let Some(asleep) = &mut self.held.asleep {
-            asleep.keep_rows(&self.particles, &scheme);
-        }
         self.gravity = file.get_array(&format!("{name}/gravity"))?;
         let force = file.get_all_reals::<T>(&format!("{name}/body_force"), D)?;
         self.body_force.copy_from_slice(&force);

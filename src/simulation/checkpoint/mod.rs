@@ -27,10 +27,9 @@ use std::path::Path;
 const VERSION: &str = "4";
 
 /// Parts of a scene that are hashed only where there are any.
-const RARE: [&str; 4] = [
+const RARE: [&str; 3] = [
     "times at which steps end",
     "events",
-    "the box in which it is awake",
     "schemes that come later",
 ];
 
@@ -94,7 +93,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             step_ends: _,
             built: _,
             events: _,
-            awake: _,
             happened,
             scene,
             described,
@@ -183,18 +181,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             file.put_one("last_vote/step".into(), *step);
             file.put_one("last_vote/particle".into(), *particle as u64);
         }
-        if let Some(Work {
-            start,
-            load,
-            wall,
-            asleep,
-        }) = work
-        {
+        if let Some(Work { start, load, wall }) = work {
             file.put("work".into(), 1, [*start, *load, *wall]);
-            // Files of scenes in which nothing may sleep are as they were.
-            if self.awake.is_some() {
-                file.put_one("work/asleep".into(), *asleep);
-            }
         }
         let (width, rows) = stores.rows();
         file.put_one("stored energy/limit".into(), stores.limit());
@@ -279,17 +267,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.work = None;
         if file.has("work") {
             let [start, load, wall] = file.get_array("work")?;
-            let asleep = if file.has("work/asleep") {
-                file.get_one("work/asleep")?
-            } else {
-                0.0
-            };
-            self.work = Some(Work {
-                start,
-                load,
-                wall,
-                asleep,
-            });
+            self.work = Some(Work { start, load, wall });
         }
         // Files of before there were any begin them anew.
         if file.has("stored energy/limit") {
