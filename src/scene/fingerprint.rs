@@ -23,7 +23,6 @@ impl<T: Real, const D: usize> Scene<T, D> {
             contacts,
             couplings,
             sub_cycled,
-            spread,
             clamps,
             rigid,
             accelerations,
@@ -72,7 +71,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
                     couplings
                         .iter()
                         .map(|own| debug((&own.first, &own.second, &own.coupling, own.exclusion)))
-                        .chain([debug(sub_cycled), debug(spread)]),
+                        .chain([debug(sub_cycled)]),
                 ),
             ),
             (

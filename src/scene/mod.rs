@@ -137,7 +137,6 @@ pub struct Scene<T: Real, const D: usize> {
     contacts: Vec<(String, String, Interaction)>,
     couplings: Vec<Coupled<T, D>>,
     sub_cycled: Vec<(String, u32)>,
-    spread: Vec<String>,
     clamps: Vec<ClampOf<D>>,
     rigid: Vec<String>,
     accelerations: Vec<UniformLoad<D>>,
@@ -189,7 +188,6 @@ impl<T: Real, const D: usize> Scene<T, D> {
             contacts: Vec::new(),
             couplings: Vec::new(),
             sub_cycled: Vec::new(),
-            spread: Vec::new(),
             clamps: Vec::new(),
             rigid: Vec::new(),
             accelerations: Vec::new(),
@@ -384,20 +382,6 @@ impl<T: Real, const D: usize> Scene<T, D> {
     #[must_use]
     pub fn sub_cycle(mut self, body: &str, most: u32) -> Self {
         self.sub_cycled.push((body.into(), most));
-        self
-    }
-
-    /// Lets what liquids give the group of a body that sub-cycles act as a constant force over each of their steps, in place of
-    /// an impulse at its begin and end, and lets the liquids meet its mean velocity in the step. A train of impulses drives all
-    /// modes of the body that swing a whole number of times in a step of the liquid; with eight steps in one of the
-    /// liquid's and more it shakes them ([sloshing](crate#pages)).
-    ///
-    /// The force comes half a step late, so that modes of about four steps of the liquid and less gain energy from it: give
-    /// the body an artificial viscosity (α = 0.2: [`MonaghanGingold`](crate::term::viscosity::MonaghanGingold)), which damps these
-    /// and no others. It is not for rigid bodies, nor for what couplings by forces act on: contacts are too stiff to be late.
-    #[must_use]
-    pub fn spread_impulses(mut self, body: &str) -> Self {
-        self.spread.push(body.into());
         self
     }
 

@@ -60,7 +60,6 @@ impl<T: Real, const D: usize> Scene<T, D> {
         self.check_couplings(&mut problems);
         self.check_solids_at_walls(&mut problems);
         self.check_sub_cycles(&mut problems);
-        self.check_spreading(&mut problems);
         self.check_held(&mut problems);
         self.check_events(&mut problems);
         self.check_exchanges(&mut problems);
