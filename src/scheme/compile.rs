@@ -2,7 +2,7 @@
 //! Loops are of those choices that the type of the builder allows, and of no others.
 
 use super::builder::{Consistency, SchemeBuilder};
-use super::force::{ENERGY, Gradients, KICKED, Needs, Pressure, REFERENCE, Rate};
+use super::force::{ENERGY, Gradients, Needs, Pressure, REFERENCE, Rate};
 use super::{EnergyForm, Scheme, Smoothing};
 use crate::effect::{
     BySum, Compression, ConsistentSmoothing, ContactActivity, CorrectedGradients, DensityForm,
@@ -27,13 +27,8 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
     {
         let own = &self.settings;
         let h_over_dx = own.h_over_dx.unwrap_or(self.kernel.h_over_dx());
-        let changes = if FORCE & KICKED == 0 {
-            When::Drift
-        } else {
-            When::Kick
-        };
         let forms = (own.density, own.pressure_form.unwrap_or(own.density));
-        Setting::of(&self.kernel, h_over_dx, forms, changes)
+        Setting::of(&self.kernel, h_over_dx, forms)
     }
 
     fn mode(&self) -> SmoothingMode {
@@ -201,7 +196,7 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
     /// What the scheme itself integrates in time, and how density follows from sums.
     fn evolve<T: Real, const D: usize>(&self, program: &mut StepProgram<T, D>) {
         let own = &self.settings;
-        let (setting, when) = (*program.setting(), program.setting().density_changes);
+        let setting = *program.setting();
         let compression = Compression {
             density: setting.density,
             pressure: setting.pressure_form,
@@ -216,7 +211,7 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
         }
         if own.density.is_integrated() {
             let density = Evolved::kicked(Field::DENSITY)
-                .at(when)
+                .at(When::Drift)
                 .updated(Update::Exponential)
                 .by(compression);
             program.evolve(density.keeping(Field::DENSITY_RESIDUAL));
@@ -362,10 +357,6 @@ impl<K, V, E, N: Needs, const MODES: u8, const FORCE: u8> Compiled<K, V, E, N, M
             return self.sweep(viscosity.then(own).then((InternalEnergy,)));
         }
         let forces = pressure.then(viscosity).then(own);
-        if const { FORCE & KICKED != 0 } {
-            let density = self.effects.at::<stage::Continuity>(&self.setting);
-            return self.sweep(forces.then(Rate::<FORCE>).then(density));
-        }
         if const { FORCE & ENERGY == 0 } {
             return self.sweep(forces);
         }
@@ -385,9 +376,6 @@ impl<K, V, E, N: Needs, const MODES: u8, const FORCE: u8> Compiled<K, V, E, N, M
         K: Kernel<D>,
         E: Effects<D>,
     {
-        if const { FORCE & KICKED != 0 } {
-            return None;
-        }
         if !integrated {
             return self.at::<stage::Continuity, T, D>();
         }

@@ -112,9 +112,6 @@ impl<T: Real, const D: usize> Group<T, D> {
             of_rates: true,
             ..moment
         };
-        if self.scheme.kicks_density() {
-            self.apply_laws(Stage::Continuity, moment);
-        }
         self.apply_laws(Stage::Rates, moment);
     }
 
