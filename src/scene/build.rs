@@ -38,24 +38,19 @@ impl<T: Real, const D: usize> Building<T, D> {
     }
 
     fn build(&mut self) -> Result<()> {
-        once!(self => &mut Building, build_here() -> Result<()>)
-    }
-
-    fn build_here(&mut self) -> Result<()> {
-        self.simulation = Some(self.scene().built()?);
-        Ok(())
+        once!(self => &mut Building, |own| -> Result<()> {
+            own.simulation = Some(own.scene().built()?);
+            Ok(())
+        })
     }
 
     #[cfg(feature = "checkpoint")]
     fn resume(&mut self, path: &Path) -> Result<()> {
-        once!(self => &mut Building, resume_here(path: &Path) -> Result<()>)
-    }
-
-    #[cfg(feature = "checkpoint")]
-    fn resume_here(&mut self, path: &Path) -> Result<()> {
-        let file = Checkpoint::read(path)?;
-        self.simulation = Some(self.scene().lay_out()?.resumed(path, &file)?);
-        Ok(())
+        once!(self => &mut Building, |own, path: &Path| -> Result<()> {
+            let file = Checkpoint::read(path)?;
+            own.simulation = Some(own.scene().lay_out()?.resumed(path, &file)?);
+            Ok(())
+        })
     }
 }
 

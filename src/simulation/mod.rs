@@ -408,16 +408,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Between steps it changes nothing of what comes: the next step starts from the rates that the step before has
     /// left, which belong to predicted velocities. The state is held twice until then.
     pub fn evaluate(&mut self) -> Result<()> {
-        once!(self => &mut Simulation, evaluate_here() -> Result<()>)
-    }
-
-    fn evaluate_here(&mut self) -> Result<()> {
-        self.check_failure()?;
-        if self.rates_at_hand && self.aside.is_none() {
-            self.aside = Some(Box::new(self.keep()));
-        }
-        crate::integrator::System::evaluate(self, 0.0)?;
-        self.vote().map(|_| ())
+        once!(self => &mut Simulation, |own| -> Result<()> {
+            own.check_failure()?;
+            if own.rates_at_hand && own.aside.is_none() {
+                own.aside = Some(Box::new(own.keep()));
+            }
+            crate::integrator::System::evaluate(own, 0.0)?;
+            own.vote().map(|_| ())
+        })
     }
 
     /// Refuses to go on after a failure.

@@ -47,8 +47,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// [`Error::File`] if the file cannot be written, and [`Error::Failed`] after a step that has failed: its state is
     /// none to go on from.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
-        self.check_failure()?;
-        self.put().write(path.as_ref())
+        let path = path.as_ref();
+        once!(self => &Simulation, |own, path: &Path| -> Result<()> {
+            own.check_failure()?;
+            own.put().write(path)
+        })
     }
 
     /// The same, as of a scene.
@@ -78,10 +81,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     fn put(&self) -> Checkpoint {
-        once!(self => &Simulation, put_here() -> Checkpoint)
-    }
-
-    fn put_here(&self) -> Checkpoint {
         let Self {
             groups,
             couples,
