@@ -51,8 +51,7 @@
 //! (Biesiadecki & Skeel 1993, J. Comput. Phys. 109, 318), the more the larger the share of a coupling in its stiffness.
 //! Liquids give little of that, yet walls of acrylic around water rang where four, six and eight steps were asked for, and
 //! not where five were ([sloshing](crate#pages)). Artificial viscosity in the body, α = 0.2, damps it up to eight steps; where
-//! `work of couplings` grows without cause, ask for fewer, or let what liquids give be spread over their steps
-//! ([`Scene::spread_impulses`](crate::scene::Scene::spread_impulses)).
+//! `work of couplings` grows without cause, ask for fewer.
 
 mod contact_density;
 mod friction;

@@ -1,7 +1,7 @@
 //! An effect that a scheme does not name is in no loop, no column and no law: tests over all effects of the crate.
 //! A list in which it is absent has the same loops, by type, with the same operations a pair, as a list written without it.
 
-use super::{Cavitation, DensityForm, When};
+use super::{Cavitation, DensityForm};
 use super::{Effect, Effects, HourglassControl, Setting, StepProgram, TotalLagrangian};
 use crate::kernel::{Kernel, WendlandC2};
 use crate::particles::{Field, Fields, Output, Outputs, PLACES};
@@ -211,7 +211,7 @@ fn setting<const D: usize>(density: DensityForm) -> Setting
 where
     WendlandC2: Kernel<D>,
 {
-    Setting::of::<D>(&WendlandC2, 1.3, (density, density), When::Drift)
+    Setting::of::<D>(&WendlandC2, 1.3, (density, density))
 }
 
 #[test]

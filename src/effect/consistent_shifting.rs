@@ -1,9 +1,7 @@
 //! Shifting with its term in continuity: keeps a violent liquid even, its volume, and its free surface.
 //! Sun, Colagrossi, Marrone, Antuono & Zhang 2019 (Comput. Methods Appl. Mech. Engrg. 348, 912).
 
-use super::{
-    BySum, Chunk, DensityForm, Effect, Law, Setting, StepProgram, Tally, When, not_negative,
-};
+use super::{BySum, Chunk, DensityForm, Effect, Law, Setting, StepProgram, Tally, not_negative};
 use crate::error::Problem;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
@@ -101,7 +99,6 @@ impl<const D: usize> Effect<D> for ConsistentShifting {
         )
     }
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
-        let kicked = program.setting().density_changes == When::Kick;
         let by_volume = program.setting().density == DensityForm::Continuity;
         program.declare(SHIFT, "shifting_velocity", "m/s", 0.0);
         program.declare_sum(CONCENTRATION, "crowding", "1/m");
@@ -123,11 +120,11 @@ impl<const D: usize> Effect<D> for ConsistentShifting {
             source: "after Sun et al. 2019",
         });
         program.require(move |_| {
-            (kicked || !by_volume).then(|| Problem::Incompatible {
+            (!by_volume).then(|| Problem::Incompatible {
                 what: "ConsistentShifting moves particles in the middle of a drift by sums over volumes, which this \
                        scheme does not make there"
                     .into(),
-                remedy: "take DensityForm::Continuity without density_with_rates, or leave out ConsistentShifting",
+                remedy: "take DensityForm::Continuity, or leave out ConsistentShifting",
             })
         });
     }

@@ -1,7 +1,7 @@
 //! Pairing control: particles nearer to each other than the spacing are moved apart, at free surfaces too.
 //! Shifting that acts between near pairs alone, after Xu, Stansby & Laurence 2009 and Lind et al. 2012.
 
-use super::{Chunk, DensityForm, Effect, Law, Setting, StepProgram, Tally, When, not_negative};
+use super::{Chunk, DensityForm, Effect, Law, Setting, StepProgram, Tally, not_negative};
 use crate::error::Problem;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
@@ -54,16 +54,15 @@ impl<const D: usize> Effect<D> for PairingControl {
         }),)
     }
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
-        let kicked = program.setting().density_changes == When::Kick;
         let by_volume = program.setting().density == DensityForm::Continuity;
         program.declare_sum(NEAR, "near_pairs", "1/m");
         program.law(Stage::Continuity, *self);
         program.require(move |_| {
-            (kicked || !by_volume).then(|| Problem::Incompatible {
+            (!by_volume).then(|| Problem::Incompatible {
                 what: "PairingControl moves particles in the middle of a drift by sums over volumes, which this scheme \
                        does not make there"
                     .into(),
-                remedy: "take DensityForm::Continuity without density_with_rates, or leave out PairingControl",
+                remedy: "take DensityForm::Continuity, or leave out PairingControl",
             })
         });
     }

@@ -1,7 +1,7 @@
 //! What a scheme is, as far as its effects may ask: kernel, spacing, density form.
 //! Evaluated when the scene is built, so the order in which a builder was told does not matter.
 
-use super::{DensityForm, When};
+use super::DensityForm;
 use crate::kernel::lattice::{lattice_consistency_factor, lattice_unity};
 use crate::kernel::{Kernel, KernelFacts};
 
@@ -16,8 +16,6 @@ pub struct Setting {
     pub density: DensityForm,
     /// Whose pressure force acts.
     pub pressure_form: DensityForm,
-    /// When an integrated density changes.
-    pub density_changes: When,
     /// First moment −Σ V r·∇W/D of the lattice.
     pub lattice_consistency_factor: f64,
     /// Σ V W over the lattice.
@@ -31,14 +29,12 @@ impl Setting {
         kernel: &impl Kernel<D>,
         h_over_dx: f64,
         (density, pressure_form): (DensityForm, DensityForm),
-        density_changes: When,
     ) -> Self {
         Self {
             kernel: KernelFacts::of(kernel),
             h_over_dx,
             density,
             pressure_form,
-            density_changes,
             lattice_consistency_factor: lattice_consistency_factor(kernel, h_over_dx),
             lattice_unity: lattice_unity(kernel, h_over_dx),
             kernel_at_spacing: kernel.normalisation() * Kernel::<D>::shape(kernel, 1.0 / h_over_dx),

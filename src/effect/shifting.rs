@@ -1,7 +1,7 @@
 //! Shifting: keeps the particles of a liquid evenly spread, and leaves its free surface alone.
 //! Lind et al. 2012, Skillen et al. 2013; the transport velocity of Adami, Hu & Adams 2013.
 
-use super::{Chunk, DensityForm, Effect, Law, Setting, StepProgram, Tally, When};
+use super::{Chunk, DensityForm, Effect, Law, Setting, StepProgram, Tally};
 use crate::error::Problem;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Real;
@@ -82,7 +82,6 @@ impl<const D: usize> Effect<D> for Shifting {
         }),)
     }
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
-        let kicked = program.setting().density_changes == When::Kick;
         let by_mass = program.setting().density == DensityForm::ContinuityByMass;
         program.law(Stage::Continuity, *self);
         program.require(move |_| {
@@ -91,13 +90,6 @@ impl<const D: usize> Effect<D> for Shifting {
                     "shifting weighs neighbours by volume, which continuity by mass does not carry"
                         .into(),
                 remedy: "take DensityForm::Continuity, or leave out Shifting",
-            })
-        });
-        program.require(move |_| {
-            kicked.then(|| Problem::Incompatible {
-                what: "shifting moves particles in the middle of a drift, and this scheme sums nothing there"
-                    .into(),
-                remedy: "leave out either Shifting or density_with_rates",
             })
         });
     }

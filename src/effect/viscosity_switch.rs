@@ -7,16 +7,18 @@ use crate::scalar::Real;
 use crate::term::viscosity::{Surroundings, Switch};
 
 /// The switch of a viscosity.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct ViscositySwitch {
-    pub switch: Switch,
+#[derive(Debug)]
+pub(crate) struct ViscositySwitch<T> {
+    pub switch: Box<dyn Switch<T>>,
+    /// What it writes, and what of the flow particles keep for it.
+    pub writes: Fields,
     /// The form whose weights the rates have.
     pub form: DensityForm,
     /// Support of the kernel in units of h.
     pub support: f64,
 }
 
-impl<T: Real, const D: usize> Law<T, D> for ViscositySwitch {
+impl<T: Real, const D: usize> Law<T, D> for ViscositySwitch<T> {
     fn name(&self) -> &'static str {
         "coefficients of viscosity"
     }
@@ -27,18 +29,7 @@ impl<T: Real, const D: usize> Law<T, D> for ViscositySwitch {
         Outputs::of(&[Output::COMPRESSION])
     }
     fn writes(&self) -> Fields {
-        // In one dimension there is no shear to tell from a shock.
-        match self.switch {
-            Switch::CullenDehnen { .. } if D > 1 => Fields::of(&[
-                Field::VISCOSITY_COEFFICIENT,
-                Field::DIVERGENCE,
-                Field::VELOCITY_GRADIENT,
-            ]),
-            Switch::CullenDehnen { .. } => {
-                Fields::of(&[Field::VISCOSITY_COEFFICIENT, Field::DIVERGENCE])
-            }
-            Switch::MorrisMonaghan { .. } => Fields::of(&[Field::VISCOSITY_COEFFICIENT]),
-        }
+        self.writes
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         // Coefficients follow the flow once a step, however many evaluations it takes.

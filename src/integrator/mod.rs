@@ -18,7 +18,7 @@
 //! a simulation is multiplied by it. Midpoint has none without damping and is kept short. An integrator
 //! that kicks changes velocity by [`System::kick`] alone, which is where the compatible energy form sums
 //! its work; one that combines states ([`System::combine`]) needs
-//! [`EnergyForm::Symmetric`](crate::scheme::EnergyForm).
+//! [`EnergyForm::Symmetric`](crate::scheme::EnergyForm), and takes no liquid, whose density is summed in drifts.
 
 mod lam;
 mod leapfrog;
@@ -44,8 +44,7 @@ pub trait System {
     /// # Errors
     /// If a number is no longer finite.
     fn evaluate(&mut self, offset: f64) -> Result<()>;
-    /// v ← v + `dt` a, and what pair forces work during it into internal energy; the density too, where its rate
-    /// is [summed with the forces](crate::scheme::SchemeBuilder::density_with_rates).
+    /// v ← v + `dt` a, and what pair forces work during it into internal energy.
     fn kick(&mut self, dt: f64);
     /// x ← x + `dt` v, and with it the density where it is integrated, at the midpoint of the drift.
     /// `offset` \[s\] is the time of the start of the drift after the start of the step.

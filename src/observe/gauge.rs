@@ -74,10 +74,10 @@ impl<const D: usize> WaveGauge<D> {
     }
 
     /// The liquid around the line.
-    fn column<T: Real>(&self, simulation: &Simulation<T, D>) -> Column {
+    fn column<T: Real>(&self, simulation: &Simulation<T, D>) -> Column<D> {
         let foot = self.foot.pose(simulation).of(0, &self.foot.point);
         let h = simulation.smoothing_length();
-        let norm = normalisation(D) / h.powi(D as i32);
+        let norm = normalisation::<D>() / h.powi(D as i32);
         let mut particles = Vec::new();
         let mut images = Vec::new();
         let mut add = |x: [f64; D], share: f64| {
@@ -112,12 +112,12 @@ impl<const D: usize> WaveGauge<D> {
 
 /// What lies around a gauge's line: heights above the foot, squared distances from the line, and volumes over
 /// the integral of the kernel.
-struct Column {
+struct Column<const D: usize> {
     h: f64,
     particles: Vec<(f64, f64, f64)>,
 }
 
-impl Column {
+impl<const D: usize> Column<D> {
     /// Whether liquid fills half of the kernel at a height.
     fn filled(&self, z: f64) -> bool {
         let reach = 2.0 * self.h;
@@ -126,7 +126,9 @@ impl Column {
             .iter()
             .take_while(|p| p.0 < z + reach);
         let sum: f64 = near
-            .map(|(zj, aside2, share)| share * weight(((zj - z).powi(2) + aside2).sqrt() / self.h))
+            .map(|(zj, aside2, share)| {
+                share * weight::<D>(((zj - z).powi(2) + aside2).sqrt() / self.h)
+            })
             .sum();
         sum >= 0.5
     }

@@ -57,43 +57,21 @@ pub use plane::FlowPlane;
 pub use probe::PressureProbe;
 pub use sample::Sample;
 
-/// The weight with which observers average, (1 − q/2)⁴ (1 + 2 q) for q < 2 (Wendland 1995).
-fn weight(q: f64) -> f64 {
-    if q < 2.0 {
-        (1.0 - 0.5 * q).powi(4) * (1.0 + 2.0 * q)
-    } else {
-        0.0
+use crate::kernel::{Kernel, WendlandC2};
+
+/// The weight with which observers average at q = r/h: Wendland's C2, which is a polynomial of its own in 1D.
+fn weight<const D: usize>(q: f64) -> f64 {
+    match D {
+        1 => Kernel::<1>::shape(&WendlandC2, q),
+        _ => Kernel::<2>::shape(&WendlandC2, q),
     }
 }
 
-/// One over the integral of [`weight`] in `d` dimensions at h = 1.
-fn normalisation(d: usize) -> f64 {
-    match d {
-        1 => 0.75,
-        2 => 7.0 / (4.0 * core::f64::consts::PI),
-        _ => 21.0 / (16.0 * core::f64::consts::PI),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn weights_integrate_to_one() {
-        for d in 1..=3 {
-            let shell = |q: f64| match d {
-                1 => 2.0,
-                2 => core::f64::consts::TAU * q,
-                _ => 2.0 * core::f64::consts::TAU * q * q,
-            };
-            let n = 2000;
-            let step = 2.0 / f64::from(n);
-            let sum: f64 = (0..n)
-                .map(|k| (f64::from(k) + 0.5) * step)
-                .map(|q| weight(q) * shell(q) * step)
-                .sum();
-            assert!((sum * normalisation(d) - 1.0).abs() < 1e-6);
-        }
+/// One over the integral of [`weight`] at h = 1.
+fn normalisation<const D: usize>() -> f64 {
+    match D {
+        1 => Kernel::<1>::normalisation(&WendlandC2),
+        2 => Kernel::<2>::normalisation(&WendlandC2),
+        _ => Kernel::<3>::normalisation(&WendlandC2),
     }
 }

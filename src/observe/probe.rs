@@ -130,7 +130,7 @@ impl<const D: usize> PressureProbe<D> {
     #[must_use]
     pub fn pressures<T: Real>(probes: &[Self], simulation: &Simulation<T, D>) -> Vec<f64> {
         let h = simulation.smoothing_length();
-        let norm = normalisation(D) / h.powi(D as i32);
+        let norm = normalisation::<D>() / h.powi(D as i32);
         let poses = probes.iter().map(|probe| probe.centre.pose(simulation));
         let (places, mut points): (Vec<_>, Vec<_>) = probes
             .iter()
@@ -154,7 +154,7 @@ impl<const D: usize> PressureProbe<D> {
                 let r2: f64 = (0..D).map(|d| (x[d] - point[d]).powi(2)).sum();
                 let q = r2.sqrt() / h;
                 if q < 2.0 {
-                    let weight = volume * weight(q);
+                    let weight = volume * weight::<D>(q);
                     sum[side][0] += weight;
                     sum[side][1] += weight * particle.pressure();
                 }

@@ -137,7 +137,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let [low, high] = bounds(points);
         let mut reach = 0.0_f64;
         let (mut sources, mut numbers) = (Vec::new(), Vec::new());
-        let norm = normalisation(D);
+        let norm = normalisation::<D>();
         let mut images = Vec::new();
         for particle in carriers {
             let (x, h) = (particle.position(), particle.smoothing_length());
@@ -215,7 +215,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                         }
                         let r2: f64 = (0..D).map(|d| (x[d] - point[d]).powi(2)).sum();
                         if r2 < 4.0 * h * h {
-                            let part = share * weight(r2.sqrt() / h);
+                            let part = share * weight::<D>(r2.sqrt() / h);
                             *filling += part;
                             let own = &numbers[source * components..];
                             for (sum, number) in sums.iter_mut().zip(own) {

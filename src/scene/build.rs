@@ -38,24 +38,19 @@ impl<T: Real, const D: usize> Building<T, D> {
     }
 
     fn build(&mut self) -> Result<()> {
-        once!(self => &mut Building, build_here() -> Result<()>)
-    }
-
-    fn build_here(&mut self) -> Result<()> {
-        self.simulation = Some(self.scene().built()?);
-        Ok(())
+        once!(self => &mut Building, |own| -> Result<()> {
+            own.simulation = Some(own.scene().built()?);
+            Ok(())
+        })
     }
 
     #[cfg(feature = "checkpoint")]
     fn resume(&mut self, path: &Path) -> Result<()> {
-        once!(self => &mut Building, resume_here(path: &Path) -> Result<()>)
-    }
-
-    #[cfg(feature = "checkpoint")]
-    fn resume_here(&mut self, path: &Path) -> Result<()> {
-        let file = Checkpoint::read(path)?;
-        self.simulation = Some(self.scene().lay_out()?.resumed(path, &file)?);
-        Ok(())
+        once!(self => &mut Building, |own, path: &Path| -> Result<()> {
+            let file = Checkpoint::read(path)?;
+            own.simulation = Some(own.scene().lay_out()?.resumed(path, &file)?);
+            Ok(())
+        })
     }
 }
 
@@ -72,7 +67,6 @@ impl<T: Real, const D: usize> Scene<T, D> {
         let fixed = self.control.fixed;
         let mut simulation = self.lay_out()?;
         simulation.hold_velocities();
-        simulation.put_to_sleep()?;
         simulation.take_references();
         let problems = simulation.isolated();
         if !problems.is_empty() {
@@ -134,8 +128,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             self.loads,
         )
         .with_step_ends(self.step_ends)
-        .with_events(self.events)
-        .awake_inside(self.awake);
+        .with_events(self.events);
         simulation.built = built;
         #[cfg(feature = "checkpoint")]
         let simulation = simulation.of_scene(hashes, values);

@@ -122,11 +122,6 @@ impl<T: Real, const D: usize> Scene<T, D> {
     pub(super) fn sub_cycle_of(&self, group: usize) -> Option<SubCycle<T, D>> {
         let own = |(name, _): &&(String, u32)| self.place_of(name).map(|at| at.0) == Some(group);
         let (_, most) = self.sub_cycled.iter().rfind(own)?;
-        let spreads = self.spread.iter();
-        let spreads = spreads.filter_map(|name| self.place_of(name));
-        Some(SubCycle {
-            spreads: spreads.into_iter().any(|at| at.0 == group),
-            ..SubCycle::new(*most, self.parts[group].bodies.len())
-        })
+        Some(SubCycle::new(*most, self.parts[group].bodies.len()))
     }
 }

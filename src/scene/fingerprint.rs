@@ -23,14 +23,12 @@ impl<T: Real, const D: usize> Scene<T, D> {
             contacts,
             couplings,
             sub_cycled,
-            spread,
             clamps,
             rigid,
             accelerations,
             loads,
             step_ends,
             events,
-            awake,
             exchanges,
             control,
             skin,
@@ -73,7 +71,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
                     couplings
                         .iter()
                         .map(|own| debug((&own.first, &own.second, &own.coupling, own.exclusion)))
-                        .chain([debug(sub_cycled), debug(spread)]),
+                        .chain([debug(sub_cycled)]),
                 ),
             ),
             (
@@ -110,9 +108,6 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 "schemes that come later",
                 of_texts(exchanges.iter().map(text)),
             ));
-        }
-        if awake.is_some() {
-            all.push(("the box in which it is awake", of_texts([])));
         }
         all
     }

@@ -54,7 +54,7 @@
 //! ([`Scene::couple`]), and a stiff group takes steps of its own ([`Scene::sub_cycle`]).
 //!
 //! Parts of a body are clamped by [`Scene::fix`] and [`Scene::clamp`], and a body moves as a rigid one by
-//! [`Scene::rigid`]. Particles sleep outside of a box by [`Scene::awake_inside`], and leave by [`Scene::outlet`].
+//! [`Scene::rigid`]. Particles leave by [`Scene::outlet`].
 //!
 //! A [`MirrorPlane`](crate::boundary::MirrorPlane) holds solids and liquids. Walls of particles ([`Scene::wall`]) hold liquids by
 //! the wall law of their scheme, and solids by contact, which has to be named.
@@ -69,7 +69,7 @@
 //!
 //! | sees places of the scene, in `f64` | sees places counted from the origin |
 //! |---|---|
-//! | bodies, walls, boundaries, openings, motions, regions of clamps, the box in which it is awake | columns: [`Field::POSITION`](crate::particles::Field::POSITION) and `REFERENCE_POSITION` in [laws](crate::effect::Around::origin) |
+//! | bodies, walls, boundaries, openings, motions, regions of clamps | columns: [`Field::POSITION`](crate::particles::Field::POSITION) and `REFERENCE_POSITION` in [laws](crate::effect::Around::origin) |
 //! | [loads](crate::simulation::LoadPoint), [`set_field`](crate::simulation::Simulation::set_field), events | particles of [couplings](crate::coupling::CoupledParticle) |
 //! | [particles](crate::simulation::ParticleView) that are read, observers, files, pictures, reports, errors | columns in checkpoints, which hold the origin |
 //!
@@ -77,7 +77,6 @@
 //! asked with the origin added, so that their values have its rounding. How far a scene in `f32` may reach is checked as it is built.
 
 pub mod advice;
-mod asleep;
 mod body;
 mod build;
 mod check;
@@ -104,7 +103,7 @@ use crate::integrator::{Integrator, KickDriftKick};
 use crate::particles::Fields;
 use crate::scalar::Real;
 use crate::scheme::Scheme;
-use crate::simulation::{Awake, Event, Load, StepControl, UniformLoad};
+use crate::simulation::{Event, Load, StepControl, UniformLoad};
 use crate::sweep::{InstructionSet, Interaction, Root};
 use exchange::ExchangeOf;
 use held::ClampOf;
@@ -138,14 +137,12 @@ pub struct Scene<T: Real, const D: usize> {
     contacts: Vec<(String, String, Interaction)>,
     couplings: Vec<Coupled<T, D>>,
     sub_cycled: Vec<(String, u32)>,
-    spread: Vec<String>,
     clamps: Vec<ClampOf<D>>,
     rigid: Vec<String>,
     accelerations: Vec<UniformLoad<D>>,
     loads: Vec<Load<D>>,
     step_ends: Vec<f64>,
     events: Vec<Event<T, D>>,
-    awake: Option<Awake<T, D>>,
     exchanges: Vec<ExchangeOf<T, D>>,
     control: StepControl,
     skin: Option<f64>,
@@ -191,14 +188,12 @@ impl<T: Real, const D: usize> Scene<T, D> {
             contacts: Vec::new(),
             couplings: Vec::new(),
             sub_cycled: Vec::new(),
-            spread: Vec::new(),
             clamps: Vec::new(),
             rigid: Vec::new(),
             accelerations: Vec::new(),
             loads: Vec::new(),
             step_ends: Vec::new(),
             events: Vec::new(),
-            awake: None,
             exchanges: Vec::new(),
             control,
             skin: None,
@@ -387,20 +382,6 @@ impl<T: Real, const D: usize> Scene<T, D> {
     #[must_use]
     pub fn sub_cycle(mut self, body: &str, most: u32) -> Self {
         self.sub_cycled.push((body.into(), most));
-        self
-    }
-
-    /// Lets what liquids give the group of a body that sub-cycles act as a constant force over each of their steps, in place of
-    /// an impulse at its begin and end, and lets the liquids meet its mean velocity in the step. A train of impulses drives all
-    /// modes of the body that swing a whole number of times in a step of the liquid; with eight steps in one of the
-    /// liquid's and more it shakes them ([sloshing](crate#pages)).
-    ///
-    /// The force comes half a step late, so that modes of about four steps of the liquid and less gain energy from it: give
-    /// the body an artificial viscosity (α = 0.2: [`MonaghanGingold`](crate::term::viscosity::MonaghanGingold)), which damps these
-    /// and no others. It is not for rigid bodies, nor for what couplings by forces act on: contacts are too stiff to be late.
-    #[must_use]
-    pub fn spread_impulses(mut self, body: &str) -> Self {
-        self.spread.push(body.into());
         self
     }
 

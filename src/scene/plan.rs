@@ -242,7 +242,6 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                 let solid = &self.scene.parts[group].bodies[body];
                 let coupling = self.scene.wall_coupling_of(part, solid);
                 let apart = self.scene.sub_cycle_of(group);
-                let spreads = apart.as_ref().is_some_and(|own| own.spreads);
                 let apart = apart.map(|_| wall.points.len());
                 (
                     0,
@@ -256,7 +255,6 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                             Slip::Free => Spins::default(),
                         },
                         before: vec![[0.0; D]; apart.unwrap_or(0)],
-                        drift: vec![[[0.0; D]; 2]; apart.filter(|_| spreads).unwrap_or(0)],
                         evaluated: f64::NAN,
                     }),
                 )

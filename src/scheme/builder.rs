@@ -1,7 +1,7 @@
 //! The builder of schemes: the choices, which `compile` turns into sweeps over pairs.
 //! What its type rules out leaves no loop behind.
 
-use super::force::{ENERGY, KICKED, REFERENCE};
+use super::force::{ENERGY, REFERENCE};
 use super::{EnergyForm, Scheme, Smoothing};
 use crate::effect::{
     Cavitation, DensityDiffusion, DensityForm, Effect, Effects, ExtrapolatedPressure, NoWalls,
@@ -354,33 +354,6 @@ where
     }
 }
 
-impl<K, V, W, E, const MODES: u8> SchemeBuilder<K, V, W, E, MODES, 0> {
-    /// Sums the rate of density with the forces, in one sweep a step, and kicks density with velocity, as
-    /// Runge–Kutta methods need; a sweep of its own at the middle of the drift takes more time a step and bears
-    /// longer steps.
-    ///
-    /// The sweep sees velocity and density set a step ahead with the last rates, and
-    /// [`KickDriftKick`](crate::integrator::KickDriftKick) corrects both once with what it finds:
-    ///
-    /// ```text
-    /// y* = yₙ + dt rₙ,  rₙ₊₁ = f(xₙ₊₁, y*),  yₙ₊₁ = yₙ + dt (rₙ + rₙ₊₁)/2,  y = (v, ρ)
-    /// ```
-    ///
-    /// On sound, y' = iω y, a step multiplies y by a root of z² − (1 + 3iω dt/2) z + iω dt/2 = 0, as the
-    /// two-step method of Adams and Bashforth does: |z| = 1 + (ω dt)⁴/4, so sound grows that nothing damps,
-    /// where the sweep at the middle makes a leapfrog that is neutral up to ω dt = 2. It takes density
-    /// diffusion or viscosity to hold the step, which is therefore shortened by [`DENSITY_WITH_RATES_STEP`].
-    ///
-    /// For uniform spacing, without [`Shifting`](crate::effect::Shifting), renormalised gradients, and walls
-    /// [without slip](crate::boundary::Wall::no_slip): the velocity that makes a liquid stick belongs to the forces,
-    /// not to the compression.
-    #[must_use]
-    pub fn density_with_rates(self) -> SchemeBuilder<K, V, W, E, MODES, KICKED> {
-        self.set(|own| own.step_factor *= DENSITY_WITH_RATES_STEP)
-            .map(|k, v, w, e| (k, v, w, e))
-    }
-}
-
 impl<K, V, W, E, Y, const MODES: u8, const FORCE: u8>
     SchemeBuilder<K, V, W, (E, DensityDiffusion<Y>), MODES, FORCE>
 {
@@ -398,17 +371,6 @@ impl<K, V, W, E, Y, const MODES: u8, const FORCE: u8>
 /// Default step in units of h/(c + signal). Limited viscosity at α = 2 with corrected dispersion loses
 /// its plateau at 0.8 and blows up at 1.1; the steepest fronts come at or below 0.55.
 pub const DEFAULT_STEP_FACTOR: f64 = 0.55;
-
-/// By what [`SchemeBuilder::density_with_rates`] shortens the step: 0.25 h/c where two sweeps
-/// take 0.55 h/c.
-///
-/// On a lattice density diffusion holds noise up to 0.55 h/c, that of a Riemann solver up to 0.35 h/c. Liquid
-/// that strikes a wall has fewer neighbours to diffuse to, and walls do not diffuse: of a dam break on 2500
-/// particles 0.25 h/c keeps the fluctuations of density and the greatest speeds that two sweeps have, at
-/// 0.3 h/c they are up to twice as large, at 0.55 h/c the fluctuations four to ten times. It belongs to
-/// kick-drift-kick; for a Runge–Kutta method of higher order divide [`step_factor`](SchemeBuilder::step_factor)
-/// by it.
-pub const DENSITY_WITH_RATES_STEP: f64 = 0.25 / 0.55;
 
 impl<T, const D: usize, K, V, W, E, const MODES: u8, const FORCE: u8>
     From<SchemeBuilder<K, V, W, E, MODES, FORCE>> for Scheme<T, D>

@@ -2,7 +2,7 @@
 //! Loops are of those choices that the type of the builder allows, and of no others.
 
 use super::builder::{Consistency, SchemeBuilder};
-use super::force::{ENERGY, Gradients, KICKED, Needs, Pressure, REFERENCE, Rate};
+use super::force::{ENERGY, Gradients, Needs, Pressure, REFERENCE, Rate};
 use super::{EnergyForm, Scheme, Smoothing};
 use crate::effect::{
     BySum, Compression, ConsistentSmoothing, ContactActivity, CorrectedGradients, DensityForm,
@@ -27,13 +27,8 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
     {
         let own = &self.settings;
         let h_over_dx = own.h_over_dx.unwrap_or(self.kernel.h_over_dx());
-        let changes = if FORCE & KICKED == 0 {
-            When::Drift
-        } else {
-            When::Kick
-        };
         let forms = (own.density, own.pressure_form.unwrap_or(own.density));
-        Setting::of(&self.kernel, h_over_dx, forms, changes)
+        Setting::of(&self.kernel, h_over_dx, forms)
     }
 
     fn mode(&self) -> SmoothingMode {
@@ -66,7 +61,7 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
         let integrated = own.density.is_integrated();
         let follows_divergence = matches!(own.smoothing, Smoothing::Divergence { .. });
         // A switch follows the compression once a step, by the sum that the rates make.
-        let switch = self.viscosity.switch();
+        let switch = self.viscosity.switch::<T>();
         let with_rates = integrated || follows_divergence || switch.is_some();
         let mut sweeps: [Option<Box<dyn PairSweep<T, D>>>; Stage::COUNT] = Default::default();
         sweeps[Stage::Reference.number()] = compiled.at::<stage::Reference, T, D>();
@@ -99,8 +94,13 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
         self.effects.register(&mut program);
         if let Some(switch) = switch {
             program.start(Field::VISCOSITY_COEFFICIENT, switch.start());
+            let mut writes = Fields::of(&[Field::VISCOSITY_COEFFICIENT]).union(switch.keeps());
+            if self.viscosity.needs_velocity_gradient() {
+                writes = writes.union(Fields::of(&[Field::VELOCITY_GRADIENT]));
+            }
             let law = ViscositySwitch {
                 switch,
+                writes,
                 form: own.density,
                 support: setting.kernel.support,
             };
@@ -180,7 +180,7 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
         let refers =
             |sweep: &dyn PairSweep<T, D>| sweep.fields().contains(Field::REFERENCE_POSITION);
         let mut all = sweeps.iter().flatten();
-        let varies = own.smoothing != Smoothing::Fixed || self.viscosity.switch().is_some();
+        let varies = own.smoothing != Smoothing::Fixed || self.viscosity.switch::<T>().is_some();
         let mixed = all.any(|sweep| refers(sweep.as_ref()) != total) || (total && varies);
         program.require(move |_| {
             mixed.then(|| Problem::Incompatible {
@@ -196,7 +196,7 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
     /// What the scheme itself integrates in time, and how density follows from sums.
     fn evolve<T: Real, const D: usize>(&self, program: &mut StepProgram<T, D>) {
         let own = &self.settings;
-        let (setting, when) = (*program.setting(), program.setting().density_changes);
+        let setting = *program.setting();
         let compression = Compression {
             density: setting.density,
             pressure: setting.pressure_form,
@@ -211,7 +211,7 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
         }
         if own.density.is_integrated() {
             let density = Evolved::kicked(Field::DENSITY)
-                .at(when)
+                .at(When::Drift)
                 .updated(Update::Exponential)
                 .by(compression);
             program.evolve(density.keeping(Field::DENSITY_RESIDUAL));
@@ -357,10 +357,6 @@ impl<K, V, E, N: Needs, const MODES: u8, const FORCE: u8> Compiled<K, V, E, N, M
             return self.sweep(viscosity.then(own).then((InternalEnergy,)));
         }
         let forces = pressure.then(viscosity).then(own);
-        if const { FORCE & KICKED != 0 } {
-            let density = self.effects.at::<stage::Continuity>(&self.setting);
-            return self.sweep(forces.then(Rate::<FORCE>).then(density));
-        }
         if const { FORCE & ENERGY == 0 } {
             return self.sweep(forces);
         }
@@ -380,9 +376,6 @@ impl<K, V, E, N: Needs, const MODES: u8, const FORCE: u8> Compiled<K, V, E, N, M
         K: Kernel<D>,
         E: Effects<D>,
     {
-        if const { FORCE & KICKED != 0 } {
-            return None;
-        }
         if !integrated {
             return self.at::<stage::Continuity, T, D>();
         }

@@ -16,10 +16,8 @@ pub const MIDPOINT: u8 = 1;
 pub const RENORMALISED: u8 = 2;
 /// Internal energy is carried.
 pub const ENERGY: u8 = 4;
-/// The rate of density is summed with the forces, and density is kicked.
-pub const KICKED: u8 = 8;
 /// Kernels are those of the reference configuration, and forces follow from stresses of effects alone.
-pub const REFERENCE: u8 = 16;
+pub const REFERENCE: u8 = 8;
 
 /// The pressure force.
 #[derive(Clone, Debug)]

@@ -38,7 +38,7 @@ mod compile;
 /// Bits that tell the forms of the pair force apart in the type of a builder.
 pub mod forms {
     pub use super::builder::ForceForm;
-    pub use super::force::{ENERGY, KICKED, MIDPOINT, REFERENCE, RENORMALISED};
+    pub use super::force::{ENERGY, MIDPOINT, REFERENCE, RENORMALISED};
 }
 
 mod force;
@@ -48,13 +48,10 @@ mod start;
 
 pub use crate::effect::{DensityForm, Shifting};
 pub use crate::kernel::KernelFacts;
-pub use builder::{
-    DEFAULT_STEP_FACTOR, DENSITY_WITH_RATES_STEP, LiquidBuilder, SchemeBuilder,
-    TotalLagrangianBuilder,
-};
+pub use builder::{DEFAULT_STEP_FACTOR, LiquidBuilder, SchemeBuilder, TotalLagrangianBuilder};
 pub use start::Start;
 
-use crate::effect::{StepProgram, When};
+use crate::effect::StepProgram;
 use crate::kernel::Profile;
 use crate::particles::{Field, Fields};
 use crate::scalar::Real;
@@ -165,11 +162,6 @@ impl<T: Real, const D: usize> Scheme<T, D> {
     /// Whether it has a wall law, and so meets walls of particles and the bodies of schemes that have none.
     pub(crate) fn meets_walls(&self) -> bool {
         self.sweep(Stage::Walls).is_some()
-    }
-
-    /// Whether the forces' sweep sums the rate of density too, so that density is kicked with velocity.
-    pub(crate) fn kicks_density(&self) -> bool {
-        self.density.is_integrated() && self.program.setting().density_changes == When::Kick
     }
 
     /// Whether something is summed in the middle of a drift.

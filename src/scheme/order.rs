@@ -99,12 +99,6 @@ impl<T: Real, const D: usize> Scheme<T, D> {
 
     /// The sums of the sweep that the laws of a stage see.
     fn sums(&self, stage: Stage) -> Outputs {
-        let summed_with_rates = stage == Stage::Continuity && self.kicks_density();
-        let stage = if summed_with_rates {
-            Stage::Rates
-        } else {
-            stage
-        };
         let sweep = self.sweep(stage);
         sweep.map_or(Outputs::NONE, |sweep| sweep.outputs())
     }

@@ -59,16 +59,12 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
     fn drift(&mut self, dt: f64, offset: f64) -> Result<()> {
         let (begin, half) = (self.state.time + offset, 0.5 * dt);
         self.state.impulses.time = begin + dt;
-        self.begin_drift_of_structures();
-        self.spread_impulses(dt);
         self.sub_cycle(begin, half)?;
         for group in self.together() {
             group.begin_drift(dt);
         }
         if self.together().all(|group| group.drifts_at_once()) {
             self.sub_cycle(begin + half, half)?;
-            self.end_spreading();
-            self.end_drift_of_structures(dt);
             return Ok(());
         }
         // Loads and walls at the middle of the drift, and walls go straight through it as particles do:
@@ -77,8 +73,6 @@ impl<T: Real, const D: usize> System for Simulation<T, D> {
         self.place_structures(begin + half, false);
         // Groups that sub-cycle feel the others in kicks alone, so they may be at the end of the drift already.
         self.sub_cycle(begin + half, half)?;
-        self.end_spreading();
-        self.end_drift_of_structures(dt);
         for k in 0..self.state.groups.len() {
             if self.state.groups[k].sub_cycle.is_none() {
                 self.end_drift(k, begin, dt);
@@ -185,7 +179,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             };
             group.apply_laws(Stage::Continuity, moment);
             group.apply_laws(Stage::Bounds, moment);
-            group.held.keep_asleep(&mut group.particles, true);
         }
         let group = &mut self.state.groups[group];
         if !group.drifts_at_once() {

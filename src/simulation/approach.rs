@@ -4,13 +4,13 @@
 use super::control::{Criterion, NO_VOTE, ROUNDED, Vote, least};
 use super::neighborhood::Neighborhood;
 use super::population::Particles;
-use crate::neighbors::{CHUNK, ChunkList};
+use crate::neighbors::CHUNK;
 use crate::parallel::{Corners, corners, largest, no_corners, reduce, runs};
 use crate::particles::Field;
 use crate::scalar::{Lane, Mask, OnRows, Real};
 use crate::scheme::Scheme;
 use crate::sweep::{InstructionSet, Interaction};
-use crate::tensor::{Vector, length};
+use crate::tensor::length;
 use std::ops::Range;
 
 /// Distance in spacings that a pair has at least, as far as its step is concerned: spray and gas behind a shock have
@@ -86,6 +86,7 @@ pub(super) fn approach<T: Real, const D: usize>(
     let bearable = share * NEAREST * least_h / scheme.h_over_dx;
     let harmless = |speed: f64| speed == 0.0 || speed * limit <= bearable;
     let shifted = neighborhood
+        .chains
         .transforms
         .iter()
         .fold(0.0_f64, |most, by| most.max(length(&by.velocity).to_f64()));
@@ -103,8 +104,7 @@ pub(super) fn approach<T: Real, const D: usize>(
             particles,
             neighborhood,
             scheme,
-            chunk,
-            list: &chunks[chunk],
+            rows: chunk * CHUNK..chunk * CHUNK + chunks[chunk].starts.len() - 1,
             share,
             limit,
             least_h,
@@ -149,32 +149,10 @@ fn velocities<T: Real, const D: usize>(
         .fold(no_corners(), |known, slots| corners(slots, known, own));
     let images = &neighborhood.images;
     corners(0..images.len(), direct, |k| {
-        let by = &neighborhood.transforms[images[k].transform as usize];
-        let v = Vector::from(velocities[images[k].source as usize]);
-        <[T; D]>::from(by.rotation * v + by.velocity).map(Real::to_f64)
+        let by = &neighborhood.chains.transforms[images[k].transform as usize];
+        by.velocity_of(&velocities[images[k].source as usize])
+            .map(Real::to_f64)
     })
-}
-
-/// What is looked at of a particle: columns of places, velocities and sound speeds.
-type Seen<'a, T, const D: usize> = (&'a [[T; D]], &'a [[T; D]], &'a [T]);
-
-/// Place, velocity and sound speed of a neighbour, which may be an image.
-#[inline(always)]
-fn neighbor<T: Real, const D: usize>(
-    (places, velocities, sound): Seen<'_, T, D>,
-    neighborhood: &Neighborhood<T, D>,
-    j: usize,
-) -> ([T; D], [T; D], T) {
-    if j < places.len() {
-        return (places[j], velocities[j], sound[j]);
-    }
-    let image = &neighborhood.images[j - places.len()];
-    let (by, source) = (
-        &neighborhood.transforms[image.transform as usize],
-        image.source as usize,
-    );
-    let turned = by.rotation * Vector::from(velocities[source]) + by.velocity;
-    (by.point(&places[source]), turned.into(), sound[source])
 }
 
 /// What the approach of pairs asks for in one chunk, among the particles that move by forces.
@@ -182,8 +160,7 @@ struct InChunk<'a, T: Real, const D: usize> {
     particles: &'a Particles<T, D>,
     neighborhood: &'a Neighborhood<T, D>,
     scheme: &'a Scheme<T, D>,
-    chunk: usize,
-    list: &'a ChunkList,
+    rows: Range<usize>,
     share: f64,
     /// The step \[s\] from which on nothing matters.
     limit: f64,
@@ -201,8 +178,7 @@ impl<T: Real, const D: usize> OnRows<T> for InChunk<'_, T, D> {
             particles,
             neighborhood,
             scheme,
-            chunk,
-            list,
+            rows,
             share,
             limit,
             least_h,
@@ -228,8 +204,8 @@ impl<T: Real, const D: usize> OnRows<T> for InChunk<'_, T, D> {
         let sounds = scheme.meets_walls();
         let quarter = L::of(0.25 * FASTEST * FASTEST * (1.0 - ROUNDED));
         let mut all = NOTHING;
-        for (c, bounds) in list.starts.windows(2).enumerate() {
-            let first = (chunk * CHUNK + c) * width;
+        for row in rows {
+            let first = row * width;
             let block = neighborhood
                 .blocks
                 .partition_point(|b| b.slots.end <= first);
@@ -240,14 +216,13 @@ impl<T: Real, const D: usize> OnRows<T> for InChunk<'_, T, D> {
             let Some(own) = live.filter(|_| first < particles.mobile) else {
                 continue;
             };
-            let row = |of: &dyn Fn(usize) -> T| L::from_fn(|lane| of(first + lane));
-            let x: [L; D] = core::array::from_fn(|d| row(&|slot| positions[slot][d]));
-            let v: [L; D] = core::array::from_fn(|d| row(&|slot| velocities[slot][d]));
-            let nearest = row(&|slot| h_of(slot) * of_spacing);
-            let speeds = row(&|slot| sound[slot]);
+            let lanes = |of: &dyn Fn(usize) -> T| L::from_fn(|lane| of(first + lane));
+            let x: [L; D] = core::array::from_fn(|d| lanes(&|slot| positions[slot][d]));
+            let v: [L; D] = core::array::from_fn(|d| lanes(&|slot| velocities[slot][d]));
+            let nearest = lanes(&|slot| h_of(slot) * of_spacing);
+            let speeds = lanes(&|slot| sound[slot]);
             let (mut rate, mut mach) = (zero, zero);
-            for segment in &list.segments[bounds[0] as usize..bounds[1] as usize] {
-                let other = segment.block as usize;
+            for (other, entries) in neighborhood.of_row(row) {
                 if neighborhood.interactions[block * neighborhood.blocks.len() + other]
                     == Interaction::None
                 {
@@ -258,9 +233,9 @@ impl<T: Real, const D: usize> OnRows<T> for InChunk<'_, T, D> {
                 } else {
                     1.0
                 });
-                for &j in &list.neighbors[segment.start as usize..segment.end as usize] {
-                    let seen_j = (positions, velocities, sound);
-                    let (xj, vj, cj) = neighbor(seen_j, neighborhood, j as usize);
+                for entry in entries {
+                    let (xj, vj) = (entry.place(positions), entry.velocity(velocities));
+                    let cj = sound[entry.slot];
                     let (mut r2, mut across) = (zero, zero);
                     for d in 0..D {
                         let r = x[d] - L::splat(xj[d]);

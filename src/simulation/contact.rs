@@ -4,7 +4,6 @@
 use super::Simulation;
 use super::group::Group;
 use super::group::shared_with_image;
-use super::pair_images::velocity;
 use super::pair_list::PairList;
 use super::side::{MetWall, Side, carry};
 use crate::boundary::Boundary;
@@ -235,7 +234,7 @@ impl<T: Real, const D: usize> Couple<T, D> {
         }
         let boundaries = &groups[0].boundaries;
         let boundary_count = boundaries.len();
-        self.list.images.place(boundaries, time);
+        self.list.images.chains.place(boundaries, time);
         let spacing = self.spacing(groups);
         let mut list = core::mem::take(&mut self.list);
         self.see(&mut list, groups, time);
@@ -287,7 +286,7 @@ impl<T: Real, const D: usize> Couple<T, D> {
                 let Some(source) = list.particles.get(source as usize).copied() else {
                     continue;
                 };
-                let turn = &list.images.transforms[chain as usize].rotation;
+                let turn = &list.images.chains.transforms[chain as usize].rotation;
                 let own = &mut list.particles[row];
                 (own.sum, own.pressure) = (source.sum, source.pressure);
                 own.gradient = (turn * Vector::from(source.gradient)).into();
@@ -351,7 +350,7 @@ impl<T: Real, const D: usize> Couple<T, D> {
                 if second == 0 {
                     return ([0.0; D], force);
                 }
-                let turn = &list.images.transforms[chain].rotation;
+                let turn = &list.images.chains.transforms[chain].rotation;
                 shared_with_image(force, |d, k| turn[(d, k)].to_f64())
             };
             let image = |chain: usize| list.images.boundary(chain);
@@ -437,9 +436,9 @@ impl<T: Real, const D: usize> Couple<T, D> {
             let own = (&poses[side], &list.listed[side]);
             let mut particle = self.sides[side].see(id, own.0, own.1, groups);
             if let Some(chain) = chain {
-                let own = &list.images.transforms[chain];
+                let own = &list.images.chains.transforms[chain];
                 particle.position = own.point(&particle.position);
-                particle.velocity = velocity(own, &particle.velocity);
+                particle.velocity = own.velocity_of(&particle.velocity);
             }
             particle.stiffness = stiffness;
             list.particles.push(particle);
@@ -459,7 +458,7 @@ impl<T: Real, const D: usize> Couple<T, D> {
         let first = moved(0);
         let second = if self.is_self() { first } else { moved(1) };
         let boundaries: &[Arc<dyn Boundary<D>>] = &groups[0].boundaries;
-        let carried = self.list.images.carried(boundaries, times);
+        let carried = self.list.images.chains.carried(boundaries, times);
         first + second + carried <= self.list.skin
     }
 
@@ -482,17 +481,19 @@ impl<T: Real, const D: usize> Couple<T, D> {
                 self.sides[side].list(listed, groups, time);
             }
             let places = &mut listed.places;
-            list.images.add(side, places, boundaries, reach, list.time);
+            list.images
+                .add(side, places, boundaries, (reach, list.time));
         }
         list.find(self.is_self(), reach);
         if self.is_self() && self.exclusion > 0.0 {
             let (rest, least) = (&self.reference[0], self.exclusion);
-            list.images.place(boundaries, 0.0);
+            list.images.chains.place(boundaries, 0.0);
             let images = &list.images;
             let built = |id: u32| match images.source(0, id) {
                 (id, None) => rest[id as usize],
                 (id, Some(chain)) => {
-                    let image = images.transforms[chain].point(&rest[id as usize].map(T::from_f64));
+                    let image =
+                        images.chains.transforms[chain].point(&rest[id as usize].map(T::from_f64));
                     image.map(Real::to_f64)
                 }
             };

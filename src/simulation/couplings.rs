@@ -28,9 +28,6 @@ pub(crate) struct Structure<T, const D: usize> {
     pub spins: Spins<D>,
     /// Velocities \[m/s\] at that evaluation where the body sub-cycles; else none.
     pub before: Vec<[f64; D]>,
-    /// Where the last drift has begun \[m\] and the mean velocity in it \[m/s\], where the body has its
-    /// impulses spread; else none.
-    pub drift: Vec<[[f64; D]; 2]>,
     /// The time \[s\] of that evaluation; no number before the first.
     pub evaluated: f64,
 }
@@ -58,21 +55,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let (own, boundaries) = (&mut liquid.particles, &liquid.boundaries);
             let others = (&group.particles, &group.work);
             liquid.walls[wall].follow(own, boundaries, others, (time, evaluated));
-        });
-    }
-
-    /// Keeps where structures that have their impulses spread begin a drift.
-    pub(super) fn begin_drift_of_structures(&mut self) {
-        self.for_each_structure(|liquid, wall, group| {
-            liquid.walls[wall].keep_drift(&mut liquid.particles, &group.particles, None);
-        });
-    }
-
-    /// Gives the walls that these are the mean velocity of a drift over `dt` \[s\] that has come to its end: what they have moved by is
-    /// what the liquid is to be compressed by, and their velocity at one instant is that of a swing.
-    pub(super) fn end_drift_of_structures(&mut self, dt: f64) {
-        self.for_each_structure(|liquid, wall, group| {
-            liquid.walls[wall].keep_drift(&mut liquid.particles, &group.particles, Some(dt));
         });
     }
 
@@ -188,41 +170,6 @@ impl<T: Real, const D: usize> WallState<T, D> {
         (slot != u32::MAX).then_some(slot as usize)
     }
 
-    /// The begin of a drift of a structure that has its impulses spread, or its end after `dt` \[s\].
-    fn keep_drift(&mut self, own: &mut Particles<T, D>, others: &Particles<T, D>, dt: Option<f64>) {
-        let spreads = |own: &Structure<T, D>| !own.drift.is_empty();
-        if !self.structure.as_ref().is_some_and(spreads) {
-            return;
-        }
-        let columns = &others.columns;
-        let [x, lost] =
-            [Field::POSITION, Field::POSITION_RESIDUAL].map(|field| columns.vectors(field));
-        for slot in self.slots.start..self.end {
-            let at = self.rest_of(&own.ids, slot);
-            let Some(other) = self.slot_in(others, at) else {
-                continue;
-            };
-            let lost = lost.get(other).copied().unwrap_or([T::zero(); D]);
-            let now: [f64; D] = core::array::from_fn(|d| x[other][d].to_f64() + lost[d].to_f64());
-            let Some(structure) = &mut self.structure else {
-                continue;
-            };
-            let [begun, mean] = &mut structure.drift[at];
-            let Some(dt) = dt else {
-                *begun = now;
-                continue;
-            };
-            let moved: [f64; D] = core::array::from_fn(|d| now[d] - begun[d]);
-            // What has come back across a period has not moved by it.
-            let far = 0.5 * others.bodies[structure.body].spacing;
-            if moved.iter().all(|x| x.abs() < far) {
-                *mean = moved.map(|x| x / dt);
-            }
-            let mean = mean.map(T::from_f64);
-            own.columns.vectors_mut(Field::VELOCITY)[slot] = mean;
-        }
-    }
-
     /// Moves it to the particles of the body that it is, as these are at `time` \[s\].
     fn follow(
         &mut self,
@@ -256,13 +203,6 @@ impl<T: Real, const D: usize> WallState<T, D> {
                 if let (Some(from), Some(to)) = (from, to) {
                     *to = *from;
                 }
-            }
-            if let Some(structure) = self.structure.as_ref().filter(|_| evaluated)
-                && let Some([_, mean]) = structure.drift.get(at)
-                && !structure.evaluated.is_nan()
-            {
-                let mean = mean.map(T::from_f64);
-                own.columns.vectors_mut(Field::VELOCITY)[slot] = mean;
             }
             let [x, residual, v] =
                 own.columns

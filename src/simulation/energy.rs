@@ -21,8 +21,6 @@ pub struct EnergyLedger {
     pub wall_work: f64,
     /// Kinetic energy that left through outlets.
     pub left: f64,
-    /// Energy that particles had which [sleep](crate::scene::Scene::awake_inside), and work on them.
-    pub asleep: f64,
     /// What viscosities, diffusion, shifting and the steps have taken: the work done less the gain in
     /// energy. Physical and numerical dissipation are not told apart.
     pub dissipated: f64,
@@ -34,8 +32,6 @@ pub(super) struct Work {
     pub start: f64,
     pub load: f64,
     pub wall: f64,
-    /// Energy \[J\] that sleepers had been given.
-    pub asleep: f64,
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
@@ -47,7 +43,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let (kinetic, compression) = own.stored();
             own.state.work = Some(Work {
                 start: kinetic + compression,
-                asleep: own.given_to_sleepers(),
                 ..Work::default()
             });
         });
@@ -59,15 +54,13 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let work = self.state.work?;
         let (kinetic, compression) = self.stored();
         let left = self.removed().kinetic;
-        let asleep = work.asleep - self.given_to_sleepers();
         Some(EnergyLedger {
             kinetic,
             compression,
             load_work: work.load,
             wall_work: work.wall,
             left,
-            asleep,
-            dissipated: work.start + work.load + work.wall - kinetic - compression - left - asleep,
+            dissipated: work.start + work.load + work.wall - kinetic - compression - left,
         })
     }
 
@@ -113,12 +106,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 for d in 0..D {
                     momentum[d] += 0.5 * dt * force[d];
                 }
-            }
-        }
-        for group in self.stepping(alone) {
-            let given = group.held.force_on_sleepers();
-            for d in 0..D {
-                momentum[d] += 0.5 * dt * given[d];
             }
         }
         let mut load = 0.0;

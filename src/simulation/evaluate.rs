@@ -112,11 +112,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             of_rates: true,
             ..moment
         };
-        if self.scheme.kicks_density() {
-            self.apply_laws(Stage::Continuity, moment);
-        }
         self.apply_laws(Stage::Rates, moment);
-        self.held.keep_asleep(&mut self.particles, false);
     }
 
     /// Smoothing lengths that follow the density, as far ahead as they have changed since: the nearer the search for them

@@ -53,7 +53,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     /// Looks at the conditions of what has not happened, after a step.
-    pub(super) fn watch_events(&mut self) -> Result<()> {
+    pub(super) fn watch_events(&mut self) {
         for k in 0..self.events.len() {
             if self.state.happened[k].1.is_none() {
                 let condition = self.events[k].condition.clone();
@@ -63,7 +63,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             }
         }
         self.release_clamps();
-        self.put_to_sleep()
     }
 
     /// Lets go of what is held until something that has happened.

@@ -49,9 +49,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                     evaluated_gravity: group.work.evaluated_gravity,
                     ..Workspace::default()
                 };
-                if let Some(asleep) = &mut group.held.asleep {
-                    asleep.keep_rows(&group.particles, &group.scheme);
-                }
                 any = true;
             }
         }

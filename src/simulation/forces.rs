@@ -26,27 +26,9 @@ impl<'a, T: Real, const D: usize> Forces<'a, T, D> {
         }
     }
 
-    /// Those of a group itself and those of couplings apart from them, each if there are any.
-    pub fn all(
-        work: &'a mut Workspace<T, D>,
-        sub_cycle: &'a mut Option<SubCycle<T, D>>,
-    ) -> [Option<Self>; 2] {
-        let apart = sub_cycle.as_mut();
-        let apart = apart.map(|apart| Self::Apart(&mut apart.forces));
-        [Some(Self::Own(work)), apart].map(|own| own.filter(Self::are_there))
-    }
-
     /// Whether they are those of couplings alone.
     pub fn are_apart(&self) -> bool {
         matches!(self, Self::Apart(_))
-    }
-
-    /// Whether there are any: none before the first evaluation.
-    pub fn are_there(&self) -> bool {
-        match self {
-            Self::Own(work) => work.rates.outputs().contains(Output::FORCE),
-            Self::Apart(forces) => !forces.is_empty(),
-        }
     }
 
     /// The acceleration \[m/s²\] that goes with them.

@@ -315,7 +315,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             body_force: self.body_force,
             columns: &self.particles.columns,
             images: &self.neighborhood.images,
-            transforms: &self.neighborhood.transforms,
+            transforms: &self.neighborhood.chains.transforms,
             lists: &self.neighborhood.lists,
             blocks: &self.neighborhood.blocks,
             interactions: &self.neighborhood.interactions,

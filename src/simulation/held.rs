@@ -1,8 +1,7 @@
-//! What does not follow forces particle by particle: clamped particles, bodies that move as rigid ones, and what sleeps.
+//! What does not follow forces particle by particle: clamped particles, and bodies that move as rigid ones.
 //! Forces are replaced after they are summed, so kicks, work and ledgers need not know.
 
 use super::Simulation;
-use super::asleep::Asleep;
 use super::forces::Forces;
 use super::group::Group;
 use super::population::Particles;
@@ -14,18 +13,17 @@ use nalgebra::{Matrix3, SymmetricEigen, UnitQuaternion, Vector3};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Clamped particles and rigid bodies of a group, and those of its particles that sleep, where any may.
+/// Clamped particles and rigid bodies of a group.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Held<const D: usize> {
     pub clamps: Vec<Clamp<D>>,
     pub rigid: Vec<Rigid<D>>,
-    pub asleep: Option<Asleep<D>>,
 }
 
 impl<const D: usize> Held<D> {
-    /// Whether nothing is held, nor may be.
+    /// Whether nothing is held.
     pub fn is_empty(&self) -> bool {
-        self.clamps.is_empty() && self.rigid.is_empty() && self.asleep.is_none()
+        self.clamps.is_empty() && self.rigid.is_empty()
     }
 }
 
@@ -291,9 +289,6 @@ impl<const D: usize> Held<D> {
         forces: &mut Forces<'_, T, D>,
         time: f64,
     ) {
-        if let Some(own) = &mut self.asleep {
-            own.hold(particles, forces);
-        }
         let (coupled, gravity) = (forces.are_apart(), forces.gravity());
         for own in &mut self.clamps {
             let motion = own.motion.as_ref().filter(|_| !coupled);
@@ -315,7 +310,7 @@ impl<const D: usize> Held<D> {
         }
     }
 
-    /// Books what clamps and sleepers are given in a kick over `dt` \[s\].
+    /// Books what clamps give in a kick over `dt` \[s\].
     fn record<T: Real>(
         &mut self,
         particles: &Particles<T, D>,
@@ -323,9 +318,6 @@ impl<const D: usize> Held<D> {
         coupled: bool,
         dt: f64,
     ) {
-        if let Some(own) = &mut self.asleep {
-            own.record(coupled, dt);
-        }
         let mass = particles.columns.raw(Field::MASS);
         let velocities = particles.columns.vectors(Field::VELOCITY);
         for own in &mut self.clamps {

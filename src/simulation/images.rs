@@ -1,28 +1,132 @@
-//! Images of particles behind boundaries: which are needed, and where they are.
-//! Later boundaries also mirror the images of earlier ones.
+//! Images of particles behind boundaries, in neighbour lists and in lists of couplings: which are needed, and where they are.
+//! Later boundaries also show the images of earlier ones, which fills edges and corners.
 
 use super::neighborhood::Neighborhood;
 use super::population::Particles;
 use super::walls::WallState;
 use crate::boundary::Boundary;
 use crate::neighbors::Block;
-use crate::particles::{Columns, Field};
+use crate::particles::Field;
 use crate::scalar::Real;
-use crate::sweep::Image;
+use crate::sweep::{Image, Transform};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// How an image's transform comes about: the boundary's own, after that of the image it mirrors.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Chain {
+/// How an image's transform comes about: the boundary's own, after that of the image it shows.
+#[derive(Clone, Copy, Debug)]
+struct Chain {
+    /// A number that does not depend on which images there are.
+    code: u32,
     parent: Option<u32>,
-    boundary: u32,
-    image: u32,
+    boundary: usize,
+    image: usize,
+}
+
+/// The transforms of images, each of one boundary after another.
+#[derive(Clone, Debug)]
+pub(crate) struct Chains<T, const D: usize> {
+    all: Vec<Chain>,
+    /// What they are at the time for which they were last placed.
+    pub transforms: Vec<Transform<T, D>>,
+}
+
+impl<T, const D: usize> Default for Chains<T, D> {
+    fn default() -> Self {
+        Self {
+            all: Vec::new(),
+            transforms: Vec::new(),
+        }
+    }
+}
+
+impl<T: Real, const D: usize> Chains<T, D> {
+    pub fn clear(&mut self) {
+        self.all.clear();
+        self.transforms.clear();
+    }
+
+    /// Adds the images within `reach` \[m\] that a boundary shows of particles, by their numbers and places \[m\], and of those `images` of
+    /// them that earlier boundaries show.
+    fn show(
+        &mut self,
+        sources: impl Iterator<Item = (u32, [f64; D])> + Clone,
+        images: &mut Vec<(Image, [f64; D])>,
+        (boundaries, b): (&[Arc<dyn Boundary<D>>], usize),
+        (reach, time): (f64, f64),
+    ) {
+        let (boundary, earlier) = (&boundaries[b], images.len());
+        let radix: u32 = boundaries[..b]
+            .iter()
+            .map(|own| own.images() as u32 + 1)
+            .product();
+        for image in 0..boundary.images() {
+            let own = boundary.transform(image, time).to_scalar::<T>();
+            let mut add = |images: &mut Vec<_>, source, parent: Option<u32>, x: [f64; D]| {
+                if !boundary.reaches(image, &x, reach, time) {
+                    return;
+                }
+                let before = parent.map_or(0, |parent| self.all[parent as usize].code);
+                let code = before + radix * (image as u32 + 1);
+                let known = self.all.iter().position(|chain| chain.code == code);
+                let transform = known.unwrap_or(self.all.len()) as u32;
+                if known.is_none() {
+                    self.all.push(Chain {
+                        code,
+                        parent,
+                        boundary: b,
+                        image,
+                    });
+                }
+                let at = own.point(&x.map(T::from_f64)).map(Real::to_f64);
+                images.push((Image { source, transform }, at));
+            };
+            for (source, x) in sources.clone() {
+                add(images, source, None, x);
+            }
+            for n in 0..earlier {
+                let (of, x) = images[n];
+                add(images, of.source, Some(of.transform), x);
+            }
+        }
+    }
+
+    /// Brings the transforms to `time` \[s\].
+    pub fn place(&mut self, boundaries: &[Arc<dyn Boundary<D>>], time: f64) {
+        self.transforms.clear();
+        for chain in &self.all {
+            self.transforms.push(self.at(chain, boundaries, time));
+        }
+    }
+
+    fn at(&self, chain: &Chain, boundaries: &[Arc<dyn Boundary<D>>], time: f64) -> Transform<T, D> {
+        let own = boundaries[chain.boundary]
+            .transform(chain.image, time)
+            .to_scalar();
+        match chain.parent {
+            Some(parent) => self
+                .at(&self.all[parent as usize], boundaries, time)
+                .then(&own),
+            None => own,
+        }
+    }
+
+    /// How far the farthest image has been moved by boundaries alone between two times \[s\], where they move \[m\].
+    pub fn carried(&self, boundaries: &[Arc<dyn Boundary<D>>], times: [f64; 2]) -> f64 {
+        if !boundaries.iter().any(|own| own.moves()) {
+            return 0.0;
+        }
+        let moved = self.all.iter().map(|chain| {
+            let [then, now] = times.map(|time| self.at(chain, boundaries, time).shift);
+            (0..D)
+                .map(|d| (now[d].to_f64() - then[d].to_f64()).powi(2))
+                .sum::<f64>()
+        });
+        moved.fold(0.0, f64::max).sqrt()
+    }
 }
 
 impl<T: Real, const D: usize> Neighborhood<T, D> {
-    /// Finds which images are needed. Later boundaries also mirror the images of earlier ones, which
-    /// fills edges and corners. The images of each body and of each wall are blocks of their own.
+    /// Finds which images are needed. The images of each body and of each wall are blocks of their own, one a boundary.
     pub(super) fn place_images(
         &mut self,
         particles: &Particles<T, D>,
@@ -35,84 +139,109 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         if boundaries.is_empty() {
             return;
         }
-        let columns = &particles.columns;
-        for body in &particles.bodies {
-            self.place_images_of(columns, &body.slots, None, boundaries, time);
-        }
-        for wall in walls {
-            self.place_images_of(columns, &wall.slots, Some(wall), boundaries, time);
+        let positions = particles.columns.vectors(Field::POSITION);
+        let bodies = particles.bodies.iter().map(|body| (&body.slots, None));
+        let walls = walls.iter().map(|wall| (&wall.slots, Some(wall)));
+        let mut images = Vec::new();
+        for (sources, wall) in bodies.chain(walls) {
+            let place = |slot: usize| (slot as u32, positions[slot].map(Real::to_f64));
+            images.clear();
+            for b in 0..boundaries.len() {
+                let before = images.len();
+                let at = (self.listed_reach, time);
+                let sources = Range::clone(sources).map(place);
+                self.chains.show(sources, &mut images, (boundaries, b), at);
+                let start = positions.len() + self.images.len();
+                for (image, x) in &images[before..] {
+                    self.images.push(*image);
+                    self.listed.push(x.map(T::from_f64));
+                }
+                self.blocks.push(Block {
+                    slots: start..positions.len() + self.images.len(),
+                    wall: wall.is_some(),
+                });
+                self.mirrored.push(wall.is_some_and(WallState::is_mirrored));
+            }
         }
         self.place_transforms(boundaries, time);
-    }
-
-    /// One block of images a boundary, of the particles in `sources`: those of a body, or of a wall.
-    fn place_images_of(
-        &mut self,
-        columns: &Columns<T, D>,
-        sources: &Range<usize>,
-        wall: Option<&WallState<T, D>>,
-        boundaries: &[Arc<dyn Boundary<D>>],
-        time: f64,
-    ) {
-        let (slots, reach) = (columns.slots(), self.listed_reach);
-        let before = self.images.len();
-        let mut candidates: Vec<(u32, Option<u32>, [T; D])> = Vec::new();
-        for (b, boundary) in boundaries.iter().enumerate() {
-            let start = self.images.len();
-            for k in 0..boundary.images() {
-                let own = boundary.transform(k, time).to_scalar();
-                candidates.clear();
-                let near = |x: &[T; D]| boundary.reaches(k, &x.map(Real::to_f64), reach, time);
-                let positions = columns.vectors(Field::POSITION);
-                for slot in sources.clone() {
-                    if near(&positions[slot]) {
-                        candidates.push((slot as u32, None, positions[slot]));
-                    }
-                }
-                for (image, x) in self.images[before..start]
-                    .iter()
-                    .zip(&self.listed[slots + before..])
-                {
-                    if near(x) {
-                        candidates.push((image.source, Some(image.transform), *x));
-                    }
-                }
-                for &(source, parent, x) in &candidates {
-                    let chain = Chain {
-                        parent,
-                        boundary: b as u32,
-                        image: k as u32,
-                    };
-                    let known = self.chains.iter().position(|c| *c == chain);
-                    let transform = known.unwrap_or(self.chains.len()) as u32;
-                    if known.is_none() {
-                        self.chains.push(chain);
-                    }
-                    self.images.push(Image { source, transform });
-                    self.listed.push(own.point(&x));
-                }
-            }
-            self.blocks.push(Block {
-                slots: slots + start..slots + self.images.len(),
-                wall: wall.is_some(),
-            });
-            self.mirrored
-                .push(wall.is_some_and(|wall| wall.is_mirrored()));
-        }
     }
 
     /// Brings the transforms of images up to date.
     pub(super) fn place_transforms(&mut self, boundaries: &[Arc<dyn Boundary<D>>], time: f64) {
         self.placed_time = time;
-        self.transforms.clear();
-        for chain in &self.chains {
-            let own = boundaries[chain.boundary as usize].transform(chain.image as usize, time);
-            let own = own.to_scalar();
-            let whole = match chain.parent {
-                Some(parent) => self.transforms[parent as usize].then(&own),
-                None => own,
-            };
-            self.transforms.push(whole);
+        self.chains.place(boundaries, time);
+    }
+}
+
+/// Images of the particles of both sides of a coupling, which stand in its list behind the particles. A pair with an image acts on
+/// the particle that is there; its mirror image in the list acts on the other.
+#[derive(Clone, Debug)]
+pub(crate) struct PairImages<T, const D: usize> {
+    /// How many particles each side has.
+    pub counts: [usize; 2],
+    images: [Vec<Image>; 2],
+    pub chains: Chains<T, D>,
+}
+
+impl<T, const D: usize> Default for PairImages<T, D> {
+    fn default() -> Self {
+        Self {
+            counts: [0; 2],
+            images: [Vec::new(), Vec::new()],
+            chains: Chains::default(),
         }
+    }
+}
+
+impl<T: Real, const D: usize> PairImages<T, D> {
+    /// Forgets all images.
+    pub fn clear(&mut self) {
+        self.images.iter_mut().for_each(Vec::clear);
+        self.chains.clear();
+    }
+
+    /// Adds the images within `reach` \[m\] to the particles of a side, by their numbers. Particles that are not there have no place.
+    pub fn add(
+        &mut self,
+        side: usize,
+        places: &mut Vec<[f64; D]>,
+        boundaries: &[Arc<dyn Boundary<D>>],
+        at: (f64, f64),
+    ) {
+        self.counts[side] = places.len();
+        let mut images = Vec::new();
+        let there = places.iter().enumerate().filter(|(_, x)| !x[0].is_nan());
+        let there = there.map(|(id, x)| (id as u32, *x));
+        for b in 0..boundaries.len() {
+            let sources = there.clone();
+            self.chains.show(sources, &mut images, (boundaries, b), at);
+        }
+        images.sort_by_key(|(own, _)| (self.chains.all[own.transform as usize].code, own.source));
+        self.images[side].extend(images.iter().map(|own| own.0));
+        places.extend(images.iter().map(|own| own.1));
+    }
+
+    /// The particle that stands at a number of the list, and the chain if it is an image.
+    pub fn source(&self, side: usize, id: u32) -> (u32, Option<usize>) {
+        match (id as usize).checked_sub(self.counts[side]) {
+            None => (id, None),
+            Some(image) => {
+                let own = self.images[side][image];
+                (own.source, Some(own.transform as usize))
+            }
+        }
+    }
+
+    /// A number of what stands at a number of the list that lists made later have too, in the same order.
+    pub fn key(&self, side: usize, id: u32) -> u32 {
+        match self.source(side, id) {
+            (id, None) => id,
+            (id, Some(chain)) => id + self.chains.all[chain].code * self.counts[side] as u32,
+        }
+    }
+
+    /// The boundary to which the last image of a chain belongs.
+    pub fn boundary(&self, chain: usize) -> usize {
+        self.chains.all[chain].boundary
     }
 }

@@ -206,10 +206,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Mass, momentum and energy now, body by body and together.
     #[must_use]
     pub fn ledger(&self) -> Ledger {
-        once!(self => &Simulation, ledger_here() -> Ledger)
+        once!(self => &Simulation, |own| -> Ledger { own.sum_up() })
     }
 
-    fn ledger_here(&self) -> Ledger {
+    fn sum_up(&self) -> Ledger {
         let mut bodies: Vec<_> = self
             .all_bodies()
             .map(|(group, body)| (body.name.clone(), Self::budget(group, body)))

@@ -50,7 +50,6 @@
 //! | energy of a liquid, work on it, dissipation | [`Simulation::energy`] |
 //! | stored energy, as a function of the state, and the work that went into it | [`Simulation::stored_energy`] |
 //! | what left through outlets | [`Simulation::removed`] |
-//! | what sleeps outside of a box, and what that has taken | [`Simulation::asleep`] |
 //! | memory | [`Simulation::bytes`] |
 //! | all of these as counts that no machine changes | [`Simulation::work`], and [`Simulation::expected_work`] of what is to come |
 //! | whether the run is sound: bounds, limits, residuals, arrangement, steps, with a verdict | [`Simulation::keep_stability`], [`Simulation::stability`] |
@@ -62,6 +61,7 @@
 //! [`Simulation::body`] runs over the particles of a body in the order in which the scene placed them,
 //! although they are sorted in memory, so the n-th is the same particle throughout. Bodies and walls are asked for by
 //! name or by index ([`Which`]), and one that the scene does not have is an error.
+//! [`ParticleView::for_each_neighbor`] shows the neighbours of a particle, with images behind planes and across periods.
 //! [`Simulation::run_with`] shows the simulation to a closure after every step, and at the end:
 //!
 //! ```
@@ -136,7 +136,6 @@
 
 mod advance;
 mod approach;
-mod asleep;
 #[cfg(feature = "checkpoint")]
 mod checkpoint;
 mod contact;
@@ -158,10 +157,10 @@ mod ledger;
 mod limits;
 mod load;
 mod loads;
+mod neighbor;
 mod neighborhood;
 mod observed;
 mod outlook;
-mod pair_images;
 mod pair_list;
 mod phases;
 mod population;
@@ -185,7 +184,6 @@ mod which;
 mod work;
 mod workspace;
 
-pub use asleep::Sleepers;
 pub use contact::Contact;
 pub use control::{Criterion, StepControl, Vote};
 pub use cost::{Cost, CostLine};
@@ -194,6 +192,7 @@ pub use held::Clamped;
 pub use indicators::{Indicators, Limit, LimitedBy, Spread};
 pub use ledger::{Budget, Ledger, Total};
 pub use load::{Load, LoadPoint};
+pub use neighbor::Neighbor;
 pub use phases::Phases;
 pub use query::{ParticleView, ParticleViews};
 pub use stability::{
@@ -205,7 +204,6 @@ pub(crate) use which::find;
 pub use work::Work;
 
 pub(crate) use advance::{ACCELERATION, is_square_finite};
-pub(crate) use asleep::Awake;
 pub(crate) use contact::{Acting, Couple};
 pub(crate) use couplings::Structure;
 pub(crate) use event::Event;
@@ -267,8 +265,6 @@ pub struct Simulation<T: Real, const D: usize> {
     failed: Option<String>,
     /// What is looked at after every step.
     events: Vec<Event<T, D>>,
-    /// The box in which it is awake.
-    awake: Option<Awake<T, D>>,
 }
 
 impl<T: Real, const D: usize> core::fmt::Debug for Simulation<T, D> {
@@ -320,7 +316,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             shown: Reading::LastStep,
             failed: None,
             events: Vec::new(),
-            awake: None,
         }
     }
 
@@ -370,16 +365,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Between steps it changes nothing of what comes: the next step starts from the rates that the step before has
     /// left, which belong to predicted velocities. The state is held twice until then.
     pub fn evaluate(&mut self) -> Result<()> {
-        once!(self => &mut Simulation, evaluate_here() -> Result<()>)
-    }
-
-    fn evaluate_here(&mut self) -> Result<()> {
-        self.check_failure()?;
-        if self.state.rates_at_hand && self.aside.is_none() {
-            self.aside = Some(Box::new(self.keep()));
-        }
-        crate::integrator::System::evaluate(self, 0.0)?;
-        self.vote().map(|_| ())
+        once!(self => &mut Simulation, |own| -> Result<()> {
+            own.check_failure()?;
+            if own.state.rates_at_hand && own.aside.is_none() {
+                own.aside = Some(Box::new(own.keep()));
+            }
+            crate::integrator::System::evaluate(own, 0.0)?;
+            own.vote().map(|_| ())
+        })
     }
 
     /// Refuses to go on after a failure.

@@ -2,7 +2,7 @@
 //! It is rebuilt from the positions that it remembers, so a checkpoint needs no lists.
 
 use super::group::width;
-use super::images::Chain;
+use super::images::Chains;
 use super::population::Particles;
 use super::walls::WallState;
 use crate::boundary::Boundary;
@@ -10,7 +10,7 @@ use crate::neighbors::{Block, ClusterLists, Radii, SearchInput};
 use crate::parallel::{Corners, corners, largest, no_corners};
 use crate::particles::Field;
 use crate::scalar::Real;
-use crate::sweep::{Image, InstructionSet, Interaction, Transform};
+use crate::sweep::{Image, InstructionSet, Interaction};
 use crate::tensor::{Vector, length};
 use std::ops::Range;
 use std::sync::Arc;
@@ -24,8 +24,8 @@ pub(crate) struct Neighborhood<T: Real, const D: usize> {
     pub mirrored: Vec<bool>,
     pub interactions: Vec<Interaction>,
     pub images: Vec<Image>,
-    pub transforms: Vec<Transform<T, D>>,
-    pub chains: Vec<Chain>,
+    /// What makes the images.
+    pub chains: Chains<T, D>,
     /// Shared with copies of the state until one of them lists anew.
     pub lists: Arc<ClusterLists>,
     /// Positions of slots at the last list build, then of images.
@@ -69,8 +69,7 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
             mirrored: Vec::new(),
             interactions,
             images: Vec::new(),
-            transforms: Vec::new(),
-            chains: Vec::new(),
+            chains: Chains::default(),
             lists: Arc::default(),
             listed: Vec::new(),
             listed_h: Vec::new(),

@@ -84,10 +84,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// # Errors
     /// As [`run_until`](Simulation::run_until) if a rehearsed step fails, and [`Error::Argument`](crate::error::Error::Argument) if the end is not finite.
     pub fn expected_work(&mut self, end: f64) -> Result<Work> {
-        once!(self => &mut Simulation, expected_work_here(end: f64) -> Result<Work>)
+        once!(self => &mut Simulation, |own, end: f64| -> Result<Work> { own.expect_work(end) })
     }
 
-    fn expected_work_here(&mut self, end: f64) -> Result<Work> {
+    fn expect_work(&mut self, end: f64) -> Result<Work> {
         check_end(end)?;
         self.check_failure()?;
         self.on_last_step(|own| {

@@ -1,7 +1,7 @@
 //! The pairs of a coupling that may be within reach: found in cells of the one side, and numbered by their particles.
 //! A list serves until both sides together have moved by its skin.
 
-use super::pair_images::PairImages;
+use super::images::PairImages;
 use super::side::Listed;
 use crate::coupling::{Anchor, CoupledParticle};
 use crate::neighbors::Cells;

@@ -41,12 +41,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     pub(super) fn step_to(&mut self, limit: f64) -> Result<f64> {
-        once!(self => &mut Simulation, step_here(limit: f64) -> Result<f64>)
-    }
-
-    fn step_here(&mut self, limit: f64) -> Result<f64> {
-        let next = self.next_step()?;
-        self.take_step(next, limit)
+        once!(self => &mut Simulation, |own, limit: f64| -> Result<f64> {
+            let next = own.next_step()?;
+            own.take_step(next, limit)
+        })
     }
 
     /// The next step, from the state after the last one. Particles have entered, and rates are at hand.
@@ -134,8 +132,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     fn take_step(&mut self, next: Vote, limit: f64) -> Result<f64> {
         let (start, before) = (crate::clock::Instant::now(), self.phases());
         self.advance(next, limit)?;
-        let watched = self.watch_events();
-        self.keep_broken(watched)?;
+        self.watch_events();
         let followed = self.follow_events();
         self.keep_failure(followed)?;
         self.book_step(start, before);
@@ -207,10 +204,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// # Errors
     /// As [`run_until`](Self::run_until).
     pub fn step_until(&mut self, end: f64) -> Result<f64> {
-        once!(self => &mut Simulation, step_until_here(end: f64) -> Result<f64>)
+        once!(self => &mut Simulation, |own, end: f64| -> Result<f64> { own.go_to(end) })
     }
 
-    fn step_until_here(&mut self, end: f64) -> Result<f64> {
+    fn go_to(&mut self, end: f64) -> Result<f64> {
         check_end(end)?;
         let (shown, rounding) = (self.state.time, rounding(end));
         if end - shown <= rounding {

@@ -58,7 +58,6 @@ impl<T: Real, const D: usize> Group<T, D> {
         if self.scheme.energy != EnergyForm::Compatible {
             if self.carries_energy() {
                 self.heat(dt, None);
-                self.held.keep_asleep(&mut self.particles, true);
             }
             return;
         }
@@ -72,7 +71,6 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
         self.heat(dt, Some(later.unwrap_or(0.0)));
         heat_by_loads(&mut self.particles.columns, dt);
-        self.held.keep_asleep(&mut self.particles, true);
     }
 
     /// The mean velocities v + a dt/2 and accelerations of a kick of which this is `half` the time \[s\].
@@ -171,7 +169,6 @@ impl<T: Real, const D: usize> Group<T, D> {
         if self.evolves_at(When::Kick) {
             self.apply_laws(Stage::Bounds, Moment::at(time));
         }
-        self.held.keep_asleep(&mut self.particles, true);
     }
 
     /// The first half of a drift, or all of it where nobody looks at the group in its middle.
@@ -310,7 +307,6 @@ impl<T: Real, const D: usize> Group<T, D> {
         if self.carries_energy() {
             self.heat(dt, None);
         }
-        self.held.keep_asleep(&mut self.particles, false);
     }
 
     /// Takes the last prediction back.

@@ -23,12 +23,6 @@ pub(crate) struct SubCycle<T, const D: usize> {
     pub work: Vec<f64>,
     /// Steps taken since the start.
     pub steps: u64,
-    /// Whether impulses of the others are spread over the drift that follows them.
-    pub spreads: bool,
-    /// Impulses \[N s\] that particles have been given since the last drift, by their numbers.
-    pub pending: Vec<[T; D]>,
-    /// Forces \[N\] by which they are given in this drift instead; else none.
-    pub spread: Vec<[T; D]>,
 }
 
 impl<T: Real, const D: usize> SubCycle<T, D> {
@@ -38,103 +32,35 @@ impl<T: Real, const D: usize> SubCycle<T, D> {
             forces: Vec::new(),
             work: vec![0.0; bodies],
             steps: 0,
-            spreads: false,
-            pending: Vec::new(),
-            spread: Vec::new(),
         }
     }
 
-    /// v ← v + dt F/m with what couplings do to its particles.
+    /// v ← v + dt F/m with what couplings do to its particles, and the work of that on each body: the change of kinetic
+    /// energy.
     pub fn kick(&mut self, particles: &mut Particles<T, D>, dt: f64) {
-        let (step, forces) = (T::from_f64(dt), &self.forces);
-        push(particles, &mut self.work, |slot, _| {
-            forces[slot].map(|force| step * force)
-        });
-        if self.spreads {
-            self.pending.resize(particles.slot_of.len(), [T::zero(); D]);
-            for slot in particles.bodies.iter().flat_map(|body| body.slots.clone()) {
-                let pending = &mut self.pending[particles.ids[slot] as usize];
+        let step = T::from_f64(dt);
+        let columns = &mut particles.columns;
+        let [v, mass] = columns.many_mut([Field::VELOCITY, Field::MASS]);
+        for (body, work) in particles.bodies.iter().zip(&mut self.work) {
+            for slot in body.slots.clone() {
                 for d in 0..D {
-                    pending[d] += step * forces[slot][d];
+                    let v = &mut v[slot * D + d];
+                    let before = v.to_f64();
+                    *v += step * self.forces[slot][d] / mass[slot];
+                    *work += 0.5 * mass[slot].to_f64() * (v.to_f64().powi(2) - before * before);
                 }
             }
-        }
-    }
-
-    /// Takes back what kicks have given since the last drift, to give it evenly in one over `dt` \[s\].
-    fn spread(&mut self, particles: &mut Particles<T, D>, dt: f64) {
-        if !self.spreads || self.pending.is_empty() {
-            return;
-        }
-        let (step, pending) = (T::from_f64(dt), &mut self.pending);
-        push(particles, &mut self.work, |_, id| {
-            pending[id].map(|impulse| -impulse)
-        });
-        self.spread.clear();
-        self.spread
-            .extend(pending.iter().map(|own| own.map(|impulse| impulse / step)));
-        pending.fill([T::zero(); D]);
-    }
-
-    /// Gives a part of what is spread, that of `dt` \[s\].
-    fn push_spread(&mut self, particles: &mut Particles<T, D>, dt: f64) {
-        if self.spread.is_empty() {
-            return;
-        }
-        let (step, none) = (T::from_f64(dt), [T::zero(); D]);
-        let spread = &self.spread;
-        push(particles, &mut self.work, |_, id| {
-            spread.get(id).unwrap_or(&none).map(|force| step * force)
-        });
-    }
-}
-
-/// Gives each particle an impulse \[N s\] by its slot and number, with the work of that on each body: the change of kinetic
-/// energy.
-fn push<T: Real, const D: usize>(
-    particles: &mut Particles<T, D>,
-    work: &mut [f64],
-    impulse: impl Fn(usize, usize) -> [T; D],
-) {
-    let ids = &particles.ids;
-    let columns = &mut particles.columns;
-    let [v, mass] = columns.many_mut([Field::VELOCITY, Field::MASS]);
-    for (body, work) in particles.bodies.iter().zip(work) {
-        for slot in body.slots.clone() {
-            for (d, impulse) in impulse(slot, ids[slot] as usize).into_iter().enumerate() {
-                let v = &mut v[slot * D + d];
-                let before = v.to_f64();
-                *v += impulse / mass[slot];
-                *work += 0.5 * mass[slot].to_f64() * (v.to_f64().powi(2) - before * before);
-            }
-        }
-        // Slots behind the last particle repeat it, and nothing sorts anew what keeps its neighbours.
-        if let Some(last) = body.slots.clone().last() {
-            for slot in body.slots.end..body.end {
-                v.copy_within(last * D..(last + 1) * D, slot * D);
+            // Slots behind the last particle repeat it, and nothing sorts anew what keeps its neighbours.
+            if let Some(last) = body.slots.clone().last() {
+                for slot in body.slots.end..body.end {
+                    v.copy_within(last * D..(last + 1) * D, slot * D);
+                }
             }
         }
     }
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
-    /// Spreads what kicks have given groups that sub-cycle over a drift of `dt` \[s\] that begins; see [`SubCycle::spreads`].
-    pub(super) fn spread_impulses(&mut self, dt: f64) {
-        for group in &mut self.state.groups {
-            if let Some(apart) = &mut group.sub_cycle {
-                apart.spread(&mut group.particles, dt);
-            }
-        }
-    }
-
-    /// Ends that.
-    pub(super) fn end_spreading(&mut self) {
-        let apart = self.state.groups.iter_mut();
-        for apart in apart.filter_map(|group| group.sub_cycle.as_mut()) {
-            apart.spread.clear();
-        }
-    }
-
     /// Steps of all groups that sub-cycle since the start; see [`Scene::sub_cycle`](crate::scene::Scene::sub_cycle).
     #[must_use]
     pub fn sub_steps(&self) -> u64 {
@@ -194,13 +120,6 @@ impl<T: Real, const D: usize> Alone<'_, T, D> {
     fn own(&mut self) -> &mut Group<T, D> {
         &mut self.simulation.state.groups[self.group]
     }
-
-    fn push_spread(&mut self, dt: f64) {
-        let group = self.own();
-        if let Some(apart) = &mut group.sub_cycle {
-            apart.push_spread(&mut group.particles, dt);
-        }
-    }
 }
 
 impl<T: Real, const D: usize> System for Alone<'_, T, D> {
@@ -219,13 +138,10 @@ impl<T: Real, const D: usize> System for Alone<'_, T, D> {
     }
 
     fn kick(&mut self, dt: f64) {
-        // Half before and half after the group's own forces, so that both work with the mean velocity of the kick.
-        self.push_spread(0.5 * dt);
         self.own().heat_in_kick(dt);
         self.simulation.record_kick(Some(self.group), dt);
         let time = self.start;
         self.own().kick_all(dt, time);
-        self.push_spread(0.5 * dt);
     }
 
     fn drift(&mut self, dt: f64, offset: f64) -> Result<()> {

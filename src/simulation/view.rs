@@ -93,9 +93,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// The same, with the rates of an evaluation between steps.
     fn leave_last_step(&mut self) {
         if let Reading::Between(_) = mem::replace(&mut self.shown, Reading::LastStep) {
-            // An event that gives no number ends the run at its next step.
-            let watched = self.watch_events();
-            let _ = self.keep_failure(watched);
+            self.watch_events();
             if self.exchange_schemes() {
                 self.state.rates_at_hand = false;
             }

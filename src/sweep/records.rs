@@ -69,6 +69,11 @@ impl<T: Real, const D: usize> Transform<T, D> {
     pub fn point(&self, x: &[T; D]) -> [T; D] {
         (self.rotation * Vector::from(*x) + self.shift).into()
     }
+    /// The velocity of the image of what moves with `v` \[m/s\].
+    #[must_use]
+    pub fn velocity_of(&self, v: &[T; D]) -> [T; D] {
+        (self.rotation * Vector::from(*v) + self.velocity).into()
+    }
     /// Moves the particle in `slot` of columns of positions, their rounding errors (empty where they
     /// are not kept) and velocities.
     pub(crate) fn re_enter(&self, slot: usize, x: &mut [T], residual: &mut [T], v: &mut [T]) {

@@ -12,7 +12,7 @@
 /// | [`Gradients`](Self::Gradients) | pressures are known, of walls too | particles of bodies |
 /// | [`Flow`](Self::Flow) | gradients are known | particles of bodies |
 /// | [`Rates`](Self::Rates) | everything that a rate reads is known | particles of bodies |
-/// | [`Continuity`](Self::Continuity) | in the middle of a drift, or with the rates where density is kicked | particles of bodies |
+/// | [`Continuity`](Self::Continuity) | in the middle of a drift | particles of bodies |
 /// | [`Bounds`](Self::Bounds) | after a kick or drift has changed evolved fields | – |
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u8)]

@@ -175,7 +175,7 @@ fn a_step_between_list_builds_allocates_nothing() {
             assert!(steps > 40);
             assert_eq!(allocations, 0, "{name}");
         }
-        let mut pool = Scene::<f64, 2>::new(schemes::weakly_compressible().density_with_rates())
+        let mut pool = Scene::<f64, 2>::new(schemes::weakly_compressible())
             .body(Body::block(
                 "pool",
                 catalogue::weakly_compressible_water(1.0),
@@ -194,7 +194,7 @@ fn a_step_between_list_builds_allocates_nothing() {
             .build()
             .unwrap();
         let (allocations, steps) = counted(&mut pool);
-        println!("pool of one evaluation: {allocations} allocations in {steps} steps");
+        println!("pool: {allocations} allocations in {steps} steps");
         assert!(steps > 40);
         assert_eq!(allocations, 0);
     });

@@ -202,19 +202,6 @@ fn functions_of_the_user_that_give_no_number() {
         scene.couple("rod", "plate", Wild),
         &["coupling wild of `rod` and `plate` gave NaN"],
     );
-    names(
-        good().awake_inside(|_| [[1.0], [-1.0]]),
-        &["Scene::awake_inside", "gave -2"],
-    );
-    names(
-        good().awake_inside(|_| [[f64::NAN], [1.0]]),
-        &["Scene::awake_inside", "gave NaN"],
-    );
-    let late = |run: &Simulation<f64, 1>| [[-1.0], [if run.time() > 2e-7 { -2.0 } else { 1.0 }]];
-    names(
-        good().awake_inside(late),
-        &["Scene::awake_inside", "gave -1"],
-    );
     let heat = Load::heating(|at| if at.time > 2e-7 { f64::NAN } else { 1.0 });
     names(
         good().load(heat),

@@ -383,3 +383,69 @@ fn entries_of_parts_add_up() {
     }
     assert!(lists.entries_of(0..4, 4) > 0 && lists.entries() > 10_000);
 }
+
+/// Neighbours of a sheet that is periodic along x and mirrored at y = 0, against a search over all places.
+#[test]
+fn neighbors_of_a_particle_are_all_that_its_kernel_reaches() {
+    const EDGE: f64 = 0.02;
+    let sheet = Body::block("sheet", catalogue::copper(), [0.0; 2], [EDGE; 2], 1e-3);
+    let mut simulation = Scene::<f64, 2>::new(schemes::impact_by_continuity())
+        .body(sheet.jitter(0.2, 7).velocity([30.0, -20.0]))
+        .boundary(Periodic::along(0, 0.0, EDGE))
+        .boundary(MirrorPlane::symmetry([0.0; 2], [0.0, -1.0]))
+        .build()
+        .unwrap();
+    for _ in 0..20 {
+        simulation.step().unwrap();
+    }
+    let reach = simulation.scheme().kernel().support * simulation.smoothing_length();
+    let all: Vec<_> = simulation.all().collect();
+    let (mut images, mut unity) = (0, 0.0);
+    for own in &all {
+        let x = own.position();
+        let mut expected = Vec::new();
+        for other in &all {
+            let [y, v] = [other.position(), other.velocity()];
+            for period in [-EDGE, 0.0, EDGE] {
+                for mirror in [1.0, -1.0] {
+                    let r = [y[0] + period - x[0], mirror * y[1] - x[1]];
+                    let itself = period == 0.0 && mirror == 1.0 && other.id() == own.id();
+                    if r[0].hypot(r[1]) < reach * (1.0 - 1e-9) && !itself {
+                        let image = period != 0.0 || mirror < 0.0;
+                        expected.push((other.id(), image, r, [v[0], mirror * v[1]]));
+                    }
+                }
+            }
+        }
+        let mut found = Vec::new();
+        own.for_each_neighbor(|neighbor| {
+            let other = neighbor.particle();
+            images += usize::from(neighbor.is_image());
+            unity += neighbor.kernel() * other.mass() / other.density();
+            assert!(
+                (neighbor.distance() - neighbor.offset()[0].hypot(neighbor.offset()[1])).abs()
+                    < 1e-15
+            );
+            found.push((
+                other.id(),
+                neighbor.is_image(),
+                neighbor.offset(),
+                neighbor.velocity(),
+            ));
+        });
+        assert_eq!(found.len(), expected.len());
+        for (id, image, r, v) in found {
+            let same = |own: &&(usize, bool, [f64; 2], [f64; 2])| {
+                (own.0, own.1) == (id, image) && (0..2).all(|d| (own.2[d] - r[d]).abs() < 1e-12)
+            };
+            let own = expected
+                .iter()
+                .find(same)
+                .expect("a neighbour that is there");
+            assert!((0..2).all(|d| (own.3[d] - v[d]).abs() < 1e-12));
+        }
+    }
+    assert!(images > 500, "{images}");
+    // Without what a particle adds itself.
+    assert!((0.5..1.0).contains(&(unity / all.len() as f64)), "{unity}");
+}

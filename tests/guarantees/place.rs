@@ -437,7 +437,7 @@ fn sheared<T: Real>(s: [f64; 2]) -> Scene<T, 2> {
         .boundary(LeesEdwards::new(period(0), period(1), 4.0))
 }
 
-/// A drop in a corner of mirrors, one of which is oblique, of which a part sleeps.
+/// A drop in a corner of mirrors, one of which is oblique.
 fn corner<T: Real>(s: [f64; 3]) -> Scene<T, 3> {
     let water = catalogue::weakly_compressible_water(2.0);
     let drop = Body::block("drop", water, s, moved([6.0 * DX; 3], s), DX);
@@ -446,11 +446,6 @@ fn corner<T: Real>(s: [f64; 3]) -> Scene<T, 3> {
         .boundary(MirrorPlane::wall(s, [-1.0, 0.0, -0.25]))
         .boundary(MirrorPlane::wall(s, [0.0, -1.0, 0.0]))
         .acceleration(down)
-        .awake_inside(move |now| {
-            let mut high = moved([5.0 * DX; 3], s);
-            high[0] += now.time();
-            [moved([-1.0; 3], s), high]
-        })
 }
 
 #[test]

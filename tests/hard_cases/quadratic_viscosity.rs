@@ -5,7 +5,7 @@ use super::gas::{density_error, plateau_error, tube};
 use super::harness::Row;
 use meshfree::particles::{Field, Fields, Outputs};
 use meshfree::prelude::*;
-use meshfree::scalar::Lane;
+use meshfree::scalar::{Lane, Real};
 use meshfree::term::viscosity::{
     ArtificialViscosity, CullenDehnen, MonaghanGingold, Switch, Viscous,
 };
@@ -43,7 +43,7 @@ impl<V: ArtificialViscosity<1>> ArtificialViscosity<1> for LongerSteps<V> {
     fn document(&self) -> TermDoc {
         self.law.document()
     }
-    fn switch(&self) -> Option<Switch> {
+    fn switch<T: Real>(&self) -> Option<Box<dyn Switch<T>>> {
         self.law.switch()
     }
 }

@@ -20,7 +20,6 @@ mod liquid_conservation;
 mod manufactured;
 mod mirror_planes;
 mod off_lattice;
-mod one_evaluation;
 mod penalty_structure;
 mod riemann_walls;
 mod sampling;

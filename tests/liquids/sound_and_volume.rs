@@ -324,8 +324,16 @@ fn expansion_memory_that_cannot_be_is_refused() {
     let solid = Scene::<f64, 2>::new(scheme()).body(body(liquid()));
     assert!(solid.problems()[0].to_string().contains("can cavitate"));
     let wide = body(liquid().with_pressure_cut_off(0.0));
-    let combined = Scene::<f64, 2>::new(scheme().density_with_rates().compose())
+    let combined = Scene::<f64, 2>::new(scheme())
         .body(wide)
         .integrator(meshfree::integrator::RungeKutta4);
-    assert!(combined.problems()[0].to_string().contains("does not hold"));
+    let problems: Vec<String> = combined
+        .problems()
+        .iter()
+        .map(ToString::to_string)
+        .collect();
+    assert!(
+        problems.iter().any(|own| own.contains("does not hold")),
+        "{problems:?}"
+    );
 }

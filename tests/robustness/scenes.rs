@@ -129,9 +129,6 @@ fn scene(n: &mut Numbers) -> S {
         if n.part(3) {
             scene = scene.sub_cycle(name(n), n.below(20) as u32);
         }
-        if n.part(4) {
-            scene = scene.spread_impulses(name(n));
-        }
     }
     let interaction = |n: &mut Numbers| {
         use meshfree::sweep::Interaction::{Bonded, None, Unilateral};

@@ -2,7 +2,6 @@
 //! Cases of several bodies and schemes among them: contact, loads, events, conversion.
 
 mod advice;
-mod asleep;
 mod at_walls;
 mod bad_solids;
 mod beams_in_space;

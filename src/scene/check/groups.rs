@@ -244,44 +244,6 @@ impl<T: Real, const D: usize> Scene<T, D> {
         }
     }
 
-    /// Groups that have the impulses of liquids spread.
-    pub(super) fn check_spreading(&self, problems: &mut Vec<Problem>) {
-        for body in &self.spread {
-            let Some((group, _)) = self.known_place(body, problems) else {
-                continue;
-            };
-            let within = |name: &String| self.place_of(name).is_some_and(|at| at.0 == group);
-            let mut incompatible = |what, remedy| {
-                problems.push(Problem::Incompatible {
-                    what: format!("Scene::spread_impulses of body `{body}`, {what}"),
-                    remedy,
-                });
-            };
-            if !self.sub_cycled.iter().any(|(name, _)| within(name)) {
-                incompatible(
-                    "whose group does not sub-cycle",
-                    "say how many steps it may take, by Scene::sub_cycle, or leave it out",
-                );
-            }
-            if self.rigid.iter().any(within) {
-                incompatible(
-                    "whose group has a rigid body",
-                    "leave it out: a rigid body has no modes that impulses could drive",
-                );
-            }
-            let forces = self.couplings.iter().filter(|own| !own.coupling.is_wall());
-            if forces
-                .into_iter()
-                .any(|own| within(&own.first) || within(&own.second))
-            {
-                incompatible(
-                    "on whose group couplings by forces act",
-                    "leave it out: forces of contacts that come half a step late gain energy",
-                );
-            }
-        }
-    }
-
     /// Where a body is, or the problem that there is none.
     fn known_place(&self, body: &str, problems: &mut Vec<Problem>) -> Option<(usize, usize)> {
         let place = self.place_of(body);

@@ -49,7 +49,6 @@ impl<T: Real, const D: usize> Scene<T, D> {
         self.check_names(&mut problems);
         self.check_contacts(&mut problems);
         self.check_outlets(&mut problems);
-        self.check_sleepers(&mut problems);
         let plans: Vec<Plan<'_, T, D>> = self.plans().collect();
         for plan in &plans {
             plan.check_scheme(&mut problems);
@@ -61,7 +60,6 @@ impl<T: Real, const D: usize> Scene<T, D> {
         self.check_couplings(&mut problems);
         self.check_solids_at_walls(&mut problems);
         self.check_sub_cycles(&mut problems);
-        self.check_spreading(&mut problems);
         self.check_held(&mut problems);
         self.check_events(&mut problems);
         self.check_exchanges(&mut problems);

@@ -96,7 +96,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                     scheme.name,
                     self.scene.integrator.name()
                 ),
-                "take SchemeBuilder::density_with_rates, or an integrator that kicks (kick-drift-kick)",
+                "take an integrator that kicks (kick-drift-kick)",
             );
         }
         let boundaries = &self.scene.boundaries;

@@ -2,10 +2,9 @@
 //! whether scheme and liquid go with them, and where walls lie.
 
 use super::TOO_CLOSE;
-use crate::boundary::{Outlet, Pose, Slip, Wall};
+use crate::boundary::{Outlet, Pose, Wall};
 use crate::error::Problem;
 use crate::neighbors::Cells;
-use crate::particles::Field;
 use crate::scalar::Real;
 use crate::scene::Scene;
 use crate::scene::plan::{Origin, Plan};
@@ -79,19 +78,6 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                         self.scheme.name, wall.name
                     ),
                     remedy: "give it the container of the liquid, Wall::fluid_side, or take ExtrapolatedPressure",
-                });
-            }
-            if self.scheme.kicks_density()
-                && wall.slip == Slip::None
-                && self.scheme.fields().contains(Field::DYNAMIC_VISCOSITY)
-            {
-                problems.push(Problem::Incompatible {
-                    what: format!(
-                        "the scheme {} sums forces and compression in one sweep, and the velocity that makes a \
-                         liquid stick to wall `{}` belongs to the forces alone",
-                        self.scheme.name, wall.name
-                    ),
-                    remedy: "leave out density_with_rates, or Wall::no_slip",
                 });
             }
             let names = self.scene.bodies().map(|body| &body.name);

@@ -51,15 +51,12 @@ impl<T: Real, const D: usize> Group<T, D> {
                     accelerations,
                     spins: _,
                     before,
-                    drift,
                     evaluated,
                 } = structure;
                 let numbers = accelerations.as_flattened();
                 file.put(format!("{name}/wall{k}/accelerations"), D, numbers);
                 let numbers = before.as_flattened();
                 file.put(format!("{name}/wall{k}/velocities_before"), D, numbers);
-                let numbers = drift.as_flattened().as_flattened();
-                file.put(format!("{name}/wall{k}/drift"), 2 * D, numbers);
                 file.put_one(format!("{name}/wall{k}/evaluated"), *evaluated);
             }
         }
@@ -68,16 +65,11 @@ impl<T: Real, const D: usize> Group<T, D> {
             forces,
             work,
             steps,
-            spreads: _,
-            pending,
-            // It is none between steps.
-            spread: _,
         }) = sub_cycle
         {
             file.put_reals(format!("{name}/apart/forces"), D, forces.as_flattened());
             file.put(format!("{name}/apart/work"), 1, work);
             file.put_one(format!("{name}/apart/steps"), *steps);
-            file.put_reals(format!("{name}/apart/pending"), D, pending.as_flattened());
         }
         put_held(held, name, file);
         let layers: Vec<u64> = emitters.iter().map(|own| own.layers).collect();
@@ -134,9 +126,6 @@ impl<T: Real, const D: usize> Group<T, D> {
                 let own = structure.before.as_flattened_mut();
                 let column = format!("{name}/wall{k}/velocities_before");
                 own.copy_from_slice(&file.get_all::<f64>(&column, own.len())?);
-                let own = structure.drift.as_flattened_mut().as_flattened_mut();
-                let column = format!("{name}/wall{k}/drift");
-                own.copy_from_slice(&file.get_all::<f64>(&column, own.len())?);
                 structure.evaluated = file.get_one(&format!("{name}/wall{k}/evaluated"))?;
             }
         }
@@ -148,18 +137,8 @@ impl<T: Real, const D: usize> Group<T, D> {
             let bodies = apart.work.len();
             apart.work = file.get_all(&format!("{name}/apart/work"), bodies)?;
             apart.steps = file.get_one(&format!("{name}/apart/steps"))?;
-            let pending = if apart.spreads && apart.steps > 0 {
-                self.particles.slot_of.len()
-            } else {
-                0
-            };
-            let pending = file.get_all_reals::<T>(&format!("{name}/apart/pending"), pending * D)?;
-            apart.pending = pending.as_chunks::<D>().0.to_vec();
         }
         take_held(&mut self.held, name, file)?;
-        if let Some(asleep) = &mut self.held.asleep {
-            asleep.keep_rows(&self.particles, &scheme);
-        }
         self.gravity = file.get_array(&format!("{name}/gravity"))?;
         let force = file.get_all_reals::<T>(&format!("{name}/body_force"), D)?;
         self.body_force.copy_from_slice(&force);

@@ -1,17 +1,12 @@
-//! What a checkpoint holds of clamps, rigid bodies and sleepers: what holds them, what that has given, and how they stand.
+//! What a checkpoint holds of clamps and rigid bodies: what holds them, what that has given, and how they stand.
 //! Which particles are clamped or rigid follows from the scene.
 
 use crate::output::checkpoint::{Checkpoint, Read};
-use crate::simulation::asleep::Asleep;
 use crate::simulation::held::{Clamp, Held, Rigid};
 use nalgebra::{Quaternion, UnitQuaternion};
 
 pub(super) fn put_held<const D: usize>(held: &Held<D>, name: &str, file: &mut Checkpoint) {
-    let Held {
-        clamps,
-        rigid,
-        asleep,
-    } = held;
+    let Held { clamps, rigid } = held;
     for (k, own) in clamps.iter().enumerate() {
         let Clamp {
             body: _,
@@ -45,29 +40,6 @@ pub(super) fn put_held<const D: usize>(held: &Held<D>, name: &str, file: &mut Ch
         file.put(format!("{name}/rigid{k}/turn"), 1, turn.coords.as_slice());
         file.put(format!("{name}/rigid{k}/back"), D, back.as_flattened());
     }
-    if let Some(Asleep {
-        particles,
-        // They sleep in the state that they are in.
-        state: _,
-        forces,
-        impulse,
-        energy,
-        fallen,
-        woken,
-    }) = asleep
-    {
-        let who = particles
-            .iter()
-            .flat_map(|own| [own.0 as u64, own.1.into()]);
-        file.put(format!("{name}/asleep"), 2, who.collect::<Vec<_>>());
-        for (n, forces) in forces.iter().enumerate() {
-            let column = format!("{name}/asleep/forces{n}");
-            file.put(column, D, forces.as_flattened());
-        }
-        file.put(format!("{name}/asleep/impulse"), 1, impulse);
-        file.put_one(format!("{name}/asleep/energy"), *energy);
-        file.put(format!("{name}/asleep/counts"), 1, [*fallen, *woken]);
-    }
 }
 
 pub(super) fn take_held<const D: usize>(
@@ -83,19 +55,6 @@ pub(super) fn take_held<const D: usize>(
         }
         own.impulse = file.get_array(&format!("{name}/clamp{k}/impulse"))?;
         own.work = file.get_one(&format!("{name}/clamp{k}/work"))?;
-    }
-    if let Some(own) = &mut held.asleep {
-        let who = file.get::<u64>(&format!("{name}/asleep"))?;
-        let who = who.as_chunks::<2>().0.iter();
-        own.particles = who.map(|[body, id]| (*body as usize, *id as u32)).collect();
-        for (n, forces) in own.forces.iter_mut().enumerate() {
-            let numbers = file.get::<f64>(&format!("{name}/asleep/forces{n}"))?;
-            forces.clear();
-            forces.extend_from_slice(numbers.as_chunks::<D>().0);
-        }
-        own.impulse = file.get_array(&format!("{name}/asleep/impulse"))?;
-        own.energy = file.get_one(&format!("{name}/asleep/energy"))?;
-        [own.fallen, own.woken] = file.get_array(&format!("{name}/asleep/counts"))?;
     }
     for (k, own) in held.rigid.iter_mut().enumerate() {
         own.centre = file.get_array(&format!("{name}/rigid{k}/centre"))?;

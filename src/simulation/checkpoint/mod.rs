@@ -25,13 +25,12 @@ use crate::sweep::{InstructionSet, Root};
 use std::path::Path;
 
 /// The version of what is held. It rises with every change of it.
-const VERSION: &str = "4";
+const VERSION: &str = "5";
 
 /// Parts of a scene that are hashed only where there are any.
-const RARE: [&str; 4] = [
+const RARE: [&str; 3] = [
     "times at which steps end",
     "events",
-    "the box in which it is awake",
     "schemes that come later",
 ];
 
@@ -49,8 +48,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// [`Error::File`] if the file cannot be written, and [`Error::Failed`] after a step that has failed: its state is
     /// none to go on from.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
-        self.check_failure()?;
-        self.put().write(path.as_ref())
+        let path = path.as_ref();
+        once!(self => &Simulation, |own, path: &Path| -> Result<()> {
+            own.check_failure()?;
+            own.put().write(path)
+        })
     }
 
     /// The same, as of a scene.
@@ -80,10 +82,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     fn put(&self) -> Checkpoint {
-        once!(self => &Simulation, put_here() -> Checkpoint)
-    }
-
-    fn put_here(&self) -> Checkpoint {
         let Self {
             state: shown,
             domain: _,
@@ -94,7 +92,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             step_ends: _,
             built: _,
             events: _,
-            awake: _,
             scene,
             described,
             aside: _,
@@ -170,18 +167,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             file.put_one("last_vote/step".into(), *step);
             file.put_one("last_vote/particle".into(), *particle as u64);
         }
-        if let Some(Work {
-            start,
-            load,
-            wall,
-            asleep,
-        }) = work
-        {
+        if let Some(Work { start, load, wall }) = work {
             file.put("work".into(), 1, [*start, *load, *wall]);
-            // Files of scenes in which nothing may sleep are as they were.
-            if self.awake.is_some() {
-                file.put_one("work/asleep".into(), *asleep);
-            }
         }
         let (width, rows) = stores.rows();
         file.put_one("stored energy/limit".into(), stores.limit());
@@ -271,17 +258,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.state.work = None;
         if file.has("work") {
             let [start, load, wall] = file.get_array("work")?;
-            let asleep = if file.has("work/asleep") {
-                file.get_one("work/asleep")?
-            } else {
-                0.0
-            };
-            self.state.work = Some(Work {
-                start,
-                load,
-                wall,
-                asleep,
-            });
+            self.state.work = Some(Work { start, load, wall });
         }
         // Files of before there were any begin them anew.
         if file.has("stored energy/limit") {

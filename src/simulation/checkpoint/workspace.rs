@@ -103,7 +103,6 @@ pub(super) fn put_neighborhood<T: Real, const D: usize>(
         mirrored: _,
         interactions: _,
         images: _,
-        transforms: _,
         chains: _,
         lists: _,
         listed,

@@ -2,12 +2,12 @@
 //! Read from the neighbour lists at hand; a particle whose support a free surface cuts says nothing.
 
 use super::super::group::{Group, width};
+use super::super::query::ParticleView;
 use crate::neighbors::CHUNK;
 use crate::parallel::{cut, for_each};
 use crate::particles::Field;
 use crate::scalar::Real;
-use crate::scheme::{DensityForm, Smoothing};
-use crate::sweep::Transform;
+use crate::scheme::DensityForm;
 use crate::tensor::{Matrix, Vector, inverse};
 use core::sync::atomic::{AtomicU8, Ordering};
 
@@ -15,17 +15,6 @@ use core::sync::atomic::{AtomicU8, Ordering};
 const NEAR: f64 = 2.0;
 /// Cosine of the half angle of the cone in front of a particle: 45°, in which every lattice has a neighbour.
 const CONE: f64 = core::f64::consts::FRAC_1_SQRT_2;
-
-/// A neighbour of a particle.
-pub(super) struct Neighbor<const D: usize> {
-    /// Its slot, or that of the particle that it is an image of.
-    pub slot: usize,
-    /// From the particle to it \[m\].
-    pub r: [f64; D],
-    pub distance: f64,
-    /// The transform that makes the image.
-    pub transform: Option<u32>,
-}
 
 /// What one particle says.
 #[derive(Clone, Copy, Debug)]
@@ -126,82 +115,40 @@ impl<'a, T: Real, const D: usize> Looker<'a, T, D> {
         }
     }
 
-    fn smoothing_length(&self, slot: usize) -> f64 {
-        let own = self.group.particles.columns.raw(Field::SMOOTHING_LENGTH);
-        own.get(slot)
-            .map_or(self.group.neighborhood.smoothing_length, |h| h.to_f64())
-    }
-
-    /// Visits what the list of a slot holds, itself excepted.
-    pub fn visit(&self, slot: usize, mut see: impl FnMut(Neighbor<D>)) {
-        let lanes = width::<T>();
-        let chunks = self.group.neighborhood.lists.chunks();
-        let (row, places) = (slot / lanes, self.places());
-        let Some(list) = chunks.get(row / CHUNK) else {
-            return;
-        };
-        let columns = &self.group.particles.columns;
-        let positions = columns.vectors(places);
-        let slots = columns.slots();
-        let near = &self.group.neighborhood;
-        let x = positions[slot];
-        let Some([from, to]) = list
-            .starts
-            .get(row % CHUNK..row % CHUNK + 2)
-            .map(|s| [s[0], s[1]])
-        else {
-            return;
-        };
-        for segment in &list.segments[from as usize..to as usize] {
-            for &j in &list.neighbors[segment.start as usize..segment.end as usize] {
-                let j = j as usize;
-                if j == slot {
-                    continue;
-                }
-                let image = j.checked_sub(slots).and_then(|k| near.images.get(k));
-                let source = image.map_or(j, |image| image.source as usize);
-                let by = image.map(|own| &near.transforms[own.transform as usize]);
-                let place = by.map_or(positions[source], |by| by.point(&positions[source]));
-                let r: [f64; D] = core::array::from_fn(|d| (place[d] - x[d]).to_f64());
-                let distance = r.iter().map(|r| r * r).sum::<f64>().sqrt();
-                see(Neighbor {
-                    slot: source,
-                    r,
-                    distance,
-                    transform: image.map(|image| image.transform),
-                });
-            }
-        }
-    }
-
     /// The direction in which nothing is before a particle, if it is at a face: of all that it sees, or of its own body. Zero of
     /// one that is alone.
     pub fn face(&self, slot: usize, of_body: bool) -> Option<[f64; D]> {
         let particles = &self.group.particles;
         let own = particles.body_of(slot);
         let spacing = self.spacing(slot);
-        let counts = |other: &Neighbor<D>| {
-            let mobile = other.slot < particles.mobile;
-            if of_body && !(mobile && particles.body_of(other.slot) == own) {
-                return None;
-            }
-            let mean = if mobile {
-                0.5 * (spacing + self.spacing(other.slot))
-            } else {
-                spacing
-            };
-            (other.distance < NEAR * mean).then_some(other.distance / mean)
+        let positions = particles.columns.vectors(self.places());
+        // Those that count: from the particle to them, how far that is, and how many spacings.
+        let near = || {
+            let neighbors = self.group.neighborhood.of(slot);
+            neighbors.filter_map(|other| {
+                let mobile = other.slot < particles.mobile;
+                if of_body && !(mobile && particles.body_of(other.slot) == own) {
+                    return None;
+                }
+                let r = other.from(&positions[slot], positions);
+                let distance = r.iter().map(|r| r * r).sum::<f64>().sqrt();
+                let mean = if mobile {
+                    0.5 * (spacing + self.spacing(other.slot))
+                } else {
+                    spacing
+                };
+                let q = distance / mean;
+                (q < NEAR).then_some((r, distance, q))
+            })
         };
         let (mut lacks, mut weights) = ([0.0; D], 0.0);
-        self.visit(slot, |other| {
-            if let Some(q) = counts(&other) {
-                let weight = 1.0 - q / NEAR;
-                weights += weight;
-                for d in 0..D {
-                    lacks[d] -= weight * other.r[d] / other.distance.max(f64::MIN_POSITIVE);
-                }
+        for (r, distance, q) in near() {
+            let weight = 1.0 - q / NEAR;
+            weights += weight;
+            for d in 0..D {
+                lacks[d] -= weight * r[d] / distance.max(f64::MIN_POSITIVE);
             }
-        });
+        }
         let length = lacks.iter().map(|n| n * n).sum::<f64>().sqrt();
         if weights == 0.0 {
             return Some([0.0; D]);
@@ -211,14 +158,10 @@ impl<'a, T: Real, const D: usize> Looker<'a, T, D> {
             return None;
         }
         let normal = lacks.map(|n| n / length);
-        let mut empty = true;
-        self.visit(slot, |other| {
-            let along: f64 = (0..D).map(|d| other.r[d] * normal[d]).sum();
-            if along > CONE * other.distance && counts(&other).is_some() {
-                empty = false;
-            }
-        });
-        empty.then_some(normal)
+        let ahead = |(r, distance, _): ([f64; D], f64, f64)| {
+            (0..D).map(|d| r[d] * normal[d]).sum::<f64>() > CONE * distance
+        };
+        (!near().any(ahead)).then_some(normal)
     }
 
     /// Whether a particle is at a free surface; found once.
@@ -242,15 +185,14 @@ impl<'a, T: Real, const D: usize> Looker<'a, T, D> {
             return None;
         }
         let (scheme, columns) = (&self.group.scheme, &self.group.particles.columns);
-        let own_lengths = matches!(scheme.smoothing, Smoothing::Consistent { .. });
-        let (support, setting) = (scheme.kernel.support, scheme.program.setting());
+        let setting = scheme.program.setting();
         let pressures = columns.raw(Field::PRESSURE);
         let velocities = columns.vectors(Field::VELOCITY);
-        let (h, spacing, rest) = (
-            self.smoothing_length(slot),
-            self.spacing(slot),
-            self.rest(slot),
-        );
+        let own = ParticleView {
+            group: self.group,
+            slot,
+        };
+        let (h, spacing, rest) = (own.smoothing_length(), self.spacing(slot), self.rest(slot));
         let itself = scheme.profile.at(0.0)[0] / h.powi(D as i32);
         let (mut unity, mut sum) = (self.volume(slot) * itself, {
             let mass = columns.raw(Field::MASS)[slot].to_f64();
@@ -262,34 +204,22 @@ impl<'a, T: Real, const D: usize> Looker<'a, T, D> {
         let mut of_velocity = Matrix::<f64, D>::from_element(0.0);
         let (p, v) = (pressures[slot].to_f64(), velocities[slot]);
         let mut whole = true;
-        self.visit(slot, |other| {
-            let h = if own_lengths {
-                h
-            } else {
-                0.5 * (h + self.smoothing_length(other.slot))
-            };
-            let q = other.distance / h;
-            if q >= support || !whole {
+        own.for_each_neighbor(|other| {
+            let from = other.particle().slot;
+            whole &= !self.is_free(from);
+            if !whole {
                 return;
             }
-            whole = !self.is_free(other.slot);
-            let [shape, slope] = scheme.profile.at(q);
-            let scale = h.powi(D as i32);
-            let volume = self.volume(other.slot);
-            let (w, f) = (shape / scale, -slope / (scale * h * h));
+            let (w, volume) = (other.kernel(), self.volume(from));
             unity += volume * w;
-            let mass = columns.raw(Field::MASS)[other.slot].to_f64();
-            sum += mass / self.rest(other.slot) * w;
-            let r = Vector::<f64, D>::from(other.r);
-            let weighted = r * (volume * f);
+            let mass = columns.raw(Field::MASS)[from].to_f64();
+            sum += mass / self.rest(from) * w;
+            let weighted = Vector::<f64, D>::from(other.kernel_gradient()) * volume;
             first += weighted;
-            moment += weighted * r.transpose();
-            of_pressure += weighted * (pressures[other.slot].to_f64() - p);
-            let by = other
-                .transform
-                .map(|k| &self.group.neighborhood.transforms[k as usize]);
-            let there = velocity(by, velocities[other.slot]);
-            let jump = Vector::<f64, D>::from_fn(|d, _| (there[d] - v[d]).to_f64());
+            moment += weighted * Vector::<f64, D>::from(other.offset()).transpose();
+            of_pressure += weighted * (pressures[from].to_f64() - p);
+            let there = other.velocity();
+            let jump = Vector::<f64, D>::from_fn(|d, _| there[d] - v[d].to_f64());
             of_velocity += jump * weighted.transpose();
         });
         if !whole {
@@ -325,9 +255,4 @@ impl<'a, T: Real, const D: usize> Looker<'a, T, D> {
             smoothing: h / spacing,
         })
     }
-}
-
-/// A velocity \[m/s\] as an image has it.
-fn velocity<T: Real, const D: usize>(by: Option<&Transform<T, D>>, v: [T; D]) -> [T; D] {
-    by.map_or(v, |by| (by.rotation * Vector::from(v) + by.velocity).into())
 }

@@ -45,10 +45,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// ```
     #[must_use]
     pub fn indicators(&self) -> Indicators {
-        once!(self => &Simulation, indicators_here() -> Indicators)
-    }
-
-    fn indicators_here(&self) -> Indicators {
-        report::of(self)
+        once!(self => &Simulation, |own| -> Indicators { report::of(own) })
     }
 }

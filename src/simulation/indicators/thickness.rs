@@ -30,7 +30,7 @@ pub(super) fn thicknesses<T: Real, const D: usize>(
     for image in &group.neighborhood.images {
         let source = image.source as usize;
         if own.contains(&source) {
-            let by = &group.neighborhood.transforms[image.transform as usize];
+            let by = &group.neighborhood.chains.transforms[image.transform as usize];
             points.push(by.point(&positions[source]).map(Real::to_f64));
         }
     }

@@ -9,7 +9,6 @@ use crate::parallel::{cut, for_each};
 use crate::particles::{Columns, Field};
 use crate::scalar::{Lane, Real};
 use crate::sweep::Transform;
-use crate::tensor::Vector;
 
 /// Bins of the distances of nearest neighbours, which reach to two spacings.
 const BINS: usize = 128;
@@ -99,70 +98,53 @@ impl Sums {
         chunk: usize,
         group: usize,
     ) {
-        let list = &neighborhood.lists.chunks()[chunk];
+        let rows = neighborhood.lists.chunks()[chunk].starts.len() - 1;
         let width = <T::Wide<false> as Lane>::WIDTH;
         let columns = &particles.columns;
         let positions = columns.vectors(Field::POSITION);
         let velocities = columns.vectors(Field::VELOCITY);
-        let slots = columns.slots();
-        for (c, bounds) in list.starts.windows(2).enumerate() {
-            let first = (chunk * CHUNK + c) * width;
+        for row in chunk * CHUNK..chunk * CHUNK + rows {
+            let first = row * width;
             if first >= particles.mobile {
                 break;
             }
             let body = &particles.bodies[particles.body_of(first)];
             for slot in first..(first + width).min(body.slots.end) {
-                let x = positions[slot].map(Real::to_f64);
+                let x = positions[slot];
                 let v = velocities[slot].map(Real::to_f64);
                 let own = local_spacing(columns, slot);
                 let mut nearest = f64::INFINITY;
                 let (mut count, mut weights) = (0_u32, 0.0);
                 let (mut offset, mut mean) = ([0.0; D], [0.0; D]);
                 let mut moment = [[0.0; D]; D];
-                for segment in &list.segments[bounds[0] as usize..bounds[1] as usize] {
-                    for &j in &list.neighbors[segment.start as usize..segment.end as usize] {
-                        let j = j as usize;
-                        let image = j
-                            .checked_sub(slots)
-                            .and_then(|k| neighborhood.images.get(k));
-                        let source = image.map_or(j, |image| image.source as usize);
-                        if j == slot {
-                            continue;
-                        }
-                        let by = image.map(|own| &neighborhood.transforms[own.transform as usize]);
-                        let place = positions[source];
-                        let place = by.map_or(place, |by| by.point(&place));
-                        let r: [f64; D] = core::array::from_fn(|d| place[d].to_f64() - x[d]);
-                        let r2: f64 = r.iter().map(|r| r * r).sum();
-                        let mobile = source < particles.mobile;
-                        let spacing = if mobile {
-                            0.5 * (own + local_spacing(columns, source))
-                        } else {
-                            own
-                        };
-                        // Far ones first, which are most.
-                        if r2 > (2.0 * spacing).powi(2) {
-                            continue;
-                        }
-                        let q = r2.sqrt() / spacing;
-                        if mobile && by.is_none_or(shifts) {
-                            nearest = nearest.min(q);
-                        }
-                        if q < NEAR {
-                            count += 1;
-                            let weight = 1.0 - q / NEAR;
-                            weights += weight;
-                            let moved = by.map_or(velocities[source], |by| {
-                                (by.rotation * Vector::from(velocities[source]) + by.velocity)
-                                    .into()
-                            });
-                            let unit = r.map(|r| r / r2.sqrt().max(f64::MIN_POSITIVE));
-                            for a in 0..D {
-                                mean[a] += weight * moved[a].to_f64();
-                                offset[a] += weight * unit[a];
-                                for b in 0..D {
-                                    moment[a][b] += weight * unit[a] * unit[b];
-                                }
+                for entry in neighborhood.of(slot) {
+                    let r = entry.from(&x, positions);
+                    let r2: f64 = r.iter().map(|r| r * r).sum();
+                    let mobile = entry.slot < particles.mobile;
+                    let spacing = if mobile {
+                        0.5 * (own + local_spacing(columns, entry.slot))
+                    } else {
+                        own
+                    };
+                    // Far ones first, which are most.
+                    if r2 > (2.0 * spacing).powi(2) {
+                        continue;
+                    }
+                    let q = r2.sqrt() / spacing;
+                    if mobile && entry.image.is_none_or(shifts) {
+                        nearest = nearest.min(q);
+                    }
+                    if q < NEAR {
+                        count += 1;
+                        let weight = 1.0 - q / NEAR;
+                        weights += weight;
+                        let moved = entry.velocity(velocities);
+                        let unit = r.map(|r| r / r2.sqrt().max(f64::MIN_POSITIVE));
+                        for a in 0..D {
+                            mean[a] += weight * moved[a].to_f64();
+                            offset[a] += weight * unit[a];
+                            for b in 0..D {
+                                moment[a][b] += weight * unit[a] * unit[b];
                             }
                         }
                     }

@@ -50,11 +50,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// ```
     #[must_use]
     pub fn stability(&self) -> StabilityReport {
-        once!(self => &Simulation, stability_here() -> StabilityReport)
-    }
-
-    fn stability_here(&self) -> StabilityReport {
-        report::of(self)
+        once!(self => &Simulation, |own| -> StabilityReport { report::of(own) })
     }
 
     /// Looks at the state after a step, if it is watched.

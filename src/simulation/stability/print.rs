@@ -114,18 +114,13 @@ impl fmt::Display for StabilityReport {
             leaked,
             ejected,
             left,
-            asleep,
             ..
         } = self;
-        write!(
+        writeln!(
             f,
             "  {:<26} {leaked} leaked, {ejected} alone, {left} left",
             "particles"
         )?;
-        match asleep {
-            0 => writeln!(f)?,
-            asleep => writeln!(f, ", {asleep} asleep")?,
-        }
         writeln!(
             f,
             "  {:<26} {} %",

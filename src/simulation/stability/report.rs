@@ -187,8 +187,6 @@ pub struct StabilityReport {
     pub leaked: u64,
     /// Particles that left through outlets.
     pub left: u64,
-    /// Particles that [sleep](crate::scene::Scene::awake_inside) now.
-    pub asleep: usize,
     /// Particles without neighbours now.
     pub ejected: u64,
     /// Time that watching took over that of all steps.
@@ -294,7 +292,6 @@ pub(super) fn of<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Stab
         growth: watch.growth(),
         leaked: simulation.leaked().0,
         left: simulation.removed().particles - watch.removed,
-        asleep: simulation.asleep().map_or(0, |own| own.particles),
         ejected: now.map_or(0, |now| now.alone),
         price: watch.spent.as_secs_f64() / total.max(f64::MIN_POSITIVE),
         verdict: Verdict::default(),

@@ -104,8 +104,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             Some("the pressure of a material depends on internal energy")
         } else if !group.walls.is_empty() {
             Some("walls take part of the work")
-        } else if group.held.asleep.is_some() {
-            Some("particles may sleep")
         } else if self.loads.iter().any(|load| load.heats()) {
             Some("a load heats or cools")
         } else {

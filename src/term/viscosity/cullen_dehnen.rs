@@ -89,11 +89,8 @@ impl<const D: usize> ArtificialViscosity<D> for CullenDehnen {
     fn needs_velocity_gradient(&self) -> bool {
         D > 1
     }
-    fn switch(&self) -> Option<Switch> {
-        Some(Switch::CullenDehnen {
-            maximum: self.maximum,
-            decay: self.decay,
-        })
+    fn switch<T: Real>(&self) -> Option<Box<dyn Switch<T>>> {
+        Some(Box::new(*self))
     }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         let mut problems = super::not_negative(&[
@@ -107,25 +104,33 @@ impl<const D: usize> ArtificialViscosity<D> for CullenDehnen {
     }
 }
 
-/// α after `dt`.
-pub(super) fn next<T: Real>(maximum: T, decay: T, alpha: T, around: &Surroundings<T>, dt: T) -> T {
-    let steepening = if around.divergence < T::zero() {
-        ((around.divergence_before - around.divergence) / dt).positive_part()
-    } else {
-        T::zero()
-    };
-    let strength = around.support * around.support * limiter(around) * steepening;
-    let speed2 = around.signal_speed * around.signal_speed;
-    let local = if strength > T::zero() {
-        maximum * strength / (speed2 + strength)
-    } else {
-        T::zero()
-    };
-    if local >= alpha {
-        return local;
+impl<T: Real> Switch<T> for CullenDehnen {
+    fn start(&self) -> f64 {
+        0.0
     }
-    let rate = decay * T::from_f64(2.0) * around.signal_speed / around.support;
-    local + (alpha - local) * (-(rate * dt)).exp()
+    fn keeps(&self) -> Fields {
+        Fields::of(&[Field::DIVERGENCE])
+    }
+    fn next(&self, alpha: T, around: &Surroundings<T>, dt: T) -> T {
+        let steepening = if around.divergence < T::zero() {
+            ((around.divergence_before - around.divergence) / dt).positive_part()
+        } else {
+            T::zero()
+        };
+        let strength = around.support * around.support * limiter(around) * steepening;
+        let speed2 = around.signal_speed * around.signal_speed;
+        let local = if strength > T::zero() {
+            T::from_f64(self.maximum) * strength / (speed2 + strength)
+        } else {
+            T::zero()
+        };
+        if local >= alpha {
+            return local;
+        }
+        let rate =
+            T::from_f64(self.decay) * T::from_f64(2.0) * around.signal_speed / around.support;
+        local + (alpha - local) * (-(rate * dt)).exp()
+    }
 }
 
 /// ξ of the surroundings.

@@ -6,7 +6,7 @@ use super::{
     MorrisMonaghan, Riemann, SignalVelocity, Switch, Viscous,
 };
 use crate::particles::{Fields, Outputs};
-use crate::scalar::Lane;
+use crate::scalar::{Lane, Real};
 use crate::term::{Layout, Pair, Sums, TermDoc};
 use core::fmt;
 use core::str::FromStr;
@@ -130,7 +130,7 @@ macro_rules! viscosity_kind {
                     $(Self::$Law(law) => ArtificialViscosity::<D>::needs_velocity_gradient(law),)*
                 }
             }
-            fn switch(&self) -> Option<Switch> {
+            fn switch<T: Real>(&self) -> Option<Box<dyn Switch<T>>> {
                 match self { $(Self::$Law(law) => ArtificialViscosity::<D>::switch(law),)* }
             }
             fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {

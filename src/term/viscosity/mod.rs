@@ -46,12 +46,11 @@ pub use monaghan_gingold::MonaghanGingold;
 pub use morris_monaghan::MorrisMonaghan;
 pub use riemann::Riemann;
 pub use signal_velocity::SignalVelocity;
-pub(crate) use switch::Surroundings;
-pub use switch::Switch;
+pub use switch::{Surroundings, Switch};
 
 use super::{Layout, Pair, Sums, Term, TermDoc};
 use crate::particles::{Field, Fields, Output, Outputs};
-use crate::scalar::Lane;
+use crate::scalar::{Lane, Real};
 use core::fmt::Debug;
 
 /// What a viscosity makes of a pair.
@@ -92,7 +91,7 @@ pub trait ArtificialViscosity<const D: usize>: Clone + Debug + Send + Sync + 'st
         Self::READS.contains(Field::VELOCITY_GRADIENT)
     }
     /// How the particle's own coefficient α changes, if the law has one.
-    fn switch(&self) -> Option<Switch> {
+    fn switch<T: Real>(&self) -> Option<Box<dyn Switch<T>>> {
         None
     }
     /// What is wrong with the parameters, as `(field, value, what it must be)`.

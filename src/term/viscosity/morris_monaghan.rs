@@ -1,7 +1,7 @@
 //! Viscosity with a coefficient for every particle, which compression raises and time lowers.
 //! Morris & Monaghan 1997, with the source of Rosswog et al. 2000.
 
-use super::{ArtificialViscosity, Switch, Viscous, between_own};
+use super::{ArtificialViscosity, Surroundings, Switch, Viscous, between_own};
 use crate::particles::{Field, Fields};
 use crate::scalar::{Lane, Real};
 use crate::term::{Layout, Pair, TermDoc};
@@ -57,12 +57,8 @@ impl<const D: usize> ArtificialViscosity<D> for MorrisMonaghan {
             source: "Morris & Monaghan 1997; source term Rosswog et al. 2000",
         }
     }
-    fn switch(&self) -> Option<Switch> {
-        Some(Switch::MorrisMonaghan {
-            minimum: self.minimum,
-            maximum: self.maximum,
-            decay: self.decay,
-        })
+    fn switch<T: Real>(&self) -> Option<Box<dyn Switch<T>>> {
+        Some(Box::new(*self))
     }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         let mut problems = super::not_negative(&[
@@ -80,19 +76,20 @@ impl<const D: usize> ArtificialViscosity<D> for MorrisMonaghan {
     }
 }
 
-/// α after `dt` at constant rates: the exact solution, which stays between its bounds.
-pub(super) fn next<T: Real>(
-    (minimum, maximum): (T, T),
-    alpha: T,
-    decay_rate: T,
-    divergence: T,
-    dt: T,
-) -> T {
-    let source = (-divergence).positive_part();
-    let rate = decay_rate + source;
-    if rate <= T::zero() {
-        return alpha;
+impl<T: Real> Switch<T> for MorrisMonaghan {
+    fn start(&self) -> f64 {
+        self.minimum
     }
-    let equilibrium = (decay_rate * minimum + source * maximum) / rate;
-    equilibrium + (alpha - equilibrium) * (-(rate * dt)).exp()
+    /// The exact solution at constant rates, which stays between its bounds.
+    fn next(&self, alpha: T, around: &Surroundings<T>, dt: T) -> T {
+        let [minimum, maximum, decay] = [self.minimum, self.maximum, self.decay].map(T::from_f64);
+        let decay_rate = decay * around.sound_speed / around.h;
+        let source = (-around.divergence).positive_part();
+        let rate = decay_rate + source;
+        if rate <= T::zero() {
+            return alpha;
+        }
+        let equilibrium = (decay_rate * minimum + source * maximum) / rate;
+        equilibrium + (alpha - equilibrium) * (-(rate * dt)).exp()
+    }
 }

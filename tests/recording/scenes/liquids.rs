@@ -2,7 +2,6 @@
 //! Walls of particles move, stick and slide; probes and gauges are read after every step.
 
 use super::{Plan, Scenes, noise};
-use meshfree::integrator::RungeKutta4;
 use meshfree::material::rheology::{CarreauYasuda, Cross, HerschelBulkley, PowerLaw};
 use meshfree::material::{Liquid, SoundSpeed};
 use meshfree::observe::{PressureProbe, WaveGauge};
@@ -206,18 +205,6 @@ fn options(scenes: &mut Scenes) {
         let oil = Liquid::new(850.0, 1300.0, 0.05).material("oil", SoundSpeed::Chosen(20.0));
         let above = Body::block("oil", oil, [0.0, 15.0 * DX], [20.0 * DX, 18.0 * DX], DX);
         dam::<f64>(weak()).body(above)
-    });
-    scenes.add("one-evaluation", 40, move || {
-        dam::<f64>(weak().density_with_rates().compose())
-    });
-    scenes.add("one-evaluation-f32", 40, move || {
-        dam::<f32>(weak().density_with_rates().compose())
-    });
-    scenes.add("one-evaluation-by-rk4", 20, move || {
-        swirl::<f64>(weak().density_with_rates().compose()).integrator(RungeKutta4)
-    });
-    scenes.add("one-evaluation-by-drift-kick-drift", 20, move || {
-        swirl::<f64>(weak().density_with_rates().compose()).integrator(DriftKickDrift)
     });
     scenes.add("liquid-by-drift-kick-drift", 30, move || {
         dam::<f64>(weak()).integrator(DriftKickDrift)
