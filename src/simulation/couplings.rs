@@ -9,6 +9,7 @@ use super::walls::WallState;
 use super::workspace::Workspace;
 use crate::boundary::Boundary;
 use crate::coupling::{CoupledParticle, Coupling};
+use crate::error::{Error, Result};
 use crate::particles::{Columns, Field, Output};
 use crate::scalar::Real;
 use crate::term::TermDoc;
@@ -97,6 +98,31 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
     }
 
+    /// Refuses forces of couplings that are no numbers.
+    pub(super) fn check_couples(&self, time: f64) -> Result<()> {
+        for own in &self.state.couples {
+            let forces = own.acting.forces.iter().flatten();
+            let numbers = forces.flat_map(|(_, force)| force.iter().map(|f| f.to_f64()));
+            let more = [own.acting.stored, own.acting.heat];
+            if let Some(value) = numbers.chain(more).find(|x| !x.is_finite()) {
+                let [first, second] = own
+                    .sides
+                    .each_ref()
+                    .map(|side| side.name(&self.state.groups));
+                return Err(Error::Function {
+                    what: format!(
+                        "coupling {} of `{first}` and `{second}`",
+                        own.coupling.name()
+                    ),
+                    value,
+                    time,
+                    must_be: "forces, stored energy and heat of pairs must be finite wherever two particles are",
+                });
+            }
+        }
+        Ok(())
+    }
+
     /// Forces between blocks at the last evaluation, with their scene indices: which feels, which exerts, and the
     /// force \[N\]; of a group that sub-cycles alone, or of all others together with what couples them.
     pub(super) fn reactions(
@@ -123,11 +149,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// A group that sub-cycles alone, or all others.
     pub(super) fn stepping(&self, alone: Option<usize>) -> impl Iterator<Item = &Group<T, D>> {
-        let steps = move |(k, group): &(usize, &Group<T, D>)| match alone {
-            Some(alone) => *k == alone,
-            None => group.sub_cycle.is_none(),
-        };
-        let groups = self.state.groups.iter().enumerate().filter(steps);
+        let groups = self.state.groups.iter().enumerate();
+        let groups = groups.filter(move |(k, group)| group.steps_with(alone, *k));
         groups.map(|(_, group)| group)
     }
 

@@ -59,7 +59,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub(super) fn follow_events(&mut self) -> Result<()> {
         if self.exchange_schemes() {
             self.forget_rates();
-            crate::integrator::System::evaluate(self, 0.0)?;
+            self.evaluate_together()?;
         }
         Ok(())
     }

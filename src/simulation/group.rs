@@ -103,6 +103,11 @@ impl<T: Real, const D: usize> Group<T, D> {
         !self.scheme.sums_in_drift() && (!self.is_met || self.sub_cycle.is_some())
     }
 
+    /// Whether it, with this number, steps where one does that sub-cycles alone, or all that do not.
+    pub fn steps_with(&self, alone: Option<usize>, number: usize) -> bool {
+        alone.map_or(self.sub_cycle.is_none(), |alone| alone == number)
+    }
+
     /// How many steps it may take in one of the others.
     pub fn steps_at_most(&self) -> f64 {
         let apart = self.sub_cycle.as_ref();

@@ -140,6 +140,27 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.state.impulses = impulses;
     }
 
+    /// Tells the kept states of a group what list builds did to its particles, and the ledger what boundaries gave.
+    pub(super) fn follow_moves(&mut self, number: usize) {
+        let kept = &self.state.kept_impulses;
+        let time_of = |slot: usize| kept.get(slot).map_or(0.0, |kept| kept.time);
+        let group = &mut self.state.groups[number];
+        let given = group.work.follow(&mut group.particles.moved, time_of);
+        let first_boundary = group.particles.bodies.len() + group.walls.len();
+        for (kept, [body, boundary], impulse) in given {
+            let group = &self.state.groups[number];
+            let on = group.indices[body];
+            let from = group.indices[first_boundary + boundary];
+            for (d, value) in impulse.into_iter().enumerate() {
+                let index = self.impulse_index(on, from, d);
+                match kept {
+                    None => self.state.impulses.add(index, value),
+                    Some(slot) => self.state.kept_impulses[slot].add(index, value),
+                }
+            }
+        }
+    }
+
     pub(super) fn impulse_rates(&self) -> Impulses {
         let mut rates = Impulses {
             time: 1.0,

@@ -1,4 +1,4 @@
-//! Loads that depend on the particle: what they add to the rates of an evaluation, to heat, and to the ledger.
+//! Loads, uniform and of each particle: what they add to the rates of an evaluation, to heat, and to the ledger.
 //! Their values stay in columns, which list builds, checkpoints and evaluations between steps treat as all others.
 
 use super::Simulation;
@@ -21,7 +21,42 @@ struct Wrong<'a, const D: usize> {
     slot: usize,
 }
 
+/// What an acceleration of all particles must be.
+pub(crate) const ACCELERATION: &str =
+    "it must be a finite number whose square is one of the scalar too, in m/s²";
+
+/// Whether the square of a number is finite in the scalar.
+pub(crate) fn is_square_finite<T: Real>(value: f64) -> bool {
+    T::from_f64(value * value).to_f64().is_finite()
+}
+
 impl<T: Real, const D: usize> Simulation<T, D> {
+    /// What the uniform loads give at `time` \[s\].
+    pub(super) fn body_acceleration(&self, time: f64) -> [f64; D] {
+        let mut sum = [0.0; D];
+        for acceleration in &self.accelerations {
+            let a = acceleration(time);
+            for d in 0..D {
+                sum[d] += a[d];
+            }
+        }
+        sum
+    }
+
+    /// The same, refused where it is no number.
+    pub(super) fn uniform_loads(&self, time: f64) -> Result<[f64; D]> {
+        let gravity = self.body_acceleration(time);
+        match gravity.into_iter().find(|a| !is_square_finite::<T>(*a)) {
+            None => Ok(gravity),
+            Some(value) => Err(Error::Function {
+                what: "acceleration of the scene (Scene::acceleration)".into(),
+                value,
+                time,
+                must_be: ACCELERATION,
+            }),
+        }
+    }
+
     /// Adds what loads give a group at `time` \[s\] to the rates of an evaluation.
     pub(super) fn apply_loads(&mut self, group: usize, time: f64) -> Result<()> {
         let built = self.built.get(group).map_or(&[][..], Vec::as_slice);

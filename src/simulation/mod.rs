@@ -203,13 +203,13 @@ pub use which::Which;
 pub(crate) use which::find;
 pub use work::Work;
 
-pub(crate) use advance::{ACCELERATION, is_square_finite};
 pub(crate) use contact::{Acting, Couple};
 pub(crate) use couplings::Structure;
 pub(crate) use event::Event;
 pub(crate) use exchange::Exchange;
 pub(crate) use group::{Group, width};
 pub(crate) use held::{Clamp, Rigid};
+pub(crate) use loads::{ACCELERATION, is_square_finite};
 pub(crate) use pair_list::PairList;
 pub use population::Removed;
 pub(crate) use population::{BodyState, Particles};
@@ -344,17 +344,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.all_bodies().find_map(of).unwrap_or_default()
     }
 
-    fn body_acceleration(&self, time: f64) -> [f64; D] {
-        let mut sum = [0.0; D];
-        for acceleration in &self.accelerations {
-            let a = acceleration(time);
-            for d in 0..D {
-                sum[d] += a[d];
-            }
-        }
-        sum
-    }
-
     /// Evaluates all rates at the present state, so that pressures and forces can be asked for.
     ///
     /// # Errors
@@ -370,7 +359,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             if own.state.rates_at_hand && own.aside.is_none() {
                 own.aside = Some(Box::new(own.keep()));
             }
-            crate::integrator::System::evaluate(own, 0.0)?;
+            own.evaluate_together()?;
             own.vote().map(|_| ())
         })
     }

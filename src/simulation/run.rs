@@ -100,7 +100,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     fn find_step(&mut self) -> Result<Vote> {
         let changed = !self.state.rates_at_hand;
         if changed {
-            crate::integrator::System::evaluate(self, 0.0)?;
+            self.evaluate_together()?;
         }
         self.begin_stores(changed);
         let mut vote = self.vote()?;
@@ -158,11 +158,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
         let motions = self.check_motions(vote.step);
         self.keep_failure(motions)?;
-        self.state.due += vote.step;
         self.state.impulses.time = self.state.time;
-        // The integrator sees the simulation as a system, and is shared with it while it steps.
-        let integrator = self.integrator.clone();
-        let stepped = crate::parallel::inside(|| integrator.step(self, vote.step));
+        let stepped = crate::parallel::inside(|| self.step_together(vote.step));
         self.keep_failure(stepped)?;
         self.state.time += vote.step;
         self.state.steps += 1;
