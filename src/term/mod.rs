@@ -115,6 +115,7 @@ pub use force::{Along, FreeForce};
 pub use gradient::{DensityGradient, MomentMatrix, PressureGradient, VelocityGradient};
 pub use laminar_viscosity::{CentralViscosity, LaminarViscosity};
 pub use list::Terms;
+pub(crate) use list::not_empty;
 pub use momentum::{InternalEnergy, MidpointReconstruction, PressureForce};
 pub(crate) use pair::assert_room;
 pub use pair::{Layout, MOST_READS, MOST_SUMS, Pair, Sums};
