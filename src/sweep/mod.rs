@@ -61,9 +61,9 @@ mod work;
 #[doc(hidden)]
 pub use fused_kernel::{FusedKernel, PairSweep, Pass, SweepInput};
 pub use records::Transform;
-pub(crate) use records::two_sum;
 #[doc(hidden)]
 pub use records::{Image, Records};
+pub(crate) use records::{add_compensated, two_sum};
 #[doc(hidden)]
 pub use results::{Reaction, Results};
 
