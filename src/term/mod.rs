@@ -110,7 +110,7 @@ pub mod viscosity;
 mod wall;
 
 pub use concentration::{ConcentrationGradient, Nothing};
-pub use density_diffusion::{Antuono, Fourtakas, Molteni, RiemannDiffusion, STANDARD_DELTA};
+pub use density_diffusion::{Antuono, Fourtakas, Molteni, RiemannDiffusion};
 pub use force::{Along, FreeForce};
 pub use gradient::{DensityGradient, MomentMatrix, PressureGradient, VelocityGradient};
 pub use laminar_viscosity::{CentralViscosity, LaminarViscosity};
@@ -122,7 +122,8 @@ pub use pair::{Layout, MOST_READS, MOST_SUMS, Pair, Sums};
 pub use probe::{Probe, probe};
 pub(crate) use renormalised::corrected;
 pub use renormalised::{RenormalisedCompression, RenormalisedPressureForce};
-pub use staged::{In, Join, StageMarker, StagedTerms, stage};
+pub(crate) use staged::Join;
+pub use staged::{In, StageMarker, StagedTerms, stage};
 pub use stages::Stage;
 pub use sums::{Compression, KernelMoment, KernelSum, SlopeInH, Unity};
 pub use viscosity::{ArtificialViscosity, Viscosity, Viscous};
