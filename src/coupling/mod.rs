@@ -66,6 +66,7 @@ pub use liquid_structure::LiquidStructure;
 pub use penalty::Penalty;
 pub use tied::Tied;
 
+use crate::particles::{Columns, Field};
 use crate::scalar::Real;
 use crate::term::TermDoc;
 use core::fmt::Debug;
@@ -92,6 +93,23 @@ pub struct CoupledParticle<T, const D: usize> {
     pub gradient: [T; D],
     /// What [`Coupling::pressure`] has made of these \[Pa\].
     pub pressure: T,
+}
+
+impl<T: Real, const D: usize> CoupledParticle<T, D> {
+    /// What couplings see of the particle in a slot.
+    pub(crate) fn of(columns: &Columns<T, D>, slot: usize, spacing: T) -> Self {
+        Self {
+            position: columns.vectors(Field::POSITION)[slot],
+            velocity: columns.vectors(Field::VELOCITY)[slot],
+            mass: columns.raw(Field::MASS)[slot],
+            density: columns.raw(Field::DENSITY)[slot],
+            spacing,
+            stiffness: T::zero(),
+            sum: T::zero(),
+            gradient: [T::zero(); D],
+            pressure: T::zero(),
+        }
+    }
 }
 
 /// Two particles within reach of each other, and what the coupling remembers of them.

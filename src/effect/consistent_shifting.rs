@@ -5,7 +5,7 @@ use super::{BySum, Chunk, DensityForm, Effect, Law, Setting, StepProgram, Tally,
 use crate::error::Problem;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
-use crate::sweep::two_sum;
+use crate::sweep::add_compensated;
 use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 
 /// Moves particles of a liquid with u + δu, against the gradient of their concentration, and tells their densities.
@@ -210,10 +210,7 @@ impl<T: Real, const D: usize> Law<T, D> for Displace {
         let [x, residual, shift] =
             chunk.columns([Field::POSITION, Field::POSITION_RESIDUAL, SHIFT]);
         for (n, (x, shift)) in x.iter_mut().zip(shift).enumerate() {
-            match residual.get_mut(n) {
-                Some(residual) => (*x, *residual) = two_sum(*x, *residual + dt * *shift),
-                None => *x += dt * *shift,
-            }
+            add_compensated(x, residual.get_mut(n), dt * *shift);
         }
         Tally::default()
     }

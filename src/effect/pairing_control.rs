@@ -5,7 +5,7 @@ use super::{Chunk, DensityForm, Effect, Law, Setting, StepProgram, Tally, not_ne
 use crate::error::Problem;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
-use crate::sweep::two_sum;
+use crate::sweep::add_compensated;
 use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 
 /// Moves particles apart that are nearer to each other than the spacing.
@@ -102,10 +102,7 @@ impl<T: Real, const D: usize> Law<T, D> for PairingControl {
             let factor = factor.min(LONGEST * h / length);
             for d in 0..D {
                 let by = T::from_f64(-factor * sum[d]);
-                match residual.get_mut(n * D + d) {
-                    Some(residual) => (x[d], *residual) = two_sum(x[d], *residual + by),
-                    None => x[d] += by,
-                }
+                add_compensated(&mut x[d], residual.get_mut(n * D + d), by);
             }
         }
         Tally::default()

@@ -5,7 +5,7 @@ use super::{Chunk, DensityForm, Effect, Law, Setting, StepProgram, Tally};
 use crate::error::Problem;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Real;
-use crate::sweep::two_sum;
+use crate::sweep::add_compensated;
 use crate::term::{ConcentrationGradient, In, Stage, stage};
 
 /// How particles are kept evenly spread.
@@ -152,10 +152,7 @@ impl<T: Real, const D: usize> Law<T, D> for Shifting {
             };
             for d in 0..D {
                 let by = T::from_f64(-factor * sum[d]);
-                match residual.get_mut(n * D + d) {
-                    Some(residual) => (x[d], *residual) = two_sum(x[d], *residual + by),
-                    None => x[d] += by,
-                }
+                add_compensated(&mut x[d], residual.get_mut(n * D + d), by);
             }
         }
         Tally::default()

@@ -281,6 +281,11 @@ pub trait Real:
     fn fused(self, factor: Self, summand: Self) -> Self;
 }
 
+/// Lanes of a row, by the scalar alone.
+pub(crate) fn width<T: Real>() -> usize {
+    <T::Wide<false> as Lane>::WIDTH
+}
+
 mod sealed {
     pub trait Sealed {}
     impl Sealed for f32 {}

@@ -6,11 +6,9 @@ use super::{Body, Part, Scene};
 use crate::boundary::{Emitter, Inlet, Slip, Wall, boundary_from, motion_from};
 use crate::origin::local;
 use crate::particles::{Columns, Field, Fields};
-use crate::scalar::Real;
+use crate::scalar::{Real, width};
 use crate::scheme::{Scheme, Smoothing};
-use crate::simulation::{
-    BodyState, Exchange, Group, Particles, Spins, Structure, WallState, width,
-};
+use crate::simulation::{BodyState, Exchange, Group, Particles, Spins, Structure, WallState};
 use crate::sweep::Interaction;
 use std::sync::Arc;
 

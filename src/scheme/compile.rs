@@ -362,7 +362,7 @@ impl<K, V, E, N: Needs, const MODES: u8, const FORCE: u8> Compiled<K, V, E, N, M
         }
         let forces = forces.then((InternalEnergy,));
         if with_compression {
-            self.sweep(forces.then(Rate::<FORCE>))
+            self.sweep(forces.then((Rate::<FORCE>,)))
         } else {
             self.sweep(forces)
         }
@@ -380,6 +380,6 @@ impl<K, V, E, N: Needs, const MODES: u8, const FORCE: u8> Compiled<K, V, E, N, M
             return self.at::<stage::Continuity, T, D>();
         }
         let own = self.effects.at::<stage::Continuity>(&self.setting);
-        Some(self.sweep(Rate::<FORCE>.then(own)))
+        Some(self.sweep((Rate::<FORCE>,).then(own)))
     }
 }

@@ -4,9 +4,9 @@
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Lane;
 use crate::term::{
-    ArtificialViscosity, Compression, DensityGradient, Join, Layout, MidpointReconstruction,
+    ArtificialViscosity, Compression, DensityGradient, Layout, MidpointReconstruction,
     MomentMatrix, Pair, PressureForce, PressureGradient, RenormalisedCompression,
-    RenormalisedPressureForce, Sums, Term, TermDoc, Terms, VelocityGradient,
+    RenormalisedPressureForce, Sums, Term, TermDoc, Terms, VelocityGradient, not_empty,
 };
 use core::marker::PhantomData;
 
@@ -39,15 +39,7 @@ impl<const D: usize, const FLAGS: u8> Terms<D> for Pressure<FLAGS> {
         }
     };
     const WRITES: Outputs = Outputs::of(&[Output::FORCE]);
-    const TENSILE: Fields = <Self as Terms<D>>::READS.stresses();
-    type Then<B: Terms<D>> = B::After<Self>;
-    fn then<B: Terms<D>>(self, next: B) -> Self::Then<B> {
-        next.after(self)
-    }
-    type After<A: Terms<D>> = Join<A, Self>;
-    fn after<A: Terms<D>>(self, first: A) -> Self::After<A> {
-        Join(first, self)
-    }
+    not_empty!(D);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
         if const { FLAGS & RENORMALISED != 0 } {
@@ -76,22 +68,13 @@ impl<const D: usize, const FLAGS: u8> Terms<D> for Pressure<FLAGS> {
 #[derive(Clone, Debug)]
 pub(super) struct Rate<const FLAGS: u8>;
 
-impl<const D: usize, const FLAGS: u8> Terms<D> for Rate<FLAGS> {
+impl<const D: usize, const FLAGS: u8> Term<D> for Rate<FLAGS> {
     const READS: Fields = if FLAGS & RENORMALISED != 0 {
         <RenormalisedCompression as Term<D>>::READS
     } else {
         <Compression as Term<D>>::READS
     };
     const WRITES: Outputs = Outputs::of(&[Output::COMPRESSION]);
-    const TENSILE: Fields = <Self as Terms<D>>::READS.stresses();
-    type Then<B: Terms<D>> = B::After<Self>;
-    fn then<B: Terms<D>>(self, next: B) -> Self::Then<B> {
-        next.after(self)
-    }
-    type After<A: Terms<D>> = Join<A, Self>;
-    fn after<A: Terms<D>>(self, first: A) -> Self::After<A> {
-        Join(first, self)
-    }
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
         if const { FLAGS & RENORMALISED != 0 } {
@@ -100,12 +83,12 @@ impl<const D: usize, const FLAGS: u8> Terms<D> for Rate<FLAGS> {
             Compression.pair(pair, sums);
         }
     }
-    fn document(&self) -> Vec<TermDoc> {
-        vec![if FLAGS & RENORMALISED != 0 {
+    fn document(&self) -> TermDoc {
+        if FLAGS & RENORMALISED != 0 {
             Term::<D>::document(&RenormalisedCompression)
         } else {
             Term::<D>::document(&Compression)
-        }]
+        }
     }
 }
 
@@ -188,15 +171,7 @@ where
         }
         writes
     };
-    const TENSILE: Fields = <Self as Terms<D>>::READS.stresses();
-    type Then<B: Terms<D>> = B::After<Self>;
-    fn then<B: Terms<D>>(self, next: B) -> Self::Then<B> {
-        next.after(self)
-    }
-    type After<A: Terms<D>> = Join<A, Self>;
-    fn after<A: Terms<D>>(self, first: A) -> Self::After<A> {
-        Join(first, self)
-    }
+    not_empty!(D);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
         // Each of the first two sums the moment matrix, and the last one that of the liquid alone.

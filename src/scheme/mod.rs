@@ -48,7 +48,8 @@ mod start;
 
 pub use crate::effect::{DensityForm, Shifting};
 pub use crate::kernel::KernelFacts;
-pub use builder::{DEFAULT_STEP_FACTOR, LiquidBuilder, SchemeBuilder, TotalLagrangianBuilder};
+pub(crate) use builder::DEFAULT_STEP_FACTOR;
+pub use builder::{LiquidBuilder, SchemeBuilder, TotalLagrangianBuilder};
 pub use start::Start;
 
 use crate::effect::StepProgram;

@@ -1,9 +1,9 @@
 //! What moves towards each other limits the step: no pair may close by more than a share of its distance.
 //! Pairs are looked at only where the spread of velocities says that they could.
 
-use super::control::{Criterion, NO_VOTE, ROUNDED, Vote, least};
 use super::neighborhood::Neighborhood;
 use super::population::Particles;
+use super::vote::{Criterion, NO_VOTE, ROUNDED, Vote, least};
 use crate::neighbors::CHUNK;
 use crate::parallel::{Corners, corners, largest, no_corners, reduce, runs};
 use crate::particles::Field;

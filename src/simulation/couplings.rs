@@ -3,35 +3,10 @@
 
 use super::Simulation;
 use super::group::Group;
-use super::population::{BodyState, Particles};
-use super::spin::Spins;
-use super::walls::WallState;
-use super::workspace::Workspace;
-use crate::boundary::Boundary;
-use crate::coupling::{CoupledParticle, Coupling};
-use crate::error::{Error, Result};
-use crate::particles::{Columns, Field, Output};
+use super::population::BodyState;
+use crate::particles::Output;
 use crate::scalar::Real;
 use crate::term::TermDoc;
-use std::sync::Arc;
-
-/// The body of another group whose particles a wall is made of.
-#[derive(Clone, Debug)]
-pub(crate) struct Structure<T, const D: usize> {
-    pub coupling: Arc<dyn Coupling<T, D>>,
-    /// The group of the body, and its index there.
-    pub group: usize,
-    pub body: usize,
-    /// What its particles have been accelerated by at the last evaluation \[m/s²\], in the order of the
-    /// scene: the pressure of a wall follows from it. The mean since the evaluation before where the body sub-cycles.
-    pub accelerations: Vec<[f64; D]>,
-    /// How it turns at each of its particles at that evaluation, where liquid sticks to it.
-    pub spins: Spins<D>,
-    /// Velocities \[m/s\] at that evaluation where the body sub-cycles; else none.
-    pub before: Vec<[f64; D]>,
-    /// The time \[s\] of that evaluation; no number before the first.
-    pub evaluated: f64,
-}
 
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// What its groups do to each other: every coupling that acts, with its equation and source, once.
@@ -161,128 +136,5 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     ) -> impl Iterator<Item = (&Group<T, D>, &BodyState<T>)> {
         let groups = self.stepping(alone);
         groups.flat_map(|group| group.particles.bodies.iter().map(move |body| (group, body)))
-    }
-}
-
-/// What couplings see of the particle in a slot.
-pub(super) fn coupled_particle<T: Real, const D: usize>(
-    columns: &Columns<T, D>,
-    slot: usize,
-    spacing: T,
-) -> CoupledParticle<T, D> {
-    CoupledParticle {
-        position: columns.vectors(Field::POSITION)[slot],
-        velocity: columns.vectors(Field::VELOCITY)[slot],
-        mass: columns.raw(Field::MASS)[slot],
-        density: columns.raw(Field::DENSITY)[slot],
-        spacing,
-        stiffness: T::zero(),
-        sum: T::zero(),
-        gradient: [T::zero(); D],
-        pressure: T::zero(),
-    }
-}
-
-/// Walls that are structures.
-impl<T: Real, const D: usize> WallState<T, D> {
-    /// The slot, in the group of the structure, of the particle that is the wall's with that number as built; none if it has
-    /// left.
-    fn slot_in(&self, others: &Particles<T, D>, at: usize) -> Option<usize> {
-        let body = self.structure.as_ref()?.body;
-        let slot = others.slot_of[others.bodies[body].ids.start + at];
-        (slot != u32::MAX).then_some(slot as usize)
-    }
-
-    /// Moves it to the particles of the body that it is, as these are at `time` \[s\].
-    fn follow(
-        &mut self,
-        own: &mut Particles<T, D>,
-        boundaries: &[Arc<dyn Boundary<D>>],
-        (others, work): (&Particles<T, D>, &Workspace<T, D>),
-        (time, evaluated): (f64, bool),
-    ) {
-        for slot in self.slots.start..self.end {
-            let at = self.rest_of(&own.ids, slot);
-            let Some(other) = self.slot_in(others, at) else {
-                own.columns.raw_mut(Field::MASS)[slot] = T::zero();
-                continue;
-            };
-            if let Some(structure) = &mut self.structure {
-                let spacing = T::from_f64(others.bodies[structure.body].spacing);
-                let particle = coupled_particle(&others.columns, other, spacing);
-                let rest = own.columns.raw(Field::DENSITY)[slot];
-                let mass = structure.coupling.wall_mass(rest, &particle);
-                own.columns.raw_mut(Field::MASS)[slot] = mass;
-                let elapsed = if evaluated {
-                    time - structure.evaluated
-                } else {
-                    0.0
-                };
-                structure.accelerate(at, other, (others, work), elapsed);
-            }
-            for field in [Field::POSITION, Field::POSITION_RESIDUAL, Field::VELOCITY] {
-                let from = others.columns.vectors(field).get(other);
-                let to = own.columns.vectors_mut(field).get_mut(slot);
-                if let (Some(from), Some(to)) = (from, to) {
-                    *to = *from;
-                }
-            }
-            let [x, residual, v] =
-                own.columns
-                    .many_mut([Field::POSITION, Field::POSITION_RESIDUAL, Field::VELOCITY]);
-            // The group of the structure lets particles re-enter a period when its lists are built.
-            for boundary in boundaries {
-                let now = core::array::from_fn(|d| x[slot * D + d].to_f64());
-                if let Some(back) = boundary.wrap(&now, time) {
-                    back.to_scalar().re_enter(slot, x, residual, v);
-                }
-            }
-        }
-        let first = self.slots.start;
-        if let Some(structure) = self.structure.as_mut().filter(|_| evaluated) {
-            structure.evaluated = time;
-            let columns = &own.columns;
-            let (x, v) = (
-                columns.vectors(Field::POSITION),
-                columns.vectors(Field::VELOCITY),
-            );
-            let mass = columns.raw(Field::MASS);
-            structure.spins.find(|at| {
-                let slot = own.slot_of[first + at] as usize;
-                let is_there = mass[slot] > T::zero();
-                is_there.then(|| (x[slot].map(Real::to_f64), v[slot].map(Real::to_f64)))
-            });
-        }
-    }
-}
-
-impl<T: Real, const D: usize> Structure<T, D> {
-    /// What has accelerated its particle in a slot of its group, `elapsed` \[s\] after the evaluation before.
-    fn accelerate(
-        &mut self,
-        at: usize,
-        own: usize,
-        (particles, work): (&Particles<T, D>, &Workspace<T, D>),
-        elapsed: f64,
-    ) {
-        let velocity = particles.columns.vectors(Field::VELOCITY)[own].map(Real::to_f64);
-        match self.before.get_mut(at) {
-            // A stiff body swings many times in a step of the liquid, which feels the mean.
-            Some(before) if !self.evaluated.is_nan() => {
-                if elapsed > 0.0 {
-                    self.accelerations[at] =
-                        core::array::from_fn(|d| (velocity[d] - before[d]) / elapsed);
-                    *before = velocity;
-                }
-            }
-            before => {
-                let mass = particles.columns.raw(Field::MASS);
-                self.accelerations[at] =
-                    core::array::from_fn(|d| work.acceleration(mass, own * D + d).to_f64());
-                if let Some(before) = before {
-                    *before = velocity;
-                }
-            }
-        }
     }
 }

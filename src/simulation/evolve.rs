@@ -5,7 +5,7 @@ use crate::effect::{Evolved, StepProgram, Update, View};
 use crate::parallel::{GRAIN, cut, for_each};
 use crate::particles::Field;
 use crate::scalar::Real;
-use crate::sweep::two_sum;
+use crate::sweep::{add_compensated, two_sum};
 use crate::tensor::{Symmetric, rotation};
 
 /// Numbers whose rates are on the stack at a time; a whole number of particles of any shape.
@@ -110,13 +110,13 @@ pub(super) fn update<T: Real, const D: usize>(
             Update::Increment => {
                 for (k, y) in values.iter_mut().enumerate() {
                     let change = dt * (*y * growths[k / width] + sources[k]);
-                    add(y, residual.get_mut(start + k), change);
+                    add_compensated(y, residual.get_mut(start + k), change);
                 }
             }
             Update::Exponential => {
                 for (k, y) in values.iter_mut().enumerate() {
                     let change = *y * expm1(growths[k / width] * dt) + dt * sources[k];
-                    add(y, residual.get_mut(start + k), change);
+                    add_compensated(y, residual.get_mut(start + k), change);
                 }
             }
             Update::Within { smallest, largest } => {
@@ -140,15 +140,6 @@ pub(super) fn update<T: Real, const D: usize>(
         }
     }
     limited
-}
-
-/// y ← y + change, with the rounding error kept where there is a place for it.
-#[inline(always)]
-pub(super) fn add<T: Real>(y: &mut T, residual: Option<&mut T>, change: T) {
-    match residual {
-        Some(residual) => (*y, *residual) = two_sum(*y, *residual + change),
-        None => *y += change,
-    }
 }
 
 /// x ← x + dt v, with the rounding error kept where there is a column for it.

@@ -13,7 +13,7 @@ use crate::boundary::{Boundary, Emitter, Outlet, Pose};
 use crate::clock::Instant;
 use crate::error::Result;
 use crate::material::eos::GuardCounts;
-use crate::scalar::{Lane, Real};
+use crate::scalar::Real;
 use crate::scheme::Scheme;
 use crate::sweep::{InstructionSet, Interaction, Root, SweepInput};
 use std::sync::Arc;
@@ -58,10 +58,6 @@ pub(super) fn shared_with_image<const D: usize>(
     let turned: [f64; D] = core::array::from_fn(|d| (0..D).map(|k| turn(d, k) * force[k]).sum());
     let half = |sign: f64| core::array::from_fn(|d| 0.5 * (force[d] + sign * turned[d]));
     (half(1.0), half(-1.0))
-}
-
-pub(crate) fn width<T: Real>() -> usize {
-    <T::Wide<false> as Lane>::WIDTH
 }
 
 impl<T: Real, const D: usize> Group<T, D> {
@@ -295,7 +291,8 @@ impl<T: Real, const D: usize> Group<T, D> {
             let first = self.neighborhood.rebuilds <= 1;
             let sorted = self.walls.iter();
             let sorted = sorted.filter(|wall| first || wall.structure.is_some());
-            let order = self.particles.sort(sorted);
+            let runs = sorted.map(|wall| (wall.slots.clone(), wall.end));
+            let order = self.particles.sort(runs);
             self.work.rates.permute(&order);
         }
         self.list(time, reach);

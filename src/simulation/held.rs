@@ -3,8 +3,8 @@
 
 use super::Simulation;
 use super::forces::Forces;
-use super::group::Group;
-use super::population::Particles;
+use super::population::{BodyState, Particles};
+use super::spin::raised;
 use super::workspace::Workspace;
 use crate::boundary::{Boundary, Motion};
 use crate::particles::Field;
@@ -78,11 +78,6 @@ pub struct Clamped {
     pub impulse: Vec<f64>,
     /// The work \[J\] that it has done since the start.
     pub work: f64,
-}
-
-/// A vector in three dimensions; rotation in a plane is about the third.
-pub(crate) fn raised<const D: usize>(vector: &[f64; D]) -> Vector3<f64> {
-    Vector3::from_fn(|d, _| vector.get(d).copied().unwrap_or(0.0))
 }
 
 fn lowered<const D: usize>(vector: &Vector3<f64>) -> [f64; D] {
@@ -394,21 +389,23 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// How all clamps stand, group by group in the order of the scene.
     #[must_use]
     pub fn clamps(&self) -> Vec<Clamped> {
-        let of = |group: &Group<T, D>, own: &Clamp<D>| {
+        let groups = self.groups.iter();
+        let clamps = groups.flat_map(|group| {
+            let bodies = &group.particles.bodies;
+            group.held.clamps.iter().map(move |own| (bodies, own))
+        });
+        let of = |(bodies, own): (&Vec<BodyState<T>>, &Clamp<D>)| {
             let forces = own.forces.iter().flatten();
             let force = forces.fold([0.0; D], |sum, f| core::array::from_fn(|d| sum[d] + f[d]));
             Clamped {
-                body: group.particles.bodies[own.body].name.clone(),
+                body: bodies[own.body].name.clone(),
                 particles: own.particles.len(),
                 force: force.to_vec(),
                 impulse: own.impulse.to_vec(),
                 work: own.work,
             }
         };
-        let groups = self.state.groups.iter();
-        groups
-            .flat_map(|group| group.held.clamps.iter().map(move |own| of(group, own)))
-            .collect()
+        clamps.map(of).collect()
     }
 
     /// Replaces forces on what is held at `time` \[s\], after all of them are summed; of groups that sub-cycle those of

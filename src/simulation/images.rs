@@ -1,15 +1,9 @@
 //! Images of particles behind boundaries, in neighbour lists and in lists of couplings: which are needed, and where they are.
 //! Later boundaries also show the images of earlier ones, which fills edges and corners.
 
-use super::neighborhood::Neighborhood;
-use super::population::Particles;
-use super::walls::WallState;
 use crate::boundary::Boundary;
-use crate::neighbors::Block;
-use crate::particles::Field;
 use crate::scalar::Real;
 use crate::sweep::{Image, Transform};
-use std::ops::Range;
 use std::sync::Arc;
 
 /// How an image's transform comes about: the boundary's own, after that of the image it shows.
@@ -47,7 +41,7 @@ impl<T: Real, const D: usize> Chains<T, D> {
 
     /// Adds the images within `reach` \[m\] that a boundary shows of particles, by their numbers and places \[m\], and of those `images` of
     /// them that earlier boundaries show.
-    fn show(
+    pub fn show(
         &mut self,
         sources: impl Iterator<Item = (u32, [f64; D])> + Clone,
         images: &mut Vec<(Image, [f64; D])>,
@@ -122,54 +116,6 @@ impl<T: Real, const D: usize> Chains<T, D> {
                 .sum::<f64>()
         });
         moved.fold(0.0, f64::max).sqrt()
-    }
-}
-
-impl<T: Real, const D: usize> Neighborhood<T, D> {
-    /// Finds which images are needed. The images of each body and of each wall are blocks of their own, one a boundary.
-    pub(super) fn place_images(
-        &mut self,
-        particles: &Particles<T, D>,
-        walls: &[WallState<T, D>],
-        boundaries: &[Arc<dyn Boundary<D>>],
-        time: f64,
-    ) {
-        self.images.clear();
-        self.chains.clear();
-        if boundaries.is_empty() {
-            return;
-        }
-        let positions = particles.columns.vectors(Field::POSITION);
-        let bodies = particles.bodies.iter().map(|body| (&body.slots, None));
-        let walls = walls.iter().map(|wall| (&wall.slots, Some(wall)));
-        let mut images = Vec::new();
-        for (sources, wall) in bodies.chain(walls) {
-            let place = |slot: usize| (slot as u32, positions[slot].map(Real::to_f64));
-            images.clear();
-            for b in 0..boundaries.len() {
-                let before = images.len();
-                let at = (self.listed_reach, time);
-                let sources = Range::clone(sources).map(place);
-                self.chains.show(sources, &mut images, (boundaries, b), at);
-                let start = positions.len() + self.images.len();
-                for (image, x) in &images[before..] {
-                    self.images.push(*image);
-                    self.listed.push(x.map(T::from_f64));
-                }
-                self.blocks.push(Block {
-                    slots: start..positions.len() + self.images.len(),
-                    wall: wall.is_some(),
-                });
-                self.mirrored.push(wall.is_some_and(WallState::is_mirrored));
-            }
-        }
-        self.place_transforms(boundaries, time);
-    }
-
-    /// Brings the transforms of images up to date.
-    pub(super) fn place_transforms(&mut self, boundaries: &[Arc<dyn Boundary<D>>], time: f64) {
-        self.placed_time = time;
-        self.chains.place(boundaries, time);
     }
 }
 

@@ -1,8 +1,8 @@
 //! What effects ask of a step: their limits of it, and that the fields they integrate stay numbers.
 //! Reductions have a fixed order, as those of the other criteria.
 
-use super::control::{Criterion, NO_VOTE, Vote, least};
 use super::population::BodyState;
+use super::vote::{Criterion, NO_VOTE, Vote, least};
 use crate::effect::{StepProgram, View};
 use crate::parallel::{GRAIN, reduce, runs};
 use crate::particles::Columns;

@@ -135,6 +135,7 @@
 //! `origin`.
 
 mod advance;
+mod alone;
 mod approach;
 #[cfg(feature = "checkpoint")]
 mod checkpoint;
@@ -179,13 +180,14 @@ mod state;
 mod stored;
 mod sub_cycle;
 mod view;
+mod vote;
 mod walls;
 mod which;
 mod work;
 mod workspace;
 
 pub use contact::Contact;
-pub use control::{Criterion, StepControl, Vote};
+pub use control::StepControl;
 pub use cost::{Cost, CostLine};
 pub use energy::EnergyLedger;
 pub use held::Clamped;
@@ -199,15 +201,15 @@ pub use stability::{
     Arrangement, Breach, Extreme, StabilityReport, StepHistory, Thresholds, Verdict,
 };
 pub use stored::{StoredBalance, StoredEnergy, StoredPart};
+pub use vote::{Criterion, Vote};
 pub use which::Which;
 pub(crate) use which::find;
 pub use work::Work;
 
 pub(crate) use contact::{Acting, Couple};
-pub(crate) use couplings::Structure;
-pub(crate) use event::Event;
+pub(crate) use event::{Event, Happened};
 pub(crate) use exchange::Exchange;
-pub(crate) use group::{Group, width};
+pub(crate) use group::Group;
 pub(crate) use held::{Clamp, Rigid};
 pub(crate) use loads::{ACCELERATION, is_square_finite};
 pub(crate) use pair_list::PairList;
@@ -216,7 +218,7 @@ pub(crate) use population::{BodyState, Particles};
 pub(crate) use side::{MetWall, Side};
 pub(crate) use spin::Spins;
 pub(crate) use sub_cycle::SubCycle;
-pub(crate) use walls::WallState;
+pub(crate) use walls::{Structure, WallState};
 
 use crate::error::{Error, Result};
 use crate::integrator::Integrator;

@@ -1,12 +1,12 @@
 //! Neighbours of particles, images behind planes and across periods among them, as the neighbour lists hold them.
 //! What looks at pairs outside of the pair loop walks over them here.
 
-use super::group::{Group, width};
+use super::group::Group;
 use super::neighborhood::Neighborhood;
 use super::query::ParticleView;
 use crate::neighbors::CHUNK;
 use crate::particles::Field;
-use crate::scalar::Real;
+use crate::scalar::{Real, width};
 use crate::scheme::{DensityForm, Smoothing};
 use crate::sweep::Transform;
 

@@ -1,7 +1,6 @@
 //! The neighbourhood of a group: lists of who is near, images behind boundaries, and how long both last.
 //! It is rebuilt from the positions that it remembers, so a checkpoint needs no lists.
 
-use super::group::width;
 use super::images::Chains;
 use super::population::Particles;
 use super::walls::WallState;
@@ -9,7 +8,7 @@ use crate::boundary::Boundary;
 use crate::neighbors::{Block, ClusterLists, Radii, SearchInput};
 use crate::parallel::{Corners, corners, largest, no_corners};
 use crate::particles::Field;
-use crate::scalar::Real;
+use crate::scalar::{Real, width};
 use crate::sweep::{Image, InstructionSet, Interaction};
 use crate::tensor::{Vector, length};
 use std::ops::Range;
@@ -226,6 +225,52 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
             skin: self.skin,
             instructions,
         });
+    }
+
+    /// Finds which images are needed. The images of each body and of each wall are blocks of their own, one a boundary.
+    fn place_images(
+        &mut self,
+        particles: &Particles<T, D>,
+        walls: &[WallState<T, D>],
+        boundaries: &[Arc<dyn Boundary<D>>],
+        time: f64,
+    ) {
+        self.images.clear();
+        self.chains.clear();
+        if boundaries.is_empty() {
+            return;
+        }
+        let positions = particles.columns.vectors(Field::POSITION);
+        let bodies = particles.bodies.iter().map(|body| (&body.slots, None));
+        let walls = walls.iter().map(|wall| (&wall.slots, Some(wall)));
+        let mut images = Vec::new();
+        for (sources, wall) in bodies.chain(walls) {
+            let place = |slot: usize| (slot as u32, positions[slot].map(Real::to_f64));
+            images.clear();
+            for b in 0..boundaries.len() {
+                let before = images.len();
+                let at = (self.listed_reach, time);
+                let sources = Range::clone(sources).map(place);
+                self.chains.show(sources, &mut images, (boundaries, b), at);
+                let start = positions.len() + self.images.len();
+                for (image, x) in &images[before..] {
+                    self.images.push(*image);
+                    self.listed.push(x.map(T::from_f64));
+                }
+                self.blocks.push(Block {
+                    slots: start..positions.len() + self.images.len(),
+                    wall: wall.is_some(),
+                });
+                self.mirrored.push(wall.is_some_and(WallState::is_mirrored));
+            }
+        }
+        self.place_transforms(boundaries, time);
+    }
+
+    /// Brings the transforms of images up to date.
+    pub(super) fn place_transforms(&mut self, boundaries: &[Arc<dyn Boundary<D>>], time: f64) {
+        self.placed_time = time;
+        self.chains.place(boundaries, time);
     }
 
     /// The pairs of a sweep over these slots.

@@ -6,12 +6,12 @@ use super::neighborhood::{LASTING, Neighborhood};
 use super::population::Particles;
 use super::run::check_end;
 use super::workspace::Workspace;
-use super::{Simulation, Work, width};
+use super::{Simulation, Work};
 use crate::error::Result;
 use crate::neighbors::listed_around;
 use crate::once::once;
 use crate::particles::Field;
-use crate::scalar::Real;
+use crate::scalar::{Real, width};
 use std::time::Duration;
 
 /// Steps that are rehearsed at least. The first half of them fills memory and lets fronts form, and does not count.

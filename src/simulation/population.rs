@@ -1,7 +1,6 @@
 //! The particles of a group, and their order: what enters, leaves, re-enters, and is sorted.
 //! States outside are told of every change.
 
-use super::walls::WallState;
 use crate::boundary::{Boundary, Outlet};
 use crate::effect::StepProgram;
 use crate::error::{Error, Problem, Result};
@@ -262,13 +261,10 @@ impl<T: Real, const D: usize> Particles<T, D> {
     }
 
     /// Sorts every body along the space-filling curve, in cells that hold a particle each, so that the
-    /// members of a cluster are the corners of a cube as far as the flow allows, and so some walls. The order, as that of
-    /// [`Moves`].
+    /// members of a cluster are the corners of a cube as far as the flow allows, and so some walls: their slots, and the end of the last
+    /// cluster. The order, as that of [`Moves`].
     #[must_use]
-    pub fn sort<'a>(
-        &mut self,
-        walls: impl Iterator<Item = &'a WallState<T, D>> + Clone,
-    ) -> Vec<u32> {
+    pub fn sort(&mut self, walls: impl Iterator<Item = (Range<usize>, usize)> + Clone) -> Vec<u32> {
         let positions = self.columns.vectors(Field::POSITION);
         let spacing = self
             .bodies
@@ -276,7 +272,6 @@ impl<T: Real, const D: usize> Particles<T, D> {
             .fold(f64::INFINITY, |least, body| least.min(body.spacing));
         let grid = Grid::centred(positions, spacing);
         let mut order: Vec<u32> = (0..self.columns.slots() as u32).collect();
-        let walls = walls.map(|wall| (wall.slots.clone(), wall.end));
         let bodies = self
             .bodies
             .iter()

@@ -2,8 +2,8 @@
 //! A step that fails is the last one.
 
 use super::Simulation;
-use super::control::{self, Criterion, Vote};
 use super::view::rounding;
+use super::vote::{Criterion, NO_VOTE, Vote};
 use crate::error::{Error, Problem, Result};
 use crate::once::once;
 use crate::scalar::Real;
@@ -64,7 +64,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// The error that describes a step in which time does not go on, by the last vote.
     pub(super) fn collapsed(&self, step: f64) -> Error {
-        let vote = self.state.last_vote.unwrap_or(control::NO_VOTE);
+        let vote = self.last_vote.unwrap_or(NO_VOTE);
         let (body, particle) = self.locate(vote.particle);
         Error::StepCollapsed {
             step,

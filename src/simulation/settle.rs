@@ -2,12 +2,12 @@
 //! Smoothing lengths that follow the density differ from their prediction at fronts, and hardly elsewhere.
 
 use super::population::BodyState;
-use super::stages::{Outcome, join};
 use crate::clock::Instant;
 use crate::effect::{Around, Chunk, Law, MOST_LAWS, Slices, Tally};
 use crate::parallel::GRAIN;
 use crate::scalar::Real;
 use std::ops::Range;
+use std::time::Duration;
 
 /// Slots that settle together: whole clusters of either scalar, and few enough to tell a front from what is around it.
 const PIECE: usize = 64;
@@ -91,6 +91,21 @@ impl Settling {
 
 fn pieces_of<T: Real>(body: &BodyState<T>) -> usize {
     body.run().len().div_ceil(PIECE)
+}
+
+/// At how many particles a law applied a limit, and how long it took.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Outcome {
+    pub limited: u64,
+    pub time: Duration,
+}
+
+/// Adds the outcomes of other chunks.
+pub(super) fn join(outcomes: &mut [Outcome; MOST_LAWS], others: &[Outcome; MOST_LAWS]) {
+    for (own, other) in outcomes.iter_mut().zip(others) {
+        own.limited += other.limited;
+        own.time += other.time;
+    }
 }
 
 /// Laws over those pieces of a run of slots that have not settled: they have when no law changes anything by more than

@@ -1,7 +1,6 @@
 //! The sides of a coupling by forces: a body, or a wall of particles, which is the second.
 //! A wall is where its motion has it, whatever the liquids of a scene have made of its particles.
 
-use super::couplings::coupled_particle;
 use super::group::Group;
 use super::population::Particles;
 use crate::boundary::{Boundary, Motion, Pose};
@@ -231,7 +230,7 @@ impl<const D: usize> Side<D> {
                 let columns = &groups[*group].particles.columns;
                 match self.slot(id, groups) {
                     Some((_, slot)) => {
-                        let own = coupled_particle(columns, slot, spacing);
+                        let own = CoupledParticle::of(columns, slot, spacing);
                         if listed.back.is_empty() {
                             return own;
                         }
@@ -246,7 +245,7 @@ impl<const D: usize> Side<D> {
                     }
                     None => CoupledParticle {
                         position: [T::from_f64(f64::NAN); D],
-                        ..coupled_particle(columns, 0, spacing)
+                        ..CoupledParticle::of(columns, 0, spacing)
                     },
                 }
             }

@@ -1,7 +1,6 @@
 //! How a structure turns at each of its particles, for liquid that sticks to it.
 //! A wall of the scene has its motion for that.
 
-use super::held::raised;
 use crate::neighbors::Cells;
 use crate::tensor::Matrix;
 use nalgebra::{Matrix3, Vector3};
@@ -25,6 +24,11 @@ pub(crate) struct Spins<const D: usize> {
     reach: f64,
     /// Velocity gradients \[1/s\] of rotations, ∂vₐ/∂x_b in row a.
     pub gradients: Vec<Matrix<f64, D>>,
+}
+
+/// A vector in three dimensions; rotation in a plane is about the third.
+pub(super) fn raised<const D: usize>(vector: &[f64; D]) -> Vector3<f64> {
+    Vector3::from_fn(|d, _| vector.get(d).copied().unwrap_or(0.0))
 }
 
 impl<const D: usize> Spins<D> {

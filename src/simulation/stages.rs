@@ -2,7 +2,7 @@
 //! The driver of everything that effects do; it knows none of them.
 
 use super::group::Group;
-use super::settle::{Settling, run_pieces};
+use super::settle::{Outcome, Settling, join, run_pieces};
 use crate::boundary::WallSurface;
 use crate::clock::Instant;
 use crate::effect::{Around, Chunk, Law, MOST_LAWS, Slices};
@@ -13,7 +13,6 @@ use crate::scheme::Scheme;
 use crate::sweep::{PairSweep, Pass, SweepInput};
 use crate::term::Stage;
 use std::ops::Range;
-use std::time::Duration;
 
 /// Where and when a stage runs.
 #[derive(Clone, Copy, Debug)]
@@ -271,21 +270,6 @@ impl<T: Real, const D: usize> Group<T, D> {
     /// A column of this group taken out for a while, to be changed with all others in sight.
     pub(super) fn take(&mut self, field: Field) -> Vec<T> {
         core::mem::take(self.particles.columns.column_mut(field))
-    }
-}
-
-/// At how many particles a law applied a limit, and how long it took.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Outcome {
-    pub limited: u64,
-    pub time: Duration,
-}
-
-/// Adds the outcomes of other chunks.
-pub(super) fn join(outcomes: &mut [Outcome; MOST_LAWS], others: &[Outcome; MOST_LAWS]) {
-    for (own, other) in outcomes.iter_mut().zip(others) {
-        own.limited += other.limited;
-        own.time += other.time;
     }
 }
 

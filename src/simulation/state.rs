@@ -1,7 +1,7 @@
 //! What integrators do to the state of a group: move, kick, predict, save and combine it.
 //! Position, velocity and energy are the driver's own; other evolved fields say how they change.
 
-use super::evolve::{POSITIONS, RATES, add, add_scaled, combine_positions, rates, state, update};
+use super::evolve::{POSITIONS, RATES, add_scaled, combine_positions, rates, state, update};
 use super::group::Group;
 use super::loads::heat_by_loads;
 use super::population::BodyState;
@@ -12,7 +12,7 @@ use crate::parallel::{GRAIN, cut, for_each, reduce, runs};
 use crate::particles::{Field, Output};
 use crate::scalar::{MOST_LANES, Real};
 use crate::scheme::EnergyForm;
-use crate::sweep::{Results, two_sum};
+use crate::sweep::{Results, add_compensated};
 use crate::term::Stage;
 use std::ops::Range;
 
@@ -45,10 +45,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             for d in 0..D {
                 let change = da * (rates.get(Output::FORCE, d, slot) / mass[slot] + gravity[d]);
                 let k = slot * D + d;
-                match residual.get_mut(k) {
-                    Some(residual) => (x[k], *residual) = two_sum(x[k], *residual + change),
-                    None => x[k] += change,
-                }
+                add_compensated(&mut x[k], residual.get_mut(k), change);
             }
         }
     }
@@ -423,7 +420,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             let mut now = self.take(own.field);
             let lost = lost.map(|own| &mut own.1[..]).unwrap_or_default();
             self.for_each_rate(own, &mut now, |at, _, rate| {
-                add(&mut saved[at], lost.get_mut(at), dt_t * rate);
+                add_compensated(&mut saved[at], lost.get_mut(at), dt_t * rate);
             });
             *self.particles.columns.column_mut(own.field) = now;
         }

@@ -1,14 +1,9 @@
-//! Sub-cycling: groups that take several steps in each step of the others, and what couplings do to them meanwhile.
+//! What a group that takes several steps in each step of the others has beside them: what couplings do to it meanwhile.
 //! Tuckerman, Berne & Martyna 1992, J. Chem. Phys. 97, 1990, equation 2.25: impulses outside, own steps inside.
 
-use super::Simulation;
 use super::population::Particles;
-use crate::error::Result;
 use crate::particles::Field;
 use crate::scalar::Real;
-
-/// How many more steps than were asked for a group may need before its step has collapsed.
-const RUNAWAY: f64 = 64.0;
 
 /// What a group that sub-cycles has beside others.
 #[derive(Clone, Debug)]
@@ -55,32 +50,5 @@ impl<T: Real, const D: usize> SubCycle<T, D> {
                 }
             }
         }
-    }
-}
-
-impl<T: Real, const D: usize> Simulation<T, D> {
-    /// Steps of all groups that sub-cycle since the start; see [`Scene::sub_cycle`](crate::scene::Scene::sub_cycle).
-    #[must_use]
-    pub fn sub_steps(&self) -> u64 {
-        let groups = self.after_step().groups.iter();
-        let apart = groups.filter_map(|group| group.sub_cycle.as_ref());
-        apart.map(|apart| apart.steps).sum()
-    }
-
-    /// How many equal steps a group needs in `span` \[s\] if it sub-cycles.
-    pub(super) fn sub_steps_in(&mut self, group: usize, span: f64) -> Result<Option<u64>> {
-        let Some(apart) = &self.state.groups[group].sub_cycle else {
-            return Ok(None);
-        };
-        let most = f64::from(apart.most);
-        let own = self.vote_of(group, self.control.courant)?;
-        let own = self.approach_of(group, own)?;
-        let count = (span / own.step).ceil().max(1.0);
-        // A limit of zero or no number of steps at all is a step that has collapsed.
-        if count.is_nan() || count > RUNAWAY * most {
-            self.state.last_vote = Some(own);
-            return Err(self.collapsed(span / count));
-        }
-        Ok(Some(count as u64))
     }
 }

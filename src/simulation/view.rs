@@ -2,8 +2,9 @@
 //! Counts of work are those of the run, which the shown state has no part in.
 
 use super::Simulation;
-use super::control::Vote;
-use super::run_state::State;
+use super::group::Group;
+use super::kept::Kept;
+use super::vote::Vote;
 use crate::clock::Instant;
 use crate::error::Result;
 use crate::scalar::Real;

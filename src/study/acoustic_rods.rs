@@ -28,6 +28,7 @@
 //! # Ok::<(), meshfree::study::StudyError>(())
 //! ```
 
+use super::chain::chain_of_rods;
 use super::{Contact, End, StudyError, finite, positive};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -76,8 +77,7 @@ pub struct AcousticRods {
     segments: Vec<RodSegment>,
     contacts: Vec<Contact>,
     next: Contact,
-    left: End,
-    right: End,
+    ends: [End; 2],
 }
 
 impl Default for AcousticRods {
@@ -95,44 +95,10 @@ impl AcousticRods {
             segments: Vec::new(),
             contacts: Vec::new(),
             next: Contact::Bonded,
-            left: End::Free,
-            right: End::Free,
+            ends: [End::Free; 2],
         }
     }
-    /// Puts the left end of the chain at `x` \[m\].
-    #[must_use]
-    pub fn starting_at(mut self, x: f64) -> Self {
-        self.start = x;
-        self
-    }
-    /// Appends a segment on the right.
-    #[must_use]
-    pub fn segment(mut self, segment: RodSegment) -> Self {
-        if !self.segments.is_empty() {
-            self.contacts.push(self.next);
-        }
-        self.next = Contact::Bonded;
-        self.segments.push(segment);
-        self
-    }
-    /// How the last segment and the one that is appended next touch.
-    #[must_use]
-    pub fn contact(mut self, contact: Contact) -> Self {
-        self.next = contact;
-        self
-    }
-    /// What is at the left end; [`End::Free`] unless set.
-    #[must_use]
-    pub fn left_end(mut self, end: End) -> Self {
-        self.left = end;
-        self
-    }
-    /// What is at the right end; [`End::Free`] unless set.
-    #[must_use]
-    pub fn right_end(mut self, end: End) -> Self {
-        self.right = end;
-        self
-    }
+    chain_of_rods!();
 
     /// Follows the waves until the time `until` \[s\].
     ///
@@ -143,15 +109,7 @@ impl AcousticRods {
     /// If there is no segment, a parameter is out of range, or the waves split into millions of steps.
     pub fn solve(&self, until: f64) -> Result<AcousticSolution, StudyError> {
         positive("the end time [s]", until)?;
-        finite("the left end of the chain [m]", self.start)?;
-        if self.segments.is_empty() {
-            return Err(StudyError::Count {
-                quantity: "the number of segments needed",
-                value: 1,
-                available: 0,
-                action: "call `segment` before `solve`",
-            });
-        }
+        self.check_chain()?;
         for segment in &self.segments {
             positive("length of a segment [m]", segment.length)?;
             positive("density of a segment [kg/m³]", segment.density)?;

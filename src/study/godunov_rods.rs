@@ -37,7 +37,8 @@
 //! # Ok::<(), meshfree::study::StudyError>(())
 //! ```
 
-use super::{Contact, End, StudyError, finite, positive};
+use super::chain::chain_of_rods;
+use super::{Contact, End, StudyError, finite, positive, within};
 use crate::material::eos::EquationOfState;
 use core::fmt::{self, Debug};
 use std::sync::Arc;
@@ -232,40 +233,8 @@ impl GodunovRods {
             snapshots: Vec::new(),
         }
     }
-    /// Puts the left end of the chain at `x` \[m\].
-    #[must_use]
-    pub fn starting_at(mut self, x: f64) -> Self {
-        self.start = x;
-        self
-    }
-    /// Appends a segment on the right.
-    #[must_use]
-    pub fn segment(mut self, segment: RodSegment) -> Self {
-        if !self.segments.is_empty() {
-            self.contacts.push(self.next);
-        }
-        self.next = Contact::Bonded;
-        self.segments.push(segment);
-        self
-    }
-    /// How the last segment and the one that is appended next touch.
-    #[must_use]
-    pub fn contact(mut self, contact: Contact) -> Self {
-        self.next = contact;
-        self
-    }
-    /// What is at the left end; [`End::Free`] unless set.
-    #[must_use]
-    pub fn left_end(mut self, end: End) -> Self {
-        self.ends[0] = end;
-        self
-    }
-    /// What is at the right end; [`End::Free`] unless set.
-    #[must_use]
-    pub fn right_end(mut self, end: End) -> Self {
-        self.ends[1] = end;
-        self
-    }
+    chain_of_rods!();
+
     /// The Courant number: the part of a cell that a wave may cross in a step. 0.9 unless set, the
     /// largest that leaves room for waves that speed up within a step; 1 is the limit of stability.
     #[must_use]
@@ -308,15 +277,7 @@ impl GodunovRods {
     /// which its law gives a finite pressure and a positive sound speed.
     pub fn solve(&self, until: f64) -> Result<GodunovSolution, StudyError> {
         positive("the end time [s]", until)?;
-        finite("the left end of the chain [m]", self.start)?;
-        if self.segments.is_empty() {
-            return Err(StudyError::Count {
-                quantity: "the number of segments needed",
-                value: 1,
-                available: 0,
-                action: "call `segment` before `solve`",
-            });
-        }
+        self.check_chain()?;
         for segment in &self.segments {
             positive("length of a segment [m]", segment.length)?;
         }
@@ -336,22 +297,11 @@ impl GodunovRods {
             });
         }
         let length: f64 = self.segments.iter().map(|s| s.length).sum();
-        let inside = |quantity, value, from, to| {
-            if (from..=to).contains(&value) {
-                return Ok(());
-            }
-            Err(StudyError::OutOfRange {
-                quantity,
-                value,
-                from,
-                to,
-            })
-        };
         for &x in &self.gauges {
-            inside("gauge position [m]", x, self.start, self.start + length)?;
+            within("gauge position [m]", x, self.start, self.start + length)?;
         }
         for &t in &self.snapshots {
-            inside("snapshot time [s]", t, 0.0, until)?;
+            within("snapshot time [s]", t, 0.0, until)?;
         }
         record::march(self, until)
     }

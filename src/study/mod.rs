@@ -38,6 +38,7 @@
 
 pub mod ablation;
 pub mod acoustic_rods;
+mod chain;
 pub mod channel;
 #[cfg(test)]
 mod check;

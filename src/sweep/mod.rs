@@ -60,12 +60,13 @@ mod work;
 // For the crate's own benches: no part of its interface.
 #[doc(hidden)]
 pub use fused_kernel::{FusedKernel, PairSweep, Pass, SweepInput};
+#[doc(hidden)]
+pub use records::Records;
 pub use records::Transform;
-pub(crate) use records::two_sum;
+pub(crate) use records::{Image, add_compensated, two_sum};
+pub(crate) use results::Reaction;
 #[doc(hidden)]
-pub use records::{Image, Records};
-#[doc(hidden)]
-pub use results::{Reaction, Results};
+pub use results::Results;
 
 pub use crate::scalar::{InstructionSet, Root};
 

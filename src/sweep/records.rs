@@ -343,6 +343,15 @@ pub(crate) fn two_sum<T: Real>(a: T, b: T) -> (T, T) {
     (sum, (a - (sum - part)) + (b - part))
 }
 
+/// y ← y + change, with the rounding error kept where there is a place for it.
+#[inline(always)]
+pub(crate) fn add_compensated<T: Real>(y: &mut T, residual: Option<&mut T>, change: T) {
+    match residual {
+        Some(residual) => (*y, *residual) = two_sum(*y, *residual + change),
+        None => *y += change,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

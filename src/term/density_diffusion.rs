@@ -6,7 +6,7 @@ use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Lane;
 
 /// The δ that all forms take by default (Antuono et al. 2010; Fourtakas et al. 2019).
-pub const STANDARD_DELTA: f64 = 0.1;
+const STANDARD_DELTA: f64 = 0.1;
 
 const READS: Fields = Fields::of(&[Field::WEIGHT, Field::DENSITY, Field::SOUND_SPEED]);
 const WRITES: Outputs = Outputs::of(&[Output::DENSITY_DIFFUSION]);

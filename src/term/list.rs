@@ -1,7 +1,7 @@
 //! Lists of terms that share one loop over pairs: tuples, which lose their empty parts as they are joined.
 //! A list costs what the same terms would cost written as one.
 
-use super::{Join, Layout, Pair, Sums, Term, TermDoc, TermUse};
+use super::{Layout, Pair, Sums, Term, TermDoc, TermUse};
 use crate::particles::{Fields, Outputs};
 use crate::scalar::Lane;
 use core::fmt::Debug;
@@ -13,7 +13,7 @@ pub trait Terms<const D: usize>: Clone + Debug + Send + Sync + 'static {
     /// Union of what the terms write.
     const WRITES: Outputs;
     /// Union of what the terms read and carries tension.
-    const TENSILE: Fields;
+    const TENSILE: Fields = Self::READS.stresses();
     /// These terms and then others, as one list without empty parts.
     type Then<B: Terms<D>>: Terms<D>;
     /// These terms and then others.
@@ -59,6 +59,21 @@ impl<const D: usize> Terms<D> for () {
     }
 }
 
+/// How terms that are not empty are joined to others.
+macro_rules! not_empty {
+    ($D:ident) => {
+        type Then<Next: $crate::term::Terms<$D>> = Next::After<Self>;
+        fn then<Next: $crate::term::Terms<$D>>(self, next: Next) -> Self::Then<Next> {
+            next.after(self)
+        }
+        type After<First: $crate::term::Terms<$D>> = $crate::term::Join<First, Self>;
+        fn after<First: $crate::term::Terms<$D>>(self, first: First) -> Self::After<First> {
+            $crate::term::Join(first, self)
+        }
+    };
+}
+pub(crate) use not_empty;
+
 macro_rules! tuple {
     ($($name:ident),*) => {
         #[allow(non_snake_case)]
@@ -66,14 +81,7 @@ macro_rules! tuple {
             const READS: Fields = Fields::NONE$(.union($name::READS))*;
             const WRITES: Outputs = Outputs::NONE$(.union($name::WRITES))*;
             const TENSILE: Fields = Fields::NONE$(.union($name::TENSILE))*;
-            type Then<Next: Terms<D>> = Next::After<Self>;
-            fn then<Next: Terms<D>>(self, next: Next) -> Self::Then<Next> {
-                next.after(self)
-            }
-            type After<First: Terms<D>> = Join<First, Self>;
-            fn after<First: Terms<D>>(self, first: First) -> Self::After<First> {
-                Join(first, self)
-            }
+            not_empty!(D);
             #[inline(always)]
             fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
                 let ($($name,)*) = self;

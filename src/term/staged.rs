@@ -1,7 +1,7 @@
 //! Terms by stage: of the terms of an effect, those that share the sweep of one stage, as a type.
 //! A sweep is compiled once for the terms that it has, whatever else the schemes that use it name.
 
-use super::{Layout, Pair, Stage, Sums, Term, TermDoc, TermUse, Terms};
+use super::{Layout, Pair, Stage, Sums, Term, TermDoc, TermUse, Terms, not_empty};
 use crate::particles::{Fields, Outputs};
 use crate::scalar::Lane;
 use core::fmt::Debug;
@@ -186,14 +186,7 @@ impl<const D: usize, A: Terms<D>, B: Terms<D>> Terms<D> for Join<A, B> {
     const READS: Fields = A::READS.union(B::READS);
     const WRITES: Outputs = A::WRITES.union(B::WRITES);
     const TENSILE: Fields = A::TENSILE.union(B::TENSILE);
-    type Then<C: Terms<D>> = C::After<Self>;
-    fn then<C: Terms<D>>(self, next: C) -> Self::Then<C> {
-        next.after(self)
-    }
-    type After<C: Terms<D>> = Join<C, Self>;
-    fn after<C: Terms<D>>(self, first: C) -> Self::After<C> {
-        Join(first, self)
-    }
+    not_empty!(D);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
         self.0.pair(pair, sums);

@@ -8,10 +8,10 @@ use crate::material::eos::GuardCounts;
 use crate::output::checkpoint::{Checkpoint, Read, damaged};
 use crate::scalar::Real;
 use crate::scheme::Scheme;
-use crate::simulation::couplings::Structure;
 use crate::simulation::group::Group;
 use crate::simulation::soundness::NEGATIVE_ENERGY;
 use crate::simulation::sub_cycle::SubCycle;
+use crate::simulation::walls::Structure;
 
 impl<T: Real, const D: usize> Group<T, D> {
     pub(super) fn put(&self, name: &str, file: &mut Checkpoint) {

@@ -2,12 +2,11 @@
 //! Estimates of leading errors, made to be compared with each other and not to be believed to a digit.
 
 use super::super::stability::Extreme;
-use super::super::{Criterion, Simulation, width};
+use super::super::{Criterion, Simulation};
 use super::look::Look;
-use super::report::{Indicators, median};
+use super::report::{Indicators, Limit, LimitedBy, median};
 use crate::neighbors::listed_around;
-use crate::scalar::Real;
-use core::fmt;
+use crate::scalar::{Real, width};
 
 /// Estimates below this are rounding.
 const NOTHING: f64 = 1e-6;
@@ -15,68 +14,6 @@ const NOTHING: f64 = 1e-6;
 const THIN: f64 = 4.0;
 /// By how much h/dx rises in one step better.
 const RATIO: f64 = 1.25;
-
-/// What can limit accuracy.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum LimitedBy {
-    /// The kernel smooths what is narrower than it: fronts, waves, layers. A finer spacing mends it.
-    Smoothing,
-    /// Sums over neighbours are not those of a continuum, whatever the spacing: the floor. A larger h/dx mends it.
-    Sums,
-    /// Neighbours that lie unevenly push where nothing should. A larger h/dx mends it, or shifting.
-    Disorder,
-    /// The density carried has drifted from the volume that particles have.
-    Drift,
-    /// Too few particles across a wall or film.
-    Thickness,
-}
-
-impl fmt::Display for LimitedBy {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            Self::Smoothing => "spacing: what is smoothed",
-            Self::Sums => "floor: sums over neighbours",
-            Self::Disorder => "floor: disorder",
-            Self::Drift => "drift of density",
-            Self::Thickness => "spacing: thickness",
-        })
-    }
-}
-
-/// A limit of accuracy, and what one step better costs. Printed it is a sentence.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Limit {
-    /// What limits.
-    pub by: LimitedBy,
-    /// The relative error that it leaves, to its order of magnitude.
-    ///
-    /// | limit | estimate | of |
-    /// |---|---|---|
-    /// | smoothing | 2 σ² (h/w)², one at most | σ² h² the second moment of the kernel along an axis, w the width of the steepest front; that of the gradient of a wave with the same range and slope |
-    /// | sums | median of [`Indicators::left`] | the gradient of a linear field |
-    /// | disorder | 2 p̄/Δp · w/h · median disorder | the force of a uniform pressure p̄ (median) over that of the front |
-    /// | drift | [`Indicators::drift`] | volume |
-    /// | thickness | 1/N below four particles N (median) across a body | the width of a film by whole particles |
-    pub error: f64,
-    /// Where it is worst, if that is one place.
-    pub at: Option<Extreme>,
-    /// One step better, in words.
-    pub remedy: String,
-    /// Time of a run with it over that of the present one, by particles, pairs and steps; where it is known.
-    pub cost: Option<f64>,
-}
-
-impl fmt::Display for Limit {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let percent = crate::output::table::significant(100.0 * self.error, 2);
-        write!(f, "{}, about {percent} %; {}", self.by, self.remedy)?;
-        match self.cost {
-            Some(cost) => write!(f, " costs {cost:.1}x"),
-            None => Ok(()),
-        }
-    }
-}
 
 /// What the estimates are made of beside the indicators.
 pub(super) struct Estimates {

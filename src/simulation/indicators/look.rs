@@ -1,12 +1,12 @@
 //! What one particle says of the sums over its neighbours: how far they are from those of a continuum.
 //! Read from the neighbour lists at hand; a particle whose support a free surface cuts says nothing.
 
-use super::super::group::{Group, width};
+use super::super::group::Group;
 use super::super::query::ParticleView;
 use crate::neighbors::CHUNK;
 use crate::parallel::{cut, for_each};
 use crate::particles::Field;
-use crate::scalar::Real;
+use crate::scalar::{Real, width};
 use crate::scheme::DensityForm;
 use crate::tensor::{Matrix, Vector, inverse};
 use core::sync::atomic::{AtomicU8, Ordering};

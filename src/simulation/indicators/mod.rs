@@ -3,12 +3,12 @@
 
 mod limit;
 mod look;
+mod measure;
 mod print;
 mod report;
 mod thickness;
 
-pub use limit::{Limit, LimitedBy};
-pub use report::{Indicators, Spread};
+pub use report::{Indicators, Limit, LimitedBy, Spread};
 
 use super::Simulation;
 use crate::once::once;
@@ -45,6 +45,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// ```
     #[must_use]
     pub fn indicators(&self) -> Indicators {
-        once!(self => &Simulation, |own| -> Indicators { report::of(own) })
+        once!(self => &Simulation, |own| -> Indicators { measure::of(own) })
     }
 }

@@ -5,11 +5,13 @@ mod arrangement;
 mod compression;
 mod print;
 mod report;
+mod thresholds;
 mod voids;
 mod watch;
 
 pub use arrangement::Arrangement;
-pub use report::{Breach, Extreme, StabilityReport, StepHistory, Thresholds, Verdict};
+pub use report::{Breach, Extreme, StabilityReport, StepHistory, Verdict};
+pub use thresholds::Thresholds;
 pub(super) use watch::{Seen, Watch};
 
 use super::Simulation;

@@ -1,78 +1,12 @@
 //! The report on a run: what it measured, and what of it left the thresholds, where and when.
-//! Thresholds are those of the crate's hard cases, for a case to override.
+//! A threshold that is left is a breach.
 
 use super::super::Simulation;
 use super::arrangement::{self, Arrangement};
+use super::thresholds::Thresholds;
 use super::voids;
 use super::watch::{Measure, Seen};
 use crate::scalar::Real;
-
-/// What a run must keep to be called stable. A threshold at infinity (or zero, where the least counts) asks for nothing.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Thresholds {
-    /// Least and largest density over that at rest of the material; 0 and infinity. One over it is the Jacobian.
-    pub density: [f64; 2],
-    /// Largest ρ/ρ₀ − 1 of a liquid whose scheme carries no energy; 0.03. It is left where more than one in a hundred
-    /// particles of a body exceed it for longer than sound takes to cross the body. Pressure of the flow does that where
-    /// the sound speed is too low for it; a wave of an impact passes, and surfaces and cavities, which expand, do not count.
-    /// Liquids that are meant to be compressed so need more.
-    pub compression: f64,
-    /// Largest share of particle steps in which a limit or a guard of an equation of state acted; 10⁻⁴.
-    pub limited: f64,
-    /// Largest residual of momentum over Σ m |v|; 10⁻¹⁰, or a thousand roundings of the scalar. Forces that are no pair
-    /// forces (renormalised gradients) need more.
-    pub momentum: f64,
-    /// Largest gain of energy from nowhere over the energy; 10⁻³.
-    pub energy_gain: f64,
-    /// Largest change of the energy of a closed scene whose bodies carry internal energy, over it; 1 %. 10⁻¹⁰ can be asked of
-    /// compatible energy.
-    pub energy_closure: f64,
-    /// Largest gain of [stored energy](Simulation::stored_energy) beyond the work that went into it, over the largest energy
-    /// supplied; 1 %. What is 50 % stops the run.
-    pub stored_energy: f64,
-    /// Least distance of two particles in local spacings; 0.2.
-    pub nearest: f64,
-    /// Least distance of nearest neighbours that one in a thousand particles may be below; 0.5.
-    pub quantile: f64,
-    /// Largest 1 − mean distance of nearest neighbours; 0.2. An even liquid has 0.05, one that flows 0.1, pairs 0.3 to 0.7.
-    pub clumping: f64,
-    /// Radius of the largest enclosed void in spacings; 1.5. Of gas, which expands, it says nothing.
-    pub voids: f64,
-    /// Least step over the median step; 0.05.
-    pub step: f64,
-    /// Largest λ T of the growth of noise; infinity. It means something where a flow should come to rest: 1 then.
-    pub growth: f64,
-    /// Particles that may be outside of the walls; 0.
-    pub leaked: u64,
-    /// Particles that may be without neighbours; no limit, since spray is liquid too.
-    pub ejected: u64,
-    /// Steps between two looks at the arrangement; 500. One look takes two to six steps, the more the more neighbours: at 500
-    /// the watch costs about a per cent of a run, at 25 eight and more.
-    pub every: u64,
-}
-
-impl Default for Thresholds {
-    fn default() -> Self {
-        Self {
-            density: [0.0, f64::INFINITY],
-            compression: 0.03,
-            limited: 1e-4,
-            momentum: 1e-10,
-            energy_gain: 1e-3,
-            energy_closure: 0.01,
-            stored_energy: 0.01,
-            nearest: 0.2,
-            quantile: 0.5,
-            clumping: 0.2,
-            voids: 1.5,
-            step: 0.05,
-            growth: f64::INFINITY,
-            leaked: 0,
-            ejected: u64::MAX,
-            every: 500,
-        }
-    }
-}
 
 /// A value with where and when it was met.
 #[derive(Clone, Debug, PartialEq)]

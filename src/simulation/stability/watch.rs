@@ -6,7 +6,7 @@ use super::super::group::Group;
 use super::super::population::Particles;
 use super::arrangement::{self, Sums};
 use super::compression::Compression;
-use super::report::Thresholds;
+use super::thresholds::Thresholds;
 use crate::clock::Instant;
 use crate::origin::local;
 use crate::parallel::{GRAIN, reduce, runs};

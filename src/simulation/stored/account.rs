@@ -132,7 +132,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// An account that goes on from the present state with the gain that it had.
     fn opened(&self, now: &Measured, before: Option<Account<D>>) -> Account<D> {
         let (group, slot) = now.at;
-        let off = now.gain::<D>(None);
+        let off = now.gain(0.0);
         let start = now.kinetic + now.stored;
         let nowhere = || self.gain_at(0.0, (group, slot));
         let given = now.kinetic + now.work;
@@ -197,7 +197,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 self.state.stores.accounts[k] = Some(self.opened(&now, Some(account)));
                 continue;
             }
-            account.gain = now.gain(Some(&account));
+            account.gain = now.gain(account.base);
             let given = now.kinetic + now.work - account.given;
             account.supplied = account.supplied.max(given);
             let beyond = (account.gain - now.rounding).max(0.0);

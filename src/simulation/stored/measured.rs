@@ -1,7 +1,6 @@
 //! The present energies of a part of a scene: stored, dissipated, kinetic, and what work has left for them.
 //! One sum over its particles, by the laws of materials and the columns of effects.
 
-use super::account::Account;
 use super::parts::has_energy;
 use crate::particles::Field;
 use crate::scalar::Real;
@@ -31,9 +30,9 @@ pub(super) struct Measured {
 }
 
 impl Measured {
-    /// Stored energy less the work that is left for it.
-    pub fn gain<const D: usize>(&self, account: Option<&Account<D>>) -> f64 {
-        self.stored + self.dissipated - self.work - account.map_or(0.0, |own| own.base)
+    /// Stored energy less the work that is left for it, over what that was when the account was opened.
+    pub fn gain(&self, base: f64) -> f64 {
+        self.stored + self.dissipated - self.work - base
     }
 }
 

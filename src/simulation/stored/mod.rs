@@ -153,7 +153,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let measured = self.unsaid(k).map_or_else(|| self.measured(k), Err);
             let account = self.state.stores.accounts.get(k).and_then(Option::as_ref);
             let balance = measured.map(|own| {
-                let gain = account.map_or(0.0, |_| own.gain(account));
+                let gain = account.map_or(0.0, |account| own.gain(account.base));
                 let start = own.kinetic + own.stored;
                 StoredBalance {
                     stored: own.stored,

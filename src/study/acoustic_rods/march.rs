@@ -40,9 +40,9 @@ impl March {
             End::Wall => Some(Contact::Unilateral),
             End::Bonded => Some(Contact::Bonded),
         };
-        let mut bonds = vec![bond_of(rods.left)];
+        let mut bonds = vec![bond_of(rods.ends[0])];
         bonds.extend(rods.contacts.iter().map(|&contact| Some(contact)));
-        bonds.push(bond_of(rods.right));
+        bonds.push(bond_of(rods.ends[1]));
 
         let shortest = segments
             .iter()
@@ -78,7 +78,7 @@ impl March {
         Self {
             solution,
             bonds,
-            ends: [rods.left, rods.right],
+            ends: rods.ends,
             agenda: Agenda::new(),
             stress_tolerance: 1e-12 * impedance * speed,
             gap_tolerance: 2.0 * speed * tolerance,
