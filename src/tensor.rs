@@ -280,7 +280,10 @@ pub fn rotation<T: Real, const D: usize>(spin: &Matrix<T, D>) -> Matrix<T, D> {
     let (first, second) = if angle < 1e-3 {
         (1.0 - angle * angle / 6.0, 0.5 - angle * angle / 24.0)
     } else {
-        (angle.sin() / angle, (1.0 - angle.cos()) / (angle * angle))
+        (
+            Lane::sin(angle) / angle,
+            (1.0 - Lane::cos(angle)) / (angle * angle),
+        )
     };
     let square = *spin * *spin;
     Matrix::from_fn(|r, c| {

@@ -3,6 +3,7 @@
 
 use crate::error::{Error, Problem, Result};
 use crate::origin::local;
+use crate::scalar::Lane;
 use crate::tensor::{Matrix, Vector, inverse};
 use core::fmt;
 
@@ -290,7 +291,7 @@ impl<const D: usize> Motion<D> for Rotation<D> {
     }
     fn pose_from(&self, origin: &[f64; D], time: f64) -> Pose<D> {
         let [angle, rate, growth] = (self.angle)(time);
-        let (sine, cosine) = angle.sin_cos();
+        let (sine, cosine) = (Lane::sin(angle), Lane::cos(angle));
         // In the plane: R, R′ = dR/dθ, R″ = −R; elsewhere the identity does not change.
         let plane = |m: [f64; 4], rest: f64| {
             Matrix::<f64, D>::from_fn(|a, b| match (a, b) {

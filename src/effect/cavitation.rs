@@ -4,7 +4,7 @@
 use super::{Chunk, Effect, Law, Setting, StepProgram, Tally};
 use crate::error::Problem;
 use crate::particles::{Field, Fields};
-use crate::scalar::Real;
+use crate::scalar::{Lane, Real};
 use crate::term::{Stage, TermDoc};
 
 /// Keeps a liquid that has cavitated at its [cut-off](crate::material::Material::with_pressure_cut_off) from
@@ -113,7 +113,7 @@ impl<T: Real, const D: usize> Law<T, D> for Cavitation {
             if let Some(tau) = memory {
                 *tau = T::zero();
                 if low {
-                    let thinned = (*density / least).to_f64().ln();
+                    let thinned = Lane::ln((*density / least).to_f64());
                     *tau = T::from_f64(thinned.max(FARTHEST));
                 }
             }

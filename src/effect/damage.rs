@@ -9,7 +9,7 @@ use crate::error::Problem;
 use crate::material::failure::FailureState;
 use crate::material::strength::ROOM_TEMPERATURE;
 use crate::particles::{Field, Fields};
-use crate::scalar::Real;
+use crate::scalar::{Lane, Real};
 use crate::tensor::Symmetric;
 use crate::term::{Stage, TermDoc};
 
@@ -213,8 +213,8 @@ fn largest(deviator: &Symmetric<f64>) -> f64 {
     let [xx, yy, zz, yz, xz, xy] = *deviator.components();
     let third = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
     let radius = (second / 3.0).sqrt();
-    let angle = (0.5 * third / radius.powi(3)).clamp(-1.0, 1.0).acos() / 3.0;
-    2.0 * radius * angle.cos()
+    let angle = Lane::acos((0.5 * third / radius.powi(3)).clamp(-1.0, 1.0)) / 3.0;
+    2.0 * radius * Lane::cos(angle)
 }
 
 /// Pressure without tension where a particle has failed.

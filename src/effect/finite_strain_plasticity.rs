@@ -10,7 +10,7 @@ use super::{
 use crate::error::Problem;
 use crate::material::strength::{PlasticState, ROOM_TEMPERATURE};
 use crate::particles::{Field, Fields};
-use crate::scalar::Real;
+use crate::scalar::{Lane, Real};
 use crate::tensor::{Matrix, Symmetric, determinant, inverse};
 use crate::term::{Stage, TermDoc};
 
@@ -211,7 +211,7 @@ struct Elastic {
 impl Elastic {
     /// Of F and Cₚ⁻¹ − 1.
     fn of<T: Real, const D: usize>(gradient: &Matrix<T, D>, volume: f64, plastic: &[T]) -> Self {
-        let shrunk = volume.powf(-1.0 / 3.0);
+        let shrunk = Lane::powf(volume, -1.0 / 3.0);
         let gradient = Matrix::<f64, 3>::from_fn(|a, b| {
             let own = if a < D && b < D {
                 gradient[(a, b)].to_f64()

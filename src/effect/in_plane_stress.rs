@@ -7,7 +7,7 @@ use super::{
     Chunk, Effect, Law, NeoHookean, Setting, StVenantKirchhoff, StepProgram, Tally, TotalLagrangian,
 };
 use crate::particles::{Field, Fields};
-use crate::scalar::Real;
+use crate::scalar::{Lane, Real};
 use crate::tensor::{Matrix, determinant, inverse};
 use crate::term::{Stage, TermDoc};
 
@@ -122,10 +122,10 @@ impl Sheet for NeoHookean {
     const EQUATION: &'static str = "P = μ (F − F⁻ᵀ) + λ ln(J λ₃) F⁻ᵀ, μ (λ₃² − 1) + λ ln(J λ₃) = 0";
     fn thickness([lambda, mu]: [f64; 2], gradient: &Matrix<f64, 2>) -> f64 {
         // In s = ln λ₃ the condition is rising and convex for λ ≥ 0: Newton's method comes down to the root.
-        let area = determinant(gradient).ln();
+        let area = Lane::ln(determinant(gradient));
         let mut s = -lambda * area / (lambda + 2.0 * mu);
         for _ in 0..MOST_TRIALS {
-            let squared = (2.0 * s).exp();
+            let squared = Lane::exp(2.0 * s);
             let excess = lambda.mul_add(area + s, mu * (squared - 1.0));
             let change = excess / (2.0 * mu).mul_add(squared, lambda);
             s -= change;
@@ -135,7 +135,7 @@ impl Sheet for NeoHookean {
                 break;
             }
         }
-        s.exp()
+        Lane::exp(s)
     }
 }
 

@@ -3,7 +3,7 @@
 
 use super::hyperelastic::{self, Response, StoredEnergy, square};
 use super::{Effect, Setting, StepProgram};
-use crate::scalar::Real;
+use crate::scalar::{Lane, Real};
 use crate::tensor::Matrix;
 use crate::term::TermDoc;
 
@@ -60,7 +60,7 @@ impl StoredEnergy for NeoHookean {
     ) -> Response<T, D> {
         let half = T::from_f64(0.5);
         // What has no volume left has no logarithm either, and ends the run.
-        let logarithm = T::from_f64(volume.to_f64().ln());
+        let logarithm = T::from_f64(Lane::ln(volume.to_f64()));
         let back = back.transpose();
         let piola = (*gradient - back) * mu + back * (lambda * logarithm);
         let in_plane = (piola * gradient.transpose()).trace();

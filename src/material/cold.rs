@@ -1,6 +1,8 @@
 //! A law at given energy, run backwards: density from pressure, and energy from density.
 //! Both work from the state alone, so they serve every equation of state.
 
+use crate::scalar::Lane;
+
 /// The first step \[1\] of ln(ρ/ρ₀) away from rest; each next one is twice as large.
 const FIRST_STEP: f64 = 0.01;
 /// Steps away from rest: the last lies at ρ/ρ₀ = exp(±10.24).
@@ -29,7 +31,7 @@ pub(super) fn density_at(law: impl Fn(f64) -> (f64, f64), rest: f64, pressure: f
     let mut near = rest;
     let mut far = (0..STEPS).find_map(|k| {
         let step = FIRST_STEP * f64::from(1 << k);
-        let density = rest * (-step.copysign(at_rest)).exp();
+        let density = rest * Lane::exp(-step.copysign(at_rest));
         if beyond(law(density).0 - pressure) {
             return Some(density);
         }

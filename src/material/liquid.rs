@@ -4,7 +4,7 @@
 use super::Material;
 use super::eos::guard::Problems;
 use super::eos::{Linear, Tait};
-use crate::scalar::Real;
+use crate::scalar::{Lane, Real};
 
 /// The Mach number that keeps the density of a liquid within 1 %: the change is about Ma².
 const WEAK: f64 = 0.1;
@@ -159,7 +159,7 @@ impl Liquid {
             let steps = self.steps_per_second(choice, spacing, h_over_dx);
             let (name, speed) = (choice.name(), choice.of(self.sound_speed));
             // Four digits, however large it is.
-            let unit = 10f64.powf(3.0 - speed.log10().floor());
+            let unit = Lane::powf(10.0, 3.0 - speed.log10().floor());
             let speed = (speed * unit).round() / unit;
             format!("{name} sound speed {speed} m/s: {steps:.0} steps for a second of flow")
         };

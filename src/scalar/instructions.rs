@@ -12,8 +12,8 @@ use super::{OnAvx2, OnAvx512};
 /// same bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum InstructionSet {
-    /// What every machine of the target has. It has no fused multiply-add, so sums, products and roots round alike everywhere;
-    /// elementary functions are those of the platform.
+    /// What every machine of the target has. It has no fused multiply-add, so sums, products and roots round alike everywhere,
+    /// and with them elementary functions.
     Baseline,
     /// x86-64 with AVX2 and FMA.
     Avx2,

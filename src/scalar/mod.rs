@@ -1,6 +1,7 @@
 //! Scalars and lanes: the only place that knows machine types.
 //! One text of physics serves `f32` and `f64`, one particle at a time or a block of them.
 
+mod elementary;
 mod halves;
 mod instructions;
 mod lanes;
@@ -211,20 +212,46 @@ pub trait Lane:
         }
         result
     }
-    /// `self` to a real power.
+    /// `self` to a real power, within an ulp, by sums and products that are the same on every machine, as all
+    /// elementary functions here.
     #[inline(always)]
     fn powf(self, exponent: f64) -> Self {
         self.map(|x| Lane::powf(x, exponent))
     }
-    /// The exponential function.
+    /// The exponential function, within an ulp.
     #[inline(always)]
     fn exp(self) -> Self {
         self.map(Lane::exp)
     }
-    /// The natural logarithm.
+    /// The natural logarithm, within an ulp.
     #[inline(always)]
     fn ln(self) -> Self {
         self.map(Lane::ln)
+    }
+    /// The cube root, within an ulp.
+    #[inline(always)]
+    fn cbrt(self) -> Self {
+        self.map(Lane::cbrt)
+    }
+    /// The sine, within two ulps up to |x| = 8·10⁵, and within the rounding of x beyond.
+    #[inline(always)]
+    fn sin(self) -> Self {
+        self.map(Lane::sin)
+    }
+    /// The cosine, as the [sine](Self::sin).
+    #[inline(always)]
+    fn cos(self) -> Self {
+        self.map(Lane::cos)
+    }
+    /// The angle between 0 and π with a cosine, within three ulps.
+    #[inline(always)]
+    fn acos(self) -> Self {
+        self.map(Lane::acos)
+    }
+    /// The angle between −π/2 and π/2 with a tangent, within two ulps.
+    #[inline(always)]
+    fn atan(self) -> Self {
+        self.map(Lane::atan)
     }
     /// The larger of the value and zero.
     #[inline(always)]
@@ -333,15 +360,35 @@ macro_rules! real {
             }
             #[inline(always)]
             fn powf(self, exponent: f64) -> $T {
-                $T::powf(self, exponent as $T)
+                elementary::powf(f64::from(self), exponent) as $T
             }
             #[inline(always)]
             fn exp(self) -> $T {
-                $T::exp(self)
+                elementary::exp(f64::from(self)) as $T
             }
             #[inline(always)]
             fn ln(self) -> $T {
-                $T::ln(self)
+                elementary::ln(f64::from(self)) as $T
+            }
+            #[inline(always)]
+            fn cbrt(self) -> $T {
+                elementary::cbrt(f64::from(self)) as $T
+            }
+            #[inline(always)]
+            fn sin(self) -> $T {
+                elementary::sin(f64::from(self)) as $T
+            }
+            #[inline(always)]
+            fn cos(self) -> $T {
+                elementary::cos(f64::from(self)) as $T
+            }
+            #[inline(always)]
+            fn acos(self) -> $T {
+                elementary::acos(f64::from(self)) as $T
+            }
+            #[inline(always)]
+            fn atan(self) -> $T {
+                elementary::atan(f64::from(self)) as $T
             }
             #[inline(always)]
             fn min(self, other: $T) -> $T {

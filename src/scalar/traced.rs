@@ -50,6 +50,16 @@ pub enum Unary {
     Exponential,
     /// ln a
     Logarithm,
+    /// [`Lane::cbrt`]
+    CubeRoot,
+    /// [`Lane::sin`]
+    Sine,
+    /// [`Lane::cos`]
+    Cosine,
+    /// [`Lane::acos`]
+    ArcCosine,
+    /// [`Lane::atan`]
+    ArcTangent,
 }
 
 /// An operation on two numbers.
@@ -285,6 +295,11 @@ fn unary<L: Lane>(operation: Unary, a: L) -> L {
         Unary::Absolute => a.abs(),
         Unary::Exponential => a.exp(),
         Unary::Logarithm => a.ln(),
+        Unary::CubeRoot => a.cbrt(),
+        Unary::Sine => a.sin(),
+        Unary::Cosine => a.cos(),
+        Unary::ArcCosine => a.acos(),
+        Unary::ArcTangent => a.atan(),
     }
 }
 
@@ -436,6 +451,21 @@ impl Lane for Traced {
     }
     fn ln(self) -> Self {
         number(Operation::Unary(Unary::Logarithm, self))
+    }
+    fn cbrt(self) -> Self {
+        number(Operation::Unary(Unary::CubeRoot, self))
+    }
+    fn sin(self) -> Self {
+        number(Operation::Unary(Unary::Sine, self))
+    }
+    fn cos(self) -> Self {
+        number(Operation::Unary(Unary::Cosine, self))
+    }
+    fn acos(self) -> Self {
+        number(Operation::Unary(Unary::ArcCosine, self))
+    }
+    fn atan(self) -> Self {
+        number(Operation::Unary(Unary::ArcTangent, self))
     }
 }
 

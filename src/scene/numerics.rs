@@ -76,10 +76,9 @@ impl<T: Real, const D: usize> Scene<T, D> {
 
     /// The instruction set of the pair loop; the best that the machine has if not given.
     ///
-    /// [`InstructionSet::Baseline`] has no fused multiply-add, so its sums, products and roots round alike on every machine. It
-    /// does not make a whole run the same to the bit everywhere: laws of materials call `powf`, `exp` and `ln` of the standard
-    /// library, whose last digits Rust leaves to the platform and the version of the compiler. One program on machines of one
-    /// kind gives the same bits.
+    /// [`InstructionSet::Baseline`] has no fused multiply-add, so its sums, products and roots round alike on every machine, and
+    /// elementary functions are [made of them](crate::scalar::Lane::exp). Laws, loads and motions of one's own that call those of
+    /// the standard library, whose last digits Rust leaves to the platform, do not.
     #[must_use]
     pub fn instructions(mut self, set: InstructionSet) -> Self {
         self.instructions = set;
@@ -88,7 +87,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
 
     /// How the pair loop takes roots in `f64`; the faster way for the processor if not given, so that two makes of
     /// processor may differ in their last bits. [`Root::Products`] gives the same bits on all that have the
-    /// instruction set, as far as the [laws of materials](Self::instructions) do; on [`InstructionSet::Baseline`] both ways are
+    /// instruction set; on [`InstructionSet::Baseline`] both ways are
     /// the divider's.
     ///
     /// ```

@@ -3,6 +3,7 @@
 
 use super::{Failure, FailureState};
 use crate::material::strength::ROOM_TEMPERATURE;
+use crate::scalar::Lane;
 
 /// The law of Johnson & Cook (1985), equations 4 and 5.
 ///
@@ -92,8 +93,8 @@ impl JohnsonCookFailure {
     /// ```
     #[must_use]
     pub fn strain_at_failure(&self, state: &FailureState) -> f64 {
-        let triaxial = (self.exponent * state.triaxiality().min(MOST_TRIAXIAL)).exp();
-        let rate = (state.rate / self.reference_rate).max(1.0).ln();
+        let triaxial = Lane::exp(self.exponent * state.triaxiality().min(MOST_TRIAXIAL));
+        let rate = Lane::ln((state.rate / self.reference_rate).max(1.0));
         let above = state.temperature - self.reference_temperature;
         let heat = above / (self.melting_temperature - self.reference_temperature);
         self.triaxial.mul_add(triaxial, self.least)

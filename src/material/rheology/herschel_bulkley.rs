@@ -42,7 +42,7 @@ impl HerschelBulkley {
             consistency,
             index,
             time,
-            greatest: consistency * time.powf(1.0 - index) + time * yield_stress,
+            greatest: consistency * Lane::powf(time, 1.0 - index) + time * yield_stress,
         }
     }
 

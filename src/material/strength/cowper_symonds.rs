@@ -3,6 +3,7 @@
 
 use super::{PlasticState, Strength};
 use crate::material::eos::guard::Problems;
+use crate::scalar::Lane;
 
 /// The rate factor of Cowper & Symonds (1957) on the yield stress Y_s of another law.
 ///
@@ -50,7 +51,7 @@ impl<S: Strength> Strength for CowperSymonds<S> {
     }
     fn yield_stress(&self, state: &PlasticState) -> f64 {
         let ratio = (state.rate / self.doubling_rate).max(0.0);
-        self.slow.yield_stress(state) * (1.0 + ratio.powf(self.exponent.recip()))
+        self.slow.yield_stress(state) * (1.0 + Lane::powf(ratio, self.exponent.recip()))
     }
     fn uses_temperature(&self) -> bool {
         self.slow.uses_temperature()

@@ -2,6 +2,7 @@
 //! Y = (A + B εⁿ)(1 + C ln ε̇*)(1 − T*ᵐ).
 
 use super::{PlasticState, PowerHardening, ROOM_TEMPERATURE, Strength};
+use crate::scalar::Lane;
 
 /// The law of Johnson & Cook (1983), equation 1.
 ///
@@ -88,10 +89,10 @@ impl Strength for JohnsonCook {
         "Johnson & Cook 1983, eq. 1"
     }
     fn yield_stress(&self, state: &PlasticState) -> f64 {
-        let rate = (state.rate / self.reference_rate).max(1.0).ln();
+        let rate = Lane::ln((state.rate / self.reference_rate).max(1.0));
         let above = state.temperature - self.reference_temperature;
         let heat = above / (self.melting_temperature - self.reference_temperature);
-        let softened = 1.0 - heat.clamp(0.0, 1.0).powf(self.softening);
+        let softened = 1.0 - Lane::powf(heat.clamp(0.0, 1.0), self.softening);
         self.hardening.yield_stress(state) * self.rate_sensitivity.mul_add(rate, 1.0) * softened
     }
     fn uses_temperature(&self) -> bool {

@@ -3,6 +3,7 @@
 
 use super::{PlasticState, Strength};
 use crate::material::eos::guard::Problems;
+use crate::scalar::Lane;
 
 /// The law of Ludwik (1909).
 ///
@@ -62,7 +63,7 @@ impl Strength for PowerHardening {
     }
     fn yield_stress(&self, state: &PlasticState) -> f64 {
         // A strain that rounding has made negative has no power.
-        let power = state.strain.max(0.0).powf(self.exponent);
+        let power = Lane::powf(state.strain.max(0.0), self.exponent);
         self.hardening.mul_add(power, self.yield_stress)
     }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {

@@ -3,6 +3,7 @@
 
 use super::{PlasticState, Strength};
 use crate::material::eos::guard::Problems;
+use crate::scalar::Lane;
 
 /// The law of Steinberg, Cochran & Guinan (1980), equation 2.
 ///
@@ -87,8 +88,8 @@ impl Strength for SteinbergGuinan {
     }
     fn yield_stress(&self, state: &PlasticState) -> f64 {
         let strain = (state.strain + self.initial_strain).max(0.0);
-        let hardened = self.yield_stress * (1.0 + self.hardening * strain).powf(self.exponent);
-        let pressed = self.pressure * state.pressure / state.density_ratio.cbrt();
+        let hardened = self.yield_stress * Lane::powf(1.0 + self.hardening * strain, self.exponent);
+        let pressed = self.pressure * state.pressure / Lane::cbrt(state.density_ratio);
         let heated = self.softening * (state.temperature - REFERENCE_TEMPERATURE);
         hardened.min(self.greatest) * (1.0 + pressed - heated).max(0.0)
     }
