@@ -4,6 +4,7 @@
 use super::Simulation;
 use super::group::Group;
 use super::population::BodyState;
+use crate::error::{Error, Result};
 use crate::particles::Output;
 use crate::scalar::Real;
 use crate::term::TermDoc;

@@ -389,7 +389,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// How all clamps stand, group by group in the order of the scene.
     #[must_use]
     pub fn clamps(&self) -> Vec<Clamped> {
-        let groups = self.groups.iter();
+        let groups = self.state.groups.iter();
         let clamps = groups.flat_map(|group| {
             let bodies = &group.particles.bodies;
             group.held.clamps.iter().map(move |own| (bodies, own))

@@ -135,7 +135,6 @@
 //! `origin`.
 
 mod advance;
-mod alone;
 mod approach;
 #[cfg(feature = "checkpoint")]
 mod checkpoint;

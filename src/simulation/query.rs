@@ -454,6 +454,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         groups.map(|group| group.neighborhood.rebuilds).sum()
     }
 
+    /// Steps of all groups that sub-cycle since the start; see [`Scene::sub_cycle`](crate::scene::Scene::sub_cycle).
+    #[must_use]
+    pub fn sub_steps(&self) -> u64 {
+        let groups = self.after_step().groups.iter();
+        let apart = groups.filter_map(|group| group.sub_cycle.as_ref());
+        apart.map(|apart| apart.steps).sum()
+    }
+
     /// Bytes held for particles, lists and records of the run. While a state [between two steps](crate::simulation#readings)
     /// is shown, or one that was [evaluated](Self::evaluate) between them, there are twice as many but for the lists.
     #[must_use]

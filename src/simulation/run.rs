@@ -64,7 +64,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// The error that describes a step in which time does not go on, by the last vote.
     pub(super) fn collapsed(&self, step: f64) -> Error {
-        let vote = self.last_vote.unwrap_or(NO_VOTE);
+        let vote = self.state.last_vote.unwrap_or(NO_VOTE);
         let (body, particle) = self.locate(vote.particle);
         Error::StepCollapsed {
             step,

@@ -3,7 +3,7 @@
 
 use super::Simulation;
 use super::group::Group;
-use super::kept::Kept;
+use super::run_state::State;
 use super::vote::Vote;
 use crate::clock::Instant;
 use crate::error::Result;

@@ -4,7 +4,7 @@
 use super::population::Particles;
 use super::spin::Spins;
 use super::workspace::Workspace;
-use crate::boundary::{Boundary, Motion, Pose, Slip};
+use crate::boundary::{Boundary, Motion, Pose, Slip, motion_from};
 use crate::coupling::{CoupledParticle, Coupling};
 use crate::particles::Field;
 use crate::scalar::Real;

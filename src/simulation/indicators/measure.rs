@@ -33,7 +33,7 @@ struct At {
 /// Looks at the present state.
 pub(super) fn of<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Indicators {
     let extreme = |at: &At| {
-        let group = &simulation.groups[at.group];
+        let group = &simulation.state.groups[at.group];
         let id = group.particles.first_id + group.particles.ids[at.slot] as usize;
         let (body, particle) = simulation.locate(id);
         Extreme {
@@ -56,6 +56,7 @@ pub(super) fn of<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Indi
         })
     };
     let mobile: usize = simulation
+        .state
         .groups
         .iter()
         .map(|own| own.particles.mobile)
@@ -65,7 +66,7 @@ pub(super) fn of<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Indi
     let mut looks: Vec<(usize, Look)> = Vec::new();
     let mut ranges = Vec::new();
     let mut thickness = Vec::new();
-    for (index, group) in simulation.groups.iter().enumerate() {
+    for (index, group) in simulation.state.groups.iter().enumerate() {
         let looker = Looker::new(group);
         let (count, own) = looker.looks(stride);
         particles += count;
