@@ -206,7 +206,7 @@ pub(crate) use which::find;
 pub use work::Work;
 
 pub(crate) use contact::{Acting, Couple};
-pub(crate) use event::{Event, Happened};
+pub(crate) use event::Event;
 pub(crate) use exchange::Exchange;
 pub(crate) use group::Group;
 pub(crate) use held::{Clamp, Rigid};

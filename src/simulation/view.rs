@@ -2,7 +2,6 @@
 //! Counts of work are those of the run, which the shown state has no part in.
 
 use super::Simulation;
-use super::group::Group;
 use super::run_state::State;
 use super::vote::Vote;
 use crate::clock::Instant;
