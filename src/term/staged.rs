@@ -110,73 +110,34 @@ type Own<S, M, A, const D: usize> = <M as StageMarker<D>>::Of<S, (A,)>;
 /// `A` and then `B`.
 type Then<A, B, const D: usize> = <A as Terms<D>>::Then<B>;
 
-impl<const D: usize, M: StageMarker<D>, A: Term<D>> StagedTerms<D> for (In<M, A>,) {
-    type At<S: StageMarker<D>> = Own<S, M, A, D>;
-    const READS: Fields = A::READS;
-    fn at<S: StageMarker<D>>(&self) -> Self::At<S> {
-        M::put::<S, _>((self.0.term.clone(),))
-    }
+/// Lists of terms as one, from the left.
+macro_rules! joined {
+    ($all:ty) => { $all };
+    ($all:ty, $next:ty $(, $rest:ty)*) => { joined!(Then<$all, $next, D> $(, $rest)*) };
 }
 
-impl<const D: usize, M, A, N, B> StagedTerms<D> for (In<M, A>, In<N, B>)
-where
-    M: StageMarker<D>,
-    A: Term<D>,
-    N: StageMarker<D>,
-    B: Term<D>,
-{
-    type At<S: StageMarker<D>> = Then<Own<S, M, A, D>, Own<S, N, B, D>, D>;
-    const READS: Fields = A::READS.union(B::READS);
-    fn at<S: StageMarker<D>>(&self) -> Self::At<S> {
-        let first = M::put::<S, _>((self.0.term.clone(),));
-        first.then(N::put::<S, _>((self.1.term.clone(),)))
-    }
+macro_rules! staged {
+    ($M:ident $A:ident $(, $n:tt $N:ident $B:ident)*) => {
+        impl<const D: usize, $M, $A, $($N, $B),*> StagedTerms<D> for (In<$M, $A>, $(In<$N, $B>),*)
+        where
+            $M: StageMarker<D>,
+            $A: Term<D>,
+            $($N: StageMarker<D>, $B: Term<D>,)*
+        {
+            type At<S: StageMarker<D>> = joined!(Own<S, $M, $A, D> $(, Own<S, $N, $B, D>)*);
+            const READS: Fields = $A::READS$(.union($B::READS))*;
+            fn at<S: StageMarker<D>>(&self) -> Self::At<S> {
+                let all = $M::put::<S, _>((self.0.term.clone(),));
+                $(let all = all.then($N::put::<S, _>((self.$n.term.clone(),)));)*
+                all
+            }
+        }
+    };
 }
-
-impl<const D: usize, M, A, N, B, O, C> StagedTerms<D> for (In<M, A>, In<N, B>, In<O, C>)
-where
-    M: StageMarker<D>,
-    A: Term<D>,
-    N: StageMarker<D>,
-    B: Term<D>,
-    O: StageMarker<D>,
-    C: Term<D>,
-{
-    type At<S: StageMarker<D>> =
-        Then<Then<Own<S, M, A, D>, Own<S, N, B, D>, D>, Own<S, O, C, D>, D>;
-    const READS: Fields = A::READS.union(B::READS).union(C::READS);
-    fn at<S: StageMarker<D>>(&self) -> Self::At<S> {
-        let first = M::put::<S, _>((self.0.term.clone(),));
-        let two = first.then(N::put::<S, _>((self.1.term.clone(),)));
-        two.then(O::put::<S, _>((self.2.term.clone(),)))
-    }
-}
-
-impl<const D: usize, M, A, N, B, O, C, Q, E> StagedTerms<D>
-    for (In<M, A>, In<N, B>, In<O, C>, In<Q, E>)
-where
-    M: StageMarker<D>,
-    A: Term<D>,
-    N: StageMarker<D>,
-    B: Term<D>,
-    O: StageMarker<D>,
-    C: Term<D>,
-    Q: StageMarker<D>,
-    E: Term<D>,
-{
-    type At<S: StageMarker<D>> = Then<
-        Then<Then<Own<S, M, A, D>, Own<S, N, B, D>, D>, Own<S, O, C, D>, D>,
-        Own<S, Q, E, D>,
-        D,
-    >;
-    const READS: Fields = A::READS.union(B::READS).union(C::READS).union(E::READS);
-    fn at<S: StageMarker<D>>(&self) -> Self::At<S> {
-        let first = M::put::<S, _>((self.0.term.clone(),));
-        let two = first.then(N::put::<S, _>((self.1.term.clone(),)));
-        let three = two.then(O::put::<S, _>((self.2.term.clone(),)));
-        three.then(Q::put::<S, _>((self.3.term.clone(),)))
-    }
-}
+staged!(M A);
+staged!(M A, 1 N B);
+staged!(M A, 1 N B, 2 O C);
+staged!(M A, 1 N B, 2 O C, 3 Q E);
 
 /// Two lists of terms of one sweep, the first first.
 #[derive(Clone, Debug)]
