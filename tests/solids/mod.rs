@@ -26,6 +26,7 @@ mod manufactured;
 mod meshes;
 mod misprints;
 mod rods;
+mod shear_in_gas;
 mod sheets;
 mod smoothing;
 mod total_lagrangian;
