@@ -147,10 +147,21 @@ impl<T: Real, const D: usize> Law<T, D> for Damage {
         "failure"
     }
     fn reads(&self) -> Fields {
-        Fields::of(&[STRESS, DAMAGE, FLOWED, Field::PRESSURE])
+        Fields::of(&[
+            STRESS,
+            DAMAGE,
+            FAILED,
+            FLOWED,
+            Field::PRESSURE,
+            Plasticity::STRAIN,
+            Plasticity::WORK,
+        ])
     }
     fn writes(&self) -> Fields {
         Fields::of(&[STRESS, DAMAGE, FAILED, FLOWED])
+    }
+    fn optional(&self) -> Fields {
+        Fields::of(&[Plasticity::STRAIN, Plasticity::WORK])
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let mut tally = Tally::default();
@@ -163,21 +174,16 @@ impl<T: Real, const D: usize> Law<T, D> for Damage {
         }
         let heating = material.plastic_heating();
         let live = chunk.live;
-        let [damage, failed, flowed, stress, pressure, strain, work] = chunk.columns([
-            DAMAGE,
-            FAILED,
-            FLOWED,
-            STRESS,
-            Field::PRESSURE,
-            Plasticity::STRAIN,
-            Plasticity::WORK,
-        ]);
+        let ([pressure, strain, work], [damage, failed, flowed, stress]) = chunk.columns(
+            [Field::PRESSURE, Plasticity::STRAIN, Plasticity::WORK],
+            [DAMAGE, FAILED, FLOWED, STRESS],
+        );
         for (n, stress) in stress.chunks_exact_mut(6).enumerate() {
             if damage[n] < T::one() {
                 let deviator = Symmetric::from_slice(stress).to_f64();
                 let pressure = pressure[n].to_f64();
-                let [now, work] = [&*strain, &*work]
-                    .map(|column| column.get(n).map_or(0.0, |value| value.to_f64()));
+                let [now, work] =
+                    [strain, work].map(|column| column.get(n).map_or(0.0, |value| value.to_f64()));
                 let increment = now - flowed[n].to_f64();
                 flowed[n] = T::from_f64(now);
                 let state = FailureState {
@@ -232,7 +238,7 @@ impl<T: Real, const D: usize> Law<T, D> for NoTension {
         Fields::of(&[Field::PRESSURE])
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let [damage, pressure] = chunk.columns([DAMAGE, Field::PRESSURE]);
+        let ([damage], [pressure]) = chunk.columns([DAMAGE], [Field::PRESSURE]);
         for (damage, pressure) in damage.iter().zip(pressure) {
             if *damage >= T::one() {
                 *pressure = pressure.max(T::zero());

@@ -79,20 +79,25 @@ impl<const D: usize> Effect<D> for DensityFloor {
     }
 }
 
+const CHANGED: [Field; 2] = [Field::DENSITY, Field::DENSITY_RESIDUAL];
+
 impl<T: Real, const D: usize> Law<T, D> for DensityFloor {
     fn name(&self) -> &'static str {
         "density floor"
     }
     fn reads(&self) -> Fields {
-        Fields::of(&[Field::DENSITY])
+        Fields::of(&CHANGED)
     }
     fn writes(&self) -> Fields {
-        Fields::of(&[Field::DENSITY])
+        Fields::of(&CHANGED)
+    }
+    fn optional(&self) -> Fields {
+        Fields::of(&[Field::DENSITY_RESIDUAL])
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let least = T::from_f64(self.share * chunk.around.material.reference_density());
         let live = chunk.live;
-        let [density, residual] = chunk.columns([Field::DENSITY, Field::DENSITY_RESIDUAL]);
+        let ([], [density, residual]) = chunk.columns([], CHANGED);
         let mut tally = Tally::default();
         for (n, density) in density.iter_mut().enumerate() {
             // What is no number stays one, and ends the run.

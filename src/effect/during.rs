@@ -103,6 +103,9 @@ impl<T: Real, const D: usize> Law<T, D> for During<Box<dyn Law<T, D>>> {
     fn writes(&self) -> Fields {
         self.effect.writes()
     }
+    fn optional(&self) -> Fields {
+        self.effect.optional()
+    }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         if self.is_on(chunk.around.time) {
             self.effect.apply(chunk)
@@ -118,6 +121,12 @@ impl<T: Real, const D: usize> Law<T, D> for During<Box<dyn Law<T, D>>> {
 impl<T: Real, const D: usize> Limit<T, D> for During<Box<dyn Limit<T, D>>> {
     fn name(&self) -> &'static str {
         self.effect.name()
+    }
+    fn reads(&self) -> Fields {
+        self.effect.reads()
+    }
+    fn sums(&self) -> Outputs {
+        self.effect.sums()
     }
     fn step(&self, at: &View<'_, T, D>, slot: usize) -> f64 {
         if self.is_on(at.around.time) {

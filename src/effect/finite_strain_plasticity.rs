@@ -133,29 +133,11 @@ impl<T: Real, const D: usize> Law<T, D> for FiniteStrainPlasticity {
         };
         let heating = material.plastic_heating();
         let (live, reference) = (chunk.live, material.reference_density());
-        let [
-            piola,
-            plastic,
-            strain,
-            work,
-            distortion,
-            c,
-            pressure,
-            density,
-            rest,
-            deformation,
-        ] = chunk.columns([
-            PIOLA,
-            CP,
-            STRAIN,
-            WORK,
-            DISTORTION,
-            Field::SOUND_SPEED,
-            Field::PRESSURE,
-            Field::DENSITY,
-            Field::REFERENCE_DENSITY,
-            F,
-        ]);
+        let ([pressure, density, rest, deformation], [piola, plastic, strain, work, distortion, c]) =
+            chunk.columns(
+                [Field::PRESSURE, Field::DENSITY, Field::REFERENCE_DENSITY, F],
+                [PIOLA, CP, STRAIN, WORK, DISTORTION, Field::SOUND_SPEED],
+            );
         for (n, out) in piola.chunks_exact_mut(D * D).enumerate() {
             let gradient = matrix::<T, D>(deformation, n);
             let volume = determinant(&gradient).to_f64();

@@ -18,10 +18,20 @@ pub struct Tally {
 /// Most laws of a stage.
 pub const MOST_LAWS: usize = 16;
 
+/// What a law reads and writes in a scheme that carries some fields: what it declares, without what is optional and not there.
+pub(crate) fn reads_and_writes<T: Real, const D: usize>(
+    law: &dyn Law<T, D>,
+    carried: Fields,
+) -> [Fields; 2] {
+    let absent = law.optional().minus(carried);
+    [law.reads(), law.writes()].map(|own| own.minus(absent))
+}
+
 /// What an effect does to single particles at a stage.
 ///
 /// A law sees a [`Chunk`]: some particles of one body, with their columns and sums. It must treat each particle
-/// by itself, so that results do not depend on where chunks end.
+/// by itself, so that results do not depend on where chunks end. It reaches the fields and sums that it declares and no
+/// others: one that asks for more ends the run with a panic that names both.
 pub trait Law<T: Real, const D: usize>: Debug + Send + Sync {
     /// Its name, where a scheme prints its step.
     fn name(&self) -> &'static str;
@@ -31,8 +41,12 @@ pub trait Law<T: Real, const D: usize>: Debug + Send + Sync {
     fn sums(&self) -> Outputs {
         Outputs::NONE
     }
-    /// Fields that it writes.
+    /// Fields that it writes. What it also reads it changes, all else it makes anew for every particle.
     fn writes(&self) -> Fields;
+    /// Those of `reads` and `writes` that it uses where the scheme has them for other reasons, and does without elsewhere.
+    fn optional(&self) -> Fields {
+        Fields::NONE
+    }
     /// Acts on some particles.
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally;
     /// Largest number of times, and the largest relative change at which to stop, of a law that is repeated with

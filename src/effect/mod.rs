@@ -23,6 +23,7 @@
 
 #[cfg(test)]
 mod absent;
+mod access;
 mod acoustic_damping;
 mod artificial_conduction;
 mod artificial_pressure;
@@ -32,6 +33,8 @@ mod chunk;
 mod consistent_shifting;
 mod continuity;
 mod damage;
+#[cfg(test)]
+mod declared;
 mod density;
 mod density_diffusion;
 mod density_floor;
@@ -69,6 +72,8 @@ mod volume_consistency;
 mod walls;
 mod yielding_hourglass;
 
+pub(crate) use access::Names;
+pub use access::Summed;
 pub use acoustic_damping::AcousticDamping;
 pub use artificial_conduction::{ArtificialConduction, ConductionSignal};
 pub use artificial_pressure::{ArtificialPressure, TensionRepulsion};
@@ -92,6 +97,7 @@ pub use hourglass_free::{HourglassFree, VelocityMismatch};
 pub use hypoelastic::Hypoelastic;
 pub use in_plane_stress::InPlaneStress;
 pub use laminar::{GeneralisedNewtonian, Laminar};
+pub(crate) use law::reads_and_writes;
 pub use law::{Law, MOST_LAWS, Tally};
 pub use limit::Limit;
 pub use list::{Effect, Effects};

@@ -69,6 +69,8 @@ const WORK: Field = Plasticity::WORK;
 const LATERAL_STRAIN: Field = UniaxialStress::LATERAL_STRAIN;
 /// Carried by sheets that are free to thin.
 const THICKNESS_STRAIN: Field = PlaneStress::THICKNESS_STRAIN;
+/// The strains of bars and sheets that are free to widen or thin.
+const FREE: Fields = Fields::of(&[LATERAL_STRAIN, THICKNESS_STRAIN]);
 
 impl<const D: usize> Effect<D> for Plasticity {
     type Terms = ();
@@ -150,10 +152,14 @@ impl<T: Real, const D: usize> Law<T, D> for Plasticity {
         "plastic flow"
     }
     fn reads(&self) -> Fields {
-        Fields::of(&[STRESS, STRAIN, WORK, Field::PRESSURE, Field::DENSITY])
+        let own = Fields::of(&[STRESS, STRAIN, WORK, Field::PRESSURE, Field::DENSITY]);
+        own.union(FREE)
     }
     fn writes(&self) -> Fields {
-        Fields::of(&[STRESS, STRAIN, WORK])
+        Fields::of(&[STRESS, STRAIN, WORK]).union(FREE)
+    }
+    fn optional(&self) -> Fields {
+        FREE
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let mut tally = Tally::default();
@@ -167,15 +173,10 @@ impl<T: Real, const D: usize> Law<T, D> for Plasticity {
         }
         let heating = material.plastic_heating();
         let (live, rest) = (chunk.live, material.reference_density());
-        let [stress, strain, work, pressure, density, lateral, across] = chunk.columns([
-            STRESS,
-            STRAIN,
-            WORK,
-            Field::PRESSURE,
-            Field::DENSITY,
-            LATERAL_STRAIN,
-            THICKNESS_STRAIN,
-        ]);
+        let ([pressure, density], [stress, strain, work, lateral, across]) = chunk.columns(
+            [Field::PRESSURE, Field::DENSITY],
+            [STRESS, STRAIN, WORK, LATERAL_STRAIN, THICKNESS_STRAIN],
+        );
         let stiffness = if lateral.is_empty() {
             3.0 * modulus
         } else {

@@ -1,6 +1,7 @@
 //! Coefficients of artificial viscosity that follow the flow, once a step.
 //! The law is the viscosity's own (Morris & Monaghan 1997, Cullen & Dehnen 2010); here are the sums that it sees.
 
+use super::access::Summed;
 use super::{Chunk, DensityForm, Law, Tally};
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Real;
@@ -16,76 +17,94 @@ pub(crate) struct ViscositySwitch {
     pub support: f64,
 }
 
+/// What only some switches and some schemes have.
+const WHERE_CARRIED: Fields = Fields::of(&[
+    Field::DIVERGENCE,
+    Field::REFERENCE_DENSITY,
+    Field::CONSISTENCY_FACTOR,
+    Field::SMOOTHING_LENGTH,
+    Field::VELOCITY_GRADIENT,
+]);
+
+/// Sums by which a switch tells a shock from shear and noise.
+const LIMITER: [Output; 3] = [Output::DIVERGENCE_SIGN, Output::UNITY, Output::SIGNAL_SPEED];
+
 impl<T: Real, const D: usize> Law<T, D> for ViscositySwitch {
     fn name(&self) -> &'static str {
         "coefficients of viscosity"
     }
     fn reads(&self) -> Fields {
-        Fields::of(&[Field::DENSITY, Field::SOUND_SPEED])
+        Fields::of(&[
+            Field::VISCOSITY_COEFFICIENT,
+            Field::DENSITY,
+            Field::SOUND_SPEED,
+        ])
+        .union(WHERE_CARRIED)
     }
     fn sums(&self) -> Outputs {
-        Outputs::of(&[Output::COMPRESSION])
+        let own = match self.switch {
+            Switch::CullenDehnen { .. } if D > 1 => Outputs::of(&LIMITER),
+            Switch::CullenDehnen { .. } => Outputs::of(&[Output::SIGNAL_SPEED]),
+            Switch::MorrisMonaghan { .. } => Outputs::NONE,
+        };
+        own.union(Outputs::of(&[Output::COMPRESSION]))
     }
     fn writes(&self) -> Fields {
-        // In one dimension there is no shear to tell from a shock.
-        match self.switch {
-            Switch::CullenDehnen { .. } if D > 1 => Fields::of(&[
-                Field::VISCOSITY_COEFFICIENT,
-                Field::DIVERGENCE,
-                Field::VELOCITY_GRADIENT,
-            ]),
-            Switch::CullenDehnen { .. } => {
-                Fields::of(&[Field::VISCOSITY_COEFFICIENT, Field::DIVERGENCE])
+        Fields::of(&[Field::VISCOSITY_COEFFICIENT, Field::DIVERGENCE])
+    }
+    fn optional(&self) -> Fields {
+        let needed = match self.switch {
+            // In one dimension there is no shear to tell from a shock.
+            Switch::CullenDehnen { .. } if D > 1 => {
+                Fields::of(&[Field::DIVERGENCE, Field::VELOCITY_GRADIENT])
             }
-            Switch::MorrisMonaghan { .. } => Fields::of(&[Field::VISCOSITY_COEFFICIENT]),
-        }
+            Switch::CullenDehnen { .. } => Fields::of(&[Field::DIVERGENCE]),
+            Switch::MorrisMonaghan { .. } => Fields::NONE,
+        };
+        WHERE_CARRIED.minus(needed)
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         // Coefficients follow the flow once a step, however many evaluations it takes.
         if chunk.around.dt <= 0.0 {
             return Tally::default();
         }
-        let (sums, first) = (chunk.around.sums, chunk.first);
+        let compression = chunk.sum(Output::COMPRESSION);
+        let summed = Law::<T, D>::sums(self);
+        let [signs, unities, signals] =
+            LIMITER.map(|sum| summed.contains(sum).then(|| chunk.sum(sum)));
         let reach = T::from_f64(self.support);
         let uniform = T::from_f64(chunk.around.smoothing_length);
         let dt = T::from_f64(chunk.around.dt);
-        let [
-            alpha,
-            divergence,
-            density,
-            rest,
-            moment,
-            h,
-            sound_speed,
-            gradient,
-        ] = chunk.columns([
-            Field::VISCOSITY_COEFFICIENT,
-            Field::DIVERGENCE,
-            Field::DENSITY,
-            Field::REFERENCE_DENSITY,
-            Field::CONSISTENCY_FACTOR,
-            Field::SMOOTHING_LENGTH,
-            Field::SOUND_SPEED,
-            Field::VELOCITY_GRADIENT,
-        ]);
+        let ([density, rest, moment, h, sound_speed, gradient], [alpha, divergence]) = chunk
+            .columns(
+                [
+                    Field::DENSITY,
+                    Field::REFERENCE_DENSITY,
+                    Field::CONSISTENCY_FACTOR,
+                    Field::SMOOTHING_LENGTH,
+                    Field::SOUND_SPEED,
+                    Field::VELOCITY_GRADIENT,
+                ],
+                [Field::VISCOSITY_COEFFICIENT, Field::DIVERGENCE],
+            );
         let at = |column: &[T], n: usize, absent: T| column.get(n).copied().unwrap_or(absent);
+        let sum_of = |sum: Option<Summed<'_, T, D>>, n| sum.map_or(T::zero(), |sum| sum.get(0, n));
         for (n, alpha) in alpha.iter_mut().enumerate() {
-            let slot = first + n;
-            let sum = sums.get(Output::COMPRESSION, 0, slot);
+            let sum = compression.get(0, n);
             let (rest, moment) = (at(rest, n, T::one()), at(moment, n, T::one()));
             let h = at(h, n, uniform);
-            let unity = sums.get(Output::UNITY, 0, slot);
+            let unity = sum_of(unities, n);
             let around = Surroundings {
                 divergence: -self.form.compression(sum, density[n], rest, moment),
                 divergence_before: at(divergence, n, T::zero()),
                 divergence_sign: if unity > T::zero() {
-                    sums.get(Output::DIVERGENCE_SIGN, 0, slot) / unity
+                    sum_of(signs, n) / unity
                 } else {
                     T::zero()
                 },
                 shear2: shear2::<T, D>(gradient.get(n * D * D..(n + 1) * D * D)),
                 sound_speed: sound_speed[n],
-                signal_speed: sums.get(Output::SIGNAL_SPEED, 0, slot).max(sound_speed[n]),
+                signal_speed: sum_of(signals, n).max(sound_speed[n]),
                 h,
                 support: reach * h,
             };

@@ -65,7 +65,7 @@ impl<T: Real, const D: usize> Law<T, D> for YieldingHourglass {
         "yielding of the hourglass control"
     }
     fn reads(&self) -> Fields {
-        Fields::of(&[STRAIN, WORK, Field::PRESSURE, Field::DENSITY])
+        Fields::of(&[STIFFNESS, STRAIN, WORK, Field::PRESSURE, Field::DENSITY])
     }
     fn writes(&self) -> Fields {
         Fields::of(&[STIFFNESS])
@@ -77,8 +77,8 @@ impl<T: Real, const D: usize> Law<T, D> for YieldingHourglass {
         };
         let (heating, rest) = (material.plastic_heating(), material.reference_density());
         let modulus = material.youngs_modulus().unwrap_or(0.0);
-        let [stiffness, strain, work, pressure, density] =
-            chunk.columns([STIFFNESS, STRAIN, WORK, Field::PRESSURE, Field::DENSITY]);
+        let ([strain, work, pressure, density], [stiffness]) =
+            chunk.columns([STRAIN, WORK, Field::PRESSURE, Field::DENSITY], [STIFFNESS]);
         for (n, stiffness) in stiffness.iter_mut().enumerate() {
             let flowed = strain[n].to_f64();
             if flowed <= 0.0 {

@@ -14,6 +14,7 @@ use crate::kernel::{Kernel, KernelFacts, Profile};
 use crate::particles::{Field, Fields, Output};
 use crate::scalar::Real;
 use crate::sweep::{FusedKernel, PairSweep, SmoothingMode};
+use crate::term::viscosity::Switch;
 use crate::term::{
     ArtificialViscosity, InternalEnergy, KernelMoment, KernelSum, MidpointReconstruction, SlopeInH,
     Stage, StageMarker, StagedTerms, Terms, Unity, Viscosity, stage,
@@ -99,6 +100,10 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
         self.effects.register(&mut program);
         if let Some(switch) = switch {
             program.start(Field::VISCOSITY_COEFFICIENT, switch.start());
+            if let Switch::CullenDehnen { .. } = switch {
+                // It compares the divergence with that of the step before.
+                program.carry(Field::DIVERGENCE);
+            }
             let law = ViscositySwitch {
                 switch,
                 form: own.density,

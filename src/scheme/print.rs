@@ -2,6 +2,7 @@
 //! What is not printed here is not in the program that runs.
 
 use super::Scheme;
+use crate::effect::reads_and_writes;
 use crate::particles::{Field, Fields};
 use crate::scalar::Real;
 use crate::term::Stage;
@@ -54,8 +55,9 @@ impl<T: Real, const D: usize> Scheme<T, D> {
             }
             for law in &self.program.laws[stage.number()] {
                 lines.push(format!("  {}: {}", stage.name(), law.name()));
-                lines.push(format!("      reads  {}", self.names(law.reads())));
-                lines.push(format!("      writes {}", self.names(law.writes())));
+                let [reads, writes] = reads_and_writes(&**law, self.fields());
+                lines.push(format!("      reads  {}", self.names(reads)));
+                lines.push(format!("      writes {}", self.names(writes)));
             }
             if stage == Stage::Density {
                 lines.push("  state: equations of state".into());
