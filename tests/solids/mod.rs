@@ -14,6 +14,7 @@ mod conversion;
 mod elastic_plastic_waves;
 mod events;
 mod exchange;
+mod failed_material;
 mod gas;
 mod halved_contact;
 mod held;
