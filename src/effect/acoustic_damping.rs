@@ -1,7 +1,7 @@
 //! Damping of sound by a bulk viscosity that follows the last rate of compression.
 //! After the acoustic damper of Sun, Pilloton, Antuono & Colagrossi 2023.
 
-use super::{Chunk, DensityForm, Effect, Law, Setting, StepProgram, Tally, not_negative};
+use super::{Chunk, DensityForm, Effect, Law, Rung, Setting, StepProgram, Tally, not_negative};
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Real;
 use crate::term::{Stage, TermDoc};
@@ -106,6 +106,9 @@ impl<T: Real, const D: usize> Law<T, D> for AcousticDamping {
     }
     fn optional(&self) -> Fields {
         Fields::of(&[Field::SMOOTHING_LENGTH])
+    }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Trial)
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let uniform = T::from_f64(chunk.around.smoothing_length);

@@ -1,7 +1,7 @@
 //! Liquid at its tension cut-off: densities that are held, with or without memory of the expansion.
 //! Both are of this crate; what else was tried is on the page [sloshing](crate#pages).
 
-use super::{Chunk, Effect, Law, Setting, StepProgram, Tally};
+use super::{Chunk, Effect, Law, Rung, Setting, StepProgram, Tally};
 use crate::error::Problem;
 use crate::particles::{Field, Fields};
 use crate::scalar::Real;
@@ -94,6 +94,9 @@ impl<T: Real, const D: usize> Law<T, D> for Cavitation {
     }
     fn optional(&self) -> Fields {
         Fields::of(&CHANGED).without(Field::DENSITY)
+    }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Constraint)
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let eos = chunk.around.material.eos();

@@ -3,7 +3,7 @@
 
 use super::access::Summed;
 use super::{
-    BySum, Chunk, DensityForm, Effect, Law, Setting, StepProgram, Tally, When, not_negative,
+    BySum, Chunk, DensityForm, Effect, Law, Rung, Setting, StepProgram, Tally, When, not_negative,
 };
 use crate::error::Problem;
 use crate::particles::{Field, Fields, Output, Outputs};
@@ -212,6 +212,9 @@ impl<T: Real, const D: usize> Law<T, D> for Displace {
     }
     fn optional(&self) -> Fields {
         Fields::of(&[Field::POSITION_RESIDUAL])
+    }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Flow)
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let dt = T::from_f64(chunk.around.dt);

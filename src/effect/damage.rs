@@ -3,7 +3,7 @@
 
 use super::plasticity::cold;
 use super::{
-    Chunk, Effect, Hypoelastic, Law, LedgerColumn, Plasticity, Setting, StepProgram, Tally,
+    Chunk, Effect, Hypoelastic, Law, LedgerColumn, Plasticity, Rung, Setting, StepProgram, Tally,
 };
 use crate::error::Problem;
 use crate::material::failure::FailureState;
@@ -27,8 +27,8 @@ use crate::term::{Stage, TermDoc};
 /// | [`DAMAGE`](Self::DAMAGE) | D, from 0 to 1 |
 /// | [`FAILED`](Self::FAILED) | 1 where D is 1, else 0; in the ledger, times the mass, as `failed mass` |
 ///
-/// Bodies without a law do not fail; a scene in which no body has one is refused. Put it behind
-/// [`Plasticity`](super::Plasticity) in the list, so that it sees the strain of the same step.
+/// Bodies without a law do not fail; a scene in which no body has one is refused. Damage
+/// follows the plastic strain of the same step.
 ///
 /// ```
 /// use meshfree::effect::{Damage, Hypoelastic};
@@ -115,7 +115,7 @@ impl<const D: usize> Effect<D> for Damage {
                         material.name,
                         law.name()
                     ),
-                    remedy: "add .with(Plasticity) before Damage, or take a law of stress",
+                    remedy: "add .with(Plasticity), or take a law of stress",
                 })
             })
         });
@@ -162,6 +162,9 @@ impl<T: Real, const D: usize> Law<T, D> for Damage {
     }
     fn optional(&self) -> Fields {
         Fields::of(&[Plasticity::STRAIN, Plasticity::WORK])
+    }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Failure)
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let mut tally = Tally::default();
@@ -236,6 +239,9 @@ impl<T: Real, const D: usize> Law<T, D> for NoTension {
     }
     fn writes(&self) -> Fields {
         Fields::of(&[Field::PRESSURE])
+    }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Failure)
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let ([damage], [pressure]) = chunk.columns([DAMAGE], [Field::PRESSURE]);

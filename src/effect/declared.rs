@@ -133,6 +133,18 @@ fn optional<const D: usize>(program: &StepProgram<f64, D>) -> Fields {
 
 /// Parts of a program without what is optional, and with it; how many parts there are.
 fn check<const D: usize>(name: &str, program: &StepProgram<f64, D>) -> usize {
+    for law in program.laws.iter().flatten() {
+        let (reads, writes) = (law.reads(), law.writes());
+        assert!(law.before().minus(reads).is_empty(), "{name}: {law:?}");
+        let all = reads.union(writes);
+        assert!(law.optional().minus(all).is_empty(), "{name}: {law:?}");
+        // Who changes a field says where it stands, so that others can stand elsewhere.
+        let changes = reads.minus(reads.minus(writes));
+        assert!(
+            changes.is_empty() || law.rung().is_some(),
+            "{name}: {law:?}"
+        );
+    }
     let mut parts = 0;
     run(program, program.fields(), |_, _, _| {});
     let all = program.fields().union(optional(program));

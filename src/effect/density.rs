@@ -1,7 +1,7 @@
 //! Densities that follow from positions: by sums over neighbours, and with a smoothing length that follows.
 //! Price 2012, section 2.3, for the last.
 
-use super::{Chunk, DensityForm, Law, Tally};
+use super::{Chunk, DensityForm, Law, Rung, Tally};
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Real;
 
@@ -133,6 +133,9 @@ impl<T: Real, const D: usize> Law<T, D> for ConsistentSmoothing {
     }
     fn writes(&self) -> Fields {
         Fields::of(&[Field::SMOOTHING_LENGTH, Field::DENSITY, Field::GRAD_H])
+    }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Constraint)
     }
     fn repeats(&self) -> Option<(usize, f64)> {
         // What a step of Newton's method leaves is of the order of its square: less than 1e-6 of a density.

@@ -1,7 +1,7 @@
 //! A least density of debris: what has lost its neighbours keeps a volume that its kernel can stand for.
 //! Mass, momentum and energy stay what they are.
 
-use super::{Chunk, Effect, Law, Setting, StepProgram, Tally};
+use super::{Chunk, Effect, Law, Rung, Setting, StepProgram, Tally};
 use crate::error::Problem;
 use crate::particles::{Field, Fields};
 use crate::scalar::Real;
@@ -93,6 +93,9 @@ impl<T: Real, const D: usize> Law<T, D> for DensityFloor {
     }
     fn optional(&self) -> Fields {
         Fields::of(&[Field::DENSITY_RESIDUAL])
+    }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Bound)
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let least = T::from_f64(self.share * chunk.around.material.reference_density());

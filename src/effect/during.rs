@@ -1,7 +1,7 @@
 //! An effect in a window of time: its laws and limits act between two times, and not before or after.
 //! For effects without pair terms: a loop over pairs has no clock.
 
-use super::{Chunk, Effect, Law, Limit, Setting, StepProgram, Tally, View};
+use super::{Chunk, Effect, Law, Limit, Rung, Setting, StepProgram, Tally, View};
 use crate::error::Problem;
 use crate::particles::{Fields, Outputs};
 use crate::scalar::Real;
@@ -105,6 +105,12 @@ impl<T: Real, const D: usize> Law<T, D> for During<Box<dyn Law<T, D>>> {
     }
     fn optional(&self) -> Fields {
         self.effect.optional()
+    }
+    fn before(&self) -> Fields {
+        self.effect.before()
+    }
+    fn rung(&self) -> Option<Rung> {
+        self.effect.rung()
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         if self.is_on(chunk.around.time) {

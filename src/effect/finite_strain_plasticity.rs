@@ -5,7 +5,8 @@ use super::hyperelastic::square;
 use super::radial_return::{after, radial_return};
 use super::total_lagrangian::{matrix, put, stretches_with};
 use super::{
-    Chunk, Effect, Law, LedgerColumn, Plasticity, Setting, StepProgram, Tally, TotalLagrangian,
+    Chunk, Effect, Law, LedgerColumn, Plasticity, Rung, Setting, StepProgram, Tally,
+    TotalLagrangian,
 };
 use crate::error::Problem;
 use crate::material::strength::{PlasticState, ROOM_TEMPERATURE};
@@ -124,6 +125,9 @@ impl<T: Real, const D: usize> Law<T, D> for FiniteStrainPlasticity {
     }
     fn writes(&self) -> Fields {
         Fields::of(&[PIOLA, CP, STRAIN, WORK, DISTORTION, Field::SOUND_SPEED])
+    }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Flow)
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let mut tally = Tally::default();

@@ -4,7 +4,8 @@
 use super::access::Summed;
 use super::gradients::{GRADIENT_SUMS, velocity_gradient};
 use super::{
-    Chunk, Damage, Effect, Hypoelastic, Law, Plasticity, Setting, StepProgram, Tally, not_negative,
+    Chunk, Damage, Effect, Hypoelastic, Law, Plasticity, Rung, Setting, StepProgram, Tally,
+    not_negative,
 };
 use crate::error::Problem;
 use crate::particles::{Field, Fields, Output, Outputs};
@@ -169,6 +170,9 @@ impl<T: Real, const D: usize> Law<T, D> for HourglassFree {
     }
     fn optional(&self) -> Fields {
         Fields::of(&[Plasticity::STRAIN, Damage::DAMAGE])
+    }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Flow)
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         if !chunk.around.in_drift {

@@ -3,8 +3,8 @@
 
 use super::gradients::{GRADIENT_SUMS, velocity_gradient};
 use super::{
-    Chunk, Effect, Evolved, Law, LedgerColumn, Limit, Rate, Setting, StepProgram, Tally, Update,
-    View, When,
+    Chunk, Effect, Evolved, Law, LedgerColumn, Limit, Rate, Rung, Setting, StepProgram, Tally,
+    Update, View, When,
 };
 use crate::error::Problem;
 use crate::particles::{Field, Fields, Output, Outputs};
@@ -174,6 +174,9 @@ impl<T: Real, const D: usize> Law<T, D> for ElasticState {
     }
     fn writes(&self) -> Fields {
         Fields::of(&[Field::SOUND_SPEED, DISTORTION])
+    }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Trial)
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let modulus = T::from_f64(chunk.around.material.shear_modulus.unwrap_or(0.0));

@@ -3,7 +3,7 @@
 
 use super::access::Summed;
 use super::gradients::{GRADIENT_SUMS, velocity_gradient};
-use super::{Chunk, Effect, Law, Setting, StepProgram, Tally};
+use super::{Chunk, Effect, Law, Rung, Setting, StepProgram, Tally};
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Real;
 use crate::term::{In, Stage, Term, VelocityAtWall, VelocityGradient, ViscosityAtWall, stage};
@@ -77,6 +77,9 @@ impl<T: Real, const D: usize> Law<T, D> for NoSlip {
     }
     fn writes(&self) -> Fields {
         Fields::of(&[Field::VELOCITY, Field::DYNAMIC_VISCOSITY])
+    }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Constraint)
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let [unities, velocities, arms, viscosities] = SEEN.map(|sum| chunk.sum(sum));
@@ -156,6 +159,9 @@ impl<T: Real, const D: usize> Law<T, D> for GeneralisedNewtonian {
     }
     fn writes(&self) -> Fields {
         Fields::of(&[Field::DYNAMIC_VISCOSITY])
+    }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Flow)
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let (around, gradients) = (chunk.around, GRADIENT_SUMS.map(|sum| chunk.sum(sum)));

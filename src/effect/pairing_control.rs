@@ -1,7 +1,9 @@
 //! Pairing control: particles nearer to each other than the spacing are moved apart, at free surfaces too.
 //! Shifting that acts between near pairs alone, after Xu, Stansby & Laurence 2009 and Lind et al. 2012.
 
-use super::{Chunk, DensityForm, Effect, Law, Setting, StepProgram, Tally, When, not_negative};
+use super::{
+    Chunk, DensityForm, Effect, Law, Rung, Setting, StepProgram, Tally, When, not_negative,
+};
 use crate::error::Problem;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
@@ -91,6 +93,9 @@ impl<T: Real, const D: usize> Law<T, D> for PairingControl {
     }
     fn optional(&self) -> Fields {
         Fields::of(&[Field::POSITION_RESIDUAL])
+    }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Constraint)
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let (near, dt) = (chunk.sum(NEAR), chunk.around.dt);

@@ -3,7 +3,7 @@
 
 use super::radial_return::{after, radial_return};
 use super::{
-    Chunk, Damage, Effect, Hypoelastic, Law, LedgerColumn, PlaneStress, SceneFacts, Setting,
+    Chunk, Damage, Effect, Hypoelastic, Law, LedgerColumn, PlaneStress, Rung, SceneFacts, Setting,
     StepProgram, Tally, UniaxialStress, plane_stress,
 };
 use crate::error::Problem;
@@ -162,6 +162,12 @@ impl<T: Real, const D: usize> Law<T, D> for Plasticity {
     }
     fn optional(&self) -> Fields {
         FREE.union(Fields::of(&[FAILED]))
+    }
+    fn before(&self) -> Fields {
+        Fields::of(&[FAILED])
+    }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Flow)
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let mut tally = Tally::default();

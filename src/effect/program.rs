@@ -1,7 +1,7 @@
 //! The step program: what effects do in a step, stage by stage, beside their pair terms.
 //! A scheme holds it, a group runs it, and it can be printed.
 
-use super::{Evolved, Law, Limit, Names, Rate, Setting, reads_and_writes};
+use super::{Evolved, Law, Limit, Names, Rate, Setting, reads_and_writes, sequence};
 use crate::error::Problem;
 use crate::material::Material;
 use crate::particles::{Field, Fields, Output};
@@ -172,7 +172,7 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
         }
     }
 
-    /// Runs a law at a stage.
+    /// Runs a law at a stage, where its [declarations](Law) say.
     pub fn law(&mut self, stage: Stage, law: impl Law<T, D> + 'static) {
         self.laws[stage.number()].push(Box::new(law));
     }
@@ -323,6 +323,27 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
         let first = |k: &usize| !all[..*k].contains(&all[*k]);
         let kept: Vec<_> = (0..all.len()).filter(first).map(|k| all[k]).collect();
         kept.into_iter()
+    }
+
+    /// The order of the laws of a stage, as indices of those that there are.
+    pub(crate) fn sequence(&self, stage: Stage) -> Result<Vec<usize>, Problem> {
+        let laws = &self.laws[stage.number()];
+        sequence(laws, stage, &|field| self.name_of(field).0)
+    }
+
+    /// Puts the laws of every stage into their order; those without one stay as they are, and the scheme is refused.
+    pub(crate) fn arrange(&mut self) {
+        for stage in Stage::ALL {
+            let Ok(order) = self.sequence(stage) else {
+                continue;
+            };
+            let laws = core::mem::take(&mut self.laws[stage.number()]);
+            let mut laws: Vec<_> = laws.into_iter().map(Some).collect();
+            let ordered = order.into_iter().filter_map(|k| laws[k].take());
+            self.laws[stage.number()] = ordered.collect();
+        }
+        // Of limits that ask for the same step the first is named.
+        self.limits.sort_by_key(|limit| limit.name());
     }
 
     /// The names of what effects declare.

@@ -1,7 +1,7 @@
 //! Shifting: keeps the particles of a liquid evenly spread, and leaves its free surface alone.
 //! Lind et al. 2012, Skillen et al. 2013; the transport velocity of Adami, Hu & Adams 2013.
 
-use super::{Chunk, DensityForm, Effect, Law, Setting, StepProgram, Tally, When};
+use super::{Chunk, DensityForm, Effect, Law, Rung, Setting, StepProgram, Tally, When};
 use crate::error::Problem;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Real;
@@ -123,6 +123,9 @@ impl<T: Real, const D: usize> Law<T, D> for Shifting {
     }
     fn optional(&self) -> Fields {
         Fields::of(&[Field::POSITION_RESIDUAL])
+    }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Flow)
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let [concentration, moments] =

@@ -2,7 +2,7 @@
 //! The law is the viscosity's own (Morris & Monaghan 1997, Cullen & Dehnen 2010); here are the sums that it sees.
 
 use super::access::Summed;
-use super::{Chunk, DensityForm, Law, Tally};
+use super::{Chunk, DensityForm, Law, Rung, Tally};
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Real;
 use crate::term::viscosity::{Surroundings, Switch};
@@ -62,6 +62,9 @@ impl<T: Real, const D: usize> Law<T, D> for ViscositySwitch {
             Switch::MorrisMonaghan { .. } => Fields::NONE,
         };
         WHERE_CARRIED.minus(needed)
+    }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Trial)
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         // Coefficients follow the flow once a step, however many evaluations it takes.

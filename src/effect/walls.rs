@@ -191,6 +191,9 @@ impl<T: Real, const D: usize> Law<T, D> for RiemannWalls {
     fn writes(&self) -> Fields {
         Fields::of(&[Field::PRESSURE])
     }
+    fn before(&self) -> Fields {
+        Fields::of(&[Field::VELOCITY])
+    }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let floor = T::from_f64(self.floor);
         let (around, first) = (chunk.around, chunk.first);

@@ -2,7 +2,7 @@
 //! After the idea that a control must not bear what the solid does not (Ganzenmüller 2015); the measure is of this crate.
 
 use super::hourglass_control::STIFFNESS;
-use super::{Chunk, Effect, Law, Plasticity, Setting, StepProgram, Tally};
+use super::{Chunk, Effect, Law, Plasticity, Rung, Setting, StepProgram, Tally};
 use crate::error::Problem;
 use crate::material::strength::{PlasticState, ROOM_TEMPERATURE};
 use crate::particles::{Field, Fields};
@@ -54,7 +54,7 @@ impl<const D: usize> Effect<D> for YieldingHourglass {
                 && scene.written.contains(super::TotalLagrangian::PIOLA);
             (!both).then(|| Problem::Incompatible {
                 what: "YieldingHourglass cuts a control by plastic strain, which nothing in the scheme makes".into(),
-                remedy: "put it behind FiniteStrainPlasticity, or leave it out",
+                remedy: "add .with(FiniteStrainPlasticity), or leave it out",
             })
         });
     }
@@ -69,6 +69,9 @@ impl<T: Real, const D: usize> Law<T, D> for YieldingHourglass {
     }
     fn writes(&self) -> Fields {
         Fields::of(&[STIFFNESS])
+    }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Flow)
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let material = chunk.around.material;

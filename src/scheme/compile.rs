@@ -121,6 +121,7 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
             })
         });
         self.require_reference(&sweeps, &mut program);
+        program.arrange();
         let of = |what: &str, (name, value, must_be)| (format!("{name}{what}"), value, must_be);
         let viscous = self.viscosity.problems().into_iter();
         let effects = self

@@ -57,6 +57,8 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         let mut problems = Vec::new();
         self.check_names(&mut problems);
         self.check_room(&mut problems);
+        let laws = Stage::ALL.map(|stage| self.program.sequence(stage).err());
+        problems.extend(laws.into_iter().flatten());
         let later = [Stage::Continuity, Stage::Bounds];
         // What a drift writes is there for the evaluation after it, as what belongs to the state.
         let mut known = later

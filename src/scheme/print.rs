@@ -67,6 +67,7 @@ impl<T: Real, const D: usize> Scheme<T, D> {
                 ));
             }
         }
+        let beside = lines.len();
         for own in &self.program.evolved {
             let (name, unit) = self.program.name_of(own.field);
             lines.push(format!(
@@ -107,6 +108,8 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         for limit in &self.program.limits {
             lines.push(format!("  limits the step: {}", limit.name()));
         }
+        // Not the order of the list of effects.
+        lines[beside..].sort();
         lines.join("\n")
     }
 }
