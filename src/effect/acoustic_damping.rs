@@ -1,7 +1,7 @@
 //! Damping of sound by a bulk viscosity that follows the last rate of compression.
 //! After the acoustic damper of Sun, Pilloton, Antuono & Colagrossi 2023.
 
-use super::{Chunk, DensityForm, Effect, Law, Setting, StepProgram, Tally, not_negative};
+use super::{Chunk, DensityForm, Effect, Law, Rung, Setting, StepProgram, Tally, not_negative};
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Real;
 use crate::term::{Stage, TermDoc};
@@ -76,11 +76,11 @@ impl<T: Real, const D: usize> Law<T, D> for KeptDivergence {
         Fields::of(&[Field::DIVERGENCE])
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let (sums, first) = (chunk.around.sums, chunk.first);
+        let compression = chunk.sum(Output::COMPRESSION);
         let lattice = T::from_f64(chunk.around.lattice_consistency_factor);
-        let [divergence, density] = chunk.columns([Field::DIVERGENCE, Field::DENSITY]);
+        let ([density], [divergence]) = chunk.columns([Field::DENSITY], [Field::DIVERGENCE]);
         for (n, (divergence, density)) in divergence.iter_mut().zip(density).enumerate() {
-            let sum = sums.get(Output::COMPRESSION, 0, first + n);
+            let sum = compression.get(0, n);
             *divergence = -self.0.compression(sum, *density, T::one(), lattice);
         }
         Tally::default()
@@ -93,23 +93,37 @@ impl<T: Real, const D: usize> Law<T, D> for AcousticDamping {
         "acoustic damping"
     }
     fn reads(&self) -> Fields {
-        Fields::of(&[Field::DENSITY, Field::SOUND_SPEED, Field::DIVERGENCE])
+        Fields::of(&[
+            Field::PRESSURE,
+            Field::DENSITY,
+            Field::SOUND_SPEED,
+            Field::DIVERGENCE,
+            Field::SMOOTHING_LENGTH,
+        ])
     }
     fn writes(&self) -> Fields {
         Fields::of(&[Field::PRESSURE])
+    }
+    fn optional(&self) -> Fields {
+        Fields::of(&[Field::SMOOTHING_LENGTH])
+    }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Trial)
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let uniform = T::from_f64(chunk.around.smoothing_length);
         let strength = T::from_f64(self.strength);
         let least = chunk.around.material.eos().pressure_cut_off();
         let least = T::from_f64(least.unwrap_or(f64::NEG_INFINITY));
-        let [pressure, divergence, density, sound_speed, h] = chunk.columns([
-            Field::PRESSURE,
-            Field::DIVERGENCE,
-            Field::DENSITY,
-            Field::SOUND_SPEED,
-            Field::SMOOTHING_LENGTH,
-        ]);
+        let ([divergence, density, sound_speed, h], [pressure]) = chunk.columns(
+            [
+                Field::DIVERGENCE,
+                Field::DENSITY,
+                Field::SOUND_SPEED,
+                Field::SMOOTHING_LENGTH,
+            ],
+            [Field::PRESSURE],
+        );
         for (n, pressure) in pressure.iter_mut().enumerate() {
             // Cavitated liquid carries no sound.
             if *pressure <= least {

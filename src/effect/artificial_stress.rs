@@ -114,7 +114,7 @@ impl<T: Real, const D: usize> Law<T, D> for ArtificialStress {
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let share = T::from_f64(self.share);
-        let [tension, stress, pressure] = chunk.columns([TENSION, STRESS, Field::PRESSURE]);
+        let ([stress, pressure], [tension]) = chunk.columns([STRESS, Field::PRESSURE], [TENSION]);
         for (n, tension) in tension.chunks_exact_mut(6).enumerate() {
             let pressure = Symmetric::diagonal([pressure[n]; 3]);
             let stress = Symmetric::from_slice(&stress[6 * n..]).plus(-T::one(), &pressure);

@@ -1,7 +1,7 @@
 //! Liquid at its tension cut-off: densities that are held, with or without memory of the expansion.
 //! Both are of this crate; what else was tried is on the page [sloshing](crate#pages).
 
-use super::{Chunk, Effect, Law, Setting, StepProgram, Tally};
+use super::{Chunk, Effect, Law, Rung, Setting, StepProgram, Tally};
 use crate::error::Problem;
 use crate::particles::{Field, Fields};
 use crate::scalar::{Lane, Real};
@@ -79,15 +79,24 @@ impl<const D: usize> Effect<D> for ExpansionMemory {
     }
 }
 
+/// Without rounding that is kept, and without memory, there is the density alone.
+const CHANGED: [Field; 3] = [Field::DENSITY, Field::DENSITY_RESIDUAL, Field::EXPANSION];
+
 impl<T: Real, const D: usize> Law<T, D> for Cavitation {
     fn name(&self) -> &'static str {
         "cavitation"
     }
     fn reads(&self) -> Fields {
-        Fields::of(&[Field::DENSITY])
+        Fields::of(&CHANGED)
     }
     fn writes(&self) -> Fields {
-        Fields::of(&[Field::DENSITY])
+        Fields::of(&CHANGED)
+    }
+    fn optional(&self) -> Fields {
+        Fields::of(&CHANGED).without(Field::DENSITY)
+    }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Constraint)
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let eos = chunk.around.material.eos();
@@ -98,8 +107,7 @@ impl<T: Real, const D: usize> Law<T, D> for Cavitation {
             return Tally::default();
         };
         let live = chunk.live;
-        let [density, residual, expansion] =
-            chunk.columns([Field::DENSITY, Field::DENSITY_RESIDUAL, Field::EXPANSION]);
+        let ([], [density, residual, expansion]) = chunk.columns([], CHANGED);
         let share = if expansion.is_empty() { HELD } else { 1.0 };
         let least = T::from_f64(share * at_cut_off);
         let mut tally = Tally::default();

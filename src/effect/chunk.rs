@@ -1,6 +1,8 @@
 //! What a law sees: a run of particles of one body, its columns, and the sums of the stage.
 //! The driver owns the loop over particles: its threads, its order and its memory.
 
+use super::access::{Access, Names, Summed};
+use super::{Law, Tally};
 use crate::boundary::WallSurface;
 use crate::material::Material;
 use crate::particles::{Columns, Field, Output};
@@ -12,9 +14,9 @@ use std::ops::Range;
 #[derive(Clone, Copy, Debug)]
 pub struct Around<'a, T: Real, const D: usize> {
     /// The sums of the stage's own sweep; of the rates where they were summed with those.
-    pub sums: &'a Results<T, D>,
-    /// The rates of the last evaluation.
-    pub rates: &'a Results<T, D>,
+    pub(crate) sums: &'a Results<T, D>,
+    /// Names of fields and sums that effects declare.
+    pub(crate) names: Names<'a>,
     /// The material of the body; of the first body for walls.
     pub material: &'a Material<T>,
     /// The wall, at [`Stage::Walls`](crate::term::Stage).
@@ -44,6 +46,8 @@ pub const MOST_COLUMNS: usize = 48;
 #[derive(Debug)]
 pub struct Chunk<'a, T: Real, const D: usize> {
     columns: Slices<'a, T>,
+    /// What the law that has it may reach.
+    access: Access,
     /// The slot of its first particle.
     pub first: usize,
     /// How many slots there are.
@@ -64,6 +68,7 @@ impl<'a, T: Real, const D: usize> Chunk<'a, T, D> {
     ) -> Self {
         Self {
             columns,
+            access: Access::DRIVER,
             first: slots.start,
             count: slots.len(),
             live: live.saturating_sub(slots.start).min(slots.len()),
@@ -71,48 +76,81 @@ impl<'a, T: Real, const D: usize> Chunk<'a, T, D> {
         }
     }
 
-    /// Several different columns of these particles, `components` numbers each; empty where the scheme does
-    /// not carry a field, all empty if one is named twice.
-    #[must_use]
-    pub fn columns<const N: usize>(&mut self, fields: [Field; N]) -> [&mut [T]; N] {
-        const { assert!(N <= ABSENT, "no more columns at once than may be absent") };
-        let mut missing = 0;
-        let places = fields.map(|field| {
-            self.columns.place(field).unwrap_or_else(|| {
-                missing += 1;
-                MOST_COLUMNS + missing - 1
-            })
-        });
-        match self.columns.all.get_disjoint_mut(places) {
-            Ok(columns) => columns.map(|column| &mut **column),
-            Err(_) => core::array::from_fn(|_| [].as_mut_slice()),
-        }
+    /// Runs a law, which reaches what it declares.
+    pub(crate) fn run(&mut self, law: &dyn Law<T, D>) -> Tally {
+        self.access = Access::of_law(law);
+        law.apply(self)
     }
 
-    /// Component `k` of a sum of the n-th particle, from the stage's own sweep.
-    #[inline(always)]
+    /// Columns of these particles, `components` numbers each: those that the law reads, and those that it writes, whether or
+    /// not it reads them first. A column is empty where the scheme does not have a field that the law declares
+    /// [optional](Law::optional).
+    ///
+    /// # Panics
+    /// If the law does not declare a field, or if one is asked for twice, to be written.
+    #[track_caller]
     #[must_use]
-    pub fn sum(&self, output: Output, k: usize, n: usize) -> T {
-        self.around.sums.get(output, k, self.first + n)
+    pub fn columns<const R: usize, const W: usize>(
+        &mut self,
+        reads: [Field; R],
+        writes: [Field; W],
+    ) -> ([&[T]; R], [&mut [T]; W]) {
+        let names = self.around.names;
+        for field in reads {
+            self.access.read(field, names);
+        }
+        for (k, field) in writes.into_iter().enumerate() {
+            self.access.write(field, names);
+            let twice = reads.contains(&field) || writes[..k].contains(&field);
+            assert!(
+                !twice,
+                "a column that is written is asked for once, {field:?} is not"
+            );
+        }
+        let mut read = [[].as_slice(); R];
+        let mut written = core::array::from_fn(|_| [].as_mut_slice());
+        let count = self.columns.count;
+        let columns = self.columns.all.iter_mut().zip(self.columns.fields);
+        for (column, place) in columns.take(count) {
+            let is = |field: &Field| field.place() == place as usize;
+            if let Some(k) = writes.iter().position(is) {
+                written[k] = &mut **column;
+                continue;
+            }
+            let column: &[T] = column;
+            for (read, field) in read.iter_mut().zip(&reads) {
+                if is(field) {
+                    *read = column;
+                }
+            }
+        }
+        (read, written)
+    }
+
+    /// A sum of these particles, from the stage's own sweep.
+    ///
+    /// # Panics
+    /// If the law does not declare it.
+    #[track_caller]
+    #[must_use]
+    pub fn sum(&self, output: Output) -> Summed<'a, T, D> {
+        self.access.sum(output, self.around.names);
+        Summed::new(self.around.sums, output, self.first)
     }
 }
 
-/// Slices of the columns of a group, in the order of their fields; the last places stay empty, for what is
-/// absent.
+/// Slices of the columns of a group, in the order of their fields.
 #[derive(Debug)]
 pub(crate) struct Slices<'a, T> {
-    all: [&'a mut [T]; MOST_COLUMNS + ABSENT],
+    all: [&'a mut [T]; MOST_COLUMNS],
     widths: [u8; MOST_COLUMNS],
     fields: [u8; MOST_COLUMNS],
     count: usize,
 }
 
-fn empty<'a, T>() -> [&'a mut [T]; MOST_COLUMNS + ABSENT] {
+fn empty<'a, T>() -> [&'a mut [T]; MOST_COLUMNS] {
     core::array::from_fn(|_| [].as_mut_slice())
 }
-
-/// Most absent columns that can be asked for at once.
-const ABSENT: usize = 12;
 
 impl<'a, T: Real> Slices<'a, T> {
     /// All columns.
@@ -131,11 +169,6 @@ impl<'a, T: Real> Slices<'a, T> {
             fields,
             count,
         }
-    }
-
-    fn place(&self, field: Field) -> Option<usize> {
-        let fields = &self.fields[..self.count];
-        fields.iter().position(|&own| own as usize == field.place())
     }
 
     /// The first `slots` slots, and the rest.

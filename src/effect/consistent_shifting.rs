@@ -1,7 +1,10 @@
 //! Shifting with its term in continuity: keeps a violent liquid even, its volume, and its free surface.
 //! Sun, Colagrossi, Marrone, Antuono & Zhang 2019 (Comput. Methods Appl. Mech. Engrg. 348, 912).
 
-use super::{BySum, Chunk, DensityForm, Effect, Law, Setting, StepProgram, Tally, not_negative};
+use super::access::Summed;
+use super::{
+    BySum, Chunk, DensityForm, Effect, Law, Rung, Setting, StepProgram, Tally, not_negative,
+};
 use crate::error::Problem;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
@@ -152,24 +155,25 @@ impl<T: Real, const D: usize> Law<T, D> for ConsistentShifting {
         Fields::of(&[SHIFT])
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let (sums, first) = (chunk.around.sums, chunk.first);
+        let [concentration, outwards, fullness] =
+            [CONCENTRATION, OUTWARDS, FULLNESS].map(|sum| chunk.sum(sum));
         let h = chunk.around.smoothing_length;
         let lattice = chunk.around.lattice_consistency_factor;
-        let [shift, c, p] = chunk.columns([SHIFT, Field::SOUND_SPEED, Field::PRESSURE]);
+        let ([c, p], [shift]) = chunk.columns([Field::SOUND_SPEED, Field::PRESSURE], [SHIFT]);
         for (n, out) in shift.chunks_exact_mut(D).enumerate() {
             if !self.in_tension && p[n] <= T::zero() {
                 out.fill(T::zero());
                 continue;
             }
-            let of = |sum: Output| -> [f64; D] {
-                core::array::from_fn(|d| sums.get(sum, d, first + n).to_f64())
+            let of = |sum: Summed<'_, T, D>| -> [f64; D] {
+                core::array::from_fn(|d| sum.get(d, n).to_f64())
             };
-            let fullness = -sums.get(FULLNESS, 0, first + n).to_f64() / (D as f64 * lattice);
+            let fullness = -fullness.get(0, n).to_f64() / (D as f64 * lattice);
             let c = c[n].to_f64();
-            let mut shift = of(CONCENTRATION).map(|gradient| -self.strength * h * c * gradient);
+            let mut shift = of(concentration).map(|gradient| -self.strength * h * c * gradient);
             let across = share(ACROSS, fullness);
             if across < 1.0 {
-                let (normal, along) = (of(OUTWARDS), share(ALONG, fullness));
+                let (normal, along) = (of(outwards), share(ALONG, fullness));
                 let square: f64 = normal.iter().map(|n| n * n).sum();
                 let dot: f64 = (0..D).map(|d| shift[d] * normal[d]).sum();
                 let part = if square > 0.0 { dot / square } else { 0.0 };
@@ -200,15 +204,21 @@ impl<T: Real, const D: usize> Law<T, D> for Displace {
         "consistent shifting"
     }
     fn reads(&self) -> Fields {
-        Fields::of(&[SHIFT])
+        Fields::of(&[Field::POSITION, Field::POSITION_RESIDUAL, SHIFT])
     }
     fn writes(&self) -> Fields {
-        Fields::of(&[Field::POSITION])
+        Fields::of(&[Field::POSITION, Field::POSITION_RESIDUAL])
+    }
+    fn optional(&self) -> Fields {
+        Fields::of(&[Field::POSITION_RESIDUAL])
+    }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Flow)
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let dt = T::from_f64(chunk.around.dt);
-        let [x, residual, shift] =
-            chunk.columns([Field::POSITION, Field::POSITION_RESIDUAL, SHIFT]);
+        let ([shift], [x, residual]) =
+            chunk.columns([SHIFT], [Field::POSITION, Field::POSITION_RESIDUAL]);
         for (n, (x, shift)) in x.iter_mut().zip(shift).enumerate() {
             add_compensated(x, residual.get_mut(n), dt * *shift);
         }

@@ -15,6 +15,9 @@ pub(crate) struct Compression {
     pub pressure: DensityForm,
 }
 
+/// What particles know of their neighbourhood at rest; those of liquids know nothing.
+const AT_REST: Fields = Fields::of(&[Field::REFERENCE_DENSITY, Field::CONSISTENCY_FACTOR]);
+
 impl Compression {
     /// Adds `sign` times the rate to every number of `growth`.
     fn add<T: Real, const D: usize>(
@@ -30,12 +33,13 @@ impl Compression {
         } else {
             self.pressure
         };
-        let [rest, moment] = [Field::REFERENCE_DENSITY, Field::CONSISTENCY_FACTOR]
-            .map(|field| at.columns.raw(field));
+        let [rest, moment] =
+            [Field::REFERENCE_DENSITY, Field::CONSISTENCY_FACTOR].map(|field| at.column(field));
+        let compression = at.sum(Output::COMPRESSION);
         let lattice = T::from_f64(at.around.lattice_consistency_factor);
         for (n, growth) in growth.iter_mut().enumerate() {
             let slot = first + n;
-            let sum = at.sum(Output::COMPRESSION, 0, slot);
+            let sum = compression.get(0, slot);
             let rest = rest.get(slot).copied().unwrap_or(T::one());
             let moment = moment.get(slot).copied().unwrap_or(lattice);
             *growth += sign * form.compression(sum, density[n], rest, moment);
@@ -45,10 +49,13 @@ impl Compression {
 
 impl<T: Real, const D: usize> Rate<T, D> for Compression {
     fn reads(&self) -> Fields {
-        Fields::of(&[Field::DENSITY])
+        AT_REST
     }
     fn sums(&self) -> Outputs {
         Outputs::of(&[Output::COMPRESSION])
+    }
+    fn optional(&self) -> Fields {
+        AT_REST
     }
     fn growth(&self, at: &View<'_, T, D>, first: usize, present: &[T], growth: &mut [T]) {
         self.add(at, first, present, growth, T::one());
@@ -62,13 +69,16 @@ pub(crate) struct Divergence(pub Compression);
 
 impl<T: Real, const D: usize> Rate<T, D> for Divergence {
     fn reads(&self) -> Fields {
-        Fields::of(&[Field::DENSITY])
+        Fields::of(&[Field::DENSITY]).union(AT_REST)
     }
     fn sums(&self) -> Outputs {
         Outputs::of(&[Output::COMPRESSION])
     }
+    fn optional(&self) -> Fields {
+        AT_REST
+    }
     fn growth(&self, at: &View<'_, T, D>, first: usize, present: &[T], growth: &mut [T]) {
-        let density = &at.columns.raw(Field::DENSITY)[first..first + present.len()];
+        let density = &at.column(Field::DENSITY)[first..first + present.len()];
         self.0.add(at, first, density, growth, -T::one());
     }
     fn source(&self, _at: &View<'_, T, D>, _first: usize, _source: &mut [T]) {}

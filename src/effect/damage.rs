@@ -3,7 +3,7 @@
 
 use super::plasticity::cold;
 use super::{
-    Chunk, Effect, Hypoelastic, Law, LedgerColumn, Plasticity, Setting, StepProgram, Tally,
+    Chunk, Effect, Hypoelastic, Law, LedgerColumn, Plasticity, Rung, Setting, StepProgram, Tally,
 };
 use crate::error::Problem;
 use crate::material::failure::FailureState;
@@ -27,8 +27,8 @@ use crate::term::{Stage, TermDoc};
 /// | [`DAMAGE`](Self::DAMAGE) | D, from 0 to 1 |
 /// | [`FAILED`](Self::FAILED) | 1 where D is 1, else 0; in the ledger, times the mass, as `failed mass` |
 ///
-/// Bodies without a law do not fail; a scene in which no body has one is refused. Put it behind
-/// [`Plasticity`](super::Plasticity) in the list, so that it sees the strain of the same step.
+/// Bodies without a law do not fail; a scene in which no body has one is refused. Damage
+/// follows the plastic strain of the same step.
 ///
 /// ```
 /// use meshfree::effect::{Damage, Hypoelastic};
@@ -115,7 +115,7 @@ impl<const D: usize> Effect<D> for Damage {
                         material.name,
                         law.name()
                     ),
-                    remedy: "add .with(Plasticity) before Damage, or take a law of stress",
+                    remedy: "add .with(Plasticity), or take a law of stress",
                 })
             })
         });
@@ -147,10 +147,24 @@ impl<T: Real, const D: usize> Law<T, D> for Damage {
         "failure"
     }
     fn reads(&self) -> Fields {
-        Fields::of(&[STRESS, DAMAGE, FLOWED, Field::PRESSURE])
+        Fields::of(&[
+            STRESS,
+            DAMAGE,
+            FAILED,
+            FLOWED,
+            Field::PRESSURE,
+            Plasticity::STRAIN,
+            Plasticity::WORK,
+        ])
     }
     fn writes(&self) -> Fields {
         Fields::of(&[STRESS, DAMAGE, FAILED, FLOWED])
+    }
+    fn optional(&self) -> Fields {
+        Fields::of(&[Plasticity::STRAIN, Plasticity::WORK])
+    }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Failure)
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let mut tally = Tally::default();
@@ -163,21 +177,16 @@ impl<T: Real, const D: usize> Law<T, D> for Damage {
         }
         let heating = material.plastic_heating();
         let live = chunk.live;
-        let [damage, failed, flowed, stress, pressure, strain, work] = chunk.columns([
-            DAMAGE,
-            FAILED,
-            FLOWED,
-            STRESS,
-            Field::PRESSURE,
-            Plasticity::STRAIN,
-            Plasticity::WORK,
-        ]);
+        let ([pressure, strain, work], [damage, failed, flowed, stress]) = chunk.columns(
+            [Field::PRESSURE, Plasticity::STRAIN, Plasticity::WORK],
+            [DAMAGE, FAILED, FLOWED, STRESS],
+        );
         for (n, stress) in stress.chunks_exact_mut(6).enumerate() {
             if damage[n] < T::one() {
                 let deviator = Symmetric::from_slice(stress).to_f64();
                 let pressure = pressure[n].to_f64();
-                let [now, work] = [&*strain, &*work]
-                    .map(|column| column.get(n).map_or(0.0, |value| value.to_f64()));
+                let [now, work] =
+                    [strain, work].map(|column| column.get(n).map_or(0.0, |value| value.to_f64()));
                 let increment = now - flowed[n].to_f64();
                 flowed[n] = T::from_f64(now);
                 let state = FailureState {
@@ -231,8 +240,11 @@ impl<T: Real, const D: usize> Law<T, D> for NoTension {
     fn writes(&self) -> Fields {
         Fields::of(&[Field::PRESSURE])
     }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Failure)
+    }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let [damage, pressure] = chunk.columns([DAMAGE, Field::PRESSURE]);
+        let ([damage], [pressure]) = chunk.columns([DAMAGE], [Field::PRESSURE]);
         for (damage, pressure) in damage.iter().zip(pressure) {
             if *damage >= T::one() {
                 *pressure = pressure.max(T::zero());

@@ -1,7 +1,7 @@
 //! Densities that follow from positions: by sums over neighbours, and with a smoothing length that follows.
 //! Price 2012, section 2.3, for the last.
 
-use super::{Chunk, DensityForm, Law, Tally};
+use super::{Chunk, DensityForm, Law, Rung, Tally};
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Real;
 
@@ -9,34 +9,50 @@ use crate::scalar::Real;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SummedDensity(pub DensityForm);
 
+impl SummedDensity {
+    /// Whether sums are divided by the partition of unity.
+    fn is_normalised(self) -> bool {
+        matches!(self.0, DensityForm::Normalised | DensityForm::Lam)
+    }
+}
+
+/// What particles know of themselves at rest, and of contacts, as far as the density form asks.
+const AT_REST: [Field; 4] = [
+    Field::REFERENCE_DENSITY,
+    Field::REFERENCE_SUM,
+    Field::CONSISTENCY_FACTOR,
+    Field::CONTACT_THRESHOLD,
+];
+
 impl<T: Real, const D: usize> Law<T, D> for SummedDensity {
     fn name(&self) -> &'static str {
         "density from sums"
     }
     fn reads(&self) -> Fields {
-        Fields::NONE
+        Fields::of(&AT_REST)
     }
     fn sums(&self) -> Outputs {
-        Outputs::of(&[Output::KERNEL_SUM])
+        let sums = Outputs::of(&[Output::KERNEL_SUM, Output::CONTACT_SUM]);
+        if self.is_normalised() {
+            sums.union(Outputs::of(&[Output::UNITY]))
+        } else {
+            sums
+        }
     }
     fn writes(&self) -> Fields {
         Fields::of(&[Field::DENSITY])
     }
+    fn optional(&self) -> Fields {
+        Fields::of(&AT_REST)
+    }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let (sums, first) = (chunk.around.sums, chunk.first);
-        let [density, rest, sum, moment, threshold] = chunk.columns([
-            Field::DENSITY,
-            Field::REFERENCE_DENSITY,
-            Field::REFERENCE_SUM,
-            Field::CONSISTENCY_FACTOR,
-            Field::CONTACT_THRESHOLD,
-        ]);
+        let [sums, contacts] = [Output::KERNEL_SUM, Output::CONTACT_SUM].map(|sum| chunk.sum(sum));
+        let unity = self.is_normalised().then(|| chunk.sum(Output::UNITY));
+        let ([rest, sum, moment, threshold], [density]) = chunk.columns(AT_REST, [Field::DENSITY]);
         let at = |column: &[T], n: usize| column.get(n).copied().unwrap_or(T::zero());
         for (n, density) in density.iter_mut().enumerate() {
-            let slot = first + n;
-            let own = sums.get(Output::KERNEL_SUM, 0, slot);
-            let across = sums.get(Output::CONTACT_SUM, 0, slot);
-            let unity = || sums.get(Output::UNITY, 0, slot);
+            let (own, across) = (sums.get(0, n), contacts.get(0, n));
+            let unity = || unity.map_or(T::one(), |sum| sum.get(0, n));
             *density = match self.0 {
                 DensityForm::NumberDensity => {
                     // The other side of a contact compresses; it never pulls apart.
@@ -67,17 +83,23 @@ impl<T: Real, const D: usize> Law<T, D> for ContactActivity {
         "activity of contacts"
     }
     fn reads(&self) -> Fields {
-        Fields::NONE
+        Fields::of(&[Field::CONTACT_THRESHOLD])
+    }
+    fn sums(&self) -> Outputs {
+        Outputs::of(&[Output::CONTACT_SUM])
     }
     fn writes(&self) -> Fields {
-        Fields::NONE
+        Fields::of(&[Field::CONTACT_ACTIVITY])
+    }
+    fn optional(&self) -> Fields {
+        Fields::of(&[Field::CONTACT_THRESHOLD, Field::CONTACT_ACTIVITY])
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let (sums, first) = (chunk.around.sums, chunk.first);
-        let [active, threshold] =
-            chunk.columns([Field::CONTACT_ACTIVITY, Field::CONTACT_THRESHOLD]);
+        let contacts = chunk.sum(Output::CONTACT_SUM);
+        let ([threshold], [active]) =
+            chunk.columns([Field::CONTACT_THRESHOLD], [Field::CONTACT_ACTIVITY]);
         for (n, (active, threshold)) in active.iter_mut().zip(threshold).enumerate() {
-            let pressed = sums.get(Output::CONTACT_SUM, 0, first + n) > *threshold;
+            let pressed = contacts.get(0, n) > *threshold;
             *active = if pressed { T::one() } else { T::zero() };
         }
         Tally::default()
@@ -99,7 +121,12 @@ impl<T: Real, const D: usize> Law<T, D> for ConsistentSmoothing {
         "smoothing consistent with density"
     }
     fn reads(&self) -> Fields {
-        Fields::of(&[Field::MASS])
+        Fields::of(&[
+            Field::SMOOTHING_LENGTH,
+            Field::DENSITY,
+            Field::GRAD_H,
+            Field::MASS,
+        ])
     }
     fn sums(&self) -> Outputs {
         Outputs::of(&[Output::KERNEL_SUM, Output::SLOPE_IN_H])
@@ -107,32 +134,33 @@ impl<T: Real, const D: usize> Law<T, D> for ConsistentSmoothing {
     fn writes(&self) -> Fields {
         Fields::of(&[Field::SMOOTHING_LENGTH, Field::DENSITY, Field::GRAD_H])
     }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Constraint)
+    }
     fn repeats(&self) -> Option<(usize, f64)> {
         // What a step of Newton's method leaves is of the order of its square: less than 1e-6 of a density.
         Some((12, 1e-4))
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let (sums, first) = (chunk.around.sums, chunk.first);
+        let [sums, slopes] = [Output::KERNEL_SUM, Output::SLOPE_IN_H].map(|sum| chunk.sum(sum));
         let eta = T::from_f64(self.eta);
         let [low, high] = self
             .limits
             .map(|limit| T::from_f64(limit * chunk.around.smoothing_length));
         let d = T::from_f64(D as f64);
-        let [h, density, mass, omega] = chunk.columns([
-            Field::SMOOTHING_LENGTH,
-            Field::DENSITY,
-            Field::MASS,
-            Field::GRAD_H,
-        ]);
+        let ([mass], [h, density, omega]) = chunk.columns(
+            [Field::MASS],
+            [Field::SMOOTHING_LENGTH, Field::DENSITY, Field::GRAD_H],
+        );
         let mut tally = Tally::default();
         for n in 0..h.len() {
             let h = &mut h[n];
-            let summed = sums.get(Output::KERNEL_SUM, 0, first + n);
+            let summed = sums.get(0, n);
             // A particle counts itself: slots without a sum are of clusters that outlets have emptied, and stay as they are.
             if summed == T::zero() {
                 continue;
             }
-            let slope = sums.get(Output::SLOPE_IN_H, 0, first + n);
+            let slope = slopes.get(0, n);
             let wanted = mass[n] * (eta / *h).powi(D as u32);
             // f = ρ(h) − m (η/h)^D and f′ = ∂ρ/∂h + D m η^D/h^(D+1).
             let step = (summed - wanted) / (slope + d * wanted / *h);

@@ -1,7 +1,7 @@
 //! A least density of debris: what has lost its neighbours keeps a volume that its kernel can stand for.
 //! Mass, momentum and energy stay what they are.
 
-use super::{Chunk, Effect, Law, Setting, StepProgram, Tally};
+use super::{Chunk, Effect, Law, Rung, Setting, StepProgram, Tally};
 use crate::error::Problem;
 use crate::particles::{Field, Fields};
 use crate::scalar::Real;
@@ -79,20 +79,28 @@ impl<const D: usize> Effect<D> for DensityFloor {
     }
 }
 
+const CHANGED: [Field; 2] = [Field::DENSITY, Field::DENSITY_RESIDUAL];
+
 impl<T: Real, const D: usize> Law<T, D> for DensityFloor {
     fn name(&self) -> &'static str {
         "density floor"
     }
     fn reads(&self) -> Fields {
-        Fields::of(&[Field::DENSITY])
+        Fields::of(&CHANGED)
     }
     fn writes(&self) -> Fields {
-        Fields::of(&[Field::DENSITY])
+        Fields::of(&CHANGED)
+    }
+    fn optional(&self) -> Fields {
+        Fields::of(&[Field::DENSITY_RESIDUAL])
+    }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Bound)
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let least = T::from_f64(self.share * chunk.around.material.reference_density());
         let live = chunk.live;
-        let [density, residual] = chunk.columns([Field::DENSITY, Field::DENSITY_RESIDUAL]);
+        let ([], [density, residual]) = chunk.columns([], CHANGED);
         let mut tally = Tally::default();
         for (n, density) in density.iter_mut().enumerate() {
             // What is no number stays one, and ends the run.

@@ -1,7 +1,7 @@
 //! An effect in a window of time: its laws and limits act between two times, and not before or after.
 //! For effects without pair terms: a loop over pairs has no clock.
 
-use super::{Chunk, Effect, Law, Limit, Setting, StepProgram, Tally, View};
+use super::{Chunk, Effect, Law, Limit, Rung, Setting, StepProgram, Tally, View};
 use crate::error::Problem;
 use crate::particles::{Fields, Outputs};
 use crate::scalar::Real;
@@ -103,6 +103,15 @@ impl<T: Real, const D: usize> Law<T, D> for During<Box<dyn Law<T, D>>> {
     fn writes(&self) -> Fields {
         self.effect.writes()
     }
+    fn optional(&self) -> Fields {
+        self.effect.optional()
+    }
+    fn before(&self) -> Fields {
+        self.effect.before()
+    }
+    fn rung(&self) -> Option<Rung> {
+        self.effect.rung()
+    }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         if self.is_on(chunk.around.time) {
             self.effect.apply(chunk)
@@ -118,6 +127,12 @@ impl<T: Real, const D: usize> Law<T, D> for During<Box<dyn Law<T, D>>> {
 impl<T: Real, const D: usize> Limit<T, D> for During<Box<dyn Limit<T, D>>> {
     fn name(&self) -> &'static str {
         self.effect.name()
+    }
+    fn reads(&self) -> Fields {
+        self.effect.reads()
+    }
+    fn sums(&self) -> Outputs {
+        self.effect.sums()
     }
     fn step(&self, at: &View<'_, T, D>, slot: usize) -> f64 {
         if self.is_on(at.around.time) {

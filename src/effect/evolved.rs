@@ -1,8 +1,9 @@
 //! Fields that are integrated in time: by which rate, how, when, and whether their rounding is kept.
 //! Integrators, prediction, save and combine, insertion, checkpoint and output take it from here.
 
-use super::Around;
-use super::gradients::velocity_gradient;
+use super::access::{Access, Summed};
+use super::gradients::{GRADIENT_SUMS, velocity_gradient};
+use super::{Around, Limit};
 use crate::particles::{Columns, Field, Fields, Output, Outputs};
 use crate::scalar::Real;
 use crate::tensor::Matrix;
@@ -38,35 +39,79 @@ pub enum Update {
     Rotated,
 }
 
-/// What a rate sees: the columns as they are, and what is around.
+/// What a rate or a limit sees: the columns as they are, and what is around.
 #[derive(Clone, Copy, Debug)]
 pub struct View<'a, T: Real, const D: usize> {
-    /// All columns; that of the field under way is empty.
-    pub columns: &'a Columns<T, D>,
+    columns: &'a Columns<T, D>,
+    access: Access,
     /// What is around the particles asked about; its material is that of their body.
     pub around: Around<'a, T, D>,
 }
 
-impl<T: Real, const D: usize> View<'_, T, D> {
-    /// Component `k` of a sum of the particle in `slot`.
-    #[inline(always)]
+impl<'a, T: Real, const D: usize> View<'a, T, D> {
+    pub(crate) fn new(columns: &'a Columns<T, D>, around: Around<'a, T, D>) -> Self {
+        Self {
+            columns,
+            access: Access::DRIVER,
+            around,
+        }
+    }
+    /// The same for a rate of a field, which reaches what it declares.
+    pub(crate) fn of_rate(self, rate: &dyn Rate<T, D>, field: Field) -> Self {
+        Self {
+            access: Access::of_rate(rate, field),
+            ..self
+        }
+    }
+    /// The same for a limit.
+    pub(crate) fn of_limit(self, limit: &dyn Limit<T, D>) -> Self {
+        Self {
+            access: Access::of_limit(limit),
+            ..self
+        }
+    }
+    /// The column of a field, `components` numbers a slot; empty for the field that is under way, and where the scheme does
+    /// not have a field that is declared [optional](Rate::optional).
+    ///
+    /// # Panics
+    /// If the rate or limit does not declare it.
+    #[inline]
+    #[track_caller]
     #[must_use]
-    pub fn sum(&self, output: Output, k: usize, slot: usize) -> T {
-        self.around.sums.get(output, k, slot)
+    pub fn column(&self, field: Field) -> &'a [T] {
+        self.access.read(field, self.around.names);
+        self.columns.raw(field)
+    }
+    /// A sum of particles, by their slots.
+    ///
+    /// # Panics
+    /// If the rate or limit does not declare it.
+    #[inline]
+    #[track_caller]
+    #[must_use]
+    pub fn sum(&self, output: Output) -> Summed<'a, T, D> {
+        self.access.sum(output, self.around.names);
+        Summed::new(self.around.sums, output, 0)
     }
     /// The corrected velocity gradient ∂vₐ/∂x_b \[1/s\] of the particle in `slot`: from the sums of a
     /// [term](crate::term::VelocityGradient) in the same sweep, as at the middle of a drift, and else from
     /// [`Field::VELOCITY_GRADIENT`].
+    ///
+    /// # Panics
+    /// If the rate or limit declares neither the sums `VELOCITY_GRADIENT` and `MOMENT_MATRIX` nor the field.
+    #[track_caller]
     #[must_use]
     pub fn velocity_gradient(&self, slot: usize) -> Matrix<T, D> {
-        let sums = self.around.sums;
-        if sums.outputs().contains(Output::VELOCITY_GRADIENT) {
-            return velocity_gradient(sums, slot);
+        let summed = self.around.sums.outputs();
+        let by_field = self.access.reads(Field::VELOCITY_GRADIENT);
+        if summed.contains(Output::VELOCITY_GRADIENT) || !by_field {
+            return velocity_gradient(GRADIENT_SUMS.map(|sum| self.sum(sum)), slot);
         }
-        let gradient = self.columns.raw(Field::VELOCITY_GRADIENT);
+        let gradient = self.column(Field::VELOCITY_GRADIENT);
         Matrix::from_fn(|a, b| gradient[slot * D * D + a * D + b])
     }
     /// Its antisymmetric part ½ (∇v − ∇vᵀ) \[1/s\].
+    #[track_caller]
     #[must_use]
     pub fn spin(&self, slot: usize) -> Matrix<T, D> {
         let gradient = self.velocity_gradient(slot);
@@ -78,10 +123,14 @@ impl<T: Real, const D: usize> View<'_, T, D> {
 ///
 /// Several effects may contribute to one field; the parts add.
 pub trait Rate<T: Real, const D: usize>: Debug + Send + Sync {
-    /// Fields that it reads.
+    /// Fields that it reads; it reaches no others.
     fn reads(&self) -> Fields;
     /// Sums that it reads.
     fn sums(&self) -> Outputs;
+    /// Those of `reads` that it uses where the scheme has them for other reasons, and does without elsewhere.
+    fn optional(&self) -> Fields {
+        Fields::NONE
+    }
     /// Adds g \[1/s\] of the particles from slot `first` on, one number a particle. `present` are their values.
     fn growth(&self, _at: &View<'_, T, D>, _first: usize, _present: &[T], _growth: &mut [T]) {}
     /// Adds s, `components` numbers a particle from slot `first` on.
@@ -117,10 +166,11 @@ impl<T: Real, const D: usize> Rate<T, D> for BySum {
     }
     fn source(&self, at: &View<'_, T, D>, first: usize, source: &mut [T]) {
         let width = self.sum.components(D);
-        let over = self.over.map(|field| at.columns.raw(field));
+        let over = self.over.map(|field| at.column(field));
+        let summed = at.sum(self.sum);
         for (n, values) in source.chunks_exact_mut(width).enumerate() {
             for (k, value) in values.iter_mut().enumerate() {
-                let sum = at.sum(self.sum, k, first + n);
+                let sum = summed.get(k, first + n);
                 *value += over.map_or(sum, |over| sum / over[first + n]);
             }
         }
@@ -139,7 +189,7 @@ impl<T: Real, const D: usize> Rate<T, D> for ByField {
         Outputs::NONE
     }
     fn source(&self, at: &View<'_, T, D>, first: usize, source: &mut [T]) {
-        let own = &at.columns.raw(self.0)[first * self.0.components(D)..];
+        let own = &at.column(self.0)[first * self.0.components(D)..];
         for (value, own) in source.iter_mut().zip(own) {
             *value += *own;
         }

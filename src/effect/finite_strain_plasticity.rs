@@ -5,7 +5,8 @@ use super::hyperelastic::square;
 use super::radial_return::{after, radial_return};
 use super::total_lagrangian::{matrix, put, stretches_with};
 use super::{
-    Chunk, Effect, Law, LedgerColumn, Plasticity, Setting, StepProgram, Tally, TotalLagrangian,
+    Chunk, Effect, Law, LedgerColumn, Plasticity, Rung, Setting, StepProgram, Tally,
+    TotalLagrangian,
 };
 use crate::error::Problem;
 use crate::material::strength::{PlasticState, ROOM_TEMPERATURE};
@@ -125,6 +126,9 @@ impl<T: Real, const D: usize> Law<T, D> for FiniteStrainPlasticity {
     fn writes(&self) -> Fields {
         Fields::of(&[PIOLA, CP, STRAIN, WORK, DISTORTION, Field::SOUND_SPEED])
     }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Flow)
+    }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let mut tally = Tally::default();
         let (material, dt) = (chunk.around.material, chunk.around.dt);
@@ -133,29 +137,11 @@ impl<T: Real, const D: usize> Law<T, D> for FiniteStrainPlasticity {
         };
         let heating = material.plastic_heating();
         let (live, reference) = (chunk.live, material.reference_density());
-        let [
-            piola,
-            plastic,
-            strain,
-            work,
-            distortion,
-            c,
-            pressure,
-            density,
-            rest,
-            deformation,
-        ] = chunk.columns([
-            PIOLA,
-            CP,
-            STRAIN,
-            WORK,
-            DISTORTION,
-            Field::SOUND_SPEED,
-            Field::PRESSURE,
-            Field::DENSITY,
-            Field::REFERENCE_DENSITY,
-            F,
-        ]);
+        let ([pressure, density, rest, deformation], [piola, plastic, strain, work, distortion, c]) =
+            chunk.columns(
+                [Field::PRESSURE, Field::DENSITY, Field::REFERENCE_DENSITY, F],
+                [PIOLA, CP, STRAIN, WORK, DISTORTION, Field::SOUND_SPEED],
+            );
         for (n, out) in piola.chunks_exact_mut(D * D).enumerate() {
             let gradient = matrix::<T, D>(deformation, n);
             let volume = determinant(&gradient).to_f64();

@@ -128,7 +128,7 @@ impl<T: Real, const D: usize> Law<T, D> for Stiffness {
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let modulus = chunk.around.material.youngs_modulus().unwrap_or(0.0);
-        let [stiffness] = chunk.columns([STIFFNESS]);
+        let ([], [stiffness]) = chunk.columns([], [STIFFNESS]);
         stiffness.fill(T::from_f64(modulus));
         Tally::default()
     }

@@ -1,8 +1,12 @@
 //! Hourglass control of updated-Lagrangian solids: a stiffness against what a gradient does not see.
 //! After Zhang, Wu, Lourenço & Hu 2025, in a form whose forces are central and opposite for every pair.
 
-use super::{Chunk, Damage, Effect, Hypoelastic, Law, Plasticity, Setting, StepProgram, Tally};
-use super::{gradients::velocity_gradient, not_negative};
+use super::access::Summed;
+use super::gradients::{GRADIENT_SUMS, velocity_gradient};
+use super::{
+    Chunk, Damage, Effect, Hypoelastic, Law, Plasticity, Rung, Setting, StepProgram, Tally,
+    not_negative,
+};
 use crate::error::Problem;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
@@ -124,14 +128,17 @@ impl<T: Real, const D: usize> Law<T, D> for Stiffness {
         "stiffness against hourglass modes"
     }
     fn reads(&self) -> Fields {
-        Fields::NONE
+        Fields::of(&[Damage::DAMAGE])
     }
     fn writes(&self) -> Fields {
         Fields::of(&[STIFFNESS])
     }
+    fn optional(&self) -> Fields {
+        Fields::of(&[Damage::DAMAGE])
+    }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let modulus = chunk.around.material.shear_modulus.unwrap_or(0.0);
-        let [stiffness, damage] = chunk.columns([STIFFNESS, Damage::DAMAGE]);
+        let ([damage], [stiffness]) = chunk.columns([Damage::DAMAGE], [STIFFNESS]);
         let whole = T::from_f64(-self.0 * modulus);
         stiffness.fill(whole);
         for (own, damage) in stiffness.iter_mut().zip(damage) {
@@ -153,27 +160,36 @@ impl<T: Real, const D: usize> Law<T, D> for HourglassFree {
         "mismatch of motion and gradient"
     }
     fn reads(&self) -> Fields {
-        Fields::of(&[MISMATCH, STRESS, FLOWED])
+        Fields::of(&[MISMATCH, FLOWED, STRESS, Plasticity::STRAIN, Damage::DAMAGE])
     }
     fn sums(&self) -> Outputs {
-        Outputs::of(&[DIFFERENCE, CENTRE])
+        Outputs::of(&[DIFFERENCE, CENTRE]).union(Outputs::of(&GRADIENT_SUMS))
     }
     fn writes(&self) -> Fields {
         Fields::of(&[MISMATCH, FLOWED])
+    }
+    fn optional(&self) -> Fields {
+        Fields::of(&[Plasticity::STRAIN, Damage::DAMAGE])
+    }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Flow)
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         if !chunk.around.in_drift {
             return Tally::default();
         }
-        let (sums, first) = (chunk.around.sums, chunk.first);
+        let [difference, centre] = [DIFFERENCE, CENTRE].map(|sum| chunk.sum(sum));
+        let gradients = GRADIENT_SUMS.map(|sum| chunk.sum(sum));
         let dt = T::from_f64(chunk.around.dt);
         let modulus = chunk.around.material.shear_modulus.unwrap_or(0.0);
-        let [mismatch, flowed, stress, strain, damage] =
-            chunk.columns([MISMATCH, FLOWED, STRESS, Plasticity::STRAIN, Damage::DAMAGE]);
+        let ([stress, strain, damage], [mismatch, flowed]) = chunk.columns(
+            [STRESS, Plasticity::STRAIN, Damage::DAMAGE],
+            [MISMATCH, FLOWED],
+        );
         for (n, own) in mismatch.chunks_exact_mut(D).enumerate() {
-            let gradient = velocity_gradient(sums, first + n);
-            let at = |output| Vector::<T, D>::from_fn(|d, _| sums.get(output, d, first + n));
-            let rate = at(DIFFERENCE) - gradient * at(CENTRE);
+            let gradient = velocity_gradient(gradients, n);
+            let at = |sum: Summed<'_, T, D>| Vector::<T, D>::from_fn(|d, _| sum.get(d, n));
+            let rate = at(difference) - gradient * at(centre);
             let spin = (gradient - gradient.transpose()) * (dt * T::from_f64(0.5));
             let mut left = T::one();
             if let Some(strain) = strain.get(n) {

@@ -85,14 +85,10 @@ impl<T: Real, const D: usize, E: StoredEnergy> Law<T, D> for Hyperelastic<E> {
         let material = chunk.around.material;
         let shear = material.shear_modulus.unwrap_or(0.0);
         let lame = [material.bulk_modulus() - 2.0 / 3.0 * shear, shear].map(T::from_f64);
-        let [piola, elastic, pressure, sound_speed, deformation, rest] = chunk.columns([
-            PIOLA,
-            ELASTIC,
-            Field::PRESSURE,
-            Field::SOUND_SPEED,
-            F,
-            Field::REFERENCE_DENSITY,
-        ]);
+        let ([deformation, rest], [piola, elastic, pressure, sound_speed]) = chunk.columns(
+            [F, Field::REFERENCE_DENSITY],
+            [PIOLA, ELASTIC, Field::PRESSURE, Field::SOUND_SPEED],
+        );
         for (n, out) in piola.chunks_exact_mut(D * D).enumerate() {
             let gradient = matrix::<T, D>(deformation, n);
             let volume = determinant(&gradient);

@@ -1,9 +1,10 @@
 //! Elastic solids: a deviatoric stress that follows the strain rate and turns with the body, and the force it makes.
 //! The Jaumann rate as Libersky et al. 1993 and Benz & Asphaug 1995 have it, without a limit of strength.
 
+use super::gradients::{GRADIENT_SUMS, velocity_gradient};
 use super::{
-    Chunk, Effect, Evolved, Law, LedgerColumn, Limit, Rate, Setting, StepProgram, Tally, Update,
-    View, When,
+    Chunk, Effect, Evolved, Law, LedgerColumn, Limit, Rate, Rung, Setting, StepProgram, Tally,
+    Update, View, When,
 };
 use crate::error::Problem;
 use crate::particles::{Field, Fields, Output, Outputs};
@@ -61,7 +62,7 @@ const STRESS: Field = Hypoelastic::STRESS;
 const DISTORTION: Field = Hypoelastic::DISTORTION;
 /// ‖∇v‖ \[1/s\] in the last drift.
 const DEFORMATION: Field = Field::scalar(14);
-const GRADIENT: Outputs = Outputs::of(&[Output::VELOCITY_GRADIENT, Output::MOMENT_MATRIX]);
+const GRADIENT: Outputs = Outputs::of(&GRADIENT_SUMS);
 
 impl<const D: usize> Effect<D> for Hypoelastic {
     type Terms = (
@@ -174,11 +175,14 @@ impl<T: Real, const D: usize> Law<T, D> for ElasticState {
     fn writes(&self) -> Fields {
         Fields::of(&[Field::SOUND_SPEED, DISTORTION])
     }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Trial)
+    }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let modulus = T::from_f64(chunk.around.material.shear_modulus.unwrap_or(0.0));
         let [third, four] = [4.0 / 3.0, 4.0].map(T::from_f64);
-        let [sound_speed, distortion, density, stress] =
-            chunk.columns([Field::SOUND_SPEED, DISTORTION, Field::DENSITY, STRESS]);
+        let ([density, stress], [sound_speed, distortion]) =
+            chunk.columns([Field::DENSITY, STRESS], [Field::SOUND_SPEED, DISTORTION]);
         for (n, c) in sound_speed.iter_mut().enumerate() {
             let stress = Symmetric::from_slice(&stress[n * 6..]);
             *c = (*c * *c + third * modulus / density[n]).sqrt();
@@ -206,10 +210,10 @@ impl<T: Real, const D: usize> Law<T, D> for DeformationRate {
         Fields::of(&[DEFORMATION])
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let (sums, first) = (chunk.around.sums, chunk.first);
-        let [rate] = chunk.columns([DEFORMATION]);
+        let gradients = GRADIENT_SUMS.map(|sum| chunk.sum(sum));
+        let ([], [rate]) = chunk.columns([], [DEFORMATION]);
         for (n, rate) in rate.iter_mut().enumerate() {
-            let gradient = super::gradients::velocity_gradient(sums, first + n);
+            let gradient = velocity_gradient(gradients, n);
             *rate = gradient
                 .iter()
                 .fold(T::zero(), |sum, part| sum + *part * *part)
@@ -223,8 +227,11 @@ impl<T: Real, const D: usize> Limit<T, D> for Hypoelastic {
     fn name(&self) -> &'static str {
         "deformation: 0.1/|grad v|"
     }
+    fn reads(&self) -> Fields {
+        Fields::of(&[DEFORMATION])
+    }
     fn step(&self, at: &View<'_, T, D>, slot: usize) -> f64 {
-        0.1 / at.columns.raw(DEFORMATION)[slot].to_f64()
+        0.1 / at.column(DEFORMATION)[slot].to_f64()
     }
 }
 

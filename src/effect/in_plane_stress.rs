@@ -162,23 +162,17 @@ impl<T: Real, E: Sheet> Law<T, 2> for InPlaneStress<E> {
         let material = chunk.around.material;
         let shear = material.shear_modulus.unwrap_or(0.0);
         let lame = [material.bulk_modulus() - 2.0 / 3.0 * shear, shear];
-        let [
-            piola,
-            elastic,
-            thickness,
-            pressure,
-            sound_speed,
-            deformation,
-            rest,
-        ] = chunk.columns([
-            PIOLA,
-            ELASTIC,
-            THICKNESS,
-            Field::PRESSURE,
-            Field::SOUND_SPEED,
-            F,
-            Field::REFERENCE_DENSITY,
-        ]);
+        let ([deformation, rest], [piola, elastic, thickness, pressure, sound_speed]) = chunk
+            .columns(
+                [F, Field::REFERENCE_DENSITY],
+                [
+                    PIOLA,
+                    ELASTIC,
+                    THICKNESS,
+                    Field::PRESSURE,
+                    Field::SOUND_SPEED,
+                ],
+            );
         for (n, out) in piola.chunks_exact_mut(4).enumerate() {
             let plane = matrix::<T, 2>(deformation, n).map(Real::to_f64);
             let across = E::thickness(lame, &plane);

@@ -1,11 +1,11 @@
 //! Physical viscosity: a pair form of the Laplacian, what walls without slip show, and laws that follow the shear.
 //! Morris, Fox & Zhu 1997; Adami, Hu & Adams 2012, eqs. 22, 23.
 
-use super::gradients::velocity_gradient;
-use super::{Chunk, Effect, Law, Setting, StepProgram, Tally};
+use super::access::Summed;
+use super::gradients::{GRADIENT_SUMS, velocity_gradient};
+use super::{Chunk, Effect, Law, Rung, Setting, StepProgram, Tally};
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Real;
-use crate::sweep::Results;
 use crate::term::{In, Stage, Term, VelocityAtWall, VelocityGradient, ViscosityAtWall, stage};
 
 /// A physical viscosity, of the liquids' own dynamic viscosity:
@@ -57,6 +57,14 @@ impl<const D: usize, X: Term<D>> Effect<D> for Laminar<X> {
 #[derive(Clone, Copy, Debug)]
 struct NoSlip;
 
+/// What a wall sees of the liquid before it.
+const SEEN: [Output; 4] = [
+    Output::UNITY,
+    Output::LIQUID_VELOCITY,
+    Output::LIQUID_ARM,
+    Output::LIQUID_VISCOSITY,
+];
+
 impl<T: Real, const D: usize> Law<T, D> for NoSlip {
     fn name(&self) -> &'static str {
         "walls without slip"
@@ -65,40 +73,40 @@ impl<T: Real, const D: usize> Law<T, D> for NoSlip {
         Fields::of(&[Field::VELOCITY])
     }
     fn sums(&self) -> Outputs {
-        Outputs::of(&[
-            Output::UNITY,
-            Output::LIQUID_VELOCITY,
-            Output::LIQUID_ARM,
-            Output::LIQUID_VISCOSITY,
-        ])
+        Outputs::of(&SEEN)
     }
     fn writes(&self) -> Fields {
         Fields::of(&[Field::VELOCITY, Field::DYNAMIC_VISCOSITY])
     }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Constraint)
+    }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let (sums, first) = (chunk.around.sums, chunk.first);
+        let [unities, velocities, arms, viscosities] = SEEN.map(|sum| chunk.sum(sum));
+        let first = chunk.first;
         let wall = chunk.around.wall.filter(|wall| wall.sticks());
         let dry = T::from_f64(super::walls::DRY);
-        let [velocity, viscosity] = chunk.columns([Field::VELOCITY, Field::DYNAMIC_VISCOSITY]);
+        let ([], [velocity, viscosity]) =
+            chunk.columns([], [Field::VELOCITY, Field::DYNAMIC_VISCOSITY]);
         for (n, (v, viscosity)) in velocity.chunks_exact_mut(D).zip(viscosity).enumerate() {
-            let unity = sums.get(Output::UNITY, 0, first + n);
+            let unity = unities.get(0, n);
             let Some(wall) = wall.filter(|_| unity > dry) else {
                 *viscosity = T::zero();
                 continue;
             };
             for (d, v) in v.iter_mut().enumerate() {
-                let liquid = sums.get(Output::LIQUID_VELOCITY, d, first + n);
+                let liquid = velocities.get(d, n);
                 *v = *v + *v - liquid / unity;
             }
             if let Some(gradient) = wall.velocity_gradient(first + n) {
                 for (d, v) in v.iter_mut().enumerate() {
                     for k in 0..D {
-                        let arm = sums.get(Output::LIQUID_ARM, k, first + n) / unity;
+                        let arm = arms.get(k, n) / unity;
                         *v -= T::from_f64(gradient[(d, k)]) * arm;
                     }
                 }
             }
-            *viscosity = sums.get(Output::LIQUID_VISCOSITY, 0, first + n) / unity;
+            *viscosity = viscosities.get(0, n) / unity;
         }
         Tally::default()
     }
@@ -144,23 +152,26 @@ impl<T: Real, const D: usize> Law<T, D> for GeneralisedNewtonian {
         "viscosity from shear"
     }
     fn reads(&self) -> Fields {
-        Fields::NONE
+        Fields::of(&[Field::DYNAMIC_VISCOSITY])
     }
     fn sums(&self) -> Outputs {
-        Outputs::of(&[Output::VELOCITY_GRADIENT, Output::MOMENT_MATRIX])
+        Outputs::of(&GRADIENT_SUMS)
     }
     fn writes(&self) -> Fields {
         Fields::of(&[Field::DYNAMIC_VISCOSITY])
     }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Flow)
+    }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let (around, first) = (chunk.around, chunk.first);
-        let [viscosity] = chunk.columns([Field::DYNAMIC_VISCOSITY]);
+        let (around, gradients) = (chunk.around, GRADIENT_SUMS.map(|sum| chunk.sum(sum)));
+        let ([], [viscosity]) = chunk.columns([], [Field::DYNAMIC_VISCOSITY]);
         if let Some(law) = around.material.rheology() {
             let mut rates = [T::zero(); SHEARED];
             for (part, viscosity) in viscosity.chunks_mut(SHEARED).enumerate() {
                 let rates = &mut rates[..viscosity.len()];
                 for (n, rate) in rates.iter_mut().enumerate() {
-                    *rate = shear_rate(around.sums, first + part * SHEARED + n);
+                    *rate = shear_rate(gradients, part * SHEARED + n);
                 }
                 law.viscosities(rates, viscosity);
             }
@@ -170,8 +181,8 @@ impl<T: Real, const D: usize> Law<T, D> for GeneralisedNewtonian {
 }
 
 /// √(2 D:D) \[1/s\] with D the symmetric part of ∇v without its trace.
-fn shear_rate<T: Real, const D: usize>(sums: &Results<T, D>, slot: usize) -> T {
-    let gradient = velocity_gradient(sums, slot);
+fn shear_rate<T: Real, const D: usize>(gradients: [Summed<'_, T, D>; 2], n: usize) -> T {
+    let gradient = velocity_gradient(gradients, n);
     let half = T::from_f64(0.5);
     let mean = gradient.trace() / T::from_f64(D as f64);
     let mut square = T::zero();

@@ -1,7 +1,7 @@
 //! A law: what an effect does to single particles between sweeps over pairs.
 //! Consecutive laws of a stage run chunk by chunk, in one pass over the particles.
 
-use super::Chunk;
+use super::{Chunk, Rung};
 use crate::particles::{Fields, Outputs};
 use crate::scalar::Real;
 use core::fmt::Debug;
@@ -18,10 +18,25 @@ pub struct Tally {
 /// Most laws of a stage.
 pub const MOST_LAWS: usize = 16;
 
+/// What a law reads and writes in a scheme that carries some fields: what it declares, without what is optional and not there.
+pub(crate) fn reads_and_writes<T: Real, const D: usize>(
+    law: &dyn Law<T, D>,
+    carried: Fields,
+) -> [Fields; 2] {
+    let absent = law.optional().minus(carried);
+    [law.reads(), law.writes()].map(|own| own.minus(absent))
+}
+
 /// What an effect does to single particles at a stage.
 ///
 /// A law sees a [`Chunk`]: some particles of one body, with their columns and sums. It must treat each particle
-/// by itself, so that results do not depend on where chunks end.
+/// by itself, so that results do not depend on where chunks end. It reaches the fields and sums that it declares and no
+/// others: one that asks for more ends the run with a panic that names both.
+///
+/// Laws of a stage run in an order that follows from their declarations, whatever the order of the effects: a law that reads
+/// a field comes after those that write it, unless it asks for the value [before](Self::before); of those that change one
+/// field the lower [rung](Self::rung) comes first; laws that have nothing to do with each other run in the order of their names.
+/// A scheme in which this leaves two laws without an order, or sends them in a circle, is refused.
 pub trait Law<T: Real, const D: usize>: Debug + Send + Sync {
     /// Its name, where a scheme prints its step.
     fn name(&self) -> &'static str;
@@ -31,8 +46,21 @@ pub trait Law<T: Real, const D: usize>: Debug + Send + Sync {
     fn sums(&self) -> Outputs {
         Outputs::NONE
     }
-    /// Fields that it writes.
+    /// Fields that it writes. What it also reads it changes, all else it makes anew for every particle.
     fn writes(&self) -> Fields;
+    /// Those of `reads` and `writes` that it uses where the scheme has them for other reasons, and does without elsewhere.
+    fn optional(&self) -> Fields {
+        Fields::NONE
+    }
+    /// Those of `reads` whose value it takes as it is before other laws of its stage write it, as what the step before has left.
+    /// Of all others it takes the value after them.
+    fn before(&self) -> Fields {
+        Fields::NONE
+    }
+    /// Where it stands among laws of its stage that change the same field.
+    fn rung(&self) -> Option<Rung> {
+        None
+    }
     /// Acts on some particles.
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally;
     /// Largest number of times, and the largest relative change at which to stop, of a law that is repeated with

@@ -23,6 +23,7 @@
 
 #[cfg(test)]
 mod absent;
+mod access;
 mod acoustic_damping;
 mod artificial_conduction;
 mod artificial_pressure;
@@ -32,6 +33,8 @@ mod chunk;
 mod consistent_shifting;
 mod continuity;
 mod damage;
+#[cfg(test)]
+mod declared;
 mod density;
 mod density_diffusion;
 mod density_floor;
@@ -57,6 +60,7 @@ mod plasticity;
 mod program;
 mod radial_return;
 mod renormalised_hypoelastic;
+mod sequence;
 mod setting;
 mod shifting;
 mod st_venant_kirchhoff;
@@ -69,6 +73,8 @@ mod volume_consistency;
 mod walls;
 mod yielding_hourglass;
 
+pub(crate) use access::Names;
+pub use access::Summed;
 pub use acoustic_damping::AcousticDamping;
 pub use artificial_conduction::{ArtificialConduction, ConductionSignal};
 pub use artificial_pressure::{ArtificialPressure, TensionRepulsion};
@@ -92,8 +98,8 @@ pub use hourglass_free::{HourglassFree, VelocityMismatch};
 pub use hypoelastic::Hypoelastic;
 pub use in_plane_stress::InPlaneStress;
 pub use laminar::{GeneralisedNewtonian, Laminar};
-pub(crate) use law::MOST_LAWS;
 pub use law::{Law, Tally};
+pub(crate) use law::{MOST_LAWS, reads_and_writes};
 pub use limit::Limit;
 pub use list::{Effect, Effects};
 pub use neo_hookean::NeoHookean;
@@ -102,6 +108,8 @@ pub use plane_stress::PlaneStress;
 pub use plasticity::Plasticity;
 pub use program::{Declared, DeclaredSum, LedgerColumn, Requirement, SceneFacts, StepProgram};
 pub use renormalised_hypoelastic::RenormalisedHypoelastic;
+pub use sequence::Rung;
+pub(crate) use sequence::sequence;
 pub use setting::Setting;
 pub use shifting::Shifting;
 pub use st_venant_kirchhoff::StVenantKirchhoff;

@@ -1,7 +1,7 @@
 //! Pairing control: particles nearer to each other than the spacing are moved apart, at free surfaces too.
 //! Shifting that acts between near pairs alone, after Xu, Stansby & Laurence 2009 and Lind et al. 2012.
 
-use super::{Chunk, DensityForm, Effect, Law, Setting, StepProgram, Tally, not_negative};
+use super::{Chunk, DensityForm, Effect, Law, Rung, Setting, StepProgram, Tally, not_negative};
 use crate::error::Problem;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
@@ -76,24 +76,33 @@ impl<T: Real, const D: usize> Law<T, D> for PairingControl {
         "pairing control"
     }
     fn reads(&self) -> Fields {
-        Fields::of(&[Field::SOUND_SPEED])
+        Fields::of(&[
+            Field::POSITION,
+            Field::POSITION_RESIDUAL,
+            Field::SOUND_SPEED,
+        ])
     }
     fn sums(&self) -> Outputs {
         Outputs::of(&[NEAR])
     }
     fn writes(&self) -> Fields {
-        Fields::of(&[Field::POSITION])
+        Fields::of(&[Field::POSITION, Field::POSITION_RESIDUAL])
+    }
+    fn optional(&self) -> Fields {
+        Fields::of(&[Field::POSITION_RESIDUAL])
+    }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Constraint)
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let (sums, first, dt) = (chunk.around.sums, chunk.first, chunk.around.dt);
+        let (near, dt) = (chunk.sum(NEAR), chunk.around.dt);
         let h = chunk.around.smoothing_length;
-        let [x, residual, c] = chunk.columns([
-            Field::POSITION,
-            Field::POSITION_RESIDUAL,
-            Field::SOUND_SPEED,
-        ]);
+        let ([c], [x, residual]) = chunk.columns(
+            [Field::SOUND_SPEED],
+            [Field::POSITION, Field::POSITION_RESIDUAL],
+        );
         for (n, x) in x.chunks_exact_mut(D).enumerate() {
-            let sum: [f64; D] = core::array::from_fn(|d| sums.get(NEAR, d, first + n).to_f64());
+            let sum: [f64; D] = core::array::from_fn(|d| near.get(d, n).to_f64());
             let length = sum.iter().fold(0.0, |s, g| s + g * g).sqrt();
             if length == 0.0 {
                 continue;

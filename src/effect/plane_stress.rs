@@ -135,7 +135,7 @@ impl<T: Real> Law<T, 2> for PlaneStress {
         Fields::of(&[Field::PRESSURE])
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, 2>) -> Tally {
-        let [pressure, stress] = chunk.columns([Field::PRESSURE, STRESS]);
+        let ([stress], [pressure]) = chunk.columns([STRESS], [Field::PRESSURE]);
         for (pressure, stress) in pressure.iter_mut().zip(stress.chunks_exact(6)) {
             *pressure = stress[2];
         }

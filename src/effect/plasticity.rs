@@ -3,8 +3,8 @@
 
 use super::radial_return::{after, radial_return};
 use super::{
-    Chunk, Effect, Hypoelastic, Law, LedgerColumn, PlaneStress, SceneFacts, Setting, StepProgram,
-    Tally, UniaxialStress, plane_stress,
+    Chunk, Damage, Effect, Hypoelastic, Law, LedgerColumn, PlaneStress, Rung, SceneFacts, Setting,
+    StepProgram, Tally, UniaxialStress, plane_stress,
 };
 use crate::error::Problem;
 use crate::material::Material;
@@ -23,7 +23,7 @@ use crate::term::{Stage, TermDoc};
 /// plastic strain solves the equation to rounding, with hardening and rate at the end of the step, so no step limit
 /// is needed beyond that of the elastic solid; temperature T₀ + χ w/c
 /// ([`PlasticHeating`](crate::material::strength::PlasticHeating)), pressure and density are those before it. Flow
-/// keeps volume.
+/// keeps volume. A particle that [has failed](super::Damage) by the end of a step flows no more in the steps after it.
 ///
 /// | it adds | as |
 /// |---|---|
@@ -69,6 +69,10 @@ const WORK: Field = Plasticity::WORK;
 const LATERAL_STRAIN: Field = UniaxialStress::LATERAL_STRAIN;
 /// Carried by sheets that are free to thin.
 const THICKNESS_STRAIN: Field = PlaneStress::THICKNESS_STRAIN;
+/// Carried where solids fail.
+const FAILED: Field = Damage::FAILED;
+/// The strains of bars and sheets that are free to widen or thin.
+const FREE: Fields = Fields::of(&[LATERAL_STRAIN, THICKNESS_STRAIN]);
 
 impl<const D: usize> Effect<D> for Plasticity {
     type Terms = ();
@@ -150,10 +154,20 @@ impl<T: Real, const D: usize> Law<T, D> for Plasticity {
         "plastic flow"
     }
     fn reads(&self) -> Fields {
-        Fields::of(&[STRESS, STRAIN, WORK, Field::PRESSURE, Field::DENSITY])
+        let own = Fields::of(&[STRESS, STRAIN, WORK, Field::PRESSURE, Field::DENSITY]);
+        own.union(FREE).union(Fields::of(&[FAILED]))
     }
     fn writes(&self) -> Fields {
-        Fields::of(&[STRESS, STRAIN, WORK])
+        Fields::of(&[STRESS, STRAIN, WORK]).union(FREE)
+    }
+    fn optional(&self) -> Fields {
+        FREE.union(Fields::of(&[FAILED]))
+    }
+    fn before(&self) -> Fields {
+        Fields::of(&[FAILED])
+    }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Flow)
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let mut tally = Tally::default();
@@ -167,15 +181,10 @@ impl<T: Real, const D: usize> Law<T, D> for Plasticity {
         }
         let heating = material.plastic_heating();
         let (live, rest) = (chunk.live, material.reference_density());
-        let [stress, strain, work, pressure, density, lateral, across] = chunk.columns([
-            STRESS,
-            STRAIN,
-            WORK,
-            Field::PRESSURE,
-            Field::DENSITY,
-            LATERAL_STRAIN,
-            THICKNESS_STRAIN,
-        ]);
+        let ([pressure, density, failed], [stress, strain, work, lateral, across]) = chunk.columns(
+            [Field::PRESSURE, Field::DENSITY, FAILED],
+            [STRESS, STRAIN, WORK, LATERAL_STRAIN, THICKNESS_STRAIN],
+        );
         let stiffness = if lateral.is_empty() {
             3.0 * modulus
         } else {
@@ -184,6 +193,10 @@ impl<T: Real, const D: usize> Law<T, D> for Plasticity {
         let poisson = material.poisson_ratio().unwrap_or(0.0);
         let bulk = material.bulk_modulus();
         for (n, stress) in stress.chunks_exact_mut(6).enumerate() {
+            // What has failed bears no shear, so nothing in it flows, hardens or heats.
+            if failed.get(n).is_some_and(|failed| *failed >= T::one()) {
+                continue;
+            }
             let own = Symmetric::from_slice(stress).to_f64();
             let mut trial = own.von_mises();
             let (flowed, worked) = (strain[n].to_f64(), work[n].to_f64());

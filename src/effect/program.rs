@@ -1,7 +1,7 @@
 //! The step program: what effects do in a step, stage by stage, beside their pair terms.
 //! A scheme holds it, a group runs it, and it can be printed.
 
-use super::{Evolved, Law, Limit, Rate, Setting};
+use super::{Evolved, Law, Limit, Names, Rate, Setting, reads_and_writes, sequence};
 use crate::error::Problem;
 use crate::material::Material;
 use crate::particles::{Field, Fields, Output};
@@ -172,7 +172,7 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
         }
     }
 
-    /// Runs a law at a stage.
+    /// Runs a law at a stage, where its [declarations](Law) say.
     pub fn law(&mut self, stage: Stage, law: impl Law<T, D> + 'static) {
         self.laws[stage.number()].push(Box::new(law));
     }
@@ -243,14 +243,16 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
     pub(crate) fn fields(&self) -> Fields {
         let laws = self.laws.iter().flatten();
         let laws = laws.fold(self.needed, |all, law| {
-            all.union(law.reads()).union(law.writes())
+            let own = law.reads().union(law.writes());
+            all.union(own.minus(law.optional()))
         });
+        let limits = self.limits.iter();
+        let laws = limits.fold(laws, |all, limit| all.union(limit.reads()));
         let evolved = self.evolved.iter().fold(laws, |all, own| {
             let residual = own.residual.map_or(Fields::NONE, |r| Fields::of(&[r]));
-            let read = own
-                .rates
-                .iter()
-                .fold(Fields::NONE, |all, rate| all.union(rate.reads()));
+            let read = own.rates.iter().fold(Fields::NONE, |all, rate| {
+                all.union(rate.reads().minus(rate.optional()))
+            });
             all.union(Fields::of(&[own.field]))
                 .union(residual)
                 .union(read)
@@ -269,8 +271,11 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
 
     /// The fields that laws write.
     pub(crate) fn written(&self) -> Fields {
-        let laws = self.laws.iter().flatten();
-        laws.fold(Fields::NONE, |all, law| all.union(law.writes()))
+        let (laws, carried) = (self.laws.iter().flatten(), self.fields());
+        laws.fold(Fields::NONE, |all, law| {
+            let [_, writes] = reads_and_writes(&**law, carried);
+            all.union(writes)
+        })
     }
 
     /// Whether a field belongs to the state: an effect declares it, or it is integrated in time.
@@ -318,6 +323,35 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
         let first = |k: &usize| !all[..*k].contains(&all[*k]);
         let kept: Vec<_> = (0..all.len()).filter(first).map(|k| all[k]).collect();
         kept.into_iter()
+    }
+
+    /// The order of the laws of a stage, as indices of those that there are.
+    pub(crate) fn sequence(&self, stage: Stage) -> Result<Vec<usize>, Problem> {
+        let laws = &self.laws[stage.number()];
+        sequence(laws, stage, &|field| self.name_of(field).0)
+    }
+
+    /// Puts the laws of every stage into their order; those without one stay as they are, and the scheme is refused.
+    pub(crate) fn arrange(&mut self) {
+        for stage in Stage::ALL {
+            let Ok(order) = self.sequence(stage) else {
+                continue;
+            };
+            let laws = core::mem::take(&mut self.laws[stage.number()]);
+            let mut laws: Vec<_> = laws.into_iter().map(Some).collect();
+            let ordered = order.into_iter().filter_map(|k| laws[k].take());
+            self.laws[stage.number()] = ordered.collect();
+        }
+        // Of limits that ask for the same step the first is named.
+        self.limits.sort_by_key(|limit| limit.name());
+    }
+
+    /// The names of what effects declare.
+    pub(crate) fn names(&self) -> Names<'_> {
+        Names {
+            fields: &self.declared,
+            sums: &self.sums,
+        }
     }
 
     /// The name and unit of a field.

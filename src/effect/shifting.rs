@@ -1,7 +1,7 @@
 //! Shifting: keeps the particles of a liquid evenly spread, and leaves its free surface alone.
 //! Lind et al. 2012, Skillen et al. 2013; the transport velocity of Adami, Hu & Adams 2013.
 
-use super::{Chunk, DensityForm, Effect, Law, Setting, StepProgram, Tally};
+use super::{Chunk, DensityForm, Effect, Law, Rung, Setting, StepProgram, Tally};
 use crate::error::Problem;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Real;
@@ -100,32 +100,42 @@ impl<T: Real, const D: usize> Law<T, D> for Shifting {
         "shifting"
     }
     fn reads(&self) -> Fields {
-        Fields::of(&[Field::VELOCITY, Field::SOUND_SPEED])
+        Fields::of(&[
+            Field::POSITION,
+            Field::POSITION_RESIDUAL,
+            Field::VELOCITY,
+            Field::SOUND_SPEED,
+        ])
     }
     fn sums(&self) -> Outputs {
         Outputs::of(&[Output::CONCENTRATION_GRADIENT, Output::MOMENT])
     }
     fn writes(&self) -> Fields {
-        Fields::of(&[Field::POSITION])
+        Fields::of(&[Field::POSITION, Field::POSITION_RESIDUAL])
+    }
+    fn optional(&self) -> Fields {
+        Fields::of(&[Field::POSITION_RESIDUAL])
+    }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Flow)
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let (sums, first, dt) = (chunk.around.sums, chunk.first, chunk.around.dt);
+        let [concentration, moments] =
+            [Output::CONCENTRATION_GRADIENT, Output::MOMENT].map(|sum| chunk.sum(sum));
+        let dt = chunk.around.dt;
         let h = chunk.around.smoothing_length;
-        let [x, residual, v, c] = chunk.columns([
-            Field::POSITION,
-            Field::POSITION_RESIDUAL,
-            Field::VELOCITY,
-            Field::SOUND_SPEED,
-        ]);
+        let ([v, c], [x, residual]) = chunk.columns(
+            [Field::VELOCITY, Field::SOUND_SPEED],
+            [Field::POSITION, Field::POSITION_RESIDUAL],
+        );
         for (n, (x, v)) in x.chunks_exact_mut(D).zip(v.chunks_exact(D)).enumerate() {
-            let slot = first + n;
             let factor = match *self {
                 Self::Concentration {
                     strength,
                     free_surface,
                 } => {
                     let speed = v.iter().fold(0.0, |s, v| s + v.to_f64().powi(2)).sqrt();
-                    let moment = sums.get(Output::MOMENT, 0, slot).to_f64();
+                    let moment = moments.get(0, n).to_f64();
                     let inside = (moment - SURFACE[0]) / (SURFACE[1] - SURFACE[0]);
                     let share = if free_surface {
                         inside.clamp(0.0, 1.0)
@@ -141,9 +151,7 @@ impl<T: Real, const D: usize> Law<T, D> for Shifting {
                 }
             };
             let longest = LONGEST * h;
-            let sum: [f64; D] = core::array::from_fn(|d| {
-                sums.get(Output::CONCENTRATION_GRADIENT, d, slot).to_f64()
-            });
+            let sum: [f64; D] = core::array::from_fn(|d| concentration.get(d, n).to_f64());
             let size = factor * sum.iter().fold(0.0, |s, g| s + g * g).sqrt();
             let factor = if size > longest {
                 factor * longest / size

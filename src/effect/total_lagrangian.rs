@@ -222,10 +222,10 @@ impl<T: Real, const D: usize> Law<T, D> for ReferenceCorrection {
         Fields::of(&[Field::CORRECTION])
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let (sums, first) = (chunk.around.sums, chunk.first);
-        let [correction] = chunk.columns([Field::CORRECTION]);
+        let moments = chunk.sum(Output::MOMENT_MATRIX);
+        let ([], [correction]) = chunk.columns([], [Field::CORRECTION]);
         for (n, out) in correction.chunks_exact_mut(D * D).enumerate() {
-            put(out, &super::gradients::correction(sums, first + n));
+            put(out, &super::gradients::correction(moments, n));
         }
         Tally::default()
     }
@@ -253,17 +253,14 @@ impl<T: Real, const D: usize> Law<T, D> for DeformationGradient {
         Fields::of(&[F, Field::DENSITY])
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let (sums, first, live) = (chunk.around.sums, chunk.first, chunk.live);
-        let [deformation, density, correction, rest] = chunk.columns([
-            F,
-            Field::DENSITY,
-            Field::CORRECTION,
-            Field::REFERENCE_DENSITY,
-        ]);
+        let (displacement, live) = (chunk.sum(DISPLACEMENT_SUM), chunk.live);
+        let ([correction, rest], [deformation, density]) = chunk.columns(
+            [Field::CORRECTION, Field::REFERENCE_DENSITY],
+            [F, Field::DENSITY],
+        );
         let mut tally = Tally::default();
         for (n, out) in deformation.chunks_exact_mut(D * D).enumerate() {
-            let sum =
-                Matrix::<T, D>::from_fn(|a, b| sums.get(DISPLACEMENT_SUM, a * D + b, first + n));
+            let sum = Matrix::<T, D>::from_fn(|a, b| displacement.get(a * D + b, n));
             let gradient = Matrix::identity() + sum * matrix(correction, n);
             let volume = determinant(&gradient);
             density[n] = rest[n] / volume;
@@ -331,7 +328,7 @@ impl<T: Real, const D: usize> Law<T, D> for CorrectedStress {
         Fields::of(&[CORRECTED])
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let [out, piola, correction] = chunk.columns([CORRECTED, PIOLA, Field::CORRECTION]);
+        let ([piola, correction], [out]) = chunk.columns([PIOLA, Field::CORRECTION], [CORRECTED]);
         for (n, out) in out.chunks_exact_mut(D * D).enumerate() {
             put(out, &(matrix::<T, D>(piola, n) * matrix(correction, n)));
         }

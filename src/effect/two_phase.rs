@@ -104,7 +104,7 @@ impl<T: Real, const D: usize> Law<T, D> for Phases {
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let rest = chunk.around.material.reference_density();
-        let [phase] = chunk.columns([PHASE]);
+        let ([], [phase]) = chunk.columns([], [PHASE]);
         phase.fill(T::from_f64(rest));
         Tally::default()
     }

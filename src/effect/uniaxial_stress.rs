@@ -130,7 +130,7 @@ impl<T: Real> Law<T, 1> for UniaxialStress {
         Fields::of(&[Field::PRESSURE])
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, 1>) -> Tally {
-        let [pressure, stress] = chunk.columns([Field::PRESSURE, STRESS]);
+        let ([stress], [pressure]) = chunk.columns([STRESS], [Field::PRESSURE]);
         for (pressure, stress) in pressure.iter_mut().zip(stress.chunks_exact(6)) {
             *pressure = stress[1];
         }

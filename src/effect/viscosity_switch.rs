@@ -1,7 +1,8 @@
 //! Coefficients of artificial viscosity that follow the flow, once a step.
 //! The law is the viscosity's own (Morris & Monaghan 1997, Cullen & Dehnen 2010); here are the sums that it sees.
 
-use super::{Chunk, DensityForm, Law, Tally};
+use super::access::Summed;
+use super::{Chunk, DensityForm, Law, Rung, Tally};
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Real;
 use crate::term::viscosity::{Surroundings, Switch};
@@ -10,73 +11,94 @@ use crate::term::viscosity::{Surroundings, Switch};
 #[derive(Debug)]
 pub(crate) struct ViscositySwitch<T> {
     pub switch: Box<dyn Switch<T>>,
-    /// What it writes, and what of the flow particles keep for it.
-    pub writes: Fields,
+    /// What it reads and particles must have: of the flow before, and of gradients.
+    pub needs: Fields,
+    /// Sums that the viscosity adds to for it.
+    pub sums: Outputs,
     /// The form whose weights the rates have.
     pub form: DensityForm,
     /// Support of the kernel in units of h.
     pub support: f64,
 }
 
+/// What only some switches and some schemes have.
+const WHERE_CARRIED: Fields = Fields::of(&[
+    Field::DIVERGENCE,
+    Field::REFERENCE_DENSITY,
+    Field::CONSISTENCY_FACTOR,
+    Field::SMOOTHING_LENGTH,
+    Field::VELOCITY_GRADIENT,
+]);
+
+/// Sums by which a switch tells a shock from shear and noise.
+const LIMITER: [Output; 3] = [Output::DIVERGENCE_SIGN, Output::UNITY, Output::SIGNAL_SPEED];
+
 impl<T: Real, const D: usize> Law<T, D> for ViscositySwitch<T> {
     fn name(&self) -> &'static str {
         "coefficients of viscosity"
     }
     fn reads(&self) -> Fields {
-        Fields::of(&[Field::DENSITY, Field::SOUND_SPEED])
+        Fields::of(&[
+            Field::VISCOSITY_COEFFICIENT,
+            Field::DENSITY,
+            Field::SOUND_SPEED,
+        ])
+        .union(WHERE_CARRIED)
     }
     fn sums(&self) -> Outputs {
-        Outputs::of(&[Output::COMPRESSION])
+        self.sums.union(Outputs::of(&[Output::COMPRESSION]))
     }
     fn writes(&self) -> Fields {
-        self.writes
+        Fields::of(&[Field::VISCOSITY_COEFFICIENT, Field::DIVERGENCE])
+    }
+    fn optional(&self) -> Fields {
+        WHERE_CARRIED.minus(self.needs)
+    }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Trial)
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         // Coefficients follow the flow once a step, however many evaluations it takes.
         if chunk.around.dt <= 0.0 {
             return Tally::default();
         }
-        let (sums, first) = (chunk.around.sums, chunk.first);
+        let compression = chunk.sum(Output::COMPRESSION);
+        let summed = Law::<T, D>::sums(self);
+        let [signs, unities, signals] =
+            LIMITER.map(|sum| summed.contains(sum).then(|| chunk.sum(sum)));
         let reach = T::from_f64(self.support);
         let uniform = T::from_f64(chunk.around.smoothing_length);
         let dt = T::from_f64(chunk.around.dt);
-        let [
-            alpha,
-            divergence,
-            density,
-            rest,
-            moment,
-            h,
-            sound_speed,
-            gradient,
-        ] = chunk.columns([
-            Field::VISCOSITY_COEFFICIENT,
-            Field::DIVERGENCE,
-            Field::DENSITY,
-            Field::REFERENCE_DENSITY,
-            Field::CONSISTENCY_FACTOR,
-            Field::SMOOTHING_LENGTH,
-            Field::SOUND_SPEED,
-            Field::VELOCITY_GRADIENT,
-        ]);
+        let ([density, rest, moment, h, sound_speed, gradient], [alpha, divergence]) = chunk
+            .columns(
+                [
+                    Field::DENSITY,
+                    Field::REFERENCE_DENSITY,
+                    Field::CONSISTENCY_FACTOR,
+                    Field::SMOOTHING_LENGTH,
+                    Field::SOUND_SPEED,
+                    Field::VELOCITY_GRADIENT,
+                ],
+                [Field::VISCOSITY_COEFFICIENT, Field::DIVERGENCE],
+            );
         let at = |column: &[T], n: usize, absent: T| column.get(n).copied().unwrap_or(absent);
+        let sum_of = |sum: Option<Summed<'_, T, D>>, n| sum.map_or(T::zero(), |sum| sum.get(0, n));
         for (n, alpha) in alpha.iter_mut().enumerate() {
-            let slot = first + n;
-            let sum = sums.get(Output::COMPRESSION, 0, slot);
+            let sum = compression.get(0, n);
             let (rest, moment) = (at(rest, n, T::one()), at(moment, n, T::one()));
             let h = at(h, n, uniform);
-            let unity = sums.get(Output::UNITY, 0, slot);
+            let unity = sum_of(unities, n);
             let around = Surroundings {
                 divergence: -self.form.compression(sum, density[n], rest, moment),
                 divergence_before: at(divergence, n, T::zero()),
                 divergence_sign: if unity > T::zero() {
-                    sums.get(Output::DIVERGENCE_SIGN, 0, slot) / unity
+                    sum_of(signs, n) / unity
                 } else {
                     T::zero()
                 },
                 shear2: shear2::<T, D>(gradient.get(n * D * D..(n + 1) * D * D)),
                 sound_speed: sound_speed[n],
-                signal_speed: sums.get(Output::SIGNAL_SPEED, 0, slot).max(sound_speed[n]),
+                signal_speed: sum_of(signals, n).max(sound_speed[n]),
                 h,
                 support: reach * h,
             };

@@ -126,11 +126,12 @@ impl<T: Real, const D: usize> Rate<T, D> for Relaxation {
         Outputs::of(&[SUMMED])
     }
     fn growth(&self, at: &View<'_, T, D>, first: usize, present: &[T], growth: &mut [T]) {
-        let sound_speed = &at.columns.raw(Field::SOUND_SPEED)[first..];
+        let sound_speed = &at.column(Field::SOUND_SPEED)[first..];
+        let summed = at.sum(SUMMED);
         let factor = T::from_f64(self.strength / at.around.smoothing_length);
         let unity = T::from_f64(self.unity);
         for (n, (growth, c)) in growth.iter_mut().zip(sound_speed).enumerate() {
-            let excess = at.sum(SUMMED, 0, first + n) / (unity * present[n]) - T::one();
+            let excess = summed.get(0, first + n) / (unity * present[n]) - T::one();
             *growth += factor * *c * excess;
         }
     }

@@ -1,7 +1,8 @@
 //! Wall laws: how walls of particles answer a liquid.
 //! Adami, Hu & Adams 2012; the one-sided Riemann problem of Zhang, Hu & Adams 2017.
 
-use super::{Chunk, Effect, Law, Setting, StepProgram, Tally};
+use super::access::Summed;
+use super::{Around, Chunk, Effect, Law, Setting, StepProgram, Tally};
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
 use crate::term::viscosity::Riemann;
@@ -51,26 +52,28 @@ impl<const D: usize> Effect<D> for ExtrapolatedPressure {
 
 /// The extrapolated pressure of a wall particle before it is cut at the floor; none where it is dry.
 #[inline(always)]
-fn extrapolated<T: Real, const D: usize>(chunk: &Chunk<'_, T, D>, n: usize) -> Option<T> {
-    let unity = chunk.sum(Output::UNITY, 0, n);
+fn extrapolated<T: Real, const D: usize>(
+    around: &Around<'_, T, D>,
+    [unity, pressure, moment]: &[Summed<'_, T, D>; 3],
+    (first, n): (usize, usize),
+) -> Option<T> {
+    let unity = unity.get(0, n);
     if unity <= T::from_f64(DRY) {
         return None;
     }
-    let slot = chunk.first + n;
-    let wall = chunk.around.wall?;
-    let (own, gravity) = (wall.acceleration(slot), chunk.around.gravity);
-    let sum = (0..D).fold(chunk.sum(Output::LIQUID_PRESSURE, 0, n), |sum, d| {
-        let arm = chunk.sum(Output::LIQUID_MOMENT, d, n);
-        sum + arm * T::from_f64(gravity[d] - own[d])
+    let wall = around.wall?;
+    let (own, gravity) = (wall.acceleration(first + n), around.gravity);
+    let sum = (0..D).fold(pressure.get(0, n), |sum, d| {
+        sum + moment.get(d, n) * T::from_f64(gravity[d] - own[d])
     });
     Some(sum / unity)
 }
 
-const PRESSED: Outputs = Outputs::of(&[
+const PRESSED: [Output; 3] = [
     Output::UNITY,
     Output::LIQUID_PRESSURE,
     Output::LIQUID_MOMENT,
-]);
+];
 
 impl<T: Real, const D: usize> Law<T, D> for ExtrapolatedPressure {
     fn name(&self) -> &'static str {
@@ -80,17 +83,19 @@ impl<T: Real, const D: usize> Law<T, D> for ExtrapolatedPressure {
         Fields::NONE
     }
     fn sums(&self) -> Outputs {
-        PRESSED
+        Outputs::of(&PRESSED)
     }
     fn writes(&self) -> Fields {
         Fields::of(&[Field::PRESSURE])
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let floor = T::from_f64(self.floor);
-        for n in 0..chunk.count {
-            let pressure = extrapolated(chunk, n).map_or(T::zero(), |p| p.max(floor));
-            let [column] = chunk.columns([Field::PRESSURE]);
-            column[n] = pressure;
+        let (around, first) = (chunk.around, chunk.first);
+        let sums = PRESSED.map(|sum| chunk.sum(sum));
+        let ([], [pressure]) = chunk.columns([], [Field::PRESSURE]);
+        for (n, pressure) in pressure.iter_mut().enumerate() {
+            let own = extrapolated(&around, &sums, (first, n));
+            *pressure = own.map_or(T::zero(), |p| p.max(floor));
         }
         Tally::default()
     }
@@ -181,31 +186,34 @@ impl<T: Real, const D: usize> Law<T, D> for RiemannWalls {
         Fields::of(&[Field::VELOCITY, Field::DENSITY, Field::SOUND_SPEED])
     }
     fn sums(&self) -> Outputs {
-        PRESSED.union(Outputs::of(&[BEFORE]))
+        Outputs::of(&PRESSED).union(Outputs::of(&[BEFORE]))
     }
     fn writes(&self) -> Fields {
         Fields::of(&[Field::PRESSURE])
     }
+    fn before(&self) -> Fields {
+        Fields::of(&[Field::VELOCITY])
+    }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let floor = T::from_f64(self.floor);
-        for n in 0..chunk.count {
-            let at_rest = extrapolated(chunk, n);
-            let unity = chunk.sum(Output::UNITY, 0, n);
-            let liquid: [T; D] = core::array::from_fn(|d| chunk.sum(BEFORE, d, n) / unity);
-            let normal = (chunk.around.wall).and_then(|wall| wall.normal(chunk.first + n));
-            let [pressure, velocity, density, sound_speed] = chunk.columns([
-                Field::PRESSURE,
-                Field::VELOCITY,
-                Field::DENSITY,
-                Field::SOUND_SPEED,
-            ]);
+        let (around, first) = (chunk.around, chunk.first);
+        let (sums, before) = (PRESSED.map(|sum| chunk.sum(sum)), chunk.sum(BEFORE));
+        let ([velocity, density, sound_speed], [pressure]) = chunk.columns(
+            [Field::VELOCITY, Field::DENSITY, Field::SOUND_SPEED],
+            [Field::PRESSURE],
+        );
+        for (n, pressure) in pressure.iter_mut().enumerate() {
+            let at_rest = extrapolated(&around, &sums, (first, n));
+            let unity = sums[0].get(0, n);
+            let liquid: [T; D] = core::array::from_fn(|d| before.get(d, n) / unity);
+            let normal = (around.wall).and_then(|wall| wall.normal(first + n));
             let push = normal.map_or(T::zero(), |normal| {
                 let inwards = (0..D).fold(T::zero(), |sum, d| {
                     sum + (liquid[d] - velocity[n * D + d]) * normal[d]
                 });
                 riemann_push(inwards, density[n], sound_speed[n])
             });
-            pressure[n] = at_rest.map_or(T::zero(), |p| (p + push).max(floor));
+            *pressure = at_rest.map_or(T::zero(), |p| (p + push).max(floor));
         }
         Tally::default()
     }

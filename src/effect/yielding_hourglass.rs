@@ -2,7 +2,7 @@
 //! After the idea that a control must not bear what the solid does not (Ganzenmüller 2015); the measure is of this crate.
 
 use super::hourglass_control::STIFFNESS;
-use super::{Chunk, Effect, Law, Plasticity, Setting, StepProgram, Tally};
+use super::{Chunk, Effect, Law, Plasticity, Rung, Setting, StepProgram, Tally};
 use crate::error::Problem;
 use crate::material::strength::{PlasticState, ROOM_TEMPERATURE};
 use crate::particles::{Field, Fields};
@@ -54,7 +54,7 @@ impl<const D: usize> Effect<D> for YieldingHourglass {
                 && scene.written.contains(super::TotalLagrangian::PIOLA);
             (!both).then(|| Problem::Incompatible {
                 what: "YieldingHourglass cuts a control by plastic strain, which nothing in the scheme makes".into(),
-                remedy: "put it behind FiniteStrainPlasticity, or leave it out",
+                remedy: "add .with(FiniteStrainPlasticity), or leave it out",
             })
         });
     }
@@ -65,10 +65,13 @@ impl<T: Real, const D: usize> Law<T, D> for YieldingHourglass {
         "yielding of the hourglass control"
     }
     fn reads(&self) -> Fields {
-        Fields::of(&[STRAIN, WORK, Field::PRESSURE, Field::DENSITY])
+        Fields::of(&[STIFFNESS, STRAIN, WORK, Field::PRESSURE, Field::DENSITY])
     }
     fn writes(&self) -> Fields {
         Fields::of(&[STIFFNESS])
+    }
+    fn rung(&self) -> Option<Rung> {
+        Some(Rung::Flow)
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let material = chunk.around.material;
@@ -77,8 +80,8 @@ impl<T: Real, const D: usize> Law<T, D> for YieldingHourglass {
         };
         let (heating, rest) = (material.plastic_heating(), material.reference_density());
         let modulus = material.youngs_modulus().unwrap_or(0.0);
-        let [stiffness, strain, work, pressure, density] =
-            chunk.columns([STIFFNESS, STRAIN, WORK, Field::PRESSURE, Field::DENSITY]);
+        let ([strain, work, pressure, density], [stiffness]) =
+            chunk.columns([STRAIN, WORK, Field::PRESSURE, Field::DENSITY], [STIFFNESS]);
         for (n, stiffness) in stiffness.iter_mut().enumerate() {
             let flowed = strain[n].to_f64();
             if flowed <= 0.0 {

@@ -94,13 +94,17 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
         self.effects.register(&mut program);
         if let Some(switch) = switch {
             program.start(Field::VISCOSITY_COEFFICIENT, switch.start());
-            let mut writes = Fields::of(&[Field::VISCOSITY_COEFFICIENT]).union(switch.keeps());
+            for field in switch.keeps().iter() {
+                program.carry(field);
+            }
+            let mut needs = switch.keeps();
             if self.viscosity.needs_velocity_gradient() {
-                writes = writes.union(Fields::of(&[Field::VELOCITY_GRADIENT]));
+                needs = needs.union(Fields::of(&[Field::VELOCITY_GRADIENT]));
             }
             let law = ViscositySwitch {
                 switch,
-                writes,
+                needs,
+                sums: V::WRITES,
                 form: own.density,
                 support: setting.kernel.support,
             };
@@ -116,6 +120,7 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
             })
         });
         self.require_reference(&sweeps, &mut program);
+        program.arrange();
         let of = |what: &str, (name, value, must_be)| (format!("{name}{what}"), value, must_be);
         let viscous = self.viscosity.problems().into_iter();
         let effects = self

@@ -139,7 +139,7 @@ impl<V: 'static, N: Needs, const FLAGS: u8> Gradients<V, N, FLAGS> {
     where
         V: ArtificialViscosity<D>,
     {
-        Self::of_others::<D>().union(gradients_among(V::READS))
+        Self::of_others::<D>().union(gradients_among(V::NEEDS))
     }
 }
 

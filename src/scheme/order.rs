@@ -2,7 +2,7 @@
 //! What effects call their own has one name, so no two take the same number.
 
 use super::Scheme;
-use crate::effect::{MOST_COLUMNS, MOST_LAWS, Update, When};
+use crate::effect::{MOST_COLUMNS, MOST_LAWS, Update, When, reads_and_writes};
 use crate::error::Problem;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Real;
@@ -57,6 +57,8 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         let mut problems = Vec::new();
         self.check_names(&mut problems);
         self.check_room(&mut problems);
+        let laws = Stage::ALL.map(|stage| self.program.sequence(stage).err());
+        problems.extend(laws.into_iter().flatten());
         let later = [Stage::Continuity, Stage::Bounds];
         // What a drift writes is there for the evaluation after it, as what belongs to the state.
         let mut known = later
@@ -74,6 +76,15 @@ impl<T: Real, const D: usize> Scheme<T, D> {
             known = self.check_stage(stage, known, &mut problems);
         }
         self.check_evolved(known, &mut problems);
+        for limit in &self.program.limits {
+            let reader = Reader {
+                name: format!("the limit `{}`", limit.name()),
+                stage: Stage::Rates,
+                fields: limit.reads(),
+                sums: limit.sums(),
+            };
+            self.check(&reader, known, self.sums(Stage::Rates), &mut problems);
+        }
         problems
     }
 
@@ -93,14 +104,20 @@ impl<T: Real, const D: usize> Scheme<T, D> {
 
     /// Fields that the laws of a stage write.
     fn written(&self, stage: Stage) -> Fields {
-        let laws = self.program.laws[stage.number()].iter();
-        laws.fold(Fields::NONE, |all, law| all.union(law.writes()))
+        let (laws, carried) = (self.program.laws[stage.number()].iter(), self.fields());
+        laws.fold(Fields::NONE, |all, law| {
+            let [_, writes] = reads_and_writes(&**law, carried);
+            all.union(writes)
+        })
     }
 
     /// The sums of the sweep that the laws of a stage see.
     fn sums(&self, stage: Stage) -> Outputs {
-        let sweep = self.sweep(stage);
-        sweep.map_or(Outputs::NONE, |sweep| sweep.outputs())
+        // Contacts are asked for with the sums at rest where density does not follow from sums.
+        let contacts = (self.reference.as_deref())
+            .filter(|_| stage == Stage::Density && self.density.is_integrated());
+        let sweeps = self.sweep(stage).into_iter().chain(contacts);
+        sweeps.fold(Outputs::NONE, |all, sweep| all.union(sweep.outputs()))
     }
 
     /// Checks the sweep of a stage and then its laws, in their order; what is known after them.
@@ -120,14 +137,15 @@ impl<T: Real, const D: usize> Scheme<T, D> {
             self.check(&reader, known, Outputs::NONE, problems);
         }
         for law in &self.program.laws[stage.number()] {
+            let [reads, writes] = reads_and_writes(&**law, self.fields());
             let reader = Reader {
                 name: format!("the law `{}`", law.name()),
                 stage,
-                fields: law.reads(),
+                fields: reads,
                 sums: law.sums(),
             };
             self.check(&reader, known, self.sums(stage), problems);
-            known = known.union(law.writes());
+            known = known.union(writes);
         }
         known
     }
@@ -156,7 +174,8 @@ impl<T: Real, const D: usize> Scheme<T, D> {
                 sums,
             };
             for rate in &own.rates {
-                let reader = reader(rate.reads(), rate.sums());
+                let absent = rate.optional().minus(self.fields());
+                let reader = reader(rate.reads().minus(absent), rate.sums());
                 self.check(&reader, known, self.sums(stage), problems);
             }
             let sums = self.sums(stage);

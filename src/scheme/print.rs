@@ -2,6 +2,7 @@
 //! What is not printed here is not in the program that runs.
 
 use super::Scheme;
+use crate::effect::reads_and_writes;
 use crate::particles::{Field, Fields};
 use crate::scalar::Real;
 use crate::term::Stage;
@@ -54,8 +55,9 @@ impl<T: Real, const D: usize> Scheme<T, D> {
             }
             for law in &self.program.laws[stage.number()] {
                 lines.push(format!("  {}: {}", stage.name(), law.name()));
-                lines.push(format!("      reads  {}", self.names(law.reads())));
-                lines.push(format!("      writes {}", self.names(law.writes())));
+                let [reads, writes] = reads_and_writes(&**law, self.fields());
+                lines.push(format!("      reads  {}", self.names(reads)));
+                lines.push(format!("      writes {}", self.names(writes)));
             }
             if stage == Stage::Density {
                 lines.push("  state: equations of state".into());
@@ -65,6 +67,7 @@ impl<T: Real, const D: usize> Scheme<T, D> {
                 ));
             }
         }
+        let beside = lines.len();
         for own in &self.program.evolved {
             let (name, unit) = self.program.name_of(own.field);
             lines.push(format!(
@@ -105,6 +108,8 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         for limit in &self.program.limits {
             lines.push(format!("  limits the step: {}", limit.name()));
         }
+        // Not the order of the list of effects.
+        lines[beside..].sort();
         lines.join("\n")
     }
 }

@@ -71,8 +71,9 @@ fn parts<T: Real, const D: usize>(
     growths.fill(T::zero());
     sources.fill(T::zero());
     for rate in &own.rates {
-        rate.growth(view, first, values, growths);
-        rate.source(view, first, sources);
+        let view = view.of_rate(&**rate, own.field);
+        rate.growth(&view, first, values, growths);
+        rate.source(&view, first, sources);
     }
 }
 

@@ -20,6 +20,7 @@ pub(super) fn vote_of_effects<'a, T: Real, const D: usize>(
     }
     for (body, view) in bodies {
         for limit in &program.limits {
+            let view = view.of_limit(&**limit);
             let own = |slot| {
                 let step = limit.step(&view, slot);
                 Vote {
@@ -59,7 +60,7 @@ pub(super) fn broken_effect<T: Real, const D: usize>(
 ) -> Option<(&'static str, f64)> {
     let field = program.evolved.iter().find_map(|own| {
         let width = own.field.components(D);
-        let column = view.columns.raw(own.field);
+        let column = view.column(own.field);
         let values = column[slot * width..(slot + 1) * width].iter();
         let wrong = values
             .map(|value| value.to_f64())
@@ -68,7 +69,7 @@ pub(super) fn broken_effect<T: Real, const D: usize>(
     });
     field.or_else(|| {
         program.limits.iter().find_map(|limit| {
-            let step = limit.step(view, slot);
+            let step = limit.step(&view.of_limit(&**limit), slot);
             (step.is_nan() || step < 0.0).then_some((limit.name(), step))
         })
     })

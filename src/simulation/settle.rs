@@ -147,7 +147,7 @@ pub(super) fn run_pieces<T: Real, const D: usize>(
         piece.is_open = false;
         for (n, (law, outcome)) in laws.iter().zip(&mut outcomes).enumerate() {
             let start = Instant::now();
-            let Tally { limited, change } = law.apply(&mut chunk);
+            let Tally { limited, change } = chunk.run(&**law);
             outcome.time += start.elapsed();
             piece.is_open |= change >= tolerance;
             piece.limited[n] = limited.min(PIECE as u64) as u8;

@@ -182,7 +182,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                 } else {
                     &self.work.sums
                 },
-                rates: &self.work.rates,
+                names: self.scheme.program.names(),
                 material: &body.material,
                 wall: None,
                 smoothing_length: self.scheme.h_over_dx() * body.spacing,
@@ -245,7 +245,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             );
             let around = Around {
                 sums: &self.work.sums,
-                rates: &self.work.rates,
+                names: self.scheme.program.names(),
                 material: &body.material,
                 wall: Some(&surface),
                 smoothing_length: self.neighborhood.smoothing_length,
@@ -296,7 +296,7 @@ fn run_chunks<T: Real, const D: usize>(
     let mut chunk = Chunk::new(columns, slots.clone(), live, around);
     for (law, outcome) in laws.iter().zip(&mut outcomes) {
         let start = Instant::now();
-        outcome.limited = law.apply(&mut chunk).limited;
+        outcome.limited = chunk.run(&**law).limited;
         outcome.time = start.elapsed();
     }
     outcomes

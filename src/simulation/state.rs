@@ -231,7 +231,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.particles.bodies.iter().map(move |body| {
             let around = Around {
                 sums,
-                rates: &self.work.rates,
+                names: self.scheme.program.names(),
                 material: &body.material,
                 wall: None,
                 smoothing_length: self.scheme.h_over_dx() * body.spacing,
@@ -242,8 +242,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                 origin: self.particles.origin,
                 in_drift: moment.in_drift,
             };
-            let columns = &self.particles.columns;
-            (body, View { columns, around })
+            (body, View::new(&self.particles.columns, around))
         })
     }
 

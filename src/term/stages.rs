@@ -1,7 +1,8 @@
 //! The stages of a step, in which sweeps over pairs and laws of single particles run.
-//! Order among effects is the stage that each names, never the order of a list.
+//! Order among effects is the stage that each names, and within a stage what their laws declare; never the order of a list.
 
-/// A stage of a step: a sweep over pairs, if any term names the stage, and then the laws that name it.
+/// A stage of a step: a sweep over pairs, if any term names the stage, and then the laws that name it, in the order that
+/// follows from [what they declare](crate::effect::Law).
 ///
 /// | stage | when | sweep over |
 /// |---|---|---|

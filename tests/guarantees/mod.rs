@@ -11,6 +11,7 @@ mod counted_work;
 mod filling;
 mod invariance;
 mod neighbours;
+mod order_of_effects;
 mod place;
 #[cfg(feature = "checkpoint")]
 mod readings;

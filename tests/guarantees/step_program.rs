@@ -291,6 +291,44 @@ fn two_effects_that_claim_one_number_are_refused() {
     assert!(sum.contains("sum vector 2") && sum.contains("`flow`") && sum.contains("`heat`"));
 }
 
+/// A law that declares the pressure, and reads the density.
+#[derive(Clone, Copy, Debug)]
+struct Lies;
+
+impl<const D: usize> Effect<D> for Lies {
+    type Terms = ();
+    fn terms(&self, _setting: &Setting) {}
+    fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
+        program.law(Stage::State, *self);
+    }
+}
+
+impl<T: Real, const D: usize> Law<T, D> for Lies {
+    fn name(&self) -> &'static str {
+        "a law that lies"
+    }
+    fn reads(&self) -> Fields {
+        Fields::of(&[Field::PRESSURE])
+    }
+    fn writes(&self) -> Fields {
+        Fields::NONE
+    }
+    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
+        let ([pressure, density], []) = chunk.columns([Field::PRESSURE, Field::DENSITY], []);
+        assert_eq!(pressure.len(), density.len());
+        Tally::default()
+    }
+}
+
+#[test]
+#[should_panic(expected = "the law `a law that lies` reads the field `density`")]
+fn a_law_that_reads_what_it_does_not_declare_ends_the_run() {
+    let rod = Body::block("rod", catalogue::copper(), [0.0], [0.01], 1e-3);
+    let scene = Scene::<f64, 1>::new(schemes::impact().with(Lies)).body(rod);
+    let mut rod = scene.build().expect("a rod");
+    rod.step().expect("a step");
+}
+
 /// So many laws at one stage, and scalars and vectors of its own.
 #[derive(Clone, Copy, Debug)]
 struct Many {

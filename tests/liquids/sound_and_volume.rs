@@ -232,9 +232,10 @@ impl<T: Real, const D: usize> Rate<T, D> for Volumes {
         Outputs::of(&[Output::UNITY])
     }
     fn growth(&self, at: &View<'_, T, D>, first: usize, _present: &[T], growth: &mut [T]) {
+        let sums = at.sum(Output::UNITY);
         let factor = T::from_f64(0.05 * SOUND / at.around.smoothing_length);
         for (n, growth) in growth.iter_mut().enumerate() {
-            let unity = at.sum(Output::UNITY, 0, first + n) / T::from_f64(self.unity);
+            let unity = sums.get(0, first + n) / T::from_f64(self.unity);
             *growth += factor * (unity - T::one());
         }
     }

@@ -52,6 +52,12 @@ impl<const D: usize> ArtificialViscosity<D> for CullenDehnen {
     } else {
         Fields::of(&[Field::VISCOSITY_COEFFICIENT, Field::DIVERGENCE])
     };
+    const NEEDS: Fields = if D == 1 {
+        <Self as ArtificialViscosity<D>>::READS
+    } else {
+        // The switch tells shear from shocks.
+        <Self as ArtificialViscosity<D>>::READS.union(Fields::of(&[Field::VELOCITY_GRADIENT]))
+    };
     const WRITES: Outputs = if D == 1 {
         Outputs::of(&[Output::SIGNAL_SPEED])
     } else {
@@ -85,9 +91,6 @@ impl<const D: usize> ArtificialViscosity<D> for CullenDehnen {
             equation: "Π as Monaghan–Gingold with ½ (αᵢ + αⱼ), α ≥ α_max H²A/(v² + H²A), A = ξ max(−d(∇·v)/dt, 0), dα/dt = (α_loc − α) 2ℓ v/H",
             source: "Cullen & Dehnen 2010, sect. 3; condition ∇·v < 0 Borrow et al. 2022",
         }
-    }
-    fn needs_velocity_gradient(&self) -> bool {
-        D > 1
     }
     fn switch<T: Real>(&self) -> Option<Box<dyn Switch<T>>> {
         Some(Box::new(*self))

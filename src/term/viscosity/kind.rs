@@ -105,6 +105,8 @@ macro_rules! viscosity_kind {
         impl<const D: usize> ArtificialViscosity<D> for ViscosityKind {
             const READS: Fields =
                 Fields::NONE$(.union(<$Law as ArtificialViscosity<D>>::READS))*;
+            const NEEDS: Fields =
+                Fields::NONE$(.union(<$Law as ArtificialViscosity<D>>::NEEDS))*;
             const WRITES: Outputs =
                 Outputs::NONE$(.union(<$Law as ArtificialViscosity<D>>::WRITES))*;
             // Called, not copied into every loop: a choice at run time is paid at run time.

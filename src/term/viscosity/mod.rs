@@ -77,6 +77,8 @@ pub struct Viscous<L> {
 pub trait ArtificialViscosity<const D: usize>: Clone + Debug + Send + Sync + 'static {
     /// Fields it reads beside position, velocity, mass, density and sound speed.
     const READS: Fields;
+    /// Fields that it or its switch reads, of which the scheme makes the gradients.
+    const NEEDS: Fields = Self::READS;
     /// Sums that it adds to beside the force and the signal, for its switch.
     const WRITES: Outputs = Outputs::NONE;
     /// Π and the signal speed of a pair.
@@ -88,7 +90,7 @@ pub trait ArtificialViscosity<const D: usize>: Clone + Debug + Send + Sync + 'st
     fn document(&self) -> TermDoc;
     /// Whether the law needs the velocity gradient, and so the prepass that makes it.
     fn needs_velocity_gradient(&self) -> bool {
-        Self::READS.contains(Field::VELOCITY_GRADIENT)
+        Self::NEEDS.contains(Field::VELOCITY_GRADIENT)
     }
     /// How the particle's own coefficient α changes, if the law has one.
     fn switch<T: Real>(&self) -> Option<Box<dyn Switch<T>>> {

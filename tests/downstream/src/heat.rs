@@ -89,8 +89,11 @@ impl<T: Real, const D: usize> Limit<T, D> for HeatConduction {
     fn name(&self) -> &'static str {
         "conduction: 0.15 h² ρ c/k"
     }
+    fn reads(&self) -> Fields {
+        Fields::of(&[CONDUCTIVITY, Field::DENSITY])
+    }
     fn step(&self, at: &View<'_, T, D>, slot: usize) -> f64 {
-        let number = |field| at.columns.raw(field)[slot].to_f64();
+        let number = |field| at.column(field)[slot].to_f64();
         let diffusivity = number(CONDUCTIVITY) / (number(Field::DENSITY) * self.specific_heat);
         0.15 * at.around.smoothing_length.powi(2) / diffusivity
     }

@@ -86,8 +86,11 @@ impl<T: Real, const D: usize> Limit<T, D> for Hypoelastic {
     fn name(&self) -> &'static str {
         "elastic waves: 0.5 h/sqrt(c² + 4G/3ρ)"
     }
+    fn reads(&self) -> Fields {
+        Fields::of(&[Field::DENSITY, Field::SOUND_SPEED])
+    }
     fn step(&self, at: &View<'_, T, D>, slot: usize) -> f64 {
-        let number = |field| at.columns.raw(field)[slot].to_f64();
+        let number = |field| at.column(field)[slot].to_f64();
         let shear = 4.0 / 3.0 * self.shear_modulus / number(Field::DENSITY);
         let speed2 = number(Field::SOUND_SPEED).powi(2) + shear;
         0.5 * at.around.smoothing_length / speed2.sqrt()

@@ -64,10 +64,11 @@ impl<T: Real, const D: usize> Law<T, D> for LevelWall {
         Fields::of(&[Field::PRESSURE])
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        for n in 0..chunk.count {
-            let [sum, unity] = LEVELLED.map(|output| chunk.sum(output, 0, n));
-            let [pressure] = chunk.columns([Field::PRESSURE]);
-            pressure[n] = if unity > T::zero() {
+        let [sums, unities] = LEVELLED.map(|output| chunk.sum(output));
+        let ([], [pressure]) = chunk.columns([], [Field::PRESSURE]);
+        for (n, pressure) in pressure.iter_mut().enumerate() {
+            let (sum, unity) = (sums.get(0, n), unities.get(0, n));
+            *pressure = if unity > T::zero() {
                 sum / unity
             } else {
                 T::zero()
