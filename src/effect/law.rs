@@ -22,6 +22,12 @@ pub const MOST_LAWS: usize = 16;
 ///
 /// A law sees a [`Chunk`]: some particles of one body, with their columns and sums. It must treat each particle
 /// by itself, so that results do not depend on where chunks end.
+///
+/// A law of [`Stage::Rates`](crate::term::Stage::Rates) that adds to [`Field::FORCE`](crate::particles::Field::FORCE) gives particles a force \[N\]. It acts
+/// with every integrator as forces of pairs do; what it works and the momentum that it gives are in the
+/// [ledger](crate::simulation::Ledger). Work of a law is no heat. An effect whose force stores energy says how much
+/// ([`StepProgram::store`](super::StepProgram::store)), and one whose force is from outside does not say that it
+/// [books energy](super::Effect::BOOKS_ENERGY).
 pub trait Law<T: Real, const D: usize>: Debug + Send + Sync {
     /// Its name, where a scheme prints its step.
     fn name(&self) -> &'static str;

@@ -19,6 +19,9 @@ pub struct EnergyLedger {
     pub load_work: f64,
     /// Work of the walls since the start.
     pub wall_work: f64,
+    /// Work of the forces that [laws](crate::effect::Law) give particles ([`Field::FORCE`]) since the start. Of a force that stores
+    /// energy, as surface tension does, it is what that has released.
+    pub law_work: f64,
     /// Kinetic energy that left through outlets.
     pub left: f64,
     /// Energy that particles had which [sleep](crate::scene::Scene::awake_inside), and work on them.
@@ -34,6 +37,8 @@ pub(super) struct Work {
     pub start: f64,
     pub load: f64,
     pub wall: f64,
+    /// What laws had worked \[J\].
+    pub laws: f64,
     /// Energy \[J\] that sleepers had been given.
     pub asleep: f64,
 }
@@ -47,6 +52,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let (kinetic, compression) = own.stored();
             own.work = Some(Work {
                 start: kinetic + compression,
+                laws: own.work_of_laws(None),
                 asleep: own.given_to_sleepers(),
                 ..Work::default()
             });
@@ -60,14 +66,20 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let (kinetic, compression) = self.stored();
         let left = self.removed().kinetic;
         let asleep = work.asleep - self.given_to_sleepers();
+        let laws = self.work_of_laws(None) - work.laws;
         Some(EnergyLedger {
             kinetic,
             compression,
             load_work: work.load,
             wall_work: work.wall,
+            law_work: laws,
             left,
             asleep,
-            dissipated: work.start + work.load + work.wall - kinetic - compression - left - asleep,
+            dissipated: work.start + work.load + work.wall + laws
+                - kinetic
+                - compression
+                - left
+                - asleep,
         })
     }
 
@@ -117,6 +129,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
         for group in self.stepping(alone) {
             let given = group.held.force_on_sleepers();
+            for d in 0..D {
+                momentum[d] += 0.5 * dt * given[d];
+            }
+        }
+        for (_, given, _) in self.given_by_laws(alone, 0.0) {
             for d in 0..D {
                 momentum[d] += 0.5 * dt * given[d];
             }

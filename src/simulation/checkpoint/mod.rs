@@ -187,10 +187,15 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             start,
             load,
             wall,
+            laws,
             asleep,
         }) = work
         {
             file.put("work".into(), 1, [*start, *load, *wall]);
+            // Files of scenes whose laws give no forces are as they were.
+            if *laws != 0.0 {
+                file.put_one("work/laws".into(), *laws);
+            }
             // Files of scenes in which nothing may sleep are as they were.
             if self.awake.is_some() {
                 file.put_one("work/asleep".into(), *asleep);
@@ -284,10 +289,16 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             } else {
                 0.0
             };
+            let laws = if file.has("work/laws") {
+                file.get_one("work/laws")?
+            } else {
+                0.0
+            };
             self.work = Some(Work {
                 start,
                 load,
                 wall,
+                laws,
                 asleep,
             });
         }
