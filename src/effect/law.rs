@@ -37,6 +37,12 @@ pub(crate) fn reads_and_writes<T: Real, const D: usize>(
 /// a field comes after those that write it, unless it asks for the value [before](Self::before); of those that change one
 /// field the lower [rung](Self::rung) comes first; laws that have nothing to do with each other run in the order of their names.
 /// A scheme in which this leaves two laws without an order, or sends them in a circle, is refused.
+///
+/// A law of [`Stage::Rates`](crate::term::Stage::Rates) that adds to [`Field::FORCE`](crate::particles::Field::FORCE) gives particles a force \[N\]. It acts
+/// with every integrator as forces of pairs do; what it works and the momentum that it gives are in the
+/// [ledger](crate::simulation::Ledger). Work of a law is no heat. An effect whose force stores energy says how much
+/// ([`StepProgram::store`](super::StepProgram::store)), and one whose force is from outside does not say that it
+/// [books energy](super::Effect::BOOKS_ENERGY).
 pub trait Law<T: Real, const D: usize>: Debug + Send + Sync {
     /// Its name, where a scheme prints its step.
     fn name(&self) -> &'static str;

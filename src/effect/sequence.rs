@@ -94,8 +94,14 @@ fn earlier<T: Real, const D: usize>(
                          other makes (Law::reads)",
             });
         }
-        for (n, &a) in changers.iter().enumerate() {
-            for &b in &changers[n + 1..] {
+        // Those that add to the force of laws may do so in the order of their names.
+        let ranked = if field == Field::FORCE {
+            &[]
+        } else {
+            &changers[..]
+        };
+        for (n, &a) in ranked.iter().enumerate() {
+            for &b in &ranked[n + 1..] {
                 match (laws[a].rung(), laws[b].rung()) {
                     (Some(own), Some(other)) if own < other => {
                         earlier[b].push((a, Because::Rung(field)));

@@ -361,6 +361,9 @@ quantities! {
     /// Rate of ln h where the smoothing length follows the density, from the last two evaluations: where the next begins
     /// to look for it.
     SMOOTHING_RATE, Scalar, "smoothing_rate", "1/s";
+    /// Force that [laws](crate::effect::Law) of [`Stage::Rates`](crate::term::Stage::Rates) add to that of pairs. It is zero before the first of
+    /// them in every evaluation, so a law adds to it: others may have done so.
+    FORCE, Vector, "force_of_laws", "N";
 }
 
 quantities! {

@@ -31,6 +31,8 @@ const GIVEN: Fields = Fields::of(&[
 const STATE: Fields = Fields::of(&[Field::PRESSURE, Field::SOUND_SPEED]);
 /// What the pressure form makes of it, once the pressures of walls are known.
 const COEFFICIENTS: Fields = Fields::of(&[Field::PRESSURE_COEFFICIENT]);
+/// What is zero before the laws of the rates, and they add to.
+const OF_LAWS: Fields = Fields::of(&[Field::FORCE]);
 const REFERENCE: Fields = Fields::of(&[Field::REFERENCE_SUM, Field::REFERENCE_DENSITY]);
 /// The stages up to the end of an evaluation, in their order; those of a drift come between two evaluations.
 const EVALUATION: [Stage; 7] = [
@@ -59,6 +61,7 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         self.check_room(&mut problems);
         let laws = Stage::ALL.map(|stage| self.program.sequence(stage).err());
         problems.extend(laws.into_iter().flatten());
+        self.check_forces(&mut problems);
         let later = [Stage::Continuity, Stage::Bounds];
         // What a drift writes is there for the evaluation after it, as what belongs to the state.
         let mut known = later
@@ -86,6 +89,24 @@ impl<T: Real, const D: usize> Scheme<T, D> {
             self.check(&reader, known, self.sums(Stage::Rates), &mut problems);
         }
         problems
+    }
+
+    /// Whether laws give forces where these join others.
+    fn check_forces(&self, problems: &mut Vec<Problem>) {
+        for stage in Stage::ALL.into_iter().filter(|own| *own != Stage::Rates) {
+            let mut laws = self.program.laws[stage.number()].iter();
+            if let Some(law) = laws.find(|law| law.writes().contains(Field::FORCE)) {
+                problems.push(Problem::Incompatible {
+                    what: format!(
+                        "the law `{}` of the scheme {} gives particles a force at the stage {}, where forces are not summed",
+                        law.name(),
+                        self.name,
+                        stage.name()
+                    ),
+                    remedy: "run it at Stage::Rates; what it needs of an earlier stage a law there writes to a field",
+                });
+            }
+        }
     }
 
     /// Fields that particles have when a step begins.
@@ -135,6 +156,9 @@ impl<T: Real, const D: usize> Scheme<T, D> {
                 sums: Outputs::NONE,
             };
             self.check(&reader, known, Outputs::NONE, problems);
+        }
+        if stage == Stage::Rates {
+            known = known.union(OF_LAWS);
         }
         for law in &self.program.laws[stage.number()] {
             let [reads, writes] = reads_and_writes(&**law, self.fields());

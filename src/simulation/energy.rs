@@ -19,6 +19,9 @@ pub struct EnergyLedger {
     pub load_work: f64,
     /// Work of the walls since the start.
     pub wall_work: f64,
+    /// Work of the forces that [laws](crate::effect::Law) give particles ([`Field::FORCE`]) since the start. Of a force that stores
+    /// energy, as surface tension does, it is what that has released.
+    pub law_work: f64,
     /// Kinetic energy that left through outlets.
     pub left: f64,
     /// What viscosities, diffusion, shifting and the steps have taken: the work done less the gain in
@@ -32,6 +35,8 @@ pub(super) struct Work {
     pub start: f64,
     pub load: f64,
     pub wall: f64,
+    /// What laws had worked \[J\].
+    pub laws: f64,
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
@@ -43,6 +48,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let (kinetic, compression) = own.stored();
             own.state.work = Some(Work {
                 start: kinetic + compression,
+                laws: own.work_of_laws(None),
                 ..Work::default()
             });
         });
@@ -54,13 +60,15 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let work = self.state.work?;
         let (kinetic, compression) = self.stored();
         let left = self.removed().kinetic;
+        let laws = self.work_of_laws(None) - work.laws;
         Some(EnergyLedger {
             kinetic,
             compression,
             load_work: work.load,
             wall_work: work.wall,
+            law_work: laws,
             left,
-            dissipated: work.start + work.load + work.wall - kinetic - compression - left,
+            dissipated: work.start + work.load + work.wall + laws - kinetic - compression - left,
         })
     }
 
@@ -106,6 +114,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 for d in 0..D {
                     momentum[d] += 0.5 * dt * force[d];
                 }
+            }
+        }
+        for (_, given, _) in self.given_by_laws(alone, 0.0) {
+            for d in 0..D {
+                momentum[d] += 0.5 * dt * given[d];
             }
         }
         let mut load = 0.0;

@@ -112,7 +112,17 @@ impl<T: Real, const D: usize> Group<T, D> {
             of_rates: true,
             ..moment
         };
+        self.add_forces_of_laws(moment);
+    }
+
+    /// The laws of the rates, and the forces that they add to those of pairs.
+    fn add_forces_of_laws(&mut self, moment: Moment) {
+        self.particles.columns.raw_mut(Field::FORCE).fill(T::zero());
         self.apply_laws(Stage::Rates, moment);
+        if self.has_forces_of_laws() {
+            let forces = self.particles.columns.raw(Field::FORCE);
+            self.work.rates.add_all(Output::FORCE, None, forces);
+        }
     }
 
     /// Smoothing lengths that follow the density, as far ahead as they have changed since: the nearer the search for them

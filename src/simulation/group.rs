@@ -13,6 +13,7 @@ use crate::boundary::{Boundary, Emitter, Outlet, Pose};
 use crate::clock::Instant;
 use crate::error::Result;
 use crate::material::eos::GuardCounts;
+use crate::particles::Field;
 use crate::scalar::Real;
 use crate::scheme::Scheme;
 use crate::sweep::{InstructionSet, Interaction, Root, SweepInput};
@@ -115,6 +116,11 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.neighborhood
             .interactions
             .contains(&Interaction::Unilateral)
+    }
+
+    /// Whether laws of its scheme add forces.
+    pub fn has_forces_of_laws(&self) -> bool {
+        !self.particles.columns.raw(Field::FORCE).is_empty()
     }
 
     /// Counts limits that were applied.

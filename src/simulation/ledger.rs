@@ -71,9 +71,13 @@ pub struct Ledger {
     pub whole: Budget,
     /// Momentum that boundaries have given since the start \[kg m/s\].
     pub boundary_impulse: Vec<f64>,
+    /// Momentum that forces of laws ([`Field::FORCE`]) have given since the start \[kg m/s\]; their work is in the totals of each
+    /// body, as `work of laws`.
+    pub law_impulse: Vec<f64>,
 }
 
-/// Momentum that blocks have given each other \[kg m/s\]: bodies first, then boundaries.
+/// Momentum that blocks have given each other \[kg m/s\]: bodies first, then boundaries. Behind them, body by body, what forces of
+/// laws have given, and their work \[J\].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Impulses {
     pub values: Vec<f64>,
@@ -119,6 +123,59 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         (on * self.blocks() + from) * D + d
     }
 
+    /// Where what laws have given a body stands: component `k` of the momentum, and the work behind them.
+    fn law_index(&self, on: usize, k: usize) -> usize {
+        self.body_count() * self.blocks() * D + on * (D + 1) + k
+    }
+
+    /// What laws give bodies with the forces of the last evaluation, by scene indices: the force \[N\], and the power \[W\] with
+    /// velocities `half` a kick \[s\] ahead.
+    pub(super) fn given_by_laws(
+        &self,
+        alone: Option<usize>,
+        half: f64,
+    ) -> impl Iterator<Item = (usize, [f64; D], f64)> {
+        let groups = self
+            .stepping(alone)
+            .filter(|group| group.has_forces_of_laws());
+        groups.flat_map(move |group| {
+            let columns = &group.particles.columns;
+            let [forces, v] = [Field::FORCE, Field::VELOCITY].map(|field| columns.vectors(field));
+            let mass = columns.raw(Field::MASS);
+            let bodies = group.particles.bodies.iter().zip(&group.indices);
+            bodies.map(move |(body, &on)| {
+                let (mut force, mut power) = ([0.0; D], 0.0);
+                for slot in body.slots.clone() {
+                    for d in 0..D {
+                        let own = forces[slot][d].to_f64();
+                        let a = group.work.acceleration(mass, slot * D + d).to_f64();
+                        force[d] += own;
+                        power += own * (v[slot][d].to_f64() + half * a);
+                    }
+                }
+                (on, force, power)
+            })
+        })
+    }
+
+    /// Adds what laws give in `dt` \[s\] to impulses.
+    fn add_laws(&self, impulses: &mut Impulses, alone: Option<usize>, half: f64, dt: f64) {
+        for (on, force, power) in self.given_by_laws(alone, half) {
+            for (k, own) in force.into_iter().chain([power]).enumerate() {
+                impulses.add(self.law_index(on, k), dt * own);
+            }
+        }
+    }
+
+    /// What laws have worked since the start on the bodies of a group, or on all \[J\].
+    pub(super) fn work_of_laws(&self, group: Option<usize>) -> f64 {
+        let groups = self.state.groups.iter().enumerate();
+        let groups = groups.filter(|(k, _)| group.is_none_or(|group| group == *k));
+        let bodies = groups.flat_map(|(_, own)| &own.indices[..own.particles.bodies.len()]);
+        let works = bodies.map(|&on| self.state.impulses.get(self.law_index(on, D)));
+        works.sum()
+    }
+
     /// Books a kick over `dt` \[s\]: of a group that sub-cycles alone, or of all others together.
     pub(super) fn record_kick(&mut self, alone: Option<usize>, dt: f64) {
         self.record_impulses(alone, dt);
@@ -137,6 +194,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 impulses.add((on * blocks + from) * D + d, dt * force);
             }
         }
+        self.add_laws(&mut impulses, alone, 0.5 * dt, dt);
         self.state.impulses = impulses;
     }
 
@@ -171,6 +229,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 rates.add(self.impulse_index(on, from, d), *force);
             }
         }
+        self.add_laws(&mut rates, None, 0.0, 1.0);
         rates
     }
 
@@ -235,6 +294,17 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             .all_bodies()
             .map(|(group, body)| (body.name.clone(), Self::budget(group, body)))
             .collect();
+        for (on, (group, _)) in self.all_bodies().enumerate() {
+            if group.has_forces_of_laws() {
+                let value = self.state.impulses.get(self.law_index(on, D));
+                let name = "work of laws";
+                bodies[on].1.add_total(&Total {
+                    name,
+                    unit: "J",
+                    value,
+                });
+            }
+        }
         let of_couplings = |name, value| Total {
             name,
             unit: "J",
@@ -283,11 +353,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                     .sum()
             })
             .collect();
+        let of_law = |on: usize, d: usize| self.state.impulses.get(self.law_index(on, d));
+        let law_impulse = (0..D).map(|d| (0..count).map(|on| of_law(on, d)).sum());
         Ledger {
             time: self.state.time,
             bodies,
             whole,
             boundary_impulse,
+            law_impulse: law_impulse.collect(),
         }
     }
 

@@ -131,7 +131,7 @@ fn apply_loads<'a, T: Real, const D: usize>(
         }
         let columns = &particles.columns;
         let (mass, values) = (columns.raw(Field::MASS), columns.raw(field));
-        rates.add_weighted(sum, mass, values);
+        rates.add_all(sum, Some(mass), values);
     }
     None
 }

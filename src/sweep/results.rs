@@ -125,9 +125,9 @@ impl<T: Real, const D: usize> Results<T, D> {
         }
     }
 
-    /// Adds the product of a weight and a value to a sum of every particle, where it was asked for; values stand slot by
-    /// slot with all of their components.
-    pub(crate) fn add_weighted(&mut self, output: Output, weights: &[T], values: &[T]) {
+    /// Adds a value, times a weight if there are any, to a sum of every particle, where it was asked for; values stand slot
+    /// by slot with all of their components.
+    pub(crate) fn add_all(&mut self, output: Output, weights: Option<&[T]>, values: &[T]) {
         let offset = self.offsets[output.place()];
         if offset == ABSENT {
             return;
@@ -139,7 +139,8 @@ impl<T: Real, const D: usize> Results<T, D> {
                 for lane in 0..Self::WIDTH {
                     let slot = first + (piece * CLUSTERS + n) * Self::WIDTH + lane;
                     for d in 0..width {
-                        let value = weights[slot] * values[slot * width + d];
+                        let value = values[slot * width + d];
+                        let value = weights.map_or(value, |weights| weights[slot] * value);
                         sums[(offset + d) * Self::WIDTH + lane] += value;
                     }
                 }

@@ -9,6 +9,7 @@ mod bits;
 mod causes;
 mod counted_work;
 mod filling;
+mod forces_of_laws;
 mod invariance;
 mod neighbours;
 mod order_of_effects;

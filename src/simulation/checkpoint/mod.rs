@@ -167,8 +167,18 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             file.put_one("last_vote/step".into(), *step);
             file.put_one("last_vote/particle".into(), *particle as u64);
         }
-        if let Some(Work { start, load, wall }) = work {
+        if let Some(Work {
+            start,
+            load,
+            wall,
+            laws,
+        }) = work
+        {
             file.put("work".into(), 1, [*start, *load, *wall]);
+            // Files of scenes whose laws give no forces are as they were.
+            if *laws != 0.0 {
+                file.put_one("work/laws".into(), *laws);
+            }
         }
         let (width, rows) = stores.rows();
         file.put_one("stored energy/limit".into(), stores.limit());
@@ -258,7 +268,17 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.state.work = None;
         if file.has("work") {
             let [start, load, wall] = file.get_array("work")?;
-            self.state.work = Some(Work { start, load, wall });
+            let laws = if file.has("work/laws") {
+                file.get_one("work/laws")?
+            } else {
+                0.0
+            };
+            self.state.work = Some(Work {
+                start,
+                load,
+                wall,
+                laws,
+            });
         }
         // Files of before there were any begin them anew.
         if file.has("stored energy/limit") {

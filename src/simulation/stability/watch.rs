@@ -433,7 +433,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     /// Momentum, mass, and the energy at hand with its scale: kinetic, internal and of couplings, or kinetic and of
-    /// compression.
+    /// compression; less what laws have worked.
     pub(super) fn state_sums(&self) -> (Vec<f64>, f64, [f64; 2]) {
         let whole = self.ledger().whole;
         let energies = if self.carries_energy() {
@@ -444,6 +444,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let stored = self.stored();
             [stored.0, stored.1]
         };
+        // What laws have worked came from their own store, or from outside.
+        let energies = [energies[0], energies[1] - self.work_of_laws(None)];
         let scale = energies[0] + energies[1].abs();
         (
             whole.momentum,
@@ -458,9 +460,13 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.state.groups.iter().all(has)
     }
 
-    /// Momentum \[kg m/s\] that walls and boundaries have given bodies since the start.
+    /// Momentum \[kg m/s\] that walls, boundaries and laws have given bodies since the start.
     pub(super) fn outer_impulse(&self) -> Vec<f64> {
-        let mut sum = self.ledger().boundary_impulse;
+        let ledger = self.ledger();
+        let mut sum = ledger.boundary_impulse;
+        for (sum, given) in sum.iter_mut().zip(ledger.law_impulse) {
+            *sum += given;
+        }
         for wall in 0..self.wall_count() {
             if let Ok(given) = self.wall_impulse(wall) {
                 for d in 0..D {
@@ -471,7 +477,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         sum
     }
 
-    /// Whether what acts from outside is known to the momentum residual: uniform loads, walls and boundaries.
+    /// Whether what acts from outside is known to the momentum residual: uniform loads, walls, boundaries and laws.
     pub(super) fn books_momentum(&self) -> bool {
         let own = |group: &Group<T, D>| group.emitters.is_empty() && group.held.is_empty();
         self.loads.is_empty() && self.state.groups.iter().all(own) && self.removed().particles == 0

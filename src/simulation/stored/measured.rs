@@ -53,6 +53,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let mut sum = Measured::default();
         if let Some(group) = self.state.groups.get(k) {
             add_bodies(&mut sum, group, k).ok_or(lost)?;
+            // What laws have worked they have taken from what they store.
+            sum.work -= self.work_of_laws(Some(k));
             return Ok(sum);
         }
         if let Some(couple) = self.couple_of(k) {
