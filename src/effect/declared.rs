@@ -7,7 +7,7 @@ use super::gradients::CorrectedGradients;
 use super::viscosity_switch::ViscositySwitch;
 use super::{
     Around, ByField, Chunk, DensityForm, Effect, Evolved, Law, Limit, Names, Rate, Setting, Slices,
-    StepProgram, Tally, View, When,
+    StepProgram, Tally, View,
 };
 use crate::kernel::{Kernel, WendlandC2};
 use crate::material::Material;
@@ -19,7 +19,7 @@ use crate::particles::{Columns, Field, Fields, Output, Outputs, Shape};
 use crate::scalar::Real;
 use crate::sweep::Results;
 use crate::term::Stage;
-use crate::term::viscosity::Switch;
+use crate::term::viscosity::{CullenDehnen, MorrisMonaghan};
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -164,7 +164,7 @@ fn setting<const D: usize>(density: DensityForm) -> Setting
 where
     WendlandC2: Kernel<D>,
 {
-    Setting::of::<D>(&WendlandC2, 1.3, (density, density), When::Drift)
+    Setting::of::<D>(&WendlandC2, 1.3, (density, density))
 }
 
 fn effect<const D: usize>(name: &str, density: DensityForm, effect: &impl Effect<D>) -> usize
@@ -232,25 +232,14 @@ where
             program.law(stage, CorrectedGradients { wanted });
         });
     }
-    for switch in [
-        Switch::MorrisMonaghan {
-            minimum: 0.1,
-            maximum: 1.0,
-            decay: 0.1,
-        },
-        Switch::CullenDehnen {
-            maximum: 1.0,
-            decay: 0.1,
-        },
+    let form = DensityForm::Continuity;
+    for own in [
+        ViscositySwitch::of::<_, D>(&MorrisMonaghan::STANDARD, form, 2.0),
+        ViscositySwitch::of::<_, D>(&CullenDehnen::STANDARD, form, 2.0),
     ] {
-        let own = ViscositySwitch {
-            switch,
-            form: DensityForm::Continuity,
-            support: 2.0,
-        };
-        law("switch", Stage::Rates, &|program, stage| {
-            program.law(stage, own);
-        });
+        let mut program = new();
+        program.law(Stage::Rates, own.expect("a switch"));
+        assert_eq!(check("switch", &program), 1);
     }
     let compression = Compression {
         density: DensityForm::Continuity,

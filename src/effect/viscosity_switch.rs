@@ -5,20 +5,42 @@ use super::access::Summed;
 use super::{Chunk, DensityForm, Law, Rung, Tally};
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Real;
-use crate::term::viscosity::{Surroundings, Switch};
+use crate::term::viscosity::{ArtificialViscosity, Surroundings, Switch};
 
 /// The switch of a viscosity.
 #[derive(Debug)]
 pub(crate) struct ViscositySwitch<T> {
     pub switch: Box<dyn Switch<T>>,
     /// What it reads and particles must have: of the flow before, and of gradients.
-    pub needs: Fields,
+    needs: Fields,
     /// Sums that the viscosity adds to for it.
-    pub sums: Outputs,
+    sums: Outputs,
     /// The form whose weights the rates have.
-    pub form: DensityForm,
+    form: DensityForm,
     /// Support of the kernel in units of h.
-    pub support: f64,
+    support: f64,
+}
+
+impl<T: Real> ViscositySwitch<T> {
+    /// That of a viscosity, if it has one, where rates have the weights of a form and the kernel a support in units of h.
+    pub fn of<V: ArtificialViscosity<D>, const D: usize>(
+        viscosity: &V,
+        form: DensityForm,
+        support: f64,
+    ) -> Option<Self> {
+        let switch = viscosity.switch::<T>()?;
+        let mut needs = switch.keeps();
+        if viscosity.needs_velocity_gradient() {
+            needs = needs.union(Fields::of(&[Field::VELOCITY_GRADIENT]));
+        }
+        Some(Self {
+            switch,
+            needs,
+            sums: V::WRITES,
+            form,
+            support,
+        })
+    }
 }
 
 /// What only some switches and some schemes have.

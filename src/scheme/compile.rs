@@ -61,7 +61,8 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
         let integrated = own.density.is_integrated();
         let follows_divergence = matches!(own.smoothing, Smoothing::Divergence { .. });
         // A switch follows the compression once a step, by the sum that the rates make.
-        let switch = self.viscosity.switch::<T>();
+        let support = setting.kernel.support;
+        let switch = ViscositySwitch::<T>::of(&self.viscosity, own.density, support);
         let with_rates = integrated || follows_divergence || switch.is_some();
         let mut sweeps: [Option<Box<dyn PairSweep<T, D>>>; Stage::COUNT] = Default::default();
         sweeps[Stage::Reference.number()] = compiled.at::<stage::Reference, T, D>();
@@ -92,22 +93,11 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
         self.walls.register(&mut program);
         program.books_energy &= W::BOOKS_ENERGY;
         self.effects.register(&mut program);
-        if let Some(switch) = switch {
-            program.start(Field::VISCOSITY_COEFFICIENT, switch.start());
-            for field in switch.keeps().iter() {
+        if let Some(law) = switch {
+            program.start(Field::VISCOSITY_COEFFICIENT, law.switch.start());
+            for field in law.switch.keeps().iter() {
                 program.carry(field);
             }
-            let mut needs = switch.keeps();
-            if self.viscosity.needs_velocity_gradient() {
-                needs = needs.union(Fields::of(&[Field::VELOCITY_GRADIENT]));
-            }
-            let law = ViscositySwitch {
-                switch,
-                needs,
-                sums: V::WRITES,
-                form: own.density,
-                support: setting.kernel.support,
-            };
             program.law(Stage::Rates, law);
         }
         let carries_energy = own.energy != EnergyForm::None;

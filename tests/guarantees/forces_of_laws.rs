@@ -50,10 +50,17 @@ impl<T: Real, const D: usize> Law<T, D> for Pull {
         "pull"
     }
     fn reads(&self) -> Fields {
-        let own = Fields::of(&[Field::POSITION, Field::MASS, Field::FORCE]);
+        Fields::of(&[
+            Field::POSITION,
+            Field::MASS,
+            Field::FORCE,
+            Field::REFERENCE_POSITION,
+        ])
+    }
+    fn optional(&self) -> Fields {
         match self.amplitude {
-            Some(_) => own.union(Fields::of(&[Field::REFERENCE_POSITION])),
-            None => own,
+            Some(_) => Fields::NONE,
+            None => Fields::of(&[Field::REFERENCE_POSITION]),
         }
     }
     fn writes(&self) -> Fields {
@@ -64,13 +71,10 @@ impl<T: Real, const D: usize> Law<T, D> for Pull {
         let [square, weight] = [self.omega * self.omega, self.weight].map(T::from_f64);
         let half = T::from_f64(0.5);
         let amplitude = self.amplitude.map(T::from_f64);
-        let [x, mass, force, built, stored] = chunk.columns([
-            Field::POSITION,
-            Field::MASS,
-            Field::FORCE,
-            Field::REFERENCE_POSITION,
-            STORED,
-        ]);
+        let ([x, mass, built], [force, stored]) = chunk.columns(
+            [Field::POSITION, Field::MASS, Field::REFERENCE_POSITION],
+            [Field::FORCE, STORED],
+        );
         for (n, stored) in stored.iter_mut().enumerate() {
             let mut energy = T::zero();
             for d in 0..D {
