@@ -134,6 +134,7 @@
 //! | the same, violent and for long enough that particles leave their lattice unevenly | [`schemes::weakly_compressible`] with [`ExpansionMemory`](effect::ExpansionMemory) and [`Shifting::STANDARD`](effect::Shifting), in a plane [`ConsistentShifting`](effect::ConsistentShifting) |
 //! | the same, without a coefficient to choose | [`schemes::riemann_liquid`] |
 //! | two liquids, or a liquid and a gas | [`schemes::weakly_compressible`] with [`TwoPhase`](effect::TwoPhase), bodies bonded |
+//! | the same with surface tension between them | [`SchemeBuilder::liquid`](scheme::SchemeBuilder::liquid) with [`SurfaceTension`](effect::SurfaceTension) and a weak [transport velocity](scheme::Shifting::TransportVelocity), bodies bonded |
 //! | a liquid that fills what encloses it | [`schemes::weakly_compressible`] with [`Shifting::CLOSED`](scheme::Shifting::CLOSED) and [walls](effect::ExtrapolatedPressure) with a floor of −∞ |
 //! | a liquid in tension, as one that spins or is drawn out | [`schemes::weakly_compressible`] with [`Shifting::STANDARD`](scheme::Shifting::STANDARD), [`ArtificialPressure`](effect::ArtificialPressure) and [`PairingControl`](effect::PairingControl) |
 //! | a result of LS-DYNA to repeat | [`schemes::ls_dyna_default`], [`schemes::ls_dyna_fluid`] and their renormalised forms |

@@ -29,6 +29,7 @@ macro_rules! for_each_effect {
                 $crate::effect::PairingControl::default(),
                 $crate::effect::ConsistentShifting::default(),
                 $crate::effect::TwoPhase::default(),
+                $crate::effect::SurfaceTension::between("oil", "water", 0.03),
                 $crate::effect::ExtrapolatedPressure::default(),
                 $crate::effect::RiemannWalls::default()
             ]

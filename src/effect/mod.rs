@@ -9,6 +9,7 @@
 //! | fields of its own | named, with unit: scalar, vector, symmetric tensor or matrix | [`StepProgram::declare`] |
 //! | [evolved](Evolved) fields | integrated in time, by a rate, in an update, at a kick or drift | [`StepProgram::evolve`] |
 //! | [laws](Law) | what happens to single particles after the sweep of a stage | [`StepProgram::law`] |
+//! | forces on single particles | [`Field::FORCE`](crate::particles::Field::FORCE), which laws of `Stage::Rates` add to | [`StepProgram::law`] |
 //! | [limits](Limit) of the step | the largest that a particle bears | [`StepProgram::limit`] |
 //! | a column of the ledger | the sum of a field over every body | [`StepProgram::ledger`] |
 //! | energy that it stores or dissipates | fields of both | [`StepProgram::store`], [`StepProgram::dissipate`], [`Effect::BOOKS_ENERGY`] |
@@ -64,6 +65,7 @@ mod sequence;
 mod setting;
 mod shifting;
 mod st_venant_kirchhoff;
+mod surface_tension;
 mod tension_limit;
 mod total_lagrangian;
 mod two_phase;
@@ -113,6 +115,7 @@ pub(crate) use sequence::sequence;
 pub use setting::Setting;
 pub use shifting::Shifting;
 pub use st_venant_kirchhoff::StVenantKirchhoff;
+pub use surface_tension::{ColourGradient, InterfaceCurvature, SurfaceTension};
 pub(crate) use total_lagrangian::stretches;
 pub use total_lagrangian::{DisplacementGradient, ReferenceMoment, StressForce, TotalLagrangian};
 pub use two_phase::{TwoPhase, WithinPhase};

@@ -64,6 +64,7 @@ pub use fused_kernel::{FusedKernel, PairSweep, Pass, SweepInput};
 pub use records::Records;
 pub use records::Transform;
 pub(crate) use records::{Image, add_compensated, two_sum};
+#[cfg(feature = "checkpoint")]
 pub(crate) use results::Reaction;
 #[doc(hidden)]
 pub use results::Results;

@@ -262,6 +262,8 @@ macro_rules! for_each_term {
             $crate::effect::ShiftedContinuity,
             $crate::effect::TwoPhase::default(),
             $crate::effect::WithinPhase($crate::term::Fourtakas::default()),
+            $crate::effect::ColourGradient,
+            $crate::effect::InterfaceCurvature,
             $crate::effect::HourglassFree::default(),
             $crate::effect::VelocityMismatch,
             $crate::effect::ReferenceMoment,

@@ -247,7 +247,12 @@ fn a_weight_by_a_law_is_an_acceleration() {
             let rod = |name, low: f64, v: f64| {
                 Body::block(name, catalogue::copper(), [low], [low + 0.004], 2e-4).velocity([v])
             };
-            let scene = Scene::<f64, 1>::new(schemes::impact().with(weight))
+            let form = if books {
+                EnergyForm::Compatible
+            } else {
+                EnergyForm::Symmetric
+            };
+            let scene = Scene::<f64, 1>::new(schemes::impact().energy(form).with(weight))
                 .body(rod("lower", 0.0, 0.0))
                 .body(rod("upper", 0.004, -20.0))
                 .integrator(integrator.clone());

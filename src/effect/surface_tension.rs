@@ -1,0 +1,308 @@
+//! Surface tension between two liquids by the curvature of their interface, as a force on the particles near it.
+//! Brackbill, Kothe & Zemach 1992 (J. Comput. Phys. 100, 335); Morris 2000; Adami, Hu & Adams 2010 (J. Comput. Phys. 229, 5011).
+
+use super::{Chunk, Effect, Law, Limit, Setting, StepProgram, Tally, View, not_negative};
+use crate::error::Problem;
+use crate::particles::{Field, Fields, Output, Outputs};
+use crate::scalar::{Lane, Real};
+use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
+
+/// Surface tension σ \[N/m\] between the bodies of two materials of one scheme, which are bonded.
+///
+/// The colour c is 1 in the first liquid and 0 in the second; its gradient, weighted by densities, is the normal of the interface
+/// and spreads the force over the particles within the support of the kernel:
+///
+#[doc = include_str!("../../docs/equations/surface_tension.html")]
+///
+/// with c_ij = 1 where j is of the first liquid and i of the second, −1 in the opposite case and 0 elsewhere, masses m \[kg\], volumes
+/// V \[m³\], densities ρ \[kg/m³\], curvature κ \[1/m\], the first moment s of the lattice, dimension D, and P the projection on the
+/// tangent plane of i. The acceleration is the same on both sides
+/// (Adami et al.). The curvature is the divergence of the normals in the tangent plane, reproducing as theirs, and weighted by |∇c| so that
+/// normals of particles far from the interface, which few neighbours make, count little.
+///
+/// A drop of radius R \[m\] has a pressure higher by σ/R in two dimensions and 2σ/R in three. The step is limited by capillary waves (Brackbill et
+/// al.). Forces are no pair forces: momentum changes by [`Ledger::law_impulse`](crate::simulation::Ledger::law_impulse),
+/// and what the interface releases is [`EnergyLedger::law_work`](crate::simulation::EnergyLedger::law_work). Walls and other
+/// liquids have no colour: contact angles and free surfaces have no tension.
+///
+/// Diffusion of density takes the jump of the pressure for an error: leave it out, or confine it by
+/// [`WithinPhase`](super::WithinPhase). Particles need to be kept even by weak shifts, as
+/// those of `Shifting::TransportVelocity { background: 3.0 }`: the strong ones of [`Shifting::CLOSED`](super::Shifting::CLOSED) hold the interface
+/// back.
+///
+/// ```
+/// use meshfree::effect::SurfaceTension;
+/// use meshfree::material::eos::Tait;
+/// use meshfree::prelude::*;
+/// use meshfree::sweep::Interaction;
+/// use meshfree::term::viscosity::Inviscid;
+///
+/// let oil = Material::new("oil", Tait::new(900.0, 1.0));
+/// let water = Material::new("water", Tait::new(1000.0, 1.0));
+/// let scheme = SchemeBuilder::liquid(WendlandC2, Inviscid)
+///     .with(SurfaceTension::between("oil", "water", 0.03))
+///     .between_bodies(Interaction::Bonded);
+/// let layers = Scene::<f64, 2>::new(scheme)
+///     .body(Body::block("oil", oil, [0.0; 2], [0.01, 0.005], 5e-4))
+///     .body(Body::block("water", water, [0.0, 0.005], [0.01, 0.01], 5e-4))
+///     .build()?;
+/// assert!(layers.scheme().to_string().contains("curvature of the interface"));
+/// # Ok::<(), Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct SurfaceTension {
+    /// Surface tension σ \[N/m\].
+    pub tension: f64,
+    /// Names of the two materials.
+    pub between: [String; 2],
+}
+
+impl SurfaceTension {
+    /// A tension \[N/m\] between bodies of two materials, by the names of these.
+    #[must_use]
+    pub fn between(first: &str, second: &str, tension: f64) -> Self {
+        Self {
+            tension,
+            between: [first.into(), second.into()],
+        }
+    }
+}
+
+/// One in the first liquid, two in the second, zero elsewhere.
+const COLOUR: Field = Field::scalar(9);
+const STEEPNESS: Field = Field::scalar(10);
+const NORMAL: Field = Field::vector(13);
+const GRADIENT: Output = Output::vector(9);
+const TURN: Output = Output::scalar(9);
+const SPAN: Output = Output::scalar(10);
+/// Least |∇c| h of a particle at the interface.
+const LEAST: f64 = 0.01;
+
+impl<const D: usize> Effect<D> for SurfaceTension {
+    type Terms = (
+        In<stage::Flow, ColourGradient>,
+        In<stage::Rates, InterfaceCurvature>,
+    );
+    fn terms(&self, _setting: &Setting) -> Self::Terms {
+        (In::new(ColourGradient), In::new(InterfaceCurvature))
+    }
+    fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
+        program.declare(COLOUR, "colour", "1", 0.0);
+        program.declare(STEEPNESS, "colour_gradient", "1/m", 0.0);
+        program.declare(NORMAL, "interface_normal", "1", 0.0);
+        program.declare_sum(GRADIENT, "gradient of the colour", "1/m");
+        program.declare_sum(TURN, "turn of the normals", "1/m");
+        program.declare_sum(SPAN, "span of the turn", "1");
+        program.law(Stage::State, Colours(self.between.clone()));
+        program.law(Stage::Flow, Normals);
+        program.law(Stage::Rates, Force(self.tension));
+        program.limit(CapillaryWaves(self.tension));
+        let names = self.between.clone();
+        program.require(move |scene| {
+            let there = |name: &String| scene.bodies.iter().any(|(_, own)| own.name == *name);
+            let lacks = names.iter().find(|name| !there(name));
+            if names[0] == names[1] {
+                return Some(Problem::Incompatible {
+                    what: format!(
+                        "surface tension between the material `{}` and itself",
+                        names[0]
+                    ),
+                    remedy: "give the two liquids materials of different names",
+                });
+            }
+            lacks.map(|name| Problem::Incompatible {
+                what: format!(
+                    "surface tension of the material `{name}`, of which no body of the scheme is"
+                ),
+                remedy: "name the materials of two bodies, as Material::new has them",
+            })
+        });
+    }
+    fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
+        not_negative(&[("surface tension", self.tension)])
+    }
+}
+
+/// Writes the colour of each liquid.
+#[derive(Clone, Debug)]
+struct Colours([String; 2]);
+
+impl<T: Real, const D: usize> Law<T, D> for Colours {
+    fn name(&self) -> &'static str {
+        "colours of liquids"
+    }
+    fn reads(&self) -> Fields {
+        Fields::NONE
+    }
+    fn writes(&self) -> Fields {
+        Fields::of(&[COLOUR])
+    }
+    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
+        let of = |name: &String| f64::from(u8::from(*name == chunk.around.material.name));
+        let own = of(&self.0[0]) + 2.0 * of(&self.0[1]);
+        let ([], [colour]) = chunk.columns([], [COLOUR]);
+        colour.fill(T::from_f64(own));
+        Tally::default()
+    }
+}
+
+/// ∇c, towards the first liquid.
+#[derive(Clone, Copy, Debug)]
+pub struct ColourGradient;
+
+impl<const D: usize> Term<D> for ColourGradient {
+    const READS: Fields = Fields::of(&[COLOUR, Field::MASS, Field::DENSITY]);
+    const WRITES: Outputs = Outputs::of(&[GRADIENT]);
+    #[inline(always)]
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+        let [density_i, density_j] = [pair.i(Field::DENSITY), pair.j(Field::DENSITY)];
+        let [v_i, v_j] = [
+            pair.i(Field::MASS) / density_i,
+            pair.j(Field::MASS) / density_j,
+        ];
+        // ±1 between the two liquids, zero within one and towards what has no colour.
+        let [colour_i, colour_j] = [pair.i(COLOUR), pair.j(COLOUR)];
+        let across = (colour_i - colour_j) * colour_i * colour_j * L::of(0.5);
+        let share = density_i / ((density_i + density_j) * v_i * pair.lattice_consistency_factor);
+        let factor = (v_i * v_i + v_j * v_j) * share * across * pair.f;
+        for d in 0..D {
+            sums.add_product_at(GRADIENT, d, factor, pair.r[d]);
+        }
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: "gradient of the colour".into(),
+            equation: "∇cᵢ = Σⱼ (Vᵢ² + Vⱼ²)/(s Vᵢ) ρᵢ/(ρᵢ + ρⱼ) cᵢⱼ ∇W",
+            source: "Adami, Hu & Adams 2010",
+        }
+    }
+}
+
+/// Writes normals and |∇c|.
+#[derive(Clone, Copy, Debug)]
+struct Normals;
+
+impl<T: Real, const D: usize> Law<T, D> for Normals {
+    fn name(&self) -> &'static str {
+        "normals of the interface"
+    }
+    fn reads(&self) -> Fields {
+        Fields::NONE
+    }
+    fn sums(&self) -> Outputs {
+        Outputs::of(&[GRADIENT])
+    }
+    fn writes(&self) -> Fields {
+        Fields::of(&[NORMAL, STEEPNESS])
+    }
+    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
+        let gradients = chunk.sum(GRADIENT);
+        let least = T::from_f64(LEAST / chunk.around.smoothing_length);
+        let ([], [normal, steepness]) = chunk.columns([], [NORMAL, STEEPNESS]);
+        for (n, (normal, steepness)) in normal.chunks_exact_mut(D).zip(steepness).enumerate() {
+            let gradient: [T; D] = core::array::from_fn(|d| gradients.get(d, n));
+            let length = gradient
+                .iter()
+                .fold(T::zero(), |sum, g| sum + *g * *g)
+                .sqrt();
+            let share = if length > least { T::one() } else { T::zero() };
+            *steepness = share * length;
+            for (normal, g) in normal.iter_mut().zip(gradient) {
+                *normal = share * g / length.max(least);
+            }
+        }
+        Tally::default()
+    }
+}
+
+/// Sums whose quotient is the curvature over D − 1.
+#[derive(Clone, Copy, Debug)]
+pub struct InterfaceCurvature;
+
+impl<const D: usize> Term<D> for InterfaceCurvature {
+    const READS: Fields = Fields::of(&[NORMAL, STEEPNESS, Field::MASS, Field::DENSITY]);
+    const WRITES: Outputs = Outputs::of(&[TURN, SPAN]);
+    #[inline(always)]
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+        let volume = pair.j(Field::MASS) / pair.j(Field::DENSITY);
+        let weight = volume * pair.j(STEEPNESS) * pair.f;
+        let (mut along, mut turn, mut span) = (L::zero(), L::zero(), L::zero());
+        for d in 0..D {
+            along += pair.r[d] * pair.i_at(NORMAL, d);
+        }
+        for d in 0..D {
+            // What is normal to i drops out of nⱼ − nᵢ.
+            let tangent = pair.r[d] - pair.i_at(NORMAL, d) * along;
+            turn += pair.j_at(NORMAL, d) * tangent;
+            span += tangent * tangent;
+        }
+        sums.add_product(TURN, weight, turn);
+        sums.add_product(SPAN, weight, span);
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: "curvature of the interface".into(),
+            equation: "κᵢ = (D − 1) Σⱼ Vⱼ |∇cⱼ| nⱼ·P∇W / Σⱼ Vⱼ |∇cⱼ| rᵢⱼ·P∇W",
+            source: "Morris 2000; Adami, Hu & Adams 2010, in the tangent plane",
+        }
+    }
+}
+
+/// σ κ V ∇c.
+#[derive(Clone, Copy, Debug)]
+struct Force(f64);
+
+impl<T: Real, const D: usize> Law<T, D> for Force {
+    fn name(&self) -> &'static str {
+        "surface tension"
+    }
+    fn reads(&self) -> Fields {
+        Fields::of(&[NORMAL, STEEPNESS, Field::MASS, Field::DENSITY, Field::FORCE])
+    }
+    fn sums(&self) -> Outputs {
+        Outputs::of(&[TURN, SPAN])
+    }
+    fn writes(&self) -> Fields {
+        Fields::of(&[Field::FORCE])
+    }
+    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
+        let [turns, spans] = [TURN, SPAN].map(|sum| chunk.sum(sum));
+        let factor = T::from_f64(self.0 * (D as f64 - 1.0));
+        let ([normal, steepness, mass, density], [force]) = chunk.columns(
+            [NORMAL, STEEPNESS, Field::MASS, Field::DENSITY],
+            [Field::FORCE],
+        );
+        for (n, steepness) in steepness.iter().enumerate() {
+            let span = spans.get(0, n);
+            if *steepness > T::zero() && span < T::zero() {
+                let curvature = turns.get(0, n) / span;
+                let size = factor * curvature * *steepness * mass[n] / density[n];
+                for d in n * D..(n + 1) * D {
+                    force[d] += size * normal[d];
+                }
+            }
+        }
+        Tally::default()
+    }
+}
+
+/// The time in which a capillary wave of the shortest length passes a particle at the interface.
+#[derive(Clone, Copy, Debug)]
+struct CapillaryWaves(f64);
+
+impl<T: Real, const D: usize> Limit<T, D> for CapillaryWaves {
+    fn name(&self) -> &'static str {
+        "capillary waves: 0.25 sqrt(ρ h³/(2π σ))"
+    }
+    fn reads(&self) -> Fields {
+        Fields::of(&[STEEPNESS, Field::DENSITY])
+    }
+    fn step(&self, at: &View<'_, T, D>, slot: usize) -> f64 {
+        let of = |field: Field| at.column(field)[slot].to_f64();
+        if of(STEEPNESS) == 0.0 {
+            return f64::INFINITY;
+        }
+        let inertia = of(Field::DENSITY) * at.around.smoothing_length.powi(3);
+        0.25 * (inertia / (core::f64::consts::TAU * self.0)).sqrt()
+    }
+}
