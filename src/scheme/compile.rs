@@ -76,14 +76,15 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
         sweeps[Stage::Continuity.number()] = compiled.continuity(integrated || follows_divergence);
 
         let mut program = StepProgram::new(setting);
-        if sweeps[Stage::Gradients.number()].is_some() {
+        let makes_gradients = compiled.makes_gradients::<D>();
+        if makes_gradients {
             let wanted = Gradients::<V, NeedsOf<W, E, D>, FORCE>::wanted::<D>();
             program.law(Stage::Gradients, CorrectedGradients { wanted });
         }
         // A viscosity that is chosen at run time reads what others of its kind do, and nothing may write that.
         let remembered = Fields::of(&[Field::VISCOSITY_COEFFICIENT, Field::DIVERGENCE]);
         let mut unwritten = remembered.minus(remembered.minus(V::READS));
-        if sweeps[Stage::Gradients.number()].is_none() {
+        if !makes_gradients {
             unwritten = unwritten.union(Gradients::<V, NeedsOf<W, E, D>, FORCE>::wanted::<D>());
         }
         for field in unwritten.iter() {
@@ -326,13 +327,22 @@ impl<K, V, E, N: Needs, const MODES: u8, const FORCE: u8> Compiled<K, V, E, N, M
         V: ArtificialViscosity<D>,
         E: Effects<D>,
     {
-        if const { Gradients::<V, N, FORCE>::wanted::<D>().is_empty() } {
-            return None;
+        let own = self.effects.at::<stage::Gradients>(&self.setting);
+        if self.makes_gradients::<D>() {
+            return Some(self.sweep(Gradients::<V, N, FORCE>::NEW.then(own)));
         }
+        self.named(own)
+    }
+
+    /// Whether it makes gradients of its own.
+    fn makes_gradients<const D: usize>(&self) -> bool
+    where
+        V: ArtificialViscosity<D>,
+    {
         // A viscosity that is chosen at run time may ask for nothing.
         let asked = const { !Gradients::<V, N, FORCE>::of_others::<D>().is_empty() };
-        (asked || self.viscosity.needs_velocity_gradient())
-            .then(|| self.sweep(Gradients::<V, N, FORCE>::NEW))
+        let wanted = const { !Gradients::<V, N, FORCE>::wanted::<D>().is_empty() };
+        wanted && (asked || self.viscosity.needs_velocity_gradient())
     }
 
     fn rates<T: Real, const D: usize>(&self, with_compression: bool) -> Box<dyn PairSweep<T, D>>

@@ -452,3 +452,84 @@ fn the_driver_names_no_effect_and_effects_do_not_import_the_driver() {
         }
     }
 }
+
+/// Σ V W at the stage of gradients, with which a scheme may have gradients of its own.
+#[derive(Clone, Copy, Debug)]
+struct Filled;
+
+const FILLED: Field = Field::scalar(2);
+const FILLING: Output = Output::scalar(2);
+
+impl<const D: usize> Term<D> for Filled {
+    const READS: Fields = Fields::of(&[Field::MASS, Field::DENSITY]);
+    const WRITES: Outputs = Outputs::of(&[FILLING]);
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+        sums.add(
+            FILLING,
+            pair.j(Field::MASS) / pair.j(Field::DENSITY) * pair.w,
+        );
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: "filling".into(),
+            equation: "Σ V W",
+            source: "a test",
+        }
+    }
+}
+
+impl<const D: usize> Effect<D> for Filled {
+    type Terms = (In<stage::Gradients, Self>,);
+    fn terms(&self, _setting: &Setting) -> Self::Terms {
+        (In::new(*self),)
+    }
+    fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
+        program.declare(FILLED, "filling", "1", 0.0);
+        program.declare_sum(FILLING, "sum of volumes", "1");
+        program.law(Stage::Gradients, *self);
+    }
+}
+
+impl<T: Real, const D: usize> Law<T, D> for Filled {
+    fn name(&self) -> &'static str {
+        "filling"
+    }
+    fn reads(&self) -> Fields {
+        Fields::NONE
+    }
+    fn sums(&self) -> Outputs {
+        Outputs::of(&[FILLING])
+    }
+    fn writes(&self) -> Fields {
+        Fields::of(&[FILLED])
+    }
+    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
+        let filled = chunk.sum(FILLING);
+        let ([], [column]) = chunk.columns([], [FILLED]);
+        for (n, own) in column.iter_mut().enumerate() {
+            *own = filled.get(0, n);
+        }
+        Tally::default()
+    }
+}
+
+/// Schemes without and with gradients of their own take a term of an effect at their stage.
+#[test]
+fn a_term_of_an_effect_at_the_stage_of_gradients_is_summed() {
+    let plain: Scheme<f64, 2> = schemes::impact().with(Filled).compose();
+    let corrected: Scheme<f64, 2> = schemes::updated_lagrangian().with(Filled).compose();
+    for scheme in [plain, corrected] {
+        let block = Body::block("block", catalogue::copper(), [0.0; 2], [0.02, 0.02], 1e-3);
+        let mut simulation = Scene::new(scheme).body(block).build().expect("a block");
+        simulation.evaluate().expect("sums");
+        let middle = |p: &meshfree::simulation::ParticleView<'_, f64, 2>| {
+            p.position().iter().all(|x| (0.008..0.012).contains(x))
+        };
+        let inside = simulation.all().filter(middle);
+        let filled: Vec<f64> = inside.filter_map(|p| p.scalar(FILLED)).collect();
+        assert!(!filled.is_empty());
+        // All but the particle itself, whose own share is no pair.
+        let even = filled.iter().all(|own| (0.5..1.1).contains(own));
+        assert!(even, "{filled:?}");
+    }
+}
