@@ -35,7 +35,8 @@ pub(crate) fn reads_and_writes<T: Real, const D: usize>(
 ///
 /// Laws of a stage run in an order that follows from their declarations, whatever the order of the effects: a law that reads
 /// a field comes after those that write it, unless it asks for the value [before](Self::before); of those that change one
-/// field the lower [rung](Self::rung) comes first; laws that have nothing to do with each other run in the order of their names.
+/// field the lower [rung](Self::rung) comes first; laws that have nothing to do with each other, or that add to a force or a place, run
+/// in the order of their names.
 /// A scheme in which this leaves two laws without an order, or sends them in a circle, is refused.
 ///
 /// A law of [`Stage::Rates`](crate::term::Stage::Rates) that adds to [`Field::FORCE`](crate::particles::Field::FORCE) gives particles a force \[N\]. It acts

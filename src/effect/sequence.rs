@@ -94,14 +94,10 @@ fn earlier<T: Real, const D: usize>(
                          other makes (Law::reads)",
             });
         }
-        // Those that add to the force of laws may do so in the order of their names.
-        let ranked = if field == Field::FORCE {
-            &[]
-        } else {
-            &changers[..]
-        };
-        for (n, &a) in ranked.iter().enumerate() {
-            for &b in &ranked[n + 1..] {
+        // Forces are sums, and particles are shifted by what is known before: these may follow each other in any order.
+        let adds = [Field::FORCE, Field::POSITION].contains(&field);
+        for (n, &a) in changers.iter().enumerate() {
+            for &b in &changers[n + 1..] {
                 match (laws[a].rung(), laws[b].rung()) {
                     (Some(own), Some(other)) if own < other => {
                         earlier[b].push((a, Because::Rung(field)));
@@ -109,6 +105,7 @@ fn earlier<T: Real, const D: usize>(
                     (Some(own), Some(other)) if own > other => {
                         earlier[a].push((b, Because::Rung(field)));
                     }
+                    _ if adds => {}
                     _ => ties.push((field, a, b)),
                 }
             }
