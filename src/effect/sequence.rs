@@ -95,7 +95,7 @@ fn earlier<T: Real, const D: usize>(
             });
         }
         // Forces are sums, and particles are shifted by what is known before: these may follow each other in any order.
-        let adds = [Field::FORCE, Field::POSITION].contains(&field);
+        let adds = [Field::FORCE, Field::POSITION, Field::POSITION_RESIDUAL].contains(&field);
         for (n, &a) in changers.iter().enumerate() {
             for &b in &changers[n + 1..] {
                 match (laws[a].rung(), laws[b].rung()) {
