@@ -298,11 +298,12 @@ impl<T: Real, const D: usize> Limit<T, D> for CapillaryWaves {
         Fields::of(&[STEEPNESS, Field::DENSITY])
     }
     fn step(&self, at: &View<'_, T, D>, slot: usize) -> f64 {
-        let of = |field: Field| at.column(field)[slot].to_f64();
-        if of(STEEPNESS) == 0.0 {
+        let [steepness, density] =
+            [STEEPNESS, Field::DENSITY].map(|field| at.column(field)[slot].to_f64());
+        if steepness == 0.0 {
             return f64::INFINITY;
         }
-        let inertia = of(Field::DENSITY) * at.around.smoothing_length.powi(3);
+        let inertia = density * at.around.smoothing_length.powi(3);
         0.25 * (inertia / (core::f64::consts::TAU * self.0)).sqrt()
     }
 }
