@@ -519,7 +519,8 @@ fn a_term_of_an_effect_at_the_stage_of_gradients_is_summed() {
     let plain: Scheme<f64, 2> = schemes::impact().with(Filled).compose();
     let corrected: Scheme<f64, 2> = schemes::updated_lagrangian().with(Filled).compose();
     for scheme in [plain, corrected] {
-        let block = Body::block("block", catalogue::copper(), [0.0; 2], [0.02, 0.02], 1e-3);
+        let copper = catalogue::copper().with_shear_modulus(46e9);
+        let block = Body::block("block", copper, [0.0; 2], [0.02, 0.02], 1e-3);
         let mut simulation = Scene::new(scheme).body(block).build().expect("a block");
         simulation.evaluate().expect("sums");
         let middle = |p: &meshfree::simulation::ParticleView<'_, f64, 2>| {
