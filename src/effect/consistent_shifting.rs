@@ -2,6 +2,7 @@
 //! Sun, Colagrossi, Marrone, Antuono & Zhang 2019 (Comput. Methods Appl. Mech. Engrg. 348, 912).
 
 use super::access::Summed;
+use super::shifting::PLACE;
 use super::{
     BySum, Chunk, DensityForm, Effect, Law, Rung, Setting, StepProgram, Tally, not_negative,
 };
@@ -204,10 +205,13 @@ impl<T: Real, const D: usize> Law<T, D> for Displace {
         "consistent shifting"
     }
     fn reads(&self) -> Fields {
-        Fields::of(&[Field::POSITION, Field::POSITION_RESIDUAL, SHIFT])
+        Fields::of(&[SHIFT])
     }
     fn writes(&self) -> Fields {
-        Fields::of(&[Field::POSITION, Field::POSITION_RESIDUAL])
+        PLACE
+    }
+    fn adds(&self) -> Fields {
+        PLACE
     }
     fn optional(&self) -> Fields {
         Fields::of(&[Field::POSITION_RESIDUAL])

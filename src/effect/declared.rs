@@ -138,9 +138,9 @@ fn check<const D: usize>(name: &str, program: &StepProgram<f64, D>) -> usize {
         assert!(law.before().minus(reads).is_empty(), "{name}: {law:?}");
         let all = reads.union(writes);
         assert!(law.optional().minus(all).is_empty(), "{name}: {law:?}");
-        // Who changes a field says where it stands, so that others can stand elsewhere; forces are sums.
+        assert!(law.adds().minus(writes).is_empty(), "{name}: {law:?}");
+        // Who changes a field says where it stands, so that others can stand elsewhere.
         let changes = reads.minus(reads.minus(writes));
-        let changes = changes.minus(Fields::of(&[Field::FORCE]));
         assert!(
             changes.is_empty() || law.rung().is_some(),
             "{name}: {law:?}"

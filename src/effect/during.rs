@@ -103,6 +103,9 @@ impl<T: Real, const D: usize> Law<T, D> for During<Box<dyn Law<T, D>>> {
     fn writes(&self) -> Fields {
         self.effect.writes()
     }
+    fn adds(&self) -> Fields {
+        self.effect.adds()
+    }
     fn optional(&self) -> Fields {
         self.effect.optional()
     }

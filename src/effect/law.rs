@@ -35,9 +35,9 @@ pub(crate) fn reads_and_writes<T: Real, const D: usize>(
 ///
 /// Laws of a stage run in an order that follows from their declarations, whatever the order of the effects: a law that reads
 /// a field comes after those that write it, unless it asks for the value [before](Self::before); of those that change one
-/// field the lower [rung](Self::rung) comes first; laws that have nothing to do with each other, or that add to a force or a place, run
-/// in the order of their names.
-/// A scheme in which this leaves two laws without an order, or sends them in a circle, is refused.
+/// field the lower [rung](Self::rung) comes first; laws that have nothing to do with each other, or that both [add](Self::adds) to a
+/// field, run in the order of their names. A scheme in which this leaves two laws without an order, or sends them in a circle, is
+/// refused.
 ///
 /// A law of [`Stage::Rates`](crate::term::Stage::Rates) that adds to [`Field::FORCE`](crate::particles::Field::FORCE) gives particles a force \[N\]. It acts
 /// with every integrator as forces of pairs do; what it works and the momentum that it gives are in the
@@ -53,8 +53,14 @@ pub trait Law<T: Real, const D: usize>: Debug + Send + Sync {
     fn sums(&self) -> Outputs {
         Outputs::NONE
     }
-    /// Fields that it writes. What it also reads it changes, all else it makes anew for every particle.
+    /// Fields that it writes. What it also reads it changes, what it [adds](Self::adds) to keeps what others have added, and all else
+    /// it makes anew for every particle.
     fn writes(&self) -> Fields;
+    /// Those of `writes` to which it adds what does not depend on their values, as a force or a shift: laws that only add to a field
+    /// may follow each other in any order.
+    fn adds(&self) -> Fields {
+        Fields::NONE
+    }
     /// Those of `reads` and `writes` that it uses where the scheme has them for other reasons, and does without elsewhere.
     fn optional(&self) -> Fields {
         Fields::NONE

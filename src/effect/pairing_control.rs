@@ -1,6 +1,7 @@
 //! Pairing control: particles nearer to each other than the spacing are moved apart, at free surfaces too.
 //! Shifting that acts between near pairs alone, after Xu, Stansby & Laurence 2009 and Lind et al. 2012.
 
+use super::shifting::PLACE;
 use super::{Chunk, DensityForm, Effect, Law, Rung, Setting, StepProgram, Tally, not_negative};
 use crate::error::Problem;
 use crate::particles::{Field, Fields, Output, Outputs};
@@ -76,17 +77,16 @@ impl<T: Real, const D: usize> Law<T, D> for PairingControl {
         "pairing control"
     }
     fn reads(&self) -> Fields {
-        Fields::of(&[
-            Field::POSITION,
-            Field::POSITION_RESIDUAL,
-            Field::SOUND_SPEED,
-        ])
+        Fields::of(&[Field::SOUND_SPEED])
     }
     fn sums(&self) -> Outputs {
         Outputs::of(&[NEAR])
     }
     fn writes(&self) -> Fields {
-        Fields::of(&[Field::POSITION, Field::POSITION_RESIDUAL])
+        PLACE
+    }
+    fn adds(&self) -> Fields {
+        PLACE
     }
     fn optional(&self) -> Fields {
         Fields::of(&[Field::POSITION_RESIDUAL])

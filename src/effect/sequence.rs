@@ -79,8 +79,9 @@ fn earlier<T: Real, const D: usize>(
         let reads = |law: &dyn Law<T, D>| law.reads().contains(field);
         let writes = |law: &dyn Law<T, D>| law.writes().contains(field);
         let before = |law: &dyn Law<T, D>| law.before().contains(field);
-        let makers = with(&|law| writes(law) && !reads(law));
-        let changers = with(&|law| writes(law) && reads(law));
+        let adds = |law: &dyn Law<T, D>| law.adds().contains(field);
+        let makers = with(&|law| writes(law) && !reads(law) && !adds(law));
+        let changers = with(&|law| writes(law) && (reads(law) || adds(law)));
         if let [a, b, ..] = makers[..] {
             return Err(Problem::Incompatible {
                 what: format!(
@@ -94,8 +95,6 @@ fn earlier<T: Real, const D: usize>(
                          other makes (Law::reads)",
             });
         }
-        // Forces are sums, and particles are shifted by what is known before: these may follow each other in any order.
-        let adds = [Field::FORCE, Field::POSITION, Field::POSITION_RESIDUAL].contains(&field);
         for (n, &a) in changers.iter().enumerate() {
             for &b in &changers[n + 1..] {
                 match (laws[a].rung(), laws[b].rung()) {
@@ -105,7 +104,7 @@ fn earlier<T: Real, const D: usize>(
                     (Some(own), Some(other)) if own > other => {
                         earlier[a].push((b, Because::Rung(field)));
                     }
-                    _ if adds => {}
+                    _ if adds(&*laws[a]) && adds(&*laws[b]) => {}
                     _ => ties.push((field, a, b)),
                 }
             }
@@ -221,6 +220,7 @@ mod tests {
         reads: Fields,
         before: Fields,
         writes: Fields,
+        adds: Fields,
         rung: Option<Rung>,
     }
 
@@ -231,12 +231,19 @@ mod tests {
                 reads: Fields::of(reads),
                 before: Fields::NONE,
                 writes: Fields::of(writes),
+                adds: Fields::NONE,
                 rung: None,
             }
         }
         fn on(self, rung: Rung) -> Self {
             Self {
                 rung: Some(rung),
+                ..self
+            }
+        }
+        fn adding(self) -> Self {
+            Self {
+                adds: self.writes,
                 ..self
             }
         }
@@ -262,6 +269,9 @@ mod tests {
         }
         fn before(&self) -> Fields {
             self.before
+        }
+        fn adds(&self) -> Fields {
+            self.adds
         }
         fn rung(&self) -> Option<Rung> {
             self.rung
@@ -336,6 +346,23 @@ mod tests {
         let reads = Plain::new("a", &[STRESS, STRAIN], &[STRESS]);
         let writes = Plain::new("b", &[STRESS], &[STRESS, STRAIN]);
         assert_eq!(found(&[reads, writes]).as_deref(), Ok(&["b", "a"][..]));
+    }
+
+    #[test]
+    fn laws_that_add_follow_each_other_in_any_order() {
+        let adds = |name| Plain::new(name, &[], &[Field::POSITION]).adding();
+        let reads = Plain::new("a look", &[Field::POSITION], &[]);
+        let order = ["one", "two", "a look"];
+        assert_eq!(
+            found(&[adds("two"), adds("one"), reads]).as_deref(),
+            Ok(&order[..])
+        );
+        // One that changes what others add to has to say where it stands.
+        let bounds = Plain::new("bounds", &[Field::POSITION], &[Field::POSITION]);
+        let text = found(&[adds("one"), bounds]).expect_err("a tie");
+        assert!(text.contains("`bounds` and `one`"), "{text}");
+        let laws = [adds("one").on(Rung::Flow), bounds.on(Rung::Bound)];
+        assert_eq!(found(&laws).as_deref(), Ok(&["one", "bounds"][..]));
     }
 
     #[test]

@@ -67,6 +67,8 @@ const SURFACE: [f64; 2] = [0.75, 0.95];
 const STABLE: f64 = 0.3;
 /// Longest shift in units of the smoothing length: larger ones come from pairs that have collapsed.
 const LONGEST: f64 = 0.1;
+/// What a shift adds to: places, and the rounding errors of these where the scheme keeps them.
+pub(super) const PLACE: Fields = Fields::of(&[Field::POSITION, Field::POSITION_RESIDUAL]);
 
 impl<const D: usize> Effect<D> for Shifting {
     type Terms = (In<stage::Continuity, ConcentrationGradient<D>>,);
@@ -100,18 +102,16 @@ impl<T: Real, const D: usize> Law<T, D> for Shifting {
         "shifting"
     }
     fn reads(&self) -> Fields {
-        Fields::of(&[
-            Field::POSITION,
-            Field::POSITION_RESIDUAL,
-            Field::VELOCITY,
-            Field::SOUND_SPEED,
-        ])
+        Fields::of(&[Field::VELOCITY, Field::SOUND_SPEED])
     }
     fn sums(&self) -> Outputs {
         Outputs::of(&[Output::CONCENTRATION_GRADIENT, Output::MOMENT])
     }
     fn writes(&self) -> Fields {
-        Fields::of(&[Field::POSITION, Field::POSITION_RESIDUAL])
+        PLACE
+    }
+    fn adds(&self) -> Fields {
+        PLACE
     }
     fn optional(&self) -> Fields {
         Fields::of(&[Field::POSITION_RESIDUAL])

@@ -257,12 +257,15 @@ impl<T: Real, const D: usize> Law<T, D> for Force {
         "surface tension"
     }
     fn reads(&self) -> Fields {
-        Fields::of(&[NORMAL, STEEPNESS, Field::MASS, Field::DENSITY, Field::FORCE])
+        Fields::of(&[NORMAL, STEEPNESS, Field::MASS, Field::DENSITY])
     }
     fn sums(&self) -> Outputs {
         Outputs::of(&[TURN, SPAN])
     }
     fn writes(&self) -> Fields {
+        Fields::of(&[Field::FORCE])
+    }
+    fn adds(&self) -> Fields {
         Fields::of(&[Field::FORCE])
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {

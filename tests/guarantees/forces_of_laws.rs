@@ -50,12 +50,7 @@ impl<T: Real, const D: usize> Law<T, D> for Pull {
         "pull"
     }
     fn reads(&self) -> Fields {
-        Fields::of(&[
-            Field::POSITION,
-            Field::MASS,
-            Field::FORCE,
-            Field::REFERENCE_POSITION,
-        ])
+        Fields::of(&[Field::POSITION, Field::MASS, Field::REFERENCE_POSITION])
     }
     fn optional(&self) -> Fields {
         match self.amplitude {
@@ -65,6 +60,9 @@ impl<T: Real, const D: usize> Law<T, D> for Pull {
     }
     fn writes(&self) -> Fields {
         Fields::of(&[Field::FORCE, STORED])
+    }
+    fn adds(&self) -> Fields {
+        Fields::of(&[Field::FORCE])
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
         let origin = chunk.around.origin.map(T::from_f64);

@@ -2,8 +2,8 @@
 //! Laws are permuted at run time, lists are permuted in the source, and neither program nor bits change.
 
 use meshfree::effect::{
-    Damage, DensityFloor, FiniteStrainPlasticity, Hypoelastic, PairingControl, Plasticity,
-    UniaxialStress, YieldingHourglass,
+    ConsistentShifting, Damage, DensityFloor, FiniteStrainPlasticity, Hypoelastic, PairingControl,
+    Plasticity, UniaxialStress, YieldingHourglass,
 };
 use meshfree::material::failure::{PlasticStrainLimit, SpallStrength};
 use meshfree::prelude::*;
@@ -133,6 +133,22 @@ fn permuted_laws_are_the_same_laws() {
             ..start
         };
         let water = Body::block("water", water, [0.0], [1.0], 0.02).start(stretch);
+        Scene::new(scheme).body(water).build().expect("water")
+    });
+    let shifted = || {
+        schemes::weakly_compressible()
+            .with(ConsistentShifting::default())
+            .with(Shifting::STANDARD)
+            .with(PairingControl::default())
+            .compose()
+    };
+    stays::<2>(shifted, |scheme| {
+        let water = catalogue::weakly_compressible_water(1.0);
+        let shear = |[x, y]: [f64; 2], start| Start {
+            velocity: [y.sin(), x.cos()],
+            ..start
+        };
+        let water = Body::block("water", water, [0.0; 2], [1.0; 2], 0.05).start(shear);
         Scene::new(scheme).body(water).build().expect("water")
     });
     let structure = || {
