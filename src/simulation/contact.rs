@@ -1,14 +1,12 @@
 //! Couplings by forces between pairs: the search, sums of their own, forces, work, and what pairs remember.
 //! Pairs act in the order of the numbers of their particles, so results do not depend on threads or on lists.
 
-use super::Simulation;
 use super::group::Group;
 use super::group::shared_with_image;
 use super::pair_list::PairList;
 use super::side::{MetWall, Side, carry};
 use crate::boundary::Boundary;
 use crate::coupling::{Anchor, CoupledPair, Coupling};
-use crate::error::{Error, Problem, Result};
 use crate::particles::Field;
 use crate::scalar::Real;
 use crate::tensor::{Matrix, Vector};
@@ -56,7 +54,7 @@ pub(crate) struct Acting<T, const D: usize> {
     /// at is that far from it.
     pub moments: Matrix<f64, D>,
     /// Anchors of pairs \[m\], in the order of the numbers of their particles.
-    pub anchors: Vec<([u32; 2], Anchor<T, D>)>,
+    pub anchors: Vec<([u64; 2], Anchor<T, D>)>,
     /// Energy that it stores \[J\].
     pub stored: f64,
     /// Heat since the start \[J\].
@@ -89,91 +87,6 @@ impl<T, const D: usize> Default for Acting<T, D> {
     }
 }
 
-/// How a coupling by forces stands; see [couplings](crate::coupling#energy).
-#[derive(Clone, Debug, PartialEq)]
-pub struct Contact {
-    /// The name of the coupling.
-    pub name: &'static str,
-    /// The bodies; a body that meets itself is there twice, and a wall second.
-    pub bodies: [String; 2],
-    /// Pairs that act.
-    pub pairs: usize,
-    /// The force on the first body \[N\]; zero for a body that meets itself.
-    pub force: Vec<f64>,
-    /// Energy that it stores \[J\].
-    pub stored: f64,
-    /// Heat of friction since the start \[J\].
-    pub heat: f64,
-    /// What it has worked on both since the start \[J\]; what a wall that moves has worked on the body is the opposite of
-    /// the second.
-    pub work: [f64; 2],
-    /// How much nearer than a mean spacing the nearest pair is, in spacings; zero if none is nearer.
-    pub penetration: f64,
-    /// The largest since the start.
-    pub largest_penetration: f64,
-}
-
-impl<T: Real, const D: usize> Simulation<T, D> {
-    /// How all couplings by forces stand, in the order of the scene.
-    #[must_use]
-    pub fn contacts(&self) -> Vec<Contact> {
-        let contact = |own: &Couple<T, D>| Contact {
-            name: own.coupling.name(),
-            bodies: (own.sides.each_ref()).map(|side| side.name(&self.state.groups).to_owned()),
-            pairs: own.acting.pairs,
-            force: own.acting.force.to_vec(),
-            stored: own.acting.stored,
-            heat: own.acting.heat,
-            work: own.work,
-            penetration: own.acting.penetration[0],
-            largest_penetration: own.acting.penetration[1],
-        };
-        self.state.couples.iter().map(contact).collect()
-    }
-
-    /// The largest penetration since the start, in mean spacings, of all couplings with a name.
-    ///
-    /// # Errors
-    /// If no coupling by forces has that name; the error lists those that there are.
-    pub fn largest_penetration(&self, coupling: &str) -> Result<f64> {
-        let own = (self.state.couples.iter()).filter(|own| own.coupling.name() == coupling);
-        let own = own.map(|own| own.acting.penetration[1]).reduce(f64::max);
-        own.ok_or_else(|| {
-            let known: Vec<_> = self
-                .state
-                .couples
-                .iter()
-                .map(|own| own.coupling.name())
-                .collect();
-            Error::Argument(Problem::UnknownName {
-                kind: "coupling by forces",
-                name: coupling.into(),
-                known: known.join(", "),
-            })
-        })
-    }
-
-    /// Gives bodies the forces of couplings between pairs, with the rates at hand.
-    pub(super) fn act_in_pairs(&mut self) {
-        for couple in &mut self.state.couples {
-            couple.act(
-                &mut self.state.groups,
-                self.control.approach,
-                self.state.evaluated,
-            );
-        }
-    }
-
-    /// Books what couplings by forces work in a kick over `dt` \[s\].
-    pub(super) fn record_couples(&mut self, dt: f64) {
-        for couple in &mut self.state.couples {
-            for side in 0..2 {
-                couple.work[side] += couple.work_in_kick(side, &self.state.groups, dt);
-            }
-        }
-    }
-}
-
 impl<T: Real, const D: usize> Couple<T, D> {
     /// Whether it is of a body with itself.
     pub fn is_self(&self) -> bool {
@@ -186,7 +99,8 @@ impl<T: Real, const D: usize> Couple<T, D> {
         0.5 * (first + second)
     }
 
-    fn work_in_kick(&self, side: usize, groups: &[Group<T, D>], dt: f64) -> f64 {
+    /// What its forces on a side work in a kick over `dt` \[s\] \[J\].
+    pub fn work_in_kick(&self, side: usize, groups: &[Group<T, D>], dt: f64) -> f64 {
         let mut work = 0.0;
         match &self.sides[side] {
             Side::Body { group, .. } => {
@@ -224,7 +138,7 @@ impl<T: Real, const D: usize> Couple<T, D> {
     }
 
     /// Forces between all pairs within reach, on the groups of both sides.
-    fn act(&mut self, groups: &mut [Group<T, D>], approach: f64, time: f64) {
+    pub fn act(&mut self, groups: &mut [Group<T, D>], approach: f64, time: f64) {
         if self.stiffness.is_nan() {
             let [a, b] = self.sides.each_ref().map(|side| side.stiffness(groups));
             self.stiffness = 2.0 / (1.0 / a + 1.0 / b);

@@ -1,13 +1,38 @@
-//! The driver of couplings: brings structures to the liquids that they are walls of, and hands forces over.
+//! The driver of couplings: brings structures to the liquids that they are walls of, hands forces over, and reports them.
 //! What a coupling does is its own; the order, the search, the ledger and the opposite forces are here.
 
 use super::Simulation;
+use super::contact::Couple;
 use super::group::Group;
 use super::population::BodyState;
-use crate::error::{Error, Result};
+use crate::error::{Error, Problem, Result};
 use crate::particles::Output;
 use crate::scalar::Real;
 use crate::term::TermDoc;
+
+/// How a coupling by forces stands; see [couplings](crate::coupling#energy).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contact {
+    /// The name of the coupling.
+    pub name: &'static str,
+    /// The bodies; a body that meets itself is there twice, and a wall second.
+    pub bodies: [String; 2],
+    /// Pairs that act.
+    pub pairs: usize,
+    /// The force on the first body \[N\]; zero for a body that meets itself.
+    pub force: Vec<f64>,
+    /// Energy that it stores \[J\].
+    pub stored: f64,
+    /// Heat of friction since the start \[J\].
+    pub heat: f64,
+    /// What it has worked on both since the start \[J\]; what a wall that moves has worked on the body is the opposite of
+    /// the second.
+    pub work: [f64; 2],
+    /// How much nearer than a mean spacing the nearest pair is, in spacings; zero if none is nearer.
+    pub penetration: f64,
+    /// The largest since the start.
+    pub largest_penetration: f64,
+}
 
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// What its groups do to each other: every coupling that acts, with its equation and source, once.
@@ -23,6 +48,45 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             }
         }
         all
+    }
+
+    /// How all couplings by forces stand, in the order of the scene.
+    #[must_use]
+    pub fn contacts(&self) -> Vec<Contact> {
+        let contact = |own: &Couple<T, D>| Contact {
+            name: own.coupling.name(),
+            bodies: (own.sides.each_ref()).map(|side| side.name(&self.state.groups).to_owned()),
+            pairs: own.acting.pairs,
+            force: own.acting.force.to_vec(),
+            stored: own.acting.stored,
+            heat: own.acting.heat,
+            work: own.work,
+            penetration: own.acting.penetration[0],
+            largest_penetration: own.acting.penetration[1],
+        };
+        self.state.couples.iter().map(contact).collect()
+    }
+
+    /// The largest penetration since the start, in mean spacings, of all couplings with a name.
+    ///
+    /// # Errors
+    /// If no coupling by forces has that name; the error lists those that there are.
+    pub fn largest_penetration(&self, coupling: &str) -> Result<f64> {
+        let own = (self.state.couples.iter()).filter(|own| own.coupling.name() == coupling);
+        let own = own.map(|own| own.acting.penetration[1]).reduce(f64::max);
+        own.ok_or_else(|| {
+            let known: Vec<_> = self
+                .state
+                .couples
+                .iter()
+                .map(|own| own.coupling.name())
+                .collect();
+            Error::Argument(Problem::UnknownName {
+                kind: "coupling by forces",
+                name: coupling.into(),
+                known: known.join(", "),
+            })
+        })
     }
 
     /// Brings the walls that structures are to where their particles are now, at `time` \[s\]; whether all rates are
@@ -55,6 +119,26 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             }
         });
         self.act_in_pairs();
+    }
+
+    /// Gives bodies the forces of couplings between pairs, with the rates at hand.
+    pub(super) fn act_in_pairs(&mut self) {
+        for couple in &mut self.state.couples {
+            couple.act(
+                &mut self.state.groups,
+                self.control.approach,
+                self.state.evaluated,
+            );
+        }
+    }
+
+    /// Books what couplings by forces work in a kick over `dt` \[s\].
+    pub(super) fn record_couples(&mut self, dt: f64) {
+        for couple in &mut self.state.couples {
+            for side in 0..2 {
+                couple.work[side] += couple.work_in_kick(side, &self.state.groups, dt);
+            }
+        }
     }
 
     fn for_each_structure(

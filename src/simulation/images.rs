@@ -9,11 +9,18 @@ use std::sync::Arc;
 /// How an image's transform comes about: the boundary's own, after that of the image it shows.
 #[derive(Clone, Copy, Debug)]
 struct Chain {
-    /// A number that does not depend on which images there are.
-    code: u32,
+    /// A number that does not depend on which images there are, of the pairs of a coupling; of many boundaries, which a scene with
+    /// couplings may not have, it is not one of a kind.
+    code: u64,
     parent: Option<u32>,
     boundary: usize,
     image: usize,
+}
+
+/// How many numbers chains of some boundaries have, from that of a particle itself, 0; modulo 2⁶⁴.
+fn numbers_of_chains<const D: usize>(boundaries: &[Arc<dyn Boundary<D>>]) -> u64 {
+    let each = boundaries.iter().map(|own| own.images() as u64 + 1);
+    each.fold(1, u64::wrapping_mul)
 }
 
 /// The transforms of images, each of one boundary after another.
@@ -49,23 +56,22 @@ impl<T: Real, const D: usize> Chains<T, D> {
         (reach, time): (f64, f64),
     ) {
         let (boundary, earlier) = (&boundaries[b], images.len());
-        let radix: u32 = boundaries[..b]
-            .iter()
-            .map(|own| own.images() as u32 + 1)
-            .product();
+        let radix = numbers_of_chains(&boundaries[..b]);
         for image in 0..boundary.images() {
             let own = boundary.transform(image, time).to_scalar::<T>();
             let mut add = |images: &mut Vec<_>, source, parent: Option<u32>, x: [f64; D]| {
                 if !boundary.reaches(image, &x, reach, time) {
                     return;
                 }
-                let before = parent.map_or(0, |parent| self.all[parent as usize].code);
-                let code = before + radix * (image as u32 + 1);
-                let known = self.all.iter().position(|chain| chain.code == code);
+                let known = self.all.iter().position(|chain| {
+                    (chain.parent, chain.boundary, chain.image) == (parent, b, image)
+                });
                 let transform = known.unwrap_or(self.all.len()) as u32;
                 if known.is_none() {
+                    let before = parent.map_or(0, |parent| self.all[parent as usize].code);
+                    let own = radix.wrapping_mul(image as u64 + 1);
                     self.all.push(Chain {
-                        code,
+                        code: before.wrapping_add(own),
                         parent,
                         boundary: b,
                         image,
@@ -179,11 +185,10 @@ impl<T: Real, const D: usize> PairImages<T, D> {
     }
 
     /// A number of what stands at a number of the list that lists made later have too, in the same order.
-    pub fn key(&self, side: usize, id: u32) -> u32 {
-        match self.source(side, id) {
-            (id, None) => id,
-            (id, Some(chain)) => id + self.chains.all[chain].code * self.counts[side] as u32,
-        }
+    pub fn key(&self, side: usize, id: u32) -> u64 {
+        let (id, chain) = self.source(side, id);
+        let code = chain.map_or(0, |chain| self.chains.all[chain].code);
+        u64::from(id) + code * self.counts[side] as u64
     }
 
     /// The boundary to which the last image of a chain belongs.

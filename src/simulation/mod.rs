@@ -185,9 +185,9 @@ mod which;
 mod work;
 mod workspace;
 
-pub use contact::Contact;
 pub use control::StepControl;
 pub use cost::{Cost, CostLine};
+pub use couplings::Contact;
 pub use energy::EnergyLedger;
 pub use held::Clamped;
 pub use indicators::{Indicators, Limit, LimitedBy, Spread};

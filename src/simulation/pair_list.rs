@@ -21,7 +21,7 @@ pub(crate) struct PairList<T: Real, const D: usize> {
     pub skin: f64,
     pub particles: Vec<CoupledParticle<T, D>>,
     pub forces: Vec<[T; D]>,
-    pub anchors: Vec<([u32; 2], Anchor<T, D>)>,
+    pub anchors: Vec<([u64; 2], Anchor<T, D>)>,
     pub near: [Vec<u32>; 2],
     pub found: Vec<[u32; 2]>,
     pub row_of: Vec<u32>,

@@ -308,7 +308,7 @@ fn stiffness_of<T: Real, const D: usize>(particles: &Particles<T, D>, body: usiz
 
 /// Brings what pairs with a wall remember from one time to another.
 pub(super) fn carry<T: Real, const D: usize>(
-    anchors: &mut [([u32; 2], Anchor<T, D>)],
+    anchors: &mut [([u64; 2], Anchor<T, D>)],
     (turn, shift): (Matrix<f64, D>, [f64; D]),
 ) {
     for (_, anchor) in anchors {

@@ -1,6 +1,7 @@
 //! Planes that reflect hold liquid that has no pressure, as they hold what presses against them.
 //! A drop that flies through a plane is the drop that comes from behind it.
 
+use crate::solids_in_tank::rubber;
 use meshfree::material::{Liquid, SoundSpeed};
 use meshfree::prelude::*;
 use meshfree::scene::Start;
@@ -138,4 +139,65 @@ fn a_body_behind_a_plane_is_refused() {
         .boundary(turned_round);
     let complaint = scene.build().unwrap_err().to_string();
     assert!(complaint.contains("`drops`") && complaint.contains("turn the normal round"));
+}
+
+/// Planes that nothing comes near.
+fn far(count: usize) -> impl Iterator<Item = MirrorPlane<2>> {
+    (0..count).map(move |k| {
+        let (sin, cos) = (1.5 * k as f64 / count as f64).sin_cos();
+        MirrorPlane::symmetry([9.0 * cos, 9.0 * sin], [cos, sin])
+    })
+}
+
+/// Runs a scene in the corner of two planes, between which others stand in the list.
+fn in_a_corner(scene: Scene<f64, 2>, others: usize) -> Vec<[f64; 2]> {
+    let [left, floor] = [[-1.0, 0.0], [0.0, -1.0]].map(|n| MirrorPlane::symmetry([0.0; 2], n));
+    let scene = far(others).fold(scene.boundary(left), Scene::boundary);
+    let mut now = scene.boundary(floor).build().unwrap();
+    for _ in 0..20 {
+        now.step().unwrap();
+    }
+    now.all().map(|particle| particle.position()).collect()
+}
+
+#[test]
+fn planes_that_nothing_reaches_change_no_bit() {
+    let water = || {
+        let water = catalogue::weakly_compressible_water(5.0);
+        let drop = Body::block("drop", water, [0.0; 2], [0.1; 2], 0.01).velocity([-1.0, -0.7]);
+        Scene::<f64, 2>::new(schemes::weakly_compressible()).body(drop)
+    };
+    assert_eq!(in_a_corner(water(), 0), in_a_corner(water(), 38));
+    let blocks = || {
+        let block = |name, low: f64, v| {
+            let rubber = rubber(1000.0, 1e6);
+            Body::block(name, rubber, [0.0, low], [0.1, low + 0.05], 0.01).velocity(v)
+        };
+        Scene::<f64, 2>::new(schemes::total_lagrangian().with(NeoHookean))
+            .body(block("lower", 0.0, [0.0; 2]))
+            .body(block("upper", 0.06, [-0.5, -2.0]))
+            .couple("lower", "upper", Penalty::new().friction(0.3))
+            .couple_self("upper", 0.03, Penalty::new())
+    };
+    assert_eq!(in_a_corner(blocks(), 0), in_a_corner(blocks(), 28));
+}
+
+#[test]
+fn more_planes_than_can_be_told_apart_are_refused() {
+    let water = catalogue::weakly_compressible_water(5.0);
+    let drop = Body::block("drop", water, [0.0; 2], [0.1; 2], 0.01);
+    let scene = Scene::<f64, 2>::new(schemes::weakly_compressible()).body(drop);
+    let scene = far(65).fold(scene, Scene::boundary);
+    let complaint = scene.build().unwrap_err().to_string();
+    assert!(
+        complaint.contains("number of boundaries is 65"),
+        "{complaint}"
+    );
+    let rods = Scene::<f64, 2>::new(schemes::total_lagrangian().with(NeoHookean)).body(
+        Body::block("block", rubber(1000.0, 1e6), [0.0; 2], [0.1; 2], 0.01),
+    );
+    let rods = rods.couple_self("block", 0.03, Penalty::new());
+    let complaint = far(32).fold(rods, Scene::boundary).build().unwrap_err();
+    let complaint = complaint.to_string();
+    assert!(complaint.contains("images of images"), "{complaint}");
 }

@@ -13,7 +13,7 @@ const DX: f64 = 0.02;
 const G: f64 = 9.81;
 const SOUND: f64 = 20.0;
 
-fn rubber(density: f64, youngs: f64) -> Material<f64> {
+pub(crate) fn rubber(density: f64, youngs: f64) -> Material<f64> {
     let law = Linear::from_elastic_constants(density, youngs, 0.3);
     Material::new("rubber", law).with_shear_modulus(youngs / 2.6)
 }

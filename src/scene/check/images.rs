@@ -16,7 +16,34 @@ const ROTATION: f64 = 1e-5;
 /// Share of the spacing within which two images are at one place.
 const SAME_PLACE: f64 = 1e-2;
 
+/// Boundaries of a scene: where one looks for what a point is behind of, each is a bit.
+const MOST_BOUNDARIES: usize = 64;
+
+/// Images of images that a scene with couplings can have: with the number of a particle they number a pair in 64 bits.
+const MOST_NUMBERED: f64 = u32::MAX as f64;
+
 impl<T: Real, const D: usize> Scene<T, D> {
+    /// More boundaries than can be told apart.
+    pub(super) fn check_boundary_count(&self, problems: &mut Vec<Problem>) {
+        let count = self.boundaries.len();
+        if count > MOST_BOUNDARIES {
+            let must_be =
+                "it must be at most 64: a wall of many faces is made of particles (Scene::wall)";
+            problems.push(parameter("number of boundaries", count as f64, must_be));
+        }
+        let each = self.boundaries.iter().map(|own| own.images() as f64 + 1.0);
+        let all: f64 = each.product();
+        if !self.couplings.is_empty() && all > MOST_NUMBERED {
+            let must_be = "it must be below 2³² where bodies are coupled, as of 31 planes: make walls of many faces of \
+                           particles (Scene::wall)";
+            problems.push(parameter(
+                "number of images of images of a particle",
+                all,
+                must_be,
+            ));
+        }
+    }
+
     /// Transforms that are none.
     pub(super) fn check_transforms(&self, problems: &mut Vec<Problem>) {
         for boundary in &self.boundaries {

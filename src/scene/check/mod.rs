@@ -71,6 +71,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         }
         if problems.len() == before {
             self.check_periods(&mut problems);
+            self.check_boundary_count(&mut problems);
             self.check_images(&mut problems);
         }
         self.check_openings(&mut problems);

@@ -50,7 +50,7 @@ impl<T: Real, const D: usize> Couple<T, D> {
             file.put(format!("{name}/particles{side}"), 1, ids);
             file.put_reals(format!("{name}/forces{side}"), D, forces.as_flattened());
         }
-        let (ids, anchors): (Vec<[u32; 2]>, Vec<Anchor<T, D>>) = anchors.iter().copied().unzip();
+        let (ids, anchors): (Vec<[u64; 2]>, Vec<Anchor<T, D>>) = anchors.iter().copied().unzip();
         let rows: Vec<[[T; D]; 2]> = anchors.iter().map(|own| [own.place, own.force]).collect();
         file.put(format!("{name}/anchored"), 2, ids.as_flattened());
         file.put_reals(
@@ -90,8 +90,8 @@ impl<T: Real, const D: usize> Couple<T, D> {
             let forces = file.get::<f64>(&of(&format!("images{side}")))?;
             *own = forces.as_chunks::<D>().0.to_vec();
         }
-        let ids = file.get::<u32>(&of("anchored"))?;
-        let ids: Vec<[u32; 2]> = ids.as_chunks::<2>().0.to_vec();
+        let ids = file.get::<u64>(&of("anchored"))?;
+        let ids: Vec<[u64; 2]> = ids.as_chunks::<2>().0.to_vec();
         let rows = vectors("anchors", 2 * ids.len())?;
         let anchors = rows.as_chunks::<2>().0.iter();
         let anchors = anchors.map(|&[place, force]| Anchor { place, force });
