@@ -174,11 +174,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             laws,
         }) = work
         {
-            file.put("work".into(), 1, [*start, *load, *wall]);
-            // Files of scenes whose laws give no forces are as they were.
-            if *laws != 0.0 {
-                file.put_one("work/laws".into(), *laws);
-            }
+            file.put("work".into(), 1, [*start, *load, *wall, *laws]);
         }
         let (width, rows) = stores.rows();
         file.put_one("stored energy/limit".into(), stores.limit());
@@ -267,12 +263,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
         self.state.work = None;
         if file.has("work") {
-            let [start, load, wall] = file.get_array("work")?;
-            let laws = if file.has("work/laws") {
-                file.get_one("work/laws")?
-            } else {
-                0.0
-            };
+            let [start, load, wall, laws] = file.get_array("work")?;
             self.state.work = Some(Work {
                 start,
                 load,
