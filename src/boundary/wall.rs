@@ -2,7 +2,7 @@
 //! A wall particle takes its pressure from the liquid before it (Adami, Hu & Adams 2012).
 
 use super::Motion;
-use crate::geometry::{Cuboid, FEWER, Flaw, MOST_PARTICLES, POSITIVE, SWAPPED, Shape};
+use crate::geometry::{Cuboid, FEWER, Flaw, MOST_PARTICLES, POSITIVE, SWAPPED, Shape, edge};
 use crate::tensor::{Vector, length};
 use std::sync::Arc;
 
@@ -138,7 +138,7 @@ impl<const D: usize> Wall<D> {
         }
         // Of the volume of a cell as fitted, as the liquid's are: the force on the wall is in proportion.
         let volume: f64 = (0..D).map(|d| size[d] / counts[d] as f64).product();
-        Self::of(name, points, volume.powf(1.0 / D as f64)).fluid_side(Cuboid::new(low, high))
+        Self::of(name, points, edge::<D>(volume)).fluid_side(Cuboid::new(low, high))
     }
 
     /// Tells it the side that fluid may fill, from whose distance it takes the normals that

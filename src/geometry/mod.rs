@@ -41,6 +41,7 @@ mod overlap;
 #[cfg(test)]
 mod tests;
 
+use crate::scalar::Lane;
 use crate::tensor::{Matrix, Vector, length};
 use core::fmt::Debug;
 
@@ -55,6 +56,15 @@ pub use lattice::{fill, layers};
 pub use mesh::Mesh;
 pub use moved::Moved;
 pub use open_cell::{OpenCell, OpenCellPart};
+
+/// The edge of a cube, square or line of some volume \[mᴰ\].
+pub(crate) fn edge<const D: usize>(volume: f64) -> f64 {
+    match D {
+        1 => volume,
+        2 => volume.sqrt(),
+        _ => Lane::cbrt(volume),
+    }
+}
 
 /// What is wrong with a parameter, as `(name, value, what it must be)`.
 pub(crate) type Flaw = (&'static str, f64, &'static str);

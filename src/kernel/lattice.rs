@@ -2,6 +2,7 @@
 //! Schemes divide by them, so that liquid at rest has the weight and the space that it should.
 
 use super::Kernel;
+use crate::scalar::Lane;
 
 /// −Σ V r·∇W/D over a cubic lattice, by which sums of gradients fall short or exceed.
 pub(crate) fn lattice_consistency_factor<K: Kernel<D>, const D: usize>(
@@ -48,7 +49,7 @@ pub(crate) fn longest_step<K: Kernel<D>, const D: usize>(kernel: &K, h_over_dx: 
         let k = core::f64::consts::PI * f64::from(n) / f64::from(WAVES);
         let layers = sums.iter().enumerate().map(|(n, sum)| {
             let x = (n + 1) as f64;
-            2.0 * sum * x * (k * x).sin()
+            2.0 * sum * x * Lane::sin(k * x)
         });
         layers.sum::<f64>().abs()
     };

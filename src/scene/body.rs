@@ -2,7 +2,7 @@
 //! Boxes and shapes are filled with a lattice; points may be the user's own.
 
 use crate::boundary::Slip;
-use crate::geometry::{FEWER, Flaw, MOST_PARTICLES, POSITIVE, SWAPPED, Shape, filled};
+use crate::geometry::{FEWER, Flaw, MOST_PARTICLES, POSITIVE, SWAPPED, Shape, edge, filled};
 use crate::material::Material;
 use crate::particles::Field;
 use crate::scalar::Real;
@@ -78,7 +78,7 @@ impl<T: Real, const D: usize> Body<T, D> {
             }
         }
         let volume: f64 = (0..D).map(|d| size[d] / counts[d].max(1) as f64).product();
-        let mut body = Self::points_of(name, material, points, volume.abs().powf(1.0 / D as f64));
+        let mut body = Self::points_of(name, material, points, edge::<D>(volume.abs()));
         if !spacing.is_finite() || spacing <= 0.0 {
             body.shape = Err(("spacing", spacing, POSITIVE));
             body.spacing = spacing;

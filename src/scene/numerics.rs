@@ -77,8 +77,10 @@ impl<T: Real, const D: usize> Scene<T, D> {
     /// The instruction set of the pair loop; the best that the machine has if not given.
     ///
     /// [`InstructionSet::Baseline`] has no fused multiply-add, so its sums, products and roots round alike on every machine, and
-    /// elementary functions are [made of them](crate::scalar::Lane::exp). Laws, loads and motions of one's own that call those of
-    /// the standard library, whose last digits Rust leaves to the platform, do not.
+    /// elementary functions are [made of them](crate::scalar::Lane::exp). Rust leaves the last digits of `exp_m1` and `ln_1p` to
+    /// the platform: [`Tait`](crate::material::eos::Tait) and [`Murnaghan`](crate::material::eos::Murnaghan) with an exponent that
+    /// is no whole number call these, as does the regularised
+    /// [`HerschelBulkley`](crate::material::rheology::HerschelBulkley). So may laws, loads and motions of one's own.
     #[must_use]
     pub fn instructions(mut self, set: InstructionSet) -> Self {
         self.instructions = set;

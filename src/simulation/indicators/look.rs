@@ -3,6 +3,7 @@
 
 use super::super::group::Group;
 use super::super::query::ParticleView;
+use crate::geometry::edge;
 use crate::neighbors::CHUNK;
 use crate::parallel::{cut, for_each};
 use crate::particles::Field;
@@ -107,12 +108,7 @@ impl<'a, T: Real, const D: usize> Looker<'a, T, D> {
 
     /// The local spacing \[m\].
     pub fn spacing(&self, slot: usize) -> f64 {
-        let volume = self.volume(slot);
-        match D {
-            1 => volume,
-            2 => volume.sqrt(),
-            _ => volume.cbrt(),
-        }
+        edge::<D>(self.volume(slot))
     }
 
     /// The direction in which nothing is before a particle, if it is at a face: of all that it sees, or of its own body. Zero of

@@ -4,6 +4,7 @@
 use super::super::group::Group;
 use super::super::neighborhood::Neighborhood;
 use super::super::population::Particles;
+use crate::geometry::edge;
 use crate::neighbors::CHUNK;
 use crate::parallel::{cut, for_each};
 use crate::particles::{Columns, Field};
@@ -225,12 +226,7 @@ fn shifts<T: Real, const D: usize>(by: &Transform<T, D>) -> bool {
 /// The local spacing \[m\] of a slot.
 fn local_spacing<T: Real, const D: usize>(columns: &Columns<T, D>, slot: usize) -> f64 {
     let [mass, density] = [Field::MASS, Field::DENSITY].map(|f| columns.raw(f)[slot].to_f64());
-    let volume = mass / density;
-    match D {
-        1 => volume,
-        2 => volume.sqrt(),
-        _ => volume.cbrt(),
-    }
+    edge::<D>(mass / density)
 }
 
 /// |A − tr A/D|/tr A √(D/(D − 1)): zero of a multiple of the unit tensor, one of a single direction.
