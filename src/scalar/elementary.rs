@@ -1,5 +1,5 @@
 //! Elementary functions of `f64` from sums, products, quotients and the bits of numbers alone: the same on every machine.
-//! Reductions as in Cody & Waite 1980, ln by artanh, pairs of numbers by Dekker 1971; no branch, so that rows vectorise.
+//! Reductions as in Cody & Waite 1980, ln by artanh, pairs of numbers by Dekker 1971. Powers, exponentials and logarithms have no branch, so rows vectorise.
 
 /// What has no digits behind the point, added and taken away again, leaves a whole number; its last bits hold that.
 const WHOLE: f64 = 6_755_399_441_055_744.0;
