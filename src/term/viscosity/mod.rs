@@ -77,7 +77,8 @@ pub struct Viscous<L> {
 pub trait ArtificialViscosity<const D: usize>: Clone + Debug + Send + Sync + 'static {
     /// Fields it reads beside position, velocity, mass, density and sound speed.
     const READS: Fields;
-    /// Fields that it or its switch reads, of which the scheme makes the gradients.
+    /// Fields that it or its switch reads. The scheme makes those of them that are gradients, as
+    /// [`Field::VELOCITY_GRADIENT`], before the forces.
     const NEEDS: Fields = Self::READS;
     /// Sums that it adds to beside the force and the signal, for its switch.
     const WRITES: Outputs = Outputs::NONE;
