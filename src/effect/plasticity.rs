@@ -193,7 +193,7 @@ impl<T: Real, const D: usize> Law<T, D> for Plasticity {
         let poisson = material.poisson_ratio().unwrap_or(0.0);
         let bulk = material.bulk_modulus();
         for (n, stress) in stress.chunks_exact_mut(6).enumerate() {
-            // What has failed bears no shear, so nothing in it flows, hardens or heats.
+            // Failed material supports no shear stress: it does not flow, harden or heat.
             if failed.get(n).is_some_and(|failed| *failed >= T::one()) {
                 continue;
             }

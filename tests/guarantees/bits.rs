@@ -3,7 +3,7 @@
 
 use meshfree::prelude::*;
 
-/// Places of particles and of what walls bear, and all else.
+/// Places of particles, forces on walls, and all other numbers.
 pub(super) fn said<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Vec<u64> {
     let walls = 0..simulation.walls().count();
     let of_walls = walls.flat_map(|wall| simulation.wall(wall).unwrap());

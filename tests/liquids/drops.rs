@@ -150,7 +150,7 @@ fn forces_on_a_round_drop_are_those_of_its_interface() {
 
 /// What a drop that was square is after 4 √(ρR³/σ): the mean difference of pressures inside and outside over the last half of that, over
 /// σ/R; the farthest particle of the drop and the nearest of the liquid around, over R; and the work of the force over
-/// that of the edge that was lost.
+/// the energy σ ΔL of the shortened edge.
 fn square(across: f64) -> [f64; 4] {
     let side = PI.sqrt();
     let drop = Drop {

@@ -102,7 +102,7 @@ fn blocks_come_to_rest_on_a_floor() {
         assert!(lacks.abs() < 1e-11, "{name}: {lacks:e}");
         assert_eq!(contact.bodies, ["block".to_owned(), "floor".to_owned()]);
         assert_eq!(contact.work[1], 0.0);
-        // What every particle of the floor bears is told where it lies.
+        // The force on every particle of the floor is given with its place.
         let forces = simulation.wall_particle_forces();
         let sum: f64 = forces.iter().map(|own| own.1[1]).sum();
         let whole = simulation.wall_force("floor").unwrap()[1];

@@ -1,4 +1,4 @@
-//! Material that has failed: it bears nothing, and no longer flows, hardens or heats.
+//! Failed material: it supports no shear stress, and no longer flows, hardens or heats.
 //! A copper bar is pulled apart until it breaks.
 
 use meshfree::effect::{Damage, Hypoelastic, Plasticity};
@@ -59,7 +59,7 @@ fn what_has_failed_does_not_flow() {
     }
     assert!(stayed > 50, "{stayed}");
     let failed: Vec<_> = before.iter().filter(|(_, own)| own[0] == 1.0).collect();
-    // It breaks in the middle, where the strain has passed what it bears by less than what a step adds.
+    // It breaks in the middle, where the strain exceeds the limit by less than a step adds.
     assert!((2..=6).contains(&failed.len()), "{failed:?}");
     for (x, [_, strain, _]) in failed {
         assert!(x.abs() < 8.0 * DX, "{x}");

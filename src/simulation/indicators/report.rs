@@ -67,11 +67,11 @@ impl Indicators {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum LimitedBy {
-    /// The kernel smooths what is narrower than it: fronts, waves, layers. A finer spacing mends it.
+    /// The kernel smooths what is narrower than it: fronts, waves, layers. The remedy is a finer spacing.
     Smoothing,
-    /// Sums over neighbours are not those of a continuum, whatever the spacing: the floor. A larger h/dx mends it.
+    /// Sums over neighbours are not those of a continuum, whatever the spacing: the floor. The remedy is a larger h/dx.
     Sums,
-    /// Neighbours that lie unevenly push where nothing should. A larger h/dx mends it, or shifting.
+    /// Neighbours that lie unevenly push where nothing should. The remedy is a larger h/dx, or shifting.
     Disorder,
     /// The density carried has drifted from the volume that particles have.
     Drift,
