@@ -9,6 +9,7 @@ use meshfree::output::table::{Table, significant};
 use meshfree::scene::{Body, Scene};
 use meshfree::scheme::{DensityForm, Scheme, SchemeBuilder};
 use meshfree::study::norms::{overshoot, plateau_mean, rise_10_90};
+use meshfree::term::MidpointReconstruction;
 use meshfree::term::viscosity::ViscosityKind;
 use std::error::Error;
 use std::path::PathBuf;
@@ -99,7 +100,7 @@ struct Case {
 fn run(case: &Case, spacing: f64) -> Result<Front, Box<dyn Error>> {
     let plain = SchemeBuilder::new(CubicSpline, case.viscosity).density(DensityForm::NumberDensity);
     let scheme: Scheme<f64, 1> = match case.curvature {
-        Some(strength) => plain.midpoint_reconstruction(strength).compose(),
+        Some(strength) => plain.with(MidpointReconstruction { strength }).compose(),
         None => plain.compose(),
     };
     let target = catalogue::by_name(case.target)?;

@@ -12,9 +12,10 @@ pub use crate::boundary::{
 pub use crate::coupling::{ContactDensity, Coupling, Penalty, Tied};
 #[doc(no_inline)]
 pub use crate::effect::{
-    AcousticDamping, Cavitation, DensityDiffusion, Effect, ExpansionMemory, ExtrapolatedPressure,
-    GeneralisedNewtonian, Hypoelastic, Laminar, NeoHookean, Plasticity, RiemannWalls,
-    StVenantKirchhoff, VolumeConsistency,
+    AcousticDamping, Cavitation, ConsistentSmoothing, DensityDiffusion, DivergenceSmoothing,
+    Effect, Effects, ExpansionMemory, ExtrapolatedPressure, GeneralisedNewtonian, Hypoelastic,
+    Laminar, MixedSpacing, NeoHookean, Plasticity, RiemannWalls, StVenantKirchhoff,
+    VolumeConsistency,
 };
 #[doc(no_inline)]
 pub use crate::error::{BuildError, Error};

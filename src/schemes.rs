@@ -33,33 +33,38 @@
 //! What an error costs with them, on seventeen problems with known answers, is in [accuracy and cost](crate#pages).
 
 use crate::effect::{
-    Cavitation, DensityDiffusion, ExtrapolatedPressure, HourglassControl, NoWalls,
-    RenormalisedHypoelastic, TotalLagrangian,
+    Cavitation, ConsistentSmoothing, DensityDiffusion, DivergenceSmoothing, ExtrapolatedPressure,
+    HourglassControl, NoWalls, RenormalisedHypoelastic, TotalLagrangian,
 };
 use crate::kernel::{CubicSpline, WendlandC2, WendlandC4};
-use crate::scheme::forms;
-use crate::scheme::{
-    DensityForm, EnergyForm, LiquidBuilder, SchemeBuilder, Smoothing, TotalLagrangianBuilder,
-};
-use crate::sweep::{Interaction, SmoothingMode};
+use crate::scheme::{DensityForm, EnergyForm, SchemeBuilder};
+use crate::sweep::Interaction;
 use crate::term::viscosity::{
     Inviscid, LimitedMonaghanGingold, MonaghanGingold, Riemann, SignalVelocity,
 };
-use crate::term::{Fourtakas, RiemannDiffusion};
+use crate::term::{
+    Fourtakas, InternalEnergy, KernelSum, MidpointReconstruction, PressureForce,
+    RenormalisedPressureForce, RiemannDiffusion,
+};
 
-/// What [`impact`] returns: a scheme with midpoint reconstruction of the pressure, to be changed further.
-pub type ImpactBuilder = SchemeBuilder<
-    CubicSpline,
-    LimitedMonaghanGingold,
+/// What solids and gases start from, with a pressure force.
+type Solid<P = PressureForce> = ((((), P), KernelSum), InternalEnergy);
+/// What liquids start from, with a pressure force.
+type Liquid<P = PressureForce> = (((), P), Cavitation);
+/// Elastic structures with a viscosity.
+type Structure<V> = SchemeBuilder<
+    WendlandC2,
+    V,
     NoWalls,
-    (),
-    { SmoothingMode::Uniform.bit() },
-    { forms::ENERGY | forms::MIDPOINT },
+    ((((), TotalLagrangian), InternalEnergy), HourglassControl),
 >;
-
-/// What [`weakly_compressible`] and [`riemann_liquid`] return, with an artificial viscosity and a density diffusion.
-pub type DiffusiveLiquid<V, X> =
-    LiquidBuilder<WendlandC2, V, (((), Cavitation), DensityDiffusion<X>)>;
+/// A liquid as LS-DYNA has it.
+type LsDyna<P = PressureForce> = SchemeBuilder<
+    CubicSpline,
+    MonaghanGingold,
+    ExtrapolatedPressure,
+    (Liquid<P>, DivergenceSmoothing),
+>;
 
 /// Impact of solids with weak to moderate shocks: number density relative to the shape at rest,
 /// midpoint reconstruction χ = 1/3, limited viscosity α = 2, β = 2, compatible energy, cubic spline at
@@ -73,33 +78,25 @@ pub type DiffusiveLiquid<V, X> =
 /// gives the same error in 0.8 of the time. In one dimension, where rods stay in
 /// tension, 1.3 leaves less ripple between neighbours than 1.2, and a front a little wider ([accuracy and cost](crate#pages)).
 #[must_use]
-pub fn impact() -> ImpactBuilder {
+pub fn impact()
+-> SchemeBuilder<CubicSpline, LimitedMonaghanGingold, NoWalls, (Solid, MidpointReconstruction)> {
     // Less viscosity is steeper (α = 1.5: 0.080 µs), but leaves 2.5e-9 of the plateau at a joint 0.85 µs
     // ahead of the wave, where α = 2 leaves 8e-10.
     SchemeBuilder::new(CubicSpline, LimitedMonaghanGingold::STANDARD)
         .named("impact")
         .density(DensityForm::NumberDensity)
-        .midpoint_reconstruction(1.0 / 3.0)
+        .with(MidpointReconstruction::STANDARD)
 }
 
 /// As [`impact`], with density by continuity in volume form: the same accuracy where bodies keep
 /// their shape, and right where they do not.
 #[must_use]
-pub fn impact_by_continuity() -> ImpactBuilder {
+pub fn impact_by_continuity()
+-> SchemeBuilder<CubicSpline, LimitedMonaghanGingold, NoWalls, (Solid, MidpointReconstruction)> {
     impact()
         .named("impact by continuity")
         .density(DensityForm::Continuity)
 }
-
-/// What [`updated_lagrangian`] returns.
-pub type SolidBuilder = SchemeBuilder<
-    CubicSpline,
-    LimitedMonaghanGingold,
-    NoWalls,
-    ((), RenormalisedHypoelastic),
-    { SmoothingMode::Uniform.bit() },
-    { forms::ENERGY | forms::MIDPOINT | forms::RENORMALISED },
->;
 
 /// Solids that bear shear and may flow: [`impact_by_continuity`] with all gradients corrected, those that compress, those
 /// that strain and those of the force ([`RenormalisedHypoelastic`]).
@@ -120,11 +117,21 @@ pub type SolidBuilder = SchemeBuilder<
 ///
 /// Bodies that meet are groups of their own with a coupling between them.
 #[must_use]
-pub fn updated_lagrangian() -> SolidBuilder {
+pub fn updated_lagrangian() -> SchemeBuilder<
+    CubicSpline,
+    LimitedMonaghanGingold,
+    NoWalls,
+    (
+        (Solid<RenormalisedPressureForce>, RenormalisedHypoelastic),
+        MidpointReconstruction,
+    ),
+> {
     impact_by_continuity()
+        .without_midpoint_reconstruction()
         .renormalised()
         .named("updated Lagrangian")
         .with(RenormalisedHypoelastic)
+        .with(MidpointReconstruction::STANDARD)
 }
 
 /// The scheme of Lam, Shen & Gong (2002), with its misprints corrected: summation smoothed at joints,
@@ -166,7 +173,12 @@ pub fn lam2002() -> SchemeBuilder<CubicSpline, MonaghanGingold> {
 /// at 2.0. [`DriftKickDrift`](crate::integrator::DriftKickDrift) takes half as many pairs again here. What still water does is in
 /// [gentle and closed flows](crate#pages).
 #[must_use]
-pub fn weakly_compressible() -> DiffusiveLiquid<MonaghanGingold, Fourtakas> {
+pub fn weakly_compressible() -> SchemeBuilder<
+    WendlandC2,
+    MonaghanGingold,
+    ExtrapolatedPressure,
+    (Liquid, DensityDiffusion<Fourtakas>),
+> {
     SchemeBuilder::liquid(
         WendlandC2,
         MonaghanGingold {
@@ -177,16 +189,6 @@ pub fn weakly_compressible() -> DiffusiveLiquid<MonaghanGingold, Fourtakas> {
     .named("weakly compressible")
     .with(DensityDiffusion(Fourtakas::default()))
 }
-
-/// What [`gas`] returns.
-pub type GasBuilder = SchemeBuilder<
-    WendlandC4,
-    SignalVelocity,
-    NoWalls,
-    (),
-    { SmoothingMode::ALL },
-    { forms::ENERGY },
->;
 
 /// Gases: summed density with a smoothing length that is consistent with it between a fifth and five times η dx of the body
 /// (grad-h terms), signal-velocity viscosity, compatible energy, Wendland C4; bodies are one gas where they meet.
@@ -219,12 +221,12 @@ pub type GasBuilder = SchemeBuilder<
 /// # Ok::<(), Error>(())
 /// ```
 #[must_use]
-pub fn gas() -> GasBuilder {
+pub fn gas() -> SchemeBuilder<WendlandC4, SignalVelocity, NoWalls, (Solid, ConsistentSmoothing)> {
     SchemeBuilder::new(WendlandC4, SignalVelocity::STANDARD)
         .named("gas")
         .density(DensityForm::Summation)
         .between_bodies(Interaction::Bonded)
-        .smoothing(Smoothing::Consistent {
+        .with(ConsistentSmoothing {
             smallest: 0.2,
             largest: 5.0,
         })
@@ -237,17 +239,10 @@ const BULK: MonaghanGingold = MonaghanGingold {
     beta: 1.5,
 };
 /// Limits of the smoothing length in units of the first (HMIN and HMAX of its section card).
-const LIMITS: [f64; 2] = [0.2, 2.0];
-
-/// What the LS-DYNA schemes return: plain, or with `{ forms::RENORMALISED }` their renormalised forms.
-pub type LsDynaBuilder<const FORCE: u8 = 0> = SchemeBuilder<
-    CubicSpline,
-    MonaghanGingold,
-    ExtrapolatedPressure,
-    ((), Cavitation),
-    { SmoothingMode::Mean.bit() },
-    FORCE,
->;
+const LIMITS: DivergenceSmoothing = DivergenceSmoothing {
+    smallest: 0.2,
+    largest: 2.0,
+};
 
 /// FORM 5 of LS-DYNA, "fluid particle approximation": continuity and pressure by volume, cubic spline at
 /// h/dx 1.2, bulk viscosity, smoothing length that follows the divergence between 0.2 and 2 of the first,
@@ -256,18 +251,18 @@ pub type LsDynaBuilder<const FORCE: u8 = 0> = SchemeBuilder<
 /// The equations behind the forms are as generally understood; its theory manual was not at hand. Its
 /// renormalised sibling FORM 6 is [`ls_dyna_fluid_renormalised`].
 #[must_use]
-pub fn ls_dyna_fluid() -> LsDynaBuilder {
+pub fn ls_dyna_fluid() -> LsDyna {
     SchemeBuilder::liquid(CubicSpline, BULK)
         .named("LS-DYNA FORM 5, fluid")
         .h_over_dx(1.2)
         .without_consistency_factor()
-        .smoothing_by_divergence(LIMITS[0], LIMITS[1])
+        .with(LIMITS)
 }
 
 /// FORM 0 of LS-DYNA, the default: continuity by mass with the σ/ρ² force; the rest as
 /// [`ls_dyna_fluid`].
 #[must_use]
-pub fn ls_dyna_default() -> LsDynaBuilder {
+pub fn ls_dyna_default() -> LsDyna {
     ls_dyna_fluid()
         .density(DensityForm::ContinuityByMass)
         .named("LS-DYNA FORM 0, default")
@@ -275,7 +270,7 @@ pub fn ls_dyna_default() -> LsDynaBuilder {
 
 /// FORM 1 of LS-DYNA: [`ls_dyna_default`] with renormalised gradients.
 #[must_use]
-pub fn ls_dyna_renormalised() -> LsDynaBuilder<{ forms::RENORMALISED }> {
+pub fn ls_dyna_renormalised() -> LsDyna<RenormalisedPressureForce> {
     ls_dyna_default()
         .renormalised()
         .named("LS-DYNA FORM 1, renormalised")
@@ -283,7 +278,7 @@ pub fn ls_dyna_renormalised() -> LsDynaBuilder<{ forms::RENORMALISED }> {
 
 /// FORM 6 of LS-DYNA: [`ls_dyna_fluid`] with renormalised gradients.
 #[must_use]
-pub fn ls_dyna_fluid_renormalised() -> LsDynaBuilder<{ forms::RENORMALISED }> {
+pub fn ls_dyna_fluid_renormalised() -> LsDyna<RenormalisedPressureForce> {
     ls_dyna_fluid()
         .renormalised()
         .named("LS-DYNA FORM 6, fluid renormalised")
@@ -293,16 +288,17 @@ pub fn ls_dyna_fluid_renormalised() -> LsDynaBuilder<{ forms::RENORMALISED }> {
 /// particles in momentum and continuity (Zhang, Hu & Adams 2017), the rest as
 /// [`weakly_compressible`].
 #[must_use]
-pub fn riemann_liquid() -> DiffusiveLiquid<Riemann, RiemannDiffusion> {
+pub fn riemann_liquid() -> SchemeBuilder<
+    WendlandC2,
+    Riemann,
+    ExtrapolatedPressure,
+    (Liquid, DensityDiffusion<RiemannDiffusion>),
+> {
     weakly_compressible()
         .named("Riemann liquid")
         .with_viscosity(Riemann::STANDARD)
         .density_diffusion(RiemannDiffusion)
 }
-
-/// What [`total_lagrangian`] and [`total_lagrangian_impact`] return.
-pub type StructureBuilder<V> =
-    TotalLagrangianBuilder<WendlandC2, V, (((), TotalLagrangian), HourglassControl)>;
 
 /// Elastic structures: total Lagrangian with hourglass control α = 0.1, Wendland C2 at h/dx 0.8, no artificial viscosity,
 /// compatible energy. Add a stress: `.with(NeoHookean)`.
@@ -315,7 +311,7 @@ pub type StructureBuilder<V> =
 /// it: with n × n particles in its section a beam loses 13 % of its first frequency at n = 4, 7 % at 6 and 5 % at 8, at 0.8 7, 4
 /// and 3 %.
 #[must_use]
-pub fn total_lagrangian() -> StructureBuilder<Inviscid> {
+pub fn total_lagrangian() -> Structure<Inviscid> {
     SchemeBuilder::total_lagrangian(WendlandC2, Inviscid)
         .named("total Lagrangian")
         .h_over_dx(0.8)
@@ -325,7 +321,7 @@ pub fn total_lagrangian() -> StructureBuilder<Inviscid> {
 /// As [`total_lagrangian`], with the viscosity of Monaghan and Gingold, α = 1, β = 2, for shocks. It bears a load of its own,
 /// in proportion to the spacing: where shocks are weak, as in a Taylor bar ([solids](crate#pages)), α = 0.1 is nearer.
 #[must_use]
-pub fn total_lagrangian_impact() -> StructureBuilder<MonaghanGingold> {
+pub fn total_lagrangian_impact() -> Structure<MonaghanGingold> {
     total_lagrangian()
         .named("total Lagrangian impact")
         .with_viscosity(MonaghanGingold::STANDARD)

@@ -11,9 +11,7 @@ use meshfree::kernel::{Kernel, WendlandC2};
 use meshfree::neighbors::{CHUNK, ClusterLists};
 use meshfree::particles::{Field, Fields, Output};
 use meshfree::scalar::{Lane, OnRows};
-use meshfree::sweep::{
-    FusedKernel, InstructionSet, PairSweep, Pass, Records, Results, Root, SmoothingMode,
-};
+use meshfree::sweep::{FusedKernel, InstructionSet, PairSweep, Pass, Records, Results, Root};
 use meshfree::term::Terms;
 use std::marker::PhantomData;
 
@@ -185,7 +183,7 @@ impl<W: Written, R: Record> OnRows<f64> for ByHand<'_, W, R> {
     }
 }
 
-type Composed<P> = FusedKernel<WendlandC2, P, { SmoothingMode::Uniform.bit() }>;
+type Composed<P> = FusedKernel<WendlandC2, P>;
 
 /// Fields of terms: a mean, and by how much each component varies in space.
 const VALUES: [(Field, f64, f64); 18] = [
@@ -246,7 +244,7 @@ pub fn row<P: Terms<3>, W: Written>(
     side: usize,
     turns: usize,
 ) -> f64 {
-    let sweep: Composed<P> = FusedKernel::new(WendlandC2, terms, SmoothingMode::Uniform);
+    let sweep: Composed<P> = FusedKernel::new(WendlandC2, terms);
     let sweep: &dyn PairSweep<f64, 3> = &sweep;
     assert_eq!(sweep.fields(), Of::<P>::FIELDS, "the layout of records");
     let mut lattice = Lattice::<f64>::new(side, sweep.fields());

@@ -8,7 +8,7 @@ use meshfree::neighbors::CHUNK;
 use meshfree::particles::{Field, Fields, Output};
 use meshfree::prelude::*;
 use meshfree::scalar::Lane;
-use meshfree::sweep::{FusedKernel, PairSweep, Pass, Records, Results, SmoothingMode};
+use meshfree::sweep::{FusedKernel, PairSweep, Pass, Records, Results};
 use meshfree::term::viscosity::{ArtificialViscosity, MonaghanGingold, Viscous};
 use meshfree::term::{self, Pair, PressureForce, TermDoc, Viscosity};
 
@@ -44,12 +44,9 @@ fn useful_lanes<T: Real>(side: usize) {
 }
 
 /// Pressure and an artificial viscosity under a kernel, in one loop.
-fn pair_loop<K, V>(
-    kernel: K,
-    viscosity: V,
-) -> FusedKernel<K, (PressureForce, Viscosity<V>), { SmoothingMode::Uniform.bit() }> {
+fn pair_loop<K, V>(kernel: K, viscosity: V) -> FusedKernel<K, (PressureForce, Viscosity<V>)> {
     let terms = (PressureForce, Viscosity(viscosity));
-    FusedKernel::new(kernel, terms, SmoothingMode::Uniform)
+    FusedKernel::new(kernel, terms)
 }
 
 /// The Wendland C4 kernel in 3D as a user's crate would write it.

@@ -3,7 +3,7 @@
 
 use super::choices::{ContactChoice, IntegratorChoice, SchemeChoice, StateChoice, StrengthChoice};
 use meshfree::boundary::MirrorPlane;
-use meshfree::effect::{Hypoelastic, NoWalls, Plasticity, UniaxialStress};
+use meshfree::effect::{Effects, Hypoelastic, MixedSpacing, NoWalls, Plasticity, UniaxialStress};
 use meshfree::error::{Error, Result};
 use meshfree::kernel::{CubicSpline, KernelKind};
 use meshfree::material::{Material, catalogue};
@@ -11,7 +11,7 @@ use meshfree::scene::{Body, Scene};
 use meshfree::scheme::{EnergyForm, Scheme, SchemeBuilder};
 use meshfree::schemes;
 use meshfree::simulation::Simulation;
-use meshfree::sweep::{Interaction, SmoothingMode};
+use meshfree::sweep::Interaction;
 use meshfree::term::ArtificialViscosity;
 use meshfree::term::viscosity::ViscosityKind;
 
@@ -239,7 +239,7 @@ impl Case {
             let bar = self.state == StateChoice::UniaxialStress;
             let yields = self.strength() == StrengthChoice::On;
             return builder
-                .mixed_spacing()
+                .with(MixedSpacing)
                 .with(Hypoelastic)
                 .with(bar.then_some(UniaxialStress))
                 .with(yields.then_some(Plasticity))
@@ -269,13 +269,7 @@ impl Case {
         own_kernel && self.viscosity.is_none() && !self.bears_shear() && self.has_one_spacing()
     }
 
-    fn adjusted<V, const FORCE: u8>(
-        &self,
-        mut builder: SolidBuilder<V, FORCE>,
-    ) -> SolidBuilder<V, FORCE>
-    where
-        V: ArtificialViscosity<1>,
-    {
+    fn adjusted<V, E>(&self, mut builder: SolidBuilder<V, E>) -> SolidBuilder<V, E> {
         if let Some(ratio) = self.h_over_dx {
             builder = builder.h_over_dx(ratio);
         }
@@ -286,9 +280,10 @@ impl Case {
     }
 
     /// Loops for choices at run time: slower, and compiled once for all choices.
-    fn with_choices<V, const FORCE: u8>(&self, builder: SolidBuilder<V, FORCE>) -> Scheme<f64, 1>
+    fn with_choices<V, E>(&self, builder: SolidBuilder<V, E>) -> Scheme<f64, 1>
     where
         V: ArtificialViscosity<1> + Into<ViscosityKind>,
+        E: Effects<1>,
     {
         let builder = self.adjusted(builder);
         let viscosity = self
@@ -297,7 +292,7 @@ impl Case {
         builder
             .with_kernel(self.kernel.unwrap_or(KernelKind::CubicSpline))
             .with_viscosity(viscosity)
-            .mixed_spacing()
+            .with(MixedSpacing)
             .compose()
     }
 
@@ -312,8 +307,7 @@ impl Case {
 }
 
 /// A scheme of solids with the cubic spline.
-type SolidBuilder<V, const FORCE: u8> =
-    SchemeBuilder<CubicSpline, V, NoWalls, (), { SmoothingMode::Uniform.bit() }, FORCE>;
+type SolidBuilder<V, E> = SchemeBuilder<CubicSpline, V, NoWalls, E>;
 
 /// A number without needless digits: 5, 7.5, 0.025.
 pub fn short(value: f64) -> String {

@@ -71,7 +71,7 @@ pub fn switched(maximum: f64) -> CullenDehnen {
 
 fn scheme(case: &Case<'_>) -> Result<Scheme<f64, 1>, Failure> {
     let (ratio, alpha) = (case.number("h/dx")?, case.number("alpha")?);
-    let follow = Smoothing::Consistent {
+    let follow = ConsistentSmoothing {
         smallest: 0.02,
         largest: 50.0,
     };
@@ -80,22 +80,22 @@ fn scheme(case: &Case<'_>) -> Result<Scheme<f64, 1>, Failure> {
         "gas" => SchemeBuilder::new(WendlandC4, signal(alpha))
             .density(DensityForm::Summation)
             .between_bodies(Interaction::Bonded)
-            .smoothing(follow)
+            .with(follow)
             .h_over_dx(ratio)
             .compose(),
         "switched" => schemes::gas()
             .with_viscosity(switched(alpha))
-            .smoothing(follow)
+            .with(follow)
             .h_over_dx(ratio)
             .compose(),
         "cubic signal" => SchemeBuilder::new(CubicSpline, signal(alpha))
             .density(DensityForm::Summation)
-            .smoothing(follow)
+            .with(follow)
             .h_over_dx(ratio)
             .compose(),
         _ => SchemeBuilder::new(CubicSpline, MonaghanGingold { alpha, beta: 2.0 })
             .density(DensityForm::Summation)
-            .smoothing(follow)
+            .with(follow)
             .h_over_dx(ratio)
             .compose(),
     })

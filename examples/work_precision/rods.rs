@@ -12,6 +12,7 @@ use meshfree::study::godunov_rods::{GodunovRods, GodunovSolution, RodSegment};
 use meshfree::study::work_precision::{
     Case, Failure, History, Method, Outcome, Quantity, WorkPrecision, relative_l1,
 };
+use meshfree::term::MidpointReconstruction;
 use meshfree::term::viscosity::{LimitedMonaghanGingold, MonaghanGingold};
 use std::sync::Arc;
 
@@ -194,7 +195,7 @@ fn run(
         "C2" => {
             let scheme = SchemeBuilder::new(WendlandC2, limited)
                 .density(DensityForm::NumberDensity)
-                .midpoint_reconstruction(1.0 / 3.0)
+                .with(MidpointReconstruction::STANDARD)
                 .h_over_dx(ratio);
             strike::<f64>(scene(scheme.compose(), dx, target)?, end, exact)
         }

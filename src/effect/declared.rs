@@ -2,7 +2,7 @@
 //! and for nothing else. Parts that are planted to ask for more are stopped by name.
 
 use super::continuity::{Compression, Divergence};
-use super::density::{ConsistentSmoothing, ContactActivity, SummedDensity};
+use super::density::{ContactActivity, SolvedSmoothing, SummedDensity};
 use super::gradients::CorrectedGradients;
 use super::viscosity_switch::ViscositySwitch;
 use super::{
@@ -217,7 +217,7 @@ where
     law("contacts", Stage::Density, &|program, stage| {
         program.law(stage, ContactActivity);
     });
-    let smoothing = ConsistentSmoothing {
+    let smoothing = SolvedSmoothing {
         eta: 1.3,
         limits: [0.5, 2.0],
     };

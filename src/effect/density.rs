@@ -109,14 +109,14 @@ impl<T: Real, const D: usize> Law<T, D> for ContactActivity {
 /// h = η (m/ρ)^(1/D) with ρ = Σ m W(h), by Newton's method (Price 2012, sect. 2.3), with the factors Ω of
 /// grad-h terms.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct ConsistentSmoothing {
+pub(crate) struct SolvedSmoothing {
     /// h/dx.
     pub eta: f64,
     /// Smallest and largest h in units of the first.
     pub limits: [f64; 2],
 }
 
-impl<T: Real, const D: usize> Law<T, D> for ConsistentSmoothing {
+impl<T: Real, const D: usize> Law<T, D> for SolvedSmoothing {
     fn name(&self) -> &'static str {
         "smoothing consistent with density"
     }

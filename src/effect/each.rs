@@ -34,6 +34,13 @@ macro_rules! for_each_effect {
                 $crate::effect::RiemannWalls::default()
             ]
             solid [
+                $crate::term::PressureForce,
+                $crate::term::RenormalisedPressureForce,
+                $crate::term::MidpointReconstruction::STANDARD,
+                $crate::term::KernelSum,
+                $crate::effect::MixedSpacing,
+                $crate::effect::DivergenceSmoothing { smallest: 0.5, largest: 2.0 },
+                $crate::effect::ConsistentSmoothing { smallest: 0.5, largest: 2.0 },
                 $crate::effect::Hypoelastic,
                 $crate::effect::RenormalisedHypoelastic,
                 $crate::effect::Plasticity,

@@ -1,9 +1,10 @@
 //! Lists of effects: what a scheme is made of, as a type.
 //! `((), A)` is a list of one; each call of `with` adds one at the end.
 
-use super::{Setting, StepProgram};
+use super::{Setting, Smoothing, StepProgram};
 use crate::particles::Fields;
 use crate::scalar::Real;
+use crate::sweep::SmoothingMode;
 use crate::term::{StageMarker, StagedTerms, Terms};
 use core::fmt::Debug;
 
@@ -24,12 +25,18 @@ pub trait Effect<const D: usize>: Clone + Debug + Send + Sync + 'static {
     ///
     /// [`Field::VELOCITY_GRADIENT`]: crate::particles::Field::VELOCITY_GRADIENT
     const NEEDS: Fields = Fields::NONE;
+    /// The [modes](SmoothingMode::bit) of loops that its [`smoothing`](Self::smoothing) may ask for.
+    const MODES: u8 = 0;
     /// Whether all energy that its forces store is declared by [`StepProgram::store`], or they store none and take energy
     /// alone, as a viscosity does. `false` by default: of a scheme with such an effect nothing is said about
     /// [stored energy](crate::simulation::Simulation::stored_energy).
     const BOOKS_ENERGY: bool = false;
     /// The terms, for a scheme with this kernel and spacing.
     fn terms(&self, setting: &Setting) -> Self::Terms;
+    /// How smoothing lengths change under it, if it says so.
+    fn smoothing(&self) -> Option<Smoothing> {
+        None
+    }
     /// Says what it does beside its terms.
     fn register<T: Real>(&self, _program: &mut StepProgram<T, D>) {}
     /// What is wrong with its parameters, as `(field, value, what it must be)`.
@@ -44,8 +51,12 @@ pub trait Effects<const D: usize>: Clone + Debug + Send + Sync + 'static {
     type At<S: StageMarker<D>>: Terms<D>;
     /// What terms and laws read.
     const READS: Fields;
+    /// The modes of loops that their smoothing may ask for.
+    const MODES: u8;
     /// The terms of a stage.
     fn at<S: StageMarker<D>>(&self, setting: &Setting) -> Self::At<S>;
+    /// How smoothing lengths change.
+    fn smoothing(&self) -> Smoothing;
     /// Registers all, in order.
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>);
     /// What is wrong with their parameters.
@@ -55,7 +66,11 @@ pub trait Effects<const D: usize>: Clone + Debug + Send + Sync + 'static {
 impl<const D: usize> Effects<D> for () {
     type At<S: StageMarker<D>> = ();
     const READS: Fields = Fields::NONE;
+    const MODES: u8 = 0;
     fn at<S: StageMarker<D>>(&self, _setting: &Setting) {}
+    fn smoothing(&self) -> Smoothing {
+        Smoothing::Fixed
+    }
     fn register<T: Real>(&self, _program: &mut StepProgram<T, D>) {}
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         Vec::new()
@@ -67,9 +82,13 @@ impl<const D: usize, A: Effects<D>, B: Effect<D>> Effects<D> for (A, B) {
     const READS: Fields = A::READS
         .union(B::NEEDS)
         .union(<B::Terms as StagedTerms<D>>::READS);
+    const MODES: u8 = A::MODES | B::MODES;
     fn at<S: StageMarker<D>>(&self, setting: &Setting) -> Self::At<S> {
         let next = self.1.terms(setting).at::<S>();
         self.0.at::<S>(setting).then(next)
+    }
+    fn smoothing(&self) -> Smoothing {
+        self.0.smoothing().then(self.1.smoothing())
     }
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
         self.0.register(program);
@@ -87,8 +106,16 @@ impl<const D: usize, A: Effects<D>, B: Effect<D>> Effects<D> for (A, B) {
 impl<const D: usize, A: Effect<D, Terms = ()>> Effect<D> for Option<A> {
     type Terms = ();
     const NEEDS: Fields = A::NEEDS;
+    const MODES: u8 = if A::MODES == 0 {
+        0
+    } else {
+        A::MODES | SmoothingMode::Uniform.bit()
+    };
     const BOOKS_ENERGY: bool = A::BOOKS_ENERGY;
     fn terms(&self, _setting: &Setting) {}
+    fn smoothing(&self) -> Option<Smoothing> {
+        self.as_ref().and_then(Effect::smoothing)
+    }
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
         if let Some(effect) = self {
             effect.register(program);

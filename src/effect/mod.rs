@@ -10,6 +10,7 @@
 //! | [evolved](Evolved) fields | integrated in time, by a rate, in an update, at a kick or drift | [`StepProgram::evolve`] |
 //! | [laws](Law) | what happens to single particles after the sweep of a stage | [`StepProgram::law`] |
 //! | forces on single particles | [`Field::FORCE`](crate::particles::Field::FORCE), which laws of `Stage::Rates` add to | [`StepProgram::law`] |
+//! | [smoothing](Smoothing) lengths | how they change, and the loops that this takes | [`Effect::smoothing`], [`Effect::MODES`] |
 //! | [limits](Limit) of the step | the largest that a particle bears | [`StepProgram::limit`] |
 //! | a column of the ledger | the sum of a field over every body | [`StepProgram::ledger`] |
 //! | energy that it stores or dissipates | fields of both | [`StepProgram::store`], [`StepProgram::dissipate`], [`Effect::BOOKS_ENERGY`] |
@@ -44,6 +45,7 @@ mod during;
 mod each;
 mod evolved;
 mod finite_strain_plasticity;
+mod forms;
 mod gradients;
 mod hourglass_control;
 mod hourglass_free;
@@ -64,6 +66,7 @@ mod renormalised_hypoelastic;
 mod sequence;
 mod setting;
 mod shifting;
+mod smoothing;
 mod st_venant_kirchhoff;
 mod surface_tension;
 mod tension_limit;
@@ -87,7 +90,7 @@ pub(crate) use chunk::{MOST_COLUMNS, Slices};
 pub use consistent_shifting::{ConsistentShifting, Crowding, ShiftedContinuity};
 pub(crate) use continuity::{Compression, Divergence};
 pub use damage::Damage;
-pub(crate) use density::{ConsistentSmoothing, ContactActivity, SummedDensity};
+pub(crate) use density::{ContactActivity, SolvedSmoothing, SummedDensity};
 pub use density_diffusion::DensityDiffusion;
 pub use density_floor::DensityFloor;
 pub use density_form::DensityForm;
@@ -114,6 +117,7 @@ pub use sequence::Rung;
 pub(crate) use sequence::sequence;
 pub use setting::Setting;
 pub use shifting::Shifting;
+pub use smoothing::{ConsistentSmoothing, DivergenceSmoothing, MixedSpacing, Smoothing};
 pub use st_venant_kirchhoff::StVenantKirchhoff;
 pub use surface_tension::{ColourGradient, InterfaceCurvature, SurfaceTension};
 pub(crate) use total_lagrangian::stretches;

@@ -83,7 +83,7 @@ impl<const D: usize> Effect<D> for VolumeConsistency {
                 what: "volume consistency holds kernel sums to those of a lattice at one smoothing length, \
                        and the smoothing lengths of this scheme vary or differ"
                     .into(),
-                remedy: "leave out either VolumeConsistency or smoothing and mixed_spacing",
+                remedy: "leave out either VolumeConsistency or MixedSpacing and laws of smoothing",
             })
         });
         let acts = self.strength != 0.0;

@@ -1,16 +1,18 @@
 //! The builder of schemes: the choices, which `compile` turns into sweeps over pairs.
 //! What its type rules out leaves no loop behind.
 
-use super::force::{ENERGY, REFERENCE};
-use super::{EnergyForm, Scheme, Smoothing};
+use super::{EnergyForm, Scheme};
 use crate::effect::{
     Cavitation, DensityDiffusion, DensityForm, Effect, Effects, ExtrapolatedPressure, NoWalls,
     TotalLagrangian,
 };
 use crate::kernel::Kernel;
 use crate::scalar::Real;
-use crate::sweep::{Interaction, SmoothingMode};
-use crate::term::ArtificialViscosity;
+use crate::sweep::Interaction;
+use crate::term::{
+    ArtificialViscosity, InternalEnergy, KernelSum, MidpointReconstruction, PressureForce,
+    RenormalisedPressureForce,
+};
 
 /// Chooses the parts of a scheme: a kernel, an artificial viscosity, forms of density and energy, how walls
 /// answer, and a list of [effects](crate::effect).
@@ -27,17 +29,11 @@ use crate::term::ArtificialViscosity;
 /// println!("{scheme}");
 /// ```
 ///
-/// The type says what is compiled: kernel `K`, viscosity `V`, wall law `W`, effects `E` as nested pairs,
-/// the ways in which pairs get their smoothing length, and forms of the force.
+/// The type says what is compiled: kernel `K`, viscosity `V`, wall law `W`, and effects `E` as nested pairs, first those that
+/// make it a scheme: the pressure force, densities from sums and internal energy of solids and gases, if not given.
 #[derive(Clone, Debug)]
-pub struct SchemeBuilder<
-    K,
-    V,
-    W = NoWalls,
-    E = (),
-    const MODES: u8 = { SmoothingMode::Uniform.bit() },
-    const FORCE: u8 = ENERGY,
-> {
+pub struct SchemeBuilder<K, V, W = NoWalls, E = ((((), PressureForce), KernelSum), InternalEnergy)>
+{
     pub(super) kernel: K,
     pub(super) viscosity: V,
     pub(super) walls: W,
@@ -52,10 +48,8 @@ pub(super) struct Settings {
     pub density: DensityForm,
     pub pressure_form: Option<DensityForm>,
     pub energy: EnergyForm,
-    pub smoothing: Smoothing,
     pub consistency: Consistency,
     pub h_over_dx: Option<f64>,
-    pub curvature: f64,
     pub step_factor: f64,
     pub between: Interaction,
 }
@@ -79,16 +73,14 @@ impl<K, V> SchemeBuilder<K, V> {
             kernel,
             viscosity,
             walls: NoWalls,
-            effects: (),
+            effects: ((((), PressureForce), KernelSum), InternalEnergy),
             settings: Settings {
                 name: "composed".into(),
                 density: DensityForm::default(),
                 pressure_form: None,
                 energy: EnergyForm::default(),
-                smoothing: Smoothing::default(),
                 consistency: Consistency::AtRest,
                 h_over_dx: None,
-                curvature: 0.0,
                 step_factor: DEFAULT_STEP_FACTOR,
                 between: Interaction::Unilateral,
             },
@@ -96,11 +88,7 @@ impl<K, V> SchemeBuilder<K, V> {
     }
 }
 
-/// What [`SchemeBuilder::liquid`] returns, with more effects `E`.
-pub type LiquidBuilder<K, V, E = ((), Cavitation)> =
-    SchemeBuilder<K, V, ExtrapolatedPressure, E, { SmoothingMode::Uniform.bit() }, 0>;
-
-impl<K, V> LiquidBuilder<K, V> {
+impl<K, V> SchemeBuilder<K, V, ExtrapolatedPressure, (((), PressureForce), Cavitation)> {
     /// A scheme of weakly compressible liquids with a kernel and an artificial viscosity: continuity, walls that
     /// extrapolate the pressure, no internal energy, no density diffusion.
     ///
@@ -108,55 +96,38 @@ impl<K, V> LiquidBuilder<K, V> {
     /// kernel and h/dx.
     #[must_use]
     pub fn liquid(kernel: K, viscosity: V) -> Self {
-        let solid = SchemeBuilder::new(kernel, viscosity);
-        Self {
-            kernel: solid.kernel,
-            viscosity: solid.viscosity,
-            walls: ExtrapolatedPressure::default(),
-            effects: ((), Cavitation),
-            settings: Settings {
-                name: "liquid".into(),
-                density: DensityForm::Continuity,
-                energy: EnergyForm::None,
-                consistency: Consistency::Lattice,
-                ..solid.settings
-            },
-        }
+        SchemeBuilder::new(kernel, viscosity)
+            .named("liquid")
+            .density(DensityForm::Continuity)
+            .energy(EnergyForm::None)
+            .set(|own| own.consistency = Consistency::Lattice)
+            .map(|k, v, _, ((pressure, _), _)| {
+                let walls = ExtrapolatedPressure::default();
+                (k, v, walls, (pressure, Cavitation))
+            })
     }
 }
 
-/// What [`SchemeBuilder::total_lagrangian`] returns, with more effects `E`.
-pub type TotalLagrangianBuilder<K, V, E = ((), TotalLagrangian)> =
-    SchemeBuilder<K, V, NoWalls, E, { SmoothingMode::Uniform.bit() }, { ENERGY | REFERENCE }>;
-
-impl<K, V> TotalLagrangianBuilder<K, V> {
+impl<K, V> SchemeBuilder<K, V, NoWalls, (((), TotalLagrangian), InternalEnergy)> {
     /// A scheme of solids whose neighbours and kernels are those of the scene as built: [`TotalLagrangian`], to which
     /// belongs an effect that gives a stress, as [`NeoHookean`](crate::effect::NeoHookean). Bodies do not feel each
     /// other unless they are [bonded](Interaction::Bonded) or coupled.
     #[must_use]
     pub fn total_lagrangian(kernel: K, viscosity: V) -> Self {
-        let solid = SchemeBuilder::new(kernel, viscosity);
-        Self {
-            kernel: solid.kernel,
-            viscosity: solid.viscosity,
-            walls: NoWalls,
-            effects: ((), TotalLagrangian),
-            settings: Settings {
-                name: "total Lagrangian".into(),
-                density: DensityForm::Deformation,
-                consistency: Consistency::None,
-                between: Interaction::None,
-                ..solid.settings
-            },
-        }
+        SchemeBuilder::new(kernel, viscosity)
+            .named("total Lagrangian")
+            .density(DensityForm::Deformation)
+            .between_bodies(Interaction::None)
+            .without_consistency_factor()
+            .map(|k, v, w, (_, energy)| (k, v, w, (((), TotalLagrangian), energy)))
     }
 }
 
-impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MODES, FORCE> {
-    fn map<L, U, X, F, const OTHER: u8, const FORM: u8>(
+impl<K, V, W, E> SchemeBuilder<K, V, W, E> {
+    fn map<L, U, X, F>(
         self,
         change: impl FnOnce(K, V, W, E) -> (L, U, X, F),
-    ) -> SchemeBuilder<L, U, X, F, OTHER, FORM> {
+    ) -> SchemeBuilder<L, U, X, F> {
         let (kernel, viscosity, walls, effects) =
             change(self.kernel, self.viscosity, self.walls, self.effects);
         SchemeBuilder {
@@ -174,24 +145,24 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
 
     /// The same choices with another kernel; h/dx becomes its recommendation unless it was given.
     #[must_use]
-    pub fn with_kernel<L>(self, kernel: L) -> SchemeBuilder<L, V, W, E, MODES, FORCE> {
+    pub fn with_kernel<L>(self, kernel: L) -> SchemeBuilder<L, V, W, E> {
         self.map(|_, v, w, e| (kernel, v, w, e))
     }
     /// The same choices with another artificial viscosity;
     /// [`Inviscid`](crate::term::viscosity::Inviscid) for none.
     #[must_use]
-    pub fn with_viscosity<U>(self, viscosity: U) -> SchemeBuilder<K, U, W, E, MODES, FORCE> {
+    pub fn with_viscosity<U>(self, viscosity: U) -> SchemeBuilder<K, U, W, E> {
         self.map(|k, _, w, e| (k, viscosity, w, e))
     }
     /// The same choices with another wall law: [`ExtrapolatedPressure`],
     /// [`RiemannWalls`](crate::effect::RiemannWalls), [`NoWalls`], or one of your own.
     #[must_use]
-    pub fn walls<X>(self, walls: X) -> SchemeBuilder<K, V, X, E, MODES, FORCE> {
+    pub fn walls<X>(self, walls: X) -> SchemeBuilder<K, V, X, E> {
         self.map(|k, v, _, e| (k, v, walls, e))
     }
     /// Adds an [effect](crate::effect).
     #[must_use]
-    pub fn with<A>(self, effect: A) -> SchemeBuilder<K, V, W, (E, A), MODES, FORCE> {
+    pub fn with<A>(self, effect: A) -> SchemeBuilder<K, V, W, (E, A)> {
         self.map(|k, v, w, e| (k, v, w, (e, effect)))
     }
     /// The artificial viscosity.
@@ -226,31 +197,6 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
     pub fn energy(self, form: EnergyForm) -> Self {
         self.set(|own| own.energy = form)
     }
-    /// How the smoothing length changes.
-    #[must_use]
-    pub fn smoothing(
-        self,
-        law: Smoothing,
-    ) -> SchemeBuilder<K, V, W, E, { SmoothingMode::ALL }, FORCE> {
-        self.set(|own| own.smoothing = law)
-            .map(|k, v, w, e| (k, v, w, e))
-    }
-    /// Lets the smoothing length follow the divergence within limits in units of the first
-    /// ([`Smoothing::Divergence`]), as LS-DYNA does.
-    #[must_use]
-    pub fn smoothing_by_divergence(
-        self,
-        smallest: f64,
-        largest: f64,
-    ) -> SchemeBuilder<K, V, W, E, { SmoothingMode::Mean.bit() }, FORCE> {
-        self.set(|own| own.smoothing = Smoothing::Divergence { smallest, largest })
-            .map(|k, v, w, e| (k, v, w, e))
-    }
-    /// Allows bodies of different spacing: pairs use the mean of their smoothing lengths.
-    #[must_use]
-    pub fn mixed_spacing(self) -> SchemeBuilder<K, V, W, E, { SmoothingMode::Mean.bit() }, FORCE> {
-        self.map(|k, v, w, e| (k, v, w, e))
-    }
     /// Ratio of smoothing length to spacing; the kernel's recommendation if not given.
     #[must_use]
     pub fn h_over_dx(self, ratio: f64) -> Self {
@@ -280,90 +226,54 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
     }
 }
 
-/// The forms that the force of a builder can be changed to. Implemented by [`SchemeBuilder`] where the form of its force is
-/// a set of [`MIDPOINT`](super::forms::MIDPOINT), [`RENORMALISED`](super::forms::RENORMALISED) and
-/// [`ENERGY`](super::forms::ENERGY).
-pub trait ForceForm: Sized {
-    /// The builder with midpoint reconstruction.
-    type Midpoint;
-    /// The builder without it.
-    type Plain;
-    /// The builder with corrected gradients.
+/// Effects whose pressure force can take corrected gradients: lists that begin with [`PressureForce`].
+pub trait Renormalise {
+    /// The list with a [`RenormalisedPressureForce`].
     type Renormalised;
     #[doc(hidden)]
-    fn into_midpoint(self) -> Self::Midpoint;
-    #[doc(hidden)]
-    fn into_plain(self) -> Self::Plain;
-    #[doc(hidden)]
-    fn into_renormalised(self) -> Self::Renormalised;
+    fn renormalised(self) -> Self::Renormalised;
 }
 
-/// Implements the forms for one form of the force.
-macro_rules! forms {
-    ($( $from:literal => [$midpoint:expr, $plain:expr, $renormalised:expr] ),*) => {$(
-        #[doc(hidden)]
-        impl<K, V, W, E, const MODES: u8> ForceForm for SchemeBuilder<K, V, W, E, MODES, $from> {
-            type Midpoint = SchemeBuilder<K, V, W, E, MODES, { $midpoint }>;
-            type Plain = SchemeBuilder<K, V, W, E, MODES, { $plain }>;
-            type Renormalised = SchemeBuilder<K, V, W, E, MODES, { $renormalised }>;
-            fn into_midpoint(self) -> Self::Midpoint {
-                self.map(|k, v, w, e| (k, v, w, e))
-            }
-            fn into_plain(self) -> Self::Plain {
-                self.map(|k, v, w, e| (k, v, w, e))
-            }
-            fn into_renormalised(self) -> Self::Renormalised {
-                self.map(|k, v, w, e| (k, v, w, e))
-            }
-        }
-    )*};
-}
-// Every set of the bits MIDPOINT, RENORMALISED and ENERGY, which is no pattern: with midpoint reconstruction, without it,
-// and with renormalised gradients.
-forms! {
-    0b000 => [0b001, 0b000, 0b010],
-    0b001 => [0b001, 0b000, 0b011],
-    0b010 => [0b011, 0b010, 0b010],
-    0b011 => [0b011, 0b010, 0b011],
-    0b100 => [0b101, 0b100, 0b110],
-    0b101 => [0b101, 0b100, 0b111],
-    0b110 => [0b111, 0b110, 0b110],
-    0b111 => [0b111, 0b110, 0b111]
+impl Renormalise for ((), PressureForce) {
+    type Renormalised = ((), RenormalisedPressureForce);
+    fn renormalised(self) -> Self::Renormalised {
+        ((), RenormalisedPressureForce)
+    }
 }
 
-impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MODES, FORCE>
-where
-    Self: ForceForm,
-{
-    /// Adds midpoint reconstruction of the pressure with strength χ; see
-    /// [`MidpointReconstruction`](crate::term::MidpointReconstruction).
-    #[must_use]
-    pub fn midpoint_reconstruction(self, strength: f64) -> <Self as ForceForm>::Midpoint {
-        self.set(|own| own.curvature = strength).into_midpoint()
+impl<E: Renormalise, A> Renormalise for (E, A) {
+    type Renormalised = (E::Renormalised, A);
+    fn renormalised(self) -> Self::Renormalised {
+        (self.0.renormalised(), self.1)
     }
-    /// Leaves midpoint reconstruction of the pressure out.
-    #[must_use]
-    pub fn without_midpoint_reconstruction(self) -> <Self as ForceForm>::Plain {
-        self.into_plain()
-    }
+}
+
+impl<K, V, W, E: Renormalise> SchemeBuilder<K, V, W, E> {
     /// Corrects gradients of pressure force and compression, so that they are exact for linear fields, for
     /// the price of a sweep.
     #[must_use]
-    pub fn renormalised(self) -> <Self as ForceForm>::Renormalised {
-        self.without_consistency_factor().into_renormalised()
+    pub fn renormalised(self) -> SchemeBuilder<K, V, W, E::Renormalised> {
+        self.without_consistency_factor()
+            .map(|k, v, w, e| (k, v, w, e.renormalised()))
     }
 }
 
-impl<K, V, W, E, Y, const MODES: u8, const FORCE: u8>
-    SchemeBuilder<K, V, W, (E, DensityDiffusion<Y>), MODES, FORCE>
-{
+impl<K, V, W, E> SchemeBuilder<K, V, W, (E, MidpointReconstruction)> {
+    /// Leaves midpoint reconstruction of the pressure out. To be called before other effects are added.
+    #[must_use]
+    pub fn without_midpoint_reconstruction(self) -> SchemeBuilder<K, V, W, E> {
+        self.map(|k, v, w, (e, _)| (k, v, w, e))
+    }
+}
+
+impl<K, V, W, E, Y> SchemeBuilder<K, V, W, (E, DensityDiffusion<Y>)> {
     /// The same choices with another density diffusion; [`Nothing`](crate::term::Nothing) for none. To be called
     /// before other effects are added.
     #[must_use]
     pub fn density_diffusion<X>(
         self,
         diffusion: X,
-    ) -> SchemeBuilder<K, V, W, (E, DensityDiffusion<X>), MODES, FORCE> {
+    ) -> SchemeBuilder<K, V, W, (E, DensityDiffusion<X>)> {
         self.map(|k, v, w, (e, _)| (k, v, w, (e, DensityDiffusion(diffusion))))
     }
 }
@@ -372,8 +282,7 @@ impl<K, V, W, E, Y, const MODES: u8, const FORCE: u8>
 /// its plateau at 0.8 and blows up at 1.1; the steepest fronts come at or below 0.55.
 pub const DEFAULT_STEP_FACTOR: f64 = 0.55;
 
-impl<T, const D: usize, K, V, W, E, const MODES: u8, const FORCE: u8>
-    From<SchemeBuilder<K, V, W, E, MODES, FORCE>> for Scheme<T, D>
+impl<T, const D: usize, K, V, W, E> From<SchemeBuilder<K, V, W, E>> for Scheme<T, D>
 where
     T: Real,
     K: Kernel<D>,
@@ -381,7 +290,7 @@ where
     W: Effect<D>,
     E: Effects<D>,
 {
-    fn from(builder: SchemeBuilder<K, V, W, E, MODES, FORCE>) -> Self {
+    fn from(builder: SchemeBuilder<K, V, W, E>) -> Self {
         builder.compose()
     }
 }

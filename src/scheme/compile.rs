@@ -2,11 +2,11 @@
 //! Loops are of those choices that the type of the builder allows, and of no others.
 
 use super::builder::{Consistency, SchemeBuilder};
-use super::force::{ENERGY, Gradients, Needs, Pressure, REFERENCE, Rate};
+use super::gradients::Gradients;
 use super::{EnergyForm, Scheme, Smoothing};
 use crate::effect::{
-    BySum, Compression, ConsistentSmoothing, ContactActivity, CorrectedGradients, DensityForm,
-    Divergence, Effect, Effects, Evolved, Setting, StepProgram, SummedDensity, Update,
+    BySum, Compression, ContactActivity, CorrectedGradients, DensityForm, Divergence, Effect,
+    Effects, Evolved, Setting, SolvedSmoothing, StepProgram, SummedDensity, Update,
     ViscositySwitch, When,
 };
 use crate::error::Problem;
@@ -15,31 +15,30 @@ use crate::particles::{Field, Fields, Output};
 use crate::scalar::Real;
 use crate::sweep::{FusedKernel, PairSweep, SmoothingMode};
 use crate::term::{
-    ArtificialViscosity, InternalEnergy, KernelMoment, KernelSum, MidpointReconstruction, SlopeInH,
-    Stage, StageMarker, StagedTerms, Terms, Unity, Viscosity, stage,
+    ArtificialViscosity, KernelMoment, KernelSum, SlopeInH, Stage, StageMarker, StagedTerms, Terms,
+    Unity, Viscosity, stage,
 };
-use core::marker::PhantomData;
 
-impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MODES, FORCE> {
-    fn setting<const D: usize>(&self) -> Setting
-    where
-        K: Kernel<D>,
-    {
-        let own = &self.settings;
-        let h_over_dx = own.h_over_dx.unwrap_or(self.kernel.h_over_dx());
-        let forms = (own.density, own.pressure_form.unwrap_or(own.density));
-        Setting::of(&self.kernel, h_over_dx, forms)
-    }
+/// What a list of effects is, as far as it decides which loops there are.
+trait Form<const D: usize>: Effects<D> {
+    /// Whether densities may follow from sums.
+    const SUMS: bool = !<Self::At<stage::Sums> as Terms<D>>::WRITES.is_empty();
+    /// Whether particles may carry energy.
+    const ENERGY: bool = !<Self::At<stage::Power> as Terms<D>>::WRITES.is_empty();
+    /// Whether kernels are those of the reference configuration.
+    const REFERENCE: bool = Self::READS.contains(Field::REFERENCE_POSITION);
 
-    fn mode(&self) -> SmoothingMode {
-        match self.settings.smoothing {
-            Smoothing::Consistent { .. } => SmoothingMode::Own,
-            Smoothing::Divergence { .. } => SmoothingMode::Mean,
-            Smoothing::Fixed if MODES & SmoothingMode::Uniform.bit() != 0 => SmoothingMode::Uniform,
-            Smoothing::Fixed => SmoothingMode::Mean,
-        }
-    }
+    /// The modes of loops.
+    const LOOPS: u8 = if Self::MODES == 0 {
+        SmoothingMode::Uniform.bit()
+    } else {
+        Self::MODES
+    };
+}
 
+impl<const D: usize, E: Effects<D>> Form<D> for E {}
+
+impl<K, V, W, E> SchemeBuilder<K, V, W, E> {
     pub(super) fn composed<T: Real, const D: usize>(self) -> Scheme<T, D>
     where
         K: Kernel<D>,
@@ -47,19 +46,18 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
         W: Effect<D>,
         E: Effects<D>,
     {
-        let setting = self.setting::<D>();
-        let compiled = Compiled::<K, V, E, NeedsOf<W, E, D>, MODES, FORCE> {
-            kernel: self.kernel,
-            mode: self.mode(),
-            viscosity: self.viscosity.clone(),
-            curvature: self.settings.curvature,
-            effects: self.effects.clone(),
-            setting,
-            needs: PhantomData,
-        };
         let own = &self.settings;
+        let h_over_dx = own.h_over_dx.unwrap_or(self.kernel.h_over_dx());
+        let forms = (own.density, own.pressure_form.unwrap_or(own.density));
+        let setting = Setting::of(&self.kernel, h_over_dx, forms);
+        let smoothing = self.effects.smoothing();
+        let compiled = Compiled {
+            own: &self,
+            mode: smoothing.mode(),
+            setting,
+        };
         let integrated = own.density.is_integrated();
-        let follows_divergence = matches!(own.smoothing, Smoothing::Divergence { .. });
+        let follows_divergence = matches!(smoothing, Smoothing::Divergence { .. });
         // A switch follows the compression once a step, by the sum that the rates make.
         let support = setting.kernel.support;
         let switch = ViscositySwitch::<T>::of(&self.viscosity, own.density, support);
@@ -68,7 +66,7 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
         sweeps[Stage::Reference.number()] = compiled.at::<stage::Reference, T, D>();
         sweeps[Stage::Density.number()] = compiled.density(own.density);
         let walls = self.walls.terms(&setting).at::<stage::Walls>();
-        let walls = walls.then(self.effects.at::<stage::Walls>(&setting));
+        let walls = walls.then(compiled.of::<stage::Walls, D>());
         sweeps[Stage::Walls.number()] = compiled.named(walls);
         sweeps[Stage::Gradients.number()] = compiled.gradients();
         sweeps[Stage::Flow.number()] = compiled.at::<stage::Flow, T, D>();
@@ -78,19 +76,19 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
         let mut program = StepProgram::new(setting);
         let makes_gradients = compiled.makes_gradients::<D>();
         if makes_gradients {
-            let wanted = Gradients::<V, NeedsOf<W, E, D>, FORCE>::wanted::<D>();
+            let wanted = Gradients::<V, W, E>::wanted::<D>();
             program.law(Stage::Gradients, CorrectedGradients { wanted });
         }
         // A viscosity that is chosen at run time reads what others of its kind do, and nothing may write that.
         let remembered = Fields::of(&[Field::VISCOSITY_COEFFICIENT, Field::DIVERGENCE]);
         let mut unwritten = remembered.minus(remembered.minus(V::READS));
         if !makes_gradients {
-            unwritten = unwritten.union(Gradients::<V, NeedsOf<W, E, D>, FORCE>::wanted::<D>());
+            unwritten = unwritten.union(Gradients::<V, W, E>::wanted::<D>());
         }
         for field in unwritten.iter() {
             program.carry(field);
         }
-        self.evolve(&mut program);
+        self.evolve(smoothing, &mut program);
         self.walls.register(&mut program);
         program.books_energy &= W::BOOKS_ENERGY;
         self.effects.register(&mut program);
@@ -102,7 +100,8 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
             program.law(Stage::Rates, law);
         }
         let carries_energy = own.energy != EnergyForm::None;
-        let cannot = FORCE & ENERGY == 0 && (carries_energy || !integrated);
+        let cannot = (carries_energy && !E::ENERGY)
+            || !(integrated || E::SUMS || own.density == DensityForm::Deformation);
         program.require(move |_| {
             cannot.then(|| Problem::Incompatible {
                 what: "a scheme of liquids integrates its density and carries no internal energy".into(),
@@ -110,7 +109,14 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
                          EnergyForm::None",
             })
         });
-        self.require_reference(&sweeps, &mut program);
+        let unnamed = E::LOOPS & smoothing.mode().bit() == 0;
+        program.require(move |_| {
+            unnamed.then(|| Problem::Incompatible {
+                what: format!("an effect asks for {smoothing:?} smoothing lengths, of which its loops are not compiled"),
+                remedy: "name SmoothingMode::Mean or SmoothingMode::Own in Effect::MODES",
+            })
+        });
+        self.require_reference(smoothing, &sweeps, &mut program);
         program.arrange();
         let of = |what: &str, (name, value, must_be)| (format!("{name}{what}"), value, must_be);
         let viscous = self.viscosity.problems().into_iter();
@@ -121,7 +127,7 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
             .chain(self.effects.problems());
         Scheme {
             name: own.name.clone(),
-            kernel: if FORCE & REFERENCE == 0 {
+            kernel: if !E::REFERENCE {
                 KernelFacts::of(&self.kernel)
             } else {
                 // Neighbours that stay do not pair, and tension does not part them.
@@ -134,7 +140,7 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
             density: own.density,
             pressure_form: setting.pressure_form,
             energy: own.energy,
-            smoothing: own.smoothing,
+            smoothing,
             h_over_dx: setting.h_over_dx,
             step_factor: own.step_factor * program.step_factor,
             consistent_at_rest: own.consistency == Consistency::AtRest,
@@ -144,7 +150,7 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
                 .map(|one| of(" of the artificial viscosity", one))
                 .chain(effects.map(|one| of("", one)))
                 .collect(),
-            reference: (FORCE & (ENERGY | REFERENCE) == ENERGY).then(|| compiled.reference()),
+            reference: compiled.reference(),
             sweeps,
             lattice_consistency_factor: if own.consistency == Consistency::Lattice {
                 setting.lattice_consistency_factor
@@ -158,12 +164,14 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
     /// Asks that all sums are over the reference configuration where one is, and none where none is.
     fn require_reference<T: Real, const D: usize>(
         &self,
+        smoothing: Smoothing,
         sweeps: &[Option<Box<dyn PairSweep<T, D>>>],
         program: &mut StepProgram<T, D>,
     ) where
         V: ArtificialViscosity<D>,
+        E: Effects<D>,
     {
-        let total = FORCE & REFERENCE != 0;
+        let total = E::REFERENCE;
         let own = &self.settings;
         let other_form = total != (own.density == DensityForm::Deformation);
         program.require(move |_| {
@@ -176,7 +184,7 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
         let refers =
             |sweep: &dyn PairSweep<T, D>| sweep.fields().contains(Field::REFERENCE_POSITION);
         let mut all = sweeps.iter().flatten();
-        let varies = own.smoothing != Smoothing::Fixed || self.viscosity.switch::<T>().is_some();
+        let varies = smoothing.varies() || self.viscosity.switch::<T>().is_some();
         let mixed = all.any(|sweep| refers(sweep.as_ref()) != total) || (total && varies);
         program.require(move |_| {
             mixed.then(|| Problem::Incompatible {
@@ -190,14 +198,17 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
     }
 
     /// What the scheme itself integrates in time, and how density follows from sums.
-    fn evolve<T: Real, const D: usize>(&self, program: &mut StepProgram<T, D>) {
+    fn evolve<T: Real, const D: usize>(&self, smoothing: Smoothing, program: &mut StepProgram<T, D>)
+    where
+        E: Effects<D>,
+    {
         let own = &self.settings;
         let setting = *program.setting();
         let compression = Compression {
             density: setting.density,
             pressure: setting.pressure_form,
         };
-        if let Smoothing::Divergence { smallest, largest } = own.smoothing {
+        if let Smoothing::Divergence { smallest, largest } = smoothing {
             program.evolve(
                 Evolved::kicked(Field::SMOOTHING_LENGTH)
                     .at(When::Drift)
@@ -211,19 +222,17 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
                 .updated(Update::Exponential)
                 .by(compression);
             program.evolve(density.keeping(Field::DENSITY_RESIDUAL));
-        } else if let Smoothing::Consistent { smallest, largest } = own.smoothing {
-            let law = ConsistentSmoothing {
+        } else if let Smoothing::Consistent { smallest, largest } = smoothing {
+            let law = SolvedSmoothing {
                 eta: setting.h_over_dx,
                 limits: [smallest, largest],
             };
             program.law(Stage::Density, law);
-        } else if FORCE & REFERENCE == 0 {
+        } else if E::SUMS {
             program.law(Stage::Density, SummedDensity(own.density));
         }
         // Liquids have no contacts, and smoothing that follows density takes bodies as one.
-        if FORCE & (ENERGY | REFERENCE) == ENERGY
-            && !matches!(own.smoothing, Smoothing::Consistent { .. })
-        {
+        if E::SUMS && !matches!(smoothing, Smoothing::Consistent { .. }) {
             program.law(Stage::Density, ContactActivity);
         }
         if own.energy != EnergyForm::None {
@@ -239,34 +248,43 @@ impl<K, V, W, E, const MODES: u8, const FORCE: u8> SchemeBuilder<K, V, W, E, MOD
 /// neighbours across a diagonal, to what bends half as well.
 const REFERENCE_RANGE: (f64, f64) = (0.8, 2.0);
 
-/// What the terms and laws of a scheme read beside those of force and viscosity.
-struct NeedsOf<W, E, const D: usize>(PhantomData<fn() -> (W, E)>);
-
-impl<W: Effect<D>, E: Effects<D>, const D: usize> Needs for NeedsOf<W, E, D> {
-    const NEEDS: Fields = W::NEEDS.union(E::READS);
-}
-
 /// The choices on their way into sweeps.
-struct Compiled<K, V, E, N, const MODES: u8, const FORCE: u8> {
-    kernel: K,
+struct Compiled<'a, K, V, W, E> {
+    own: &'a SchemeBuilder<K, V, W, E>,
     mode: SmoothingMode,
-    viscosity: V,
-    curvature: f64,
-    effects: E,
     setting: Setting,
-    needs: PhantomData<fn() -> N>,
 }
 
-impl<K, V, E, N: Needs, const MODES: u8, const FORCE: u8> Compiled<K, V, E, N, MODES, FORCE> {
+impl<K, V, W, E> Compiled<'_, K, V, W, E> {
+    /// The terms of a stage.
+    fn of<S: StageMarker<D>, const D: usize>(&self) -> E::At<S>
+    where
+        E: Effects<D>,
+    {
+        self.own.effects.at::<S>(&self.setting)
+    }
+
     fn sweep<T: Real, const D: usize>(&self, terms: impl Terms<D>) -> Box<dyn PairSweep<T, D>>
     where
         K: Kernel<D>,
+        E: Effects<D>,
     {
-        Box::new(FusedKernel::<_, _, MODES>::new(
-            self.kernel,
-            terms,
-            self.mode,
-        ))
+        const UNIFORM: u8 = SmoothingMode::Uniform.bit();
+        const MEAN: u8 = SmoothingMode::Mean.bit();
+        const OWN: u8 = SmoothingMode::Own.bit();
+        let (kernel, mode) = (self.own.kernel, self.mode);
+        // A mode that no effect names leaves no loop behind.
+        if const { E::LOOPS & OWN != 0 }
+            && (const { E::LOOPS == OWN } || mode == SmoothingMode::Own)
+        {
+            Box::new(FusedKernel::<_, _, OWN>::new(kernel, terms))
+        } else if const { E::LOOPS & MEAN != 0 }
+            && (const { E::LOOPS & UNIFORM == 0 } || mode == SmoothingMode::Mean)
+        {
+            Box::new(FusedKernel::<_, _, MEAN>::new(kernel, terms))
+        } else {
+            Box::new(FusedKernel::<_, _, UNIFORM>::new(kernel, terms))
+        }
     }
 
     /// The sweep of some terms, if there are any.
@@ -276,6 +294,7 @@ impl<K, V, E, N: Needs, const MODES: u8, const FORCE: u8> Compiled<K, V, E, N, M
     ) -> Option<Box<dyn PairSweep<T, D>>>
     where
         K: Kernel<D>,
+        E: Effects<D>,
     {
         if const { A::WRITES.is_empty() } {
             return None;
@@ -289,7 +308,7 @@ impl<K, V, E, N: Needs, const MODES: u8, const FORCE: u8> Compiled<K, V, E, N, M
         K: Kernel<D>,
         E: Effects<D>,
     {
-        self.named(self.effects.at::<S>(&self.setting))
+        self.named(self.of::<S, D>())
     }
 
     fn density<T: Real, const D: usize>(
@@ -300,36 +319,41 @@ impl<K, V, E, N: Needs, const MODES: u8, const FORCE: u8> Compiled<K, V, E, N, M
         K: Kernel<D>,
         E: Effects<D>,
     {
-        // Liquids integrate their density.
-        if const { FORCE & ENERGY == 0 || FORCE & REFERENCE != 0 } || form.is_integrated() {
-            return self.at::<stage::Density, T, D>();
+        let (sums, own) = (self.of::<stage::Sums, D>(), self.of::<stage::Density, D>());
+        if const { !E::SUMS } || form.is_integrated() {
+            return self.named(own);
         }
-        let own = self.effects.at::<stage::Density>(&self.setting);
-        Some(match (form, self.mode) {
-            (DensityForm::Normalised | DensityForm::Lam, _) => {
-                self.sweep((KernelSum, Unity).then(own))
-            }
-            (_, SmoothingMode::Own) => self.sweep((KernelSum, SlopeInH).then(own)),
-            _ => self.sweep((KernelSum,).then(own)),
-        })
+        if matches!(form, DensityForm::Normalised | DensityForm::Lam) {
+            return Some(self.sweep(sums.then((Unity,)).then(own)));
+        }
+        if const { E::LOOPS & SmoothingMode::Own.bit() != 0 } && self.mode == SmoothingMode::Own {
+            return Some(self.sweep(sums.then((SlopeInH,)).then(own)));
+        }
+        Some(self.sweep(sums.then(own)))
     }
 
-    fn reference<T: Real, const D: usize>(&self) -> Box<dyn PairSweep<T, D>>
+    /// The sums at rest from which densities measure.
+    fn reference<T: Real, const D: usize>(&self) -> Option<Box<dyn PairSweep<T, D>>>
     where
         K: Kernel<D>,
+        E: Effects<D>,
     {
-        self.sweep((KernelSum, Unity, KernelMoment))
+        if const { E::SUMS } {
+            return Some(self.sweep((KernelSum, Unity, KernelMoment)));
+        }
+        None
     }
 
     fn gradients<T: Real, const D: usize>(&self) -> Option<Box<dyn PairSweep<T, D>>>
     where
         K: Kernel<D>,
         V: ArtificialViscosity<D>,
+        W: Effect<D>,
         E: Effects<D>,
     {
-        let own = self.effects.at::<stage::Gradients>(&self.setting);
+        let own = self.of::<stage::Gradients, D>();
         if self.makes_gradients::<D>() {
-            return Some(self.sweep(Gradients::<V, N, FORCE>::NEW.then(own)));
+            return Some(self.sweep(Gradients::<V, W, E>::NEW.then(own)));
         }
         self.named(own)
     }
@@ -338,11 +362,13 @@ impl<K, V, E, N: Needs, const MODES: u8, const FORCE: u8> Compiled<K, V, E, N, M
     fn makes_gradients<const D: usize>(&self) -> bool
     where
         V: ArtificialViscosity<D>,
+        W: Effect<D>,
+        E: Effects<D>,
     {
         // A viscosity that is chosen at run time may ask for nothing.
-        let asked = const { !Gradients::<V, N, FORCE>::of_others::<D>().is_empty() };
-        let wanted = const { !Gradients::<V, N, FORCE>::wanted::<D>().is_empty() };
-        wanted && (asked || self.viscosity.needs_velocity_gradient())
+        let asked = const { !Gradients::<V, W, E>::of_others::<D>().is_empty() };
+        let wanted = const { !Gradients::<V, W, E>::wanted::<D>().is_empty() };
+        wanted && (asked || self.own.viscosity.needs_velocity_gradient())
     }
 
     fn rates<T: Real, const D: usize>(&self, with_compression: bool) -> Box<dyn PairSweep<T, D>>
@@ -351,26 +377,15 @@ impl<K, V, E, N: Needs, const MODES: u8, const FORCE: u8> Compiled<K, V, E, N, M
         V: ArtificialViscosity<D>,
         E: Effects<D>,
     {
-        let pressure = Pressure::<FORCE> {
-            curvature: MidpointReconstruction {
-                strength: self.curvature,
-            },
-        };
-        let viscosity = (Viscosity(self.viscosity.clone()),);
-        let own = self.effects.at::<stage::Rates>(&self.setting);
-        if const { FORCE & REFERENCE != 0 } {
-            return self.sweep(viscosity.then(own).then((InternalEnergy,)));
+        let viscosity = (Viscosity(self.own.viscosity.clone()),);
+        let forces = self.of::<stage::Pressure, D>().then(viscosity);
+        let forces = forces.then(self.of::<stage::Rates, D>());
+        let forces = forces.then(self.of::<stage::Power, D>());
+        // Liquids sum it in drifts alone.
+        if const { E::ENERGY } && with_compression {
+            return self.sweep(forces.then(self.of::<stage::Compression, D>()));
         }
-        let forces = pressure.then(viscosity).then(own);
-        if const { FORCE & ENERGY == 0 } {
-            return self.sweep(forces);
-        }
-        let forces = forces.then((InternalEnergy,));
-        if with_compression {
-            self.sweep(forces.then((Rate::<FORCE>,)))
-        } else {
-            self.sweep(forces)
-        }
+        self.sweep(forces)
     }
 
     fn continuity<T: Real, const D: usize>(
@@ -381,10 +396,10 @@ impl<K, V, E, N: Needs, const MODES: u8, const FORCE: u8> Compiled<K, V, E, N, M
         K: Kernel<D>,
         E: Effects<D>,
     {
-        if !integrated {
-            return self.at::<stage::Continuity, T, D>();
+        let own = self.of::<stage::Continuity, D>();
+        if const { !E::SUMS } || integrated {
+            return self.named(self.of::<stage::Compression, D>().then(own));
         }
-        let own = self.effects.at::<stage::Continuity>(&self.setting);
-        Some(self.sweep((Rate::<FORCE>,).then(own)))
+        self.named(own)
     }
 }

@@ -13,6 +13,18 @@
 //! | rates | always | force, power, signal; rate of compression where density is integrated |
 //! | continuity | in a drift, where density is integrated | rate of compression at the middle of the drift |
 //!
+//! What a scheme starts from are effects as well, whose terms are the first of a list:
+//!
+//! | builder | effects |
+//! |---|---|
+//! | [`SchemeBuilder::new`] | [`PressureForce`], densities by [`KernelSum`] with contacts, [`InternalEnergy`] |
+//! | [`SchemeBuilder::liquid`] | [`PressureForce`], [`Cavitation`] |
+//! | [`SchemeBuilder::total_lagrangian`] | [`TotalLagrangian`], [`InternalEnergy`] |
+//!
+//! [`MidpointReconstruction`] adds to the pressure force; [`MixedSpacing`], [`DivergenceSmoothing`] and
+//! [`ConsistentSmoothing`] change smoothing lengths. A function that returns a builder names its list, or
+//! `impl Effects<D>`.
+//!
 //! One more sweep runs once, when the scene is built: it takes the reference configuration from which
 //! [`DensityForm::NumberDensity`] and [`DensityForm::Continuity`] measure.
 //!
@@ -33,23 +45,28 @@
 //! energy loses in the kick, internal energy gains, to rounding, whatever the forces are and however
 //! long the step. [`EnergyForm::Symmetric`] saves that pass, and drifts with the order of the step.
 
+//!
+//! [`Cavitation`]: crate::effect::Cavitation
+//! [`ConsistentSmoothing`]: crate::effect::ConsistentSmoothing
+//! [`DivergenceSmoothing`]: crate::effect::DivergenceSmoothing
+//! [`InternalEnergy`]: crate::term::InternalEnergy
+//! [`KernelSum`]: crate::term::KernelSum
+//! [`MidpointReconstruction`]: crate::term::MidpointReconstruction
+//! [`MixedSpacing`]: crate::effect::MixedSpacing
+//! [`PressureForce`]: crate::term::PressureForce
+//! [`TotalLagrangian`]: crate::effect::TotalLagrangian
+
 mod builder;
 mod compile;
-/// Bits that tell the forms of the pair force apart in the type of a builder.
-pub mod forms {
-    pub use super::builder::ForceForm;
-    pub use super::force::{ENERGY, MIDPOINT, REFERENCE, RENORMALISED};
-}
-
-mod force;
+mod gradients;
 mod order;
 mod print;
 mod start;
 
-pub use crate::effect::{DensityForm, Shifting};
+pub use crate::effect::{DensityForm, Shifting, Smoothing};
 pub use crate::kernel::KernelFacts;
 pub(crate) use builder::DEFAULT_STEP_FACTOR;
-pub use builder::{LiquidBuilder, SchemeBuilder, TotalLagrangianBuilder};
+pub use builder::{Renormalise, SchemeBuilder};
 pub use start::Start;
 
 use crate::effect::StepProgram;
@@ -76,33 +93,6 @@ pub enum EnergyForm {
     #[doc = include_str!("../../docs/equations/energy_compatible.html")]
     #[default]
     Compatible,
-}
-
-/// How the smoothing length changes.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
-pub enum Smoothing {
-    /// Fixed, h = η dx for every body.
-    #[default]
-    Fixed,
-    /// Follows the divergence within limits, as LS-DYNA does (Vesenjak & Ren 2007, eq. 6).
-    ///
-    #[doc = include_str!("../../docs/equations/smoothing_divergence.html")]
-    Divergence {
-        /// Smallest h in units of η dx, the first of the body.
-        smallest: f64,
-        /// Largest h in units of η dx.
-        largest: f64,
-    },
-    /// Solved together with the density, with grad-h terms: η is h/dx
-    /// (Springel & Hernquist 2002; Price 2012).
-    ///
-    #[doc = include_str!("../../docs/equations/smoothing_consistent.html")]
-    Consistent {
-        /// Smallest h in units of η dx, the first of the body.
-        smallest: f64,
-        /// Largest h in units of η dx.
-        largest: f64,
-    },
 }
 
 /// A composed scheme: what a group of bodies obeys. Built by [`SchemeBuilder`], or ready in

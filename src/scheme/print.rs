@@ -31,6 +31,12 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         names.join(", ")
     }
 
+    /// Whether the pressure makes forces.
+    fn presses(&self) -> bool {
+        let rates = self.sweep(Stage::Rates);
+        rates.is_some_and(|sweep| sweep.fields().contains(Field::PRESSURE_COEFFICIENT))
+    }
+
     /// The step program: what happens at every stage of a step, with the fields read and written.
     ///
     /// ```
@@ -44,14 +50,18 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         let mut lines = vec![format!("{}, step by step", self.name)];
         for stage in Stage::ALL {
             if let Some(sweep) = self.sweep(stage) {
-                let sums: Vec<_> = sweep
-                    .outputs()
-                    .iter()
-                    .map(|sum| self.name_of_sum(sum))
-                    .collect();
-                lines.push(format!("  {}: pairs", stage.name()));
-                lines.push(format!("      reads  {}", self.names(sweep.fields())));
-                lines.push(format!("      sums   {}", sums.join(", ")));
+                let mut uses = sweep.uses();
+                uses.retain(|own| !own.name.is_empty());
+                // Not the order of the list of effects.
+                uses.sort_by(|a, b| a.name.cmp(&b.name));
+                for own in uses {
+                    let sums = own.writes.iter().map(|sum| self.name_of_sum(sum));
+                    let sums = sums.collect::<Vec<_>>().join(", ");
+                    let reads = own.reads.minus(own.reads.minus(sweep.fields()));
+                    lines.push(format!("  {}, pairs: {}", stage.name(), own.name));
+                    lines.push(format!("      reads  {}", self.names(reads)));
+                    lines.push(format!("      sums   {sums}"));
+                }
             }
             for law in &self.program.laws[stage.number()] {
                 lines.push(format!("  {}: {}", stage.name(), law.name()));
@@ -60,11 +70,21 @@ impl<T: Real, const D: usize> Scheme<T, D> {
                 lines.push(format!("      writes {}", self.names(writes)));
             }
             if stage == Stage::Density {
+                let read = Fields::of(&[Field::DENSITY, Field::ENERGY]);
+                let absent = read.minus(self.fields());
+                let state = [Field::PRESSURE, Field::SOUND_SPEED];
                 lines.push("  state: equations of state".into());
-                lines.push(format!(
-                    "      writes {}",
-                    self.names(Fields::of(&[Field::PRESSURE, Field::SOUND_SPEED]))
-                ));
+                lines.push(format!("      reads  {}", self.names(read.minus(absent))));
+                lines.push(format!("      writes {}", self.names(Fields::of(&state))));
+            }
+            // Once the pressures of walls are known.
+            if stage == Stage::Walls && self.presses() {
+                let of = |fields: &[Field]| self.names(Fields::of(fields));
+                let read = of(&[Field::DENSITY, Field::PRESSURE]);
+                let written = of(&[Field::PRESSURE_COEFFICIENT]);
+                lines.push(format!("  state: pressure force by {}", self.pressure_form));
+                lines.push(format!("      reads  {read}"));
+                lines.push(format!("      writes {written}"));
             }
         }
         let beside = lines.len();

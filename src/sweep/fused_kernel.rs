@@ -3,7 +3,7 @@
 
 use super::records::{Image, Records, Transform};
 use super::results::{Reaction, Results};
-use super::task::{BEYOND, Composed, MEAN, OWN, Task, UNIFORM, reads, room_for_both};
+use super::task::{BEYOND, Composed, Task, reads, room_for_both};
 use super::work::Working;
 use super::{InstructionSet, Interaction, Root, SmoothingMode};
 use crate::kernel::Kernel;
@@ -81,37 +81,26 @@ pub trait PairSweep<T: Real, const D: usize>: Debug + Send + Sync {
 
 /// A kernel and the terms that share a sweep.
 ///
-/// `MODES` says which [`SmoothingMode`]s the loop is compiled for, as a union of their bits; all if
-/// not given.
+/// `MODE` is the [`SmoothingMode`] of the loop, as its bit.
 #[derive(Clone, Debug)]
-pub struct FusedKernel<K, P, const MODES: u8 = { SmoothingMode::ALL }> {
+pub struct FusedKernel<K, P, const MODE: u8 = { SmoothingMode::Uniform.bit() }> {
     kernel: K,
     terms: P,
-    mode: SmoothingMode,
 }
 
-impl<K, P, const MODES: u8> FusedKernel<K, P, MODES> {
-    /// The program of `terms` under `kernel`. `mode` must be one that the loop is compiled for.
+impl<K, P, const MODE: u8> FusedKernel<K, P, MODE> {
+    /// The program of `terms` under `kernel`.
     #[must_use]
-    pub fn new(kernel: K, terms: P, mode: SmoothingMode) -> Self {
-        debug_assert!(MODES & mode.bit() != 0);
-        Self {
-            kernel,
-            terms,
-            mode,
-        }
+    pub fn new(kernel: K, terms: P) -> Self {
+        Self { kernel, terms }
     }
 }
 
-impl<T: Real, const D: usize, K: Kernel<D>, P: Terms<D>, const MODES: u8> PairSweep<T, D>
-    for FusedKernel<K, P, MODES>
+impl<T: Real, const D: usize, K: Kernel<D>, P: Terms<D>, const MODE: u8> PairSweep<T, D>
+    for FusedKernel<K, P, MODE>
 {
     fn fields(&self) -> Fields {
-        reads::<T, P, D>(if self.mode == SmoothingMode::Uniform {
-            UNIFORM
-        } else {
-            MEAN
-        })
+        reads::<T, P, D>(MODE)
     }
 
     fn outputs(&self) -> Outputs {
@@ -127,12 +116,12 @@ impl<T: Real, const D: usize, K: Kernel<D>, P: Terms<D>, const MODES: u8> PairSw
     }
 
     fn pack(&self, pass: Pass, input: &SweepInput<'_, T, D>, records: &mut Records<T>) {
-        let layout = self.layout::<T, D>(pass);
+        let layout = Self::layout::<T, D>(pass);
         records.pack(layout, input.columns, input.images, input.transforms);
     }
 
     fn renew_mean_velocity(&self, input: &SweepInput<'_, T, D>, records: &mut Records<T>) {
-        let layout = self.layout::<T, D>(Pass::Work);
+        let layout = Self::layout::<T, D>(Pass::Work);
         for field in [Field::MEAN_VELOCITY, Field::MEAN_ACCELERATION] {
             records.renew(field, layout, input.columns, input.images, input.transforms);
         }
@@ -145,79 +134,36 @@ impl<T: Real, const D: usize, K: Kernel<D>, P: Terms<D>, const MODES: u8> PairSw
         records: &Records<T>,
         rows: &mut Results<T, D>,
     ) {
-        // A mode that the program is not compiled for leaves no loop behind.
-        match self.mode {
-            SmoothingMode::Uniform => {
-                if const { MODES & SmoothingMode::Uniform.bit() != 0 } {
-                    self.pass::<T, D, UNIFORM>(pass, input, records, rows);
-                }
+        const {
+            assert_room::<Composed<T, P, D, MODE>, D>();
+            if P::WRITES.contains(Output::POWER) {
+                assert_room::<Composed<T, Working<P>, D, MODE>, D>();
             }
-            SmoothingMode::Mean => {
-                if const { MODES & SmoothingMode::Mean.bit() != 0 } {
-                    self.pass::<T, D, MEAN>(pass, input, records, rows);
-                }
-            }
-            SmoothingMode::Own => {
-                if const { MODES & SmoothingMode::Own.bit() != 0 } {
-                    self.pass::<T, D, OWN>(pass, input, records, rows);
+        }
+        match pass {
+            Pass::Rates => self.go::<T, D, P>(&self.terms, input, records, rows),
+            // Work is only ever asked of sweeps that carry energy.
+            Pass::Work => {
+                if const { P::WRITES.contains(Output::POWER) } {
+                    self.go::<T, D, _>(Working::of(&self.terms), input, records, rows);
                 }
             }
         }
     }
 }
 
-impl<K, P, const MODES: u8> FusedKernel<K, P, MODES> {
-    fn layout<T: Real, const D: usize>(&self, pass: Pass) -> Fields
+impl<K, P, const MODE: u8> FusedKernel<K, P, MODE> {
+    fn layout<T: Real, const D: usize>(pass: Pass) -> Fields
     where
         P: Terms<D>,
     {
-        let mode = if self.mode == SmoothingMode::Uniform {
-            UNIFORM
-        } else {
-            MEAN
-        };
         match pass {
-            Pass::Rates => reads::<T, P, D>(mode),
-            Pass::Work => reads::<T, Working<P>, D>(mode),
+            Pass::Rates => reads::<T, P, D>(MODE),
+            Pass::Work => reads::<T, Working<P>, D>(MODE),
         }
     }
 
-    fn pass<T: Real, const D: usize, const HOW: u8>(
-        &self,
-        pass: Pass,
-        input: &SweepInput<'_, T, D>,
-        records: &Records<T>,
-        rows: &mut Results<T, D>,
-    ) where
-        K: Kernel<D>,
-        P: Terms<D>,
-    {
-        const {
-            // Layouts that are never run, but compiled with the rest, need no room.
-            let mode = match HOW & (MEAN | OWN) {
-                UNIFORM => SmoothingMode::Uniform,
-                MEAN => SmoothingMode::Mean,
-                _ => SmoothingMode::Own,
-            };
-            if MODES & mode.bit() != 0 {
-                assert_room::<Composed<T, P, D, HOW>, D>();
-                if P::WRITES.contains(Output::POWER) {
-                    assert_room::<Composed<T, Working<P>, D, HOW>, D>();
-                }
-            }
-        }
-        match pass {
-            Pass::Rates => self.go::<T, D, P, HOW>(&self.terms, input, records, rows),
-            // Work is only ever asked of sweeps that carry energy.
-            Pass::Work => {
-                if const { P::WRITES.contains(Output::POWER) } {
-                    self.go::<T, D, _, HOW>(Working::of(&self.terms), input, records, rows);
-                }
-            }
-        }
-    }
-
-    fn go<T: Real, const D: usize, Q: Terms<D>, const HOW: u8>(
+    fn go<T: Real, const D: usize, Q: Terms<D>>(
         &self,
         terms: &Q,
         input: &SweepInput<'_, T, D>,
@@ -226,7 +172,7 @@ impl<K, P, const MODES: u8> FusedKernel<K, P, MODES> {
     ) where
         K: Kernel<D>,
     {
-        rows.lay_out(Composed::<T, Q, D, HOW>::WRITES);
+        rows.lay_out(Composed::<T, Q, D, MODE>::WRITES);
         let instructions = input.instructions.or_detected();
         let reach = self.kernel.support() * input.smoothing_length;
         let task = Task {
@@ -246,12 +192,12 @@ impl<K, P, const MODES: u8> FusedKernel<K, P, MODES> {
             kernel_norm: T::from_f64(self.kernel.normalisation()),
         };
         over_chunks(
-            const { room_for_both::<Composed<T, Q, D, HOW>, T::Wide<true>, D>() },
+            const { room_for_both::<Composed<T, Q, D, MODE>, T::Wide<true>, D>() },
             input,
             rows,
             &|targets, list, later, out, reactions| {
                 let task = Task { targets, ..task };
-                task.dispatch::<HOW>(instructions, list, later, out, reactions);
+                task.dispatch::<MODE>(instructions, list, later, out, reactions);
             },
         );
     }

@@ -85,11 +85,7 @@ fn particles() -> Columns<f64, 2> {
 fn a_free_force_counts_in_force_power_and_work() {
     let columns = particles();
     let oblique = Oblique { strength: 0.8 };
-    let sweep = FusedKernel::<_, _, { SmoothingMode::Uniform.bit() }>::new(
-        WendlandC2,
-        (oblique, PressureForce, InternalEnergy),
-        SmoothingMode::Uniform,
-    );
+    let sweep = FusedKernel::<_, _>::new(WendlandC2, (oblique, PressureForce, InternalEnergy));
     let sweep: &dyn PairSweep<f64, 2> = &sweep;
     let blocks = [Block {
         slots: 0..36,
@@ -271,11 +267,7 @@ fn across(stress: [f64; 6], interaction: Interaction) -> [f64; 2] {
         columns.raw_mut(Field::WEIGHT)[slot] = 1.0;
         columns.raw_mut(STRESS)[6 * slot..6 * slot + 6].copy_from_slice(&stress);
     }
-    let sweep = FusedKernel::<_, _, { SmoothingMode::Uniform.bit() }>::new(
-        WendlandC2,
-        (StressForce,),
-        SmoothingMode::Uniform,
-    );
+    let sweep = FusedKernel::<_, _>::new(WendlandC2, (StressForce,));
     let sweep: &dyn PairSweep<f64, 2> = &sweep;
     let block = |slots| Block { slots, wall: false };
     let blocks = [block(0..8), block(8..16)];

@@ -61,6 +61,13 @@ pub struct MidpointReconstruction {
     pub strength: f64,
 }
 
+impl MidpointReconstruction {
+    /// χ = 1/3.
+    pub const STANDARD: Self = Self {
+        strength: 1.0 / 3.0,
+    };
+}
+
 impl<const D: usize> Term<D> for MidpointReconstruction {
     const READS: Fields = Fields::of(&[
         Field::MASS,

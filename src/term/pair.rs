@@ -15,7 +15,7 @@ use core::marker::PhantomData;
 /// # use meshfree::kernel::CubicSpline;
 /// # use meshfree::particles::{Field, Fields, Outputs};
 /// # use meshfree::scalar::Lane;
-/// # use meshfree::sweep::{PairSweep, FusedKernel, SmoothingMode};
+/// # use meshfree::sweep::{FusedKernel, PairSweep};
 /// # use meshfree::term::{Layout, Pair, Sums, Term, TermDoc};
 /// # #[derive(Clone, Debug)]
 /// # struct Reads<const TENSORS: usize>;
@@ -35,14 +35,14 @@ use core::marker::PhantomData;
 /// #     }
 /// # }
 /// let sweep: &dyn PairSweep<f64, 3> =
-///     &FusedKernel::<_, _>::new(CubicSpline, (Reads::<10>,), SmoothingMode::Uniform);
+///     &FusedKernel::<_, _>::new(CubicSpline, (Reads::<10>,));
 /// assert_eq!(sweep.fields().width(3), 3 + 10 * 6);
 /// ```
 /// ```compile_fail
 /// # use meshfree::kernel::CubicSpline;
 /// # use meshfree::particles::{Field, Fields, Outputs};
 /// # use meshfree::scalar::Lane;
-/// # use meshfree::sweep::{PairSweep, FusedKernel, SmoothingMode};
+/// # use meshfree::sweep::{FusedKernel, PairSweep};
 /// # use meshfree::term::{Layout, Pair, Sums, Term, TermDoc};
 /// # #[derive(Clone, Debug)]
 /// # struct Reads<const TENSORS: usize>;
@@ -62,7 +62,7 @@ use core::marker::PhantomData;
 /// #     }
 /// # }
 /// let sweep: &dyn PairSweep<f64, 3> =
-///     &FusedKernel::<_, _>::new(CubicSpline, (Reads::<11>,), SmoothingMode::Uniform);
+///     &FusedKernel::<_, _>::new(CubicSpline, (Reads::<11>,));
 /// assert_eq!(sweep.fields().width(3), 3 + 11 * 6);
 /// ```
 pub const MOST_READS: usize = 64;

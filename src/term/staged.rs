@@ -1,18 +1,16 @@
 //! Terms by stage: of the terms of an effect, those that share the sweep of one stage, as a type.
 //! A sweep is compiled once for the terms that it has, whatever else the schemes that use it name.
 
-use super::{Layout, Pair, Stage, Sums, Term, TermDoc, TermUse, Terms, not_empty};
+use super::{Layout, Pair, Sums, Term, TermDoc, TermUse, Terms, not_empty};
 use crate::particles::{Fields, Outputs};
 use crate::scalar::Lane;
 use core::fmt::Debug;
 use core::marker::PhantomData;
 
 macro_rules! markers {
-    ($( $(#[$doc:meta])* $Marker:ident $If:ident $put:ident [$($Other:ident $other:ident),*] ),*) => {
-        /// A [`Stage`] as a type.
+    ($( $(#[$doc:meta])* $Marker:ident $If:ident $put:ident ),* $(,)?) => {
+        /// A [`Stage`](super::Stage), or the part of its sweep that comes first or last, as a type.
         pub trait StageMarker<const D: usize>: Clone + Debug + Send + Sync + 'static {
-            /// The stage.
-            const STAGE: Stage;
             /// The terms `A` of this stage in the sweep of stage `S`: all of them if it is the same, none if not.
             type Of<S: StageMarker<D>, A: Terms<D>>: Terms<D>;
             /// The terms of this stage in the sweep of stage `S`.
@@ -28,45 +26,62 @@ macro_rules! markers {
             $(#[$doc])*
             #[derive(Clone, Copy, Debug)]
             pub struct $Marker;
-
-            impl<const D: usize> StageMarker<D> for $Marker {
-                const STAGE: Stage = Stage::$Marker;
-                type Of<S: StageMarker<D>, A: Terms<D>> = S::$If<A>;
-                fn put<S: StageMarker<D>, A: Terms<D>>(terms: A) -> Self::Of<S, A> {
-                    S::$put(terms)
-                }
-                type $If<A: Terms<D>> = A;
-                fn $put<A: Terms<D>>(terms: A) -> A {
-                    terms
-                }
-                $(
-                    type $Other<A: Terms<D>> = ();
-                    fn $other<A: Terms<D>>(_terms: A) {}
-                )*
-            }
         )*
+        markers!(@each [] $([$Marker $If $put])*);
+    };
+    (@each [$([$_m:ident $Before:ident $before:ident])*]) => {};
+    (@each [$([$_m:ident $Before:ident $before:ident])*] [$Marker:ident $If:ident $put:ident]
+        $([$Next:ident $After:ident $after:ident])*) => {
+        impl<const D: usize> StageMarker<D> for $Marker {
+            type Of<S: StageMarker<D>, A: Terms<D>> = S::$If<A>;
+            fn put<S: StageMarker<D>, A: Terms<D>>(terms: A) -> Self::Of<S, A> {
+                S::$put(terms)
+            }
+            type $If<A: Terms<D>> = A;
+            fn $put<A: Terms<D>>(terms: A) -> A {
+                terms
+            }
+            $(
+                type $Before<A: Terms<D>> = ();
+                fn $before<A: Terms<D>>(_terms: A) {}
+            )*
+            $(
+                type $After<A: Terms<D>> = ();
+                fn $after<A: Terms<D>>(_terms: A) {}
+            )*
+        }
+        markers!(@each [$([$_m $Before $before])* [$Marker $If $put]] $([$Next $After $after])*);
     };
 }
 
 /// The stages that have sweeps, as types, for the terms of effects: `In<stage::Rates, A>`.
 pub mod stage {
-    use super::{Debug, Stage, Terms};
+    use super::{Debug, Terms};
 
     markers! {
-        /// [`Stage::Reference`].
-        Reference IfReference if_reference [IfDensity if_density, IfWalls if_walls, IfGradients if_gradients, IfFlow if_flow, IfRates if_rates, IfContinuity if_continuity],
-        /// [`Stage::Density`].
-        Density IfDensity if_density [IfReference if_reference, IfWalls if_walls, IfGradients if_gradients, IfFlow if_flow, IfRates if_rates, IfContinuity if_continuity],
-        /// [`Stage::Walls`].
-        Walls IfWalls if_walls [IfReference if_reference, IfDensity if_density, IfGradients if_gradients, IfFlow if_flow, IfRates if_rates, IfContinuity if_continuity],
-        /// [`Stage::Gradients`].
-        Gradients IfGradients if_gradients [IfReference if_reference, IfDensity if_density, IfWalls if_walls, IfFlow if_flow, IfRates if_rates, IfContinuity if_continuity],
-        /// [`Stage::Flow`].
-        Flow IfFlow if_flow [IfReference if_reference, IfDensity if_density, IfWalls if_walls, IfGradients if_gradients, IfRates if_rates, IfContinuity if_continuity],
-        /// [`Stage::Rates`].
-        Rates IfRates if_rates [IfReference if_reference, IfDensity if_density, IfWalls if_walls, IfGradients if_gradients, IfFlow if_flow, IfContinuity if_continuity],
-        /// [`Stage::Continuity`].
-        Continuity IfContinuity if_continuity [IfReference if_reference, IfDensity if_density, IfWalls if_walls, IfGradients if_gradients, IfFlow if_flow, IfRates if_rates]
+        /// [`Stage::Reference`](crate::term::Stage::Reference).
+        Reference IfReference if_reference,
+        /// The sums of [`Stage::Density`](crate::term::Stage::Density) that make densities, where these are not integrated.
+        Sums IfSums if_sums,
+        /// [`Stage::Density`](crate::term::Stage::Density).
+        Density IfDensity if_density,
+        /// [`Stage::Walls`](crate::term::Stage::Walls).
+        Walls IfWalls if_walls,
+        /// [`Stage::Gradients`](crate::term::Stage::Gradients).
+        Gradients IfGradients if_gradients,
+        /// [`Stage::Flow`](crate::term::Stage::Flow).
+        Flow IfFlow if_flow,
+        /// The pressure force of [`Stage::Rates`](crate::term::Stage::Rates), before the viscosity.
+        Pressure IfPressure if_pressure,
+        /// [`Stage::Rates`](crate::term::Stage::Rates), after the viscosity.
+        Rates IfRates if_rates,
+        /// The power of the forces of [`Stage::Rates`](crate::term::Stage::Rates).
+        Power IfPower if_power,
+        /// The rate of compression: at [`Stage::Continuity`](crate::term::Stage::Continuity) where density is integrated,
+        /// and with the power where anything follows it.
+        Compression IfCompression if_compression,
+        /// [`Stage::Continuity`](crate::term::Stage::Continuity).
+        Continuity IfContinuity if_continuity,
     }
 }
 pub use stage::StageMarker;

@@ -1,10 +1,9 @@
 //! Off means off: where an effect is absent, results, bytes, fields, stages and counted work are those of a scheme written
 //! without it, for every effect of the crate; an effect of zero strength changes no bit of the state.
 
-use meshfree::effect::{Effect, HourglassControl, NeoHookean, Setting};
+use meshfree::effect::{Effect, HourglassControl, NeoHookean, NoWalls, Setting};
 use meshfree::kernel::WendlandC2;
 use meshfree::prelude::*;
-use meshfree::scheme::TotalLagrangianBuilder;
 use meshfree::simulation::Work;
 use meshfree::term::Fourtakas;
 use meshfree::term::viscosity::Inviscid;
@@ -89,11 +88,7 @@ fn liquid() -> Material<f64> {
 }
 
 /// Total Lagrangian without hourglass control, so that there is a scheme to add it to.
-fn total() -> TotalLagrangianBuilder<
-    WendlandC2,
-    Inviscid,
-    (((), meshfree::effect::TotalLagrangian), NeoHookean),
-> {
+fn total() -> SchemeBuilder<WendlandC2, Inviscid, NoWalls, impl Effects<2>> {
     SchemeBuilder::total_lagrangian(WendlandC2, Inviscid)
         .h_over_dx(0.8)
         .with(NeoHookean)

@@ -3,12 +3,13 @@
 
 use crate::common::AnyKernel;
 use meshfree::boundary::{MirrorPlane, Translation, Wall};
+use meshfree::effect::ConsistentSmoothing;
 use meshfree::error::{Error, Problem};
 use meshfree::kernel::KernelKind;
 use meshfree::material::Material;
 use meshfree::material::eos::{IdealGas, Linear};
 use meshfree::scene::{Body, Scene};
-use meshfree::scheme::{DensityForm, EnergyForm, Scheme, SchemeBuilder, Smoothing};
+use meshfree::scheme::{DensityForm, EnergyForm, Scheme, SchemeBuilder};
 use meshfree::schemes;
 use meshfree::simulation::{Criterion, ParticleView, Simulation, StepControl};
 use meshfree::study::noh::Noh;
@@ -17,7 +18,7 @@ use meshfree::term::viscosity::{ArtificialViscosity, CullenDehnen, Inviscid, Mon
 fn gas_scheme(viscosity: impl ArtificialViscosity<1>) -> Scheme<f64, 1> {
     SchemeBuilder::new(AnyKernel(KernelKind::CubicSpline), viscosity)
         .density(DensityForm::Summation)
-        .smoothing(Smoothing::Consistent {
+        .with(ConsistentSmoothing {
             smallest: 0.02,
             largest: 50.0,
         })

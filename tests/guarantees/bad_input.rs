@@ -2,6 +2,7 @@
 
 use crate::common;
 use meshfree::boundary::{Boundary, Inlet, MirrorPlane, Outlet, Periodic, Translation, Wall};
+use meshfree::effect::ConsistentSmoothing;
 use meshfree::error::{Error, Problem};
 use meshfree::integrator::{Integrator, LamLeapfrog, RungeKutta4, System};
 use meshfree::kernel::{CubicSpline, Kernel};
@@ -12,7 +13,7 @@ use meshfree::observe::{FlowPlane, PressureProbe, WaveGauge};
 use meshfree::particles::Fields;
 use meshfree::scalar::Lane;
 use meshfree::scene::{Body, Scene, Start};
-use meshfree::scheme::{DensityForm, EnergyForm, SchemeBuilder, Smoothing};
+use meshfree::scheme::{DensityForm, EnergyForm, SchemeBuilder};
 use meshfree::schemes;
 use meshfree::simulation::{Simulation, StepControl};
 use meshfree::sweep::{Interaction, Transform};
@@ -393,7 +394,7 @@ fn parts_that_do_not_fit() {
         [0.03],
         0.5 * DX,
     ));
-    incompatible(&problem(mixed), "different spacings", "mixed_spacing");
+    incompatible(&problem(mixed), "different spacings", "MixedSpacing");
     incompatible(
         &problem(good().integrator(RungeKutta4)),
         "compatible energy form cannot follow the integrator rk4",
@@ -902,7 +903,7 @@ fn a_smoothing_length_that_sees_one_side_of_a_contact() {
     let scheme = || {
         SchemeBuilder::new(CubicSpline, MonaghanGingold::default())
             .density(DensityForm::Summation)
-            .smoothing(Smoothing::Consistent {
+            .with(ConsistentSmoothing {
                 smallest: 0.5,
                 largest: 2.0,
             })

@@ -186,7 +186,7 @@ fn gas_between_mirrors<T: Real>([s]: [f64; 1]) -> Scene<T, 1> {
     });
     let scheme = SchemeBuilder::new(CubicSpline, CullenDehnen::default())
         .density(DensityForm::Summation)
-        .smoothing(Smoothing::Consistent {
+        .with(ConsistentSmoothing {
             smallest: 0.05,
             largest: 20.0,
         });

@@ -222,7 +222,7 @@ fn a_gas_whose_lengths_and_viscosities_follow_the_flow() {
         });
         let scheme = SchemeBuilder::new(CubicSpline, CullenDehnen::default())
             .density(DensityForm::Summation)
-            .smoothing(Smoothing::Consistent {
+            .with(ConsistentSmoothing {
                 smallest: 0.05,
                 largest: 20.0,
             });

@@ -48,7 +48,7 @@ fn scheme(cure: Cure, largest: f64) -> Scheme<f64, 1> {
     };
     schemes::gas()
         .with_viscosity(viscosity)
-        .smoothing(Smoothing::Consistent {
+        .with(ConsistentSmoothing {
             smallest: 0.02,
             largest,
         })

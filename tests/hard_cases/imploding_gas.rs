@@ -41,7 +41,7 @@ where
     };
     schemes::gas()
         .with_viscosity(viscosity)
-        .smoothing(smoothing)
+        .with(smoothing)
         .with(ArtificialConduction {
             strength: conduction,
             ..ArtificialConduction::default()

@@ -51,7 +51,7 @@ impl<V: ArtificialViscosity<1>> ArtificialViscosity<1> for LongerSteps<V> {
 fn scheme<V: ArtificialViscosity<1>>(viscosity: V) -> Scheme<f64, 1> {
     schemes::gas()
         .with_viscosity(viscosity)
-        .smoothing(Smoothing::Consistent {
+        .with(ConsistentSmoothing {
             smallest: 0.02,
             largest: 50.0,
         })

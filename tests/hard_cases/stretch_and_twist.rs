@@ -3,19 +3,27 @@
 
 use super::harness::{Row, Varied, lasting};
 use super::swegle;
-use meshfree::effect::{HourglassControl, NeoHookean};
+use meshfree::effect::{HourglassControl, NeoHookean, NoWalls, TotalLagrangian};
 use meshfree::material::eos::Linear;
 use meshfree::prelude::*;
-use meshfree::schemes::StructureBuilder;
+use meshfree::term::InternalEnergy;
 use meshfree::term::viscosity::Inviscid;
 
+/// An elastic structure.
+type Structure = SchemeBuilder<
+    WendlandC2,
+    Inviscid,
+    NoWalls,
+    ((((), TotalLagrangian), InternalEnergy), HourglassControl),
+>;
+
 /// The ready structure with so much hourglass control.
-pub fn elastic(strength: f64) -> StructureBuilder<Inviscid> {
+pub fn elastic(strength: f64) -> Structure {
     reaching(0.8, strength)
 }
 
 /// The same at another h/dx.
-fn reaching(h_over_dx: f64, strength: f64) -> StructureBuilder<Inviscid> {
+fn reaching(h_over_dx: f64, strength: f64) -> Structure {
     SchemeBuilder::total_lagrangian(WendlandC2, Inviscid)
         .h_over_dx(h_over_dx)
         .with(HourglassControl { strength })

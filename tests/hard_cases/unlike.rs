@@ -76,7 +76,7 @@ fn reflected(ratio: f64, form: DensityForm) -> f64 {
     });
     let scheme = schemes::impact()
         .density(form)
-        .mixed_spacing()
+        .with(MixedSpacing)
         .between_bodies(Interaction::Bonded);
     let mut rods = Scene::<f64, 1>::new(scheme)
         .body(fine)

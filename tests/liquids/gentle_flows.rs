@@ -8,16 +8,25 @@ use meshfree::material::rheology::PowerLaw;
 use meshfree::material::{Liquid, Material, SoundSpeed};
 use meshfree::prelude::*;
 use meshfree::scene::Start;
-use meshfree::scheme::{LiquidBuilder, Shifting};
+use meshfree::scheme::Shifting;
 use meshfree::study::channel::{Couette, Poiseuille, PowerLawPoiseuille};
 use meshfree::study::taylor_green::TaylorGreen;
 use meshfree::term::viscosity::Inviscid;
-use meshfree::term::{Antuono, CentralViscosity, Fourtakas, LaminarViscosity, Molteni};
+use meshfree::term::{
+    Antuono, CentralViscosity, Fourtakas, LaminarViscosity, Molteni, PressureForce,
+};
 
-type Viscous<R> = LiquidBuilder<
+type Viscous<R> = SchemeBuilder<
     WendlandC2,
     Inviscid,
-    ((((), Cavitation), DensityDiffusion<Fourtakas>), Laminar<R>),
+    ExtrapolatedPressure,
+    (
+        (
+            (((), PressureForce), Cavitation),
+            DensityDiffusion<Fourtakas>,
+        ),
+        Laminar<R>,
+    ),
 >;
 
 /// A liquid with a physical viscosity and nothing else that takes energy from shear.

@@ -4,9 +4,8 @@
 use meshfree::kernel::WendlandC2;
 use meshfree::material::{Liquid, SoundSpeed};
 use meshfree::prelude::*;
-use meshfree::scheme::{LiquidBuilder, Scheme};
+use meshfree::term::LaminarViscosity;
 use meshfree::term::viscosity::Inviscid;
-use meshfree::term::{Fourtakas, LaminarViscosity};
 use std::f64::consts::TAU;
 
 const DENSITY: f64 = 1000.0;
@@ -14,11 +13,6 @@ const DENSITY: f64 = 1000.0;
 const VISCOSITY: f64 = 0.02;
 /// Particles along a side of the unit square, which is sheared by 1 per second.
 const COUNT: f64 = 20.0;
-
-type Effects = (
-    (((), Cavitation), DensityDiffusion<Fourtakas>),
-    Laminar<LaminarViscosity>,
-);
 
 /// How a run starts, apart from the linear profile.
 #[derive(Clone, Copy, Default)]
@@ -32,7 +26,7 @@ struct Start {
 }
 
 /// A scheme that takes energy from shear by viscosity alone.
-fn viscous() -> LiquidBuilder<WendlandC2, Inviscid, Effects> {
+fn viscous() -> SchemeBuilder<WendlandC2, Inviscid, ExtrapolatedPressure, impl Effects<2>> {
     schemes::weakly_compressible()
         .with_viscosity(Inviscid)
         .with(Laminar(LaminarViscosity))

@@ -7,17 +7,21 @@ use meshfree::kernel::WendlandC2;
 use meshfree::material::eos::Linear;
 use meshfree::material::{Liquid, SoundSpeed};
 use meshfree::prelude::*;
-use meshfree::scheme::{LiquidBuilder, Shifting, Start};
+use meshfree::scheme::{Shifting, Start};
 use meshfree::simulation::{StabilityReport, Thresholds};
 use meshfree::term::viscosity::Inviscid;
-use meshfree::term::{Fourtakas, LaminarViscosity};
+use meshfree::term::{Fourtakas, LaminarViscosity, PressureForce};
 use std::f64::consts::TAU;
 
-type Viscous = LiquidBuilder<
+type Viscous = SchemeBuilder<
     WendlandC2,
     Inviscid,
+    ExtrapolatedPressure,
     (
-        (((), Cavitation), DensityDiffusion<Fourtakas>),
+        (
+            (((), PressureForce), Cavitation),
+            DensityDiffusion<Fourtakas>,
+        ),
         Laminar<LaminarViscosity>,
     ),
 >;

@@ -9,7 +9,6 @@ use meshfree::particles::{Field, Fields, Output, Outputs};
 use meshfree::prelude::*;
 use meshfree::scalar::Real;
 use meshfree::scene::Start;
-use meshfree::scheme::LiquidBuilder;
 use meshfree::simulation::ParticleView;
 
 use meshfree::term::viscosity::Inviscid;
@@ -24,7 +23,7 @@ fn liquid() -> Material<f64> {
 }
 
 /// A scheme that dissipates nothing by itself.
-fn plain() -> LiquidBuilder<WendlandC2, Inviscid> {
+fn plain() -> SchemeBuilder<WendlandC2, Inviscid, ExtrapolatedPressure, impl Effects<2>> {
     SchemeBuilder::liquid(WendlandC2, Inviscid).h_over_dx(1.5)
 }
 
@@ -176,11 +175,14 @@ fn volume_consistency_wants_one_smoothing_length() {
     for scheme in [
         plain()
             .with(VolumeConsistency { strength: 0.05 })
-            .mixed_spacing()
+            .with(MixedSpacing)
             .compose(),
         plain()
             .with(VolumeConsistency { strength: 0.05 })
-            .smoothing_by_divergence(0.5, 2.0)
+            .with(DivergenceSmoothing {
+                smallest: 0.5,
+                largest: 2.0,
+            })
             .compose(),
     ] {
         let body = Body::block("liquid", liquid(), [0.0; 2], [0.5, 0.5], 0.05);

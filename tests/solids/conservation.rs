@@ -8,6 +8,7 @@ use meshfree::scene::{Body, Scene};
 use meshfree::scheme::{DensityForm, EnergyForm, Scheme, SchemeBuilder};
 use meshfree::simulation::{ParticleView, Simulation};
 use meshfree::sweep::Interaction;
+use meshfree::term::MidpointReconstruction;
 use meshfree::term::viscosity::LimitedMonaghanGingold;
 use proptest::prelude::*;
 
@@ -76,7 +77,7 @@ where
         .density(case.form)
         .energy(case.energy);
     if case.curvature {
-        builder.midpoint_reconstruction(1.0 / 3.0).compose()
+        builder.with(MidpointReconstruction::STANDARD).compose()
     } else {
         builder.compose()
     }

@@ -4,11 +4,12 @@
 use crate::common::{AnyKernel, shock_tube};
 use approx::assert_relative_eq;
 use meshfree::boundary::{MirrorPlane, Periodic};
+use meshfree::effect::ConsistentSmoothing;
 use meshfree::kernel::KernelKind;
 use meshfree::material::Material;
 use meshfree::material::eos::IdealGas;
 use meshfree::scene::{Body, Scene, Start};
-use meshfree::scheme::{DensityForm, EnergyForm, Scheme, SchemeBuilder, Smoothing};
+use meshfree::scheme::{DensityForm, EnergyForm, Scheme, SchemeBuilder};
 use meshfree::simulation::{Simulation, StepControl};
 use meshfree::study::noh::Noh;
 use meshfree::study::norms::observed_order;
@@ -16,7 +17,7 @@ use meshfree::study::sod::Sod;
 use meshfree::term::viscosity::{Inviscid, MonaghanGingold};
 use std::f64::consts::PI;
 
-const FOLLOW: Smoothing = Smoothing::Consistent {
+const FOLLOW: ConsistentSmoothing = ConsistentSmoothing {
     smallest: 0.02,
     largest: 50.0,
 };
@@ -24,7 +25,7 @@ const FOLLOW: Smoothing = Smoothing::Consistent {
 fn gas_scheme(kernel: KernelKind, ratio: f64) -> Scheme<f64, 1> {
     SchemeBuilder::new(AnyKernel(kernel), MonaghanGingold::default())
         .density(DensityForm::Summation)
-        .smoothing(FOLLOW)
+        .with(FOLLOW)
         .energy(EnergyForm::Compatible)
         .h_over_dx(ratio)
         .compose()
@@ -191,7 +192,7 @@ fn sound(n: usize, ratio: f64) -> f64 {
     let sound_speed = 1.4_f64.sqrt();
     let scheme = SchemeBuilder::new(AnyKernel(KernelKind::WendlandC4), Inviscid)
         .density(DensityForm::Summation)
-        .smoothing(FOLLOW)
+        .with(FOLLOW)
         .energy(EnergyForm::Compatible)
         .h_over_dx(ratio);
     let row = Body::block(

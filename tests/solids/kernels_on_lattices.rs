@@ -9,6 +9,7 @@ use meshfree::material::eos::Linear;
 use meshfree::scene::{Body, Scene, Start};
 use meshfree::scheme::{DensityForm, EnergyForm, Scheme, SchemeBuilder};
 use meshfree::simulation::{Simulation, StepControl};
+use meshfree::term::MidpointReconstruction;
 use meshfree::term::viscosity::Inviscid;
 use std::f64::consts::PI;
 
@@ -58,7 +59,7 @@ fn standing_wave(
     let scheme: Scheme<f64, 1> = match cure {
         Cure::Nothing => scheme.without_consistency_factor().compose(),
         Cure::Normalisation => scheme.compose(),
-        Cure::Both => scheme.midpoint_reconstruction(1.0 / 3.0).compose(),
+        Cure::Both => scheme.with(MidpointReconstruction::STANDARD).compose(),
     };
     let solid = Material::new("linear", Linear::new(1000.0, SOUND_SPEED));
     let row = Body::block("row", solid, [0.0], [length], 1.0).start(|x, start| Start {

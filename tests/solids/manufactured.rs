@@ -139,7 +139,7 @@ fn summed(count: u32, ratio: f64) -> [f64; 2] {
     let gas = IdealGas::new(1.4, 1.0);
     let scheme = SchemeBuilder::new(AnyKernel(KernelKind::WendlandC4), Inviscid)
         .density(DensityForm::Summation)
-        .smoothing(Smoothing::Consistent {
+        .with(ConsistentSmoothing {
             smallest: 0.2,
             largest: 5.0,
         })

@@ -2,10 +2,11 @@
 //! h^D ρ stays what it was, and a length that is held at a limit is counted.
 
 use approx::assert_relative_eq;
+use meshfree::effect::DivergenceSmoothing;
 use meshfree::kernel::CubicSpline;
 use meshfree::material::catalogue;
 use meshfree::scene::{Body, Scene};
-use meshfree::scheme::{DensityForm, SchemeBuilder, Smoothing};
+use meshfree::scheme::{DensityForm, SchemeBuilder};
 use meshfree::simulation::Simulation;
 use meshfree::term::viscosity::MonaghanGingold;
 
@@ -13,7 +14,7 @@ use meshfree::term::viscosity::MonaghanGingold;
 fn strike(smallest: f64, largest: f64) -> Simulation<f64, 1> {
     let scheme = SchemeBuilder::new(CubicSpline, MonaghanGingold::STANDARD)
         .density(DensityForm::Continuity)
-        .smoothing(Smoothing::Divergence { smallest, largest });
+        .with(DivergenceSmoothing { smallest, largest });
     let copper = catalogue::copper::<f64>;
     let mut simulation = Scene::<f64, 1>::new(scheme)
         .body(Body::block("striker", copper(), [0.0], [0.01], 1e-4).velocity([400.0]))

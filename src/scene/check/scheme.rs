@@ -146,7 +146,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         if self.is_mixed() && self.is_uniform() {
             incompatible(
                 "bodies have different spacings, and the scheme has one smoothing length".into(),
-                "give all bodies the same spacing, or allow it with SchemeBuilder::mixed_spacing",
+                "give all bodies the same spacing, or allow it with the effect MixedSpacing",
             );
         }
     }

@@ -7,7 +7,7 @@ mod shown;
 
 use super::records::Image;
 use super::results::Reaction;
-use super::{InstructionSet, Interaction};
+use super::{InstructionSet, Interaction, SmoothingMode};
 use crate::kernel::Kernel;
 use crate::neighbors::{Block, CHUNK, ChunkList};
 use crate::particles::{Field, Fields, Output, Outputs};
@@ -20,9 +20,9 @@ use meetings::{Meeting, Meetings, block_of};
 use shown::Shown;
 use std::ops::Range;
 
-pub(super) const UNIFORM: u8 = 0;
-pub(super) const MEAN: u8 = 1;
-pub(super) const OWN: u8 = 2;
+/// Ways of running: bits of [`SmoothingMode`].
+const MEAN: u8 = SmoothingMode::Mean.bit();
+const OWN: u8 = SmoothingMode::Own.bit();
 
 /// The layout of a sweep: what its terms name, and what the way of running adds.
 pub(super) struct Composed<T, P, const D: usize, const HOW: u8>(PhantomData<(T, P)>);

@@ -7,7 +7,6 @@ use meshfree::material::{Liquid, SoundSpeed};
 use meshfree::observe::{PressureProbe, WaveGauge};
 use meshfree::prelude::*;
 use meshfree::scene::Start;
-use meshfree::scheme::LiquidBuilder;
 use meshfree::term::viscosity::{Inviscid, MonaghanGingold};
 use meshfree::term::{Antuono, CentralViscosity, Fourtakas, LaminarViscosity, Molteni};
 
@@ -149,7 +148,7 @@ fn ready(scenes: &mut Scenes) {
 }
 
 /// A scheme that dissipates nothing by itself.
-fn bare() -> LiquidBuilder<WendlandC2, Inviscid> {
+fn bare() -> SchemeBuilder<WendlandC2, Inviscid, ExtrapolatedPressure, impl Effects<2>> {
     SchemeBuilder::liquid(WendlandC2, Inviscid)
 }
 
@@ -184,7 +183,10 @@ fn options(scenes: &mut Scenes) {
         dam::<f64>(weak().with(VolumeConsistency { strength: 0.05 }))
     });
     scenes.add("smoothing-at-its-limits", 30, || {
-        dam::<f64>(schemes::ls_dyna_fluid().smoothing_by_divergence(0.9995, 1.001))
+        dam::<f64>(schemes::ls_dyna_fluid().with(DivergenceSmoothing {
+            smallest: 0.9995,
+            largest: 1.001,
+        }))
     });
     scenes.add("wall-pressure-floor", 30, move || {
         dam::<f64>(weak().walls(ExtrapolatedPressure { floor: -1e5 }))
@@ -196,7 +198,7 @@ fn options(scenes: &mut Scenes) {
                     .velocity([0.5 - low, 0.0])
             });
         let viscosity = MonaghanGingold::STANDARD;
-        Scene::new(SchemeBuilder::liquid(CubicSpline, viscosity).mixed_spacing())
+        Scene::new(SchemeBuilder::liquid(CubicSpline, viscosity).with(MixedSpacing))
             .body(coarse)
             .body(fine)
             .between("coarse", "fine", Interaction::Bonded)

@@ -122,7 +122,7 @@ fn ready(scenes: &mut Scenes) {
 
 /// A gas in a plane. One program serves all choices, so that they take little to compile.
 fn sheet_of_gas(density: DensityForm, energy: EnergyForm, smoothing: Smoothing) -> Scene<f64, 2> {
-    let scheme = plain().smoothing(smoothing);
+    let scheme = plain().with(smoothing);
     gas(scheme.density(density).energy(energy), 16)
 }
 
@@ -252,7 +252,7 @@ fn smoothing(scenes: &mut Scenes) {
             },
         ),
     ] {
-        let scheme = move || plain().smoothing(law);
+        let scheme = move || plain().with(law);
         scenes.add(format!("smoothing-{name}-2d"), 20, move || {
             sheet_of_gas(DensityForm::Summation, EnergyForm::Compatible, law)
         });
@@ -272,7 +272,7 @@ fn smoothing(scenes: &mut Scenes) {
     scenes.add("mixed-spacing-1d", 40, || {
         let coarse = Body::block("coarse", catalogue::copper(), [0.0], [0.01], 2e-4);
         let fine = Body::block("fine", catalogue::pmma(), [0.01], [0.02], 1e-4);
-        Scene::<f64, 1>::new(schemes::impact().mixed_spacing())
+        Scene::<f64, 1>::new(schemes::impact().with(MixedSpacing))
             .body(coarse.velocity([30.0]))
             .body(fine)
     });

@@ -1,6 +1,7 @@
 //! Conduction against the exact decay of a sine, and its place in ledger, files, step and printed program.
 
 use crate::heat::{CONDUCTIVITY, HeatConduction, TEMPERATURE};
+use meshfree::effect::NoWalls;
 use meshfree::material::eos::Linear;
 use meshfree::prelude::*;
 use meshfree::simulation::{Criterion, Simulation};
@@ -18,8 +19,7 @@ fn material() -> Material<f64> {
     Material::new("still", Linear::new(2000.0, 1.0))
 }
 
-fn scheme() -> SchemeBuilder<WendlandC2, Inviscid, meshfree::effect::NoWalls, ((), HeatConduction)>
-{
+fn scheme() -> SchemeBuilder<WendlandC2, Inviscid, NoWalls, impl Effects<2>> {
     SchemeBuilder::new(WendlandC2, Inviscid)
         .density(DensityForm::NumberDensity)
         .energy(EnergyForm::None)
