@@ -2,10 +2,10 @@
 //! `((), A)` is a list of one; each call of `with` adds one at the end.
 
 use super::{Setting, Smoothing, StepProgram};
-use crate::particles::Fields;
+use crate::particles::{Field, Fields};
 use crate::scalar::Real;
 use crate::sweep::SmoothingMode;
-use crate::term::{StageMarker, StagedTerms, Terms};
+use crate::term::{StageMarker, StagedTerms, Terms, stage};
 use core::fmt::Debug;
 
 /// A physical or numerical effect: its pair terms, and what it does to single particles.
@@ -53,6 +53,18 @@ pub trait Effects<const D: usize>: Clone + Debug + Send + Sync + 'static {
     const READS: Fields;
     /// The modes of loops that their smoothing may ask for.
     const MODES: u8;
+    /// Whether densities may follow from sums.
+    const SUMS: bool = !<Self::At<stage::Sums> as Terms<D>>::WRITES.is_empty();
+    /// Whether particles may carry energy.
+    const ENERGY: bool = !<Self::At<stage::Power> as Terms<D>>::WRITES.is_empty();
+    /// Whether kernels are those of the reference configuration.
+    const REFERENCE: bool = Self::READS.contains(Field::REFERENCE_POSITION);
+    /// The modes of loops that are compiled.
+    const LOOPS: u8 = if Self::MODES == 0 {
+        SmoothingMode::Uniform.bit()
+    } else {
+        Self::MODES
+    };
     /// The terms of a stage.
     fn at<S: StageMarker<D>>(&self, setting: &Setting) -> Self::At<S>;
     /// How smoothing lengths change.

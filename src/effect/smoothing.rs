@@ -13,25 +13,10 @@ pub enum Smoothing {
     Fixed,
     /// Fixed, h = η dx of every body: pairs use the mean of both.
     Mixed,
-    /// Follows the divergence within limits, as LS-DYNA does (Vesenjak & Ren 2007, eq. 6).
-    ///
-    #[doc = include_str!("../../docs/equations/smoothing_divergence.html")]
-    Divergence {
-        /// Smallest h in units of η dx, the first of the body.
-        smallest: f64,
-        /// Largest h in units of η dx.
-        largest: f64,
-    },
-    /// Solved together with the density, with grad-h terms: η is h/dx
-    /// (Springel & Hernquist 2002; Price 2012).
-    ///
-    #[doc = include_str!("../../docs/equations/smoothing_consistent.html")]
-    Consistent {
-        /// Smallest h in units of η dx, the first of the body.
-        smallest: f64,
-        /// Largest h in units of η dx.
-        largest: f64,
-    },
+    /// Follows the divergence.
+    Divergence(DivergenceSmoothing),
+    /// Follows the density.
+    Consistent(ConsistentSmoothing),
 }
 
 impl Smoothing {
@@ -39,14 +24,14 @@ impl Smoothing {
     pub(crate) fn mode(self) -> SmoothingMode {
         match self {
             Self::Fixed => SmoothingMode::Uniform,
-            Self::Mixed | Self::Divergence { .. } => SmoothingMode::Mean,
-            Self::Consistent { .. } => SmoothingMode::Own,
+            Self::Mixed | Self::Divergence(_) => SmoothingMode::Mean,
+            Self::Consistent(_) => SmoothingMode::Own,
         }
     }
 
     /// Whether the smoothing length of a particle changes.
     pub(crate) fn varies(self) -> bool {
-        matches!(self, Self::Divergence { .. } | Self::Consistent { .. })
+        matches!(self, Self::Divergence(_) | Self::Consistent(_))
     }
 
     /// This law, or the one that is said after it. Lengths that vary may differ from body to body already.
@@ -62,8 +47,10 @@ impl Smoothing {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MixedSpacing;
 
-/// Smoothing lengths that follow the divergence, [`Smoothing::Divergence`].
-#[derive(Clone, Copy, Debug)]
+/// Smoothing lengths that follow the divergence within limits, as in LS-DYNA (Vesenjak & Ren 2007, eq. 6).
+///
+#[doc = include_str!("../../docs/equations/smoothing_divergence.html")]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DivergenceSmoothing {
     /// Smallest h in units of η dx, the first of the body.
     pub smallest: f64,
@@ -71,8 +58,11 @@ pub struct DivergenceSmoothing {
     pub largest: f64,
 }
 
-/// Smoothing lengths that are solved together with the density, [`Smoothing::Consistent`].
-#[derive(Clone, Copy, Debug)]
+/// Smoothing lengths that are solved together with the density, with grad-h terms: η is h/dx
+/// (Springel & Hernquist 2002; Price 2012).
+///
+#[doc = include_str!("../../docs/equations/smoothing_consistent.html")]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConsistentSmoothing {
     /// Smallest h in units of η dx, the first of the body.
     pub smallest: f64,
@@ -81,28 +71,21 @@ pub struct ConsistentSmoothing {
 }
 
 macro_rules! law {
-    ($($Law:ty: $modes:expr, |$own:ident| $smoothing:expr;)*) => {$(
+    ($($Law:ty: $modes:expr, $smoothing:expr;)*) => {$(
         impl<const D: usize> Effect<D> for $Law {
             type Terms = ();
             const MODES: u8 = $modes;
             const BOOKS_ENERGY: bool = true;
             fn terms(&self, _setting: &Setting) {}
             fn smoothing(&self) -> Option<Smoothing> {
-                let $own = self;
-                Some($smoothing)
+                Some($smoothing(*self))
             }
         }
     )*};
 }
 law! {
-    Smoothing: SmoothingMode::ALL, |own| *own;
-    MixedSpacing: SmoothingMode::Mean.bit(), |_own| Smoothing::Mixed;
-    DivergenceSmoothing: SmoothingMode::Mean.bit(), |own| Smoothing::Divergence {
-        smallest: own.smallest,
-        largest: own.largest,
-    };
-    ConsistentSmoothing: SmoothingMode::Own.bit(), |own| Smoothing::Consistent {
-        smallest: own.smallest,
-        largest: own.largest,
-    };
+    Smoothing: SmoothingMode::ALL, core::convert::identity;
+    MixedSpacing: SmoothingMode::Mean.bit(), |_| Smoothing::Mixed;
+    DivergenceSmoothing: SmoothingMode::Mean.bit(), Smoothing::Divergence;
+    ConsistentSmoothing: SmoothingMode::Own.bit(), Smoothing::Consistent;
 }

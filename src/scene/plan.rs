@@ -217,9 +217,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             Some(skin) => [skin; 2],
             // Images reach through a period as far as the check of the boundaries found room for.
             // Lengths that follow the density change in every step, and what a list holds too much of every sum looks at.
-            None if matches!(self.scheme.smoothing, Smoothing::Consistent { .. }) => {
-                FOLLOWING_SKINS
-            }
+            None if matches!(self.scheme.smoothing, Smoothing::Consistent(_)) => FOLLOWING_SKINS,
             None if !self.scene.boundaries.is_empty() => [SKINS[0]; 2],
             None => SKINS,
         }

@@ -5,9 +5,9 @@ use super::builder::{Consistency, SchemeBuilder};
 use super::gradients::Gradients;
 use super::{EnergyForm, Scheme, Smoothing};
 use crate::effect::{
-    BySum, Compression, ContactActivity, CorrectedGradients, DensityForm, Divergence, Effect,
-    Effects, Evolved, Setting, SolvedSmoothing, StepProgram, SummedDensity, Update,
-    ViscositySwitch, When,
+    BySum, Compression, ContactActivity, CorrectedGradients, DensityForm, Divergence,
+    DivergenceSmoothing, Effect, Effects, Evolved, Setting, SolvedSmoothing, StepProgram,
+    SummedDensity, Update, ViscositySwitch, When,
 };
 use crate::error::Problem;
 use crate::kernel::{Kernel, KernelFacts, Profile};
@@ -18,25 +18,6 @@ use crate::term::{
     ArtificialViscosity, KernelMoment, KernelSum, SlopeInH, Stage, StageMarker, StagedTerms, Terms,
     Unity, Viscosity, stage,
 };
-
-/// What a list of effects is, as far as it decides which loops there are.
-trait Form<const D: usize>: Effects<D> {
-    /// Whether densities may follow from sums.
-    const SUMS: bool = !<Self::At<stage::Sums> as Terms<D>>::WRITES.is_empty();
-    /// Whether particles may carry energy.
-    const ENERGY: bool = !<Self::At<stage::Power> as Terms<D>>::WRITES.is_empty();
-    /// Whether kernels are those of the reference configuration.
-    const REFERENCE: bool = Self::READS.contains(Field::REFERENCE_POSITION);
-
-    /// The modes of loops.
-    const LOOPS: u8 = if Self::MODES == 0 {
-        SmoothingMode::Uniform.bit()
-    } else {
-        Self::MODES
-    };
-}
-
-impl<const D: usize, E: Effects<D>> Form<D> for E {}
 
 impl<K, V, W, E> SchemeBuilder<K, V, W, E> {
     pub(super) fn composed<T: Real, const D: usize>(self) -> Scheme<T, D>
@@ -51,30 +32,30 @@ impl<K, V, W, E> SchemeBuilder<K, V, W, E> {
         let forms = (own.density, own.pressure_form.unwrap_or(own.density));
         let setting = Setting::of(&self.kernel, h_over_dx, forms);
         let smoothing = self.effects.smoothing();
-        let compiled = Compiled {
+        let compiled = Compiled::<_, _, _, _, D> {
             own: &self,
             mode: smoothing.mode(),
             setting,
         };
         let integrated = own.density.is_integrated();
-        let follows_divergence = matches!(smoothing, Smoothing::Divergence { .. });
+        let follows_divergence = matches!(smoothing, Smoothing::Divergence(_));
         // A switch follows the compression once a step, by the sum that the rates make.
         let support = setting.kernel.support;
         let switch = ViscositySwitch::<T>::of(&self.viscosity, own.density, support);
         let with_rates = integrated || follows_divergence || switch.is_some();
         let mut sweeps: [Option<Box<dyn PairSweep<T, D>>>; Stage::COUNT] = Default::default();
-        sweeps[Stage::Reference.number()] = compiled.at::<stage::Reference, T, D>();
+        sweeps[Stage::Reference.number()] = compiled.named(compiled.of::<stage::Reference>());
         sweeps[Stage::Density.number()] = compiled.density(own.density);
         let walls = self.walls.terms(&setting).at::<stage::Walls>();
-        let walls = walls.then(compiled.of::<stage::Walls, D>());
+        let walls = walls.then(compiled.of::<stage::Walls>());
         sweeps[Stage::Walls.number()] = compiled.named(walls);
         sweeps[Stage::Gradients.number()] = compiled.gradients();
-        sweeps[Stage::Flow.number()] = compiled.at::<stage::Flow, T, D>();
+        sweeps[Stage::Flow.number()] = compiled.named(compiled.of::<stage::Flow>());
         sweeps[Stage::Rates.number()] = Some(compiled.rates(with_rates));
         sweeps[Stage::Continuity.number()] = compiled.continuity(integrated || follows_divergence);
 
         let mut program = StepProgram::new(setting);
-        let makes_gradients = compiled.makes_gradients::<D>();
+        let makes_gradients = compiled.makes_gradients();
         if makes_gradients {
             let wanted = Gradients::<V, W, E>::wanted::<D>();
             program.law(Stage::Gradients, CorrectedGradients { wanted });
@@ -208,7 +189,7 @@ impl<K, V, W, E> SchemeBuilder<K, V, W, E> {
             density: setting.density,
             pressure: setting.pressure_form,
         };
-        if let Smoothing::Divergence { smallest, largest } = smoothing {
+        if let Smoothing::Divergence(DivergenceSmoothing { smallest, largest }) = smoothing {
             program.evolve(
                 Evolved::kicked(Field::SMOOTHING_LENGTH)
                     .at(When::Drift)
@@ -222,17 +203,17 @@ impl<K, V, W, E> SchemeBuilder<K, V, W, E> {
                 .updated(Update::Exponential)
                 .by(compression);
             program.evolve(density.keeping(Field::DENSITY_RESIDUAL));
-        } else if let Smoothing::Consistent { smallest, largest } = smoothing {
+        } else if let Smoothing::Consistent(own) = smoothing {
             let law = SolvedSmoothing {
                 eta: setting.h_over_dx,
-                limits: [smallest, largest],
+                limits: [own.smallest, own.largest],
             };
             program.law(Stage::Density, law);
         } else if E::SUMS {
             program.law(Stage::Density, SummedDensity(own.density));
         }
         // Liquids have no contacts, and smoothing that follows density takes bodies as one.
-        if E::SUMS && !matches!(smoothing, Smoothing::Consistent { .. }) {
+        if E::SUMS && !matches!(smoothing, Smoothing::Consistent(_)) {
             program.law(Stage::Density, ContactActivity);
         }
         if own.energy != EnergyForm::None {
@@ -249,26 +230,25 @@ impl<K, V, W, E> SchemeBuilder<K, V, W, E> {
 const REFERENCE_RANGE: (f64, f64) = (0.8, 2.0);
 
 /// The choices on their way into sweeps.
-struct Compiled<'a, K, V, W, E> {
+struct Compiled<'a, K, V, W, E, const D: usize> {
     own: &'a SchemeBuilder<K, V, W, E>,
     mode: SmoothingMode,
     setting: Setting,
 }
 
-impl<K, V, W, E> Compiled<'_, K, V, W, E> {
+impl<K, V, W, E, const D: usize> Compiled<'_, K, V, W, E, D>
+where
+    K: Kernel<D>,
+    V: ArtificialViscosity<D>,
+    W: Effect<D>,
+    E: Effects<D>,
+{
     /// The terms of a stage.
-    fn of<S: StageMarker<D>, const D: usize>(&self) -> E::At<S>
-    where
-        E: Effects<D>,
-    {
+    fn of<S: StageMarker<D>>(&self) -> E::At<S> {
         self.own.effects.at::<S>(&self.setting)
     }
 
-    fn sweep<T: Real, const D: usize>(&self, terms: impl Terms<D>) -> Box<dyn PairSweep<T, D>>
-    where
-        K: Kernel<D>,
-        E: Effects<D>,
-    {
+    fn sweep<T: Real>(&self, terms: impl Terms<D>) -> Box<dyn PairSweep<T, D>> {
         const UNIFORM: u8 = SmoothingMode::Uniform.bit();
         const MEAN: u8 = SmoothingMode::Mean.bit();
         const OWN: u8 = SmoothingMode::Own.bit();
@@ -288,38 +268,15 @@ impl<K, V, W, E> Compiled<'_, K, V, W, E> {
     }
 
     /// The sweep of some terms, if there are any.
-    fn named<T: Real, const D: usize, A: Terms<D>>(
-        &self,
-        terms: A,
-    ) -> Option<Box<dyn PairSweep<T, D>>>
-    where
-        K: Kernel<D>,
-        E: Effects<D>,
-    {
+    fn named<T: Real, A: Terms<D>>(&self, terms: A) -> Option<Box<dyn PairSweep<T, D>>> {
         if const { A::WRITES.is_empty() } {
             return None;
         }
         Some(self.sweep(terms))
     }
 
-    /// The sweep of a stage that effects alone name.
-    fn at<S: StageMarker<D>, T: Real, const D: usize>(&self) -> Option<Box<dyn PairSweep<T, D>>>
-    where
-        K: Kernel<D>,
-        E: Effects<D>,
-    {
-        self.named(self.of::<S, D>())
-    }
-
-    fn density<T: Real, const D: usize>(
-        &self,
-        form: DensityForm,
-    ) -> Option<Box<dyn PairSweep<T, D>>>
-    where
-        K: Kernel<D>,
-        E: Effects<D>,
-    {
-        let (sums, own) = (self.of::<stage::Sums, D>(), self.of::<stage::Density, D>());
+    fn density<T: Real>(&self, form: DensityForm) -> Option<Box<dyn PairSweep<T, D>>> {
+        let (sums, own) = (self.of::<stage::Sums>(), self.of::<stage::Density>());
         if const { !E::SUMS } || form.is_integrated() {
             return self.named(own);
         }
@@ -333,72 +290,45 @@ impl<K, V, W, E> Compiled<'_, K, V, W, E> {
     }
 
     /// The sums at rest from which densities measure.
-    fn reference<T: Real, const D: usize>(&self) -> Option<Box<dyn PairSweep<T, D>>>
-    where
-        K: Kernel<D>,
-        E: Effects<D>,
-    {
+    fn reference<T: Real>(&self) -> Option<Box<dyn PairSweep<T, D>>> {
         if const { E::SUMS } {
             return Some(self.sweep((KernelSum, Unity, KernelMoment)));
         }
         None
     }
 
-    fn gradients<T: Real, const D: usize>(&self) -> Option<Box<dyn PairSweep<T, D>>>
-    where
-        K: Kernel<D>,
-        V: ArtificialViscosity<D>,
-        W: Effect<D>,
-        E: Effects<D>,
-    {
-        let own = self.of::<stage::Gradients, D>();
-        if self.makes_gradients::<D>() {
+    fn gradients<T: Real>(&self) -> Option<Box<dyn PairSweep<T, D>>> {
+        let own = self.of::<stage::Gradients>();
+        if self.makes_gradients() {
             return Some(self.sweep(Gradients::<V, W, E>::NEW.then(own)));
         }
         self.named(own)
     }
 
     /// Whether it makes gradients of its own.
-    fn makes_gradients<const D: usize>(&self) -> bool
-    where
-        V: ArtificialViscosity<D>,
-        W: Effect<D>,
-        E: Effects<D>,
-    {
+    fn makes_gradients(&self) -> bool {
         // A viscosity that is chosen at run time may ask for nothing.
         let asked = const { !Gradients::<V, W, E>::of_others::<D>().is_empty() };
         let wanted = const { !Gradients::<V, W, E>::wanted::<D>().is_empty() };
         wanted && (asked || self.own.viscosity.needs_velocity_gradient())
     }
 
-    fn rates<T: Real, const D: usize>(&self, with_compression: bool) -> Box<dyn PairSweep<T, D>>
-    where
-        K: Kernel<D>,
-        V: ArtificialViscosity<D>,
-        E: Effects<D>,
-    {
+    fn rates<T: Real>(&self, with_compression: bool) -> Box<dyn PairSweep<T, D>> {
         let viscosity = (Viscosity(self.own.viscosity.clone()),);
-        let forces = self.of::<stage::Pressure, D>().then(viscosity);
-        let forces = forces.then(self.of::<stage::Rates, D>());
-        let forces = forces.then(self.of::<stage::Power, D>());
+        let forces = self.of::<stage::Pressure>().then(viscosity);
+        let forces = forces.then(self.of::<stage::Rates>());
+        let forces = forces.then(self.of::<stage::Power>());
         // Liquids sum it in drifts alone.
         if const { E::ENERGY } && with_compression {
-            return self.sweep(forces.then(self.of::<stage::Compression, D>()));
+            return self.sweep(forces.then(self.of::<stage::Compression>()));
         }
         self.sweep(forces)
     }
 
-    fn continuity<T: Real, const D: usize>(
-        &self,
-        integrated: bool,
-    ) -> Option<Box<dyn PairSweep<T, D>>>
-    where
-        K: Kernel<D>,
-        E: Effects<D>,
-    {
-        let own = self.of::<stage::Continuity, D>();
+    fn continuity<T: Real>(&self, integrated: bool) -> Option<Box<dyn PairSweep<T, D>>> {
+        let own = self.of::<stage::Continuity>();
         if const { !E::SUMS } || integrated {
-            return self.named(self.of::<stage::Compression, D>().then(own));
+            return self.named(self.of::<stage::Compression>().then(own));
         }
         self.named(own)
     }

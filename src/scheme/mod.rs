@@ -218,7 +218,7 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         if self.smoothing != Smoothing::Fixed {
             fields = fields.union(Fields::of(&[Field::SMOOTHING_LENGTH]));
         }
-        if matches!(self.smoothing, Smoothing::Consistent { .. }) {
+        if matches!(self.smoothing, Smoothing::Consistent(_)) {
             fields = fields.union(Fields::of(&[
                 Field::FOUND_SMOOTHING_LENGTH,
                 Field::SMOOTHING_RATE,

@@ -178,7 +178,7 @@ impl<'a, T: Real, const D: usize> ParticleView<'a, T, D> {
         } else {
             Field::POSITION
         });
-        let own_lengths = matches!(group.scheme.smoothing, Smoothing::Consistent { .. });
+        let own_lengths = matches!(group.scheme.smoothing, Smoothing::Consistent(_));
         let (support, length) = (group.scheme.kernel.support, self.smoothing_length());
         let x = places[self.slot];
         for entry in group.neighborhood.of(self.slot) {

@@ -91,7 +91,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             .state
             .groups
             .iter()
-            .filter(|group| matches!(group.scheme.smoothing, Smoothing::Consistent { .. }));
+            .filter(|group| matches!(group.scheme.smoothing, Smoothing::Consistent(_)));
         summed
             .flat_map(|group| surfaces_in_tension(&group.particles))
             .collect()

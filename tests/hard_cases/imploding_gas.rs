@@ -28,10 +28,10 @@ where
     WendlandC4: Kernel<D>,
 {
     let smoothing = if viscosity > 0.0 {
-        Smoothing::Consistent {
+        Smoothing::Consistent(ConsistentSmoothing {
             smallest: 0.02,
             largest: 50.0,
-        }
+        })
     } else {
         Smoothing::Fixed
     };

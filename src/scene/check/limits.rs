@@ -360,7 +360,7 @@ fn integrator_flaws(integrator: &dyn Integrator) -> Vec<Flaw> {
 impl<T: Real, const D: usize> Plan<'_, T, D> {
     /// A smoothing length that is solved with the density sees one side of a contact, and half of the density there.
     pub(super) fn check_openings_of_sums(&self, problems: &mut Vec<Problem>) {
-        if !matches!(self.scheme.smoothing, Smoothing::Consistent { .. }) {
+        if !matches!(self.scheme.smoothing, Smoothing::Consistent(_)) {
             return;
         }
         for (k, second) in self.bodies.iter().enumerate() {

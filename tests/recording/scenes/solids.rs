@@ -239,17 +239,17 @@ fn smoothing(scenes: &mut Scenes) {
         ("fixed", Smoothing::Fixed),
         (
             "divergence",
-            Smoothing::Divergence {
+            Smoothing::Divergence(DivergenceSmoothing {
                 smallest: 0.98,
                 largest: 1.05,
-            },
+            }),
         ),
         (
             "consistent",
-            Smoothing::Consistent {
+            Smoothing::Consistent(ConsistentSmoothing {
                 smallest: 0.5,
                 largest: 2.0,
-            },
+            }),
         ),
     ] {
         let scheme = move || plain().with(law);
