@@ -88,7 +88,7 @@ fn liquid() -> Material<f64> {
 }
 
 /// Total Lagrangian without hourglass control, so that there is a scheme to add it to.
-fn total() -> SchemeBuilder<WendlandC2, Inviscid, NoWalls, impl Effects<2>> {
+fn total() -> SchemeBuilder<WendlandC2, Inviscid, NoWalls, impl Effects<1>> {
     SchemeBuilder::total_lagrangian(WendlandC2, Inviscid)
         .h_over_dx(0.8)
         .with(NeoHookean)

@@ -6,7 +6,8 @@ use meshfree::error::Problem;
 use meshfree::particles::{Output, Outputs};
 use meshfree::prelude::*;
 use meshfree::term::{
-    In, LaminarViscosity, Layout, Pair, Stage, Sums, Term, TermDoc, stage, viscosity,
+    In, LaminarViscosity, Layout, MidpointReconstruction, Pair, Stage, Sums, Term, TermDoc, stage,
+    viscosity,
 };
 
 fn programs() -> String {
@@ -289,6 +290,49 @@ fn two_effects_that_claim_one_number_are_refused() {
     );
     let sum = text(named("colour", "heat"));
     assert!(sum.contains("sum vector 2") && sum.contains("`flow`") && sum.contains("`heat`"));
+}
+
+/// A law of smoothing lengths that names no loops.
+#[derive(Clone, Copy, Debug)]
+struct Unnamed;
+
+impl<const D: usize> Effect<D> for Unnamed {
+    type Terms = ();
+    fn terms(&self, _setting: &Setting) {}
+    fn smoothing(&self) -> Option<Smoothing> {
+        Some(Smoothing::Mixed)
+    }
+}
+
+#[test]
+fn forms_that_do_not_go_together_are_refused() {
+    let total = SchemeBuilder::total_lagrangian(CubicSpline, viscosity::Inviscid).with(NeoHookean);
+    let bends = total.with(MidpointReconstruction::STANDARD);
+    let heats = schemes::weakly_compressible().energy(EnergyForm::Symmetric);
+    for (found, part) in [
+        (problems(bends), "sums over the present neighbours"),
+        (problems(heats), "carries no internal energy"),
+        (problems(schemes::impact().with(Unnamed)), "Effect::MODES"),
+    ] {
+        let found: Vec<_> = found.iter().map(ToString::to_string).collect();
+        assert!(found.iter().any(|text| text.contains(part)), "{found:?}");
+    }
+    assert!(problems(schemes::impact().with(MixedSpacing)).is_empty());
+}
+
+#[test]
+fn the_last_law_of_smoothing_lengths_holds() {
+    let printed = |scheme: Scheme<f64, 1>| scheme.to_string();
+    let wide = ConsistentSmoothing {
+        smallest: 0.1,
+        largest: 7.0,
+    };
+    assert!(printed(schemes::gas().with(wide).compose()).contains("largest: 7.0"));
+    let fixed = schemes::gas().with(Smoothing::Fixed).compose();
+    assert!(printed(fixed).contains("smoothing Fixed"));
+    // What varies may differ from body to body already.
+    let mixed = schemes::gas().with(MixedSpacing).compose();
+    assert!(printed(mixed).contains("smoothing Consistent"));
 }
 
 /// A law that declares the pressure, and reads the density.
