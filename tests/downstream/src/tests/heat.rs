@@ -19,7 +19,7 @@ fn material() -> Material<f64> {
     Material::new("still", Linear::new(2000.0, 1.0))
 }
 
-fn scheme() -> SchemeBuilder<WendlandC2, Inviscid, NoWalls, impl Effects<2>> {
+fn scheme() -> SchemeBuilder<WendlandC2, Inviscid, NoWalls, impl Effects<1> + Effects<2>> {
     SchemeBuilder::new(WendlandC2, Inviscid)
         .density(DensityForm::NumberDensity)
         .energy(EnergyForm::None)
