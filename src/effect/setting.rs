@@ -1,7 +1,7 @@
 //! What a scheme is, as far as its effects may ask: kernel, spacing, density form.
 //! Evaluated when the scene is built, so the order in which a builder was told does not matter.
 
-use super::DensityForm;
+use super::{DensityForm, EnergyForm, Smoothing};
 use crate::kernel::lattice::{lattice_consistency_factor, lattice_unity};
 use crate::kernel::{Kernel, KernelFacts};
 
@@ -16,6 +16,10 @@ pub struct Setting {
     pub density: DensityForm,
     /// Whose pressure force acts.
     pub pressure_form: DensityForm,
+    /// How internal energy follows from the work of pair forces.
+    pub energy: EnergyForm,
+    /// How smoothing lengths change.
+    pub smoothing: Smoothing,
     /// First moment −Σ V r·∇W/D of the lattice.
     pub lattice_consistency_factor: f64,
     /// Σ V W over the lattice.
@@ -35,6 +39,8 @@ impl Setting {
             h_over_dx,
             density,
             pressure_form,
+            energy: EnergyForm::None,
+            smoothing: Smoothing::Fixed,
             lattice_consistency_factor: lattice_consistency_factor(kernel, h_over_dx),
             lattice_unity: lattice_unity(kernel, h_over_dx),
             kernel_at_spacing: kernel.normalisation() * Kernel::<D>::shape(kernel, 1.0 / h_over_dx),

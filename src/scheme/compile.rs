@@ -5,13 +5,11 @@ use super::builder::{Consistency, SchemeBuilder};
 use super::gradients::Gradients;
 use super::{EnergyForm, Scheme, Smoothing};
 use crate::effect::{
-    BySum, Compression, ContactActivity, CorrectedGradients, DensityForm, Divergence,
-    DivergenceSmoothing, Effect, Effects, Evolved, Setting, SolvedSmoothing, StepProgram,
-    SummedDensity, Update, ViscositySwitch, When,
+    CorrectedGradients, DensityForm, Effect, Effects, Setting, StepProgram, ViscositySwitch,
 };
 use crate::error::Problem;
 use crate::kernel::{Kernel, KernelFacts, Profile};
-use crate::particles::{Field, Fields, Output};
+use crate::particles::{Field, Fields};
 use crate::scalar::Real;
 use crate::sweep::{FusedKernel, PairSweep, SmoothingMode};
 use crate::term::{
@@ -30,11 +28,14 @@ impl<K, V, W, E> SchemeBuilder<K, V, W, E> {
         let own = &self.settings;
         let h_over_dx = own.h_over_dx.unwrap_or(self.kernel.h_over_dx());
         let forms = (own.density, own.pressure_form.unwrap_or(own.density));
-        let setting = Setting::of(&self.kernel, h_over_dx, forms);
         let smoothing = self.effects.smoothing();
+        let setting = Setting {
+            energy: own.energy,
+            smoothing,
+            ..Setting::of(&self.kernel, h_over_dx, forms)
+        };
         let compiled = Compiled::<_, _, _, _, D> {
             own: &self,
-            mode: smoothing.mode(),
             setting,
         };
         let integrated = own.density.is_integrated();
@@ -69,7 +70,6 @@ impl<K, V, W, E> SchemeBuilder<K, V, W, E> {
         for field in unwritten.iter() {
             program.carry(field);
         }
-        self.evolve(smoothing, &mut program);
         self.walls.register(&mut program);
         program.books_energy &= W::BOOKS_ENERGY;
         self.effects.register(&mut program);
@@ -97,7 +97,7 @@ impl<K, V, W, E> SchemeBuilder<K, V, W, E> {
                 remedy: "name SmoothingMode::Mean or SmoothingMode::Own in Effect::MODES",
             })
         });
-        self.require_reference(smoothing, &sweeps, &mut program);
+        self.require_reference(&sweeps, &mut program);
         program.arrange();
         let of = |what: &str, (name, value, must_be)| (format!("{name}{what}"), value, must_be);
         let viscous = self.viscosity.problems().into_iter();
@@ -145,7 +145,6 @@ impl<K, V, W, E> SchemeBuilder<K, V, W, E> {
     /// Asks that all sums are over the reference configuration where one is, and none where none is.
     fn require_reference<T: Real, const D: usize>(
         &self,
-        smoothing: Smoothing,
         sweeps: &[Option<Box<dyn PairSweep<T, D>>>],
         program: &mut StepProgram<T, D>,
     ) where
@@ -165,7 +164,7 @@ impl<K, V, W, E> SchemeBuilder<K, V, W, E> {
         let refers =
             |sweep: &dyn PairSweep<T, D>| sweep.fields().contains(Field::REFERENCE_POSITION);
         let mut all = sweeps.iter().flatten();
-        let varies = smoothing.varies() || self.viscosity.switch::<T>().is_some();
+        let varies = program.setting().smoothing.varies() || self.viscosity.switch::<T>().is_some();
         let mixed = all.any(|sweep| refers(sweep.as_ref()) != total) || (total && varies);
         program.require(move |_| {
             mixed.then(|| Problem::Incompatible {
@@ -177,52 +176,6 @@ impl<K, V, W, E> SchemeBuilder<K, V, W, E> {
             })
         });
     }
-
-    /// What the scheme itself integrates in time, and how density follows from sums.
-    fn evolve<T: Real, const D: usize>(&self, smoothing: Smoothing, program: &mut StepProgram<T, D>)
-    where
-        E: Effects<D>,
-    {
-        let own = &self.settings;
-        let setting = *program.setting();
-        let compression = Compression {
-            density: setting.density,
-            pressure: setting.pressure_form,
-        };
-        if let Smoothing::Divergence(DivergenceSmoothing { smallest, largest }) = smoothing {
-            program.evolve(
-                Evolved::kicked(Field::SMOOTHING_LENGTH)
-                    .at(When::Drift)
-                    .updated(Update::Within { smallest, largest })
-                    .by(Divergence(compression)),
-            );
-        }
-        if own.density.is_integrated() {
-            let density = Evolved::kicked(Field::DENSITY)
-                .at(When::Drift)
-                .updated(Update::Exponential)
-                .by(compression);
-            program.evolve(density.keeping(Field::DENSITY_RESIDUAL));
-        } else if let Smoothing::Consistent(own) = smoothing {
-            let law = SolvedSmoothing {
-                eta: setting.h_over_dx,
-                limits: [own.smallest, own.largest],
-            };
-            program.law(Stage::Density, law);
-        } else if E::SUMS {
-            program.law(Stage::Density, SummedDensity(own.density));
-        }
-        // Liquids have no contacts, and smoothing that follows density takes bodies as one.
-        if E::SUMS && !matches!(smoothing, Smoothing::Consistent(_)) {
-            program.law(Stage::Density, ContactActivity);
-        }
-        if own.energy != EnergyForm::None {
-            program.evolve(Evolved::kicked(Field::ENERGY).by(BySum {
-                sum: Output::POWER,
-                over: Some(Field::MASS),
-            }));
-        }
-    }
 }
 
 /// Ratios of smoothing length to spacing of total-Lagrangian schemes: from the least at which every kernel reaches the
@@ -232,7 +185,6 @@ const REFERENCE_RANGE: (f64, f64) = (0.8, 2.0);
 /// The choices on their way into sweeps.
 struct Compiled<'a, K, V, W, E, const D: usize> {
     own: &'a SchemeBuilder<K, V, W, E>,
-    mode: SmoothingMode,
     setting: Setting,
 }
 
@@ -252,7 +204,7 @@ where
         const UNIFORM: u8 = SmoothingMode::Uniform.bit();
         const MEAN: u8 = SmoothingMode::Mean.bit();
         const OWN: u8 = SmoothingMode::Own.bit();
-        let (kernel, mode) = (self.own.kernel, self.mode);
+        let (kernel, mode) = (self.own.kernel, self.setting.smoothing.mode());
         // A mode that no effect names leaves no loop behind.
         if const { E::LOOPS & OWN != 0 }
             && (const { E::LOOPS == OWN } || mode == SmoothingMode::Own)
@@ -283,7 +235,8 @@ where
         if matches!(form, DensityForm::Normalised | DensityForm::Lam) {
             return Some(self.sweep(sums.then((Unity,)).then(own)));
         }
-        if const { E::LOOPS & SmoothingMode::Own.bit() != 0 } && self.mode == SmoothingMode::Own {
+        let solved = matches!(self.setting.smoothing, Smoothing::Consistent(_));
+        if const { E::LOOPS & SmoothingMode::Own.bit() != 0 } && solved {
             return Some(self.sweep(sums.then((SlopeInH,)).then(own)));
         }
         Some(self.sweep(sums.then(own)))

@@ -63,7 +63,7 @@ mod order;
 mod print;
 mod start;
 
-pub use crate::effect::{DensityForm, Shifting, Smoothing};
+pub use crate::effect::{DensityForm, EnergyForm, Shifting, Smoothing};
 pub use crate::kernel::KernelFacts;
 pub(crate) use builder::DEFAULT_STEP_FACTOR;
 pub use builder::{Renormalise, SchemeBuilder};
@@ -75,25 +75,6 @@ use crate::particles::{Field, Fields};
 use crate::scalar::Real;
 use crate::sweep::{Interaction, PairSweep};
 use crate::term::{Stage, TermDoc};
-
-/// How internal energy follows from the work of pair forces.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum EnergyForm {
-    /// Not carried: the materials do not ask for it.
-    None,
-    /// Each side takes half the power of every pair force; total energy drifts with the order of the
-    /// step (Monaghan & Gingold 1983).
-    ///
-    #[doc = include_str!("../../docs/equations/energy_symmetric.html")]
-    Symmetric,
-    /// The work of every pair force with the mean velocity of each kick, so that total energy is
-    /// conserved to rounding whatever the forces are (Owen 2014). Needs an integrator that kicks, and
-    /// a second pass over the pairs of each kick.
-    ///
-    #[doc = include_str!("../../docs/equations/energy_compatible.html")]
-    #[default]
-    Compatible,
-}
 
 /// A composed scheme: what a group of bodies obeys. Built by [`SchemeBuilder`], or ready in
 /// [`schemes`](crate::schemes).
@@ -201,12 +182,6 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         ]));
         if T::COMPENSATED {
             fields = fields.union(Fields::of(&[Field::POSITION_RESIDUAL]));
-        }
-        if self.energy == EnergyForm::Compatible {
-            fields = fields.union(Fields::of(&[
-                Field::MEAN_VELOCITY,
-                Field::MEAN_ACCELERATION,
-            ]));
         }
         if self.density.has_reference() && self.reference.is_some() {
             fields = fields.union(Fields::of(&[
