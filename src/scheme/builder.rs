@@ -227,6 +227,10 @@ impl<K, V, W, E> SchemeBuilder<K, V, W, E> {
 }
 
 /// Effects whose pressure force can take corrected gradients: lists that begin with [`PressureForce`].
+#[diagnostic::on_unimplemented(
+    message = "the effects of this scheme have no pressure force whose gradients can be corrected",
+    note = "call `renormalised` once, for a scheme of solids, gases or liquids"
+)]
 pub trait Renormalise {
     /// The list with a [`RenormalisedPressureForce`].
     type Renormalised;

@@ -9,7 +9,7 @@ use core::marker::PhantomData;
 
 macro_rules! markers {
     ($( $(#[$doc:meta])* $Marker:ident $If:ident $put:ident ),* $(,)?) => {
-        /// A [`Stage`](super::Stage), or the part of its sweep that comes first or last, as a type.
+        /// A [`Stage`](crate::term::Stage), or the part of its sweep that comes first or last, as a type.
         pub trait StageMarker<const D: usize>: Clone + Debug + Send + Sync + 'static {
             /// The terms `A` of this stage in the sweep of stage `S`: all of them if it is the same, none if not.
             type Of<S: StageMarker<D>, A: Terms<D>>: Terms<D>;
