@@ -58,6 +58,8 @@ type Structure<V> = SchemeBuilder<
     NoWalls,
     ((((), TotalLagrangian), InternalEnergy), HourglassControl),
 >;
+/// Impact of solids.
+type Impact<E> = SchemeBuilder<CubicSpline, LimitedMonaghanGingold, NoWalls, E>;
 /// A liquid as LS-DYNA has it.
 type LsDyna<P = PressureForce> = SchemeBuilder<
     CubicSpline,
@@ -117,15 +119,10 @@ pub fn impact_by_continuity()
 ///
 /// Bodies that meet are groups of their own with a coupling between them.
 #[must_use]
-pub fn updated_lagrangian() -> SchemeBuilder<
-    CubicSpline,
-    LimitedMonaghanGingold,
-    NoWalls,
-    (
-        (Solid<RenormalisedPressureForce>, RenormalisedHypoelastic),
-        MidpointReconstruction,
-    ),
-> {
+pub fn updated_lagrangian() -> Impact<(
+    (Solid<RenormalisedPressureForce>, RenormalisedHypoelastic),
+    MidpointReconstruction,
+)> {
     impact_by_continuity()
         .without_midpoint_reconstruction()
         .renormalised()

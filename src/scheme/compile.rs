@@ -108,14 +108,14 @@ impl<K, V, W, E> SchemeBuilder<K, V, W, E> {
             .chain(self.effects.problems());
         Scheme {
             name: own.name.clone(),
-            kernel: if !E::REFERENCE {
-                KernelFacts::of(&self.kernel)
-            } else {
+            kernel: if E::REFERENCE {
                 // Neighbours that stay do not pair, and tension does not part them.
                 KernelFacts {
                     range: REFERENCE_RANGE,
-                    ..KernelFacts::of(&self.kernel)
+                    ..setting.kernel
                 }
+            } else {
+                setting.kernel
             },
             profile: Profile::of::<K, D>(self.kernel),
             density: own.density,

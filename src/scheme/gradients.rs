@@ -24,7 +24,7 @@ const fn gradients_among(fields: Fields) -> Fields {
 }
 
 /// The sums of all gradients that a viscosity `V`, a wall law `W` and effects `E` read, each once.
-pub(super) struct Gradients<V, W, E>(PhantomData<fn() -> (V, W, E)>);
+pub(super) struct Gradients<V, W, E>(PhantomData<(V, W, E)>);
 
 impl<V, W, E> core::fmt::Debug for Gradients<V, W, E> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
