@@ -8,6 +8,7 @@ pub mod forces;
 use super::lattice::{BATCH, H, Lattice, assert_same, print_ratio, ratios, within_reach};
 use meshfree::effect::TwoPhase;
 use meshfree::kernel::{Kernel, WendlandC2};
+use meshfree::name;
 use meshfree::neighbors::{CHUNK, ClusterLists};
 use meshfree::particles::{Field, Fields, Output};
 use meshfree::scalar::{Lane, OnRows};
@@ -186,22 +187,25 @@ impl<W: Written, R: Record> OnRows<f64> for ByHand<'_, W, R> {
 type Composed<P> = FusedKernel<WendlandC2, P>;
 
 /// Fields of terms: a mean, and by how much each component varies in space.
-const VALUES: [(Field, f64, f64); 18] = [
+const VALUES: [(Field, f64, f64); 17] = [
     (Field::DYNAMIC_VISCOSITY, 1.0, 0.1),
     (Field::PRESSURE, 0.0, 1e4),
     (Field::ENERGY, 1e3, 1e2),
     (Field::CONSISTENCY_FACTOR, 1.0, 0.05),
     // Velocities of consistent shifting.
-    (Field::vector(14), 0.0, 0.1),
-    // The deviatoric stress, the artificial one, and mismatch and stiffness of the hourglass-free form.
-    (Field::tensor(15), 0.0, 1e6),
-    (Field::tensor(14), 1e5, 1e5),
-    (Field::vector(15), 0.0, 0.01),
-    (Field::scalar(7), -1e8, 1e7),
-    // The corrected stress of total-Lagrangian solids, their deformation, and the modulus of the hourglass control.
-    (Field::matrix(13), 0.0, 1e6),
-    (Field::matrix(15), 0.3, 1.0),
-    (Field::scalar(9), 1e8, 1e7),
+    (Field::vector(name!("shifting_velocity", "m/s")), 0.0, 0.1),
+    // The deviatoric stress, the artificial one, and the mismatch of the hourglass-free form.
+    (Field::tensor(name!("deviatoric_stress", "Pa")), 0.0, 1e6),
+    (Field::tensor(name!("artificial_tension", "Pa")), 1e5, 1e5),
+    (Field::vector(name!("hourglass_mismatch", "m")), 0.0, 0.01),
+    // The corrected stress of total-Lagrangian solids, their deformation, and the stiffness of hourglass forces.
+    (
+        Field::matrix(name!("corrected_piola_stress", "Pa")),
+        0.0,
+        1e6,
+    ),
+    (Field::matrix(name!("deformation_gradient", "1")), 0.3, 1.0),
+    (Field::scalar(name!("hourglass_stiffness", "Pa")), 1e8, 1e7),
     // Gradients, what corrects them, and what laws of viscosity keep of each particle.
     (Field::CORRECTION, 0.3, 1.0),
     (Field::PRESSURE_GRADIENT, 0.0, 1e3),

@@ -4,7 +4,7 @@
 use super::{Cavitation, DensityForm};
 use super::{Effect, Effects, HourglassControl, Setting, StepProgram, TotalLagrangian};
 use crate::kernel::{Kernel, WendlandC2};
-use crate::particles::{Field, Fields, Output, Outputs, PLACES};
+use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Operation, Record, Traced};
 use crate::term::{Layout, Pair, Sums, Term, TermDoc, Terms, probe, stage};
 use core::any::type_name;
@@ -49,17 +49,15 @@ struct Loop {
     sums: usize,
 }
 
-/// Most components of a field.
-const WIDEST: usize = 9;
-
 fn loop_of<const D: usize, A: Terms<D>>(stage: &'static str, terms: A) -> Loop
 where
     WendlandC2: Kernel<D>,
 {
-    let size = PLACES * WIDEST;
+    let fields = const { &Fields::ALL.union(A::READS) };
+    let size = fields.width(D);
     let record = Record::of(2 * size, |given| {
         let number =
-            |side: usize| move |field: Field, k| given[side * size + field.place() * WIDEST + k];
+            |side: usize| move |field: Field, k| given[side * size + fields.offset(field, D) + k];
         let own = AsOne(terms.clone());
         let pair = probe::<Traced, D, _, _>(&own, &WendlandC2, number(0), number(1));
         let mut results = vec![pair.radial, pair.shear];
@@ -120,7 +118,7 @@ fn program<const D: usize, E: Effects<D>>(list: &E, setting: &Setting) -> Vec<St
     list.register(&mut program);
     let mut parts = vec![
         format!("{:?}", program.fields().iter().collect::<Vec<_>>()),
-        format!("{:?} {:?}", program.declared, program.sums),
+        format!("{:?}", program.declared),
         format!("{:?} {:?}", program.evolved, program.pending.len()),
         format!("{:?} {:?}", program.ledger, program.documents),
         format!("{:?} {}", program.step_factor, program.wall_normals),

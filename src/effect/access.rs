@@ -1,28 +1,10 @@
 //! What a part of a step may reach: the fields and sums that it declares, and no others.
 //! A law, rate or limit that asks for more ends the run with its own name and that of what it asked for.
 
-use super::{Declared, DeclaredSum, Law, Limit, Rate};
+use super::{Law, Limit, Rate};
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Real;
 use crate::sweep::Results;
-
-/// Names of the fields and sums that effects declare, for messages.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Names<'a> {
-    pub fields: &'a [Declared],
-    pub sums: &'a [DeclaredSum],
-}
-
-impl Names<'_> {
-    fn field(&self, field: Field) -> &'static str {
-        let declared = self.fields.iter().find(|own| own.field == field);
-        declared.map_or(field.name(), |own| own.name)
-    }
-    fn sum(&self, sum: Output) -> &'static str {
-        let declared = self.sums.iter().find(|own| own.sum == sum);
-        declared.map_or(sum.name(), |own| own.name)
-    }
-}
 
 /// A part of a step.
 #[derive(Clone, Copy, Debug)]
@@ -89,38 +71,38 @@ impl Access {
     }
 
     #[track_caller]
-    pub(super) fn read(&self, field: Field, names: Names<'_>) {
+    pub(super) fn read(&self, field: Field) {
         #[cfg(test)]
         super::declared::note(|asked| asked.0 = asked.0.union(Fields::of(&[field])));
         if !self.reads(field) {
-            self.refuse("reads the field", names.field(field), "reads", names);
+            self.refuse("reads the field", field.name(), "reads");
         }
     }
 
     #[track_caller]
-    pub(super) fn write(&self, field: Field, names: Names<'_>) {
+    pub(super) fn write(&self, field: Field) {
         #[cfg(test)]
         super::declared::note(|asked| asked.1 = asked.1.union(Fields::of(&[field])));
         if !self.writes.contains(field) && !self.is_driver() {
-            self.refuse("writes the field", names.field(field), "writes", names);
+            self.refuse("writes the field", field.name(), "writes");
         }
     }
 
     #[track_caller]
-    pub(super) fn sum(&self, sum: Output, names: Names<'_>) {
+    pub(super) fn sum(&self, sum: Output) {
         #[cfg(test)]
         super::declared::note(|asked| asked.2 = asked.2.union(Outputs::of(&[sum])));
         if !self.sums.contains(sum) && !self.is_driver() {
-            self.refuse("reads the sum", names.sum(sum), "sums", names);
+            self.refuse("reads the sum", sum.name(), "sums");
         }
     }
 
     #[cold]
     #[track_caller]
-    fn refuse(&self, does: &str, what: &str, method: &str, names: Names<'_>) -> ! {
+    fn refuse(&self, does: &str, what: &str, method: &str) -> ! {
         let part = match self.part {
             Part::Law(name) => format!("law `{name}`"),
-            Part::RateOf(field) => format!("rate of `{}`", names.field(field)),
+            Part::RateOf(field) => format!("rate of `{}`", field.name()),
             Part::Limit(name) => format!("limit `{name}`"),
             Part::Driver => "driver".into(),
         };
@@ -132,7 +114,8 @@ impl Access {
 #[derive(Clone, Copy, Debug)]
 pub struct Summed<'a, T: Real, const D: usize> {
     results: &'a Results<T, D>,
-    output: Output,
+    /// Where it starts among the numbers of a particle.
+    offset: Option<usize>,
     /// The slot from which particles are counted.
     first: usize,
 }
@@ -141,7 +124,7 @@ impl<'a, T: Real, const D: usize> Summed<'a, T, D> {
     pub(super) fn new(results: &'a Results<T, D>, output: Output, first: usize) -> Self {
         Self {
             results,
-            output,
+            offset: results.offset(output),
             first,
         }
     }
@@ -151,6 +134,7 @@ impl<'a, T: Real, const D: usize> Summed<'a, T, D> {
     #[inline(always)]
     #[must_use]
     pub fn get(&self, k: usize, n: usize) -> T {
-        self.results.get(self.output, k, self.first + n)
+        let number = |offset| self.results.number(offset + k, self.first + n);
+        self.offset.map_or(T::zero(), number)
     }
 }

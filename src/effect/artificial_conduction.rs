@@ -3,6 +3,7 @@
 
 use super::{BySum, Effect, Evolved, LedgerColumn, Setting, StepProgram, not_negative};
 use crate::error::Problem;
+use crate::name;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
 use crate::term::{In, Layout, Pair, Sums, Term, TermDoc, stage};
@@ -77,12 +78,12 @@ impl Default for ArtificialConduction {
 
 impl ArtificialConduction {
     /// Energy that conduction has given a particle so far, over its mass \[J/kg\].
-    pub const CONDUCTED: Field = Field::scalar(4);
+    pub const CONDUCTED: Field = Field::scalar(name!("conducted_energy", "J/kg"));
 }
 
 const CONDUCTED: Field = ArtificialConduction::CONDUCTED;
 /// Power of the conduction \[W\].
-const FLOW: Output = Output::scalar(14);
+const FLOW: Output = Output::scalar(name!("artificial_conduction", "W"));
 
 impl<const D: usize> Effect<D> for ArtificialConduction {
     type Terms = (In<stage::Rates, Self>,);
@@ -91,8 +92,7 @@ impl<const D: usize> Effect<D> for ArtificialConduction {
         (In::new(*self),)
     }
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
-        program.declare(CONDUCTED, "conducted_energy", "J/kg", 0.0);
-        program.declare_sum(FLOW, "artificial_conduction", "W");
+        program.declare(CONDUCTED, 0.0);
         program.evolve(Evolved::kicked(CONDUCTED).by(BySum::over_mass(FLOW)));
         program.ledger(LedgerColumn {
             name: "artificial conduction",

@@ -3,6 +3,7 @@
 
 use super::{Chunk, Effect, Hypoelastic, Law, Setting, StepProgram, Tally, not_negative};
 use crate::error::Problem;
+use crate::name;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
 use crate::tensor::Symmetric;
@@ -62,7 +63,7 @@ impl Default for ArtificialStress {
 
 impl ArtificialStress {
     /// ε times the tensile part of the stress \[Pa\], which is −R: xx, yy, zz, yz, xz, xy.
-    pub const TENSION: Field = Field::tensor(14);
+    pub const TENSION: Field = Field::tensor(name!("artificial_tension", "Pa"));
 }
 
 const TENSION: Field = ArtificialStress::TENSION;
@@ -86,7 +87,7 @@ impl<const D: usize> Effect<D> for ArtificialStress {
         }),)
     }
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
-        program.declare(TENSION, "artificial_tension", "Pa", 0.0);
+        program.declare(TENSION, 0.0);
         // Pressures are final once the laws of the state have run.
         program.law(Stage::Flow, *self);
         program.require(|scene| {

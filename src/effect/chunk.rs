@@ -1,11 +1,11 @@
 //! What a law sees: a run of particles of one body, its columns, and the sums of the stage.
 //! The driver owns the loop over particles: its threads, its order and its memory.
 
-use super::access::{Access, Names, Summed};
+use super::access::{Access, Summed};
 use super::{Law, Tally};
 use crate::boundary::WallSurface;
 use crate::material::Material;
-use crate::particles::{Columns, Field, Output};
+use crate::particles::{Columns, Field, Fields, Output};
 use crate::scalar::Real;
 use crate::sweep::Results;
 use std::ops::Range;
@@ -15,8 +15,6 @@ use std::ops::Range;
 pub struct Around<'a, T: Real, const D: usize> {
     /// The sums of the stage's own sweep; of the rates where they were summed with those.
     pub(crate) sums: &'a Results<T, D>,
-    /// Names of fields and sums that effects declare.
-    pub(crate) names: Names<'a>,
     /// The material of the body; of the first body for walls.
     pub material: &'a Material<T>,
     /// The wall, at [`Stage::Walls`](crate::term::Stage).
@@ -40,7 +38,7 @@ pub struct Around<'a, T: Real, const D: usize> {
 }
 
 /// Most columns that a group has.
-pub const MOST_COLUMNS: usize = 48;
+const MOST_COLUMNS: usize = Field::ALL.len() + Fields::MOST_OF_EFFECTS;
 
 /// A run of particles of one body, or of a wall.
 #[derive(Debug)]
@@ -95,13 +93,13 @@ impl<'a, T: Real, const D: usize> Chunk<'a, T, D> {
         reads: [Field; R],
         writes: [Field; W],
     ) -> ([&[T]; R], [&mut [T]; W]) {
-        let names = self.around.names;
         for field in reads {
-            self.access.read(field, names);
+            self.access.read(field);
         }
         for (k, field) in writes.into_iter().enumerate() {
-            self.access.write(field, names);
-            let twice = reads.contains(&field) || writes[..k].contains(&field);
+            self.access.write(field);
+            let same = |other: &Field| other.is(field);
+            let twice = reads.iter().any(same) || writes[..k].iter().any(same);
             assert!(
                 !twice,
                 "a column that is written is asked for once, {field:?} is not"
@@ -111,8 +109,8 @@ impl<'a, T: Real, const D: usize> Chunk<'a, T, D> {
         let mut written = core::array::from_fn(|_| [].as_mut_slice());
         let count = self.columns.count;
         let columns = self.columns.all.iter_mut().zip(self.columns.fields);
-        for (column, place) in columns.take(count) {
-            let is = |field: &Field| field.place() == place as usize;
+        for (column, own) in columns.take(count) {
+            let is = |field: &Field| field.is(own);
             if let Some(k) = writes.iter().position(is) {
                 written[k] = &mut **column;
                 continue;
@@ -134,7 +132,7 @@ impl<'a, T: Real, const D: usize> Chunk<'a, T, D> {
     #[track_caller]
     #[must_use]
     pub fn sum(&self, output: Output) -> Summed<'a, T, D> {
-        self.access.sum(output, self.around.names);
+        self.access.sum(output);
         Summed::new(self.around.sums, output, self.first)
     }
 }
@@ -144,7 +142,7 @@ impl<'a, T: Real, const D: usize> Chunk<'a, T, D> {
 pub(crate) struct Slices<'a, T> {
     all: [&'a mut [T]; MOST_COLUMNS],
     widths: [u8; MOST_COLUMNS],
-    fields: [u8; MOST_COLUMNS],
+    fields: [Field; MOST_COLUMNS],
     count: usize,
 }
 
@@ -155,12 +153,13 @@ fn empty<'a, T>() -> [&'a mut [T]; MOST_COLUMNS] {
 impl<'a, T: Real> Slices<'a, T> {
     /// All columns.
     pub fn of<const D: usize>(columns: &'a mut Columns<T, D>) -> Self {
-        let (mut widths, mut fields, mut count) = ([0; MOST_COLUMNS], [0; MOST_COLUMNS], 0);
+        let (mut widths, mut count) = ([0; MOST_COLUMNS], 0);
+        let mut fields = [Field::POSITION; MOST_COLUMNS];
         let mut all = empty();
-        for (field, column) in columns.iter_mut().take(MOST_COLUMNS) {
+        for (field, column) in columns.iter_mut() {
             all[count] = column;
             widths[count] = field.components(D) as u8;
-            fields[count] = field.place() as u8;
+            fields[count] = field;
             count += 1;
         }
         Self {

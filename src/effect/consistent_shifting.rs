@@ -7,6 +7,7 @@ use super::{
     BySum, Chunk, DensityForm, Effect, Law, Rung, Setting, StepProgram, Tally, not_negative,
 };
 use crate::error::Problem;
+use crate::name;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
 use crate::sweep::add_compensated;
@@ -65,18 +66,18 @@ impl Default for ConsistentShifting {
 
 impl ConsistentShifting {
     /// δu \[m/s\].
-    pub const VELOCITY: Field = Field::vector(14);
+    pub const VELOCITY: Field = Field::vector(name!("shifting_velocity", "m/s"));
 }
 
 const SHIFT: Field = ConsistentShifting::VELOCITY;
 /// Σⱼ Vⱼ (1 + 0.2 (W/W₀)⁴) ∇W \[1/m\].
-const CONCENTRATION: Output = Output::vector(11);
+const CONCENTRATION: Output = Output::vector(name!("crowding", "1/m"));
 /// Σⱼ Vⱼ ∇W \[1/m\], out of the liquid.
-const OUTWARDS: Output = Output::vector(10);
+const OUTWARDS: Output = Output::vector(name!("outwards", "1/m"));
 /// Σⱼ Vⱼ rᵢⱼ·∇W, which is −D where the kernel finds a full neighbourhood.
-const FULLNESS: Output = Output::scalar(13);
+const FULLNESS: Output = Output::scalar(name!("gradient_moment", "1"));
 /// Rate of density \[kg/(m³ s)\].
-const RATE: Output = Output::scalar(12);
+const RATE: Output = Output::scalar(name!("density_rate_of_shifting", "kg/(m³ s)"));
 
 /// Strength of the repulsion of near pairs, as of Lind et al. 2012 and Sun et al. 2019.
 const REPULSION: f64 = 0.2;
@@ -104,11 +105,7 @@ impl<const D: usize> Effect<D> for ConsistentShifting {
     }
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
         let by_volume = program.setting().density == DensityForm::Continuity;
-        program.declare(SHIFT, "shifting_velocity", "m/s", 0.0);
-        program.declare_sum(CONCENTRATION, "crowding", "1/m");
-        program.declare_sum(OUTWARDS, "outwards", "1/m");
-        program.declare_sum(FULLNESS, "gradient_moment", "1");
-        program.declare_sum(RATE, "density_rate_of_shifting", "kg/(m³ s)");
+        program.declare(SHIFT, 0.0);
         program.law(Stage::Flow, *self);
         program.law(Stage::Continuity, Displace);
         program.contribute(

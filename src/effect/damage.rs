@@ -8,6 +8,7 @@ use super::{
 use crate::error::Problem;
 use crate::material::failure::FailureState;
 use crate::material::strength::ROOM_TEMPERATURE;
+use crate::name;
 use crate::particles::{Field, Fields};
 use crate::scalar::{Lane, Real};
 use crate::tensor::Symmetric;
@@ -55,24 +56,24 @@ pub struct Damage;
 
 impl Damage {
     /// Damage D, from 0 to 1.
-    pub const DAMAGE: Field = Field::scalar(10);
+    pub const DAMAGE: Field = Field::scalar(name!("damage", "1"));
     /// 1 where the particle has failed, else 0.
-    pub const FAILED: Field = Field::scalar(9);
+    pub const FAILED: Field = Field::scalar(name!("failed", "1"));
 }
 
 const STRESS: Field = Hypoelastic::STRESS;
 const DAMAGE: Field = Damage::DAMAGE;
 const FAILED: Field = Damage::FAILED;
 /// The plastic strain at the last drift.
-const FLOWED: Field = Field::scalar(8);
+const FLOWED: Field = Field::scalar(name!("plastic_strain_of_damage", "1"));
 
 impl<const D: usize> Effect<D> for Damage {
     type Terms = ();
     fn terms(&self, _setting: &Setting) {}
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
-        program.declare(DAMAGE, "damage", "1", 0.0);
-        program.declare(FAILED, "failed", "1", 0.0);
-        program.declare(FLOWED, "plastic_strain_of_damage", "1", 0.0);
+        program.declare(DAMAGE, 0.0);
+        program.declare(FAILED, 0.0);
+        program.declare(FLOWED, 0.0);
         program.law(Stage::Continuity, *self);
         program.law(Stage::State, NoTension);
         program.ledger(LedgerColumn {

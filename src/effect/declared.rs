@@ -6,7 +6,7 @@ use super::density::{ContactActivity, SolvedSmoothing, SummedDensity};
 use super::gradients::CorrectedGradients;
 use super::viscosity_switch::ViscositySwitch;
 use super::{
-    Around, ByField, Chunk, DensityForm, Effect, Evolved, Law, Limit, Names, Rate, Setting, Slices,
+    Around, ByField, Chunk, DensityForm, Effect, Evolved, Law, Limit, Rate, Setting, Slices,
     StepProgram, Tally, View,
 };
 use crate::kernel::{Kernel, WendlandC2};
@@ -15,6 +15,7 @@ use crate::material::eos::Linear;
 use crate::material::failure::SpallStrength;
 use crate::material::rheology::Newtonian;
 use crate::material::strength::PlasticHeating;
+use crate::name;
 use crate::particles::{Columns, Field, Fields, Output, Outputs, Shape};
 use crate::scalar::Real;
 use crate::sweep::Results;
@@ -68,11 +69,9 @@ fn columns<const D: usize>(fields: Fields) -> Columns<f64, D> {
 fn around<'a, const D: usize>(
     sums: &'a Results<f64, D>,
     material: &'a Material<f64>,
-    names: Names<'a>,
 ) -> Around<'a, f64, D> {
     Around {
         sums,
-        names,
         material,
         wall: None,
         smoothing_length: 0.1,
@@ -92,7 +91,7 @@ fn run<const D: usize>(
     mut see: impl FnMut(String, Asked, Asked),
 ) {
     let (sums, material) = (Results::default(), material());
-    let around = || around(&sums, &material, program.names());
+    let around = || around(&sums, &material);
     for law in program.laws.iter().flatten() {
         ASKED.set(NOTHING);
         let mut columns = columns::<D>(fields);
@@ -259,8 +258,8 @@ fn every_part_of_a_scheme_asks_for_what_it_declares() {
     of_the_scheme::<2>();
 }
 
-const COLOUR: Field = Field::scalar(3);
-const FLOW: Output = Output::scalar(2);
+const COLOUR: Field = Field::scalar(name!("colour", "1"));
+const FLOW: Output = Output::scalar(name!("flow", "W"));
 
 /// A part of a step that declares to read a colour, and then lies.
 #[derive(Clone, Copy, Debug)]
@@ -328,8 +327,7 @@ impl<T: Real, const D: usize> Limit<T, D> for Liar {
 /// Of what a program dies in which every field is carried.
 fn dies_of(register: impl FnOnce(&mut StepProgram<f64, 2>)) -> String {
     let mut program = StepProgram::new(setting::<2>(DensityForm::Continuity));
-    program.declare(COLOUR, "colour", "1", 0.0);
-    program.declare_sum(FLOW, "flow", "W");
+    program.declare(COLOUR, 0.0);
     register(&mut program);
     let fields = Fields::of(&[COLOUR, Field::DENSITY, Field::PRESSURE]);
     let died = catch_unwind(AssertUnwindSafe(|| run(&program, fields, |_, _, _| {})));

@@ -79,7 +79,7 @@ impl<'a, T: Real, const D: usize> View<'a, T, D> {
     #[track_caller]
     #[must_use]
     pub fn column(&self, field: Field) -> &'a [T] {
-        self.access.read(field, self.around.names);
+        self.access.read(field);
         self.columns.raw(field)
     }
     /// A sum of particles, by their slots.
@@ -90,7 +90,7 @@ impl<'a, T: Real, const D: usize> View<'a, T, D> {
     #[track_caller]
     #[must_use]
     pub fn sum(&self, output: Output) -> Summed<'a, T, D> {
-        self.access.sum(output, self.around.names);
+        self.access.sum(output);
         Summed::new(self.around.sums, output, 0)
     }
     /// The corrected velocity gradient ∂vₐ/∂x_b \[1/s\] of the particle in `slot`: from the sums of a
@@ -102,9 +102,9 @@ impl<'a, T: Real, const D: usize> View<'a, T, D> {
     #[track_caller]
     #[must_use]
     pub fn velocity_gradient(&self, slot: usize) -> Matrix<T, D> {
-        let summed = self.around.sums.outputs();
+        let summed = self.around.sums.offset(Output::VELOCITY_GRADIENT);
         let by_field = self.access.reads(Field::VELOCITY_GRADIENT);
-        if summed.contains(Output::VELOCITY_GRADIENT) || !by_field {
+        if summed.is_some() || !by_field {
             return velocity_gradient(GRADIENT_SUMS.map(|sum| self.sum(sum)), slot);
         }
         let gradient = self.column(Field::VELOCITY_GRADIENT);

@@ -5,11 +5,12 @@ use super::hyperelastic::square;
 use super::radial_return::{after, radial_return};
 use super::total_lagrangian::{matrix, put, stretches_with};
 use super::{
-    Chunk, Effect, Law, LedgerColumn, Plasticity, Rung, Setting, StepProgram, Tally,
+    Chunk, Effect, Hypoelastic, Law, LedgerColumn, Plasticity, Rung, Setting, StepProgram, Tally,
     TotalLagrangian,
 };
 use crate::error::Problem;
 use crate::material::strength::{PlasticState, ROOM_TEMPERATURE};
+use crate::name;
 use crate::particles::{Field, Fields};
 use crate::scalar::{Lane, Real};
 use crate::tensor::{Matrix, Symmetric, determinant, inverse};
@@ -55,7 +56,7 @@ pub struct FiniteStrainPlasticity;
 
 impl FiniteStrainPlasticity {
     /// Cₚ⁻¹ − 1, with Cₚ = FₚᵀFₚ of the plastic part of the deformation.
-    pub const INVERSE_PLASTIC: Field = Field::tensor(14);
+    pub const INVERSE_PLASTIC: Field = Field::tensor(name!("inverse_plastic_deformation", "1"));
 }
 
 const CP: Field = FiniteStrainPlasticity::INVERSE_PLASTIC;
@@ -63,18 +64,18 @@ const F: Field = TotalLagrangian::DEFORMATION;
 const PIOLA: Field = TotalLagrangian::PIOLA;
 const STRAIN: Field = Plasticity::STRAIN;
 const WORK: Field = Plasticity::WORK;
-const DISTORTION: Field = Field::scalar(11);
+const DISTORTION: Field = Hypoelastic::DISTORTION;
 
 impl<const D: usize> Effect<D> for FiniteStrainPlasticity {
     type Terms = ();
     const BOOKS_ENERGY: bool = true;
     fn terms(&self, _setting: &Setting) {}
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
-        program.declare(PIOLA, "piola_stress", "Pa", 0.0);
-        program.declare(CP, "inverse_plastic_deformation", "1", 0.0);
-        program.declare(STRAIN, "plastic_strain", "1", 0.0);
-        program.declare(WORK, "plastic_work", "J/kg", 0.0);
-        program.declare(DISTORTION, "distortion", "J/kg", 0.0);
+        program.declare(PIOLA, 0.0);
+        program.declare(CP, 0.0);
+        program.declare(STRAIN, 0.0);
+        program.declare(WORK, 0.0);
+        program.declare(DISTORTION, 0.0);
         program.store(DISTORTION);
         program.dissipate(WORK);
         program.law(Stage::State, *self);

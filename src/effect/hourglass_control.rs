@@ -4,6 +4,7 @@
 use super::{
     BySum, Chunk, Effect, Evolved, Law, LedgerColumn, Setting, StepProgram, Tally, TotalLagrangian,
 };
+use crate::name;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
 use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
@@ -35,15 +36,15 @@ impl Default for HourglassControl {
 
 impl HourglassControl {
     /// Work of the control so far, over mass \[J/kg\].
-    pub const ENERGY: Field = Field::scalar(10);
+    pub const ENERGY: Field = Field::scalar(name!("hourglass_energy", "J/kg"));
 }
 
 const F: Field = TotalLagrangian::DEFORMATION;
 const ENERGY: Field = HourglassControl::ENERGY;
-/// Young's modulus \[Pa\].
-pub(super) const STIFFNESS: Field = Field::scalar(9);
+/// Stiffness \[Pa\] of the forces that hold an hourglass control: here Young's modulus.
+pub(super) const STIFFNESS: Field = Field::scalar(name!("hourglass_stiffness", "Pa"));
 /// −½ Σⱼ fᵢⱼ·vᵢⱼ \[W\].
-const POWER: Output = Output::scalar(15);
+const POWER: Output = Output::scalar(name!("hourglass_power", "W"));
 
 impl<const D: usize> Effect<D> for HourglassControl {
     type Terms = (In<stage::Rates, Self>,);
@@ -52,9 +53,8 @@ impl<const D: usize> Effect<D> for HourglassControl {
         (In::new(*self),)
     }
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
-        program.declare(ENERGY, "hourglass_energy", "J/kg", 0.0);
-        program.declare(STIFFNESS, "hourglass_stiffness", "Pa", 0.0);
-        program.declare_sum(POWER, "hourglass_power", "W");
+        program.declare(ENERGY, 0.0);
+        program.declare(STIFFNESS, 0.0);
         program.law(Stage::Reference, Stiffness);
         program.evolve(Evolved::kicked(ENERGY).by(BySum::over_mass(POWER)));
         program.ledger(LedgerColumn {

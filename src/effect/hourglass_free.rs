@@ -3,11 +3,13 @@
 
 use super::access::Summed;
 use super::gradients::{GRADIENT_SUMS, velocity_gradient};
+use super::hourglass_control::STIFFNESS;
 use super::{
     Chunk, Damage, Effect, Hypoelastic, Law, Plasticity, Rung, Setting, StepProgram, Tally,
     not_negative,
 };
 use crate::error::Problem;
+use crate::name;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
 use crate::tensor::{Symmetric, Vector, rotation};
@@ -72,19 +74,17 @@ impl Default for HourglassFree {
 
 impl HourglassFree {
     /// Mismatch q \[m\] of a particle with the motion that velocity gradients predict.
-    pub const MISMATCH: Field = Field::vector(15);
+    pub const MISMATCH: Field = Field::vector(name!("hourglass_mismatch", "m"));
 }
 
 const STRESS: Field = Hypoelastic::STRESS;
 const MISMATCH: Field = HourglassFree::MISMATCH;
-/// −ξ G \[Pa\]: negative, so that a contact which may open shows nothing of it.
-const STIFFNESS: Field = Field::scalar(7);
 /// The plastic strain at the last drift.
-const FLOWED: Field = Field::scalar(6);
+const FLOWED: Field = Field::scalar(name!("plastic_strain_of_mismatch", "1"));
 /// Σⱼ wᵢⱼ vᵢⱼ \[m/s\].
-const DIFFERENCE: Output = Output::vector(14);
+const DIFFERENCE: Output = Output::vector(name!("velocity_mismatch", "m/s"));
 /// Σⱼ wᵢⱼ rᵢⱼ \[m\].
-const CENTRE: Output = Output::vector(13);
+const CENTRE: Output = Output::vector(name!("neighbours_centre", "m"));
 
 /// The sums of the mismatch.
 #[derive(Clone, Copy, Debug)]
@@ -99,11 +99,10 @@ impl<const D: usize> Effect<D> for HourglassFree {
         (In::new(*self), In::new(VelocityMismatch))
     }
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
-        program.declare(MISMATCH, "hourglass_mismatch", "m", 0.0);
-        program.declare(FLOWED, "plastic_strain_of_mismatch", "1", 0.0);
-        program.declare(STIFFNESS, "hourglass_stiffness", "Pa", 0.0);
-        program.declare_sum(DIFFERENCE, "velocity_mismatch", "m/s");
-        program.declare_sum(CENTRE, "neighbours_centre", "m");
+        program.declare(MISMATCH, 0.0);
+        program.declare(FLOWED, 0.0);
+        // −ξ G: negative, so that a contact which may open shows nothing of it.
+        program.declare(STIFFNESS, 0.0);
         program.law(Stage::State, Stiffness(self.stiffness));
         program.law(Stage::Continuity, *self);
         program.require(|scene| {

@@ -3,6 +3,7 @@
 
 use super::total_lagrangian::{matrix, put, stretches_with};
 use super::{Chunk, Law, LedgerColumn, StepProgram, Tally, TotalLagrangian};
+use crate::name;
 use crate::particles::{Field, Fields};
 use crate::scalar::Real;
 use crate::tensor::{Matrix, determinant, inverse};
@@ -10,7 +11,7 @@ use crate::term::{Stage, TermDoc};
 use core::fmt::Debug;
 
 /// Energy that is stored in the deformation, over mass \[J/kg\].
-pub(super) const ELASTIC: Field = Field::scalar(11);
+pub(super) const ELASTIC: Field = Field::scalar(name!("elastic_energy", "J/kg"));
 const F: Field = TotalLagrangian::DEFORMATION;
 const PIOLA: Field = TotalLagrangian::PIOLA;
 
@@ -53,8 +54,8 @@ pub(super) fn register<T: Real, const D: usize>(
 
 /// The fields and the column of the ledger that all of them have.
 pub(super) fn declare<T: Real, const D: usize>(program: &mut StepProgram<T, D>, document: TermDoc) {
-    program.declare(PIOLA, "piola_stress", "Pa", 0.0);
-    program.declare(ELASTIC, "elastic_energy", "J/kg", 0.0);
+    program.declare(PIOLA, 0.0);
+    program.declare(ELASTIC, 0.0);
     program.store(ELASTIC);
     program.replace_pressure();
     program.ledger(LedgerColumn {

@@ -7,6 +7,7 @@ use super::{
     Update, View, When,
 };
 use crate::error::Problem;
+use crate::name;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
 use crate::tensor::Symmetric;
@@ -53,15 +54,15 @@ pub struct Hypoelastic;
 
 impl Hypoelastic {
     /// Deviatoric stress S \[Pa\], positive in tension: xx, yy, zz, yz, xz, xy.
-    pub const STRESS: Field = Field::tensor(15);
+    pub const STRESS: Field = Field::tensor(name!("deviatoric_stress", "Pa"));
     /// Specific energy of distortion S:S/(4Gρ) \[J/kg\].
-    pub const DISTORTION: Field = Field::scalar(15);
+    pub const DISTORTION: Field = Field::scalar(name!("distortion", "J/kg"));
 }
 
 const STRESS: Field = Hypoelastic::STRESS;
 const DISTORTION: Field = Hypoelastic::DISTORTION;
 /// ‖∇v‖ \[1/s\] in the last drift.
-const DEFORMATION: Field = Field::scalar(14);
+const DEFORMATION: Field = Field::scalar(name!("deformation_rate", "1/s"));
 const GRADIENT: Outputs = Outputs::of(&GRADIENT_SUMS);
 
 impl<const D: usize> Effect<D> for Hypoelastic {
@@ -74,10 +75,10 @@ impl<const D: usize> Effect<D> for Hypoelastic {
         (In::new(*self), In::new(VelocityGradient))
     }
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
-        program.declare(STRESS, "deviatoric_stress", "Pa", 0.0);
-        program.declare(DISTORTION, "distortion", "J/kg", 0.0);
+        program.declare(STRESS, 0.0);
+        program.declare(DISTORTION, 0.0);
         program.store(DISTORTION);
-        program.declare(DEFORMATION, "deformation_rate", "1/s", 0.0);
+        program.declare(DEFORMATION, 0.0);
         let stress = Evolved::kicked(STRESS)
             .at(When::Drift)
             .updated(Update::Rotated);

@@ -6,6 +6,7 @@ use super::total_lagrangian::{matrix, put, stretches_with};
 use super::{
     Chunk, Effect, Law, NeoHookean, Setting, StVenantKirchhoff, StepProgram, Tally, TotalLagrangian,
 };
+use crate::name;
 use crate::particles::{Field, Fields};
 use crate::scalar::{Lane, Real};
 use crate::tensor::{Matrix, determinant, inverse};
@@ -70,12 +71,12 @@ impl NeoHookean {
     }
 }
 
-const THICKNESS: Field = Field::scalar(8);
+const THICKNESS: Field = Field::scalar(name!("thickness", "1"));
 const F: Field = TotalLagrangian::DEFORMATION;
 const PIOLA: Field = TotalLagrangian::PIOLA;
 
 fn register<T: Real, E: Sheet>(law: InPlaneStress<E>, program: &mut StepProgram<T, 2>) {
-    program.declare(THICKNESS, "thickness", "1", 1.0);
+    program.declare(THICKNESS, 1.0);
     let document = TermDoc {
         name: format!("{} in plane stress", E::NAME),
         equation: E::EQUATION,

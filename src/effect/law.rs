@@ -16,7 +16,7 @@ pub struct Tally {
 }
 
 /// Most laws of a stage.
-pub const MOST_LAWS: usize = 16;
+pub const MOST_LAWS: usize = 32;
 
 /// What a law reads and writes in a scheme that carries some fields: what it declares, without what is optional and not there.
 pub(crate) fn reads_and_writes<T: Real, const D: usize>(

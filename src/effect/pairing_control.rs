@@ -4,6 +4,7 @@
 use super::shifting::PLACE;
 use super::{Chunk, DensityForm, Effect, Law, Rung, Setting, StepProgram, Tally, not_negative};
 use crate::error::Problem;
+use crate::name;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
 use crate::sweep::add_compensated;
@@ -36,7 +37,7 @@ impl Default for PairingControl {
 }
 
 /// Σⱼ Vⱼ max(f − 1, 0) ∇W \[1/m\].
-const NEAR: Output = Output::vector(12);
+const NEAR: Output = Output::vector(name!("near_pairs", "1/m"));
 /// Longest displacement in units of the smoothing length, as of shifting.
 const LONGEST: f64 = 0.1;
 
@@ -56,7 +57,6 @@ impl<const D: usize> Effect<D> for PairingControl {
     }
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
         let by_volume = program.setting().density == DensityForm::Continuity;
-        program.declare_sum(NEAR, "near_pairs", "1/m");
         program.law(Stage::Continuity, *self);
         program.require(move |_| {
             (!by_volume).then(|| Problem::Incompatible {

@@ -5,6 +5,7 @@ use super::{
     Chunk, Effect, Evolved, Hypoelastic, Law, Rate, Setting, StepProgram, Tally, View, When,
 };
 use crate::error::Problem;
+use crate::name;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Real;
 use crate::tensor::Symmetric;
@@ -50,7 +51,7 @@ pub struct PlaneStress;
 
 impl PlaneStress {
     /// Strain ε_zz of the thickness.
-    pub const THICKNESS_STRAIN: Field = Field::scalar(5);
+    pub const THICKNESS_STRAIN: Field = Field::scalar(name!("thickness_strain", "1"));
 }
 
 const STRESS: Field = Hypoelastic::STRESS;
@@ -61,7 +62,7 @@ impl Effect<2> for PlaneStress {
     type Terms = ();
     fn terms(&self, _setting: &Setting) {}
     fn register<T: Real>(&self, program: &mut StepProgram<T, 2>) {
-        program.declare(THICKNESS_STRAIN, "thickness_strain", "1", 0.0);
+        program.declare(THICKNESS_STRAIN, 0.0);
         let strain = Evolved::kicked(THICKNESS_STRAIN).at(When::Drift);
         program.evolve(strain.by(*self));
         program.contribute(STRESS, ThinningStress);

@@ -9,6 +9,7 @@ use super::{
 use crate::error::Problem;
 use crate::material::Material;
 use crate::material::strength::{PlasticState, ROOM_TEMPERATURE};
+use crate::name;
 use crate::particles::{Field, Fields};
 use crate::scalar::Real;
 use crate::tensor::Symmetric;
@@ -57,9 +58,9 @@ pub struct Plasticity;
 
 impl Plasticity {
     /// Equivalent plastic strain ε.
-    pub const STRAIN: Field = Field::scalar(13);
+    pub const STRAIN: Field = Field::scalar(name!("plastic_strain", "1"));
     /// Specific plastic work w \[J/kg\].
-    pub const WORK: Field = Field::scalar(12);
+    pub const WORK: Field = Field::scalar(name!("plastic_work", "J/kg"));
 }
 
 const STRESS: Field = Hypoelastic::STRESS;
@@ -79,8 +80,8 @@ impl<const D: usize> Effect<D> for Plasticity {
     const BOOKS_ENERGY: bool = true;
     fn terms(&self, _setting: &Setting) {}
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
-        program.declare(STRAIN, "plastic_strain", "1", 0.0);
-        program.declare(WORK, "plastic_work", "J/kg", 0.0);
+        program.declare(STRAIN, 0.0);
+        program.declare(WORK, 0.0);
         program.dissipate(WORK);
         program.law(Stage::Continuity, *self);
         program.ledger(LedgerColumn {

@@ -1,35 +1,19 @@
 //! The step program: what effects do in a step, stage by stage, beside their pair terms.
 //! A scheme holds it, a group runs it, and it can be printed.
 
-use super::{Evolved, Law, Limit, Names, Rate, Setting, reads_and_writes, sequence};
+use super::{Evolved, Law, Limit, Rate, Setting, reads_and_writes, sequence};
 use crate::error::Problem;
 use crate::material::Material;
-use crate::particles::{Field, Fields, Output};
+use crate::particles::{Field, Fields};
 use crate::scalar::Real;
 use crate::term::{Stage, TermDoc};
 
-/// A field that an effect declares, for people and files.
+/// A field of the state that an effect declares.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Declared {
-    /// The field.
+pub(crate) struct Declared {
     pub field: Field,
-    /// Its name in files and messages.
-    pub name: &'static str,
-    /// Its SI unit.
-    pub unit: &'static str,
     /// The value that every component starts with.
     pub start: f64,
-}
-
-/// A sum over neighbours that an effect declares, for people.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DeclaredSum {
-    /// The sum.
-    pub sum: Output,
-    /// Its name in messages.
-    pub name: &'static str,
-    /// Its SI unit.
-    pub unit: &'static str,
 }
 
 /// A number of each particle whose sum over a body the ledger keeps.
@@ -71,7 +55,6 @@ pub type Requirement<T> = Box<dyn Fn(&SceneFacts<'_, T>) -> Option<Problem> + Se
 pub struct StepProgram<T: Real, const D: usize> {
     pub(crate) setting: Setting,
     pub(crate) declared: Vec<Declared>,
-    pub(crate) sums: Vec<DeclaredSum>,
     /// Parts of the rates of fields that nothing has begun to integrate.
     pub(crate) pending: Vec<(Field, Box<dyn Rate<T, D>>)>,
     pub(crate) evolved: Vec<Evolved<T, D>>,
@@ -89,6 +72,8 @@ pub struct StepProgram<T: Real, const D: usize> {
     pub(crate) books_energy: bool,
     pub(crate) presses: bool,
     needed: Fields,
+    /// Fields of effects that share their name with others.
+    namesakes: Fields,
 }
 
 impl<T: Real, const D: usize> core::fmt::Debug for StepProgram<T, D> {
@@ -105,7 +90,6 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
         Self {
             setting,
             declared: Vec::new(),
-            sums: Vec::new(),
             pending: Vec::new(),
             evolved: Vec::new(),
             laws: core::array::from_fn(|_| Vec::new()),
@@ -120,6 +104,7 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
             books_energy: true,
             presses: true,
             needed: Fields::NONE,
+            namesakes: Fields::NONE,
         }
     }
 
@@ -129,25 +114,9 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
         &self.setting
     }
 
-    /// Declares a field, with its name and unit in files, and what it starts with.
-    pub fn declare(&mut self, field: Field, name: &'static str, unit: &'static str, start: f64) {
-        self.declared.push(Declared {
-            field,
-            name,
-            unit,
-            start,
-        });
-    }
-
-    /// Declares a sum over neighbours of its own, with its name and unit. A scheme in which a number is used without
-    /// a name, or under two, is refused.
-    pub fn declare_sum(&mut self, sum: Output, name: &'static str, unit: &'static str) {
-        self.sums.push(DeclaredSum { sum, name, unit });
-    }
-
-    /// Lets a field of the crate start with a value.
-    pub fn start(&mut self, field: Field, value: f64) {
-        self.declare(field, field.name(), field.unit(), value);
+    /// Makes a field part of the state, and says what each of its components starts with.
+    pub fn declare(&mut self, field: Field, start: f64) {
+        self.declared.push(Declared { field, start });
     }
 
     /// Integrates a field in time.
@@ -286,7 +255,7 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
 
     /// Why a field with so many components cannot be set between steps.
     pub(crate) fn cannot_set(&self, field: Field, components: usize) -> Option<Problem> {
-        let (name, _) = self.name_of(field);
+        let name = self.name_of(field);
         if field != Field::VELOCITY && !self.keeps(field) {
             return Some(Problem::Incompatible {
                 what: format!("the field {name} is no part of the state under this scheme"),
@@ -328,7 +297,7 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
     /// The order of the laws of a stage, as indices of those that there are.
     pub(crate) fn sequence(&self, stage: Stage) -> Result<Vec<usize>, Problem> {
         let laws = &self.laws[stage.number()];
-        sequence(laws, stage, &|field| self.name_of(field).0)
+        sequence(laws, stage, &|field| self.name_of(field))
     }
 
     /// Puts the laws of every stage into their order; those without one stay as they are, and the scheme is refused.
@@ -342,21 +311,19 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
             let ordered = order.into_iter().filter_map(|k| laws[k].take());
             self.laws[stage.number()] = ordered.collect();
         }
+        let fields = self.fields();
+        let is_clear = |field: &Field| field.name_among(fields.iter()) == field.name();
+        let clear: Vec<Field> = fields.iter().filter(is_clear).collect();
+        self.namesakes = fields.minus(Fields::of(&clear));
         // Of limits that ask for the same step the first is named.
         self.limits.sort_by_key(|limit| limit.name());
     }
 
-    /// The names of what effects declare.
-    pub(crate) fn names(&self) -> Names<'_> {
-        Names {
-            fields: &self.declared,
-            sums: &self.sums,
+    /// The name of a field in files and messages: the full one if another field of the program has the same name.
+    pub(crate) fn name_of(&self, field: Field) -> &'static str {
+        if self.namesakes.contains(field) {
+            return field.full_name();
         }
-    }
-
-    /// The name and unit of a field.
-    pub(crate) fn name_of(&self, field: Field) -> (&'static str, &'static str) {
-        let declared = self.declared.iter().find(|own| own.field == field);
-        declared.map_or((field.name(), field.unit()), |own| (own.name, own.unit))
+        field.name()
     }
 }

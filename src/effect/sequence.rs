@@ -208,10 +208,11 @@ fn cycle<T: Real, const D: usize>(
 mod tests {
     use super::*;
     use crate::effect::{Chunk, Tally};
+    use crate::name;
 
-    const STRESS: Field = Field::tensor(0);
-    const STRAIN: Field = Field::scalar(0);
-    const FAILED: Field = Field::scalar(1);
+    const STRESS: Field = Field::tensor(name!("stress", "Pa"));
+    const STRAIN: Field = Field::scalar(name!("strain", "1"));
+    const FAILED: Field = Field::scalar(name!("failed", "1"));
 
     /// A law of a test.
     #[derive(Clone, Copy, Debug)]

@@ -3,6 +3,7 @@
 
 use super::{Chunk, Effect, Law, Limit, Setting, StepProgram, Tally, View, not_negative};
 use crate::error::Problem;
+use crate::name;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
 use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
@@ -69,12 +70,12 @@ impl SurfaceTension {
 }
 
 /// One in the first liquid, two in the second, zero elsewhere.
-const COLOUR: Field = Field::scalar(9);
-const STEEPNESS: Field = Field::scalar(10);
-const NORMAL: Field = Field::vector(13);
-const GRADIENT: Output = Output::vector(9);
-const TURN: Output = Output::scalar(9);
-const SPAN: Output = Output::scalar(10);
+const COLOUR: Field = Field::scalar(name!("colour", "1"));
+const STEEPNESS: Field = Field::scalar(name!("colour_gradient", "1/m"));
+const NORMAL: Field = Field::vector(name!("interface_normal", "1"));
+const GRADIENT: Output = Output::vector(name!("gradient of the colour", "1/m"));
+const TURN: Output = Output::scalar(name!("turn of the normals", "1/m"));
+const SPAN: Output = Output::scalar(name!("span of the turn", "1"));
 /// Least |∇c| h of a particle at the interface.
 const LEAST: f64 = 0.01;
 
@@ -87,12 +88,9 @@ impl<const D: usize> Effect<D> for SurfaceTension {
         (In::new(ColourGradient), In::new(InterfaceCurvature))
     }
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
-        program.declare(COLOUR, "colour", "1", 0.0);
-        program.declare(STEEPNESS, "colour_gradient", "1/m", 0.0);
-        program.declare(NORMAL, "interface_normal", "1", 0.0);
-        program.declare_sum(GRADIENT, "gradient of the colour", "1/m");
-        program.declare_sum(TURN, "turn of the normals", "1/m");
-        program.declare_sum(SPAN, "span of the turn", "1");
+        program.declare(COLOUR, 0.0);
+        program.declare(STEEPNESS, 0.0);
+        program.declare(NORMAL, 0.0);
         program.law(Stage::State, Colours(self.between.clone()));
         program.law(Stage::Flow, Normals);
         program.law(Stage::Rates, Force(self.tension));

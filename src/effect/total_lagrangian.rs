@@ -3,6 +3,7 @@
 
 use super::{Chunk, Effect, Law, Setting, StepProgram, Tally};
 use crate::error::Problem;
+use crate::name;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
 use crate::tensor::{Matrix, determinant, inverse};
@@ -40,17 +41,17 @@ pub struct TotalLagrangian;
 
 impl TotalLagrangian {
     /// Deformation gradient F = ∂x/∂X, row by row.
-    pub const DEFORMATION: Field = Field::matrix(15);
+    pub const DEFORMATION: Field = Field::matrix(name!("deformation_gradient", "1"));
     /// First Piola–Kirchhoff stress P \[Pa\], row by row, positive in tension: a law at [`Stage::State`] writes it.
-    pub const PIOLA: Field = Field::matrix(14);
+    pub const PIOLA: Field = Field::matrix(name!("piola_stress", "Pa"));
 }
 
 const F: Field = TotalLagrangian::DEFORMATION;
 const PIOLA: Field = TotalLagrangian::PIOLA;
 /// P L \[Pa\].
-const CORRECTED: Field = Field::matrix(13);
+const CORRECTED: Field = Field::matrix(name!("corrected_piola_stress", "Pa"));
 /// Σⱼ V₀ⱼ (uⱼ − uᵢ) ⊗ ∇₀W.
-const DISPLACEMENT_SUM: Output = Output::matrix(15);
+const DISPLACEMENT_SUM: Output = Output::matrix(name!("displacement_gradient", "1"));
 
 impl<const D: usize> Effect<D> for TotalLagrangian {
     type Terms = (
@@ -67,9 +68,8 @@ impl<const D: usize> Effect<D> for TotalLagrangian {
         )
     }
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
-        program.declare(F, "deformation_gradient", "1", 0.0);
-        program.declare(CORRECTED, "corrected_piola_stress", "Pa", 0.0);
-        program.declare_sum(DISPLACEMENT_SUM, "displacement_gradient", "1");
+        program.declare(F, 0.0);
+        program.declare(CORRECTED, 0.0);
         program.carry(Field::REFERENCE_POSITION);
         program.carry(Field::REFERENCE_DENSITY);
         program.carry(Field::CORRECTION);

@@ -3,6 +3,7 @@
 
 use super::{Chunk, DensityForm, Effect, Law, Setting, StepProgram, Tally, not_negative};
 use crate::error::Problem;
+use crate::name;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
 use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
@@ -60,7 +61,7 @@ impl Default for TwoPhase {
 }
 
 /// Density at rest of the liquid that a particle belongs to \[kg/m³\].
-const PHASE: Field = Field::scalar(3);
+const PHASE: Field = Field::scalar(name!("phase", "kg/m³"));
 
 impl TwoPhase {
     /// Density at rest of the liquid that a particle belongs to \[kg/m³\], by which liquids are told apart.
@@ -74,7 +75,7 @@ impl<const D: usize> Effect<D> for TwoPhase {
     }
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
         let by_volume = program.setting().density == DensityForm::Continuity;
-        program.declare(PHASE, "phase", "kg/m³", 0.0);
+        program.declare(PHASE, 0.0);
         program.law(Stage::State, Phases);
         program.require(move |_| {
             (!by_volume).then(|| Problem::Incompatible {

@@ -5,6 +5,7 @@ use super::{
     Chunk, Effect, Evolved, Hypoelastic, Law, Rate, Setting, StepProgram, Tally, View, When,
 };
 use crate::error::Problem;
+use crate::name;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Real;
 use crate::tensor::Symmetric;
@@ -45,7 +46,7 @@ pub struct UniaxialStress;
 
 impl UniaxialStress {
     /// Lateral strain.
-    pub const LATERAL_STRAIN: Field = Field::scalar(11);
+    pub const LATERAL_STRAIN: Field = Field::scalar(name!("lateral_strain", "1"));
 }
 
 const STRESS: Field = Hypoelastic::STRESS;
@@ -56,7 +57,7 @@ impl Effect<1> for UniaxialStress {
     type Terms = ();
     fn terms(&self, _setting: &Setting) {}
     fn register<T: Real>(&self, program: &mut StepProgram<T, 1>) {
-        program.declare(LATERAL_STRAIN, "lateral_strain", "1", 0.0);
+        program.declare(LATERAL_STRAIN, 0.0);
         let strain = Evolved::kicked(LATERAL_STRAIN).at(When::Drift);
         program.evolve(strain.by(*self));
         program.contribute(STRESS, WideningStress);

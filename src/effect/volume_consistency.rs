@@ -4,6 +4,7 @@
 use super::{Effect, Rate, Setting, StepProgram, View, not_negative};
 use crate::error::Problem;
 use crate::material::Material;
+use crate::name;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
 use crate::term::{In, Layout, Pair, Sums, Term, TermDoc, stage};
@@ -41,7 +42,7 @@ pub struct VolumeConsistency {
 }
 
 /// Density \[kg/m³\] by the masses around.
-const SUMMED: Output = Output::scalar(11);
+const SUMMED: Output = Output::scalar(name!("summed_density", "kg/m³"));
 
 /// Σⱼ mⱼ Wᵢⱼ, the sum of [`VolumeConsistency`].
 #[derive(Clone, Copy, Debug)]
@@ -70,7 +71,6 @@ impl<const D: usize> Effect<D> for VolumeConsistency {
     }
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
         let unity = program.setting().lattice_unity;
-        program.declare_sum(SUMMED, "summed_density", "kg/m³");
         program.contribute(
             Field::DENSITY,
             Relaxation {

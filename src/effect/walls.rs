@@ -3,6 +3,7 @@
 
 use super::access::Summed;
 use super::{Around, Chunk, Effect, Law, Setting, StepProgram, Tally};
+use crate::name;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
 use crate::term::viscosity::Riemann;
@@ -142,7 +143,6 @@ impl<const D: usize> Effect<D> for RiemannWalls {
     }
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
         program.ask_for_wall_normals();
-        program.declare_sum(BEFORE, "liquid_velocity_before_wall", "m/s");
         program.law(Stage::Walls, *self);
         program.document(TermDoc {
             name: "walls as one-sided Riemann problems".into(),
@@ -153,7 +153,7 @@ impl<const D: usize> Effect<D> for RiemannWalls {
 }
 
 /// Σ V v W over the liquid before a wall particle.
-const BEFORE: Output = Output::vector(15);
+const BEFORE: Output = Output::vector(name!("liquid_velocity_before_wall", "m/s"));
 
 /// The sum from which the velocity of the liquid before a wall is taken.
 #[derive(Clone, Copy, Debug)]

@@ -168,37 +168,17 @@ pub enum Problem {
         /// The stage in which it does.
         stage: &'static str,
     },
-    /// A number of a field or sum of its own that two effects claim.
+    /// Fields or sums of effects that cannot be together in a scheme: one full name is two things, or there are too many.
     #[error(
-        "the scheme {scheme} has two effects that claim the {kind} {number}, one for `{first}` and one for `{second}`: \
-         give one of them another number"
+        "the {kind} of effects cannot be together in the scheme {scheme}: {fault}; rename one, or leave an effect out"
     )]
-    ClaimedTwice {
+    Names {
         /// The scheme.
         scheme: String,
-        /// Field or sum.
+        /// Fields or sums.
         kind: &'static str,
-        /// Its shape and number.
-        number: String,
-        /// One name.
-        first: &'static str,
-        /// The other.
-        second: &'static str,
-    },
-    /// A field or sum of an effect's own that has no name.
-    #[error(
-        "the scheme {scheme} uses the {kind} {number}, which no effect declares: say what it is with \
-         `StepProgram::{call}`, so that no other effect takes its number"
-    )]
-    NotDeclared {
-        /// The scheme.
-        scheme: String,
-        /// Field or sum.
-        kind: &'static str,
-        /// Its shape and number.
-        number: String,
-        /// The call that declares it.
-        call: &'static str,
+        /// Which, and why.
+        fault: String,
     },
     /// A name that the scene does not know.
     #[error("there is no {kind} called `{name}`: the scene has {}", or_none(.known))]

@@ -1,7 +1,7 @@
 //! Columns of particle data: one growable row of numbers for each field that a scene names.
 //! A field that nobody names is an empty column.
 
-use super::field::{Field, Fields, PLACES};
+use super::field::{Field, Fields};
 use crate::scalar::Real;
 
 /// The particles of a group, one column a field.
@@ -20,15 +20,13 @@ impl<T: Real, const D: usize> Columns<T, D> {
     /// Columns for `fields`, all zero.
     #[must_use]
     pub fn new(fields: Fields, slots: usize) -> Self {
-        let mut data = vec![Vec::new(); PLACES];
-        for field in fields.iter() {
-            data[field.place()] = vec![T::zero(); field.components(D) * slots];
-        }
-        Self {
-            data,
-            fields,
+        let mut columns = Self {
+            data: vec![Vec::new(); Fields::PLACES],
+            fields: Fields::NONE,
             slots,
-        }
+        };
+        columns.set_fields(fields);
+        columns
     }
 
     /// Number of slots, repeats included.
@@ -53,29 +51,31 @@ impl<T: Real, const D: usize> Columns<T, D> {
     #[inline]
     #[must_use]
     pub fn raw(&self, field: Field) -> &[T] {
-        &self.data[field.place()]
+        (self.fields.place(field)).map_or(&[], |place| &self.data[place])
     }
 
     /// The column of a field, mutable.
     #[inline]
     #[must_use]
     pub fn raw_mut(&mut self, field: Field) -> &mut [T] {
-        &mut self.data[field.place()]
+        (self.fields.place(field)).map_or(&mut [], |place| &mut self.data[place])
     }
 
-    /// The column of a field as it is stored, to be taken out for a while and put back.
+    /// The column of a field that has one as it is stored, to be taken out for a while and put back.
     pub(crate) fn column_mut(&mut self, field: Field) -> &mut Vec<T> {
-        &mut self.data[field.place()]
+        let place = self.fields.place(field);
+        // The last place is that of no field of the crate.
+        &mut self.data[place.unwrap_or(Fields::PLACES - 1)]
     }
 
     /// Every column that is there, with its field, in the order of storage.
     pub(crate) fn iter_mut(&mut self) -> impl Iterator<Item = (Field, &mut [T])> {
-        let fields = self.fields;
-        let columns = self.data.iter_mut().enumerate();
-        let present = columns.filter(move |(place, _)| fields.has_place(*place));
-        fields
-            .iter()
-            .zip(present.map(|(_, column)| column.as_mut_slice()))
+        let (fields, mut columns) = (self.fields, self.data.iter_mut().enumerate());
+        fields.iter().filter_map(move |field| {
+            let place = fields.place(field);
+            let (_, column) = columns.find(|(own, _)| Some(*own) == place)?;
+            Some((field, column.as_mut_slice()))
+        })
     }
 
     /// A vector field as one array a slot.
@@ -83,7 +83,7 @@ impl<T: Real, const D: usize> Columns<T, D> {
     #[must_use]
     pub fn vectors(&self, field: Field) -> &[[T; D]] {
         debug_assert_eq!(field.components(D), D);
-        self.data[field.place()].as_chunks::<D>().0
+        self.raw(field).as_chunks::<D>().0
     }
 
     /// A vector field as one array a slot, mutable.
@@ -91,37 +91,43 @@ impl<T: Real, const D: usize> Columns<T, D> {
     #[must_use]
     pub fn vectors_mut(&mut self, field: Field) -> &mut [[T; D]] {
         debug_assert_eq!(field.components(D), D);
-        self.data[field.place()].as_chunks_mut::<D>().0
+        self.raw_mut(field).as_chunks_mut::<D>().0
     }
 
-    /// Several different columns at once, mutable; all empty if a field is named twice.
+    /// Several different columns at once, mutable; one that is named twice is empty the second time.
     #[must_use]
     pub fn many_mut<const N: usize>(&mut self, fields: [Field; N]) -> [&mut [T]; N] {
-        match self
-            .data
-            .get_disjoint_mut(fields.map(|field| field.place()))
-        {
-            Ok(columns) => columns.map(Vec::as_mut_slice),
-            Err(_) => core::array::from_fn(|_| [].as_mut_slice()),
+        let mut found = core::array::from_fn(|_| [].as_mut_slice());
+        for (own, column) in self.iter_mut() {
+            if let Some(k) = fields.iter().position(|field| field.is(own)) {
+                found[k] = column;
+            }
         }
+        found
     }
 
     /// Has columns for `fields` and no others: those that were not there are zero.
     pub(crate) fn set_fields(&mut self, fields: Fields) {
-        for field in self.fields.minus(fields).iter() {
-            self.data[field.place()] = Vec::new();
+        let mut data = vec![Vec::new(); Fields::PLACES];
+        for field in fields.iter() {
+            let (Some(place), numbers) = (fields.place(field), field.components(D) * self.slots)
+            else {
+                continue;
+            };
+            data[place] = if self.fields.contains(field) {
+                core::mem::take(self.column_mut(field))
+            } else {
+                vec![T::zero(); numbers]
+            };
         }
-        for field in fields.minus(self.fields).iter() {
-            self.data[field.place()] = vec![T::zero(); field.components(D) * self.slots];
-        }
-        self.fields = fields;
+        (self.data, self.fields) = (data, fields);
     }
 
     /// Sets all fields of a slot to zero.
     pub(crate) fn clear_slot(&mut self, slot: usize) {
         for field in self.fields.iter() {
             let width = field.components(D);
-            self.data[field.place()][slot * width..(slot + 1) * width].fill(T::zero());
+            self.raw_mut(field)[slot * width..(slot + 1) * width].fill(T::zero());
         }
     }
 
@@ -130,7 +136,7 @@ impl<T: Real, const D: usize> Columns<T, D> {
         self.slots = order.len();
         let mut sorted = Vec::new();
         for field in self.fields.iter() {
-            let column = &mut self.data[field.place()];
+            let column = self.column_mut(field);
             let width = field.components(D);
             sorted.clear();
             sorted.reserve(width * order.len());

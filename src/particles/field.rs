@@ -1,9 +1,11 @@
 //! What a particle can carry, and what a sweep over its neighbours can sum.
 //! Terms declare both as constants, so storage is the union of what a scene's parts name.
 
+use super::name::{Key, Name, Set, Shape, shapes};
+
 macro_rules! quantities {
     (
-        $(#[$doc:meta])* $Quantity:ident, $index:ident, $Set:ident, $set_doc:literal;
+        $(#[$doc:meta])* $Quantity:ident, $index:ident, $Set:ident, $set_doc:literal, $example:literal;
         $( $(#[$vdoc:meta])* $NAME:ident, $shape:ident, $name:literal, $unit:literal; )*
     ) => {
         #[allow(non_camel_case_types, clippy::upper_case_acronyms)]
@@ -14,14 +16,17 @@ macro_rules! quantities {
 
         $(#[$doc])*
         ///
-        /// Those of the crate are constants here; an effect declares its own with
-        #[doc = concat!("[`", stringify!($Quantity), "::scalar`], [`", stringify!($Quantity), "::vector`], [`",
-            stringify!($Quantity), "::tensor`] or [`", stringify!($Quantity), "::matrix`].")]
+        /// Those of the crate are constants here. An effect makes its own, as constants too, and names them:
+        ///
+        /// ```
+        /// use meshfree::name;
+        #[doc = concat!("use meshfree::particles::", stringify!($Quantity), ";")]
+        #[doc = $example]
+        /// ```
+        ///
+        /// The [full name](Self::full_name) tells it from all others. Effects that use one together share the constant.
         #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-        pub struct $Quantity {
-            index: u8,
-            shape: Shape,
-        }
+        pub struct $Quantity(Key);
 
         impl core::fmt::Debug for $Quantity {
             fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
@@ -30,269 +35,207 @@ macro_rules! quantities {
         }
 
         impl $Quantity {
-            $( $(#[$vdoc])* pub const $NAME: Self = Self {
-                index: $index::Index::$NAME as u8,
-                shape: Shape::$shape,
-            }; )*
-            const NAMES: &'static [[&'static str; 2]] = &[$( [$name, $unit], )*];
+            $( $(#[$vdoc])* pub const $NAME: Self = Self(Key::of_crate(
+                $index::Index::$NAME as u8,
+                Shape::$shape,
+                &Name { full: concat!("meshfree::", $name), unit: $unit },
+            )); )*
 
             /// Those of the crate that every scheme knows, in the order of storage.
             pub const ALL: &'static [$Quantity] = &[$( $Quantity::$NAME, )*];
+            const SHAPES: [u64; 3] = shapes(&[$( Shape::$shape, )*]);
 
-            own_quantities! { $Quantity
-                /// One number that no rotation changes.
-                scalar: Scalar,
-                /// A vector that only rotates.
-                vector: Vector,
-                /// A symmetric tensor of six components, whatever the dimension.
-                tensor: Tensor,
-                /// A `D × D` matrix, row by row.
-                matrix: Matrix
-            }
-
-            /// Where it stands in tables of all quantities, below [`PLACES`](crate::particles::PLACES).
-            #[inline(always)]
+            /// One number of an effect that no rotation changes.
             #[must_use]
-            pub const fn place(self) -> usize {
-                self.index as usize
+            pub const fn scalar(name: &'static Name) -> Self {
+                Self(Key::of_effect(Shape::Scalar, name))
             }
-            /// What stands in a place; one of the free places below 64 holds nothing, and is called a scalar.
-            pub(crate) const fn at(place: usize) -> Self {
-                if place < Self::ALL.len() {
-                    return Self::ALL[place];
-                }
-                Self {
-                    index: place as u8,
-                    shape: own_shape(place),
-                }
+            /// A vector of an effect that only rotates.
+            #[must_use]
+            pub const fn vector(name: &'static Name) -> Self {
+                Self(Key::of_effect(Shape::Vector, name))
             }
-            /// The number and shape of one that an effect declares, as `scalar 3`; none of those of the crate.
-            pub(crate) fn own_number(self) -> Option<String> {
-                let own = self.place().checked_sub(64)?;
-                Some(format!("{} {}", self.shape.word(), own % OWN))
+            /// A symmetric tensor of an effect, of six components whatever the dimension.
+            #[must_use]
+            pub const fn tensor(name: &'static Name) -> Self {
+                Self(Key::of_effect(Shape::Tensor, name))
+            }
+            /// A `D × D` matrix of an effect, row by row.
+            #[must_use]
+            pub const fn matrix(name: &'static Name) -> Self {
+                Self(Key::of_effect(Shape::Matrix, name))
+            }
+
+            /// The place among those of the crate; none of one of an effect.
+            #[inline(always)]
+            pub(crate) const fn index(self) -> Option<usize> {
+                self.0.index()
+            }
+            /// Whether both are the same, for pair loops: `==` compares names too.
+            #[inline(always)]
+            pub(crate) const fn is(self, other: Self) -> bool {
+                self.0.is(other.0)
             }
             /// Numbers per particle in `d` dimensions.
             #[must_use]
             pub const fn components(self, d: usize) -> usize {
-                self.shape.components(d)
+                self.0.shape().components(d)
             }
             /// How it changes under rotation and reflection.
             #[must_use]
             pub const fn shape(self) -> Shape {
-                self.shape
+                self.0.shape()
             }
-            /// Its name in files and messages; of one that an effect declares, its shape, for the effect names it.
+            /// Its name without the namespace, as it stands in files and messages.
             #[must_use]
-            pub fn name(self) -> &'static str {
-                match Self::NAMES.get(self.place()) {
-                    Some([name, _]) => name,
-                    None => self.shape.own_name(),
+            pub const fn name(self) -> &'static str {
+                self.0.name().local()
+            }
+            /// Its SI unit.
+            #[must_use]
+            pub const fn unit(self) -> &'static str {
+                self.0.name().unit
+            }
+            /// Its name with the package that it belongs to, as `meshfree::density`.
+            #[must_use]
+            pub const fn full_name(self) -> &'static str {
+                self.0.name().full
+            }
+            /// Its name among others: the full one if it is of an effect, and another has the same name.
+            #[allow(dead_code)]
+            pub(crate) fn name_among(self, others: impl IntoIterator<Item = Self>) -> &'static str {
+                let clashes = |other: Self| !other.is(self) && other.name() == self.name();
+                if self.index().is_none() && others.into_iter().any(clashes) {
+                    return self.full_name();
                 }
-            }
-            /// Its SI unit; empty for one that an effect declares.
-            #[must_use]
-            pub fn unit(self) -> &'static str {
-                Self::NAMES.get(self.place()).map_or("", |[_, unit]| unit)
+                self.name()
             }
         }
 
         #[doc = $set_doc]
-        #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-        pub struct $Set(u128);
+        ///
+        /// Those of the crate come first, in their order, and those of effects behind them. A set has room for
+        #[doc = concat!("[`MOST_OF_EFFECTS`](Self::MOST_OF_EFFECTS) of these. One that lacks room for a member, or has two of one name that differ in shape or unit,")]
+        /// does not compile as the set of a sweep, and a scheme with it is refused.
+        #[derive(Clone, Copy, PartialEq, Eq)]
+        pub struct $Set(Set);
+
+        impl Default for $Set {
+            fn default() -> Self {
+                Self::NONE
+            }
+        }
+
+        impl core::fmt::Debug for $Set {
+            fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+                f.debug_set().entries(self.iter()).finish()
+            }
+        }
 
         impl $Set {
             /// The empty set.
-            pub const NONE: Self = Self(0);
+            pub const NONE: Self = Self(Set::NONE);
             /// The set of all that the crate names.
             pub const ALL: Self = Self::of($Quantity::ALL);
+            /// How many of effects a set has room for.
+            pub const MOST_OF_EFFECTS: usize = Set::MOST;
 
             /// The set of the listed members.
             #[must_use]
             pub const fn of(members: &[$Quantity]) -> Self {
-                let (mut bits, mut k) = (0, 0);
+                let (mut set, mut k) = (Set::NONE, 0);
                 while k < members.len() {
-                    bits |= 1 << members[k].index;
+                    set = set.with(members[k].0);
                     k += 1;
                 }
-                Self(bits)
+                Self(set)
             }
             /// Members of either set.
             #[must_use]
             pub const fn union(self, other: Self) -> Self {
-                Self(self.0 | other.0)
+                Self(self.0.union(&other.0))
             }
             /// Members of this set that are not in the other.
             #[must_use]
             pub const fn minus(self, other: Self) -> Self {
-                Self(self.0 & !other.0)
+                Self(self.0.minus(&other.0))
             }
             /// The set without `member`.
             #[must_use]
             pub const fn without(self, member: $Quantity) -> Self {
-                Self(self.0 & !(1 << member.index))
+                self.minus(Self::of(&[member]))
             }
             /// Whether it has no members.
             #[must_use]
-            pub const fn is_empty(self) -> bool {
-                self.0 == 0
+            pub const fn is_empty(&self) -> bool {
+                self.0.is_empty()
             }
             /// Whether `member` belongs to the set.
             #[must_use]
             #[inline(always)]
-            pub const fn contains(self, member: $Quantity) -> bool {
-                self.0 >> member.index & 1 == 1
-            }
-            /// Whether the member with this place belongs to the set.
-            #[allow(dead_code)]
-            pub(crate) const fn has_place(self, place: usize) -> bool {
-                self.0 >> place & 1 == 1
+            pub const fn contains(&self, member: $Quantity) -> bool {
+                self.0.contains(member.0)
             }
             /// Where `member` starts when the set is laid out in order, in `d` dimensions.
             #[must_use]
             #[inline(always)]
-            pub const fn offset(self, member: $Quantity, d: usize) -> usize {
-                Self(self.0 & ((1 << member.index) - 1)).width(d)
+            pub const fn offset(&self, member: $Quantity, d: usize) -> usize {
+                self.0.offset(member.0, &$Quantity::SHAPES, d)
             }
             /// Numbers per particle of the whole set in `d` dimensions.
-            ///
-            /// Population counts, so that the pair loop sees constants.
             #[must_use]
             #[inline(always)]
-            pub const fn width(self, d: usize) -> usize {
-                const SCALARS: u128 = $Set::of_shape(1);
-                const TENSORS: u128 = $Set::of_shape(6);
-                const MATRICES: u128 = $Set::of_shape(9);
-                let scalars = (self.0 & SCALARS).count_ones() as usize;
-                let tensors = (self.0 & TENSORS).count_ones() as usize;
-                let matrices = (self.0 & MATRICES).count_ones() as usize;
-                let vectors = (self.0 & !(SCALARS | TENSORS | MATRICES)).count_ones() as usize;
-                scalars + vectors * d + tensors * 6 + matrices * d * d
-            }
-            /// The places of quantities with so many components in three dimensions.
-            const fn of_shape(components: usize) -> u128 {
-                let (mut bits, mut k) = (own_places(components), 0);
-                while k < $Quantity::ALL.len() {
-                    if $Quantity::ALL[k].components(3) == components {
-                        bits |= 1 << k;
-                    }
-                    k += 1;
-                }
-                bits
+            pub const fn width(&self, d: usize) -> usize {
+                self.0.width(&$Quantity::SHAPES, d)
             }
             /// The members in the order of storage.
             pub fn iter(self) -> impl Iterator<Item = $Quantity> {
-                let mut left = self.0;
+                let mut next = 0;
                 core::iter::from_fn(move || {
-                    let place = left.trailing_zeros() as usize;
-                    // Clears the lowest bit that is set.
-                    left &= left.wrapping_sub(1);
-                    (place < PLACES).then(|| $Quantity::at(place))
+                    let member;
+                    (member, next) = self.from(next)?;
+                    Some(member)
                 })
             }
-        }
-    };
-}
-
-/// The constructors of quantities that effects declare.
-macro_rules! own_quantities {
-    ($Quantity:ident $( $(#[$doc:meta])* $name:ident: $Shape:ident ),*) => {
-        $(
-            $(#[$doc])*
-            ///
-            /// `number` tells it from others of its shape that effects of the same scheme declare, and is below
-            /// [`OWN`](crate::particles::OWN); those of the crate take numbers from the end. Two effects that
-            /// claim one number for different names are refused when the scene is built.
-            ///
-            /// A number out of range does not compile where the quantity is a constant, as it should be.
-            #[must_use]
-            pub const fn $name(number: u8) -> Self {
-                assert!((number as usize) < OWN, "an own quantity has a number below particles::OWN");
-                Self {
-                    index: own_start(Shape::$Shape.components(3)) as u8 + number,
-                    shape: Shape::$Shape,
-                }
+            /// The first member from a place on, and the place behind it; from zero on this goes through all members.
+            #[allow(clippy::wrong_self_convention)]
+            pub(crate) const fn from(&self, place: usize) -> Option<($Quantity, usize)> {
+                let Some(at) = self.0.place_from(place) else {
+                    return None;
+                };
+                let member = match self.0.of_effect(at) {
+                    Some(key) => $Quantity(key),
+                    None => $Quantity::ALL[at],
+                };
+                Some((member, at + 1))
             }
-        )*
+            /// The place of a member in tables of [`PLACES`](Self::PLACES): those of the crate have one whether or not they
+            /// are members.
+            #[allow(dead_code)]
+            #[inline(always)]
+            pub(crate) const fn place(&self, member: $Quantity) -> Option<usize> {
+                self.0.place(member.0)
+            }
+            /// How many places tables of members need.
+            #[allow(dead_code)]
+            pub(crate) const PLACES: usize = Set::PLACES;
+            /// Whether the set has all that was put into it.
+            pub(crate) const fn is_sound(&self) -> bool {
+                self.0.fault().is_none()
+            }
+            /// Why the set does not have all that was put into it, in words.
+            pub(crate) fn fault(&self) -> Option<String> {
+                let [first, second] = self.0.fault()?;
+                Some(first.against(second))
+            }
+        }
     };
-}
-
-/// Places in sets and tables: 64 for the quantities of the crate, then those that effects declare, by shape.
-pub const PLACES: usize = 128;
-/// How many quantities of one shape effects may declare.
-pub const OWN: usize = 16;
-
-/// The first place of own quantities with so many components in three dimensions.
-const fn own_start(components: usize) -> usize {
-    match components {
-        1 => 64,
-        3 => 64 + OWN,
-        6 => 64 + 2 * OWN,
-        _ => 64 + 3 * OWN,
-    }
-}
-
-/// The places of own quantities with so many components in three dimensions.
-const fn own_places(components: usize) -> u128 {
-    ((1 << OWN) - 1) << own_start(components)
-}
-
-const fn own_shape(place: usize) -> Shape {
-    match place.saturating_sub(64) / OWN {
-        0 => Shape::Scalar,
-        1 => Shape::Vector,
-        2 => Shape::Tensor,
-        _ => Shape::Matrix,
-    }
-}
-
-/// How a quantity changes under rotation and reflection.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
-pub enum Shape {
-    /// One number that no rotation changes.
-    Scalar,
-    /// A point in space.
-    Point,
-    /// A velocity: also shifted by a moving boundary.
-    Velocity,
-    /// A vector that only rotates.
-    Vector,
-    /// A symmetric tensor of six components, xx, yy, zz, yz, xz, xy, whatever the dimension: plane and
-    /// uniaxial states need those out of the plane.
-    Tensor,
-    /// A `D × D` matrix, row by row.
-    Matrix,
-}
-
-impl Shape {
-    const fn own_name(self) -> &'static str {
-        match self {
-            Shape::Scalar => "own scalar",
-            Shape::Tensor => "own tensor",
-            Shape::Matrix => "own matrix",
-            _ => "own vector",
-        }
-    }
-    const fn word(self) -> &'static str {
-        match self {
-            Shape::Scalar => "scalar",
-            Shape::Tensor => "tensor",
-            Shape::Matrix => "matrix",
-            _ => "vector",
-        }
-    }
-    const fn components(self, d: usize) -> usize {
-        match self {
-            Shape::Scalar => 1,
-            Shape::Point | Shape::Velocity | Shape::Vector => d,
-            Shape::Tensor => 6,
-            Shape::Matrix => d * d,
-        }
-    }
 }
 
 quantities! {
     /// A quantity that a particle carries.
-    Field, field_index, Fields, "A set of [`Field`]s, usable in constants.";
+    Field, field_index, Fields, "A set of [`Field`]s, usable in constants.",
+    "const STRESS: Field = Field::tensor(name!(\"stress\", \"Pa\"));";
     /// Position x, counted from the [origin](crate::scene#place) of the scene.
     POSITION, Point, "position", "m";
     /// The rounding error of the position, kept where the scalar is `f32`.
@@ -368,7 +311,8 @@ quantities! {
 
 quantities! {
     /// A sum over neighbours.
-    Output, output_index, Outputs, "A set of [`Output`]s, usable in constants.";
+    Output, output_index, Outputs, "A set of [`Output`]s, usable in constants.",
+    "const FLOW: Output = Output::scalar(name!(\"heat_flow\", \"W\"));";
     /// Force Σⱼ Fᵢⱼ.
     FORCE, Vector, "force", "N";
     /// Rate of internal energy times mass, Σⱼ −½ Fᵢⱼ·vᵢⱼ.
@@ -422,15 +366,23 @@ impl Fields {
     /// and all symmetric tensors, which are taken for stresses.
     #[must_use]
     pub const fn stresses(self) -> Self {
-        const PRESSURES: Fields =
-            Fields::of(&[Field::PRESSURE_COEFFICIENT, Field::PRESSURE_GRADIENT]);
-        Self(self.0 & (PRESSURES.0 | Self::of_shape(6)))
+        let pressures = Self::of(&[Field::PRESSURE_COEFFICIENT, Field::PRESSURE_GRADIENT]);
+        let (mut others, mut place) = (self.minus(pressures), 0);
+        while let Some((field, next)) = others.from(place) {
+            if matches!(field.shape(), Shape::Tensor) {
+                others = others.without(field);
+            } else {
+                place = next;
+            }
+        }
+        self.minus(others)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::name;
 
     #[test]
     fn layout_is_dense_and_ordered() {
@@ -444,8 +396,8 @@ mod tests {
 
     #[test]
     fn tensors_are_taken_for_stresses_and_temperatures_are_not() {
-        const STRESS: Field = Field::tensor(3);
-        const TEMPERATURE: Field = Field::scalar(0);
+        const STRESS: Field = Field::tensor(name!("stress", "Pa"));
+        const TEMPERATURE: Field = Field::scalar(name!("temperature", "K"));
         let set = Fields::of(&[
             STRESS,
             TEMPERATURE,
@@ -454,5 +406,85 @@ mod tests {
         ]);
         let carry = Fields::of(&[STRESS, Field::PRESSURE_COEFFICIENT]);
         assert_eq!(set.stresses(), carry);
+    }
+
+    /// A name that only a test knows.
+    fn named(package: &str, local: &str, unit: &'static str) -> &'static Name {
+        let full = format!("{package}::{local}").leak();
+        Box::leak(Box::new(Name { full, unit }))
+    }
+
+    #[test]
+    fn a_set_of_any_fields_is_what_a_list_of_them_is() {
+        let shapes = [Field::scalar, Field::vector, Field::tensor, Field::matrix];
+        let all: Vec<Field> = (0..Fields::MOST_OF_EFFECTS)
+            .map(|k| shapes[k % 4](named("a", &k.to_string(), "1")))
+            .chain(Field::ALL.iter().copied())
+            .collect();
+        let set = all
+            .iter()
+            .fold(Fields::NONE, |set, own| set.union(Fields::of(&[*own])));
+        assert!(set.is_sound() && set == Fields::of(&all));
+        let members: Vec<Field> = set.iter().collect();
+        assert_eq!(members.len(), all.len());
+        assert!(members.is_sorted());
+        let mut at = 0;
+        for field in &members {
+            assert_eq!(set.offset(*field, 2), at);
+            at += field.components(2);
+            assert!(set.contains(*field) && !set.without(*field).contains(*field));
+        }
+        assert_eq!(set.width(2), at);
+        let half = Fields::of(&all[10..40]);
+        let other: Vec<Field> = all
+            .iter()
+            .copied()
+            .filter(|own| !half.contains(*own))
+            .collect();
+        assert_eq!(set.minus(half), Fields::of(&other));
+        assert_eq!(half.minus(set), Fields::NONE);
+    }
+
+    #[test]
+    fn what_a_set_has_no_room_for_it_names() {
+        let fields: Vec<Field> = (0..Fields::MOST_OF_EFFECTS + 1)
+            .map(|k| Field::scalar(named("a", &format!("f{k}"), "1")))
+            .collect();
+        let set = Fields::of(&fields);
+        assert_eq!(set.iter().count(), Fields::MOST_OF_EFFECTS);
+        let fault = Fields::of(&[Field::MASS])
+            .union(set)
+            .fault()
+            .expect("a fault");
+        assert_eq!(
+            fault,
+            "there is no room for `a::f32` beside 32 others of effects"
+        );
+    }
+
+    #[test]
+    fn one_name_of_two_shapes_or_units_is_a_fault() {
+        let name = |unit| named("a", "stress", unit);
+        let own = Field::tensor(name("Pa"));
+        for other in [
+            Field::scalar(name("Pa")),
+            Field::matrix(name("Pa")),
+            Field::tensor(name("bar")),
+        ] {
+            let fault = Fields::of(&[own]).union(Fields::of(&[other])).fault();
+            let fault = fault.expect("a fault");
+            assert!(fault.contains("`a::stress` is a tensor [Pa]"), "{fault}");
+        }
+        assert!(Fields::of(&[own, own, Field::tensor(name("Pa"))]).is_sound());
+    }
+
+    #[test]
+    fn a_name_that_two_have_is_written_in_full() {
+        let [a, b] = ["a", "b"].map(|own| Field::scalar(named(own, "dye", "1")));
+        let density = Field::scalar(named("a", "density", "1"));
+        assert_eq!(a.name_among([a, density, Field::DENSITY]), "dye");
+        assert_eq!(a.name_among([a, b]), "a::dye");
+        assert_eq!(density.name_among([Field::DENSITY]), "a::density");
+        assert_eq!(Field::DENSITY.name_among([density]), "density");
     }
 }

@@ -4,10 +4,12 @@
 //! [`Field`] and [`Output`] list everything with name, unit and shape. [`Fields`] and [`Outputs`] are
 //! sets of them that can be constants, so a [term](crate::term) declares what it touches and the
 //! compiler knows where each number of a record stands. Effects declare fields and sums of
-//! their own with [`Field::scalar`] and its like.
+//! their own by name, with [`Field::scalar`] and its like.
 
 mod columns;
 mod field;
+mod name;
 
 pub use columns::Columns;
-pub use field::{Field, Fields, OWN, Output, Outputs, PLACES, Shape};
+pub use field::{Field, Fields, Output, Outputs};
+pub use name::{Name, Shape};

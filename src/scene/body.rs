@@ -243,9 +243,10 @@ impl<T: Real, const D: usize> Body<T, D> {
     ///
     /// ```
     /// use meshfree::effect::{Effect, Setting, StepProgram};
+    /// use meshfree::name;
     /// use meshfree::prelude::*;
     ///
-    /// const DYE: Field = Field::scalar(0);
+    /// const DYE: Field = Field::scalar(name!("dye", "1"));
     ///
     /// /// A dye that moves with the particles.
     /// #[derive(Clone, Debug)]
@@ -254,7 +255,7 @@ impl<T: Real, const D: usize> Body<T, D> {
     ///     type Terms = ();
     ///     fn terms(&self, _: &Setting) {}
     ///     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
-    ///         program.declare(DYE, "dye", "1", 0.0);
+    ///         program.declare(DYE, 0.0);
     ///     }
     /// }
     /// let simulation = Scene::<f64, 1>::new(schemes::impact().with(Dye))

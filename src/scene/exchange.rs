@@ -129,7 +129,7 @@ fn differences<T: Real, const D: usize>(a: &Scheme<T, D>, b: &Scheme<T, D>) -> V
     all.extend(left.iter().map(|field| {
         format!(
             "the {} that the one before integrates",
-            a.program.name_of(field).0
+            a.program.name_of(field)
         )
     }));
     all

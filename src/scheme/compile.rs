@@ -74,7 +74,7 @@ impl<K, V, W, E> SchemeBuilder<K, V, W, E> {
         program.books_energy &= W::BOOKS_ENERGY;
         self.effects.register(&mut program);
         if let Some(law) = switch {
-            program.start(Field::VISCOSITY_COEFFICIENT, law.switch.start());
+            program.declare(Field::VISCOSITY_COEFFICIENT, law.switch.start());
             for field in law.switch.keeps().iter() {
                 program.carry(field);
             }

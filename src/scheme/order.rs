@@ -1,8 +1,8 @@
 //! The order of a step: every field and sum that a stage reads has been written by then, or belongs to the state.
-//! What effects call their own has one name, so no two take the same number.
+//! Fields and sums of effects have full names, and one name is one thing.
 
 use super::Scheme;
-use crate::effect::{MOST_COLUMNS, MOST_LAWS, Update, When, reads_and_writes};
+use crate::effect::{MOST_LAWS, Update, When, reads_and_writes};
 use crate::error::Problem;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Real;
@@ -54,11 +54,14 @@ struct Reader {
 }
 
 impl<T: Real, const D: usize> Scheme<T, D> {
-    /// What is wrong with the order of the stages, and with the names of what effects call their own.
+    /// What is wrong with the order of the stages, and with the names of fields and sums.
     pub(crate) fn misordered(&self) -> Vec<Problem> {
         let mut problems = Vec::new();
-        self.check_names(&mut problems);
         self.check_room(&mut problems);
+        if !problems.is_empty() {
+            // What has no room would be missed everywhere.
+            return problems;
+        }
         let laws = Stage::ALL.map(|stage| self.program.sequence(stage).err());
         problems.extend(laws.into_iter().flatten());
         self.check_forces(&mut problems);
@@ -182,7 +185,7 @@ impl<T: Real, const D: usize> Scheme<T, D> {
                 When::Kick => Stage::Rates,
                 When::Drift => Stage::Continuity,
             };
-            let (name, _) = self.program.name_of(own.field);
+            let name = self.program.name_of(own.field);
             if seen.contains(own.field) {
                 problems.push(Problem::Incompatible {
                     what: format!("the scheme {} integrates {name} twice", self.name),
@@ -213,7 +216,7 @@ impl<T: Real, const D: usize> Scheme<T, D> {
                 what: format!(
                     "an effect of the scheme {} adds to the rate of {}, which nothing integrates",
                     self.name,
-                    self.program.name_of(*field).0
+                    self.program.name_of(*field)
                 ),
                 remedy: "take a form that integrates it, or leave the effect out",
             });
@@ -232,93 +235,47 @@ impl<T: Real, const D: usize> Scheme<T, D> {
             });
         };
         for field in by.fields.minus(known).iter() {
-            missing("field", self.program.name_of(field).0);
+            missing("field", self.program.name_of(field));
         }
         for sum in by.sums.minus(summed).iter() {
             missing("sum", self.name_of_sum(sum));
         }
     }
 
-    /// The name of a sum.
+    /// The sums of all sweeps.
+    fn all_sums(&self) -> Outputs {
+        let sweeps = self.sweeps.iter().flatten();
+        sweeps.fold(Outputs::NONE, |all, sweep| all.union(sweep.outputs()))
+    }
+
+    /// The name of a sum: the full one if another of the scheme has the same name.
     pub(super) fn name_of_sum(&self, sum: Output) -> &'static str {
-        let own = self.program.sums.iter().find(|own| own.sum == sum);
-        own.map_or(sum.name(), |own| own.name)
+        sum.name_among(self.all_sums().iter())
     }
 
-    /// Whether there is room for all fields, with the two that contacts may add, and for the laws of every stage.
+    /// Whether every field and sum has a name of its own, and room; and whether the laws of every stage have.
     fn check_room(&self, problems: &mut Vec<Problem>) {
-        const OF_CONTACTS: usize = 2;
-        let mut held = |what, count: usize, most: usize| {
-            if count > most {
-                problems.push(Problem::Parameter {
-                    what: format!("number of {what} of the scheme {}", self.name),
-                    value: count as f64,
-                    must_be: "there is no room for more than 46 fields, and 16 laws a stage: leave effects out",
-                });
-            }
-        };
-        held(
-            "fields",
-            self.fields().iter().count(),
-            MOST_COLUMNS - OF_CONTACTS,
-        );
-        for laws in &self.program.laws {
-            held("laws at a stage", laws.len(), MOST_LAWS);
-        }
-    }
-
-    /// Names of what effects call their own: each number has one.
-    fn check_names(&self, problems: &mut Vec<Problem>) {
-        let program = &self.program;
-        let mut claimed = |kind, number: Option<String>, first: &'static str, second| {
-            problems.extend(number.filter(|_| first != second).map(|number| {
-                Problem::ClaimedTwice {
-                    scheme: self.name.clone(),
-                    kind,
-                    number,
-                    first,
-                    second,
-                }
-            }));
-        };
-        for (k, own) in program.declared.iter().enumerate() {
-            for other in program.declared[..k]
-                .iter()
-                .filter(|other| other.field == own.field)
-            {
-                claimed("field", own.field.own_number(), other.name, own.name);
-            }
-        }
-        for (k, own) in program.sums.iter().enumerate() {
-            for other in program.sums[..k]
-                .iter()
-                .filter(|other| other.sum == own.sum)
-            {
-                claimed("sum", own.sum.own_number(), other.name, own.name);
-            }
-        }
-        let mut unnamed = |kind, number, call| {
-            problems.push(Problem::NotDeclared {
+        let all = [
+            ("fields", self.fields().fault()),
+            ("sums", self.all_sums().fault()),
+        ];
+        for (kind, fault) in all {
+            problems.extend(fault.map(|fault| Problem::Names {
                 scheme: self.name.clone(),
                 kind,
-                number,
-                call,
-            });
-        };
-        for field in self.fields().iter() {
-            if !program.declared.iter().any(|own| own.field == field)
-                && let Some(number) = field.own_number()
-            {
-                unnamed("field", number, "declare");
-            }
+                fault,
+            }));
         }
-        let sweeps = self.sweeps.iter().flatten();
-        let sums = sweeps.fold(Outputs::NONE, |all, sweep| all.union(sweep.outputs()));
-        for sum in sums.iter() {
-            if !program.sums.iter().any(|own| own.sum == sum)
-                && let Some(number) = sum.own_number()
-            {
-                unnamed("sum", number, "declare_sum");
+        for laws in &self.program.laws {
+            if let Some(law) = laws.get(MOST_LAWS) {
+                problems.push(Problem::Incompatible {
+                    what: format!(
+                        "a stage of the scheme {} has room for {MOST_LAWS} laws, and not for `{}`",
+                        self.name,
+                        law.name()
+                    ),
+                    remedy: "leave effects out",
+                });
             }
         }
     }

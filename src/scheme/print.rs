@@ -26,7 +26,7 @@ impl<T: Real, const D: usize> Scheme<T, D> {
     fn names(&self, fields: Fields) -> String {
         let names: Vec<_> = fields
             .iter()
-            .map(|field| self.program.name_of(field).0)
+            .map(|field| self.program.name_of(field))
             .collect();
         names.join(", ")
     }
@@ -89,7 +89,7 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         }
         let beside = lines.len();
         for own in &self.program.evolved {
-            let (name, unit) = self.program.name_of(own.field);
+            let (name, unit) = (self.program.name_of(own.field), own.field.unit());
             lines.push(format!(
                 "  evolves {name} [{unit}]: {:?}, {:?}{}",
                 own.when,
@@ -102,11 +102,11 @@ impl<T: Real, const D: usize> Scheme<T, D> {
             ));
         }
         for own in &self.program.declared {
-            let start = own.start;
-            lines.push(format!("  starts {} [{}] at {start}", own.name, own.unit));
+            let (name, unit) = (self.program.name_of(own.field), own.field.unit());
+            lines.push(format!("  starts {name} [{unit}] at {}", own.start));
         }
         for own in &self.program.ledger {
-            let (name, _) = self.program.name_of(own.field);
+            let name = self.program.name_of(own.field);
             let mass = if own.times_mass { "m " } else { "" };
             lines.push(format!(
                 "  ledger: {} [{}] = {} Σ {mass}{name}",
@@ -116,11 +116,10 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         // What flows between particles goes back and forth and grows in steps that are too long.
         let flows = self.program.evolved.iter().filter(|own| {
             let mut sums = own.rates.iter().flat_map(|rate| rate.sums().iter());
-            let own_sums = &self.program.sums;
-            sums.any(|sum| own_sums.iter().any(|own| own.sum == sum))
+            sums.any(|sum| sum.index().is_none())
         });
         for own in flows.filter(|_| self.program.limits.is_empty()) {
-            let (name, _) = self.program.name_of(own.field);
+            let name = self.program.name_of(own.field);
             lines.push(format!(
                 "  limits the step: nothing for {name}, which sums over pairs change (StepProgram::limit)"
             ));

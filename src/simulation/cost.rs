@@ -128,7 +128,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let particles = group.particles.count().max(1) as f64;
             let columns = &group.particles.columns;
             for field in columns.fields().iter() {
-                let (name, _) = scheme.program.name_of(field);
+                let name = scheme.program.name_of(field);
                 let own = field.components(D) * size_of::<T>();
                 bytes.push((format!("{} of {}", name, scheme.name()), own as f64));
             }

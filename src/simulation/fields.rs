@@ -1,7 +1,6 @@
 //! Fields of particles by name and by shape: read from a particle, and set for a body between steps.
 //! What is asked for and is not there is an error that lists what is.
 
-use super::group::Group;
 use super::which::{Which, find};
 use super::{ParticleView, ParticleViews, Simulation};
 use crate::error::{Error, Problem, Result};
@@ -54,20 +53,20 @@ impl<T: Real, const D: usize> ParticleView<'_, T, D> {
         Some(core::array::from_fn(|a| core::array::from_fn(|b| at(a, b))))
     }
     /// All components of the field with a name, that an effect has declared or the crate knows; `None` if the
-    /// particle does not carry it.
+    /// particle does not carry it. The full name, as `meshfree::damage`, does for all, and has to where two have one name.
     #[must_use]
     pub fn named(&self, name: &str) -> Option<Vec<f64>> {
         let program = &self.group.scheme.program;
         let carried = self.group.particles.columns.fields();
-        let field = carried
-            .iter()
-            .find(|&field| program.name_of(field).0 == name)?;
+        let is = |field: &Field| program.name_of(*field) == name || field.full_name() == name;
+        let field = carried.iter().find(is)?;
         self.values(field).map(Iterator::collect)
     }
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
-    /// The field with a name, that an effect has declared or the crate knows, of those that particles carry.
+    /// The field with a name, that an effect has declared or the crate knows, of those that particles carry. The full
+    /// name, as `meshfree::damage`, does for all, and has to where two have one name.
     ///
     /// ```
     /// use meshfree::prelude::*;
@@ -82,50 +81,54 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// # Errors
     /// If no particle carries a field of that name; the error lists those that there are.
     pub fn field(&self, name: &str) -> Result<Field> {
-        let found = self.carried().find(|(_, _, own)| *own == name);
-        let found = found.map(|(_, field, _)| field);
+        let carried = self.carried();
+        let is = |field: &Field| self.name_of(*field) == name || field.full_name() == name;
+        let found = carried.iter().copied().find(is);
         found.ok_or_else(|| self.unknown_field(name))
     }
 
-    /// Every field that particles carry, group by group, with its name under the scheme of the group.
-    fn carried(&self) -> impl Iterator<Item = (&Group<T, D>, Field, &'static str)> {
-        self.state.groups.iter().flat_map(|group| {
+    /// The fields that particles carry, each once.
+    fn carried(&self) -> Vec<Field> {
+        let mut all: Vec<Field> = Vec::new();
+        for group in &self.state.groups {
             let columns = &group.particles.columns;
             let fields = columns.fields().iter();
             let there = fields.filter(|&field| !columns.raw(field).is_empty());
-            there.map(move |field| (group, field, group.scheme.program.name_of(field).0))
-        })
+            let new: Vec<Field> = there.filter(|field| !all.contains(field)).collect();
+            all.extend(new);
+        }
+        all
+    }
+
+    /// The name of a field in files and messages about all particles: the full one if another has the same name.
+    pub(crate) fn name_of(&self, field: Field) -> &'static str {
+        field.name_among(self.carried())
     }
 
     /// The error that lists the fields that there are.
     fn unknown_field(&self, name: &str) -> Error {
-        let mut known: Vec<&str> = Vec::new();
-        for (_, _, own) in self.carried() {
-            if !known.contains(&own) {
-                known.push(own);
-            }
-        }
+        let carried = self.carried();
+        let known = carried.iter().map(|field| self.name_of(*field));
         Error::Argument(Problem::UnknownName {
             kind: "field",
             name: name.into(),
-            known: known.join(", "),
+            known: known.collect::<Vec<_>>().join(", "),
         })
     }
 
-    /// The name of a field, and all particles of bodies that carry it. The number of one that an effect declares may be
-    /// another field under another scheme: the first scheme says which is meant.
+    /// The name of a field, and all particles of bodies that carry it.
     pub(crate) fn carriers(
         &self,
         field: Field,
     ) -> Result<(&'static str, impl Iterator<Item = ParticleView<'_, T, D>>)> {
-        let found = self.carried().find(|(_, own, _)| *own == field);
-        let (_, _, name) = found.ok_or_else(|| self.unknown_field(&field_text(field)))?;
+        if !self.carried().contains(&field) {
+            // Of one of the crate the package is plain.
+            let name = field.index().map_or(field.full_name(), |_| field.name());
+            return Err(self.unknown_field(name));
+        }
         let bodies = self.all_bodies();
-        let own = bodies.filter(move |(group, _)| {
-            let columns = &group.particles.columns;
-            !columns.raw(field).is_empty() && group.scheme.program.name_of(field).0 == name
-        });
-        Ok((name, own.flat_map(ParticleViews::of_body)))
+        let own = bodies.filter(move |(group, _)| !group.particles.columns.raw(field).is_empty());
+        Ok((self.name_of(field), own.flat_map(ParticleViews::of_body)))
     }
 
     /// Sets a field of all particles of a body between steps, as a function of position \[m\] and present value;
@@ -178,7 +181,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let present = now.numbers(field).unwrap_or_default();
             let values = value(x, core::array::from_fn(|k| present[k].to_f64()));
             if let Some(wrong) = values.iter().find(|value| !value.is_finite()) {
-                let (name, unit) = program.name_of(field);
+                let (name, unit) = (program.name_of(field), field.unit());
                 return Err(Error::Argument(Problem::Parameter {
                     what: format!(
                         "{name} [{unit}] of body `{}` at {x:?} m",
@@ -200,9 +203,4 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.forget_rates();
         Ok(())
     }
-}
-
-/// A field in words, without the scheme that names it: of one that an effect declares its shape and number.
-fn field_text(field: Field) -> String {
-    field.own_number().unwrap_or_else(|| field.name().into())
 }

@@ -65,7 +65,7 @@ pub(super) fn broken_effect<T: Real, const D: usize>(
         let wrong = values
             .map(|value| value.to_f64())
             .find(|value| !value.is_finite())?;
-        Some((program.name_of(own.field).0, wrong))
+        Some((program.name_of(own.field), wrong))
     });
     field.or_else(|| {
         program.limits.iter().find_map(|limit| {

@@ -1,5 +1,5 @@
 //! Particles as they are now, for files: positions and whatever the scene carries as its state.
-//! Fields that effects declare are there under their names.
+//! Fields that effects declare are there under their names: the full one where two have the same.
 
 use super::{ParticleView, ParticleViews, Simulation};
 use crate::output::vtu::Vtu;
@@ -30,32 +30,27 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             .scalar("body", owners)
             .scalar("number", self.all().map(|particle| particle.id() as i64))
             .vector("velocity", self.all().map(|particle| particle.velocity()));
-        let mut fields: Vec<(Field, &str)> = COMMON.map(|field| (field, field.name())).to_vec();
+        let mut fields = COMMON.to_vec();
         for group in &self.state.groups {
-            for field in group.scheme.program.state() {
-                let own = (field, group.scheme.program.name_of(field).0);
-                if !fields.contains(&own) {
-                    fields.push(own);
-                }
-            }
+            let new = group.scheme.program.state();
+            let new: Vec<Field> = new.filter(|own| !fields.contains(own)).collect();
+            fields.extend(new);
         }
-        for (field, name) in fields {
+        for field in fields {
             if self.all().any(|particle| particle.numbers(field).is_some()) {
-                vtu = self.with(vtu, field, name);
+                vtu = self.with(vtu, field);
             }
         }
         vtu
     }
 
-    /// With a field under a name.
-    fn with(&self, vtu: Vtu, field: Field, name: &str) -> Vtu {
-        // The same number may be another field under another scheme.
+    /// With a field under its name.
+    fn with(&self, vtu: Vtu, field: Field) -> Vtu {
         let tuple = |particle: ParticleView<'_, T, D>| {
-            let own = particle.group.scheme.program.name_of(field).0 == name;
-            let numbers = particle.values(field).filter(|_| own);
-            let mut numbers = numbers.into_iter().flatten();
+            let mut numbers = particle.values(field).into_iter().flatten();
             core::array::from_fn(|_| numbers.next().unwrap_or(f64::NAN))
         };
+        let name = self.name_of(field);
         vtu.field::<D>(name, field.shape(), self.all().map(tuple))
     }
 }

@@ -182,7 +182,6 @@ impl<T: Real, const D: usize> Group<T, D> {
                 } else {
                     &self.work.sums
                 },
-                names: self.scheme.program.names(),
                 material: &body.material,
                 wall: None,
                 smoothing_length: self.scheme.h_over_dx() * body.spacing,
@@ -245,7 +244,6 @@ impl<T: Real, const D: usize> Group<T, D> {
             );
             let around = Around {
                 sums: &self.work.sums,
-                names: self.scheme.program.names(),
                 material: &body.material,
                 wall: Some(&surface),
                 smoothing_length: self.neighborhood.smoothing_length,

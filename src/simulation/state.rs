@@ -213,8 +213,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             if let Some(kept) = own.residual {
                 *self.particles.columns.column_mut(kept) = residual;
             }
-            let (name, _) = scheme.program.name_of(own.field);
-            self.count(name, limited);
+            self.count(scheme.program.name_of(own.field), limited);
         }
     }
 
@@ -231,7 +230,6 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.particles.bodies.iter().map(move |body| {
             let around = Around {
                 sums,
-                names: self.scheme.program.names(),
                 material: &body.material,
                 wall: None,
                 smoothing_length: self.scheme.h_over_dx() * body.spacing,

@@ -355,6 +355,7 @@ pub(crate) fn add_compensated<T: Real>(y: &mut T, residual: Option<&mut T>, chan
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::name;
 
     #[test]
     fn an_image_of_an_image_is_the_composed_transform() {
@@ -379,7 +380,7 @@ mod tests {
             Field::VELOCITY,
             Field::MASS,
             Field::POSITION_RESIDUAL,
-            Field::tensor(0),
+            Field::tensor(name!("stress", "Pa")),
         ]);
         let period = Transform::<f32, 3> {
             shift: Vector::<f32, 3>::new(0.7, -0.3, 0.0),

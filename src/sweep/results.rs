@@ -2,7 +2,7 @@
 //! Sums are stored row by row (component, then lane), so each store is a full vector.
 
 use crate::parallel::{cut, for_each};
-use crate::particles::{Output, Outputs, PLACES};
+use crate::particles::{Output, Outputs};
 use crate::scalar::{Lane, Real};
 
 /// The force that the particles of one cluster felt from another block.
@@ -29,9 +29,9 @@ pub struct Results<T, const D: usize> {
     /// The slot that the sums start with.
     pub(super) first: usize,
     pub(super) outputs: Outputs,
-    /// Where each sum starts among the numbers of a particle, [`ABSENT`] if it is not here. To count the
+    /// Where each sum of the crate starts among the numbers of a particle, [`ABSENT`] if it is not here. To count the
     /// bits of `outputs` for every number that is read costs more than to read it.
-    offsets: [u32; PLACES],
+    offsets: [u32; Output::ALL.len()],
     /// Numbers a particle.
     stride: usize,
     pub(super) reactions: Vec<Vec<Reaction<D>>>,
@@ -43,7 +43,7 @@ impl<T: Real, const D: usize> Default for Results<T, D> {
             data: Vec::new(),
             first: 0,
             outputs: Outputs::NONE,
-            offsets: [ABSENT; PLACES],
+            offsets: [ABSENT; Output::ALL.len()],
             stride: 0,
             reactions: Vec::new(),
         }
@@ -58,9 +58,23 @@ impl<T: Real, const D: usize> Results<T, D> {
     pub(super) fn lay_out(&mut self, outputs: Outputs) {
         self.outputs = outputs;
         self.stride = outputs.width(D);
-        self.offsets = [ABSENT; PLACES];
+        self.offsets = [ABSENT; Output::ALL.len()];
         for output in outputs.iter() {
-            self.offsets[output.place()] = outputs.offset(output, D) as u32;
+            if let Some(index) = output.index() {
+                self.offsets[index] = outputs.offset(output, D) as u32;
+            }
+        }
+    }
+
+    /// Where a sum starts among the numbers of a particle, if it is here: one of an effect is looked up by name, so ask
+    /// once for many particles.
+    #[inline(always)]
+    pub(crate) fn offset(&self, output: Output) -> Option<usize> {
+        match output.index() {
+            Some(index) => Some(self.offsets[index])
+                .filter(|own| *own != ABSENT)
+                .map(|own| own as usize),
+            None => (self.outputs.contains(output)).then(|| self.outputs.offset(output, D)),
         }
     }
 
@@ -75,22 +89,24 @@ impl<T: Real, const D: usize> Results<T, D> {
     #[inline(always)]
     #[must_use]
     pub fn get(&self, output: Output, k: usize, slot: usize) -> T {
-        let offset = self.offsets[output.place()];
-        if offset == ABSENT || slot < self.first {
+        (self.offset(output)).map_or(T::zero(), |offset| self.number(offset + k, slot))
+    }
+
+    /// The number at an offset among those of the particle in `slot`; zero for particles that were not summed over.
+    #[inline(always)]
+    pub(crate) fn number(&self, offset: usize, slot: usize) -> T {
+        if slot < self.first {
             return T::zero();
         }
-        let at = self.at(slot - self.first, offset as usize + k);
+        let at = self.at(slot - self.first, offset);
         self.data.get(at).copied().unwrap_or(T::zero())
     }
 
     /// A sum of the particles of the row that starts with `slot`, component by component, if it is here.
     #[inline]
     pub(crate) fn row(&self, output: Output, slot: usize) -> Option<&[T]> {
-        let offset = self.offsets[output.place()];
-        if offset == ABSENT || slot < self.first {
-            return None;
-        }
-        let start = self.at(slot - self.first, offset as usize);
+        let offset = self.offset(output).filter(|_| slot >= self.first)?;
+        let start = self.at(slot - self.first, offset);
         self.data
             .get(start..start + output.components(D) * Self::WIDTH)
     }
@@ -113,12 +129,11 @@ impl<T: Real, const D: usize> Results<T, D> {
     }
 
     fn change(&mut self, output: Output, slot: usize, with: impl Fn(&mut T, usize)) {
-        let offset = self.offsets[output.place()];
-        if offset == ABSENT || slot < self.first {
+        let Some(offset) = self.offset(output).filter(|_| slot >= self.first) else {
             return;
-        }
+        };
         for d in 0..D {
-            let at = self.at(slot - self.first, offset as usize + d);
+            let at = self.at(slot - self.first, offset + d);
             if let Some(sum) = self.data.get_mut(at) {
                 with(sum, d);
             }
@@ -128,11 +143,10 @@ impl<T: Real, const D: usize> Results<T, D> {
     /// Adds a value, times a weight if there are any, to a sum of every particle, where it was asked for; values stand slot
     /// by slot with all of their components.
     pub(crate) fn add_all(&mut self, output: Output, weights: Option<&[T]>, values: &[T]) {
-        let offset = self.offsets[output.place()];
-        if offset == ABSENT {
+        let Some(offset) = self.offset(output) else {
             return;
-        }
-        let (width, offset) = (output.components(D), offset as usize);
+        };
+        let width = output.components(D);
         let (first, cluster) = (self.first, self.stride * Self::WIDTH);
         for_each(cut(&mut self.data, CLUSTERS * cluster), |piece, sums| {
             for (n, sums) in sums.chunks_exact_mut(cluster).enumerate() {

@@ -5,6 +5,7 @@ use super::*;
 use crate::integrator::KickDriftKick;
 use crate::kernel::{Kernel, WendlandC2};
 use crate::material::catalogue;
+use crate::name;
 use crate::neighbors::{Block, ClusterLists, Radii, SearchInput};
 use crate::particles::{Columns, Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
@@ -234,7 +235,7 @@ fn a_free_force_conserves_total_energy_to_rounding_in_the_compatible_form() {
 #[derive(Clone, Copy, Debug)]
 struct StressForce;
 
-const STRESS: Field = Field::tensor(0);
+const STRESS: Field = Field::tensor(name!("stress", "Pa"));
 
 impl Term<2> for StressForce {
     const READS: Fields = Fields::of(&[Field::WEIGHT, STRESS]);

@@ -42,7 +42,7 @@ impl<P: Terms<D>, const D: usize> Terms<D> for Working<P> {
     #[inline(always)]
     fn pair<L: Lane, C: Layout>(&self, pair: &Pair<'_, L, D, C>, sums: &mut Sums<L, D, C>) {
         self.0.pair(pair, sums);
-        if !P::WRITES.contains(Output::FORCE) {
+        if const { !P::WRITES.contains(Output::FORCE) } {
             return;
         }
         sums.settle(pair.f);

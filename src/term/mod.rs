@@ -161,11 +161,12 @@ pub struct TermUse {
 /// [recorded](crate::scalar::Record). The sweep borrows the term, so a table that it holds is not copied.
 ///
 /// ```
+/// use meshfree::name;
 /// use meshfree::particles::{Field, Fields, Output, Outputs};
 /// use meshfree::scalar::Lane;
 /// use meshfree::term::{Layout, Pair, Sums, Term, TermDoc};
 ///
-/// const SUMMED: Output = Output::scalar(0);
+/// const SUMMED: Output = Output::scalar(name!("summed_density", "kg/m³"));
 ///
 /// /// Counts mass within the support, weighted with the kernel: the summed density.
 /// #[derive(Clone, Debug)]

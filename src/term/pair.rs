@@ -13,7 +13,8 @@ use core::marker::PhantomData;
 ///
 /// ```
 /// # use meshfree::kernel::CubicSpline;
-/// # use meshfree::particles::{Field, Fields, Outputs};
+/// # use meshfree::name;
+/// # use meshfree::particles::{Field, Fields, Name, Outputs};
 /// # use meshfree::scalar::Lane;
 /// # use meshfree::sweep::{FusedKernel, PairSweep};
 /// # use meshfree::term::{Layout, Pair, Sums, Term, TermDoc};
@@ -21,9 +22,13 @@ use core::marker::PhantomData;
 /// # struct Reads<const TENSORS: usize>;
 /// # impl<const TENSORS: usize> Term<3> for Reads<TENSORS> {
 /// #     const READS: Fields = {
+/// #         const NAMES: [&Name; 11] = [
+/// #             name!("0", ""), name!("1", ""), name!("2", ""), name!("3", ""), name!("4", ""), name!("5", ""),
+/// #             name!("6", ""), name!("7", ""), name!("8", ""), name!("9", ""), name!("10", ""),
+/// #         ];
 /// #         let (mut fields, mut k) = (Fields::NONE, 0);
 /// #         while k < TENSORS {
-/// #             fields = fields.union(Fields::of(&[Field::tensor(k as u8)]));
+/// #             fields = fields.union(Fields::of(&[Field::tensor(NAMES[k])]));
 /// #             k += 1;
 /// #         }
 /// #         fields
@@ -40,7 +45,8 @@ use core::marker::PhantomData;
 /// ```
 /// ```compile_fail
 /// # use meshfree::kernel::CubicSpline;
-/// # use meshfree::particles::{Field, Fields, Outputs};
+/// # use meshfree::name;
+/// # use meshfree::particles::{Field, Fields, Name, Outputs};
 /// # use meshfree::scalar::Lane;
 /// # use meshfree::sweep::{FusedKernel, PairSweep};
 /// # use meshfree::term::{Layout, Pair, Sums, Term, TermDoc};
@@ -48,9 +54,13 @@ use core::marker::PhantomData;
 /// # struct Reads<const TENSORS: usize>;
 /// # impl<const TENSORS: usize> Term<3> for Reads<TENSORS> {
 /// #     const READS: Fields = {
+/// #         const NAMES: [&Name; 11] = [
+/// #             name!("0", ""), name!("1", ""), name!("2", ""), name!("3", ""), name!("4", ""), name!("5", ""),
+/// #             name!("6", ""), name!("7", ""), name!("8", ""), name!("9", ""), name!("10", ""),
+/// #         ];
 /// #         let (mut fields, mut k) = (Fields::NONE, 0);
 /// #         while k < TENSORS {
-/// #             fields = fields.union(Fields::of(&[Field::tensor(k as u8)]));
+/// #             fields = fields.union(Fields::of(&[Field::tensor(NAMES[k])]));
 /// #             k += 1;
 /// #         }
 /// #         fields
@@ -71,6 +81,10 @@ pub const MOST_SUMS: usize = 72;
 
 /// Fails to compile where the numbers of a sweep have no room.
 pub(crate) const fn assert_room<P: Layout, const D: usize>() {
+    assert!(
+        P::READS.is_sound() && P::WRITES.is_sound(),
+        "the terms of this sweep have too many fields or sums of effects, or two of one name"
+    );
     assert!(
         P::READS.width(D) <= MOST_READS,
         "the terms of this sweep read more numbers of a particle than `meshfree::term::MOST_READS`"
@@ -209,15 +223,15 @@ impl<L: Lane, const D: usize, P: Layout> Pair<'_, L, D, P> {
     #[inline(always)]
     #[must_use]
     pub fn i_at(&self, field: Field, k: usize) -> L {
-        debug_assert!(P::READS.contains(field));
-        self.number(P::READS.offset(field, D) + k, self.swapped)
+        debug_assert!(const { &P::READS }.contains(field));
+        self.number(const { &P::READS }.offset(field, D) + k, self.swapped)
     }
     /// Component `k` of a vector or matrix field of j.
     #[inline(always)]
     #[must_use]
     pub fn j_at(&self, field: Field, k: usize) -> L {
-        debug_assert!(P::READS.contains(field));
-        self.number(P::READS.offset(field, D) + k, !self.swapped)
+        debug_assert!(const { &P::READS }.contains(field));
+        self.number(const { &P::READS }.offset(field, D) + k, !self.swapped)
     }
     /// A symmetric tensor of i.
     #[inline(always)]
@@ -318,14 +332,14 @@ impl<L: Lane, const D: usize, P: Layout> Sums<L, D, P> {
     /// Takes over the sums that are kept.
     #[inline(always)]
     pub(crate) fn take(&mut self, from: &Self) {
-        let width = P::WRITES.width(D);
+        let width = const { P::WRITES.width(D) };
         self.kept[..width].copy_from_slice(&from.kept[..width]);
         self.raised |= from.raised;
     }
     /// Sets the sums that are kept to zero.
     #[inline(always)]
     pub(crate) fn clear(&mut self) {
-        self.kept[..P::WRITES.width(D)].fill(L::zero());
+        self.kept[..const { P::WRITES.width(D) }].fill(L::zero());
     }
     /// Forgets the forces of the pair before.
     #[inline(always)]
@@ -403,10 +417,10 @@ impl<L: Lane, const D: usize, P: Layout> Sums<L, D, P> {
     /// The kept force; zero where no term sets one.
     #[inline(always)]
     pub(crate) fn kept_force(&self) -> [L; D] {
-        if !P::WRITES.contains(Output::FORCE) {
+        if const { !P::WRITES.contains(Output::FORCE) } {
             return [L::zero(); D];
         }
-        let at = P::WRITES.offset(Output::FORCE, D);
+        let at = const { P::WRITES.offset(Output::FORCE, D) };
         let mut force = [L::zero(); D];
         force.copy_from_slice(&self.kept[at..at + D]);
         force
@@ -427,10 +441,10 @@ impl<L: Lane, const D: usize, P: Layout> Sums<L, D, P> {
     /// Adds a product to component `k` of a sum, with one rounding where lanes are fused.
     #[inline(always)]
     pub fn add_product_at(&mut self, output: Output, k: usize, a: L, b: L) {
-        if output == Output::FORCE {
+        if output.is(Output::FORCE) {
             self.force.add(k, a * b);
-        } else if P::WRITES.contains(output) {
-            let kept = &mut self.kept[P::WRITES.offset(output, D) + k];
+        } else if const { &P::WRITES }.contains(output) {
+            let kept = &mut self.kept[const { &P::WRITES }.offset(output, D) + k];
             *kept = a.mul_add(b, *kept);
         }
     }
@@ -440,17 +454,17 @@ impl<L: Lane, const D: usize, P: Layout> Sums<L, D, P> {
     /// count as those of any other.
     #[inline(always)]
     pub fn add_at(&mut self, output: Output, k: usize, value: L) {
-        if output == Output::FORCE {
+        if output.is(Output::FORCE) {
             self.force.add(k, value);
-        } else if P::WRITES.contains(output) {
-            self.kept[P::WRITES.offset(output, D) + k] += value;
+        } else if const { &P::WRITES }.contains(output) {
+            self.kept[const { &P::WRITES }.offset(output, D) + k] += value;
         }
     }
     /// Sets the kernel sum to zero and returns what it was.
     #[inline(always)]
     pub(crate) fn take_kernel_sum(&mut self) -> L {
-        if P::WRITES.contains(Output::KERNEL_SUM) {
-            let at = P::WRITES.offset(Output::KERNEL_SUM, D);
+        if const { P::WRITES.contains(Output::KERNEL_SUM) } {
+            let at = const { P::WRITES.offset(Output::KERNEL_SUM, D) };
             core::mem::replace(&mut self.kept[at], L::zero())
         } else {
             L::zero()
@@ -466,8 +480,8 @@ impl<L: Lane, const D: usize, P: Layout> Sums<L, D, P> {
     /// Raises a maximum.
     #[inline(always)]
     pub fn raise(&mut self, output: Output, value: L) {
-        if P::WRITES.contains(output) {
-            let at = P::WRITES.offset(output, D);
+        if const { &P::WRITES }.contains(output) {
+            let at = const { &P::WRITES }.offset(output, D);
             self.kept[at] = self.kept[at].max(value);
             self.raised |= 1 << at;
         }

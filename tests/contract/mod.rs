@@ -3,9 +3,11 @@
 
 use crate::common::{self, AnyKernel, Random};
 use meshfree::kernel::{Kernel, KernelKind};
-use meshfree::particles::{Field, Fields, Output, Outputs, PLACES, Shape};
+use meshfree::name;
+use meshfree::particles::{Field, Fields, Output, Outputs, Shape};
 use meshfree::scalar::{Lane, Lanes, Real, Record, Traced};
 use meshfree::term::{Layout, Pair, Probe, Sums, Term, TermDoc, probe};
+use std::sync::LazyLock;
 
 macro_rules! in_all_dimensions {
     ($check:ident: $($term:expr),*) => {
@@ -22,6 +24,11 @@ macro_rules! for_each_term {
     ($check:ident) => {
         meshfree::for_each_term!(in_all_dimensions $check:)
     };
+}
+
+/// The fields that every term reads.
+macro_rules! read {
+    ($($term:expr),*) => { [$(Subject::<2>::reads(&$term)),*] };
 }
 
 macro_rules! written {
@@ -71,6 +78,18 @@ const WIDTH: usize = 8;
 /// Most numbers of a field.
 const COMPONENTS: usize = 9;
 
+/// The fields of the crate, and those of effects that terms read.
+static FIELDS: LazyLock<Vec<Field>> = LazyLock::new(|| {
+    let reads = meshfree::for_each_term!(read);
+    let all = reads.into_iter().fold(Fields::ALL, Fields::union);
+    all.iter().collect()
+});
+
+fn index(field: Field) -> usize {
+    let found = FIELDS.iter().position(|own| *own == field);
+    found.expect("a field that terms read")
+}
+
 /// A particle with a random value in every field, at most `apart` from the origin along each axis.
 #[derive(Clone)]
 struct Particle(Vec<Vec<f64>>);
@@ -78,22 +97,19 @@ struct Particle(Vec<Vec<f64>>);
 impl Particle {
     #[inline(never)]
     fn random(random: &mut Random, apart: f64) -> Self {
-        // Those that effects declare too, with as many numbers as the largest has.
-        let fields = (0..PLACES).map(|place| {
-            let field = Field::ALL.get(place).copied();
+        // All with as many numbers as the largest has.
+        let fields = FIELDS.iter().map(|&field| {
             let mut value = || match field {
-                Some(Field::POSITION | Field::REFERENCE_POSITION) => apart * random.sign(),
-                Some(Field::POSITION_RESIDUAL) => 0.0,
-                Some(Field::SMOOTHING_LENGTH) => 1.0 + 0.1 * random.sign(),
-                Some(
-                    Field::VELOCITY
-                    | Field::MEAN_VELOCITY
-                    | Field::VELOCITY_GRADIENT
-                    | Field::PRESSURE_GRADIENT
-                    | Field::DIVERGENCE
-                    | Field::PRESSURE
-                    | Field::PRESSURE_COEFFICIENT,
-                ) => random.sign(),
+                Field::POSITION | Field::REFERENCE_POSITION => apart * random.sign(),
+                Field::POSITION_RESIDUAL => 0.0,
+                Field::SMOOTHING_LENGTH => 1.0 + 0.1 * random.sign(),
+                Field::VELOCITY
+                | Field::MEAN_VELOCITY
+                | Field::VELOCITY_GRADIENT
+                | Field::PRESSURE_GRADIENT
+                | Field::DIVERGENCE
+                | Field::PRESSURE
+                | Field::PRESSURE_COEFFICIENT => random.sign(),
                 _ => 1.5 + random.sign(),
             };
             (0..COMPONENTS).map(|_| value()).collect()
@@ -101,10 +117,10 @@ impl Particle {
         Self(fields.collect())
     }
     fn get(&self, field: Field, k: usize) -> f64 {
-        self.0[field.place()][k]
+        self.0[index(field)][k]
     }
     fn set(&mut self, field: Field, k: usize, value: f64) {
-        self.0[field.place()][k] = value;
+        self.0[index(field)][k] = value;
     }
 }
 
@@ -122,10 +138,13 @@ fn numbers<L: Lane, const D: usize>(writes: Outputs, probe: &Probe<L, D>) -> Vec
 
 /// Where component `k` of a field stands among the values of a particle.
 fn place(field: Field, k: usize) -> usize {
-    COMPONENTS * field.place() + k
+    COMPONENTS * index(field) + k
 }
 
-const PLACED: usize = COMPONENTS * PLACES;
+/// How many values a particle has.
+fn placed() -> usize {
+    COMPONENTS * FIELDS.len()
+}
 
 type Plain = Lanes<f64, WIDTH, false>;
 type Fused = Lanes<f64, WIDTH, true>;
@@ -179,8 +198,8 @@ fn lay_out<T: Real, L: Lane<Scalar = T, Broadcast = T>>(
     row: &[Particle],
     j: &Particle,
 ) -> (Vec<L>, Vec<T>) {
-    let mut places = (vec![L::zero(); PLACED], vec![T::zero(); PLACED]);
-    for at in 0..PLACED {
+    let mut places = (vec![L::zero(); placed()], vec![T::zero(); placed()]);
+    for at in 0..placed() {
         let (field, k) = (at / COMPONENTS, at % COMPONENTS);
         places.0[at] = L::from_fn(|lane| T::from_f64(row[lane].0[field][k]));
         places.1[at] = T::from_f64(j.0[field][k]);
@@ -463,8 +482,8 @@ fn can_be_recorded<const D: usize>(term: &dyn Subject<D>) {
     let mut random = Random(7);
     let (name, writes) = (term.name(), term.writes());
     for &kernel in KernelKind::ALL {
-        let record = Record::of(2 * PLACED, |inputs| {
-            let (i, j) = inputs.split_at(PLACED);
+        let record = Record::of(2 * placed(), |inputs| {
+            let (i, j) = inputs.split_at(placed());
             numbers(writes, &In::<Traced, D>::act(term, kernel, i, j))
         });
         let record = record.unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -538,8 +557,8 @@ fn the_record_of_a_kernel_has_its_bits_on_every_lane() {
 #[derive(Clone, Debug)]
 struct Stress;
 
-const STRESS: Field = Field::tensor(2);
-const TRACTION: Output = Output::vector(1);
+const STRESS: Field = Field::tensor(name!("stress", "Pa"));
+const TRACTION: Output = Output::vector(name!("traction", "N"));
 
 impl<const D: usize> Term<D> for Stress {
     const READS: Fields = Fields::of(&[STRESS]);

@@ -9,6 +9,7 @@ use meshfree::geometry::{Cuboid, layers};
 use meshfree::integrator::{Integrator, KickDriftKick, System};
 use meshfree::kernel::{CubicSpline, Kernel};
 use meshfree::material::eos::{EosState, EquationOfState, Guards, IdealGas, Jwl, StiffenedGas};
+use meshfree::name;
 use meshfree::particles::{Field, Fields, Output, Outputs};
 use meshfree::prelude::*;
 use meshfree::scalar::Lane;
@@ -603,8 +604,8 @@ fn heat_by_the_place_as_built_stays_in_the_material() {
     assert!(moved[4] < 5.0, "{moved:?}");
 }
 
-const DYE: Field = Field::scalar(0);
-const FLOW: Output = Output::scalar(0);
+const DYE: Field = Field::scalar(name!("dye", "1"));
+const FLOW: Output = Output::scalar(name!("flow", "kg/s"));
 
 /// A diffusion that limits no step, as nobody should write it.
 #[derive(Clone, Copy, Debug)]
@@ -616,8 +617,7 @@ impl<const D: usize> Effect<D> for Unlimited {
         (In::new(*self),)
     }
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
-        program.declare(DYE, "dye", "1", 0.0);
-        program.declare_sum(FLOW, "flow", "kg/s");
+        program.declare(DYE, 0.0);
         program.evolve(Evolved::kicked(DYE).by(BySum::over_mass(FLOW)));
     }
 }

@@ -6,13 +6,14 @@ use meshfree::integrator::{
     DriftKickDrift, Integrator, KickDriftKick, LamLeapfrog, Midpoint, PositionVerlet, RungeKutta4,
     StrongStabilityPreserving3,
 };
+use meshfree::name;
 use meshfree::particles::{Field, Fields};
 use meshfree::prelude::*;
 use meshfree::scheme::EnergyForm;
 use meshfree::term::Stage;
 
 /// Specific energy that a spring stores \[J/kg\].
-const STORED: Field = Field::scalar(0);
+const STORED: Field = Field::scalar(name!("energy of the spring", "J/kg"));
 
 /// A spring to the point x = 0 on every particle, F = −m ω² x, or from all to one point, F = −m ω² (x − X + a), by which a body
 /// moves as one; or a weight F = −m g where ω is zero. The stage may be a wrong one.
@@ -39,7 +40,7 @@ impl<const D: usize> Effect<D> for Pull {
     const BOOKS_ENERGY: bool = true;
     fn terms(&self, _setting: &Setting) -> Self::Terms {}
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
-        program.declare(STORED, "energy of the spring", "J/kg", 0.0);
+        program.declare(STORED, 0.0);
         program.store(STORED);
         program.law(self.at, *self);
     }

@@ -3,7 +3,8 @@
 
 use meshfree::effect::{BySum, Chunk, Effect, Law, Setting, StepProgram, Tally};
 use meshfree::error::Problem;
-use meshfree::particles::{Output, Outputs};
+use meshfree::name;
+use meshfree::particles::{Name, Output, Outputs};
 use meshfree::prelude::*;
 use meshfree::term::{
     In, LaminarViscosity, Layout, MidpointReconstruction, Pair, Stage, Sums, Term, TermDoc, stage,
@@ -86,8 +87,8 @@ fn an_effect_that_is_not_named_is_not_in_the_program() {
 }
 
 /// A field and a sum of its own.
-const OWN: Field = Field::scalar(3);
-const SUM: Output = Output::vector(2);
+const OWN: Field = Field::scalar(name!("colour", "1"));
+const SUM: Output = Output::vector(name!("own_sum", "1"));
 
 /// A law that reads and writes what a test says, and does nothing.
 #[derive(Clone, Copy, Debug)]
@@ -121,25 +122,21 @@ impl<T: Real, const D: usize> Law<T, D> for Reads {
     }
 }
 
-/// A law at a stage, with names of a field and of a sum.
+/// A law at a stage, and a field that is part of the state.
 #[derive(Clone, Copy, Debug)]
-struct Named {
+struct At {
     stage: Stage,
     law: Reads,
-    field: Option<&'static str>,
-    sum: Option<&'static str>,
+    declares: Option<Field>,
 }
 
-impl<const D: usize> Effect<D> for Named {
+impl<const D: usize> Effect<D> for At {
     type Terms = ();
     fn terms(&self, _setting: &Setting) {}
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
         program.law(self.stage, self.law);
-        if let Some(name) = self.field {
-            program.declare(OWN, name, "1", 0.0);
-        }
-        if let Some(name) = self.sum {
-            program.declare_sum(SUM, name, "1");
+        if let Some(field) = self.declares {
+            program.declare(field, 0.0);
         }
     }
 }
@@ -180,11 +177,10 @@ fn problems(scheme: impl Into<Scheme<f64, 1>>) -> Vec<Problem> {
 
 #[test]
 fn a_stage_that_reads_what_nothing_wrote_is_refused_by_name() {
-    let at = |stage, law| Named {
+    let at = |stage, law| At {
         stage,
         law,
-        field: None,
-        sum: None,
+        declares: None,
     };
     let reads = |field| Reads {
         fields: Fields::of(&[field]),
@@ -243,53 +239,87 @@ fn a_stage_that_reads_what_nothing_wrote_is_refused_by_name() {
 
 #[test]
 fn a_field_of_ones_own_is_written_at_a_stage_before_it_is_read() {
-    let writes = |stage, field| Named {
+    let writes = |stage, declares| At {
         stage,
         law: Reads {
             writes: Fields::of(&[OWN]),
             ..NOTHING
         },
-        field,
-        sum: Some("own_sum"),
+        declares,
     };
     // Declared, it belongs to the state, whoever writes it.
-    let named = schemes::impact().with(OwnTerm);
-    assert!(problems(named.clone().with(writes(Stage::Rates, Some("colour")))).is_empty());
-    // Not declared, it has no name; and if it is written too late, no value.
-    let unnamed = problems(named.clone().with(writes(Stage::Flow, None)));
+    let own = schemes::impact().with(OwnTerm);
+    assert!(problems(own.clone().with(writes(Stage::Rates, Some(OWN)))).is_empty());
+    // Not declared, it has a value from where it is written on.
+    assert!(problems(own.clone().with(writes(Stage::Flow, None))).is_empty());
+    let late = problems(own.with(writes(Stage::Rates, None)));
     assert!(
-        matches!(&unnamed[..], [Problem::NotDeclared { number, .. }] if number == "scalar 3"),
-        "{unnamed:?}"
-    );
-    let late = problems(named.with(writes(Stage::Rates, None)));
-    assert!(
-        matches!(&late[..], [Problem::NotDeclared { .. }, Problem::NotWritten { reader, .. }]
-            if reader == "the term `a term of a test`"),
+        matches!(&late[..], [Problem::NotWritten { reader, .. }] if reader == "the term `a term of a test`"),
         "{late:?}"
     );
 }
 
 #[test]
-fn two_effects_that_claim_one_number_are_refused() {
-    let named = |field, sum| Named {
+fn two_fields_of_one_full_name_are_refused() {
+    let declares = |field| At {
         stage: Stage::Rates,
         law: NOTHING,
-        field: Some(field),
-        sum: Some(sum),
+        declares: Some(field),
     };
-    let scheme = || {
-        schemes::impact()
-            .with(OwnTerm)
-            .with(named("colour", "flow"))
+    let scheme = || schemes::impact().with(OwnTerm).with(declares(OWN));
+    // What means the same is the same constant.
+    assert!(problems(scheme().with(declares(OWN))).is_empty());
+    let tensor = Field::tensor(name!("colour", "1"));
+    let other_unit = Field::scalar(name!("colour", "K"));
+    for (other, says) in [(tensor, "tensor [1]"), (other_unit, "scalar [K]")] {
+        let found = problems(scheme().with(declares(other)));
+        assert!(matches!(found[..], [Problem::Names { .. }]), "{found:?}");
+        let text = found[0].to_string();
+        let own = "`meshfree::colour` is a scalar [1]";
+        assert!(text.contains(own) && text.contains(says), "{text}");
+    }
+    // Another package may have the name.
+    const OTHER: Name = Name {
+        full: "other::colour",
+        unit: "K",
     };
-    assert!(problems(scheme().with(named("colour", "flow"))).is_empty());
-    let text = |own| problems(scheme().with(own))[0].to_string();
-    let field = text(named("salt", "flow"));
+    let scheme: Scheme<f64, 1> = scheme().with(declares(Field::tensor(&OTHER))).compose();
+    let printed = scheme.step_program();
+    assert!(printed.contains("starts meshfree::colour [1]"), "{printed}");
+    assert!(printed.contains("starts other::colour [K]"), "{printed}");
+}
+
+#[test]
+fn no_two_effects_of_the_crate_have_one_name() {
+    let mut names: Vec<String> = Vec::new();
+    for (path, code) in files("effect") {
+        // Tests have names of their own.
+        let code = code.split("#[cfg(test)]").next().unwrap_or_default();
+        if path.ends_with("declared.rs") {
+            continue;
+        }
+        for kind in ["Field::", "Output::"] {
+            let made = code.split(kind).skip(1);
+            let made = made.filter_map(|text| text.split_once("(name!(\""));
+            let made = made.filter(|(shape, _)| shape.len() <= "scalar".len());
+            let local = made.filter_map(|(_, text)| text.split_once('"'));
+            names.extend(local.map(|(local, _)| format!("{kind}{local}")));
+        }
+    }
+    let of_crate = Field::ALL
+        .iter()
+        .map(|own| format!("Field::{}", own.name()));
+    let sums = Output::ALL
+        .iter()
+        .map(|own| format!("Output::{}", own.name()));
+    let of_effects = names.len();
+    names.extend(of_crate.chain(sums));
+    names.sort();
+    let twice = names.windows(2).find(|pair| pair[0] == pair[1]);
     assert!(
-        field.contains("field scalar 3") && field.contains("`colour`") && field.contains("`salt`")
+        of_effects > 35 && twice.is_none(),
+        "{of_effects}, {twice:?}"
     );
-    let sum = text(named("colour", "heat"));
-    assert!(sum.contains("sum vector 2") && sum.contains("`flow`") && sum.contains("`heat`"));
 }
 
 /// A law of smoothing lengths that names no loops.
@@ -373,7 +403,7 @@ fn a_law_that_reads_what_it_does_not_declare_ends_the_run() {
     rod.step().expect("a step");
 }
 
-/// So many laws at one stage, and scalars and vectors of its own.
+/// So many laws at one stage, and fields of its own.
 #[derive(Clone, Copy, Debug)]
 struct Many {
     laws: usize,
@@ -388,9 +418,10 @@ impl<const D: usize> Effect<D> for Many {
             program.law(Stage::Rates, NOTHING);
         }
         for number in 0..self.fields {
-            let own = number as u8 % 16;
-            let shapes = [Field::scalar, Field::vector, Field::tensor];
-            program.declare(shapes[number / 16](own), "colour", "1", 0.0);
+            let full = format!("test::{number}").leak();
+            let name = Box::leak(Box::new(Name { full, unit: "1" }));
+            let shapes = [Field::scalar, Field::vector, Field::tensor, Field::matrix];
+            program.declare(shapes[number % 4](name), 0.0);
         }
     }
 }
@@ -398,10 +429,10 @@ impl<const D: usize> Effect<D> for Many {
 #[test]
 fn more_laws_and_fields_than_there_is_room_for_are_refused() {
     let many = |laws, fields| problems(schemes::impact().with(Many { laws, fields }));
-    assert!(many(12, 24).is_empty());
+    assert!(many(32, 32).is_empty());
     for (laws, fields, what) in [
-        (17, 0, "number of laws at a stage"),
-        (0, 47, "number of fields"),
+        (33, 0, "has room for 32 laws, and not for `a law of a test`"),
+        (0, 33, "no room for `test::32` beside 32 others"),
     ] {
         let found = many(laws, fields);
         assert_eq!(found.len(), 1, "{found:?}");
@@ -501,8 +532,8 @@ fn the_driver_names_no_effect_and_effects_do_not_import_the_driver() {
 #[derive(Clone, Copy, Debug)]
 struct Filled;
 
-const FILLED: Field = Field::scalar(2);
-const FILLING: Output = Output::scalar(2);
+const FILLED: Field = Field::scalar(name!("filling", "1"));
+const FILLING: Output = Output::scalar(name!("sum of volumes", "1"));
 
 impl<const D: usize> Term<D> for Filled {
     const READS: Fields = Fields::of(&[Field::MASS, Field::DENSITY]);
@@ -528,8 +559,7 @@ impl<const D: usize> Effect<D> for Filled {
         (In::new(*self),)
     }
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
-        program.declare(FILLED, "filling", "1", 0.0);
-        program.declare_sum(FILLING, "sum of volumes", "1");
+        program.declare(FILLED, 0.0);
         program.law(Stage::Gradients, *self);
     }
 }

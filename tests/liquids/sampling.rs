@@ -3,12 +3,13 @@
 
 use meshfree::effect::{Effect, NeoHookean, Setting, StepProgram};
 use meshfree::material::eos::Linear;
+use meshfree::name;
 use meshfree::observe::SampleGrid;
 use meshfree::prelude::*;
 
 const SPACING: f64 = 0.02;
-const STRAIN: Field = Field::tensor(0);
-const TURN: Field = Field::matrix(0);
+const STRAIN: Field = Field::tensor(name!("strain", "1"));
+const TURN: Field = Field::matrix(name!("turn", "1"));
 
 /// Fields that nothing changes.
 #[derive(Clone, Copy, Debug)]
@@ -18,8 +19,8 @@ impl<const D: usize> Effect<D> for Marks {
     type Terms = ();
     fn terms(&self, _: &Setting) {}
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
-        program.declare(STRAIN, "strain", "1", 0.0);
-        program.declare(TURN, "turn", "1", 0.0);
+        program.declare(STRAIN, 0.0);
+        program.declare(TURN, 0.0);
     }
 }
 
@@ -139,7 +140,8 @@ fn what_cannot_be_sampled_is_refused_by_name() {
     };
     let listed = "there is no field called `energy`: the scene has position, velocity,";
     assert!(message(Field::ENERGY, [0.0; 2]).starts_with(listed));
-    assert!(message(Field::scalar(3), [0.0; 2]).contains("`scalar 3`"));
+    let dye = Field::scalar(name!("dye", "1"));
+    assert!(message(dye, [0.0; 2]).contains("`meshfree::dye`"));
     let at = message(Field::VELOCITY, [0.0, f64::NAN]);
     assert!(
         at.contains("coordinate 1 of point 1") && at.contains("NaN"),

@@ -4,6 +4,7 @@
 use super::by_hand::{Apart, MOST, Record, Written, norm, over_shape_at_spacing, parting, places};
 use super::lattice::H;
 use meshfree::effect::{ConsistentShifting, TwoPhase};
+use meshfree::name;
 use meshfree::particles::{Field, Output};
 use meshfree::scalar::Lane;
 
@@ -62,12 +63,32 @@ impl<const WHAT: u16> Continuity<WHAT> {
                 count(SHIFTING, 3),
             ),
             (Output::MOMENT, MOMENT, count(SHIFTING | FIRST_MOMENT, 1)),
-            (Output::vector(12), NEAR, count(PAIRING, 3)),
+            (
+                Output::vector(name!("near_pairs", "1/m")),
+                NEAR,
+                count(PAIRING, 3),
+            ),
             (Output::UNITY, UNITY, count(CONSISTENCY, 1)),
-            (Output::scalar(12), RATE, count(SHIFTED, 1)),
-            (Output::vector(11), CONCENTRATION, count(CROWDING, 3)),
-            (Output::vector(10), OUTWARDS, count(CROWDING, 3)),
-            (Output::scalar(13), MOMENT, count(CROWDING, 1)),
+            (
+                Output::scalar(name!("density_rate_of_shifting", "kg/(m³ s)")),
+                RATE,
+                count(SHIFTED, 1),
+            ),
+            (
+                Output::vector(name!("crowding", "1/m")),
+                CONCENTRATION,
+                count(CROWDING, 3),
+            ),
+            (
+                Output::vector(name!("outwards", "1/m")),
+                OUTWARDS,
+                count(CROWDING, 3),
+            ),
+            (
+                Output::scalar(name!("gradient_moment", "1")),
+                MOMENT,
+                count(CROWDING, 1),
+            ),
             (Output::KERNEL_SUM, KERNEL, count(SUMMED, 1)),
             // Across contacts, of which there are none.
             (Output::CONTACT_SUM, CONTACT, count(SUMMED, 1)),

@@ -4,6 +4,7 @@
 use super::super::lattice::H;
 use super::{Apart, MOST, Record, Written, over_shape_at_spacing, parting, places, row, skipped};
 use meshfree::effect::TwoPhase;
+use meshfree::name;
 use meshfree::particles::{Field, Output};
 use meshfree::scalar::Lane;
 use meshfree::term::viscosity::MonaghanGingold;
@@ -44,7 +45,10 @@ impl<const WHAT: u16> Written for Forces<WHAT> {
             (Output::FORCE, 3),
             (Output::SIGNAL, count(VISCOSITY)),
             (Output::POWER, count(ENERGY)),
-            (Output::scalar(14), count(CONDUCTED | BY_VELOCITY)),
+            (
+                Output::scalar(name!("artificial_conduction", "W")),
+                count(CONDUCTED | BY_VELOCITY),
+            ),
         ]
     }
     #[inline(always)]

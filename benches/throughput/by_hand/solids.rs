@@ -9,6 +9,7 @@ use meshfree::effect::{
     ArtificialStress, DisplacementGradient, HourglassControl, HourglassFree, Hypoelastic,
     Repulsion, StressForce, TotalLagrangian, VelocityMismatch,
 };
+use meshfree::name;
 use meshfree::particles::{Field, Output};
 use meshfree::scalar::Lane;
 use meshfree::term::{Compression, PressureForce, VelocityGradient};
@@ -19,7 +20,7 @@ const REPULSION: u8 = 2;
 const HOURGLASS: u8 = 4;
 
 /// Stiffness of the hourglass-free form of a particle \[Pa\], negative.
-const STIFFNESS: Field = Field::scalar(7);
+const STIFFNESS: Field = Field::scalar(name!("hourglass_stiffness", "Pa"));
 /// Keeps quotients of these finite, as the effect has it.
 const LEAST: f64 = 1e-30;
 
@@ -146,8 +147,8 @@ impl<const MISMATCH: bool> Written for Gradients<MISMATCH> {
             (Output::COMPRESSION, 1),
             (Output::VELOCITY_GRADIENT, 9),
             (Output::MOMENT_MATRIX, 9),
-            (Output::vector(14), count),
-            (Output::vector(13), count),
+            (Output::vector(name!("velocity_mismatch", "m/s")), count),
+            (Output::vector(name!("neighbours_centre", "m")), count),
         ]
     }
     #[inline(always)]
@@ -205,9 +206,9 @@ impl<const MISMATCH: bool> Written for Gradients<MISMATCH> {
 }
 
 /// P L, as the effect of total-Lagrangian solids has it.
-const CORRECTED: Field = Field::matrix(13);
+const CORRECTED: Field = Field::matrix(name!("corrected_piola_stress", "Pa"));
 /// Young's modulus, as the hourglass control has it.
-const MODULUS: Field = Field::scalar(9);
+const MODULUS: Field = STIFFNESS;
 const STRENGTH: f64 = 0.1;
 /// Where the power of the hourglass control is, behind the force.
 const POWER: usize = 3;
@@ -220,7 +221,10 @@ impl<const CONTROLLED: bool> Written for Total<CONTROLLED> {
     fn outputs() -> Vec<(Output, usize)> {
         vec![
             (Output::FORCE, 3),
-            (Output::scalar(15), usize::from(CONTROLLED)),
+            (
+                Output::scalar(name!("hourglass_power", "W")),
+                usize::from(CONTROLLED),
+            ),
         ]
     }
     #[inline(always)]
@@ -297,7 +301,7 @@ struct Deformation;
 
 impl Written for Deformation {
     fn outputs() -> Vec<(Output, usize)> {
-        vec![(Output::matrix(15), 9)]
+        vec![(Output::matrix(name!("displacement_gradient", "1")), 9)]
     }
     #[inline(always)]
     fn pair<Row: Lane<Scalar = f64>, R: Record>(

@@ -4,6 +4,7 @@
 use super::by_hand::{Apart, MOST, Record, Written, norm, places, row};
 use super::lattice::H;
 use meshfree::effect::VelocityBeforeWall;
+use meshfree::name;
 use meshfree::particles::{Field, Output};
 use meshfree::scalar::Lane;
 use meshfree::term::{LiquidNearWall, VelocityAtWall, ViscosityAtWall};
@@ -30,7 +31,10 @@ impl<const WHAT: u8> Written for Wall<WHAT> {
             (Output::UNITY, 1),
             (Output::LIQUID_PRESSURE, 1),
             (Output::LIQUID_MOMENT, 3),
-            (Output::vector(15), count(BEFORE, 3)),
+            (
+                Output::vector(name!("liquid_velocity_before_wall", "m/s")),
+                count(BEFORE, 3),
+            ),
             (Output::LIQUID_VELOCITY, count(NO_SLIP, 3)),
             (Output::LIQUID_ARM, count(NO_SLIP, 3)),
             (Output::LIQUID_VISCOSITY, count(NO_SLIP, 1)),

@@ -295,10 +295,8 @@ fn closes<const D: usize>(
 }
 
 fn is_plastic<T: Real, const D: usize>(part: &Part<T, D>) -> bool {
-    let declared = part.scheme.program.declared.iter();
-    declared
-        .map(|own| own.name)
-        .any(|name| name == "plastic_strain")
+    let mut declared = part.scheme.program.declared.iter();
+    declared.any(|own| own.field.name() == "plastic_strain")
 }
 
 fn yield_stress<T: Real>(material: &Material<T>) -> Option<f64> {

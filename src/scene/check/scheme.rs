@@ -162,7 +162,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                     problems.push(problem);
                 } else if let Some(value) = start.values.iter().find(|value| !value.is_finite()) {
                     problems.push(Problem::Parameter {
-                        what: format!("{} of body `{}`", program.name_of(start.field).0, body.name),
+                        what: format!("{} of body `{}`", program.name_of(start.field), body.name),
                         value: *value,
                         must_be: "it must be finite",
                     });
@@ -175,7 +175,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                     what: format!(
                         "the ledger is asked for {}, the sum of {}, which is no scalar",
                         column.name,
-                        program.name_of(column.field).0
+                        program.name_of(column.field)
                     ),
                     remedy: "let a law write the number to be summed into a scalar field",
                 });

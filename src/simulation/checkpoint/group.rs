@@ -165,6 +165,6 @@ fn limits<T: Real, const D: usize>(scheme: &Scheme<T, D>) -> impl Iterator<Item 
     let program = &scheme.program;
     let laws = program.laws.iter().flatten().map(|law| law.name());
     let evolved = program.evolved.iter();
-    let counted = evolved.map(|own| program.name_of(own.field).0);
+    let counted = evolved.map(|own| program.name_of(own.field));
     laws.chain(counted).chain([NEGATIVE_ENERGY])
 }

@@ -25,7 +25,7 @@ use crate::sweep::{InstructionSet, Root};
 use std::path::Path;
 
 /// The version of what is held. It rises with every change of it.
-const VERSION: &str = "5";
+const VERSION: &str = "6";
 
 /// Parts of a scene that are hashed only where there are any.
 const RARE: [&str; 3] = [

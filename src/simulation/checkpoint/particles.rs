@@ -2,22 +2,10 @@
 //! Columns are put under the names of their fields.
 
 use crate::output::checkpoint::{Checkpoint, Read, damaged};
-use crate::particles::Field;
 use crate::scalar::Real;
 use crate::scheme::Scheme;
 use crate::simulation::population::{BodyState, Moves, Particles, Removed};
 use std::ops::Range;
-
-/// A column's name in files. Fields that effects declare may share a name.
-pub(super) fn column_name<T: Real, const D: usize>(scheme: &Scheme<T, D>, field: Field) -> String {
-    let name_of = |field: Field| scheme.program.name_of(field).0;
-    let mut others = scheme.fields().iter().filter(|other| *other != field);
-    let name = name_of(field);
-    if others.any(|other| name_of(other) == name) {
-        return format!("{name} {}", field.place());
-    }
-    name.into()
-}
 
 pub(super) fn put_particles<T: Real, const D: usize>(
     particles: &Particles<T, D>,
@@ -39,7 +27,7 @@ pub(super) fn put_particles<T: Real, const D: usize>(
         moved: _,
     } = particles;
     for field in columns.fields().iter() {
-        let column = format!("{name}/particles/{}", column_name(scheme, field));
+        let column = format!("{name}/particles/{}", scheme.program.name_of(field));
         file.put_reals(column, field.components(D), columns.raw(field));
     }
     let end = |body: &BodyState<T>| {
@@ -77,7 +65,7 @@ pub(super) fn take_particles<T: Real, const D: usize>(
 ) -> Read<()> {
     let slots = particles.columns.slots();
     for field in particles.columns.fields().iter() {
-        let column = format!("{name}/particles/{}", column_name(scheme, field));
+        let column = format!("{name}/particles/{}", scheme.program.name_of(field));
         let numbers = file.get_all_reals(&column, slots * field.components(D))?;
         *particles.columns.column_mut(field) = numbers;
     }

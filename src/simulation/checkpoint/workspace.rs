@@ -1,7 +1,6 @@
 //! What a checkpoint holds of a group's lists and workspace: where lists were built, rates, sums, and saved states.
 //! Lists follow from the places that they were built from, and are built again.
 
-use super::particles::column_name;
 use crate::output::checkpoint::{Checkpoint, Read, damaged};
 use crate::particles::{Columns, Field, Output, Outputs};
 use crate::scalar::Real;
@@ -49,7 +48,7 @@ pub(super) fn take_workspace<T: Real, const D: usize>(
     let saved = |what: &str, fields: Vec<Field>| -> Read<Saved<T>> {
         let mut saved = Saved::new();
         for field in fields {
-            let column = format!("{name}/{what}/{}", column_name(scheme, field));
+            let column = format!("{name}/{what}/{}", scheme.program.name_of(field));
             // What has no column is kept as none.
             let count = columns.raw(field).len();
             let numbers = match count {
@@ -181,7 +180,7 @@ pub(super) fn put_workspace<T: Real, const D: usize>(
     }
     let mut put_saved = |what: &str, saved: &Saved<T>| {
         for (field, column) in saved.iter().filter(|(_, column)| !column.is_empty()) {
-            let name = format!("{name}/{what}/{}", column_name(scheme, *field));
+            let name = format!("{name}/{what}/{}", scheme.program.name_of(*field));
             file.put_reals(name, field.components(D), column);
         }
     };
@@ -210,13 +209,8 @@ fn take_records<T: Real>(name: &str, file: &Checkpoint) -> Read<Records<T>> {
     Ok(Records::of_stored(file.get_reals(name)?, stride))
 }
 
-/// A sum's name in files: those that effects declare have no names of their own.
-fn sum_name(sum: Output) -> String {
-    format!("{} {}", sum.name(), sum.place())
-}
-
 fn put_rows<T: Real, const D: usize>(rows: &Results<T, D>, name: &str, file: &mut Checkpoint) {
-    let names: Vec<_> = rows.outputs().iter().map(sum_name).collect();
+    let names: Vec<_> = rows.outputs().iter().map(Output::full_name).collect();
     let (data, first) = rows.stored();
     file.put_text(name, names.join("\n"));
     file.put_reals(name.into(), 1, data);
@@ -245,7 +239,7 @@ fn take_rows<T: Real, const D: usize>(
     let known = sweeps.fold(Outputs::ALL, |all, sweep| all.union(sweep.outputs()));
     let mut outputs = Outputs::NONE;
     for sum in file.text(name)?.lines() {
-        let own = known.iter().find(|own| sum_name(*own) == sum);
+        let own = known.iter().find(|own| own.full_name() == sum);
         let own = own.ok_or_else(|| damaged(format!("there is no sum `{sum}`")))?;
         outputs = outputs.union(Outputs::of(&[own]));
     }

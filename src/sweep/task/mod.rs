@@ -325,7 +325,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
     where
         P: Terms<D>,
     {
-        let reads = const { Composed::<T, P, D, HOW>::READS };
+        let reads = const { &Composed::<T, P, D, HOW>::READS };
         let stride = const { Composed::<T, P, D, HOW>::READS.width(D) };
         let listed = if reads.contains(Field::REFERENCE_POSITION) {
             Field::REFERENCE_POSITION

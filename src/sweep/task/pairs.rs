@@ -48,7 +48,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
     where
         P: Terms<D>,
     {
-        let reads = const { Composed::<T, P, D, HOW>::READS };
+        let reads = const { &Composed::<T, P, D, HOW>::READS };
         let stride = const { Composed::<T, P, D, HOW>::READS.width(D) };
         let position = reads.offset(Field::POSITION, D);
         let residual = reads.offset(Field::POSITION_RESIDUAL, D);
@@ -103,7 +103,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
             ..
         } = row;
         let width_out = const { Composed::<T, P, D, HOW>::WRITES.width(D) };
-        let reads = const { Composed::<T, P, D, HOW>::READS };
+        let reads = const { &Composed::<T, P, D, HOW>::READS };
         let stride = const { Composed::<T, P, D, HOW>::READS.width(D) };
         let velocity = reads.offset(Field::VELOCITY, D);
         let h_at = reads.offset(Field::SMOOTHING_LENGTH, D);
@@ -231,7 +231,7 @@ fn apply<L: Lane, const D: usize, C: Layout, const OPPOSITE: bool>(
     pair: &Pair<'_, L, D, C>,
     sums: &mut Sums<L, D, C>,
 ) {
-    let writes = const { C::WRITES };
+    let writes = const { &C::WRITES };
     if !writes.contains(Output::FORCE) {
         return;
     }
@@ -241,7 +241,7 @@ fn apply<L: Lane, const D: usize, C: Layout, const OPPOSITE: bool>(
         (sums.radial, sums.shear)
     };
     for d in 0..D {
-        let kept = &mut sums.kept[C::WRITES.offset(Output::FORCE, D) + d];
+        let kept = &mut sums.kept[const { C::WRITES.offset(Output::FORCE, D) } + d];
         // The free one of the other side has been turned when it was taken over.
         *kept = sums.force.plus(d, *kept);
         *kept = radial.mul_add(pair.r[d], *kept);

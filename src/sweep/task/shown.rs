@@ -2,7 +2,7 @@
 //! Which fields of a record carry it is known when a sweep is compiled.
 
 use super::Composed;
-use crate::particles::{Field, Fields, PLACES, Shape};
+use crate::particles::{Fields, Shape};
 use crate::scalar::{Lane, Real};
 use crate::tensor::Symmetric;
 use crate::term::{Layout, MOST_READS, Terms};
@@ -32,9 +32,8 @@ impl Shown {
             count: 0,
         };
         let mut place = 0;
-        while place < PLACES {
-            let field = Field::at(place);
-            if reads.contains(field) && tensile.contains(field) {
+        while let Some((field, next)) = reads.from(place) {
+            if tensile.contains(field) {
                 let at = reads.offset(field, d);
                 let mut k = 0;
                 while k < field.components(d) {
@@ -52,7 +51,7 @@ impl Shown {
                     };
                 }
             }
-            place += 1;
+            place = next;
         }
         shown
     }

@@ -2,16 +2,17 @@
 //! P. W. Cleary, J. J. Monaghan, Journal of Computational Physics 148 (1999) 227–264.
 
 use meshfree::effect::{BySum, Effect, Evolved, LedgerColumn, Limit, Setting, StepProgram, View};
+use meshfree::name;
 use meshfree::particles::{Field, Fields, Output, Outputs};
 use meshfree::scalar::{Lane, Real};
 use meshfree::term::{In, Layout, Pair, Sums, Term, TermDoc, stage};
 
 /// Temperature T \[K\]; bodies start at [`HeatConduction::start`], or by `Body::field`.
-pub const TEMPERATURE: Field = Field::scalar(0);
+pub const TEMPERATURE: Field = Field::scalar(name!("temperature", "K"));
 /// Thermal conductivity k \[W/(m K)\]; that of [`HeatConduction`], or of each body by `Body::field`.
-pub const CONDUCTIVITY: Field = Field::scalar(1);
+pub const CONDUCTIVITY: Field = Field::scalar(name!("conductivity", "W/(m K)"));
 /// m dT/dt \[K kg/s\].
-const FLOW: Output = Output::scalar(0);
+const FLOW: Output = Output::scalar(name!("heat_flow_over_specific_heat", "K kg/s"));
 
 /// Conduction of heat in bodies of one specific heat and any conductivities.
 ///
@@ -33,10 +34,8 @@ impl<const D: usize> Effect<D> for HeatConduction {
         (In::new(*self),)
     }
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
-        program.declare(TEMPERATURE, "temperature", "K", self.start);
-        let conductivity = self.conductivity;
-        program.declare(CONDUCTIVITY, "conductivity", "W/(m K)", conductivity);
-        program.declare_sum(FLOW, "heat_flow_over_specific_heat", "K kg/s");
+        program.declare(TEMPERATURE, self.start);
+        program.declare(CONDUCTIVITY, self.conductivity);
         program.evolve(Evolved::kicked(TEMPERATURE).by(BySum::over_mass(FLOW)));
         program.limit(*self);
         program.ledger(LedgerColumn {

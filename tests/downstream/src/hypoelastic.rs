@@ -2,13 +2,14 @@
 //! The Jaumann rate as in W. Benz, E. Asphaug, Computer Physics Communications 87 (1995) 253–265.
 
 use meshfree::effect::{Effect, Evolved, Limit, Rate, Setting, StepProgram, Update, View, When};
+use meshfree::name;
 use meshfree::particles::{Field, Fields, Output, Outputs};
 use meshfree::scalar::{Lane, Real};
 use meshfree::tensor::Symmetric;
 use meshfree::term::{In, Layout, Pair, Sums, Term, TermDoc, VelocityGradient, stage};
 
 /// Deviatoric stress S \[Pa\], positive in tension: xx, yy, zz, yz, xz, xy.
-pub const STRESS: Field = Field::tensor(0);
+pub const STRESS: Field = Field::tensor(name!("deviatoric_stress", "Pa"));
 
 /// A solid whose shear stress follows the strain rate, dS/dt = 2 G (D − tr D/3) + W S − S W, beside the pressure of its
 /// equation of state.
@@ -27,7 +28,7 @@ impl<const D: usize> Effect<D> for Hypoelastic {
         (In::new(*self), In::new(VelocityGradient))
     }
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
-        program.declare(STRESS, "deviatoric_stress", "Pa", 0.0);
+        program.declare(STRESS, 0.0);
         // In the drift, as density: kicked, the step of elastic waves would be no leapfrog.
         let stress = Evolved::kicked(STRESS)
             .at(When::Drift)

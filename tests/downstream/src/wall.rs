@@ -2,12 +2,16 @@
 //! After S. Adami, X. Y. Hu, N. A. Adams, Journal of Computational Physics 231 (2012) 7057–7075.
 
 use meshfree::effect::{Chunk, Effect, Law, Setting, StepProgram, Tally};
+use meshfree::name;
 use meshfree::particles::{Field, Fields, Output, Outputs};
 use meshfree::scalar::{Lane, Real};
 use meshfree::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 
 /// Σ V (p + ρ g·r) W \[Pa\] and Σ V W over the liquid before a wall.
-const LEVELLED: [Output; 2] = [Output::scalar(1), Output::scalar(2)];
+const LEVELLED: [Output; 2] = [
+    Output::scalar(name!("level_pressure", "Pa")),
+    Output::scalar(name!("share_of_liquid", "1")),
+];
 
 /// Walls that do not move, with p_w = Σ V (p + ρ g·r_wf) W / Σ V W and no floor: they hold what they touch.
 #[derive(Clone, Copy, Debug, Default)]
@@ -19,8 +23,6 @@ impl<const D: usize> Effect<D> for LevelWall {
         (In::new(*self),)
     }
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
-        program.declare_sum(LEVELLED[0], "level_pressure", "Pa");
-        program.declare_sum(LEVELLED[1], "share_of_liquid", "1");
         program.law(Stage::Walls, *self);
     }
 }
