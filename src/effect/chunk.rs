@@ -24,7 +24,7 @@ pub struct Around<'a, T: Real, const D: usize> {
     pub smoothing_length: f64,
     /// First moment −Σ V r·∇W/D of the lattice; one in schemes whose particles carry their own.
     pub lattice_consistency_factor: f64,
-    /// The step \[s\] over which the stage acts: of the drift, or since the law last ran in an earlier step;
+    /// The step \[s\] over which the stage acts: of the drift or kick, or since the law last ran in an earlier step;
     /// zero where time does not go on.
     pub dt: f64,
     /// The time \[s\].

@@ -1,6 +1,7 @@
 //! Density forms, each with the pressure form that belongs to it.
 //! One choice gives both: a mixed pair loses energy in silence (Bonet & Lok 1999).
 
+use crate::particles::{Field, Fields};
 use crate::scalar::Real;
 use core::fmt;
 use core::str::FromStr;
@@ -97,6 +98,19 @@ impl DensityForm {
     #[must_use]
     pub fn has_reference(self) -> bool {
         matches!(self, Self::NumberDensity | Self::Continuity | Self::Lam)
+    }
+
+    /// The fields from which that weight follows.
+    pub(crate) const fn reads_of_weight(self) -> Fields {
+        match self {
+            Self::Summation | Self::Normalised | Self::ContinuityByMass | Self::Lam => {
+                Fields::of(&[Field::MASS])
+            }
+            Self::NumberDensity | Self::Deformation => {
+                Fields::of(&[Field::MASS, Field::REFERENCE_DENSITY])
+            }
+            Self::Continuity => Fields::of(&[Field::MASS, Field::DENSITY]),
+        }
     }
 
     /// Weight B of a particle in pair sums.

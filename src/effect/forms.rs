@@ -121,7 +121,12 @@ impl<const D: usize> Effect<D> for KernelSum {
         }
         // Smoothing that follows density takes bodies as one.
         if !matches!(setting.smoothing, Smoothing::Consistent(_)) {
-            program.law(Stage::Density, ContactActivity);
+            let stage = if setting.density.is_integrated() {
+                Stage::Contacts
+            } else {
+                Stage::Density
+            };
+            program.law(stage, ContactActivity);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The step program: what effects do in a step, stage by stage, beside their pair terms.
 //! A scheme holds it, a group runs it, and it can be printed.
 
-use super::{Evolved, Law, Limit, Rate, Setting, reads_and_writes, sequence};
+use super::{Evolved, Law, Limit, Rate, Setting, When, reads_and_writes, sequence};
 use crate::error::Problem;
 use crate::material::Material;
 use crate::particles::{Field, Fields};
@@ -230,6 +230,12 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
         declared
             .chain(self.ledger.iter().map(|own| own.field))
             .fold(evolved, |all, field| all.union(Fields::of(&[field])))
+    }
+
+    /// Whether a field other than velocity and energy changes at a time.
+    pub(crate) fn evolves_at(&self, when: When) -> bool {
+        let mut evolved = self.evolved.iter();
+        evolved.any(|own| own.when == when && own.field != Field::ENERGY)
     }
 
     /// The fields that are integrated in time.

@@ -3,7 +3,7 @@
 
 use super::builder::{Consistency, SchemeBuilder};
 use super::gradients::Gradients;
-use super::{EnergyForm, Scheme, Smoothing};
+use super::{EnergyForm, Entries, Scheme, Smoothing};
 use crate::effect::{
     CorrectedGradients, DensityForm, Effect, Effects, Setting, StepProgram, ViscositySwitch,
 };
@@ -46,6 +46,8 @@ impl<K, V, W, E> SchemeBuilder<K, V, W, E> {
         let with_rates = integrated || follows_divergence || switch.is_some();
         let mut sweeps: [Option<Box<dyn PairSweep<T, D>>>; Stage::COUNT] = Default::default();
         sweeps[Stage::Reference.number()] = compiled.named(compiled.of::<stage::Reference>());
+        // Where density follows from sums, contacts are among these.
+        sweeps[Stage::Contacts.number()] = compiled.reference().filter(|_| integrated);
         sweeps[Stage::Density.number()] = compiled.density(own.density);
         let walls = self.walls.terms(&setting).at::<stage::Walls>();
         let walls = walls.then(compiled.of::<stage::Walls>());
@@ -106,7 +108,7 @@ impl<K, V, W, E> SchemeBuilder<K, V, W, E> {
             .problems()
             .into_iter()
             .chain(self.effects.problems());
-        Scheme {
+        let mut scheme = Scheme {
             name: own.name.clone(),
             kernel: if E::REFERENCE {
                 // Neighbours that stay do not pair, and tension does not part them.
@@ -139,7 +141,10 @@ impl<K, V, W, E> SchemeBuilder<K, V, W, E> {
                 1.0
             },
             program,
-        }
+            entries: Entries::default(),
+        };
+        scheme.entries = Entries::of(&scheme);
+        scheme
     }
 
     /// Asks that all sums are over the reference configuration where one is, and none where none is.

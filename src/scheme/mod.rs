@@ -58,6 +58,7 @@
 
 mod builder;
 mod compile;
+mod entry;
 mod gradients;
 mod order;
 mod print;
@@ -67,6 +68,7 @@ pub use crate::effect::{DensityForm, EnergyForm, Shifting, Smoothing};
 pub use crate::kernel::KernelFacts;
 pub(crate) use builder::DEFAULT_STEP_FACTOR;
 pub use builder::{Renormalise, SchemeBuilder};
+pub(crate) use entry::{Entries, Entry};
 pub use start::Start;
 
 use crate::effect::StepProgram;
@@ -105,6 +107,8 @@ pub struct Scheme<T: Real, const D: usize> {
     pub(crate) lattice_consistency_factor: f64,
     /// What its effects do beside their pair terms.
     pub(crate) program: StepProgram<T, D>,
+    /// The entries of a step.
+    pub(crate) entries: Entries,
 }
 
 impl<T: Real, const D: usize> Scheme<T, D> {
@@ -136,9 +140,9 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         self.sweep(Stage::Walls).is_some()
     }
 
-    /// Whether something is summed in the middle of a drift.
-    pub(crate) fn sums_in_drift(&self) -> bool {
-        self.sweep(Stage::Continuity).is_some()
+    /// Whether a step has entries in the middle of a drift.
+    pub(crate) fn acts_in_drift(&self) -> bool {
+        !self.entries.drift.is_empty()
     }
 
     /// The terms, in the order in which a step meets them, and what else effects do.

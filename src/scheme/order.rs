@@ -2,11 +2,12 @@
 //! Fields and sums of effects have full names, and one name is one thing.
 
 use super::Scheme;
-use crate::effect::{MOST_LAWS, Update, When, reads_and_writes};
+use super::entry::{Entries, Entry, Kind, Part};
+use crate::effect::MOST_LAWS;
 use crate::error::Problem;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Real;
-use crate::term::{Stage, TermUse};
+use crate::term::Stage;
 
 /// What the driver itself gives every particle before a step, or keeps for it.
 const GIVEN: Fields = Fields::of(&[
@@ -27,34 +28,11 @@ const GIVEN: Fields = Fields::of(&[
     Field::CONTACT_THRESHOLD,
     Field::DYNAMIC_VISCOSITY,
 ]);
-/// What equations of state write, after the densities.
-const STATE: Fields = Fields::of(&[Field::PRESSURE, Field::SOUND_SPEED]);
-/// What the pressure form makes of it, once the pressures of walls are known.
-const COEFFICIENTS: Fields = Fields::of(&[Field::PRESSURE_COEFFICIENT]);
-/// What is zero before the laws of the rates, and they add to.
-const OF_LAWS: Fields = Fields::of(&[Field::FORCE]);
+/// Densities and sums at rest.
 const REFERENCE: Fields = Fields::of(&[Field::REFERENCE_SUM, Field::REFERENCE_DENSITY]);
-/// The stages up to the end of an evaluation, in their order; those of a drift come between two evaluations.
-const EVALUATION: [Stage; 7] = [
-    Stage::Reference,
-    Stage::Density,
-    Stage::State,
-    Stage::Walls,
-    Stage::Gradients,
-    Stage::Flow,
-    Stage::Rates,
-];
-
-/// What a part of a step reads.
-struct Reader {
-    name: String,
-    stage: Stage,
-    fields: Fields,
-    sums: Outputs,
-}
 
 impl<T: Real, const D: usize> Scheme<T, D> {
-    /// What is wrong with the order of the stages, and with the names of fields and sums.
+    /// What is wrong with the order of the entries, and with the names of fields and sums.
     pub(crate) fn misordered(&self) -> Vec<Problem> {
         let mut problems = Vec::new();
         self.check_room(&mut problems);
@@ -65,31 +43,34 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         let laws = Stage::ALL.map(|stage| self.program.sequence(stage).err());
         problems.extend(laws.into_iter().flatten());
         self.check_forces(&mut problems);
-        let later = [Stage::Continuity, Stage::Bounds];
+        self.check_evolved(&mut problems);
+        let Entries {
+            evaluation,
+            drift,
+            work,
+            kick,
+        } = &self.entries;
+        let parts = |entries: &[Entry]| -> Vec<Part> {
+            entries.iter().flat_map(|own| self.parts(*own)).collect()
+        };
+        let drift = parts(drift);
         // What a drift writes is there for the evaluation after it, as what belongs to the state.
-        let mut known = later
-            .iter()
-            .fold(self.state(), |all, stage| all.union(self.written(*stage)));
-        for stage in EVALUATION {
-            match stage {
-                Stage::State => known = known.union(STATE),
-                Stage::Gradients => known = known.union(COEFFICIENTS),
-                _ => {}
-            }
-            known = self.check_stage(stage, known, &mut problems);
+        let written = |known: Fields, part: &Part| known.union(part.writes);
+        let mut known = drift.iter().fold(self.state(), written);
+        // The stage of the reference configuration runs once, when the scene is built.
+        let reference = parts(&[Entry::Stage(Stage::Reference)]);
+        let rest = [parts(evaluation), drift, parts(work), parts(kick)].concat();
+        for part in reference.iter().chain(&rest) {
+            self.check(part, known, &mut problems);
+            known = written(known, part);
         }
-        for stage in later {
-            known = self.check_stage(stage, known, &mut problems);
-        }
-        self.check_evolved(known, &mut problems);
         for limit in &self.program.limits {
-            let reader = Reader {
-                name: format!("the limit `{}`", limit.name()),
-                stage: Stage::Rates,
-                fields: limit.reads(),
-                sums: limit.sums(),
+            let part = Part {
+                reads: limit.reads(),
+                sums: [limit.sums(), self.sums(Stage::Rates)],
+                ..Part::of(Kind::Limit, Stage::Rates.name(), limit.name())
             };
-            self.check(&reader, known, self.sums(Stage::Rates), &mut problems);
+            self.check(&part, known, &mut problems);
         }
         problems
     }
@@ -126,90 +107,22 @@ impl<T: Real, const D: usize> Scheme<T, D> {
             .fold(known, |all, field| all.union(Fields::of(&[field])))
     }
 
-    /// Fields that the laws of a stage write.
-    fn written(&self, stage: Stage) -> Fields {
-        let (laws, carried) = (self.program.laws[stage.number()].iter(), self.fields());
-        laws.fold(Fields::NONE, |all, law| {
-            let [_, writes] = reads_and_writes(&**law, carried);
-            all.union(writes)
-        })
-    }
-
-    /// The sums of the sweep that the laws of a stage see.
-    fn sums(&self, stage: Stage) -> Outputs {
-        // Contacts are asked for with the sums at rest where density does not follow from sums.
-        let contacts = (self.reference.as_deref())
-            .filter(|_| stage == Stage::Density && self.density.is_integrated());
-        let sweeps = self.sweep(stage).into_iter().chain(contacts);
-        sweeps.fold(Outputs::NONE, |all, sweep| all.union(sweep.outputs()))
-    }
-
-    /// Checks the sweep of a stage and then its laws, in their order; what is known after them.
-    fn check_stage(&self, stage: Stage, mut known: Fields, problems: &mut Vec<Problem>) -> Fields {
-        let uses = self.sweep(stage).map(|sweep| sweep.uses());
-        // Walls without a sweep over them are met by nobody.
-        if stage == Stage::Walls && uses.is_none() {
-            return known;
-        }
-        for TermUse { name, reads, .. } in uses.into_iter().flatten() {
-            let reader = Reader {
-                name: format!("the term `{name}`"),
-                stage,
-                fields: reads,
-                sums: Outputs::NONE,
-            };
-            self.check(&reader, known, Outputs::NONE, problems);
-        }
-        if stage == Stage::Rates {
-            known = known.union(OF_LAWS);
-        }
-        for law in &self.program.laws[stage.number()] {
-            let [reads, writes] = reads_and_writes(&**law, self.fields());
-            let reader = Reader {
-                name: format!("the law `{}`", law.name()),
-                stage,
-                fields: reads,
-                sums: law.sums(),
-            };
-            self.check(&reader, known, self.sums(stage), problems);
-            known = known.union(writes);
-        }
-        known
-    }
-
-    /// Rates of fields that are integrated, which see everything, but the sums of one sweep alone.
-    fn check_evolved(&self, known: Fields, problems: &mut Vec<Problem>) {
+    /// Whether each evolved field is integrated once, and each part of a rate by something.
+    fn check_evolved(&self, problems: &mut Vec<Problem>) {
         let mut seen = Fields::NONE;
         for own in &self.program.evolved {
-            let stage = match own.when {
-                When::Kick => Stage::Rates,
-                When::Drift => Stage::Continuity,
-            };
-            let name = self.program.name_of(own.field);
             if seen.contains(own.field) {
                 problems.push(Problem::Incompatible {
-                    what: format!("the scheme {} integrates {name} twice", self.name),
+                    what: format!(
+                        "the scheme {} integrates {} twice",
+                        self.name,
+                        self.program.name_of(own.field)
+                    ),
                     remedy: "let one effect integrate it, and the other contribute to its rate \
                              (StepProgram::contribute)",
                 });
             }
             seen = seen.union(Fields::of(&[own.field]));
-            let reader = |fields, sums| Reader {
-                name: format!("the rate of {name}"),
-                stage,
-                fields,
-                sums,
-            };
-            for rate in &own.rates {
-                let absent = rate.optional().minus(self.fields());
-                let reader = reader(rate.reads().minus(absent), rate.sums());
-                self.check(&reader, known, self.sums(stage), problems);
-            }
-            let sums = self.sums(stage);
-            if own.update == Update::Rotated && !sums.contains(Output::VELOCITY_GRADIENT) {
-                let spin = reader(Fields::of(&[Field::VELOCITY_GRADIENT]), Outputs::NONE);
-                self.check(&spin, known, sums, problems);
-            }
         }
         for (field, _) in &self.program.pending {
             problems.push(Problem::Incompatible {
@@ -223,21 +136,22 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         }
     }
 
-    /// Whether all that something reads is there.
-    fn check(&self, by: &Reader, known: Fields, summed: Outputs, problems: &mut Vec<Problem>) {
+    /// Whether all that a part reads is there.
+    fn check(&self, part: &Part, known: Fields, problems: &mut Vec<Problem>) {
         let mut missing = |kind, quantity: &str| {
             problems.push(Problem::NotWritten {
                 scheme: self.name.clone(),
-                reader: by.name.clone(),
+                reader: named(part),
                 kind,
                 quantity: quantity.into(),
-                stage: by.stage.name(),
+                stage: part.stage,
             });
         };
-        for field in by.fields.minus(known).iter() {
+        for field in part.reads.minus(known).iter() {
             missing("field", self.program.name_of(field));
         }
-        for sum in by.sums.minus(summed).iter() {
+        let [sums, summed] = part.sums;
+        for sum in sums.minus(summed).iter() {
             missing("sum", self.name_of_sum(sum));
         }
     }
@@ -278,5 +192,17 @@ impl<T: Real, const D: usize> Scheme<T, D> {
                 });
             }
         }
+    }
+}
+
+/// How problems name a part.
+fn named(part: &Part) -> String {
+    let name = &part.name;
+    match part.kind {
+        Kind::Term => format!("the term `{name}`"),
+        Kind::Law => format!("the law `{name}`"),
+        Kind::Update => format!("the rate of {name}"),
+        Kind::Limit => format!("the limit `{name}`"),
+        Kind::Driver => format!("the entry `{name}`"),
     }
 }

@@ -2,10 +2,9 @@
 //! What is not printed here is not in the program that runs.
 
 use super::Scheme;
-use crate::effect::reads_and_writes;
-use crate::particles::{Field, Fields};
+use super::entry::{Entries, Kind};
+use crate::particles::{Fields, Outputs};
 use crate::scalar::Real;
-use crate::term::Stage;
 use core::fmt;
 
 impl<T: Real, const D: usize> fmt::Display for Scheme<T, D> {
@@ -31,13 +30,13 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         names.join(", ")
     }
 
-    /// Whether the pressure makes forces.
-    fn presses(&self) -> bool {
-        let rates = self.sweep(Stage::Rates);
-        rates.is_some_and(|sweep| sweep.fields().contains(Field::PRESSURE_COEFFICIENT))
+    fn names_of_sums(&self, sums: Outputs) -> String {
+        let names: Vec<_> = sums.iter().map(|sum| self.name_of_sum(sum)).collect();
+        names.join(", ")
     }
 
-    /// The step program: what happens at every stage of a step, with the fields read and written.
+    /// The step program: the entries of a step in the order in which they run, with the fields that each reads and writes.
+    /// Sums are made by pairs and read by the others.
     ///
     /// ```
     /// use meshfree::prelude::*;
@@ -48,59 +47,39 @@ impl<T: Real, const D: usize> Scheme<T, D> {
     #[must_use]
     pub fn step_program(&self) -> String {
         let mut lines = vec![format!("{}, step by step", self.name)];
-        for stage in Stage::ALL {
-            if let Some(sweep) = self.sweep(stage) {
-                let mut uses = sweep.uses();
-                uses.retain(|own| !own.name.is_empty());
-                // Not the order of the list of effects.
-                uses.sort_by(|a, b| a.name.cmp(&b.name));
-                for own in uses {
-                    let sums = own.writes.iter().map(|sum| self.name_of_sum(sum));
-                    let sums = sums.collect::<Vec<_>>().join(", ");
-                    let reads = own.reads.minus(own.reads.minus(sweep.fields()));
-                    lines.push(format!("  {}, pairs: {}", stage.name(), own.name));
-                    lines.push(format!("      reads  {}", self.names(reads)));
-                    lines.push(format!("      sums   {sums}"));
+        let Entries {
+            evaluation,
+            drift,
+            work,
+            kick,
+        } = &self.entries;
+        let kick = [&work[..], &kick[..]].concat();
+        let phases = [
+            ("evaluation", evaluation),
+            ("middle of a drift", drift),
+            ("kick", &kick),
+        ];
+        for (phase, entries) in phases.into_iter().filter(|own| !own.1.is_empty()) {
+            lines.push(phase.into());
+            for part in entries.iter().flat_map(|entry| self.parts(*entry)) {
+                let pairs = if part.kind == Kind::Term {
+                    ", pairs"
+                } else {
+                    ""
+                };
+                lines.push(format!("  {}{pairs}: {}", part.stage, part.name));
+                let [sums, _] = part.sums;
+                let written = [
+                    ("reads ", self.names(part.reads)),
+                    ("sums  ", self.names_of_sums(sums.union(part.makes))),
+                    ("writes", self.names(part.writes)),
+                ];
+                for (what, names) in written.iter().filter(|own| !own.1.is_empty()) {
+                    lines.push(format!("      {what} {names}"));
                 }
-            }
-            for law in &self.program.laws[stage.number()] {
-                lines.push(format!("  {}: {}", stage.name(), law.name()));
-                let [reads, writes] = reads_and_writes(&**law, self.fields());
-                lines.push(format!("      reads  {}", self.names(reads)));
-                lines.push(format!("      writes {}", self.names(writes)));
-            }
-            if stage == Stage::Density {
-                let read = Fields::of(&[Field::DENSITY, Field::ENERGY]);
-                let absent = read.minus(self.fields());
-                let state = [Field::PRESSURE, Field::SOUND_SPEED];
-                lines.push("  state: equations of state".into());
-                lines.push(format!("      reads  {}", self.names(read.minus(absent))));
-                lines.push(format!("      writes {}", self.names(Fields::of(&state))));
-            }
-            // Once the pressures of walls are known.
-            if stage == Stage::Walls && self.presses() {
-                let of = |fields: &[Field]| self.names(Fields::of(fields));
-                let read = of(&[Field::DENSITY, Field::PRESSURE]);
-                let written = of(&[Field::PRESSURE_COEFFICIENT]);
-                lines.push(format!("  state: pressure force by {}", self.pressure_form));
-                lines.push(format!("      reads  {read}"));
-                lines.push(format!("      writes {written}"));
             }
         }
         let beside = lines.len();
-        for own in &self.program.evolved {
-            let (name, unit) = (self.program.name_of(own.field), own.field.unit());
-            lines.push(format!(
-                "  evolves {name} [{unit}]: {:?}, {:?}{}",
-                own.when,
-                own.update,
-                if own.residual.is_some() {
-                    ", rounding kept"
-                } else {
-                    ""
-                }
-            ));
-        }
         for own in &self.program.declared {
             let (name, unit) = (self.program.name_of(own.field), own.field.unit());
             lines.push(format!("  starts {name} [{unit}] at {}", own.start));

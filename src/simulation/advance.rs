@@ -5,11 +5,9 @@ use super::Simulation;
 use super::group::Group;
 use super::run_state::State;
 use super::stages::Moment;
-use crate::effect::When;
 use crate::error::Result;
 use crate::integrator::System;
 use crate::scalar::Real;
-use crate::term::Stage;
 
 /// The groups that a step takes with it: one that sub-cycles alone, or all that do not.
 pub(super) struct Stepping<'a, T: Real, const D: usize> {
@@ -119,13 +117,16 @@ impl<T: Real, const D: usize> System for Stepping<'_, T, D> {
     }
 
     fn kick(&mut self, dt: f64) {
+        let moment = Moment {
+            dt,
+            ..Moment::at(self.start)
+        };
         for group in self.groups() {
-            group.heat_in_kick(dt);
+            group.run_all(|entries| &entries.work, moment);
         }
         self.simulation.record_kick(self.alone, dt);
-        let time = self.start;
         for group in self.groups() {
-            group.kick_all(dt, time);
+            group.run_all(|entries| &entries.kick, moment);
         }
         let apart = self.shared().into_iter();
         for group in apart.flat_map(|state| &mut state.groups) {
@@ -267,19 +268,15 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// The middle and the second half of a drift of a group that something looks at on its way.
     pub(super) fn end_drift(&mut self, group: usize, begin: f64, dt: f64) {
         let middle = begin + 0.5 * dt;
-        if self.state.groups[group].scheme.sums_in_drift() {
+        if self.state.groups[group].scheme.acts_in_drift() {
             self.state.groups[group].refresh(middle, Some([begin, begin + dt]));
             self.follow_moves(group);
-            let group = &mut self.state.groups[group];
-            group.sum_stage(Stage::Continuity);
-            group.advance(When::Drift, dt);
             let moment = Moment {
                 dt,
                 in_drift: true,
                 ..Moment::at(middle)
             };
-            group.apply_laws(Stage::Continuity, moment);
-            group.apply_laws(Stage::Bounds, moment);
+            self.state.groups[group].run_all(|entries| &entries.drift, moment);
         }
         let group = &mut self.state.groups[group];
         if !group.drifts_at_once() {

@@ -183,7 +183,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         };
         let h = group.neighborhood.smoothing_length;
         let vote = vote(&group.particles, &group.work, h, &control);
-        let views = group.views(Moment::of_rates());
+        let now = Moment {
+            time: self.state.time,
+            ..group.of_rates(0.0)
+        };
+        let views = group.views(now);
         let vote = vote_of_effects(&group.scheme.program, views, vote);
         if vote.step < 0.0 {
             return Err(self.broken(group, vote.particle));
@@ -294,7 +298,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             .into_iter()
             .find(wrong)
             .or_else(|| {
-                let mut views = group.views(Moment::of_rates());
+                let mut views = group.views(group.of_rates(0.0));
                 let (_, view) = views.nth(group.particles.body_of(slot))?;
                 broken_effect(&group.scheme.program, &view, slot)
             })

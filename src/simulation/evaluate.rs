@@ -5,12 +5,12 @@ use super::group::Group;
 use super::stages::Moment;
 use super::walls::WallState;
 use crate::clock::Instant;
-use crate::effect::DensityForm;
+use crate::effect::{DensityForm, When};
 use crate::material::eos::GuardCounts;
 use crate::parallel::{GRAIN, cut, for_each, reduce};
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
-use crate::scheme::EnergyForm;
+use crate::scheme::{EnergyForm, Entries, Entry};
 use crate::sweep::{Pass, Records, Results, SweepInput};
 use crate::term::Stage;
 use std::ops::Range;
@@ -77,42 +77,59 @@ impl<T: Real, const D: usize> Group<T, D> {
     /// Evaluates all rates at the present positions, velocities, densities and energies. `elapsed` \[s\] is the
     /// time over which laws that run once a step have yet to act.
     pub fn evaluate(&mut self, time: f64, elapsed: f64) {
-        let follows = self.predict_lengths(time);
-        self.refresh(time, None);
-        if self.scheme.pressure_form != self.scheme.density {
-            self.set_weights(self.scheme.density);
-        }
+        self.work.evaluated_time = time;
         let moment = Moment {
             dt: elapsed,
             ..Moment::at(time)
         };
-        self.find_density(moment);
-        if follows {
-            self.set_length_rates(time);
+        self.run_all(|entries| &entries.evaluation, moment);
+    }
+
+    /// Runs entries of the step, in their order.
+    pub(super) fn run_all(&mut self, choose: impl Fn(&Entries) -> &[Entry], moment: Moment) {
+        let scheme = self.scheme.clone();
+        for entry in choose(&scheme.entries) {
+            self.run(*entry, moment);
         }
-        let start = Instant::now();
-        self.evaluate_materials();
-        self.apply_laws(Stage::State, moment);
-        self.work.phases.materials += start.elapsed();
-        // The sweep over walls is booked with them.
+    }
+
+    fn run(&mut self, entry: Entry, moment: Moment) {
         let (start, before) = (Instant::now(), self.work.phases);
-        self.run_walls(time);
-        self.work.phases = super::Phases {
-            walls: before.walls + start.elapsed(),
-            ..before
-        };
-        let start = Instant::now();
-        self.set_coefficients();
-        self.work.phases.materials += start.elapsed();
-        self.run_stage(Stage::Gradients, moment);
-        self.run_stage(Stage::Flow, moment);
-        self.sum_rates();
-        let moment = Moment {
-            dt: elapsed,
-            of_rates: true,
-            ..moment
-        };
-        self.add_forces_of_laws(moment);
+        match entry {
+            Entry::PredictLengths => self.predict_lengths(moment.time),
+            Entry::Lists => self.refresh(moment.time, None),
+            Entry::Weights(form) => self.set_weights(form),
+            Entry::Stage(Stage::Contacts) if !self.has_contacts() => {}
+            Entry::Stage(Stage::Walls) => {
+                self.run_walls(moment.time);
+                // The sweep over walls is booked with them.
+                self.work.phases = before;
+                self.work.phases.walls += start.elapsed();
+            }
+            Entry::Stage(stage) => self.run_stage(stage, moment),
+            Entry::Sweep(Stage::Rates) => self.sum_rates(),
+            Entry::Sweep(stage) => self.sum_stage(stage),
+            Entry::Laws(stage) => self.apply_laws(stage, moment),
+            Entry::LengthRates => self.set_length_rates(moment.time),
+            Entry::Materials => self.evaluate_materials(),
+            Entry::Coefficients => self.set_coefficients(),
+            Entry::ForcesOfLaws => self.add_forces_of_laws(Moment {
+                of_rates: true,
+                ..moment
+            }),
+            Entry::Energy => self.heat_in_kick(moment.dt),
+            Entry::Velocity => self.kick(moment.dt),
+            Entry::Evolve(When::Kick) => self.advance(When::Kick, self.of_rates(moment.dt)),
+            Entry::Evolve(When::Drift) => self.advance(When::Drift, moment),
+        }
+        let of_materials = [
+            Entry::Materials,
+            Entry::Coefficients,
+            Entry::Stage(Stage::State),
+        ];
+        if of_materials.contains(&entry) {
+            self.work.phases.materials += start.elapsed();
+        }
     }
 
     /// The laws of the rates, and the forces that they add to those of pairs.
@@ -126,15 +143,12 @@ impl<T: Real, const D: usize> Group<T, D> {
     }
 
     /// Smoothing lengths that follow the density, as far ahead as they have changed since: the nearer the search for them
-    /// begins, the fewer sums it takes, and the fewer lists. Whether there are any.
-    fn predict_lengths(&mut self, time: f64) -> bool {
+    /// begins, the fewer sums it takes, and the fewer lists.
+    fn predict_lengths(&mut self, time: f64) {
         let [h, rate] = self
             .particles
             .columns
             .many_mut([Field::SMOOTHING_LENGTH, Field::SMOOTHING_RATE]);
-        if rate.is_empty() {
-            return false;
-        }
         let dt = time - self.work.lengths_time;
         if dt != 0.0 && dt.is_finite() {
             let (dt, most) = (T::from_f64(dt), T::from_f64(MOST_PREDICTED));
@@ -142,7 +156,6 @@ impl<T: Real, const D: usize> Group<T, D> {
                 *h *= T::one() + (*rate * dt).max(-most).min(most);
             }
         }
-        true
     }
 
     /// The rates by which the next smoothing lengths are predicted, from those found before and now.
@@ -167,18 +180,6 @@ impl<T: Real, const D: usize> Group<T, D> {
             }
         }
         self.work.lengths_time = time;
-    }
-
-    fn find_density(&mut self, moment: Moment) {
-        // Contacts are asked for even where density does not follow from sums.
-        let with_contacts = self.scheme.density.is_integrated() && self.has_contacts();
-        if with_contacts {
-            self.sum(|scheme| scheme.reference.as_deref());
-            self.apply_laws(Stage::Density, moment);
-        }
-        if !self.scheme.density.is_integrated() || self.scheme.sweep(Stage::Density).is_some() {
-            self.run_stage(Stage::Density, moment);
-        }
     }
 
     /// Pressure and sound speed from the materials, body by body.
@@ -240,13 +241,9 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.guards += guards;
     }
 
-    /// Weights and pressure coefficients of the pair force.
+    /// Pressure coefficients of the pair force.
     fn set_coefficients(&mut self) {
         let form = self.scheme.pressure_form;
-        // A pressure form that does not belong to the density has weights of its own.
-        if form.is_integrated() || form != self.scheme.density {
-            self.set_weights(form);
-        }
         let [coefficient, pressure, density, rest, moment, omega] =
             self.particles.columns.many_mut([
                 Field::PRESSURE_COEFFICIENT,

@@ -97,7 +97,7 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// Whether nobody looks at it on its way through a drift.
     pub fn drifts_at_once(&self) -> bool {
-        !self.scheme.sums_in_drift() && (!self.is_met || self.sub_cycle.is_some())
+        !self.scheme.acts_in_drift() && (!self.is_met || self.sub_cycle.is_some())
     }
 
     /// Whether it, with this number, steps where one does that sub-cycles alone, or all that do not.

@@ -37,14 +37,6 @@ impl Moment {
             of_rates: false,
         }
     }
-
-    /// Outside of time, with the sums of the rates.
-    pub fn of_rates() -> Self {
-        Self {
-            of_rates: true,
-            ..Self::at(0.0)
-        }
-    }
 }
 
 impl<T: Real, const D: usize> Group<T, D> {

@@ -13,7 +13,6 @@ use crate::particles::{Field, Output};
 use crate::scalar::{MOST_LANES, Real};
 use crate::scheme::EnergyForm;
 use crate::sweep::{Results, add_compensated};
-use crate::term::Stage;
 use std::ops::Range;
 
 impl<T: Real, const D: usize> Group<T, D> {
@@ -139,7 +138,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         all.then_some(after)
     }
 
-    /// v ← v + dt a, and what else is kicked, but no energy.
+    /// v ← v + dt a.
     pub(super) fn kick(&mut self, dt: f64) {
         let gravity = self.work.evaluated_gravity;
         let step = T::from_f64(dt);
@@ -157,34 +156,19 @@ impl<T: Real, const D: usize> Group<T, D> {
                 kick_row(v, &mass[first..], forces, (step, &gravity));
             }
         });
-        self.advance(When::Kick, dt);
-    }
-
-    /// A kick of all but energy, and the bounds of what it has changed.
-    pub(super) fn kick_all(&mut self, dt: f64, time: f64) {
-        self.kick(dt);
-        if self.evolves_at(When::Kick) {
-            self.apply_laws(Stage::Bounds, Moment::at(time));
-        }
     }
 
     /// The first half of a drift, or all of it where nobody looks at the group in its middle.
     pub(super) fn begin_drift(&mut self, dt: f64) {
-        if self.scheme.sums_in_drift() {
+        if self.scheme.acts_in_drift() {
             self.predict_weights(0.5 * dt);
         }
         let whole = self.drifts_at_once();
         self.move_particles(if whole { dt } else { 0.5 * dt });
     }
 
-    /// Whether a field other than velocity and energy changes at a time.
-    fn evolves_at(&self, when: When) -> bool {
-        let own = |evolved: &Evolved<T, D>| evolved.when == when && evolved.field != Field::ENERGY;
-        self.scheme.program.evolved.iter().any(own)
-    }
-
-    /// Evolved fields other than energy over `dt` \[s\].
-    pub(super) fn advance(&mut self, when: When, dt: f64) {
+    /// Evolved fields other than energy over the time of a moment, by the rates of that moment.
+    pub(super) fn advance(&mut self, when: When, moment: Moment) {
         let scheme = self.scheme.clone();
         for own in &scheme.program.evolved {
             if own.when != when || own.field == Field::ENERGY {
@@ -194,12 +178,6 @@ impl<T: Real, const D: usize> Group<T, D> {
             let mut residual = own
                 .residual
                 .map_or(Vec::new(), |residual| self.take(residual));
-            let moment = Moment {
-                dt,
-                in_drift: when == When::Drift,
-                of_rates: when == When::Kick,
-                ..Moment::at(0.0)
-            };
             let width = own.field.components(D);
             let mut limited = 0;
             for (body, view) in self.views(moment) {
@@ -207,13 +185,22 @@ impl<T: Real, const D: usize> Group<T, D> {
                 let numbers = run.start * width..run.end * width;
                 let lost = residual.get_mut(numbers.clone()).unwrap_or_default();
                 let values = (&mut column[numbers], lost);
-                limited += update(own, &view, run.start, values, T::from_f64(dt));
+                limited += update(own, &view, run.start, values, T::from_f64(moment.dt));
             }
             *self.particles.columns.column_mut(own.field) = column;
             if let Some(kept) = own.residual {
                 *self.particles.columns.column_mut(kept) = residual;
             }
             self.count(scheme.program.name_of(own.field), limited);
+        }
+    }
+
+    /// The last evaluation, as a change over `dt` \[s\] sees it.
+    pub(super) fn of_rates(&self, dt: f64) -> Moment {
+        Moment {
+            dt,
+            of_rates: true,
+            ..Moment::at(self.work.evaluated_time)
         }
     }
 
@@ -298,6 +285,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.work.predicted = predicted;
         self.work.is_predicted = true;
         self.kick(dt);
+        self.advance(When::Kick, self.of_rates(dt));
         if self.carries_energy() {
             self.heat(dt, None);
         }
@@ -434,7 +422,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         let width = own.field.components(D);
         let piece = RATES / width * width;
         let mut buffer = [T::zero(); RATES];
-        for (body, view) in self.views(Moment::of_rates()) {
+        for (body, view) in self.views(self.of_rates(0.0)) {
             let run = body.run();
             let numbers = &mut column[run.start * width..run.end * width];
             for (k, values) in numbers.chunks_mut(piece).enumerate() {

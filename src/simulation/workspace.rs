@@ -27,6 +27,8 @@ pub(crate) struct Workspace<T: Real, const D: usize> {
     pub records_of_rates: bool,
     /// The rates of the last evaluation.
     pub rates: Results<T, D>,
+    /// The time \[s\] of that evaluation.
+    pub evaluated_time: f64,
     /// What the loads gave at that evaluation \[m/s²\].
     pub evaluated_gravity: [T; D],
     /// The work of the pair forces of the last evaluation, with the mean velocities of the first kick that took it.
@@ -60,6 +62,7 @@ impl<T: Real, const D: usize> Default for Workspace<T, D> {
             work_records: Records::default(),
             records_of_rates: false,
             rates: Results::default(),
+            evaluated_time: 0.0,
             evaluated_gravity: [T::zero(); D],
             worked: Results::default(),
             first_kick: None,

@@ -7,6 +7,7 @@
 /// | stage | when | sweep over |
 /// |---|---|---|
 /// | [`Reference`](Self::Reference) | once, when the scene is built | particles of bodies |
+/// | [`Contacts`](Self::Contacts) | as the next, where density is integrated and bodies of the group may touch | particles of bodies |
 /// | [`Density`](Self::Density) | positions are known and lists are good | particles of bodies |
 /// | [`State`](Self::State) | equations of state have given pressure and sound speed | – |
 /// | [`Walls`](Self::Walls) | before pair forces | particles of walls |
@@ -20,6 +21,8 @@
 pub enum Stage {
     /// What follows from the places of particles as built.
     Reference,
+    /// Which contacts are active; where density follows from sums, these show it.
+    Contacts,
     /// Sums that follow from positions alone, and the densities that follow from them.
     Density,
     /// What changes pressure or sound speed of a material: damping, strength, phase change.
@@ -42,8 +45,9 @@ impl Stage {
     /// How many there are.
     pub const COUNT: usize = Self::ALL.len();
     /// All, in the order of a step.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Reference,
+        Self::Contacts,
         Self::Density,
         Self::State,
         Self::Walls,
@@ -59,6 +63,7 @@ impl Stage {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Reference => "reference",
+            Self::Contacts => "contacts",
             Self::Density => "density",
             Self::State => "state",
             Self::Walls => "walls",

@@ -8,6 +8,7 @@ mod bad_input;
 mod bits;
 mod causes;
 mod counted_work;
+mod entries;
 mod filling;
 mod forces_of_laws;
 mod invariance;

@@ -514,8 +514,8 @@ fn the_driver_names_no_effect_and_effects_do_not_import_the_driver() {
         };
         names.extend(after.map(name));
     }
-    // `Option` of an effect is one too.
-    names.retain(|name| name != "Option");
+    // `Option` of an effect is one too, and a macro names its own by a variable.
+    names.retain(|name| name != "Option" && !name.is_empty());
     assert!(
         names.len() > 10 && names.contains(&"Shifting".into()),
         "{names:?}"

@@ -76,6 +76,7 @@ pub(super) fn take_workspace<T: Real, const D: usize>(
         work_records: take_records(&format!("{name}/work_records"), file)?,
         records_of_rates: file.get_one::<u32>(&format!("{name}/records_of_rates"))? != 0,
         rates: rows("rates")?,
+        evaluated_time: file.get_one(&format!("{name}/evaluated_time"))?,
         evaluated_gravity: evaluated.map(T::from_f64),
         worked: rows("worked")?,
         first_kick: take_first_kick(name, file)?,
@@ -141,6 +142,7 @@ pub(super) fn put_workspace<T: Real, const D: usize>(
         work_records,
         records_of_rates,
         rates,
+        evaluated_time,
         evaluated_gravity: _,
         worked,
         first_kick,
@@ -167,6 +169,7 @@ pub(super) fn put_workspace<T: Real, const D: usize>(
     let of_rates = u32::from(*records_of_rates);
     file.put_one(format!("{name}/records_of_rates"), of_rates);
     file.put_one(format!("{name}/lengths_time"), *lengths_time);
+    file.put_one(format!("{name}/evaluated_time"), *evaluated_time);
     let first_kick = first_kick.unwrap_or([f64::NAN; 2]);
     file.put(format!("{name}/first_kick"), 1, first_kick);
     let all = [
