@@ -6,7 +6,7 @@
 //! | part | what it is | where it stands |
 //! |---|---|---|
 //! | pair terms | sums over neighbours, each in the sweep of a [`Stage`] | [`Effect::terms`] |
-//! | fields of its own | named, with unit: scalar, vector, symmetric tensor or matrix | [`StepProgram::declare`] |
+//! | fields and sums of its own | constants with a [`name!`](crate::name) and unit: scalar, vector, symmetric tensor or matrix | [`StepProgram::declare`] for fields of the state |
 //! | [evolved](Evolved) fields | integrated in time, by a rate, in an update, at a kick or drift | [`StepProgram::evolve`] |
 //! | [laws](Law) | what happens to single particles after the sweep of a stage | [`StepProgram::law`] |
 //! | forces on single particles | [`Field::FORCE`](crate::particles::Field::FORCE), which laws of `Stage::Rates` add to | [`StepProgram::law`] |

@@ -21,7 +21,7 @@ impl<T: Real, const D: usize> Columns<T, D> {
     #[must_use]
     pub fn new(fields: Fields, slots: usize) -> Self {
         let mut columns = Self {
-            data: vec![Vec::new(); Fields::PLACES],
+            data: Vec::new(),
             fields: Fields::NONE,
             slots,
         };
@@ -63,9 +63,9 @@ impl<T: Real, const D: usize> Columns<T, D> {
 
     /// The column of a field that has one as it is stored, to be taken out for a while and put back.
     pub(crate) fn column_mut(&mut self, field: Field) -> &mut Vec<T> {
-        let place = self.fields.place(field);
-        // The last place is that of no field of the crate.
-        &mut self.data[place.unwrap_or(Fields::PLACES - 1)]
+        // The last column is of no field.
+        let place = self.fields.place(field).unwrap_or(Fields::PLACES);
+        &mut self.data[place]
     }
 
     /// Every column that is there, with its field, in the order of storage.
@@ -108,16 +108,15 @@ impl<T: Real, const D: usize> Columns<T, D> {
 
     /// Has columns for `fields` and no others: those that were not there are zero.
     pub(crate) fn set_fields(&mut self, fields: Fields) {
-        let mut data = vec![Vec::new(); Fields::PLACES];
+        let mut data = vec![Vec::new(); Fields::PLACES + 1];
         for field in fields.iter() {
-            let (Some(place), numbers) = (fields.place(field), field.components(D) * self.slots)
-            else {
+            let Some(place) = fields.place(field) else {
                 continue;
             };
             data[place] = if self.fields.contains(field) {
                 core::mem::take(self.column_mut(field))
             } else {
-                vec![T::zero(); numbers]
+                vec![T::zero(); field.components(D) * self.slots]
             };
         }
         (self.data, self.fields) = (data, fields);

@@ -30,7 +30,7 @@ macro_rules! quantities {
 
         impl core::fmt::Debug for $Quantity {
             fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-                f.write_str(self.name())
+                f.write_str(self.index().map_or(self.full_name(), |_| self.name()))
             }
         }
 
@@ -101,11 +101,11 @@ macro_rules! quantities {
             pub const fn full_name(self) -> &'static str {
                 self.0.name().full
             }
-            /// Its name among others: the full one if it is of an effect, and another has the same name.
-            #[allow(dead_code)]
+            /// Its name among others: the full one if it is of an effect, and one of these or of the crate has the same name.
             pub(crate) fn name_among(self, others: impl IntoIterator<Item = Self>) -> &'static str {
+                let mut all = Self::ALL.iter().copied().chain(others);
                 let clashes = |other: Self| !other.is(self) && other.name() == self.name();
-                if self.index().is_none() && others.into_iter().any(clashes) {
+                if self.index().is_none() && all.any(clashes) {
                     return self.full_name();
                 }
                 self.name()
@@ -484,7 +484,7 @@ mod tests {
         let density = Field::scalar(named("a", "density", "1"));
         assert_eq!(a.name_among([a, density, Field::DENSITY]), "dye");
         assert_eq!(a.name_among([a, b]), "a::dye");
-        assert_eq!(density.name_among([Field::DENSITY]), "a::density");
+        assert_eq!(density.name_among([]), "a::density");
         assert_eq!(Field::DENSITY.name_among([density]), "density");
     }
 }

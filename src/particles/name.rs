@@ -334,23 +334,18 @@ impl Set {
     }
     #[inline(always)]
     pub const fn contains(&self, key: Key) -> bool {
-        match key.index() {
-            Some(index) => self.of_crate >> index & 1 == 1,
-            None => {
-                let at = self.rank(key);
-                at < Self::MOST && self.of_effects[at].is(key)
-            }
+        if let Some(index) = key.index() {
+            return self.of_crate >> index & 1 == 1;
         }
+        let at = self.rank(key);
+        at < Self::MOST && self.of_effects[at].is(key)
     }
     #[inline(always)]
     pub const fn offset(&self, key: Key, shapes: &[u64; 3], d: usize) -> usize {
-        match key.index() {
-            Some(index) => width(self.of_crate & below(index), shapes, d),
-            None => {
-                let before = width(below(self.rank(key)), &self.shapes, d);
-                width(self.of_crate, shapes, d) + before
-            }
+        if let Some(index) = key.index() {
+            return width(self.of_crate & below(index), shapes, d);
         }
+        width(self.of_crate, shapes, d) + width(below(self.rank(key)), &self.shapes, d)
     }
     #[inline(always)]
     pub const fn width(&self, shapes: &[u64; 3], d: usize) -> usize {

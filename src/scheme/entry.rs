@@ -69,6 +69,8 @@ pub(super) struct Part {
     /// The stage or phase to which it belongs.
     pub stage: &'static str,
     pub name: String,
+    /// The unit and update of an evolved field, in print.
+    pub note: String,
     pub reads: Fields,
     /// Sums that it reads, of those that are there.
     pub sums: [Outputs; 2],
@@ -83,6 +85,7 @@ impl Part {
             kind,
             stage,
             name: name.into(),
+            note: String::new(),
             reads: Fields::NONE,
             sums: [Outputs::NONE; 2],
             makes: Outputs::NONE,
@@ -289,8 +292,10 @@ impl<T: Real, const D: usize> Scheme<T, D> {
             reads = reads.union(Fields::of(&[Field::VELOCITY_GRADIENT]));
         }
         let residual = own.residual.map_or(Fields::NONE, |own| Fields::of(&[own]));
+        let kept = own.residual.map_or("", |_| ", rounding kept");
         let name = self.program.name_of(own.field);
         Part {
+            note: format!(" [{}], {:?}{kept}", own.field.unit(), own.update),
             reads,
             sums: [sums, summed],
             writes: Fields::of(&[own.field]).union(residual),

@@ -158,7 +158,7 @@ impl<T: Real, const D: usize> Scheme<T, D> {
 
     /// The sums of all sweeps.
     fn all_sums(&self) -> Outputs {
-        let sweeps = self.sweeps.iter().flatten();
+        let sweeps = self.sweeps.iter().flatten().chain(&self.reference);
         sweeps.fold(Outputs::NONE, |all, sweep| all.union(sweep.outputs()))
     }
 

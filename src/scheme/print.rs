@@ -2,7 +2,7 @@
 //! What is not printed here is not in the program that runs.
 
 use super::Scheme;
-use super::entry::{Entries, Kind};
+use super::entry::{Entries, Kind, Part};
 use crate::particles::{Fields, Outputs};
 use crate::scalar::Real;
 use core::fmt;
@@ -62,12 +62,15 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         for (phase, entries) in phases.into_iter().filter(|own| !own.1.is_empty()) {
             lines.push(phase.into());
             for part in entries.iter().flat_map(|entry| self.parts(*entry)) {
-                let pairs = if part.kind == Kind::Term {
-                    ", pairs"
-                } else {
-                    ""
+                let verb = match part.kind {
+                    Kind::Term => ", pairs: ",
+                    Kind::Update => ": evolves ",
+                    _ => ": ",
                 };
-                lines.push(format!("  {}{pairs}: {}", part.stage, part.name));
+                let Part {
+                    stage, name, note, ..
+                } = &part;
+                lines.push(format!("  {stage}{verb}{name}{note}"));
                 let [sums, _] = part.sums;
                 let written = [
                     ("reads ", self.names(part.reads)),

@@ -82,7 +82,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// If no particle carries a field of that name; the error lists those that there are.
     pub fn field(&self, name: &str) -> Result<Field> {
         let carried = self.carried();
-        let is = |field: &Field| self.name_of(*field) == name || field.full_name() == name;
+        let is = |field: &Field| {
+            field.name_among(carried.iter().copied()) == name || field.full_name() == name
+        };
         let found = carried.iter().copied().find(is);
         found.ok_or_else(|| self.unknown_field(name))
     }
@@ -108,7 +110,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// The error that lists the fields that there are.
     fn unknown_field(&self, name: &str) -> Error {
         let carried = self.carried();
-        let known = carried.iter().map(|field| self.name_of(*field));
+        let known = carried.iter();
+        let known = known.map(|field| field.name_among(carried.iter().copied()));
         Error::Argument(Problem::UnknownName {
             kind: "field",
             name: name.into(),
@@ -122,9 +125,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         field: Field,
     ) -> Result<(&'static str, impl Iterator<Item = ParticleView<'_, T, D>>)> {
         if !self.carried().contains(&field) {
-            // Of one of the crate the package is plain.
-            let name = field.index().map_or(field.full_name(), |_| field.name());
-            return Err(self.unknown_field(name));
+            return Err(self.unknown_field(&format!("{field:?}")));
         }
         let bodies = self.all_bodies();
         let own = bodies.filter(move |(group, _)| !group.particles.columns.raw(field).is_empty());

@@ -1,8 +1,13 @@
 //! What a scheme says of itself is what it runs, and what the architecture page shows.
 //! The page holds the step programs of one liquid and one solid as the crate prints them.
 
-use meshfree::effect::{BySum, Chunk, Effect, Law, Setting, StepProgram, Tally};
+use meshfree::effect::{
+    BySum, Chunk, Damage, Effect, HourglassFree, Hypoelastic, Law, Setting, StepProgram,
+    SurfaceTension, Tally,
+};
 use meshfree::error::Problem;
+use meshfree::material::eos::Linear;
+use meshfree::material::failure::SpallStrength;
 use meshfree::name;
 use meshfree::particles::{Name, Output, Outputs};
 use meshfree::prelude::*;
@@ -287,6 +292,27 @@ fn two_fields_of_one_full_name_are_refused() {
     let printed = scheme.step_program();
     assert!(printed.contains("starts meshfree::colour [1]"), "{printed}");
     assert!(printed.contains("starts other::colour [K]"), "{printed}");
+}
+
+#[test]
+fn surface_tension_stands_with_effects_of_solids_that_fail() {
+    let scheme = schemes::impact_by_continuity()
+        .with(Hypoelastic)
+        .with(Damage)
+        .with(HourglassFree::default())
+        .with(SurfaceTension::between("first", "second", 0.03));
+    let body = |name, low: f64| {
+        let material = Material::new(name, Linear::new(1000.0, 100.0)).with_shear_modulus(1e6);
+        let material = material.with_failure(SpallStrength::new(1e5));
+        Body::block(name, material, [low], [low + 0.5], 0.05)
+    };
+    let scene = Scene::<f64, 1>::new(scheme);
+    let scene = scene.body(body("first", 0.0)).body(body("second", 0.5));
+    let mut rods = scene.build().expect("two rods");
+    rods.step().expect("a step");
+    let first = rods.all().next().expect("a particle");
+    assert_eq!(first.named("colour"), Some(vec![1.0]));
+    assert_eq!(first.named("failed"), Some(vec![0.0]));
 }
 
 #[test]

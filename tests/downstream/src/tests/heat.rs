@@ -15,7 +15,7 @@ const HEAT: HeatConduction = HeatConduction {
     start: 300.0,
 };
 
-fn material() -> Material<f64> {
+pub fn material() -> Material<f64> {
     Material::new("still", Linear::new(2000.0, 1.0))
 }
 

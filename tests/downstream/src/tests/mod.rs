@@ -3,3 +3,4 @@
 mod heat;
 mod hypoelastic;
 mod parts;
+mod two_crates;
