@@ -24,8 +24,8 @@ pub enum EnergyForm {
     #[doc = include_str!("../../docs/equations/energy_symmetric.html")]
     Symmetric,
     /// The work of every pair force with the mean velocity of each kick, so that total energy is
-    /// conserved to rounding whatever the forces are (Owen 2014). Needs an integrator that kicks, and
-    /// a second pass over the pairs of each kick.
+    /// conserved to rounding whatever the forces are (Owen 2014). Needs an integrator that kicks, and, but for
+    /// [total-Lagrangian schemes](crate::scheme#energy), a second pass over the pairs of each kick.
     ///
     #[doc = include_str!("../../docs/equations/energy_compatible.html")]
     #[default]
@@ -148,7 +148,9 @@ impl<const D: usize> Effect<D> for InternalEnergy {
         }
         if form == EnergyForm::Compatible {
             program.carry(Field::MEAN_VELOCITY);
-            program.carry(Field::MEAN_ACCELERATION);
+            if !program.setting().density.keeps_neighbors() {
+                program.carry(Field::MEAN_ACCELERATION);
+            }
         }
     }
 }

@@ -242,7 +242,7 @@ quantities! {
     POSITION_RESIDUAL, Vector, "position_residual", "m";
     /// Velocity v.
     VELOCITY, Velocity, "velocity", "m/s";
-    /// Velocity averaged over a kick, with which pair forces do their work.
+    /// Velocity with which the work of pair forces is summed: the mean of a kick or, in total-Lagrangian schemes, that of the evaluation.
     MEAN_VELOCITY, Velocity, "mean_velocity", "m/s";
     /// Mass m.
     MASS, Scalar, "mass", "kg";

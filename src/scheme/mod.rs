@@ -44,6 +44,10 @@
 //! velocities of that kick, in a second pass over the same pairs with the same forces. What kinetic
 //! energy loses in the kick, internal energy gains, to rounding, whatever the forces are and however
 //! long the step. [`EnergyForm::Symmetric`] saves that pass, and drifts with the order of the step.
+//!
+//! Total-Lagrangian schemes need no second pass. Their pairs share out the power −½ Fᵢⱼ·uᵢⱼ of the velocities u with which
+//! forces are summed, and each particle adds the work −Fᵢ·(v̄ᵢ − uᵢ) of its own force: the sum is the same. In a leapfrog v̄ − u
+//! is of second order in the step, and so is what this moves between neighbours.
 
 //!
 //! [`Cavitation`]: crate::effect::Cavitation
@@ -138,6 +142,11 @@ impl<T: Real, const D: usize> Scheme<T, D> {
     /// Whether it has a wall law, and so meets walls of particles and the bodies of schemes that have none.
     pub(crate) fn meets_walls(&self) -> bool {
         self.sweep(Stage::Walls).is_some()
+    }
+
+    /// Whether the work of a kick takes a sweep of its own.
+    pub(crate) fn sweeps_work(&self) -> bool {
+        self.energy == EnergyForm::Compatible && !self.density.keeps_neighbors()
     }
 
     /// Whether a step has entries in the middle of a drift.

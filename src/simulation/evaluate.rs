@@ -288,12 +288,14 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.work.spent.pairs += pairs;
         self.work.records = records;
         self.work.rates = rates;
-        if self.scheme.energy == EnergyForm::Compatible {
+        if self.scheme.sweeps_work() {
             let mut records = core::mem::take(&mut self.work.work_records);
             let start = Instant::now();
             sweep.pack(Pass::Work, &self.input(), &mut records);
             self.work.phases.work += start.elapsed();
             self.work.work_records = records;
+        } else if self.scheme.energy == EnergyForm::Compatible {
+            self.keep_rates_of_pairs();
         }
     }
 

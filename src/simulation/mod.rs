@@ -161,6 +161,7 @@ mod neighbor;
 mod neighborhood;
 mod observed;
 mod outlook;
+mod own_work;
 mod pair_list;
 mod phases;
 mod population;

@@ -15,8 +15,8 @@ pub struct Phases {
     pub packing: Duration,
     /// Sweeps over pairs, those of walls excepted.
     pub pairs: Duration,
-    /// The work of pair forces in kicks, which the compatible energy form sums in a sweep of its own
-    /// ([`EnergyForm::Compatible`](crate::scheme::EnergyForm::Compatible)).
+    /// The work of pair forces in kicks, which the compatible energy form sums in a sweep of its own, but in total-Lagrangian
+    /// schemes ([`EnergyForm::Compatible`](crate::scheme::EnergyForm::Compatible)).
     pub work: Duration,
     /// What wall particles take from the liquid, with the sweep over their neighbours.
     pub walls: Duration,

@@ -57,6 +57,11 @@ impl<T: Real, const D: usize> Group<T, D> {
             }
             return;
         }
+        if !self.scheme.sweeps_work() {
+            self.heat_by_own_forces(dt);
+            heat_by_loads(&mut self.particles.columns, dt);
+            return;
+        }
         // Every evaluation serves two kicks, the second of which may take its work from the first.
         let first = self.work.first_kick.take();
         let later = first.and_then(|first| self.later(first, 0.5 * dt));

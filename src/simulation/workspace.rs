@@ -31,7 +31,8 @@ pub(crate) struct Workspace<T: Real, const D: usize> {
     pub evaluated_time: f64,
     /// What the loads gave at that evaluation \[m/s²\].
     pub evaluated_gravity: [T; D],
-    /// The work of the pair forces of the last evaluation, with the mean velocities of the first kick that took it.
+    /// The work of the pair forces of the last evaluation, with the mean velocities of the first kick that took it; where no
+    /// sweep sums it, the rates of that evaluation before others than pairs added forces.
     pub worked: Results<T, D>,
     /// Half of the time \[s\] of that kick, and where the images were in time \[s\]; none before there was one.
     pub first_kick: Option<[f64; 2]>,

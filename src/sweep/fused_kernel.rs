@@ -136,7 +136,7 @@ impl<T: Real, const D: usize, K: Kernel<D>, P: Terms<D>, const MODE: u8> PairSwe
     ) {
         const {
             assert_room::<Composed<T, P, D, MODE>, D>();
-            if P::WRITES.contains(Output::POWER) {
+            if sweeps_work::<P, D>() {
                 assert_room::<Composed<T, Working<P>, D, MODE>, D>();
             }
         }
@@ -144,7 +144,7 @@ impl<T: Real, const D: usize, K: Kernel<D>, P: Terms<D>, const MODE: u8> PairSwe
             Pass::Rates => self.go::<T, D, P>(&self.terms, input, records, rows),
             // Work is only ever asked of sweeps that carry energy.
             Pass::Work => {
-                if const { P::WRITES.contains(Output::POWER) } {
+                if const { sweeps_work::<P, D>() } {
                     self.go::<T, D, _>(Working::of(&self.terms), input, records, rows);
                 }
             }
@@ -201,6 +201,11 @@ impl<K, P, const MODE: u8> FusedKernel<K, P, MODE> {
             },
         );
     }
+}
+
+/// Whether terms can be asked for the work of their forces: total-Lagrangian solids have it of the power of the rates.
+const fn sweeps_work<P: Terms<D>, const D: usize>() -> bool {
+    P::WRITES.contains(Output::POWER) && !P::READS.contains(Field::REFERENCE_POSITION)
 }
 
 /// What a loop does with one chunk: the slots that are wanted of it, its number and its lists, room for the other sides of its

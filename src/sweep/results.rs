@@ -78,6 +78,13 @@ impl<T: Real, const D: usize> Results<T, D> {
         }
     }
 
+    /// Takes over the sums of others, without the forces between blocks.
+    pub(crate) fn copy(&mut self, from: &Self) {
+        self.lay_out(from.outputs);
+        self.first = from.first;
+        self.data.clone_from(&from.data);
+    }
+
     /// The sums that are here.
     #[must_use]
     pub fn outputs(&self) -> Outputs {

@@ -212,6 +212,40 @@ fn a_free_plate_bends_at_its_period() {
     assert!(control.abs() < 0.02, "{control}");
 }
 
+/// Total energy of a bar that yields and dissipates at a plane of symmetry, by every integrator that kicks, to rounding.
+#[test]
+fn energy_is_kept_where_a_bar_flows() {
+    fn drift<I: Integrator + 'static>(integrator: I) -> f64 {
+        let scheme = schemes::total_lagrangian_impact().with(FiniteStrainPlasticity);
+        let bar = Body::block(
+            "bar",
+            catalogue::ofhc_copper(),
+            [0.0; 2],
+            [0.01, 0.004],
+            5e-4,
+        );
+        let mut bar = Scene::<f64, 2>::new(scheme)
+            .body(bar.velocity([-200.0, 0.0]))
+            .boundary(MirrorPlane::symmetry([0.0; 2], [-1.0, 0.0]))
+            .integrator(integrator)
+            .build()
+            .unwrap();
+        let before = bar.ledger().whole;
+        bar.run_until(5e-6).unwrap();
+        let after = bar.ledger().whole;
+        // Most of it is heat by then.
+        assert!(after.kinetic < 0.7 * before.kinetic, "{}", after.kinetic);
+        after.total_energy() / before.total_energy() - 1.0
+    }
+    for drift in [
+        drift(KickDriftKick),
+        drift(DriftKickDrift),
+        drift(PositionVerlet),
+    ] {
+        assert!(drift.abs() < 1e-13, "{drift:e}");
+    }
+}
+
 /// In the middle of a block that shears by inertia, before its edges are heard of: √3 τ = Y, and γ less its elastic part
 /// is √3 times the plastic strain.
 #[test]

@@ -63,11 +63,13 @@ fn bytes_a_particle<T: Real, const D: usize>(
     let scheme = &part.scheme;
     let number = size_of::<T>() as f64;
     let columns = columns.width(D) as f64;
-    // Records of the widest sweep and, with compatible energy, those of the work of kicks.
+    // Records of the widest sweep and, where the work of kicks is summed by one, those of that.
     let (records, sums) = scheme.widths();
-    // The latter have sums of their own, of power and of what it gains.
-    let (packed, worked) = if scheme.energy == EnergyForm::Compatible {
+    // The latter has sums of its own, of power and of what it gains; without it the sums of the rates are kept.
+    let (packed, worked) = if scheme.sweeps_work() {
         (2, 2)
+    } else if scheme.energy == EnergyForm::Compatible {
+        (1, sums)
     } else {
         (1, 0)
     };
