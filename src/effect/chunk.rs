@@ -108,9 +108,9 @@ impl<'a, T: Real, const D: usize> Chunk<'a, T, D> {
         let mut read = [[].as_slice(); R];
         let mut written = core::array::from_fn(|_| [].as_mut_slice());
         let count = self.columns.count;
-        let columns = self.columns.all.iter_mut().zip(self.columns.fields);
+        let columns = self.columns.all.iter_mut().zip(&self.columns.fields);
         for (column, own) in columns.take(count) {
-            let is = |field: &Field| field.is(own);
+            let is = |field: &Field| field.is(*own);
             if let Some(k) = writes.iter().position(is) {
                 written[k] = &mut **column;
                 continue;

@@ -371,7 +371,11 @@ mod tests {
         let same = Plain::new("creep", &[STRESS], &[STRESS]).on(Rung::Flow);
         for other in [same, Plain::new("creep", &[STRESS], &[STRESS])] {
             let text = found(&[flow(), other]).expect_err("a tie");
-            for part in ["`creep` and `plastic flow`", "the field stress", "Law::rung"] {
+            for part in [
+                "`creep` and `plastic flow`",
+                "the field stress",
+                "Law::rung",
+            ] {
                 assert!(text.contains(part), "{part} in {text}");
             }
         }

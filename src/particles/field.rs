@@ -77,11 +77,13 @@ macro_rules! quantities {
                 self.0.is(other.0)
             }
             /// Numbers per particle in `d` dimensions.
+            #[inline]
             #[must_use]
             pub const fn components(self, d: usize) -> usize {
                 self.0.shape().components(d)
             }
             /// How it changes under rotation and reflection.
+            #[inline]
             #[must_use]
             pub const fn shape(self) -> Shape {
                 self.0.shape()

@@ -70,6 +70,7 @@ impl Shape {
             _ => "vector",
         }
     }
+    #[inline]
     pub(super) const fn components(self, d: usize) -> usize {
         match self {
             Self::Scalar => 1,
@@ -112,6 +113,7 @@ const fn width(members: u64, shapes: &[u64; 3], d: usize) -> usize {
 }
 
 /// The bits below one.
+#[inline(always)]
 const fn below(place: usize) -> u64 {
     (1 << place) - 1
 }
@@ -155,6 +157,7 @@ impl Key {
     pub const fn is(self, other: Self) -> bool {
         self.bits == other.bits
     }
+    #[inline]
     pub const fn shape(self) -> Shape {
         const ALL: [Shape; 6] = [
             Shape::Scalar,

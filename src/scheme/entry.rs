@@ -206,12 +206,20 @@ impl<T: Real, const D: usize> Scheme<T, D> {
                 let writes = [Field::PRESSURE, Field::SOUND_SPEED];
                 vec![Part::driver("state", "equations of state", &reads, &writes)]
             }
-            Entry::Coefficients => vec![Part::driver(
-                "state",
-                &format!("pressure force by {}", self.pressure_form),
-                &[Field::PRESSURE, Field::DENSITY],
-                &[Field::PRESSURE_COEFFICIENT],
-            )],
+            Entry::Coefficients => {
+                let reads = Fields::of(&[
+                    Field::DENSITY,
+                    Field::PRESSURE,
+                    Field::CONSISTENCY_FACTOR,
+                    Field::REFERENCE_DENSITY,
+                    Field::GRAD_H,
+                ]);
+                let name = format!("pressure force by {}", self.pressure_form);
+                vec![Part {
+                    reads: reads.minus(reads.minus(self.fields())),
+                    ..Part::driver("state", &name, &[], &[Field::PRESSURE_COEFFICIENT])
+                }]
+            }
             Entry::ForcesOfLaws => {
                 let adds = self.fields().contains(Field::FORCE);
                 let zero = Part::driver("rates", "zero force of laws", &[], &[Field::FORCE]);

@@ -635,10 +635,10 @@ fn another_version_width_and_machine_are_named() {
         problem(rods::<f64>(), &copy)
     };
     assert_eq!(
-        with(r#""version":"5""#, r#""version":"9""#),
+        with(r#""version":"6""#, r#""version":"9""#),
         CheckpointProblem::Version {
             found: "9".into(),
-            known: "5"
+            known: "6"
         }
     );
     assert_eq!(
