@@ -265,6 +265,7 @@
 
 pub mod boundary;
 mod clock;
+mod collective;
 pub mod coupling;
 pub mod effect;
 pub mod error;

@@ -4,7 +4,6 @@
 
 use std::marker::PhantomData;
 use std::ops::Range;
-use std::sync::{Mutex, PoisonError};
 
 /// Numbers that are worth an indirect call and a look of another thread.
 pub(crate) const GRAIN: usize = 4096;
@@ -103,55 +102,6 @@ pub(crate) fn for_each<P: Pieces>(pieces: P, work: impl Fn(usize, P::Piece) + Sy
     share(0..pieces.count(), &|k| work(k, unsafe { pieces.piece(k) }));
 }
 
-/// Joins `start` and what `work` gives for each piece, in any order: so `join` must not depend on it, as sums of counts
-/// and the largest of numbers do not.
-pub(crate) fn reduce<P: Pieces, V: Copy + Send>(
-    pieces: P,
-    start: V,
-    work: impl Fn(usize, P::Piece) -> V + Sync,
-    join: impl Fn(V, V) -> V + Sync,
-) -> V {
-    let all = Mutex::new(start);
-    for_each(pieces, |number, piece| {
-        let own = work(number, piece);
-        let mut all = all.lock().unwrap_or_else(PoisonError::into_inner);
-        *all = join(*all, own);
-    });
-    all.into_inner().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// The largest value of a range of numbers; zero, if none is larger.
-pub(crate) fn largest(range: Range<usize>, of: impl Fn(usize) -> f64 + Sync) -> f64 {
-    // A comparison, which leaves NaN out as `f64::max` does, in a third of its time.
-    let larger = |most: f64, value: f64| if value > most { value } else { most };
-    let in_run = |_, run: Range<usize>| run.map(&of).fold(0.0, larger);
-    reduce(runs(range, GRAIN), 0.0, in_run, larger)
-}
-
-/// The least and the largest of each component of vectors.
-pub(crate) type Corners<const D: usize> = [[f64; D]; 2];
-
-/// Those of no vector.
-pub(crate) fn no_corners<const D: usize>() -> Corners<D> {
-    [[f64::INFINITY; D], [f64::NEG_INFINITY; D]]
-}
-
-/// The corners of a range of vectors and of what is `known`.
-pub(crate) fn corners<const D: usize>(
-    range: Range<usize>,
-    known: Corners<D>,
-    of: impl Fn(usize) -> [f64; D] + Sync,
-) -> Corners<D> {
-    let both = |a: Corners<D>, b: Corners<D>| {
-        [
-            core::array::from_fn(|d| a[0][d].min(b[0][d])),
-            core::array::from_fn(|d| a[1][d].max(b[1][d])),
-        ]
-    };
-    let in_run = |_, run: Range<usize>| run.map(|k| [of(k); 2]).fold(no_corners(), both);
-    reduce(runs(range, GRAIN), known, in_run, both)
-}
-
 /// One value for each number below `count`, in order.
 pub(crate) fn collect<V: Send>(count: usize, of: impl Fn(usize) -> V + Sync) -> Vec<V> {
     let mut values: Vec<Option<V>> = Vec::new();
@@ -247,14 +197,11 @@ mod tests {
         for (count, size) in [(0, 3), (1, 3), (3, 3), (10, 3), (1000, 7)] {
             let met = |piece: usize, own: Range<usize>| {
                 assert_eq!(own.start, 5 + piece * size);
-                (own.len(), own.sum::<usize>())
+                [own.len(), own.sum()].map(|n| n as u64)
             };
-            let all = runs(5..5 + count, size);
-            let sums = reduce(all, (0, 0), met, |a, b| (a.0 + b.0, a.1 + b.1));
-            assert_eq!(sums, (count, (5..5 + count).sum()));
+            let sums = crate::collective::over_pieces(runs(5..5 + count, size), met);
+            assert_eq!(sums, [count, (5..5 + count).sum()].map(|n| n as u64));
         }
-        assert_eq!(largest(0..9999, |k| (k % 5000) as f64), 4999.0);
-        assert_eq!(largest(0..0, |_| 1.0), 0.0);
     }
 
     #[test]

@@ -2,6 +2,7 @@
 //! The rate is the change of that mass between two readings.
 
 use super::place::{DIRECTION, refused};
+use crate::collective::Collective;
 use crate::error::Result;
 use crate::scalar::Real;
 use crate::simulation::Simulation;
@@ -50,12 +51,11 @@ impl<const D: usize> FlowPlane<D> {
                 .sum();
             height > 0.0
         };
-        let inside: f64 = simulation
-            .all()
-            .filter(|particle| beyond(particle.position()))
-            .map(|particle| particle.mass())
-            .sum();
-        inside + simulation.removed().mass
+        let mut inside = Collective::new();
+        for particle in simulation.all().filter(|own| beyond(own.position())) {
+            inside.add(particle.mass());
+        }
+        inside.value() + simulation.removed().mass
     }
 
     /// Mass flow \[kg/s\] since the last reading; zero at the first.

@@ -3,9 +3,10 @@
 
 use super::neighborhood::Neighborhood;
 use super::population::Particles;
-use super::vote::{Criterion, NO_VOTE, ROUNDED, Vote, least};
+use super::vote::{Criterion, NO_VOTE, ROUNDED, Vote};
+use crate::collective::{Collective, Corners, Join, Least, largest, over, over_pieces};
 use crate::neighbors::CHUNK;
-use crate::parallel::{Corners, corners, largest, no_corners, reduce, runs};
+use crate::parallel::runs;
 use crate::particles::Field;
 use crate::scalar::{Lane, Mask, OnRows, Real};
 use crate::scheme::Scheme;
@@ -43,8 +44,9 @@ const NOTHING: Approach = Approach {
     meeting: None,
 };
 
-impl Approach {
-    /// The shorter step and the faster meeting; the lower slot wins a tie, whatever the order of reduction.
+/// The shorter step and the faster meeting; the lower slot wins a tie.
+impl Join for Approach {
+    const NONE: Self = NOTHING;
     fn and(self, other: Self) -> Self {
         let faster = |a: Meeting, b: Meeting| {
             if b.mach > a.mach || (b.mach == a.mach && b.slot < a.slot) {
@@ -54,7 +56,7 @@ impl Approach {
             }
         };
         Self {
-            vote: least(self.vote, other.vote),
+            vote: self.vote.and(other.vote),
             meeting: match (self.meeting, other.meeting) {
                 (Some(a), Some(b)) => Some(faster(a, b)),
                 (a, b) => a.or(b),
@@ -75,13 +77,10 @@ pub(super) fn approach<T: Real, const D: usize>(
     (share, limit): (f64, f64),
 ) -> Approach {
     let lengths = particles.columns.raw(Field::SMOOTHING_LENGTH);
-    let least_h = lengths
-        .iter()
-        .fold(f64::INFINITY, |least, h| least.min(h.to_f64()));
     let least_h = if lengths.is_empty() {
         neighborhood.smoothing_length
     } else {
-        least_h
+        over(0..lengths.len(), |slot| Least(lengths[slot].to_f64(), slot)).0
     };
     let bearable = share * NEAREST * least_h / scheme.h_over_dx;
     let harmless = |speed: f64| speed == 0.0 || speed * limit <= bearable;
@@ -94,7 +93,7 @@ pub(super) fn approach<T: Real, const D: usize>(
         return NOTHING;
     }
     let range = velocities(particles, neighborhood);
-    let spread: f64 = (0..D).map(|d| (range[1][d] - range[0][d]).powi(2)).sum();
+    let spread: f64 = range.extent().iter().map(|v| v.powi(2)).sum();
     if harmless(spread.sqrt()) {
         return NOTHING;
     }
@@ -108,10 +107,10 @@ pub(super) fn approach<T: Real, const D: usize>(
             share,
             limit,
             least_h,
-            range,
+            range: range.0,
         })
     };
-    reduce(runs(0..chunks.len(), 1), NOTHING, in_chunk, Approach::and)
+    over_pieces(runs(0..chunks.len(), 1), in_chunk)
 }
 
 /// Slots of bodies and walls, which stand before images.
@@ -144,15 +143,19 @@ fn velocities<T: Real, const D: usize>(
     neighborhood: &Neighborhood<T, D>,
 ) -> Corners<D> {
     let velocities = particles.columns.vectors(Field::VELOCITY);
-    let own = |slot: usize| velocities[slot].map(Real::to_f64);
-    let direct = direct(particles, neighborhood)
-        .fold(no_corners(), |known, slots| corners(slots, known, own));
+    let mut all = Collective::new();
+    for slots in direct(particles, neighborhood) {
+        all.add_range(slots, |slot| {
+            Corners::at(velocities[slot].map(Real::to_f64))
+        });
+    }
     let images = &neighborhood.images;
-    corners(0..images.len(), direct, |k| {
+    all.add_range(0..images.len(), |k| {
         let by = &neighborhood.chains.transforms[images[k].transform as usize];
-        by.velocity_of(&velocities[images[k].source as usize])
-            .map(Real::to_f64)
-    })
+        let v = by.velocity_of(&velocities[images[k].source as usize]);
+        Corners::at(v.map(Real::to_f64))
+    });
+    all.value()
 }
 
 /// What the approach of pairs asks for in one chunk, among the particles that move by forces.
@@ -166,7 +169,7 @@ struct InChunk<'a, T: Real, const D: usize> {
     limit: f64,
     least_h: f64,
     /// The least and the largest component of velocities.
-    range: Corners<D>,
+    range: [[f64; D]; 2],
 }
 
 impl<T: Real, const D: usize> OnRows<T> for InChunk<'_, T, D> {

@@ -1,11 +1,13 @@
 //! Couplings by forces between pairs: the search, sums of their own, forces, work, and what pairs remember.
 //! Pairs act in the order of the numbers of their particles, so results do not depend on threads or on lists.
 
+use super::energy::power;
 use super::group::Group;
 use super::group::shared_with_image;
 use super::pair_list::PairList;
 use super::side::{MetWall, Side, carry};
 use crate::boundary::Boundary;
+use crate::collective::{Collective, over};
 use crate::coupling::{Anchor, CoupledPair, Coupling};
 use crate::particles::Field;
 use crate::scalar::Real;
@@ -101,40 +103,42 @@ impl<T: Real, const D: usize> Couple<T, D> {
 
     /// What its forces on a side work in a kick over `dt` \[s\] \[J\].
     pub fn work_in_kick(&self, side: usize, groups: &[Group<T, D>], dt: f64) -> f64 {
-        let mut work = 0.0;
-        match &self.sides[side] {
-            Side::Body { group, .. } => {
-                let group = &groups[*group];
-                let columns = &group.particles.columns;
-                let (mass, v) = (columns.raw(Field::MASS), columns.vectors(Field::VELOCITY));
-                for &(id, force) in &self.acting.forces[side] {
-                    let Some((_, slot)) = self.sides[side].slot(id, groups) else {
-                        continue;
-                    };
-                    for d in 0..D {
-                        // Where a group sub-cycles, the kick is that of couplings alone.
-                        let a = group.sub_cycle.as_ref().map_or_else(
-                            || group.work.acceleration(mass, slot * D + d),
-                            |apart| apart.forces[slot][d] / mass[slot],
-                        );
-                        work += force[d].to_f64() * (v[slot][d].to_f64() + 0.5 * dt * a.to_f64());
-                    }
-                }
-            }
-            Side::Wall(wall) => work = -self.power_of_wall(wall),
-        }
-        dt * work
+        let group = match &self.sides[side] {
+            Side::Body { group, .. } => &groups[*group],
+            Side::Wall(wall) => return -dt * self.power_of_wall(wall),
+        };
+        let columns = &group.particles.columns;
+        let (mass, v) = (columns.raw(Field::MASS), columns.vectors(Field::VELOCITY));
+        let forces = &self.acting.forces[side];
+        let power = over(0..forces.len(), |k| {
+            let (id, force) = (forces[k].0, forces[k].1.map(Real::to_f64));
+            let Some((_, slot)) = self.sides[side].slot(id, groups) else {
+                return 0.0;
+            };
+            // Where a group sub-cycles, the kick is that of couplings alone.
+            let Some(apart) = &group.sub_cycle else {
+                return group.work.power(columns, &force, slot, 0.5 * dt);
+            };
+            power(
+                &force,
+                &core::array::from_fn(|d| {
+                    let a = (apart.forces[slot][d] / mass[slot]).to_f64();
+                    v[slot][d].to_f64() + 0.5 * dt * a
+                }),
+            )
+        });
+        dt * power
     }
 
     /// Power \[W\] of a wall on the body, whose particles it meets where they are: friction measures its way there.
     pub fn power_of_wall(&self, wall: &MetWall<D>) -> f64 {
         let pose = wall.pose(self.acting.time);
-        let power = self.acting.forces[1].iter().map(|(id, force)| {
-            let v = wall.velocity(&pose, *id as usize);
-            (0..D).map(|d| -force[d].to_f64() * v[d]).sum::<f64>()
+        let forces = &self.acting.forces[1];
+        let taken = over(0..forces.len(), |k| {
+            power(&forces[k].1, &wall.velocity(&pose, forces[k].0 as usize))
         });
         let turning = pose.velocity_gradient();
-        power.sum::<f64>() + turning.map_or(0.0, |l| l.dot(&self.acting.moments))
+        -taken + turning.map_or(0.0, |l| l.dot(&self.acting.moments))
     }
 
     /// Forces between all pairs within reach, on the groups of both sides.
@@ -167,7 +171,8 @@ impl<T: Real, const D: usize> Couple<T, D> {
             carry(&mut acting.anchors, carried);
         }
         acting.time = time;
-        acting.stored = 0.0;
+        // Stored, and heat.
+        let mut energies = Collective::new();
         if self.coupling.gathers() {
             for &[a, b] in &list.pairs {
                 let [on, from] = [a, b].map(|row| list.particles[row as usize]);
@@ -190,7 +195,7 @@ impl<T: Real, const D: usize> Couple<T, D> {
                 if image.is_none() {
                     let (pressure, stored) = self.coupling.pressure(own, T::from_f64(spacing));
                     own.pressure = pressure;
-                    acting.stored += stored;
+                    energies.add([stored, 0.0]);
                 }
             }
             for row in 0..list.particles.len() {
@@ -206,14 +211,13 @@ impl<T: Real, const D: usize> Couple<T, D> {
                 own.gradient = (turn * Vector::from(source.gradient)).into();
             }
         }
-        acting.force = [0.0; D];
-        acting.moments = Matrix::zeros();
+        let (mut mutual, mut moments) = (Collective::new(), Collective::new());
         acting.step = f64::INFINITY;
         acting.pairs = 0;
         acting.penetration[0] = 0.0;
-        for images in &mut acting.images {
-            images.clear();
-            images.resize(boundary_count, [0.0; D]);
+        for given in &mut list.given {
+            given.clear();
+            given.resize(boundary_count, Collective::new());
         }
         list.forces.clear();
         list.forces.resize(list.rows.len(), [T::zero(); D]);
@@ -250,8 +254,7 @@ impl<T: Real, const D: usize> Couple<T, D> {
                 rest: T::from_f64(rest),
                 anchor: before.peek().filter(|own| own.0 == ids).map(|own| own.1),
             });
-            acting.stored += share * own.stored;
-            acting.heat += share * own.heat;
+            energies.add([share * own.stored, share * own.heat]);
             if let Some(anchor) = own.anchor {
                 list.anchors.push((ids, anchor));
             }
@@ -267,29 +270,30 @@ impl<T: Real, const D: usize> Couple<T, D> {
                 let turn = &list.images.chains.transforms[chain].rotation;
                 shared_with_image(force, |d, k| turn[(d, k)].to_f64())
             };
-            let image = |chain: usize| list.images.boundary(chain);
+            let mut give = |side: usize, chain: usize, force: [f64; D]| {
+                list.given[side][list.images.boundary(chain)].add(force);
+            };
             if with_wall && chains[1].is_none() {
                 let apart = Vector::<f64, D>::from_fn(|d, _| {
                     on.position[d].to_f64() - from.position[d].to_f64()
                 });
-                acting.moments += Vector::from(force) * apart.transpose();
+                let moment: [[f64; D]; D] = (Vector::from(force) * apart.transpose()).into();
+                moments.add(moment);
+            }
+            match chains {
+                [None, None] => mutual.add(force),
+                [None, Some(_)] if with_wall => mutual.add(force),
+                // The other half of the pair has an image of the wall.
+                [Some(_), _] if with_wall => {}
+                [None, Some(chain)] => {
+                    let (own, given) = part(chain);
+                    mutual.add(own);
+                    give(0, chain, given);
+                }
+                // What the first side feels of the other half of the pair is counted there.
+                [Some(chain), _] => give(second, chain, part(chain).1.map(|force| -force)),
             }
             for d in 0..D {
-                match chains {
-                    [None, None] => acting.force[d] += force[d],
-                    [None, Some(_)] if with_wall => acting.force[d] += force[d],
-                    // The other half of the pair has an image of the wall.
-                    [Some(_), _] if with_wall => {}
-                    [None, Some(chain)] => {
-                        let (mutual, given) = part(chain);
-                        acting.force[d] += mutual[d];
-                        acting.images[0][image(chain)][d] += given[d];
-                    }
-                    // What the first side feels of the other half of the pair is counted there.
-                    [Some(chain), _] => {
-                        acting.images[second][image(chain)][d] -= part(chain).1[d];
-                    }
-                }
                 list.forces[a as usize][d] += own.force[d];
                 list.forces[b as usize][d] -= own.force[d];
             }
@@ -311,8 +315,13 @@ impl<T: Real, const D: usize> Couple<T, D> {
         }
         core::mem::swap(&mut acting.anchors, &mut list.anchors);
         acting.penetration[1] = acting.penetration[1].max(acting.penetration[0]);
-        if is_self {
-            acting.force = [0.0; D];
+        let [stored, heat] = energies.value();
+        (acting.stored, acting.heat) = (stored, acting.heat + heat);
+        acting.moments = moments.value().into();
+        acting.force = if is_self { [0.0; D] } else { mutual.value() };
+        for (images, given) in acting.images.iter_mut().zip(&list.given) {
+            images.clear();
+            images.extend(given.iter().map(Collective::value));
         }
         self.list = list;
         self.hand_over(groups);

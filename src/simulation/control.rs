@@ -11,8 +11,9 @@ use super::stages::Moment;
 use super::view::rounding;
 use super::vote::{Criterion, NO_VOTE, ROUNDED, Vote};
 use super::workspace::Workspace;
+use crate::collective::{Join, Least, over_pieces};
 use crate::error::{Error, LAW_PRESSURE, LAW_SOUND_SPEED, Result};
-use crate::parallel::{GRAIN, reduce, runs};
+use crate::parallel::{GRAIN, runs};
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::tensor::{Vector, length};
@@ -353,15 +354,8 @@ fn vote<T: Real, const D: usize>(
         });
         [acoustic, by_force, by_viscosity]
     };
-    let shortest = |slot: usize| (limits(slot).into_iter().fold(f64::INFINITY, f64::min), slot);
-    // The lower slot wins a tie, whatever the order of reduction.
-    let least = |a: (f64, usize), b: (f64, usize)| {
-        if b.0 < a.0 || (b.0 == a.0 && b.1 < a.1) {
-            b
-        } else {
-            a
-        }
-    };
+    let shortest =
+        |slot: usize| Least(limits(slot).into_iter().fold(f64::INFINITY, f64::min), slot);
     // Whether all criteria of a sound state are above a step, by products: roots and quotients are most of the work, and few
     // slots need them. Room is left for what the scalar rounds.
     let is_above = |slot: usize, step: f64| {
@@ -389,18 +383,16 @@ fn vote<T: Real, const D: usize>(
                 .get(slot)
                 .is_none_or(|mu| by_viscosity > step * mu.to_f64())
     };
-    let none = (NO_VOTE.step, NO_VOTE.particle);
     let in_run = |_, run: Range<usize>| {
-        let mut shortest_yet = none;
+        let mut shortest_yet = Least::NONE;
         for slot in run {
             if !is_above(slot, shortest_yet.0) {
-                shortest_yet = least(shortest_yet, shortest(slot));
+                shortest_yet = shortest_yet.and(shortest(slot));
             }
         }
         shortest_yet
     };
-    let all = runs(0..particles.mobile, GRAIN);
-    let (step, particle) = reduce(all, none, in_run, least);
+    let Least(step, particle) = over_pieces(runs(0..particles.mobile, GRAIN), in_run);
     if particle == NO_VOTE.particle {
         return NO_VOTE;
     }

@@ -4,7 +4,8 @@
 use super::Simulation;
 use super::contact::Couple;
 use super::side::Side;
-use crate::particles::Field;
+use crate::collective::{Collective, over};
+use crate::particles::{Columns, Field};
 use crate::scalar::Real;
 use crate::tensor::length;
 
@@ -74,20 +75,17 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Kinetic energy, and energy stored in compression.
     pub(super) fn stored(&self) -> (f64, f64) {
-        let (mut kinetic, mut compression) = (0.0, 0.0);
+        let mut all = Collective::new();
         for (group, body) in self.all_bodies() {
             let columns = &group.particles.columns;
             let (mass, density) = (columns.raw(Field::MASS), columns.raw(Field::DENSITY));
-            for slot in body.slots.clone() {
-                let mass = mass[slot].to_f64();
-                let v = columns.vectors(Field::VELOCITY)[slot];
-                let v2: f64 = v.iter().map(|v| v.to_f64().powi(2)).sum();
-                kinetic += 0.5 * mass * v2;
+            all.add_range(body.slots.clone(), |slot| {
                 let eos = body.material.eos();
-                compression += mass * eos.compression_energy(density[slot].to_f64());
-            }
+                let compression = eos.compression_energy(density[slot].to_f64());
+                (kinetic(columns, slot), mass[slot].to_f64() * compression)
+            });
         }
-        (kinetic, compression)
+        all.value()
     }
 
     /// Adds the work of a kick over `dt` \[s\], with the velocities at its middle: of a group that sub-cycles alone, or of
@@ -96,39 +94,32 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         if self.state.work.is_none() {
             return;
         }
-        let (mut mass, mut momentum) = (0.0, [0.0; D]);
+        let mut all = Collective::new();
         for (group, body) in self.bodies_that_step(alone) {
-            for slot in body.slots.clone() {
-                let own = group.particles.columns.raw(Field::MASS)[slot].to_f64();
-                let v = group.particles.columns.vectors(Field::VELOCITY)[slot];
-                mass += own;
-                for d in 0..D {
-                    momentum[d] += own * v[d].to_f64();
-                }
-            }
+            let columns = &group.particles.columns;
+            let (mass, v) = (columns.raw(Field::MASS), columns.vectors(Field::VELOCITY));
+            all.add_range(body.slots.clone(), |slot| {
+                let mass = mass[slot].to_f64();
+                (v[slot].map(|v| mass * v.to_f64()), mass)
+            });
         }
         // Half of what the kick will add: pair forces between bodies cancel, walls and loads remain.
+        let mut add_half = |given: [f64; D], dt: f64| all.add((given.map(|p| 0.5 * dt * p), 0.0));
         let bodies = self.body_count();
-        for (_, from, force) in self.reactions(alone) {
-            if from >= bodies {
-                for d in 0..D {
-                    momentum[d] += 0.5 * dt * force[d];
-                }
-            }
+        let reactions = self.reactions(alone);
+        for (_, _, force) in reactions.filter(|(_, from, _)| *from >= bodies) {
+            add_half(force, dt);
         }
-        for (_, given, _) in self.given_by_laws(alone, 0.0) {
-            for d in 0..D {
-                momentum[d] += 0.5 * dt * given[d];
-            }
+        for (_, force, _) in self.given_by_laws(alone, 0.0) {
+            add_half(force, dt);
         }
         let mut load = 0.0;
         if !self.loads.is_empty() {
             let (given, work) = self.kick_of_loads(alone, dt);
             load += work;
-            for d in 0..D {
-                momentum[d] += 0.5 * given[d];
-            }
+            add_half(given, 1.0);
         }
+        let (mut momentum, mass) = all.value();
         let first = self
             .state
             .groups
@@ -156,10 +147,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             if whole {
                 return couple.power_of_wall(wall);
             }
-            let forces = couple.acting.forces[1].iter();
-            let power =
-                forces.flat_map(|(_, force)| (0..D).map(|d| -force[d].to_f64() * wall.sliding[d]));
-            power.sum()
+            let forces = &couple.acting.forces[1];
+            -over(0..forces.len(), |k| power(&forces[k].1, &wall.sliding))
         };
         self.state.couples.iter().map(of).sum()
     }
@@ -182,12 +171,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         if rigid {
             let carried = moving().map(|(k, motion)| {
                 let v = motion.pose(time).shift[1];
-                let force = self.force_on_wall(k);
-                (0..D).map(|d| -force[d] * v[d]).sum::<f64>()
+                -power(&self.force_on_wall(k), &v.into())
             });
             return carried.sum::<f64>() + self.contact_power(false);
         }
-        let mut power = self.contact_power(true);
+        let mut taken = Collective::new();
         for group in &self.state.groups {
             for (wall, forces) in group.walls.iter().zip(group.forces_on_walls()) {
                 let Some(pose) = wall.motion.as_ref().map(|motion| motion.pose(time)) else {
@@ -195,10 +183,22 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 };
                 for (slot, force) in forces {
                     let v = pose.of(1, &wall.rest[wall.rest_of(&group.particles.ids, slot)]);
-                    power -= (0..D).map(|d| force[d] * v[d]).sum::<f64>();
+                    taken.add(power(&force, &v));
                 }
             }
         }
-        power
+        self.contact_power(true) - taken.value()
     }
+}
+
+/// Power \[W\] of a force \[N\] on what moves with `v` \[m/s\].
+pub(super) fn power<T: Real, const D: usize>(force: &[T; D], v: &[f64; D]) -> f64 {
+    (0..D).map(|d| force[d].to_f64() * v[d]).sum()
+}
+
+/// Kinetic energy of the particle in a slot \[J\].
+pub(super) fn kinetic<T: Real, const D: usize>(columns: &Columns<T, D>, slot: usize) -> f64 {
+    let v = &columns.vectors(Field::VELOCITY)[slot];
+    let v2: f64 = v.iter().map(|v| v.to_f64().powi(2)).sum();
+    0.5 * columns.raw(Field::MASS)[slot].to_f64() * v2
 }

@@ -5,9 +5,10 @@ use super::group::Group;
 use super::stages::Moment;
 use super::walls::WallState;
 use crate::clock::Instant;
+use crate::collective::Collective;
 use crate::effect::{DensityForm, When};
 use crate::material::eos::GuardCounts;
-use crate::parallel::{GRAIN, cut, for_each, reduce};
+use crate::parallel::{GRAIN, cut, for_each};
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::scheme::{EnergyForm, Entries, Entry};
@@ -193,7 +194,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             Field::SOUND_SPEED,
             Field::REFERENCE_DENSITY,
         ]);
-        let mut guards = GuardCounts::default();
+        let mut guards = Collective::new();
         for body in &self.particles.bodies {
             let own = body.run();
             let material = body.material.eos();
@@ -207,38 +208,30 @@ impl<T: Real, const D: usize> Group<T, D> {
                 cut(&mut pressure[own.clone()], GRAIN),
                 cut(&mut sound_speed[own.clone()], GRAIN),
             );
-            guards = reduce(
-                pieces,
-                guards,
-                |chunk, (pressure, sound_speed)| {
-                    let first = chunk * GRAIN;
-                    let density = &density[own.start + first..][..pressure.len()];
-                    let energy = carries_energy.then(|| &energy[first..first + density.len()]);
-                    if !scaled {
-                        return material.evaluate(density, energy, pressure, sound_speed);
-                    }
-                    // Compression is measured from the smoothed density at rest.
-                    let mut counts = GuardCounts::default();
-                    for k in 0..density.len() {
-                        let rest = rest[own.start + first + k];
-                        let compressed = [reference * (density[k] / rest)];
-                        let energy = energy.map(|energy| &energy[k..=k]);
-                        counts += material.evaluate(
-                            &compressed,
-                            energy,
-                            &mut pressure[k..=k],
-                            &mut sound_speed[k..=k],
-                        );
-                    }
-                    counts
-                },
-                |mut a, b| {
-                    a += b;
-                    a
-                },
-            );
+            guards.add_pieces(pieces, |chunk, (pressure, sound_speed)| {
+                let first = chunk * GRAIN;
+                let density = &density[own.start + first..][..pressure.len()];
+                let energy = carries_energy.then(|| &energy[first..first + density.len()]);
+                if !scaled {
+                    return material.evaluate(density, energy, pressure, sound_speed);
+                }
+                // Compression is measured from the smoothed density at rest.
+                let mut counts = GuardCounts::default();
+                for k in 0..density.len() {
+                    let rest = rest[own.start + first + k];
+                    let compressed = [reference * (density[k] / rest)];
+                    let energy = energy.map(|energy| &energy[k..=k]);
+                    counts += material.evaluate(
+                        &compressed,
+                        energy,
+                        &mut pressure[k..=k],
+                        &mut sound_speed[k..=k],
+                    );
+                }
+                counts
+            });
         }
-        self.guards += guards;
+        self.guards += guards.value();
     }
 
     /// Pressure coefficients of the pair force.

@@ -7,10 +7,10 @@ use super::population::{BodyState, Particles};
 use super::spin::raised;
 use super::workspace::Workspace;
 use crate::boundary::{Boundary, Motion};
+use crate::collective::{Collective, over};
 use crate::particles::Field;
 use crate::scalar::Real;
 use nalgebra::{Matrix3, SymmetricEigen, UnitQuaternion, Vector3};
-use std::ops::Range;
 use std::sync::Arc;
 
 /// Clamped particles and rigid bodies of a group.
@@ -106,22 +106,17 @@ impl<const D: usize> Clamp<D> {
 impl<const D: usize> Rigid<D> {
     /// Of points \[m\] of equal volume with their masses \[kg\].
     pub fn new(body: usize, points: &[[f64; D]], masses: &[f64]) -> Self {
-        let mass: f64 = masses.iter().sum();
-        let centre: [f64; D] = core::array::from_fn(|d| {
-            points
-                .iter()
-                .zip(masses)
-                .map(|(x, m)| m * x[d])
-                .sum::<f64>()
-                / mass
+        let all = 0..masses.len();
+        let (mass, moment) = over(all.clone(), |id| {
+            (masses[id], points[id].map(|x| masses[id] * x))
         });
+        let centre = moment.map(|moment| moment / mass);
         let about: Vec<_> = points.iter().map(|x| raised(x) - raised(&centre)).collect();
-        let inertia = about
-            .iter()
-            .zip(masses)
-            .fold(Matrix3::zeros(), |sum, (r, m)| {
-                sum + *m * (Matrix3::identity() * r.norm_squared() - r * r.transpose())
-            });
+        let inertia = Matrix3::from(over(all, |id| -> [[f64; 3]; 3] {
+            let r = &about[id];
+            let about = Matrix3::identity() * r.norm_squared() - r * r.transpose();
+            (masses[id] * about).into()
+        }));
         // In a plane the third axis is principal, and any two in the plane serve.
         let (moments, turn) = if D == 3 {
             let axes = SymmetricEigen::new(inertia);
@@ -205,31 +200,30 @@ impl<const D: usize> Rigid<D> {
         self.turn.renormalize();
     }
 
-    /// The slots of its particles, by their numbers, with where they are from its centre \[m\].
-    fn slots<T: Real>(
+    /// The sum over its particles that are there of a vector in a slot, and of its moment about the centre.
+    fn sums<T: Real>(
         &self,
         particles: &Particles<T, D>,
-    ) -> impl Iterator<Item = (Range<usize>, Vector3<f64>)> {
-        let places = self.places.iter().enumerate();
-        let slots = places.map(|(id, place)| {
-            let own = particles.slots_of(self.body, id as u32);
-            (own, self.turn * place)
+        of: impl Fn(usize) -> Vector3<f64> + Sync,
+    ) -> [Vector3<f64>; 2] {
+        let sums = over(0..self.places.len(), |id| {
+            let Some(slot) = particles.slots_of(self.body, id as u32).next() else {
+                return [[0.0; 3]; 2];
+            };
+            let own = of(slot);
+            [own.into(), (self.turn * self.places[id]).cross(&own).into()]
         });
-        slots.filter(|(own, _)| !own.is_empty())
+        sums.map(Vector3::from)
     }
 
     /// Gives its particles the forces that accelerate it as one, with the same sum and the same moment.
     fn share_forces<T: Real>(&self, particles: &Particles<T, D>, forces: &mut Forces<'_, T, D>) {
-        let (mut sum, mut moment) = (Vector3::zeros(), Vector3::zeros());
-        for (slots, place) in self.slots(particles) {
-            let force = raised(&forces.on(slots.start).map(Real::to_f64));
-            sum += force;
-            moment += place.cross(&force);
-        }
+        let force = |slot: usize| raised(&forces.on(slot).map(Real::to_f64));
+        let [sum, moment] = self.sums(particles, force);
         let (a, turning) = (sum / self.mass, self.answer_in_space(&moment));
-        for (slots, place) in self.slots(particles) {
-            let all = a + turning.cross(&place);
-            for slot in slots {
+        for (id, place) in self.places.iter().enumerate() {
+            let all = a + turning.cross(&(self.turn * place));
+            for slot in particles.slots_of(self.body, id as u32) {
                 let mass = particles.columns.raw(Field::MASS)[slot].to_f64();
                 forces.set(slot, lowered(&(mass * all)).map(T::from_f64));
             }
@@ -240,14 +234,9 @@ impl<const D: usize> Rigid<D> {
     fn momenta<T: Real>(&self, particles: &Particles<T, D>) -> [Vector3<f64>; 2] {
         let columns = &particles.columns;
         let (mass, v) = (columns.raw(Field::MASS), columns.vectors(Field::VELOCITY));
-        let (mut momentum, mut spin) = (Vector3::zeros(), Vector3::zeros());
-        for (slots, place) in self.slots(particles) {
-            let v = raised(&v[slots.start].map(Real::to_f64));
-            let own = mass[slots.start].to_f64() * v;
-            momentum += own;
-            spin += place.cross(&own);
-        }
-        [momentum, spin]
+        self.sums(particles, |slot| {
+            mass[slot].to_f64() * raised(&v[slot].map(Real::to_f64))
+        })
     }
 
     /// Brings its particles to where it is, with the velocities that it has.
@@ -313,26 +302,21 @@ impl<const D: usize> Held<D> {
         coupled: bool,
         dt: f64,
     ) {
-        let mass = particles.columns.raw(Field::MASS);
-        let velocities = particles.columns.vectors(Field::VELOCITY);
+        // Couplings alone do not accelerate what is clamped.
+        let half = if coupled { 0.0 } else { 0.5 * dt };
         for own in &mut self.clamps {
-            for ((id, _), force) in own.particles.iter().zip(&own.forces[usize::from(coupled)]) {
-                let slots = particles.slots_of(own.body, *id);
-                if slots.is_empty() {
-                    continue;
-                }
-                let v = velocities[slots.start];
-                for d in 0..D {
-                    // Couplings alone do not accelerate what is clamped.
-                    let a = if coupled {
-                        T::zero()
-                    } else {
-                        work.acceleration(mass, slots.start * D + d)
-                    };
-                    own.impulse[d] += dt * force[d];
-                    own.work += dt * force[d] * (v[d].to_f64() + 0.5 * dt * a.to_f64());
-                }
+            let forces = &own.forces[usize::from(coupled)];
+            let (force, power) = over(0..forces.len(), |k| {
+                let mut slots = particles.slots_of(own.body, own.particles[k].0);
+                let power = |slot| work.power(&particles.columns, &forces[k], slot, half);
+                slots
+                    .next()
+                    .map_or(([0.0; D], 0.0), |slot| (forces[k], power(slot)))
+            });
+            for d in 0..D {
+                own.impulse[d] += dt * force[d];
             }
+            own.work += dt * power;
         }
     }
 
@@ -395,12 +379,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             group.held.clamps.iter().map(move |own| (bodies, own))
         });
         let of = |(bodies, own): (&Vec<BodyState<T>>, &Clamp<D>)| {
-            let forces = own.forces.iter().flatten();
-            let force = forces.fold([0.0; D], |sum, f| core::array::from_fn(|d| sum[d] + f[d]));
+            let mut force = Collective::new();
+            own.forces.iter().flatten().for_each(|own| force.add(*own));
             Clamped {
                 body: bodies[own.body].name.clone(),
                 particles: own.particles.len(),
-                force: force.to_vec(),
+                force: force.value().to_vec(),
                 impulse: own.impulse.to_vec(),
                 work: own.work,
             }

@@ -1,10 +1,12 @@
 //! The ledger: mass, momentum and energy of every body, and the impulse that each block gave another.
-//! Sums run in the order of the particles, in `f64` whatever the scalar.
+//! Sums are in `f64` whatever the scalar.
 
 use super::Simulation;
 use super::group::Group;
+use super::impulses::{Impulses, PairForces};
 use super::population::BodyState;
 use super::which::{Which, find};
+use crate::collective::{Collective, over};
 use crate::error::{Error, Problem, Result};
 use crate::once::once;
 use crate::particles::Field;
@@ -39,7 +41,19 @@ pub struct Total {
     pub value: f64,
 }
 
+/// Momentum; and mass, kinetic and internal energy.
+type Sums<const D: usize> = ([f64; D], [f64; 3]);
+
 impl Budget {
+    fn of<const D: usize>((momentum, [mass, kinetic, internal]): Sums<D>) -> Self {
+        Self {
+            mass,
+            momentum: momentum.to_vec(),
+            kinetic,
+            internal,
+            totals: Vec::new(),
+        }
+    }
     /// What an effect keeps under a name; `None` if no effect of the body's scheme does.
     #[must_use]
     pub fn total(&self, name: &str) -> Option<f64> {
@@ -76,43 +90,6 @@ pub struct Ledger {
     pub law_impulse: Vec<f64>,
 }
 
-/// Momentum that blocks have given each other \[kg m/s\]: bodies first, then boundaries. Behind them, body by body, what forces of
-/// laws have given, and their work \[J\].
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Impulses {
-    pub values: Vec<f64>,
-    /// The time \[s\] of the state that they belong to; of rates it is one.
-    pub time: f64,
-}
-
-impl Impulses {
-    pub fn add(&mut self, index: usize, value: f64) {
-        if self.values.len() <= index {
-            self.values.resize(index + 1, 0.0);
-        }
-        self.values[index] += value;
-    }
-    pub fn values(&self) -> impl Iterator<Item = f64> {
-        self.values.iter().copied()
-    }
-    pub fn get(&self, index: usize) -> f64 {
-        self.values.get(index).copied().unwrap_or(0.0)
-    }
-    /// a · self + b · other + dt · rate.
-    pub fn combine(&self, a: f64, other: &Self, b: f64, rate: &Self, dt: f64) -> Self {
-        let length = self
-            .values
-            .len()
-            .max(other.values.len())
-            .max(rate.values.len());
-        let sum = |k: usize| a * self.get(k) + b * other.get(k) + dt * rate.get(k);
-        Self {
-            values: (0..length).map(sum).collect(),
-            time: a * self.time + b * other.time + dt * rate.time,
-        }
-    }
-}
-
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// Bodies, walls and boundaries.
     fn blocks(&self) -> usize {
@@ -140,31 +117,16 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             .filter(|group| group.has_forces_of_laws());
         groups.flat_map(move |group| {
             let columns = &group.particles.columns;
-            let [forces, v] = [Field::FORCE, Field::VELOCITY].map(|field| columns.vectors(field));
-            let mass = columns.raw(Field::MASS);
+            let forces = columns.vectors(Field::FORCE);
             let bodies = group.particles.bodies.iter().zip(&group.indices);
             bodies.map(move |(body, &on)| {
-                let (mut force, mut power) = ([0.0; D], 0.0);
-                for slot in body.slots.clone() {
-                    for d in 0..D {
-                        let own = forces[slot][d].to_f64();
-                        let a = group.work.acceleration(mass, slot * D + d).to_f64();
-                        force[d] += own;
-                        power += own * (v[slot][d].to_f64() + half * a);
-                    }
-                }
+                let (force, power) = over(body.slots.clone(), |slot| {
+                    let force = forces[slot].map(Real::to_f64);
+                    (force, group.work.power(columns, &force, slot, half))
+                });
                 (on, force, power)
             })
         })
-    }
-
-    /// Adds what laws give in `dt` \[s\] to impulses.
-    fn add_laws(&self, impulses: &mut Impulses, alone: Option<usize>, half: f64, dt: f64) {
-        for (on, force, power) in self.given_by_laws(alone, half) {
-            for (k, own) in force.into_iter().chain([power]).enumerate() {
-                impulses.add(self.law_index(on, k), dt * own);
-            }
-        }
     }
 
     /// What laws have worked since the start on the bodies of a group, or on all \[J\].
@@ -187,15 +149,30 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     fn record_impulses(&mut self, alone: Option<usize>, dt: f64) {
-        let blocks = self.blocks();
         let mut impulses = core::mem::take(&mut self.state.impulses);
+        let mut forces = core::mem::take(&mut self.pair_forces);
+        self.add_forces(&mut impulses, &mut forces, alone, [0.5 * dt, dt]);
+        (self.state.impulses, self.pair_forces) = (impulses, forces);
+    }
+
+    /// Adds what blocks and laws give in `dt` \[s\], laws with velocities `half` a kick \[s\] ahead.
+    fn add_forces(
+        &self,
+        impulses: &mut Impulses,
+        forces: &mut PairForces<D>,
+        alone: Option<usize>,
+        [half, dt]: [f64; 2],
+    ) {
+        let blocks = self.blocks();
         for (on, from, force) in self.reactions(alone) {
-            for (d, force) in force.iter().enumerate() {
-                impulses.add((on * blocks + from) * D + d, dt * force);
+            forces.add(on * blocks + from, force);
+        }
+        impulses.add_sums(forces, dt);
+        for (on, force, power) in self.given_by_laws(alone, half) {
+            for (k, own) in force.into_iter().chain([power]).enumerate() {
+                impulses.add(self.law_index(on, k), dt * own);
             }
         }
-        self.add_laws(&mut impulses, alone, 0.5 * dt, dt);
-        self.state.impulses = impulses;
     }
 
     /// Tells the kept states of a group what list builds did to its particles, and the ledger what boundaries gave.
@@ -205,17 +182,18 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let group = &mut self.state.groups[number];
         let given = group.work.follow(&mut group.particles.moved, time_of);
         let first_boundary = group.particles.bodies.len() + group.walls.len();
-        for (kept, [body, boundary], impulse) in given {
-            let group = &self.state.groups[number];
-            let on = group.indices[body];
-            let from = group.indices[first_boundary + boundary];
-            for (d, value) in impulse.into_iter().enumerate() {
-                let index = self.impulse_index(on, from, d);
-                match kept {
-                    None => self.state.impulses.add(index, value),
-                    Some(slot) => self.state.kept_impulses[slot].add(index, value),
-                }
+        let blocks = self.blocks();
+        for of_state in given.chunk_by(|a, b| a.0 == b.0) {
+            let indices = &self.state.groups[number].indices;
+            for (_, [body, boundary], impulse) in of_state {
+                let pair = indices[*body] * blocks + indices[first_boundary + boundary];
+                self.pair_forces.add(pair, *impulse);
             }
+            let impulses = match of_state[0].0 {
+                None => &mut self.state.impulses,
+                Some(slot) => &mut self.state.kept_impulses[slot],
+            };
+            impulses.add_sums(&mut self.pair_forces, 1.0);
         }
     }
 
@@ -224,46 +202,35 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             time: 1.0,
             ..Impulses::default()
         };
-        for (on, from, force) in self.reactions(None) {
-            for (d, force) in force.iter().enumerate() {
-                rates.add(self.impulse_index(on, from, d), *force);
-            }
-        }
-        self.add_laws(&mut rates, None, 0.0, 1.0);
+        let mut forces = PairForces::default();
+        self.add_forces(&mut rates, &mut forces, None, [0.0, 1.0]);
         rates
     }
 
-    /// The present budget of a body.
-    fn budget(group: &Group<T, D>, body: &BodyState<T>) -> Budget {
+    /// The present budget of a body; what it has in common with others is added to those of all.
+    fn budget(group: &Group<T, D>, body: &BodyState<T>, whole: &mut Collective<Sums<D>>) -> Budget {
         let columns = &group.particles.columns;
-        let mut budget = Budget {
-            momentum: vec![0.0; D],
-            ..Budget::default()
-        };
-        for slot in body.slots.clone() {
-            let mass = columns.raw(Field::MASS)[slot].to_f64();
-            budget.mass += mass;
-            let mut speed2 = 0.0;
-            for (d, v) in columns.vectors(Field::VELOCITY)[slot].iter().enumerate() {
-                budget.momentum[d] += mass * v.to_f64();
-                speed2 += v.to_f64() * v.to_f64();
-            }
-            budget.kinetic += 0.5 * mass * speed2;
-            let energy = columns
-                .raw(Field::ENERGY)
-                .get(slot)
-                .map_or(0.0, |e| e.to_f64());
-            budget.internal += mass * energy;
-        }
+        let [mass, energy] = [Field::MASS, Field::ENERGY].map(|field| columns.raw(field));
+        let velocity = columns.vectors(Field::VELOCITY);
+        let mut sums = Collective::new();
+        sums.add_range(body.slots.clone(), |slot| {
+            let (mass, v) = (mass[slot].to_f64(), velocity[slot].map(Real::to_f64));
+            let speed2: f64 = v.iter().map(|v| v * v).sum();
+            let energy = energy.get(slot).map_or(0.0, |energy| energy.to_f64());
+            let momentum = v.map(|v| mass * v);
+            (momentum, [mass, 0.5 * mass * speed2, mass * energy])
+        });
+        whole.join(&sums);
+        let mut budget = Budget::of(sums.value());
         for own in &group.scheme.program.ledger {
-            let (values, mass) = (columns.raw(own.field), columns.raw(Field::MASS));
-            let sum = body.slots.clone().fold(0.0, |sum, slot| {
+            let values = columns.raw(own.field);
+            let sum = over(body.slots.clone(), |slot| {
                 let share = if own.times_mass {
                     mass[slot].to_f64()
                 } else {
                     1.0
                 };
-                sum + share * values[slot].to_f64()
+                share * values[slot].to_f64()
             });
             budget.add_total(&Total {
                 name: own.name,
@@ -290,9 +257,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     fn sum_up(&self) -> Ledger {
+        let mut sums = Collective::new();
         let mut bodies: Vec<_> = self
             .all_bodies()
-            .map(|(group, body)| (body.name.clone(), Self::budget(group, body)))
+            .map(|(group, body)| (body.name.clone(), Self::budget(group, body, &mut sums)))
             .collect();
         for (on, (group, _)) in self.all_bodies().enumerate() {
             if group.has_forces_of_laws() {
@@ -324,20 +292,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 }
             }
         }
-        let mut whole = Budget {
-            momentum: vec![0.0; D],
-            ..Budget::default()
-        };
-        for (_, budget) in &bodies {
-            whole.mass += budget.mass;
-            whole.kinetic += budget.kinetic;
-            whole.internal += budget.internal;
-            for total in &budget.totals {
-                whole.add_total(total);
-            }
-            for d in 0..D {
-                whole.momentum[d] += budget.momentum[d];
-            }
+        let mut whole = Budget::of(sums.value());
+        for total in bodies.iter().flat_map(|(_, budget)| &budget.totals) {
+            whole.add_total(total);
         }
         for couple in &self.state.couples {
             whole.add_total(&of_couplings("energy of couplings", couple.acting.stored));
@@ -394,14 +351,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// The same of the wall with an index that there is.
     pub(super) fn force_on_wall(&self, wall: usize) -> [f64; D] {
-        let bodies = self.body_count();
-        (0..bodies).fold([0.0; D], |mut sum, on| {
-            let force = self.force_of_block(on, bodies + wall);
-            for d in 0..D {
-                sum[d] -= force[d];
-            }
-            sum
-        })
+        let wall = self.body_count() + wall;
+        self.force_of_blocks(|_, from| from == wall)
+            .map(|force| 0.0 - force)
     }
 
     /// The force \[N\] that body, wall or boundary `from` exerts on body `on` at the last evaluation. Indices count
@@ -446,8 +398,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let (on, ()) = find(&on, kind, blocks())?;
         let (from, ()) = find(&from, kind, blocks())?;
         match [on, from].map(|block| block < self.body_count()) {
-            [true, _] => Ok(self.force_of_block(on, from)),
-            [false, true] => Ok(self.force_of_block(from, on).map(|force| -force)),
+            [true, _] => Ok(self.force_of_blocks(|felt, by| (felt, by) == (on, from))),
+            [false, true] => self.force_between(from, on).map(|force| force.map(|f| -f)),
             [false, false] => Err(Error::Argument(Problem::Incompatible {
                 what: "a force between two walls or boundaries is asked for, which do not feel each other".into(),
                 remedy: "name a body on one side, as in force_between(\"water\", \"tank\")",
@@ -457,26 +409,26 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Whether a body feels another body, a wall or a boundary at the last evaluation.
     pub(super) fn feels_another(&self, on: usize) -> bool {
-        let apart =
-            (0..self.state.groups.len()).filter(|&k| self.state.groups[k].sub_cycle.is_some());
-        let alone = apart.flat_map(|group| self.reactions(Some(group)));
-        let mut all = self.reactions(None).chain(alone);
+        let mut all = self.all_reactions();
         all.any(|(felt, exerted, by)| felt == on && exerted != on && by.iter().any(|f| *f != 0.0))
     }
 
-    /// The force \[N\] of a block on another, by scene indices.
-    fn force_of_block(&self, on: usize, from: usize) -> [f64; D] {
-        let mut force = [0.0; D];
-        let apart =
-            (0..self.state.groups.len()).filter(|&k| self.state.groups[k].sub_cycle.is_some());
-        let alone = apart.flat_map(|group| self.reactions(Some(group)));
-        for (felt, exerted, by) in self.reactions(None).chain(alone) {
-            if (felt, exerted) == (on, from) {
-                for d in 0..D {
-                    force[d] += by[d];
-                }
+    /// The sum of forces \[N\] between blocks, by scene indices: those that are felt, and those that exert them.
+    fn force_of_blocks(&self, between: impl Fn(usize, usize) -> bool) -> [f64; D] {
+        let mut sum = Collective::new();
+        for (on, from, force) in self.all_reactions() {
+            if between(on, from) {
+                sum.add(force);
             }
         }
-        force
+        sum.value()
+    }
+
+    /// Forces between blocks at the last evaluation, as [`reactions`](Self::reactions), of all groups.
+    fn all_reactions(&self) -> impl Iterator<Item = (usize, usize, [f64; D])> {
+        let groups = self.state.groups.iter().enumerate();
+        let apart = groups.filter(|(_, group)| group.sub_cycle.is_some());
+        let alone = apart.flat_map(|(group, _)| self.reactions(Some(group)));
+        self.reactions(None).chain(alone)
     }
 }

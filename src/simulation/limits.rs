@@ -1,10 +1,10 @@
 //! What effects ask of a step: their limits of it, and that the fields they integrate stay numbers.
-//! Reductions have a fixed order, as those of the other criteria.
+//! The shortest is found as that of the other criteria.
 
 use super::population::BodyState;
-use super::vote::{Criterion, NO_VOTE, Vote, least};
+use super::vote::{Criterion, Vote};
+use crate::collective::{Join, over};
 use crate::effect::{StepProgram, View};
-use crate::parallel::{GRAIN, reduce, runs};
 use crate::particles::Columns;
 use crate::scalar::Real;
 use std::ops::Range;
@@ -29,8 +29,7 @@ pub(super) fn vote_of_effects<'a, T: Real, const D: usize>(
                     particle: slot,
                 }
             };
-            let in_run = |_, run: Range<usize>| run.map(own).fold(NO_VOTE, least);
-            vote = reduce(runs(body.slots.clone(), GRAIN), vote, in_run, least);
+            vote = vote.and(over(body.slots.clone(), own));
         }
     }
     vote

@@ -5,8 +5,9 @@ use super::Simulation;
 use super::event::Happened;
 use super::load::{Load, LoadPoint};
 use super::population::Particles;
+use crate::collective::{Collective, over_pieces};
 use crate::error::{Error, Result};
-use crate::parallel::{GRAIN, cut, reduce};
+use crate::parallel::{GRAIN, cut};
 use crate::particles::{Columns, Field, Output};
 use crate::scalar::Real;
 use crate::sweep::Results;
@@ -84,7 +85,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// What loads give in a kick over `dt` \[s\]: momentum \[kg m/s\] and work \[J\], each particle with its velocity in the
     /// middle of the kick; of a group that sub-cycles alone, or of all others together.
     pub(super) fn kick_of_loads(&self, alone: Option<usize>, dt: f64) -> ([f64; D], f64) {
-        let (mut momentum, mut work) = ([0.0; D], 0.0);
+        let mut all = Collective::new();
         for (group, body) in self.bodies_that_step(alone) {
             let columns = &group.particles.columns;
             let masses = columns.raw(Field::MASS);
@@ -92,18 +93,13 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             if loads.is_empty() {
                 continue;
             }
-            for slot in body.slots.clone() {
-                let mass = masses[slot].to_f64();
-                let v = columns.vectors(Field::VELOCITY)[slot];
-                for d in 0..D {
-                    let given = dt * mass * loads[slot][d].to_f64();
-                    let a = group.work.acceleration(masses, slot * D + d).to_f64();
-                    momentum[d] += given;
-                    work += given * (v[d].to_f64() + 0.5 * dt * a);
-                }
-            }
+            all.add_range(body.slots.clone(), |slot| {
+                let give = dt * masses[slot].to_f64();
+                let given = loads[slot].map(|a| give * a.to_f64());
+                (given, group.work.power(columns, &given, slot, 0.5 * dt))
+            });
         }
-        (momentum, work)
+        all.value()
     }
 }
 
@@ -166,14 +162,11 @@ fn evaluate_load<'a, T: Real, const D: usize>(
             };
             load.add(&at, sum).map(|value| (slot, value))
         };
-        let none = (usize::MAX, 0.0);
         let first_wrong = |piece: usize, sums: &mut [T]| {
             let mut sums = (run.start + piece * GRAIN..).zip(sums.chunks_exact_mut(width));
-            sums.find_map(add).unwrap_or(none)
+            sums.find_map(add)
         };
-        let lower = |a: (usize, f64), b: (usize, f64)| if b.0 < a.0 { b } else { a };
-        let (slot, value) = reduce(cut(own, GRAIN * width), none, first_wrong, lower);
-        if slot < usize::MAX {
+        if let Some((slot, value)) = over_pieces(cut(own, GRAIN * width), first_wrong) {
             return Some(Wrong { load, value, slot });
         }
         // What repeats the last particle goes where that goes.

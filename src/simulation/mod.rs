@@ -152,6 +152,7 @@ mod forces;
 mod group;
 mod held;
 mod images;
+mod impulses;
 mod indicators;
 mod ledger;
 mod limits;
@@ -228,6 +229,7 @@ use crate::output::checkpoint::Hashes;
 use crate::scalar::Real;
 #[cfg(feature = "checkpoint")]
 use crate::scene::Described;
+use impulses::PairForces;
 use run_state::State;
 use std::sync::Arc;
 use view::Reading;
@@ -267,6 +269,8 @@ pub struct Simulation<T: Real, const D: usize> {
     failed: Option<String>,
     /// What is looked at after every step.
     events: Vec<Event<T, D>>,
+    /// Memory for the forces of a kick.
+    pair_forces: PairForces<D>,
 }
 
 impl<T: Real, const D: usize> core::fmt::Debug for Simulation<T, D> {
@@ -318,6 +322,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             shown: Reading::LastStep,
             failed: None,
             events: Vec::new(),
+            pair_forces: PairForces::default(),
         }
     }
 

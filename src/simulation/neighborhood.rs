@@ -5,8 +5,8 @@ use super::images::Chains;
 use super::population::Particles;
 use super::walls::WallState;
 use crate::boundary::Boundary;
+use crate::collective::{Corners, largest, over};
 use crate::neighbors::{Block, ClusterLists, Radii, SearchInput};
-use crate::parallel::{Corners, corners, largest, no_corners};
 use crate::particles::Field;
 use crate::scalar::{Real, width};
 use crate::sweep::{Image, InstructionSet, Interaction};
@@ -88,10 +88,8 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
     /// How far a pair reaches, with the skin \[m\].
     pub fn reach(&self, particles: &Particles<T, D>) -> f64 {
         let h = particles.columns.raw(Field::SMOOTHING_LENGTH);
-        let largest = h
-            .iter()
-            .fold(self.smoothing_length, |m, h| m.max(h.to_f64()));
-        self.support * largest + self.skin
+        let largest = largest(0..h.len(), |slot| h[slot].to_f64());
+        self.support * largest.max(self.smoothing_length) + self.skin
     }
 
     /// A skin that suits how long the lists have lasted. It depends on the flow alone, and not on the time that
@@ -137,10 +135,9 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         });
         let farthest = farthest.sqrt();
         let h = particles.columns.raw(Field::SMOOTHING_LENGTH);
-        let grown = h
-            .iter()
-            .zip(&self.listed_h)
-            .fold(0.0_f64, |m, (now, then)| m.max((*now - *then).to_f64()));
+        let grown = largest(0..h.len().min(self.listed_h.len()), |slot| {
+            (h[slot] - self.listed_h[slot]).to_f64()
+        });
         // A moving boundary carries images towards particles that rest, and a boundary at rest reflects
         // what a container does.
         let moved = shift.iter().any(|&s| s != 0.0);
@@ -162,10 +159,10 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
             return 2.0 * farthest > left;
         }
         // What moves together stays together: no pair's distance changes by more than the corners of all displacements are apart.
-        let [low, high]: Corners<D> = corners(0..positions.len(), no_corners(), |slot| {
-            core::array::from_fn(|d| moved_by(slot, d))
+        let corners = over(0..positions.len(), |slot| {
+            Corners::<D>::at(core::array::from_fn(|d| moved_by(slot, d)))
         });
-        let apart2: f64 = (0..D).map(|d| (high[d] - low[d]).powi(2)).sum();
+        let apart2: f64 = corners.extent().iter().map(|apart| apart.powi(2)).sum();
         apart2.sqrt() > left
     }
 

@@ -7,6 +7,7 @@ use super::population::Particles;
 use super::run::check_end;
 use super::workspace::Workspace;
 use super::{Simulation, Work};
+use crate::collective::{largest, over};
 use crate::error::Result;
 use crate::neighbors::listed_around;
 use crate::once::once;
@@ -255,15 +256,15 @@ fn builds_a_step<T: Real, const D: usize>(
         let square = vector.iter().map(|own| own.to_f64().powi(2));
         square.sum::<f64>().sqrt()
     };
-    let (mut speed, mut acceleration, mut sound) = (0.0_f64, 0.0_f64, 0.0_f64);
-    for slot in 0..particles.mobile {
-        let a: [T; D] = core::array::from_fn(|d| work.acceleration(mass, slot * D + d));
-        speed = speed.max(length(&v[slot]));
-        acceleration += length(&a);
-        sound = sound.max(c[slot].to_f64());
-    }
+    let all = 0..particles.mobile;
+    let speed = largest(all.clone(), |slot| length(&v[slot]));
+    let sound = largest(all.clone(), |slot| c[slot].to_f64());
     // The mean, for what a free face begins with does not last.
-    acceleration /= particles.mobile.max(1) as f64;
+    let acceleration = over(all, |slot| {
+        length(&core::array::from_fn(|d| {
+            work.acceleration(mass, slot * D + d)
+        }))
+    }) / particles.mobile.max(1) as f64;
     let most = speed.max(MACH * sound);
     // The mean of a speed that grows from the one and stays at the other.
     let until = ((most - speed) / acceleration.max(f64::MIN_POSITIVE)).min(time);

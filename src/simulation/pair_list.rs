@@ -3,6 +3,7 @@
 
 use super::images::PairImages;
 use super::side::Listed;
+use crate::collective::{Collective, Corners, Join};
 use crate::coupling::{Anchor, CoupledParticle};
 use crate::neighbors::Cells;
 use crate::scalar::Real;
@@ -21,6 +22,8 @@ pub(crate) struct PairList<T: Real, const D: usize> {
     pub skin: f64,
     pub particles: Vec<CoupledParticle<T, D>>,
     pub forces: Vec<[T; D]>,
+    /// The force \[N\] of boundaries on both sides, boundary by boundary.
+    pub given: [Vec<Collective<[f64; D]>>; 2],
     pub anchors: Vec<([u64; 2], Anchor<T, D>)>,
     pub near: [Vec<u32>; 2],
     pub found: Vec<[u32; 2]>,
@@ -43,6 +46,7 @@ impl<T: Real, const D: usize> Default for PairList<T, D> {
             skin: 0.0,
             particles: Vec::new(),
             forces: Vec::new(),
+            given: [Vec::new(), Vec::new()],
             anchors: Vec::new(),
             near: [Vec::new(), Vec::new()],
             found: Vec::new(),
@@ -56,14 +60,8 @@ impl<T: Real, const D: usize> Default for PairList<T, D> {
 
 /// The box around points, by number, that are there.
 fn extent<const D: usize>(points: &[[f64; D]], of: impl Iterator<Item = u32>) -> [[f64; D]; 2] {
-    let start = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
-    of.fold(start, |[low, high], id| {
-        let x = &points[id as usize];
-        [
-            core::array::from_fn(|d| low[d].min(x[d])),
-            core::array::from_fn(|d| high[d].max(x[d])),
-        ]
-    })
+    let boxes = of.map(|id| Corners::at(points[id as usize]));
+    boxes.fold(Corners::NONE, Join::and).0
 }
 
 impl<T: Real, const D: usize> PairList<T, D> {

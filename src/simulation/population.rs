@@ -1,7 +1,9 @@
 //! The particles of a group, and their order: what enters, leaves, re-enters, and is sorted.
 //! States outside are told of every change.
 
+use super::energy::kinetic;
 use crate::boundary::{Boundary, Outlet};
+use crate::collective::Collective;
 use crate::effect::StepProgram;
 use crate::error::{Error, Problem, Result};
 use crate::material::Material;
@@ -304,6 +306,7 @@ impl<T: Real, const D: usize> Particles<T, D> {
         for k in 0..self.bodies.len() {
             let (slots, end) = (self.bodies[k].slots.clone(), self.bodies[k].end);
             let mut kept = slots.start;
+            let mut left = Collective::new();
             let state = |columns: &Columns<T, D>, slot: usize| {
                 [Field::POSITION, Field::VELOCITY]
                     .map(|field| columns.vectors(field)[slot].map(Real::to_f64))
@@ -322,13 +325,19 @@ impl<T: Real, const D: usize> Particles<T, D> {
                 any = true;
                 self.slot_of[self.ids[slot] as usize] = u32::MAX;
                 let mass = self.columns.raw(Field::MASS)[slot].to_f64();
-                self.removed.particles += 1;
-                self.removed.mass += mass;
-                for d in 0..D {
-                    self.removed.momentum[d] += mass * v[d];
-                    self.removed.kinetic += 0.5 * mass * v[d] * v[d];
-                }
+                left.add((
+                    v.map(|v| mass * v),
+                    [mass, kinetic(&self.columns, slot)],
+                    1_u64,
+                ));
             }
+            let (momentum, [mass, kinetic], particles) = left.value();
+            self.removed = self.removed.and(&Removed {
+                particles,
+                mass,
+                momentum,
+                kinetic,
+            });
             if kept > slots.start {
                 let last = order[kept - 1];
                 order[kept..end].fill(last);

@@ -4,6 +4,7 @@
 use super::Simulation;
 use super::group::Group;
 use super::stages::Moment;
+use crate::collective::largest;
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::scheme::DensityForm;
@@ -85,10 +86,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         let [threshold] = self.particles.columns.many_mut([Field::CONTACT_THRESHOLD]);
         for body in &self.particles.bodies {
             let own = |slot: usize| rows.get(Output::KERNEL_SUM, 0, slot);
-            let full = body
-                .slots
-                .clone()
-                .fold(T::zero(), |most, slot| most.max(own(slot)));
+            let full = T::from_f64(largest(body.slots.clone(), |slot| own(slot).to_f64()));
             for slot in body.run() {
                 let across = rows.get(Output::CONTACT_SUM, 0, slot);
                 let lacking = (full - own(slot)).positive_part();

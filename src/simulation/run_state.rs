@@ -4,7 +4,7 @@
 use super::contact::Couple;
 use super::event::Happened;
 use super::group::Group;
-use super::ledger::Impulses;
+use super::impulses::Impulses;
 use super::{Simulation, Vote, energy, stability, stored};
 use crate::scalar::Real;
 

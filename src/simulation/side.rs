@@ -4,8 +4,8 @@
 use super::group::Group;
 use super::population::Particles;
 use crate::boundary::{Boundary, Motion, Pose};
+use crate::collective::{Corners, largest, over};
 use crate::coupling::{Anchor, CoupledParticle};
-use crate::parallel::largest;
 use crate::particles::Field;
 use crate::scalar::Real;
 use crate::tensor::{Matrix, Vector, inverse};
@@ -55,13 +55,7 @@ impl<const D: usize> MetWall<D> {
         if self.motion.is_none() {
             return 0.0;
         }
-        let start = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
-        let [low, high] = self.rest.iter().fold(start, |[low, high], x| {
-            [
-                core::array::from_fn(|d| low[d].min(x[d])),
-                core::array::from_fn(|d| high[d].max(x[d])),
-            ]
-        });
+        let Corners([low, high]) = over(0..self.rest.len(), |id| Corners::at(self.rest[id]));
         let poses = times.map(|time| self.pose(time));
         let corners = (0..1_usize << D).map(|corner| {
             let x = core::array::from_fn(|d| {
@@ -301,9 +295,7 @@ fn stiffness_of<T: Real, const D: usize>(particles: &Particles<T, D>, body: usiz
     let columns = &particles.columns;
     let (rho, c) = (columns.raw(Field::DENSITY), columns.raw(Field::SOUND_SPEED));
     let own = particles.bodies[body].slots.clone();
-    own.fold(0.0, |most: f64, slot| {
-        most.max(rho[slot].to_f64() * c[slot].to_f64().powi(2))
-    })
+    largest(own, |slot| rho[slot].to_f64() * c[slot].to_f64().powi(2))
 }
 
 /// Brings what pairs with a wall remember from one time to another.

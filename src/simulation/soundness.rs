@@ -5,9 +5,10 @@ use super::Simulation;
 use super::limits::are_finite;
 use super::population::Particles;
 use crate::boundary::Pose;
+use crate::collective::{over, over_pieces};
 use crate::effect::StepProgram;
 use crate::error::{Error, Problem, Result};
-use crate::parallel::{GRAIN, reduce, runs};
+use crate::parallel::{GRAIN, runs};
 use crate::particles::{Columns, Field};
 use crate::scalar::Real;
 use crate::scheme::Smoothing;
@@ -256,14 +257,10 @@ fn negative_energies<T: Real, const D: usize>(particles: &Particles<T, D>) -> u6
     let energy = particles.columns.raw(Field::ENERGY);
     let mut negative = 0;
     for body in &particles.bodies {
-        let own = energy.get(body.slots.clone()).unwrap_or_default();
-        if !own.is_empty() && body.material.is_gas() {
-            let below = |_, run: Range<usize>| {
-                let energies = own[run].iter();
-                energies.filter(|energy| **energy < T::zero()).count() as u64
-            };
-            let all = runs(0..own.len(), GRAIN);
-            negative = reduce(all, negative, below, |a, b| a + b);
+        if !energy.is_empty() && body.material.is_gas() {
+            negative += over(body.slots.clone(), |slot| {
+                u64::from(energy[slot] < T::zero())
+            });
         }
     }
     negative
@@ -281,15 +278,14 @@ fn unsound<T: Real, const D: usize>(
         let unsound = |_, run: Range<usize>| {
             // Nearly always all are sound, and nobody asks which is not.
             if sound(run.clone()) {
-                return usize::MAX;
+                return None;
             }
             let mut slots = run.into_iter();
             let first = slots.find(|&slot| !sound(slot..slot + 1));
-            first.unwrap_or(usize::MAX)
+            first.map(|slot| (slot, ()))
         };
         let chunks = runs(body.slots.clone(), GRAIN);
-        let first = reduce(chunks, usize::MAX, unsound, usize::min);
-        (first < usize::MAX).then_some(first)
+        over_pieces(chunks, unsound).map(|(slot, ())| slot)
     })
 }
 

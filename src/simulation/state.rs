@@ -7,8 +7,9 @@ use super::loads::heat_by_loads;
 use super::population::BodyState;
 use super::stages::Moment;
 use super::workspace::Saved;
+use crate::collective::over_pieces;
 use crate::effect::{Around, Evolved, View, When};
-use crate::parallel::{GRAIN, cut, for_each, reduce, runs};
+use crate::parallel::{GRAIN, cut, for_each, runs};
 use crate::particles::{Field, Output};
 use crate::scalar::{MOST_LANES, Real};
 use crate::scheme::EnergyForm;
@@ -139,8 +140,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                 })
             })
         };
-        let all = reduce(runs(0..mass.len(), GRAIN), true, follows, |a, b| a && b);
-        all.then_some(after)
+        over_pieces(runs(0..mass.len(), GRAIN), follows).then_some(after)
     }
 
     /// v ← v + dt a.

@@ -2,6 +2,7 @@
 //! Tuckerman, Berne & Martyna 1992, J. Chem. Phys. 97, 1990, equation 2.25: impulses outside, own steps inside.
 
 use super::population::Particles;
+use crate::collective::Collective;
 use crate::particles::Field;
 use crate::scalar::Real;
 
@@ -35,14 +36,17 @@ impl<T: Real, const D: usize> SubCycle<T, D> {
         let columns = &mut particles.columns;
         let [v, mass] = columns.many_mut([Field::VELOCITY, Field::MASS]);
         for (body, work) in particles.bodies.iter().zip(&mut self.work) {
+            let mut gained = Collective::new();
             for slot in body.slots.clone() {
                 for d in 0..D {
                     let v = &mut v[slot * D + d];
                     let before = v.to_f64();
                     *v += step * self.forces[slot][d] / mass[slot];
-                    *work += 0.5 * mass[slot].to_f64() * (v.to_f64().powi(2) - before * before);
+                    let twice = v.to_f64().powi(2) - before * before;
+                    gained.add(0.5 * mass[slot].to_f64() * twice);
                 }
             }
+            *work += gained.value();
             // Slots behind the last particle repeat it, and nothing sorts anew what keeps its neighbours.
             if let Some(last) = body.slots.clone().last() {
                 for slot in body.slots.end..body.end {

@@ -1,6 +1,8 @@
 //! A vote on the time step: the step that a criterion asks for, and of which particle.
 //! What votes is in the files of the criteria.
 
+use crate::collective::Join;
+
 /// What limits the step of a particle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Criterion {
@@ -73,12 +75,16 @@ pub(super) const NO_VOTE: Vote = Vote {
     particle: usize::MAX,
 };
 
-/// The shorter step; the lower slot wins a tie, whatever the order of reduction.
-pub(super) fn least(a: Vote, b: Vote) -> Vote {
-    if b.step < a.step || (b.step == a.step && b.particle < a.particle) {
-        b
-    } else {
-        a
+/// The shorter step; the lower slot wins a tie.
+impl Join for Vote {
+    const NONE: Self = NO_VOTE;
+    fn and(self, other: Self) -> Self {
+        let later = other.step == self.step && other.particle < self.particle;
+        if other.step < self.step || later {
+            other
+        } else {
+            self
+        }
     }
 }
 

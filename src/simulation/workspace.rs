@@ -5,7 +5,7 @@ use super::Phases;
 use super::cost::Spent;
 use super::population::Moves;
 use super::settle::Settling;
-use crate::particles::{Field, Output};
+use crate::particles::{Columns, Field, Output};
 use crate::scalar::Real;
 use crate::sweep::{Records, Results};
 use crate::tensor::Vector;
@@ -86,6 +86,17 @@ impl<T: Real, const D: usize> Workspace<T, D> {
     pub fn acceleration(&self, mass: &[T], k: usize) -> T {
         let (slot, d) = (k / D, k % D);
         self.rates.get(Output::FORCE, d, slot) / mass[slot] + self.evaluated_gravity[d]
+    }
+
+    /// The power \[W\] of a force \[N\] on the particle in a slot, with its velocity in `ahead` \[s\].
+    pub fn power(&self, columns: &Columns<T, D>, force: &[f64; D], slot: usize, ahead: f64) -> f64 {
+        let v = &columns.vectors(Field::VELOCITY)[slot];
+        let mass = columns.raw(Field::MASS);
+        let of = |d: usize| {
+            let a = self.acceleration(mass, slot * D + d).to_f64();
+            force[d] * (v[d].to_f64() + ahead * a)
+        };
+        (0..D).map(of).sum()
     }
 
     /// Brings saved states into the order of the particles after a list build, and through the boundaries that

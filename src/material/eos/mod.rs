@@ -69,6 +69,7 @@ pub use tait::Tait;
 pub use tension_cut_off::TensionCutOff;
 pub use tillotson::Tillotson;
 
+use crate::collective::Join;
 use crate::scalar::{Lane, Mask};
 use core::fmt::Debug;
 use core::ops::AddAssign;
@@ -143,6 +144,18 @@ impl AddAssign for GuardCounts {
         self.compression += other.compression;
         self.expansion += other.expansion;
         self.cut_off += other.cut_off;
+    }
+}
+
+impl Join for GuardCounts {
+    const NONE: Self = Self {
+        compression: 0,
+        expansion: 0,
+        cut_off: 0,
+    };
+    fn and(mut self, other: Self) -> Self {
+        self += other;
+        self
     }
 }
 

@@ -11,7 +11,7 @@ mod particles;
 mod workspace;
 
 use super::energy::Work;
-use super::ledger::Impulses;
+use super::impulses::Impulses;
 use super::run_state::State;
 use super::view::{Reading, rounding};
 use super::{Criterion, Simulation, Vote};
@@ -97,6 +97,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             aside: _,
             shown: reading,
             failed: _,
+            pair_forces: _,
         } = self;
         // The next step starts from the state after the last one. While another is shown, no particles enter.
         let State {

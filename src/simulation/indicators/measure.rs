@@ -7,6 +7,7 @@ use super::limit::{self, Estimates};
 use super::look::{Look, Looker};
 use super::report::{Indicators, Spread, median};
 use super::thickness::thicknesses;
+use crate::collective::over;
 use crate::particles::Field;
 use crate::scalar::Real;
 
@@ -127,7 +128,7 @@ pub(super) fn of<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Indi
     let signed = looks.iter().map(|(_, look)| look.density);
     let signed: Vec<f64> = signed.filter(|own| own.is_finite()).collect();
     if !signed.is_empty() {
-        indicators.drift = Some(signed.iter().sum::<f64>() / signed.len() as f64);
+        indicators.drift = Some(over(0..signed.len(), |k| signed[k]) / signed.len() as f64);
     }
     let estimates = Estimates::of(&looks, &ranges);
     indicators.limits = limit::limits(simulation, &indicators, &estimates);

@@ -1,12 +1,11 @@
 //! How particles are arranged: nearest neighbours, clumping, anisotropy, those without neighbours, and noise.
-//! Read from the neighbour lists at hand, chunk by chunk, with sums in a fixed order.
+//! Read from the neighbour lists at hand, chunk by chunk.
 
 use super::super::group::Group;
-use super::super::neighborhood::Neighborhood;
-use super::super::population::Particles;
+use crate::collective::{Collective, Join, Least, over_pieces};
 use crate::geometry::edge;
 use crate::neighbors::CHUNK;
-use crate::parallel::{cut, for_each};
+use crate::parallel::runs;
 use crate::particles::{Columns, Field};
 use crate::scalar::{Lane, Real};
 use crate::sweep::Transform;
@@ -43,179 +42,124 @@ pub struct Arrangement {
     pub(super) at: (usize, usize),
 }
 
-/// Sums over some particles.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Sums {
-    nearest: f64,
-    at: (usize, usize),
-    bins: [u32; BINS + 1],
-    mean: f64,
-    anisotropy: f64,
-    inside: u64,
-    sparse: u64,
-    alone: u64,
-    count: u64,
-    noise: f64,
-    speed: f64,
-}
+/// The smallest distance and its slot; nearest neighbours by their distance; particles, those alone, with few neighbours and
+/// inside; and sums of distances, anisotropies, noise and speed.
+type Sums = (Least, [u64; BINS + 1], [u64; 4], [f64; 4]);
 
-impl Sums {
-    pub(super) const NONE: Self = Self {
-        nearest: f64::INFINITY,
-        at: (usize::MAX, 0),
-        bins: [0; BINS + 1],
-        mean: 0.0,
-        anisotropy: 0.0,
-        inside: 0,
-        sparse: 0,
-        alone: 0,
-        count: 0,
-        noise: 0.0,
-        speed: 0.0,
-    };
-
-    fn add(&mut self, other: &Self) {
-        if other.nearest < self.nearest {
-            (self.nearest, self.at) = (other.nearest, other.at);
+/// Those of the particles of one chunk of lists.
+fn sums_of<T: Real, const D: usize>(group: &Group<T, D>, chunk: usize) -> Sums {
+    let (particles, neighborhood) = (&group.particles, &group.neighborhood);
+    let (mut least, mut bins) = (Least::NONE, [0; BINS + 1]);
+    let [mut count, mut alone, mut sparse, mut inside] = [0; 4];
+    let [mut distance, mut anisotropy, mut noise, mut speed] = [0.0; 4];
+    let rows = neighborhood.lists.chunks()[chunk].starts.len() - 1;
+    let width = <T::Wide<false> as Lane>::WIDTH;
+    let columns = &particles.columns;
+    let positions = columns.vectors(Field::POSITION);
+    let velocities = columns.vectors(Field::VELOCITY);
+    for row in chunk * CHUNK..chunk * CHUNK + rows {
+        let first = row * width;
+        if first >= particles.mobile {
+            break;
         }
-        for (own, other) in self.bins.iter_mut().zip(&other.bins) {
-            *own += other;
-        }
-        self.mean += other.mean;
-        self.anisotropy += other.anisotropy;
-        self.inside += other.inside;
-        self.sparse += other.sparse;
-        self.alone += other.alone;
-        self.count += other.count;
-        self.noise += other.noise;
-        self.speed += other.speed;
-    }
-
-    /// Adds the particles of one chunk of lists.
-    fn add_chunk<T: Real, const D: usize>(
-        &mut self,
-        particles: &Particles<T, D>,
-        neighborhood: &Neighborhood<T, D>,
-        chunk: usize,
-        group: usize,
-    ) {
-        let rows = neighborhood.lists.chunks()[chunk].starts.len() - 1;
-        let width = <T::Wide<false> as Lane>::WIDTH;
-        let columns = &particles.columns;
-        let positions = columns.vectors(Field::POSITION);
-        let velocities = columns.vectors(Field::VELOCITY);
-        for row in chunk * CHUNK..chunk * CHUNK + rows {
-            let first = row * width;
-            if first >= particles.mobile {
-                break;
-            }
-            let body = &particles.bodies[particles.body_of(first)];
-            for slot in first..(first + width).min(body.slots.end) {
-                let x = positions[slot];
-                let v = velocities[slot].map(Real::to_f64);
-                let own = local_spacing(columns, slot);
-                let mut nearest = f64::INFINITY;
-                let (mut count, mut weights) = (0_u32, 0.0);
-                let (mut offset, mut mean) = ([0.0; D], [0.0; D]);
-                let mut moment = [[0.0; D]; D];
-                for entry in neighborhood.of(slot) {
-                    let r = entry.from(&x, positions);
-                    let r2: f64 = r.iter().map(|r| r * r).sum();
-                    let mobile = entry.slot < particles.mobile;
-                    let spacing = if mobile {
-                        0.5 * (own + local_spacing(columns, entry.slot))
-                    } else {
-                        own
-                    };
-                    // Far ones first, which are most.
-                    if r2 > (2.0 * spacing).powi(2) {
-                        continue;
-                    }
-                    let q = r2.sqrt() / spacing;
-                    if mobile && entry.image.is_none_or(shifts) {
-                        nearest = nearest.min(q);
-                    }
-                    if q < NEAR {
-                        count += 1;
-                        let weight = 1.0 - q / NEAR;
-                        weights += weight;
-                        let moved = entry.velocity(velocities);
-                        let unit = r.map(|r| r / r2.sqrt().max(f64::MIN_POSITIVE));
-                        for a in 0..D {
-                            mean[a] += weight * moved[a].to_f64();
-                            offset[a] += weight * unit[a];
-                            for b in 0..D {
-                                moment[a][b] += weight * unit[a] * unit[b];
-                            }
+        let body = &particles.bodies[particles.body_of(first)];
+        for slot in first..(first + width).min(body.slots.end) {
+            let x = positions[slot];
+            let v = velocities[slot].map(Real::to_f64);
+            let own = local_spacing(columns, slot);
+            let mut nearest = f64::INFINITY;
+            let (mut near, mut weights) = (0, 0.0);
+            let (mut offset, mut mean) = ([0.0; D], [0.0; D]);
+            let mut moment = [[0.0; D]; D];
+            for entry in neighborhood.of(slot) {
+                let r = entry.from(&x, positions);
+                let r2: f64 = r.iter().map(|r| r * r).sum();
+                let mobile = entry.slot < particles.mobile;
+                let spacing = if mobile {
+                    0.5 * (own + local_spacing(columns, entry.slot))
+                } else {
+                    own
+                };
+                // Far ones first, which are most.
+                if r2 > (2.0 * spacing).powi(2) {
+                    continue;
+                }
+                let q = r2.sqrt() / spacing;
+                if mobile && entry.image.is_none_or(shifts) {
+                    nearest = nearest.min(q);
+                }
+                if q < NEAR {
+                    near += 1;
+                    let weight = 1.0 - q / NEAR;
+                    weights += weight;
+                    let moved = entry.velocity(velocities);
+                    let unit = r.map(|r| r / r2.sqrt().max(f64::MIN_POSITIVE));
+                    for a in 0..D {
+                        mean[a] += weight * moved[a].to_f64();
+                        offset[a] += weight * unit[a];
+                        for b in 0..D {
+                            moment[a][b] += weight * unit[a] * unit[b];
                         }
                     }
                 }
-                self.count += 1;
-                self.alone += u64::from(nearest.is_infinite());
-                self.sparse += u64::from(count < 2 * D as u32);
-                if nearest < self.nearest {
-                    (self.nearest, self.at) = (nearest, (slot, group));
-                }
-                let nearest = nearest.min(2.0);
-                self.mean += nearest;
-                self.bins[(0.5 * nearest * BINS as f64) as usize] += 1;
-                self.speed += v.iter().map(|v| v * v).sum::<f64>();
-                if weights == 0.0 {
-                    continue;
-                }
-                let aside = offset.iter().map(|o| o * o).sum::<f64>().sqrt() / weights;
-                if aside < SURFACE && count >= 2 * D as u32 {
-                    self.inside += 1;
-                    self.anisotropy += departure(&moment);
-                    let differs = |d: usize| (v[d] - mean[d] / weights).powi(2);
-                    self.noise += (0..D).map(differs).sum::<f64>();
-                }
+            }
+            count += 1;
+            alone += u64::from(nearest.is_infinite());
+            sparse += u64::from(near < 2 * D);
+            least = least.and(Least(nearest, slot));
+            let nearest = nearest.min(2.0);
+            distance += nearest;
+            bins[(0.5 * nearest * BINS as f64) as usize] += 1;
+            speed += v.iter().map(|v| v * v).sum::<f64>();
+            if weights == 0.0 {
+                continue;
+            }
+            let aside = offset.iter().map(|o| o * o).sum::<f64>().sqrt() / weights;
+            if aside < SURFACE && near >= 2 * D {
+                inside += 1;
+                anisotropy += departure(&moment);
+                let differs = |d: usize| (v[d] - mean[d] / weights).powi(2);
+                noise += (0..D).map(differs).sum::<f64>();
             }
         }
     }
-
-    /// What they say; nothing of no particles.
-    fn arrangement(&self) -> Option<Arrangement> {
-        let count = self.count.max(1) as f64;
-        let rank = self.count / 1000;
-        let mut below = 0;
-        let bin = self.bins.iter().position(|own| {
-            below += u64::from(*own);
-            below > rank
-        });
-        let of_bin = |bin: usize| 2.0 * bin as f64 / BINS as f64;
-        let half: u32 = self.bins[..BINS / 4].iter().sum();
-        (self.count > 0).then(|| Arrangement {
-            nearest: self.nearest.min(2.0),
-            quantile: bin.map_or(2.0, of_bin).max(self.nearest.min(2.0)),
-            mean: self.mean / count,
-            close: f64::from(half) / count,
-            anisotropy: self.anisotropy / self.inside.max(1) as f64,
-            sparse: self.sparse as f64 / count,
-            alone: self.alone,
-            noise: (self.noise / self.speed.max(f64::MIN_POSITIVE)).sqrt(),
-            at: self.at,
-        })
-    }
+    let sums = [distance, anisotropy, noise, speed];
+    (least, bins, [count, alone, sparse, inside], sums)
 }
 
-/// The arrangement of all groups; `partial` is memory that is used again.
-pub(super) fn arrangement<T: Real, const D: usize>(
-    groups: &[Group<T, D>],
-    partial: &mut Vec<Sums>,
-) -> Option<Arrangement> {
-    let mut all = Sums::NONE;
+/// The arrangement of all groups; nothing of no particles.
+pub(super) fn arrangement<T: Real, const D: usize>(groups: &[Group<T, D>]) -> Option<Arrangement> {
+    let mut all = Collective::<Sums>::new();
+    let (mut nearest, mut at) = (f64::INFINITY, (usize::MAX, 0));
     for (index, group) in groups.iter().enumerate() {
-        partial.clear();
-        partial.resize(group.neighborhood.lists.chunks().len(), Sums::NONE);
-        for_each(cut(partial, 1), |chunk, sums| {
-            sums[0].add_chunk(&group.particles, &group.neighborhood, chunk, index);
-        });
-        for sums in partial.iter() {
-            all.add(sums);
+        let chunks = group.neighborhood.lists.chunks().len();
+        let own = over_pieces(runs(0..chunks, 1), |chunk, _| sums_of(group, chunk));
+        let Least(least, slot) = own.0;
+        if least < nearest {
+            (nearest, at) = (least, (slot, index));
         }
+        all.add(own);
     }
-    all.arrangement()
+    let (_, bins, [count, alone, sparse, inside], sums) = all.value();
+    let [distance, anisotropy, noise, speed] = sums;
+    let mut below = 0;
+    let bin = bins.iter().position(|own| {
+        below += own;
+        below > count / 1000
+    });
+    let of_bin = |bin: usize| 2.0 * bin as f64 / BINS as f64;
+    let share = |some: u64| some as f64 / count.max(1) as f64;
+    (count > 0).then(|| Arrangement {
+        nearest: nearest.min(2.0),
+        quantile: bin.map_or(2.0, of_bin).max(nearest.min(2.0)),
+        mean: distance / count as f64,
+        close: share(bins[..BINS / 4].iter().sum()),
+        anisotropy: anisotropy / inside.max(1) as f64,
+        sparse: share(sparse),
+        alone,
+        noise: (noise / speed.max(f64::MIN_POSITIVE)).sqrt(),
+        at,
+    })
 }
 
 /// Whether a transform shifts alone, as that of a period does.

@@ -2,8 +2,8 @@
 //! A sound speed that is too low for the pressure of the flow shows so, whether inertia or viscosity makes the pressure.
 
 use super::super::Simulation;
+use crate::collective::{Corners, Least, over};
 use crate::material::Material;
-use crate::parallel::{GRAIN, reduce, runs};
 use crate::particles::Field;
 use crate::scalar::Real;
 use crate::scheme::EnergyForm;
@@ -41,14 +41,9 @@ impl Compression {
                 if own.material.is_gas() {
                     continue;
                 }
-                let extent = |d: usize| {
-                    let places = x[own.slots.clone()].iter().map(|x| x[d].to_f64());
-                    let ends = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| {
-                        [low.min(x), high.max(x)]
-                    });
-                    ends[1] - ends[0]
-                };
-                let longest = (0..D).map(extent).fold(own.spacing, f64::max);
+                let place = |slot: usize| Corners::at(x[slot].map(Real::to_f64));
+                let extent = over(own.slots.clone(), place).extent();
+                let longest = extent.into_iter().fold(own.spacing, f64::max);
                 liquids.push(Liquid {
                     group: number,
                     body,
@@ -87,24 +82,13 @@ impl Compression {
             let particles = &simulation.state.groups[liquid.group].particles;
             let body = &particles.bodies[liquid.body];
             let density = &particles.columns.raw(Field::DENSITY)[body.slots.clone()];
-            let over = 1.0 / body.material.reference_density();
+            let by = 1.0 / body.material.reference_density();
             // How many are beyond, and the densest: of equal ones the first.
-            let join = |(count, a): (usize, (f64, usize)), (more, b): (usize, (f64, usize))| {
-                let later = b.0 > a.0 || (b.0 == a.0 && b.1 < a.1);
-                (count + more, if later { b } else { a })
-            };
-            let none = (0, (f64::NEG_INFINITY, usize::MAX));
-            let (count, (value, slot)) = reduce(
-                runs(0..density.len(), GRAIN),
-                none,
-                |_, run| {
-                    run.fold(none, |all, n| {
-                        let value = density[n].to_f64() * over - 1.0;
-                        join(all, (usize::from(value > limit), (value, n)))
-                    })
-                },
-                join,
-            );
+            let (count, Least(value, slot)) = over(0..density.len(), |n| {
+                let value = density[n].to_f64() * by - 1.0;
+                (u64::from(value > limit), Least(-value, n))
+            });
+            let value = -value;
             if count as f64 <= FEW * density.len() as f64 {
                 liquid.since = None;
                 continue;

@@ -2,10 +2,11 @@
 //! A threshold that is left is a breach.
 
 use super::super::Simulation;
-use super::arrangement::{self, Arrangement};
+use super::arrangement::{Arrangement, arrangement};
 use super::thresholds::Thresholds;
 use super::voids;
 use super::watch::{Measure, Seen};
+use crate::collective::Collective;
 use crate::scalar::Real;
 
 /// A value with where and when it was met.
@@ -149,7 +150,7 @@ pub(super) fn of<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Stab
         }
     };
     let both = |own: [Option<Seen<D>>; 2]| Some([named(own[0]?), named(own[1]?)]);
-    let now = arrangement::arrangement(&simulation.state.groups, &mut Vec::new());
+    let now = arrangement(&simulation.state.groups);
     let limits: Vec<_> = simulation
         .limits()
         .into_iter()
@@ -246,10 +247,11 @@ fn residuals<T: Real, const D: usize>(
     let (momentum, _, [energy, scale]) = simulation.state_sums();
     let residual = simulation.books_momentum().then(|| {
         let outer = simulation.outer_impulse();
-        let mut scale: f64 = simulation
-            .all()
-            .map(|own| own.mass() * own.velocity().iter().map(|v| v.abs()).sum::<f64>())
-            .sum();
+        let mut all = Collective::new();
+        for own in simulation.all() {
+            all.add(own.mass() * own.velocity().iter().map(|v| v.abs()).sum::<f64>());
+        }
+        let mut scale = all.value();
         let (mut off, mut given) = (0.0_f64, 0.0_f64);
         for d in 0..D {
             let by = outer[d] - watch.impulse[d];

@@ -4,15 +4,14 @@
 use super::super::Simulation;
 use super::super::group::Group;
 use super::super::population::Particles;
-use super::arrangement::{self, Sums};
+use super::arrangement::arrangement;
 use super::compression::Compression;
 use super::thresholds::Thresholds;
 use crate::clock::Instant;
+use crate::collective::{Collective, Least, over};
 use crate::origin::local;
-use crate::parallel::{GRAIN, reduce, runs};
 use crate::particles::Field;
 use crate::scalar::Real;
-use std::ops::Range;
 use std::time::Duration;
 
 /// Bins of steps, eight an octave about the first.
@@ -97,46 +96,28 @@ pub(in super::super) struct Watch<const D: usize> {
     pub mass: f64,
     before: [f64; D],
     last: f64,
-    partial: Vec<Sums>,
     pub spent: Duration,
 }
-
-/// The lower value and, of equal ones, the lower slot.
-type Low = (f64, usize);
-fn lower(a: Low, b: Low) -> Low {
-    if b.0 < a.0 || (b.0 == a.0 && b.1 < a.1) {
-        b
-    } else {
-        a
-    }
-}
-const NOWHERE: Low = (f64::INFINITY, usize::MAX);
 
 /// The least and the largest (with the opposite sign) of a column over what it is at rest in each body.
 fn extremes<T: Real, const D: usize>(
     particles: &Particles<T, D>,
     field: Field,
     rest: impl Fn(usize) -> f64 + Sync,
-) -> [Low; 2] {
+) -> [Least; 2] {
     let column = particles.columns.raw(field);
-    let mut all = [NOWHERE; 2];
-    for (k, body) in particles.bodies.iter().enumerate() {
-        let Some(own) = column.get(body.slots.clone()) else {
-            continue;
-        };
-        let (first, over) = (body.slots.start, 1.0 / rest(k));
-        let both = |a: [_; 2], b: [_; 2]| [lower(a[0], b[0]), lower(a[1], b[1])];
-        let in_run = |_, run: Range<usize>| {
-            let found = run.map(|n| {
-                let value = own[n].to_f64() * over;
-                [(value, first + n), (-value, first + n)]
-            });
-            found.fold([NOWHERE; 2], both)
-        };
-        all = reduce(runs(0..own.len(), GRAIN), all, in_run, both);
+    let mut all = Collective::new();
+    let bodies = particles.bodies.iter().enumerate();
+    for (k, body) in bodies.filter(|_| !column.is_empty()) {
+        let over = 1.0 / rest(k);
+        all.add_range(body.slots.clone(), |slot| {
+            let value = column[slot].to_f64() * over;
+            [Least(value, slot), Least(-value, slot)]
+        });
     }
-    all
+    all.value()
 }
+
 impl<const D: usize> Watch<D> {
     pub fn new<T: Real>(simulation: &Simulation<T, D>, thresholds: Thresholds) -> Self {
         let (momentum, mass, [energy, energy_scale]) = simulation.state_sums();
@@ -171,10 +152,8 @@ impl<const D: usize> Watch<D> {
             mass,
             before: simulation.body_acceleration(simulation.state.time),
             last: simulation.state.time,
-            partial: Vec::new(),
             spent: Duration::ZERO,
         };
-        watch.make_room(simulation);
         watch.look_at_bounds(simulation);
         watch
     }
@@ -192,7 +171,6 @@ impl<const D: usize> Watch<D> {
         let start = Instant::now();
         self.steps += 1;
         self.particle_steps += simulation.particles() as f64;
-        self.make_room(simulation);
         self.look_at_bounds(simulation);
         self.look_at_step(simulation);
         let now = simulation.body_acceleration(simulation.state.time);
@@ -207,21 +185,6 @@ impl<const D: usize> Watch<D> {
         self.spent += start.elapsed();
     }
 
-    /// Makes room for a look at all lists, in the step that has built them.
-    fn make_room<T: Real>(&mut self, simulation: &Simulation<T, D>) {
-        let chunks = |group: &Group<T, D>| group.neighborhood.lists.chunks().len();
-        let most = simulation
-            .state
-            .groups
-            .iter()
-            .map(chunks)
-            .max()
-            .unwrap_or(0);
-        if self.partial.capacity() < most {
-            self.partial.reserve(2 * most - self.partial.len());
-        }
-    }
-
     fn look_at_bounds<T: Real>(&mut self, simulation: &Simulation<T, D>) {
         for group in &simulation.state.groups {
             let rest = |body: usize| group.particles.bodies[body].material.reference_density();
@@ -230,7 +193,7 @@ impl<const D: usize> Watch<D> {
                 |body: usize| group.scheme.h_over_dx() * group.particles.bodies[body].spacing;
             let lengths = extremes(&group.particles, Field::SMOOTHING_LENGTH, first);
             for (all, found) in [(&mut self.density, density), (&mut self.smoothing, lengths)] {
-                for (side, (value, slot)) in found.into_iter().enumerate() {
+                for (side, Least(value, slot)) in found.into_iter().enumerate() {
                     let sign = if side == 0 { 1.0 } else { -1.0 };
                     let beyond = all[side].is_none_or(|own| value < sign * own.value);
                     if slot != usize::MAX && beyond {
@@ -286,10 +249,7 @@ impl<const D: usize> Watch<D> {
     }
 
     fn look_at_arrangement<T: Real>(&mut self, simulation: &Simulation<T, D>) {
-        let mut partial = core::mem::take(&mut self.partial);
-        let found = arrangement::arrangement(&simulation.state.groups, &mut partial);
-        self.partial = partial;
-        if let Some(now) = found {
+        if let Some(now) = arrangement(&simulation.state.groups) {
             let (slot, group) = now.at;
             if slot != usize::MAX {
                 let at =
@@ -415,18 +375,16 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         for group in &self.state.groups {
             let [low, high] = [low, high].map(|corner| local(&corner, &group.particles.origin));
             for body in &group.particles.bodies {
-                let x = &group.particles.columns.vectors(Field::POSITION)[body.slots.clone()];
-                for (n, x) in x.iter().enumerate() {
-                    let outside = |d: usize| {
-                        let x = x[d].to_f64();
+                let x = group.particles.columns.vectors(Field::POSITION);
+                let (outside, at) = over(body.slots.clone(), |slot| {
+                    let outside = (0..D).any(|d| {
+                        let x = x[slot][d].to_f64();
                         x < low[d] - body.spacing || x > high[d] + body.spacing
-                    };
-                    if (0..D).any(outside) {
-                        count += 1;
-                        let slot = body.slots.start + n;
-                        first = first.or_else(|| Some(self.seen(group, slot, 1.0)));
-                    }
-                }
+                    });
+                    (u64::from(outside), outside.then_some((slot, ())))
+                });
+                count += outside;
+                first = first.or_else(|| at.map(|(slot, ())| self.seen(group, slot, 1.0)));
             }
         }
         (count, first)

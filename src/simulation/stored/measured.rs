@@ -2,10 +2,12 @@
 //! One sum over its particles, by the laws of materials and the columns of effects.
 
 use super::parts::has_energy;
+use crate::collective::{Collective, Least, over};
 use crate::particles::Field;
 use crate::scalar::Real;
 use crate::simulation::Simulation;
 use crate::simulation::contact::Couple;
+use crate::simulation::energy::kinetic;
 use crate::simulation::group::Group;
 use crate::simulation::population::BodyState;
 use crate::simulation::side::Side;
@@ -61,9 +63,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             for (number, body) in couple.sides.iter().filter_map(Side::body) {
                 let group = &self.state.groups[number];
                 let body = &group.particles.bodies[body];
-                for slot in body.slots.clone() {
-                    sum.kinetic += kinetic(group, slot);
-                }
+                let columns = &group.particles.columns;
+                sum.kinetic += over(body.slots.clone(), |slot| kinetic(columns, slot));
                 sum.population[0] += body.slots.len() as u64;
                 sum.at = (number, body.slots.start);
             }
@@ -134,14 +135,6 @@ pub(super) fn energies<T: Real, const D: usize>(
     Some([stored, program.dissipated.iter().map(at).sum()])
 }
 
-/// Kinetic energy of the particle in a slot \[J\].
-fn kinetic<T: Real, const D: usize>(group: &Group<T, D>, slot: usize) -> f64 {
-    let columns = &group.particles.columns;
-    let v = columns.vectors(Field::VELOCITY)[slot];
-    let v2: f64 = v.iter().map(|v| v.to_f64().powi(2)).sum();
-    0.5 * columns.raw(Field::MASS)[slot].to_f64() * v2
-}
-
 /// Adds the bodies of a group; `None` if one stores what cannot be said.
 fn add_bodies<T: Real, const D: usize>(
     sum: &mut Measured,
@@ -151,30 +144,35 @@ fn add_bodies<T: Real, const D: usize>(
     let columns = &group.particles.columns;
     let [mass, internal, sound] =
         [Field::MASS, Field::ENERGY, Field::SOUND_SPEED].map(|field| columns.raw(field));
-    let mut most = f64::NEG_INFINITY;
-    let (mut stiff, mut size) = (0.0, 0.0);
+    let mut all = Collective::new();
     for body in &group.particles.bodies {
-        for slot in body.slots.clone() {
+        all.add_range(body.slots.clone(), |slot| {
             let m = mass[slot].to_f64();
-            let [stored, dissipated] = energies(group, body, slot)?.map(|own| m * own);
+            let known = energies(group, body, slot);
+            let [stored, dissipated] = known.unwrap_or_default().map(|own| m * own);
             let own = m * internal.get(slot).map_or(0.0, |e| e.to_f64());
-            let moving = kinetic(group, slot);
-            sum.stored += stored;
-            sum.dissipated += dissipated;
-            sum.work += own;
-            sum.kinetic += moving;
-            stiff += m * sound.get(slot).map_or(0.0, |c| c.to_f64().powi(2));
-            size += own.abs();
+            let moving = kinetic(columns, slot);
+            let stiff = m * sound.get(slot).map_or(0.0, |c| c.to_f64().powi(2));
             let gain = if has_energy(group) {
                 stored + dissipated - own
             } else {
                 stored + moving
             };
-            if gain > most {
-                (most, sum.at) = (gain, (number, slot));
-            }
-        }
+            let sums = [stored, dissipated, own, moving, stiff, own.abs()];
+            (sums, known.is_some(), Least(-gain, slot))
+        });
         sum.population[0] += body.slots.len() as u64;
+    }
+    let ([stored, dissipated, work, kinetic, stiff, size], known, Least(_, slot)) = all.value();
+    if !known {
+        return None;
+    }
+    sum.stored += stored;
+    sum.dissipated += dissipated;
+    sum.work += work;
+    sum.kinetic += kinetic;
+    if slot < usize::MAX {
+        sum.at = (number, slot);
     }
     sum.population[1] += group.particles.removed.particles;
     sum.rounding += T::EPSILON * (ROUNDINGS[0] * stiff + ROUNDINGS[1] * size);

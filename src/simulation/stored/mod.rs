@@ -10,6 +10,7 @@ pub(super) use account::Stores;
 use super::Simulation;
 use super::group::Group;
 use super::population::BodyState;
+use crate::collective::over;
 use crate::output::table::significant;
 use crate::particles::Field;
 use crate::scalar::Real;
@@ -139,15 +140,13 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let stands = self.stands();
         let body = |(group, body): (&Group<T, D>, &BodyState<T>)| {
             let mass = group.particles.columns.raw(Field::MASS);
-            let add = |sum: f64, slot: usize| {
-                let [stored, _] = energies(group, body, slot)?;
-                Some(sum + mass[slot].to_f64() * stored)
-            };
-            let said = stands && group.scheme.program.books_energy;
-            let stored = said
-                .then(|| body.slots.clone().try_fold(0.0, add))
-                .flatten();
-            (body.name.clone(), stored)
+            let (stored, known) = over(body.slots.clone(), |slot| {
+                let own = energies(group, body, slot);
+                let stored = own.map_or(0.0, |[stored, _]| mass[slot].to_f64() * stored);
+                (stored, own.is_some())
+            });
+            let said = stands && group.scheme.program.books_energy && known;
+            (body.name.clone(), said.then_some(stored))
         };
         let part = |k: usize| {
             let measured = self.unsaid(k).map_or_else(|| self.measured(k), Err);
