@@ -38,7 +38,7 @@ const EXAMPLE: Example = Example {
         Own {
             name: "--steps",
             value: "N",
-            help: "of the plate in one of the water, at most; 64",
+            help: "of the plate in one of the water; 64",
         },
         Own {
             name: "--drag",

@@ -121,7 +121,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
     /// What a group that sub-cycles has beside others.
     pub(super) fn sub_cycle_of(&self, group: usize) -> Option<SubCycle<T, D>> {
         let own = |(name, _): &&(String, u32)| self.place_of(name).map(|at| at.0) == Some(group);
-        let (_, most) = self.sub_cycled.iter().rfind(own)?;
-        Some(SubCycle::new(*most, self.parts[group].bodies.len()))
+        let (_, count) = self.sub_cycled.iter().rfind(own)?;
+        Some(SubCycle::new(*count, self.parts[group].bodies.len()))
     }
 }

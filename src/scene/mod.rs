@@ -372,16 +372,19 @@ impl<T: Real, const D: usize> Scene<T, D> {
         self
     }
 
-    /// Lets the group of a body take steps of its own, of equal size in every half of a drift of the others, which step as if that
-    /// body were `most` times less stiff: it takes `most` in a step, or one more in a half in which its own limit has fallen since
-    /// (with 2, 4, 8 and 16 of walls around water 2.8, 4.9, 8.7 and 16.3 on average). What couplings do to it
-    /// comes in [impulses](crate::coupling#sub-cycling) at their kicks. It gains where a solid's sound is much faster
-    /// than that of the liquid around it, and wants an integrator that kicks and drifts.
+    /// Lets the group of a body take `count` equal steps in each step of the others. What couplings do to it comes in
+    /// [impulses](crate::coupling#sub-cycling) at the kicks of the others, also with one step. It gains where a solid's sound
+    /// is much faster than that of the liquid around it, and wants an integrator that kicks and drifts.
+    ///
+    /// The steps of the others are at most `count` times the stable step of the group: where that sets them,
+    /// [`Simulation::last_vote`](crate::simulation::Simulation::last_vote) names a particle of the group. An integrator whose step
+    /// has several drifts, as [`DriftKickDrift`](crate::integrator::DriftKickDrift), divides the steps among them; an odd count
+    /// then becomes the next even one.
     ///
     /// A liquid that meets walls or structures steps with the others.
     #[must_use]
-    pub fn sub_cycle(mut self, body: &str, most: u32) -> Self {
-        self.sub_cycled.push((body.into(), most));
+    pub fn sub_cycle(mut self, body: &str, count: u32) -> Self {
+        self.sub_cycled.push((body.into(), count));
         self
     }
 

@@ -15,6 +15,8 @@ pub(super) struct Stepping<'a, T: Real, const D: usize> {
     alone: Option<usize>,
     /// The time \[s\] at the start of the step.
     start: f64,
+    /// Its size \[s\]; zero of an evaluation.
+    size: f64,
     /// The time \[s\] over which what follows the flow once a step has yet to do so: at the first evaluation.
     due: f64,
 }
@@ -34,27 +36,35 @@ impl<T: Real, const D: usize> Stepping<'_, T, D> {
         together.then_some(&mut self.simulation.state)
     }
 
-    /// Takes groups that sub-cycle through `span` \[s\] from `begin` \[s\], in as many equal steps as each needs.
-    fn sub_cycle(&mut self, begin: f64, span: f64) -> Result<()> {
-        let apart = self.shared().map_or(0, |state| state.groups.len());
+    /// Lets groups that sub-cycle take their steps in a drift over `dt` \[s\] from `begin` \[s\]: those before its middle, or the
+    /// others.
+    fn sub_cycle(&mut self, begin: f64, dt: f64, before_middle: bool) -> Result<()> {
+        let (apart, share) = (
+            self.shared().map_or(0, |state| state.groups.len()),
+            dt / self.size,
+        );
         for group in 0..apart {
-            let Some(count) = self.simulation.sub_steps_in(group, span)? else {
+            let Some(apart) = &mut self.simulation.state.groups[group].sub_cycle else {
                 continue;
             };
-            let dt = span / count as f64;
+            let [count, middle] = apart.steps_in(share);
+            let steps = if before_middle {
+                0..middle
+            } else {
+                middle..count
+            };
+            apart.steps += steps.end - steps.start;
+            let size = dt / count as f64;
             let integrator = self.simulation.integrator.clone();
-            for step in 0..count {
-                let start = begin + step as f64 * dt;
+            for step in steps {
                 let mut alone = Stepping {
                     simulation: self.simulation,
                     alone: Some(group),
-                    start,
-                    due: dt,
+                    start: begin + step as f64 * size,
+                    size,
+                    due: size,
                 };
-                integrator.step(&mut alone, dt)?;
-            }
-            if let Some(apart) = &mut self.simulation.state.groups[group].sub_cycle {
-                apart.steps += count;
+                integrator.step(&mut alone, size)?;
             }
         }
         Ok(())
@@ -90,7 +100,7 @@ impl<T: Real, const D: usize> System for Stepping<'_, T, D> {
         if self.alone.is_none() {
             self.simulation.state.evaluated = time;
             self.simulation.state.impulses.time = time;
-            self.simulation.place_structures(time, true);
+            self.simulation.place_structures(time, true, [0.0; 2]);
         }
         // A group that sub-cycles comes with rates of its own, but at the start.
         let all = self.alone.is_none() && !self.simulation.state.rates_at_hand;
@@ -141,21 +151,22 @@ impl<T: Real, const D: usize> System for Stepping<'_, T, D> {
         if let Some(state) = self.shared() {
             state.impulses.time = begin + dt;
         }
-        self.sub_cycle(begin, half)?;
+        self.sub_cycle(begin, dt, true)?;
         for group in self.groups() {
             group.begin_drift(dt);
         }
         if self.groups().all(|group| group.drifts_at_once()) {
-            return self.sub_cycle(begin + half, half);
+            return self.sub_cycle(begin, dt, false);
         }
         // Loads and walls at the middle of the drift, and walls go straight through it as particles do:
         // a tank that moves is then a tank at rest in a frame that does.
         self.load_groups(begin + half, false)?;
         if self.alone.is_none() {
-            self.simulation.place_structures(begin + half, false);
+            let drift = [dt, dt / self.size];
+            self.simulation.place_structures(begin + half, false, drift);
         }
         // Groups that sub-cycle feel the others in kicks alone, so they may be at the end of the drift already.
-        self.sub_cycle(begin + half, half)?;
+        self.sub_cycle(begin, dt, false)?;
         for k in 0..self.simulation.state.groups.len() {
             if self.has(k) {
                 self.simulation.end_drift(k, begin, dt);
@@ -244,18 +255,23 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub(super) fn step_together(&mut self, dt: f64) -> Result<()> {
         let integrator = self.integrator.clone();
         self.state.due += dt;
-        self.together(|own| integrator.step(own, dt))
+        self.together(dt, |own| integrator.step(own, dt))
     }
 
     /// Evaluates all rates at the present state.
     pub(super) fn evaluate_together(&mut self) -> Result<()> {
-        self.together(|own| own.evaluate(0.0))
+        self.together(0.0, |own| own.evaluate(0.0))
     }
 
-    fn together(&mut self, act: impl FnOnce(&mut Stepping<'_, T, D>) -> Result<()>) -> Result<()> {
+    fn together(
+        &mut self,
+        size: f64,
+        act: impl FnOnce(&mut Stepping<'_, T, D>) -> Result<()>,
+    ) -> Result<()> {
         let mut own = Stepping {
             alone: None,
             start: self.state.time,
+            size,
             due: self.state.due,
             simulation: self,
         };

@@ -19,9 +19,6 @@ use crate::scalar::Real;
 use crate::tensor::{Vector, length};
 use std::ops::Range;
 
-/// How many more steps than were asked for a group that sub-cycles may need before its step has collapsed.
-const RUNAWAY: f64 = 64.0;
-
 /// How the time step is chosen.
 ///
 #[doc = include_str!("../../docs/equations/time_step.html")]
@@ -135,22 +132,22 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let mut all: Option<Vote> = None;
         for group in 0..self.state.groups.len() {
             let vote = self.vote_of(group, courant)?;
-            let step = vote.step * self.state.groups[group].steps_at_most();
+            let step = vote.step * self.state.groups[group].step_ratio();
             if all.is_none_or(|all| step < all.step) {
                 all = Some(Vote { step, ..vote });
             }
         }
         let mut all = all.unwrap_or(NO_VOTE);
         for (k, group) in self.state.groups.iter().enumerate() {
-            let most = group.steps_at_most();
+            let count = group.step_ratio();
             let limit = Vote {
-                step: all.step / most,
+                step: all.step / count,
                 ..all
             };
             let vote = self.approach_of(k, limit)?;
             if vote.step < limit.step {
                 all = Vote {
-                    step: vote.step * most,
+                    step: vote.step * count,
                     ..vote
                 };
             }
@@ -196,23 +193,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let id = group.particles.ids.get(vote.particle);
         let particle = id.map_or(usize::MAX, |&id| group.particles.first_id + id as usize);
         Ok(Vote { particle, ..vote })
-    }
-
-    /// How many equal steps a group needs in `span` \[s\] if it sub-cycles.
-    pub(super) fn sub_steps_in(&mut self, group: usize, span: f64) -> Result<Option<u64>> {
-        let Some(apart) = &self.state.groups[group].sub_cycle else {
-            return Ok(None);
-        };
-        let most = f64::from(apart.most);
-        let own = self.vote_of(group, self.control.courant)?;
-        let own = self.approach_of(group, own)?;
-        let count = (span / own.step).ceil().max(1.0);
-        // A limit of zero or no number of steps at all is a step that has collapsed.
-        if count.is_nan() || count > RUNAWAY * most {
-            self.state.last_vote = Some(own);
-            return Err(self.collapsed(span / count));
-        }
-        Ok(Some(count as u64))
     }
 
     /// `limit`, or a shorter step that pairs of a group ask for which approach each other.

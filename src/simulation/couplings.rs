@@ -89,13 +89,21 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         })
     }
 
-    /// Brings the walls that structures are to where their particles are now, at `time` \[s\]; whether all rates are
-    /// about to be evaluated.
-    pub(super) fn place_structures(&mut self, time: f64, evaluated: bool) {
+    /// Brings the walls that structures are to where their particles are at `time` \[s\]; whether all rates are about to be
+    /// evaluated. In the middle of a `drift` \[s\], and its share of a step, groups that sub-cycle may be half a step of theirs
+    /// further.
+    pub(super) fn place_structures(
+        &mut self,
+        time: f64,
+        evaluated: bool,
+        [drift, share]: [f64; 2],
+    ) {
         self.for_each_structure(|liquid, wall, group| {
             let (own, boundaries) = (&mut liquid.particles, &liquid.boundaries);
             let others = (&group.particles, &group.work);
-            liquid.walls[wall].follow(own, boundaries, others, (time, evaluated));
+            let apart = group.sub_cycle.as_ref().filter(|_| drift != 0.0);
+            let ahead = apart.map_or(0.0, |apart| drift * apart.beyond_middle(share));
+            liquid.walls[wall].follow(own, boundaries, others, (time, evaluated, ahead));
         });
     }
 

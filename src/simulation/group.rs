@@ -105,10 +105,10 @@ impl<T: Real, const D: usize> Group<T, D> {
         alone.map_or(self.sub_cycle.is_none(), |alone| alone == number)
     }
 
-    /// How many steps it may take in one of the others.
-    pub fn steps_at_most(&self) -> f64 {
+    /// How many steps it takes in one of the others.
+    pub fn step_ratio(&self) -> f64 {
         let apart = self.sub_cycle.as_ref();
-        apart.map_or(1.0, |apart| f64::from(apart.most))
+        apart.map_or(1.0, |apart| f64::from(apart.count))
     }
 
     /// Whether bodies touch that may part.

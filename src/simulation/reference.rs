@@ -13,7 +13,7 @@ use crate::term::Stage;
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// Takes the reference configuration of all groups, with structures in their places.
     pub(crate) fn take_references(&mut self) {
-        self.place_structures(self.state.time, false);
+        self.place_structures(self.state.time, false, [0.0; 2]);
         for group in &mut self.state.groups {
             group.take_reference();
         }

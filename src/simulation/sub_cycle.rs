@@ -9,8 +9,8 @@ use crate::scalar::Real;
 /// What a group that sub-cycles has beside others.
 #[derive(Clone, Debug)]
 pub(crate) struct SubCycle<T, const D: usize> {
-    /// How many steps it may take in one of the others at most.
-    pub most: u32,
+    /// How many steps it takes in one of the others.
+    pub count: u32,
     /// What couplings do to its particles \[N\], by slot, since the last evaluation.
     pub forces: Vec<[T; D]>,
     /// What these have worked on each body since the start \[J\].
@@ -20,13 +20,27 @@ pub(crate) struct SubCycle<T, const D: usize> {
 }
 
 impl<T: Real, const D: usize> SubCycle<T, D> {
-    pub fn new(most: u32, bodies: usize) -> Self {
+    pub fn new(count: u32, bodies: usize) -> Self {
         Self {
-            most,
+            count,
             forces: Vec::new(),
             work: vec![0.0; bodies],
             steps: 0,
         }
+    }
+
+    /// How many equal steps it takes in a drift over a share of a step of the others, and how many of them come before the middle of
+    /// that drift.
+    pub fn steps_in(&self, share: f64) -> [u64; 2] {
+        // A share is a quotient, and one step more for its rounding would be none of those asked for.
+        let all = (f64::from(self.count) * share.abs() * (1.0 - 1e-9)).ceil() as u64;
+        [all, all.div_ceil(2)]
+    }
+
+    /// By which share of that drift those steps end behind its middle.
+    pub fn beyond_middle(&self, share: f64) -> f64 {
+        let [all, before] = self.steps_in(share);
+        before as f64 / all as f64 - 0.5
     }
 
     /// v ← v + dt F/m with what couplings do to its particles, and the work of that on each body: the change of kinetic

@@ -8,6 +8,7 @@ use crate::boundary::{Boundary, Motion, Pose, Slip, motion_from};
 use crate::coupling::{CoupledParticle, Coupling};
 use crate::particles::Field;
 use crate::scalar::Real;
+use crate::sweep::add_compensated;
 use crate::tensor::determinant;
 use std::ops::Range;
 use std::sync::Arc;
@@ -149,13 +150,14 @@ impl<T: Real, const D: usize> WallState<T, D> {
         (slot != u32::MAX).then_some(slot as usize)
     }
 
-    /// Moves it to the particles of the body that it is, as these are at `time` \[s\].
+    /// Moves it to the particles of the body that it is, as these are at `time` \[s\], from which they are `ahead` \[s\] in a step
+    /// of their own.
     pub fn follow(
         &mut self,
         own: &mut Particles<T, D>,
         boundaries: &[Arc<dyn Boundary<D>>],
         (others, work): (&Particles<T, D>, &Workspace<T, D>),
-        (time, evaluated): (f64, bool),
+        (time, evaluated, ahead): (f64, bool, f64),
     ) {
         for slot in self.slots.start..self.end {
             let at = self.rest_of(&own.ids, slot);
@@ -186,6 +188,14 @@ impl<T: Real, const D: usize> WallState<T, D> {
             let [x, residual, v] =
                 own.columns
                     .many_mut([Field::POSITION, Field::POSITION_RESIDUAL, Field::VELOCITY]);
+            if ahead != 0.0 {
+                let (mass, ahead) = (others.columns.raw(Field::MASS), T::from_f64(ahead));
+                for d in 0..D {
+                    let k = slot * D + d;
+                    v[k] -= ahead * work.acceleration(mass, other * D + d);
+                    add_compensated(&mut x[k], residual.get_mut(k), -ahead * v[k]);
+                }
+            }
             // The group of the structure lets particles re-enter a period when its lists are built.
             for boundary in boundaries {
                 let now = core::array::from_fn(|d| x[slot * D + d].to_f64());

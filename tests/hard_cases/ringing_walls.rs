@@ -14,8 +14,8 @@ const SIDE: i64 = 30;
 const THICK: i64 = 3;
 const DEEP: i64 = 20;
 
-/// Mean kinetic energy \[J/m\] over the second half of 12 ms, of walls that take at most so many steps in one of the water's.
-fn shaken(most: u32, alpha: f64) -> f64 {
+/// Mean kinetic energy \[J/m\] over the second half of 12 ms, of walls that take so many steps in one of the water's.
+fn shaken(count: u32, alpha: f64) -> f64 {
     let (side, depth) = (SIDE as f64 * DX, DEEP as f64 * DX);
     let inside = |k: i64| (0..SIDE).contains(&k);
     let walls = (-THICK..SIDE + THICK)
@@ -38,7 +38,7 @@ fn shaken(most: u32, alpha: f64) -> f64 {
         .body(water)
         .group(scheme, [walls])
         .fix("walls", corner)
-        .sub_cycle("walls", most)
+        .sub_cycle("walls", count)
         .acceleration(move |_| [-30.0 * 9.81, down[1]]);
     let mut own = scene.varied().build().expect("a scene");
     let (samples, end) = (40, lasting(0.012));
@@ -56,7 +56,7 @@ fn shaken(most: u32, alpha: f64) -> f64 {
         }
     }
     println!(
-        "at most {most} steps, α {alpha}: kinetic energy {sum} J/m, {} steps",
+        "{count} steps, α {alpha}: kinetic energy {sum} J/m, {} steps",
         own.steps()
     );
     sum

@@ -1,6 +1,6 @@
 //! A thin sheet of rubber between two levels of water, two and three particles thick: thinner than the kernel of the water.
 //! Others let water see, push and leak through it. Here a train of impulses from the water shakes it, until it leaks: the
-//! cure is a bound of eight steps in one of the water's, and a viscosity of its own.
+//! cure is eight steps in one of the water's, and a viscosity of its own.
 
 use super::harness::{Cures, Row, Varied, largest_share, lasting};
 use super::stretch_and_twist::rubber;
@@ -50,8 +50,8 @@ fn levels(now: &Simulation<f64, 2>) -> [f64; 2] {
     [filled(DEPTHS[0], 1.0), filled(DEPTHS[1], -1.0)]
 }
 
-/// A sheet of so many particles, held at its foot, that takes at most so many steps in one of the water's, with a viscosity.
-fn sheet(thick: usize, young: f64, most: u32, alpha: f64) -> Found {
+/// A sheet of so many particles, held at its foot, that takes so many steps in one of the water's, with a viscosity.
+fn sheet(thick: usize, young: f64, count: u32, alpha: f64) -> Found {
     let cells = |length: f64| (length / DX).round() as usize;
     let thickness = thick as f64 * DX;
     let sound = 10.0 * (GRAVITY * DEPTHS[0]).sqrt();
@@ -84,7 +84,7 @@ fn sheet(thick: usize, young: f64, most: u32, alpha: f64) -> Found {
         .group(scheme, [rubber])
         .wall(tank)
         .fix("sheet", |[_, y]| *y < 2.0 * DX)
-        .sub_cycle("sheet", most)
+        .sub_cycle("sheet", count)
         .between("left", "right", Interaction::None)
         .between("sheet", "tank", Interaction::None)
         .acceleration(move |_| down);
@@ -139,7 +139,7 @@ fn sheet(thick: usize, young: f64, most: u32, alpha: f64) -> Found {
         whole: largest_share(&rubber, 1.6 * DX),
     };
     println!(
-        "{thick} thick, {young:e} Pa, {most} steps, α {alpha}: force {}, leans {} m, {found:?}",
+        "{thick} thick, {young:e} Pa, {count} steps, α {alpha}: force {}, leans {} m, {found:?}",
         sum / exact,
         tip - WIDTH - 0.5 * thickness
     );
@@ -160,7 +160,7 @@ fn a_thin_sheet_parts_two_levels_of_water() {
     };
     row(
         "sheet of 2 particles in water",
-        "error of the force of the water; at most 8 steps in one of the water's, control: 64",
+        "error of the force of the water; 8 steps in one of the water's, control: 64",
         sheet(2, 2e7, 8, 0.2),
         sheet(2, 2e7, 64, 0.2),
     );

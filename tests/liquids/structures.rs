@@ -46,7 +46,7 @@ pub(super) fn scene() -> Scene<f64, 2> {
         .wall(tank)
         .fix("plate", |[x, _]| !(0.0..LENGTH).contains(x))
         .between("plate", "tank", Interaction::None)
-        .sub_cycle("plate", 32)
+        .sub_cycle("plate", 5)
         .acceleration(|_| [0.0, -GRAVITY])
 }
 

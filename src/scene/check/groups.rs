@@ -205,11 +205,11 @@ impl<T: Real, const D: usize> Scene<T, D> {
 
     /// Groups that take steps of their own.
     pub(super) fn check_sub_cycles(&self, problems: &mut Vec<Problem>) {
-        for (body, most) in &self.sub_cycled {
+        for (body, count) in &self.sub_cycled {
             let place = self.known_place(body, problems);
-            if *most == 0 {
+            if *count == 0 {
                 problems.push(Problem::Parameter {
-                    what: format!("largest number of steps of the group of body `{body}`"),
+                    what: format!("number of steps of the group of body `{body}`"),
                     value: 0.0,
                     must_be: "it must be one or more",
                 });

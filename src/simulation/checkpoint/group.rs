@@ -61,7 +61,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             }
         }
         if let Some(SubCycle {
-            most: _,
+            count: _,
             forces,
             work,
             steps,
