@@ -1,7 +1,10 @@
 //! Small vectors and symmetric tensors.
 //! Vectors are nalgebra's; symmetric tensors keep all six components whatever the dimension.
 
+mod square;
+
 use crate::scalar::{Lane, Real};
+pub use square::Square;
 
 /// A vector in `D` dimensions.
 pub type Vector<T, const D: usize> = nalgebra::SVector<T, D>;

@@ -61,6 +61,14 @@ impl Access {
         }
     }
 
+    /// Numbers of the field whose rate it is.
+    pub(super) fn components<const D: usize>(&self) -> usize {
+        match self.part {
+            Part::RateOf(field) => field.components(D),
+            _ => 1,
+        }
+    }
+
     fn is_driver(&self) -> bool {
         matches!(self.part, Part::Driver)
     }

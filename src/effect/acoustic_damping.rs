@@ -1,9 +1,12 @@
 //! Damping of sound by a bulk viscosity that follows the last rate of compression.
 //! After the acoustic damper of Sun, Pilloton, Antuono & Colagrossi 2023.
 
-use super::{Chunk, DensityForm, Effect, Law, Rung, Setting, StepProgram, Tally, not_negative};
+use super::{
+    Around, CONSTANTS, DensityForm, Effect, Point, PointLaw, Reach, Rung, Setting, StepProgram,
+    not_negative,
+};
 use crate::particles::{Field, Fields, Output, Outputs};
-use crate::scalar::Real;
+use crate::scalar::{Lane, Real};
 use crate::term::{Stage, TermDoc};
 
 /// Damps sound by a bulk viscosity ζ = λ ρ c h: liquid shows its neighbours the pressure p − ζ ∇·v
@@ -62,77 +65,52 @@ fn damped_step(strength: f64, stable: f64) -> f64 {
 #[derive(Clone, Copy, Debug)]
 struct KeptDivergence(DensityForm);
 
-impl<T: Real, const D: usize> Law<T, D> for KeptDivergence {
-    fn name(&self) -> &'static str {
-        "divergence for acoustic damping"
-    }
-    fn reads(&self) -> Fields {
-        Fields::of(&[Field::DENSITY])
-    }
-    fn sums(&self) -> Outputs {
-        Outputs::of(&[Output::COMPRESSION])
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&[Field::DIVERGENCE])
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let compression = chunk.sum(Output::COMPRESSION);
-        let lattice = T::from_f64(chunk.around.lattice_consistency_factor);
-        let ([density], [divergence]) = chunk.columns([Field::DENSITY], [Field::DIVERGENCE]);
-        for (n, (divergence, density)) in divergence.iter_mut().zip(density).enumerate() {
-            let sum = compression.get(0, n);
-            *divergence = -self.0.compression(sum, *density, T::one(), lattice);
-        }
-        Tally::default()
+impl<const D: usize> PointLaw<D> for KeptDivergence {
+    const NAME: &'static str = "divergence for acoustic damping";
+    const READS: Fields = Fields::of(&[Field::DENSITY]);
+    const WRITES: Fields = Fields::of(&[Field::DIVERGENCE]);
+    const SUMS: Outputs = Outputs::of(&[Output::COMPRESSION]);
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        let (sum, density) = (at.sum(Output::COMPRESSION), at.get(Field::DENSITY));
+        let lattice = L::of(at.around.lattice_consistency_factor);
+        let compression = self.0.compression(sum, density, L::one(), lattice);
+        at.set(Field::DIVERGENCE, -compression);
     }
 }
 
 /// p ← p − λ ρ c h ∇·v, but no suction beyond what the material bears.
-impl<T: Real, const D: usize> Law<T, D> for AcousticDamping {
-    fn name(&self) -> &'static str {
-        "acoustic damping"
+impl<const D: usize> PointLaw<D> for AcousticDamping {
+    const NAME: &'static str = "acoustic damping";
+    const READS: Fields = Fields::of(&[
+        Field::PRESSURE,
+        Field::DENSITY,
+        Field::SOUND_SPEED,
+        Field::DIVERGENCE,
+        Field::SMOOTHING_LENGTH,
+    ]);
+    const WRITES: Fields = Fields::of(&[Field::PRESSURE]);
+    const OPTIONAL: Fields = Fields::of(&[Field::SMOOTHING_LENGTH]);
+    const RUNG: Option<Rung> = Some(Rung::Trial);
+    fn prepare<T: Real>(
+        &self,
+        around: &Around<'_, T, D>,
+        constants: &mut [f64; CONSTANTS],
+    ) -> bool {
+        let least = around.material.eos().pressure_cut_off();
+        constants[0] = least.unwrap_or(f64::NEG_INFINITY);
+        true
     }
-    fn reads(&self) -> Fields {
-        Fields::of(&[
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        let (pressure, least) = (at.get(Field::PRESSURE), at.constant(0));
+        let impedance = L::of(self.strength) * at.get(Field::DENSITY) * at.get(Field::SOUND_SPEED);
+        let bulk = impedance * at.smoothing_length();
+        let damped = (pressure - bulk * at.get(Field::DIVERGENCE)).max(least);
+        // Cavitated liquid carries no sound.
+        at.set(
             Field::PRESSURE,
-            Field::DENSITY,
-            Field::SOUND_SPEED,
-            Field::DIVERGENCE,
-            Field::SMOOTHING_LENGTH,
-        ])
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&[Field::PRESSURE])
-    }
-    fn optional(&self) -> Fields {
-        Fields::of(&[Field::SMOOTHING_LENGTH])
-    }
-    fn rung(&self) -> Option<Rung> {
-        Some(Rung::Trial)
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let uniform = T::from_f64(chunk.around.smoothing_length);
-        let strength = T::from_f64(self.strength);
-        let least = chunk.around.material.eos().pressure_cut_off();
-        let least = T::from_f64(least.unwrap_or(f64::NEG_INFINITY));
-        let ([divergence, density, sound_speed, h], [pressure]) = chunk.columns(
-            [
-                Field::DIVERGENCE,
-                Field::DENSITY,
-                Field::SOUND_SPEED,
-                Field::SMOOTHING_LENGTH,
-            ],
-            [Field::PRESSURE],
+            L::select(pressure.le(least), pressure, damped),
         );
-        for (n, pressure) in pressure.iter_mut().enumerate() {
-            // Cavitated liquid carries no sound.
-            if *pressure <= least {
-                continue;
-            }
-            let h = h.get(n).copied().unwrap_or(uniform);
-            let bulk = strength * density[n] * sound_speed[n] * h;
-            *pressure = (*pressure - bulk * divergence[n]).max(least);
-        }
-        Tally::default()
     }
 }

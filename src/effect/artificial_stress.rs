@@ -1,7 +1,7 @@
 //! Artificial stress: a repulsion along directions of tension, so that particles of a stretched solid do not clump.
 //! The cure of the tensile instability by Monaghan 2000 and Gray, Monaghan & Swift 2001.
 
-use super::{Chunk, Effect, Hypoelastic, Law, Setting, StepProgram, Tally, not_negative};
+use super::{Effect, Hypoelastic, Point, PointLaw, Reach, Setting, StepProgram, not_negative};
 use crate::error::Problem;
 use crate::name;
 use crate::particles::{Field, Fields, Output, Outputs};
@@ -103,32 +103,21 @@ impl<const D: usize> Effect<D> for ArtificialStress {
     }
 }
 
-impl<T: Real, const D: usize> Law<T, D> for ArtificialStress {
-    fn name(&self) -> &'static str {
-        "artificial stress"
-    }
-    fn reads(&self) -> Fields {
-        Fields::of(&[STRESS, Field::PRESSURE])
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&[TENSION])
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let share = T::from_f64(self.share);
-        let ([stress, pressure], [tension]) = chunk.columns([STRESS, Field::PRESSURE], [TENSION]);
-        for (n, tension) in tension.chunks_exact_mut(6).enumerate() {
-            let pressure = Symmetric::diagonal([pressure[n]; 3]);
-            let stress = Symmetric::from_slice(&stress[6 * n..]).plus(-T::one(), &pressure);
-            let pulls = tensile_part(&stress).scaled(share);
-            tension.copy_from_slice(pulls.components());
-        }
-        Tally::default()
+impl<const D: usize> PointLaw<D> for ArtificialStress {
+    const NAME: &'static str = "artificial stress";
+    const READS: Fields = Fields::of(&[STRESS, Field::PRESSURE]);
+    const WRITES: Fields = Fields::of(&[TENSION]);
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        let pressure = Symmetric::diagonal([at.get(Field::PRESSURE); 3]);
+        let stress = at.tensor(STRESS).plus(-L::one(), &pressure);
+        at.set_tensor(TENSION, &tensile_part(&stress).scaled(L::of(self.share)));
     }
 }
 
 /// What pulls of a stress: Σ max(λ, 0) e ⊗ e.
-fn tensile_part<T: Real>(stress: &Symmetric<T>) -> Symmetric<T> {
-    stress.plus(-T::one(), &stress.compressive_part())
+fn tensile_part<L: Lane>(stress: &Symmetric<L>) -> Symmetric<L> {
+    stress.plus(-L::one(), &stress.compressive_part())
 }
 
 impl<const D: usize> Term<D> for Repulsion {

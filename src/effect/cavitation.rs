@@ -1,7 +1,7 @@
 //! Liquid at its tension cut-off: densities that are held, with or without memory of the expansion.
 //! Both are of this crate; what else was tried is on the page [sloshing](crate#pages).
 
-use super::{Chunk, Effect, Law, Rung, Setting, StepProgram, Tally};
+use super::{Around, CONSTANTS, Effect, Point, PointLaw, Reach, Rung, Setting, StepProgram};
 use crate::error::Problem;
 use crate::particles::{Field, Fields};
 use crate::scalar::{Lane, Real};
@@ -82,61 +82,54 @@ impl<const D: usize> Effect<D> for ExpansionMemory {
 /// Without rounding that is kept, and without memory, there is the density alone.
 const CHANGED: [Field; 3] = [Field::DENSITY, Field::DENSITY_RESIDUAL, Field::EXPANSION];
 
-impl<T: Real, const D: usize> Law<T, D> for Cavitation {
-    fn name(&self) -> &'static str {
-        "cavitation"
+impl<const D: usize> PointLaw<D> for Cavitation {
+    const NAME: &'static str = "cavitation";
+    const READS: Fields = Fields::of(&CHANGED);
+    const WRITES: Fields = Fields::of(&CHANGED);
+    const OPTIONAL: Fields = Fields::of(&CHANGED).without(Field::DENSITY);
+    const RUNG: Option<Rung> = Some(Rung::Constraint);
+    fn prepare<T: Real>(
+        &self,
+        around: &Around<'_, T, D>,
+        constants: &mut [f64; CONSTANTS],
+    ) -> bool {
+        let eos = around.material.eos();
+        let cut_off = eos.pressure_cut_off();
+        let at_cut_off = cut_off.and_then(|pressure| eos.density_at(pressure, 0.0));
+        let density = at_cut_off.unwrap_or(0.0);
+        [constants[0], constants[1]] = [HELD * density, density];
+        at_cut_off.is_some()
     }
-    fn reads(&self) -> Fields {
-        Fields::of(&CHANGED)
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&CHANGED)
-    }
-    fn optional(&self) -> Fields {
-        Fields::of(&CHANGED).without(Field::DENSITY)
-    }
-    fn rung(&self) -> Option<Rung> {
-        Some(Rung::Constraint)
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let eos = chunk.around.material.eos();
-        let at_cut_off = eos
-            .pressure_cut_off()
-            .and_then(|pressure| eos.density_at(pressure, 0.0));
-        let Some(at_cut_off) = at_cut_off else {
-            return Tally::default();
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        let [tau, residual] = [Field::EXPANSION, Field::DENSITY_RESIDUAL].map(|own| at.get(own));
+        let least = at.constant(usize::from(at.has(Field::EXPANSION)));
+        let held = at.get(Field::DENSITY);
+        let thin = tau.lt(L::zero());
+        let density = if at.has(Field::EXPANSION) && L::somewhere(thin) {
+            L::select(thin, held * tau.exp(), held)
+        } else {
+            held
         };
-        let live = chunk.live;
-        let ([], [density, residual, expansion]) = chunk.columns([], CHANGED);
-        let share = if expansion.is_empty() { HELD } else { 1.0 };
-        let least = T::from_f64(share * at_cut_off);
-        let mut tally = Tally::default();
-        for (n, density) in density.iter_mut().enumerate() {
-            let memory = expansion.get_mut(n);
-            if let Some(tau) = memory.as_ref().filter(|tau| ***tau < T::zero()) {
-                *density *= tau.exp();
+        // What is no number stays one, and ends the run.
+        let low = density.lt(least);
+        if at.has(Field::EXPANSION) {
+            let mut tau = L::zero();
+            if L::somewhere(low) {
+                let thinned = (density / least).ln().max(L::of(FARTHEST));
+                tau = L::select(low, thinned, tau);
             }
-            // What is no number stays one, and ends the run.
-            let low = *density < least;
-            if let Some(tau) = memory {
-                *tau = T::zero();
-                if low {
-                    let thinned = Lane::ln((*density / least).to_f64());
-                    *tau = T::from_f64(thinned.max(FARTHEST));
-                }
-            }
-            if low {
-                *density = least;
-                tally.limited += u64::from(n < live);
-            }
-            // What rounding has left belongs to the density that was.
-            if *density == least
-                && let Some(residual) = residual.get_mut(n)
-            {
-                *residual = T::zero();
-            }
+            at.set(Field::EXPANSION, tau);
         }
-        tally
+        let density = L::select(low, least, density);
+        at.set(Field::DENSITY, density);
+        at.limited(low);
+        // What rounding has left belongs to the density that was.
+        let is_least = density.le(least) & least.le(density);
+        at.set(
+            Field::DENSITY_RESIDUAL,
+            L::select(is_least, L::zero(), residual),
+        );
     }
 }
 

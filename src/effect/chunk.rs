@@ -125,6 +125,16 @@ impl<'a, T: Real, const D: usize> Chunk<'a, T, D> {
         (read, written)
     }
 
+    /// The columns of some fields that are there, in the order of storage.
+    pub(super) fn lend(&mut self, fields: Fields) -> impl Iterator<Item = (Field, &mut [T])> {
+        let all = self.columns.all.iter_mut().zip(&self.columns.fields);
+        all.take(self.columns.count)
+            .filter_map(move |(column, field)| {
+                let is_lent = fields.contains(*field);
+                is_lent.then_some((*field, &mut **column))
+            })
+    }
+
     /// A sum of these particles, from the stage's own sweep.
     ///
     /// # Panics

@@ -1,16 +1,14 @@
 //! Shifting with its term in continuity: keeps a violent liquid even, its volume, and its free surface.
 //! Sun, Colagrossi, Marrone, Antuono & Zhang 2019 (Comput. Methods Appl. Mech. Engrg. 348, 912).
 
-use super::access::Summed;
-use super::shifting::PLACE;
+use super::shifting::{PLACE, length, share};
 use super::{
-    BySum, Chunk, DensityForm, Effect, Law, Rung, Setting, StepProgram, Tally, not_negative,
+    BySum, DensityForm, Effect, Point, PointLaw, Reach, Rung, Setting, StepProgram, not_negative,
 };
 use crate::error::Problem;
 use crate::name;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
-use crate::sweep::add_compensated;
 use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 
 /// Moves particles of a liquid with u + δu, against the gradient of their concentration, and tells their densities.
@@ -134,62 +132,44 @@ impl<const D: usize> Effect<D> for ConsistentShifting {
     }
 }
 
-/// How far a fullness has come from the first to the second of two.
-fn share([from, to]: [f64; 2], fullness: f64) -> f64 {
-    ((fullness - from) / (to - from)).clamp(0.0, 1.0)
-}
-
-impl<T: Real, const D: usize> Law<T, D> for ConsistentShifting {
-    fn name(&self) -> &'static str {
-        "velocity of consistent shifting"
-    }
-    fn reads(&self) -> Fields {
-        Fields::of(&[Field::SOUND_SPEED, Field::PRESSURE])
-    }
-    fn sums(&self) -> Outputs {
-        Outputs::of(&[CONCENTRATION, OUTWARDS, FULLNESS])
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&[SHIFT])
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let [concentration, outwards, fullness] =
-            [CONCENTRATION, OUTWARDS, FULLNESS].map(|sum| chunk.sum(sum));
-        let h = chunk.around.smoothing_length;
-        let lattice = chunk.around.lattice_consistency_factor;
-        let ([c, p], [shift]) = chunk.columns([Field::SOUND_SPEED, Field::PRESSURE], [SHIFT]);
-        for (n, out) in shift.chunks_exact_mut(D).enumerate() {
-            if !self.in_tension && p[n] <= T::zero() {
-                out.fill(T::zero());
-                continue;
-            }
-            let of = |sum: Summed<'_, T, D>| -> [f64; D] {
-                core::array::from_fn(|d| sum.get(d, n).to_f64())
-            };
-            let fullness = -fullness.get(0, n).to_f64() / (D as f64 * lattice);
-            let c = c[n].to_f64();
-            let mut shift = of(concentration).map(|gradient| -self.strength * h * c * gradient);
-            let across = share(ACROSS, fullness);
-            if across < 1.0 {
-                let (normal, along) = (of(outwards), share(ALONG, fullness));
-                let square: f64 = normal.iter().map(|n| n * n).sum();
-                let dot: f64 = (0..D).map(|d| shift[d] * normal[d]).sum();
-                let part = if square > 0.0 { dot / square } else { 0.0 };
-                for d in 0..D {
-                    shift[d] = along * (shift[d] - (1.0 - across) * part * normal[d]);
-                }
-            }
-            let speed = shift.iter().map(|s| s * s).sum::<f64>().sqrt();
-            let held = if speed > FASTEST * c {
-                FASTEST * c / speed
-            } else {
-                1.0
-            };
-            for (out, shift) in out.iter_mut().zip(shift) {
-                *out = T::from_f64(held * shift);
-            }
+impl<const D: usize> PointLaw<D> for ConsistentShifting {
+    const NAME: &'static str = "velocity of consistent shifting";
+    const READS: Fields = Fields::of(&[Field::SOUND_SPEED, Field::PRESSURE]);
+    const WRITES: Fields = Fields::of(&[SHIFT]);
+    const SUMS: Outputs = Outputs::of(&[CONCENTRATION, OUTWARDS, FULLNESS]);
+    const DOUBLE: bool = true;
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        let (h, c) = (at.around.smoothing_length, at.get(Field::SOUND_SPEED));
+        let (gradient, normal) = (at.sum_vector(CONCENTRATION), at.sum_vector(OUTWARDS));
+        let full = D as f64 * at.around.lattice_consistency_factor;
+        let fullness = -at.sum(FULLNESS) / L::of(full);
+        let (across, along) = (share(ACROSS, fullness), share(ALONG, fullness));
+        let near_surface = across.lt(L::one());
+        let mut shift = [L::zero(); D];
+        let (mut square, mut dot) = (L::zero(), L::zero());
+        for d in 0..D {
+            shift[d] = L::of(-self.strength * h) * c * gradient[d];
+            square += normal[d] * normal[d];
+            dot += shift[d] * normal[d];
         }
-        Tally::default()
+        let part = L::select(square.gt(L::zero()), dot / square, L::zero());
+        for d in 0..D {
+            let tangential = along * (shift[d] - (L::one() - across) * part * normal[d]);
+            shift[d] = L::select(near_surface, tangential, shift[d]);
+        }
+        let (speed, fastest) = (length(&shift), L::of(FASTEST) * c);
+        let held = L::select(speed.gt(fastest), fastest / speed, L::one());
+        let still = at.get(Field::PRESSURE).le(L::zero());
+        for d in 0..D {
+            let own = held * shift[d];
+            let own = if self.in_tension {
+                own
+            } else {
+                L::select(still, L::zero(), own)
+            };
+            at.set_at(SHIFT, d, own);
+        }
     }
 }
 
@@ -197,33 +177,18 @@ impl<T: Real, const D: usize> Law<T, D> for ConsistentShifting {
 #[derive(Clone, Copy, Debug)]
 struct Displace;
 
-impl<T: Real, const D: usize> Law<T, D> for Displace {
-    fn name(&self) -> &'static str {
-        "consistent shifting"
-    }
-    fn reads(&self) -> Fields {
-        Fields::of(&[SHIFT])
-    }
-    fn writes(&self) -> Fields {
-        PLACE
-    }
-    fn adds(&self) -> Fields {
-        PLACE
-    }
-    fn optional(&self) -> Fields {
-        Fields::of(&[Field::POSITION_RESIDUAL])
-    }
-    fn rung(&self) -> Option<Rung> {
-        Some(Rung::Flow)
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let dt = T::from_f64(chunk.around.dt);
-        let ([shift], [x, residual]) =
-            chunk.columns([SHIFT], [Field::POSITION, Field::POSITION_RESIDUAL]);
-        for (n, (x, shift)) in x.iter_mut().zip(shift).enumerate() {
-            add_compensated(x, residual.get_mut(n), dt * *shift);
+impl<const D: usize> PointLaw<D> for Displace {
+    const NAME: &'static str = "consistent shifting";
+    const READS: Fields = Fields::of(&[SHIFT]);
+    const WRITES: Fields = PLACE;
+    const ADDS: Fields = PLACE;
+    const OPTIONAL: Fields = Fields::of(&[Field::POSITION_RESIDUAL]);
+    const RUNG: Option<Rung> = Some(Rung::Flow);
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        for d in 0..D {
+            at.displace(d, at.dt() * at.get_at(SHIFT, d));
         }
-        Tally::default()
     }
 }
 

@@ -3,7 +3,8 @@
 
 use super::plasticity::cold;
 use super::{
-    Chunk, Effect, Hypoelastic, Law, LedgerColumn, Plasticity, Rung, Setting, StepProgram, Tally,
+    Chunk, Effect, Hypoelastic, Law, LedgerColumn, Plasticity, Point, PointLaw, Reach, Rung,
+    Setting, StepProgram, Tally,
 };
 use crate::error::Problem;
 use crate::material::failure::FailureState;
@@ -231,26 +232,17 @@ fn largest(deviator: &Symmetric<f64>) -> f64 {
 #[derive(Clone, Copy, Debug)]
 struct NoTension;
 
-impl<T: Real, const D: usize> Law<T, D> for NoTension {
-    fn name(&self) -> &'static str {
-        "tension of what has failed"
-    }
-    fn reads(&self) -> Fields {
-        Fields::of(&[DAMAGE, Field::PRESSURE])
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&[Field::PRESSURE])
-    }
-    fn rung(&self) -> Option<Rung> {
-        Some(Rung::Failure)
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let ([damage], [pressure]) = chunk.columns([DAMAGE], [Field::PRESSURE]);
-        for (damage, pressure) in damage.iter().zip(pressure) {
-            if *damage >= T::one() {
-                *pressure = pressure.max(T::zero());
-            }
-        }
-        Tally::default()
+impl<const D: usize> PointLaw<D> for NoTension {
+    const NAME: &'static str = "tension of what has failed";
+    const READS: Fields = Fields::of(&[DAMAGE, Field::PRESSURE]);
+    const WRITES: Fields = Fields::of(&[Field::PRESSURE]);
+    const RUNG: Option<Rung> = Some(Rung::Failure);
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        let (pressure, failed) = (at.get(Field::PRESSURE), at.get(DAMAGE).ge(L::one()));
+        at.set(
+            Field::PRESSURE,
+            L::select(failed, pressure.positive_part(), pressure),
+        );
     }
 }

@@ -6,8 +6,8 @@ use super::density::{ContactActivity, SolvedSmoothing, SummedDensity};
 use super::gradients::CorrectedGradients;
 use super::viscosity_switch::ViscositySwitch;
 use super::{
-    Around, ByField, Chunk, DensityForm, Effect, Evolved, Law, Limit, Rate, Setting, Slices,
-    StepProgram, Tally, View,
+    Around, ByField, Chunk, DensityForm, Effect, Evolved, Law, Limit, Point, PointLaw, Rate, Reach,
+    Setting, Slices, StepProgram, Tally, View,
 };
 use crate::kernel::{Kernel, WendlandC2};
 use crate::material::Material;
@@ -17,7 +17,7 @@ use crate::material::rheology::Newtonian;
 use crate::material::strength::PlasticHeating;
 use crate::name;
 use crate::particles::{Columns, Field, Fields, Output, Outputs, Shape};
-use crate::scalar::Real;
+use crate::scalar::{Lane, Real};
 use crate::sweep::Results;
 use crate::term::Stage;
 use crate::term::viscosity::{CullenDehnen, MorrisMonaghan};
@@ -41,10 +41,10 @@ pub(super) fn note(add: impl FnOnce(&mut Asked)) {
 }
 
 /// Slots of a test.
-const SLOTS: usize = 8;
+pub(super) const SLOTS: usize = 24;
 
 /// A material that flows, fails, shears, boils and has every other law that a law of a step may look for.
-fn material() -> Material<f64> {
+pub(super) fn material<T: Real>() -> Material<T> {
     Material::new("test", Linear::new(1000.0, 100.0))
         .with_shear_modulus(1e6)
         .with_yield_stress(1.0)
@@ -66,10 +66,10 @@ fn columns<const D: usize>(fields: Fields) -> Columns<f64, D> {
     columns
 }
 
-fn around<'a, const D: usize>(
-    sums: &'a Results<f64, D>,
-    material: &'a Material<f64>,
-) -> Around<'a, f64, D> {
+pub(super) fn around<'a, T: Real, const D: usize>(
+    sums: &'a Results<T, D>,
+    material: &'a Material<T>,
+) -> Around<'a, T, D> {
     Around {
         sums,
         material,
@@ -90,7 +90,7 @@ fn run<const D: usize>(
     fields: Fields,
     mut see: impl FnMut(String, Asked, Asked),
 ) {
-    let (sums, material) = (Results::default(), material());
+    let (sums, material) = (Results::default(), material::<f64>());
     let around = || around(&sums, &material);
     for law in program.laws.iter().flatten() {
         ASKED.set(NOTHING);
@@ -122,7 +122,7 @@ fn run<const D: usize>(
 }
 
 /// What a program may use where a scheme has it.
-fn optional<const D: usize>(program: &StepProgram<f64, D>) -> Fields {
+pub(super) fn optional<T: Real, const D: usize>(program: &StepProgram<T, D>) -> Fields {
     let laws = program.laws.iter().flatten().map(|law| law.optional());
     let rates = program.evolved.iter().flat_map(|own| &own.rates);
     let pending = program.pending.iter().map(|(_, rate)| rate);
@@ -324,6 +324,26 @@ impl<T: Real, const D: usize> Limit<T, D> for Liar {
     }
 }
 
+/// The same of points.
+#[derive(Clone, Copy, Debug)]
+struct PointLiar(Liar);
+
+impl<const D: usize> PointLaw<D> for PointLiar {
+    const NAME: &'static str = "a liar";
+    const READS: Fields = Fields::of(&[COLOUR]);
+    const WRITES: Fields = Fields::of(&[Field::PRESSURE]);
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        let colour = at.get(COLOUR);
+        at.set(Field::PRESSURE, colour);
+        match self.0 {
+            Liar::ReadsDensity => _ = at.get(Field::DENSITY),
+            Liar::WritesColour => at.set(COLOUR, colour),
+            Liar::WritesDensity => at.set(Field::DENSITY, colour),
+            Liar::ReadsFlow => _ = at.sum(FLOW),
+        }
+    }
+}
+
 /// Of what a program dies in which every field is carried.
 fn dies_of(register: impl FnOnce(&mut StepProgram<f64, 2>)) -> String {
     let mut program = StepProgram::new(setting::<2>(DensityForm::Continuity));
@@ -342,8 +362,12 @@ fn who_asks_for_more_is_stopped_by_name() {
         (Liar::WritesDensity, "writes the field `density`"),
         (Liar::ReadsFlow, "reads the sum `flow`"),
     ] {
-        let text = dies_of(|program| program.law(Stage::State, liar));
-        assert!(text.contains(&format!("the law `a liar` {does}")), "{text}");
+        for text in [
+            dies_of(|program| program.law(Stage::State, liar)),
+            dies_of(|program| program.law(Stage::State, PointLiar(liar))),
+        ] {
+            assert!(text.contains(&format!("the law `a liar` {does}")), "{text}");
+        }
     }
     for (liar, does) in [
         (Liar::ReadsDensity, "reads the field `density`"),

@@ -1,10 +1,10 @@
 //! A least density of debris: what has lost its neighbours keeps a volume that its kernel can stand for.
 //! Mass, momentum and energy stay what they are.
 
-use super::{Chunk, Effect, Law, Rung, Setting, StepProgram, Tally};
+use super::{Around, CONSTANTS, Effect, Point, PointLaw, Reach, Rung, Setting, StepProgram};
 use crate::error::Problem;
 use crate::particles::{Field, Fields};
-use crate::scalar::Real;
+use crate::scalar::{Lane, Real};
 use crate::term::{Stage, TermDoc};
 
 /// Holds densities that follow from continuity above a share of that at rest.
@@ -81,37 +81,28 @@ impl<const D: usize> Effect<D> for DensityFloor {
 
 const CHANGED: [Field; 2] = [Field::DENSITY, Field::DENSITY_RESIDUAL];
 
-impl<T: Real, const D: usize> Law<T, D> for DensityFloor {
-    fn name(&self) -> &'static str {
-        "density floor"
+impl<const D: usize> PointLaw<D> for DensityFloor {
+    const NAME: &'static str = "density floor";
+    const READS: Fields = Fields::of(&CHANGED);
+    const WRITES: Fields = Fields::of(&CHANGED);
+    const OPTIONAL: Fields = Fields::of(&[Field::DENSITY_RESIDUAL]);
+    const RUNG: Option<Rung> = Some(Rung::Bound);
+    fn prepare<T: Real>(
+        &self,
+        around: &Around<'_, T, D>,
+        constants: &mut [f64; CONSTANTS],
+    ) -> bool {
+        constants[0] = self.share * around.material.reference_density();
+        true
     }
-    fn reads(&self) -> Fields {
-        Fields::of(&CHANGED)
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&CHANGED)
-    }
-    fn optional(&self) -> Fields {
-        Fields::of(&[Field::DENSITY_RESIDUAL])
-    }
-    fn rung(&self) -> Option<Rung> {
-        Some(Rung::Bound)
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let least = T::from_f64(self.share * chunk.around.material.reference_density());
-        let live = chunk.live;
-        let ([], [density, residual]) = chunk.columns([], CHANGED);
-        let mut tally = Tally::default();
-        for (n, density) in density.iter_mut().enumerate() {
-            // What is no number stays one, and ends the run.
-            if *density < least {
-                *density = least;
-                if let Some(residual) = residual.get_mut(n) {
-                    *residual = T::zero();
-                }
-                tally.limited += u64::from(n < live);
-            }
-        }
-        tally
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        let (density, least) = (at.get(Field::DENSITY), at.constant(0));
+        // What is no number stays one, and ends the run.
+        let low = density.lt(least);
+        let residual = at.get(Field::DENSITY_RESIDUAL);
+        at.set(Field::DENSITY, L::select(low, least, density));
+        at.set(Field::DENSITY_RESIDUAL, L::select(low, L::zero(), residual));
+        at.limited(low);
     }
 }

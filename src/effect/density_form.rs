@@ -2,7 +2,7 @@
 //! One choice gives both: a mixed pair loses energy in silence (Bonet & Lok 1999).
 
 use crate::particles::{Field, Fields};
-use crate::scalar::Real;
+use crate::scalar::{Lane, Real};
 use core::fmt;
 use core::str::FromStr;
 
@@ -124,8 +124,8 @@ impl DensityForm {
     }
 
     /// Rate of compression (1/ρ) dρ/dt from the sum Σ B v·∇W.
-    #[inline]
-    pub(crate) fn compression<T: Real>(self, sum: T, density: T, rest: T, moment: T) -> T {
+    #[inline(always)]
+    pub(crate) fn compression<L: Lane>(self, sum: L, density: L, rest: L, moment: L) -> L {
         match self {
             Self::Summation | Self::Normalised | Self::ContinuityByMass | Self::Lam => {
                 sum / density

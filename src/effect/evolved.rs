@@ -42,8 +42,8 @@ pub enum Update {
 /// What a rate or a limit sees: the columns as they are, and what is around.
 #[derive(Clone, Copy, Debug)]
 pub struct View<'a, T: Real, const D: usize> {
-    columns: &'a Columns<T, D>,
-    access: Access,
+    pub(super) columns: &'a Columns<T, D>,
+    pub(super) access: Access,
     /// What is around the particles asked about; its material is that of their body.
     pub around: Around<'a, T, D>,
 }
@@ -135,6 +135,11 @@ pub trait Rate<T: Real, const D: usize>: Debug + Send + Sync {
     fn growth(&self, _at: &View<'_, T, D>, _first: usize, _present: &[T], _growth: &mut [T]) {}
     /// Adds s, `components` numbers a particle from slot `first` on.
     fn source(&self, at: &View<'_, T, D>, first: usize, source: &mut [T]);
+    /// Its record, if it is lane text.
+    #[cfg(test)]
+    fn record(&self, _view: &View<'_, T, D>) -> Option<super::recorded::Recorded> {
+        None
+    }
 }
 
 /// The rate that is a sum over neighbours, over another field of the particle if one is named.

@@ -2,10 +2,9 @@
 //! Randles & Libersky 1996; Bonet & Lok 1999.
 
 use super::access::Summed;
-use super::total_lagrangian::put;
-use super::{Chunk, Law, Tally};
-use crate::particles::{Field, Fields, Output, Outputs, Shape};
-use crate::scalar::Real;
+use super::{Point, PointLaw, Reach};
+use crate::particles::{Field, Fields, Output, Outputs};
+use crate::scalar::{Lane, Real};
 use crate::tensor::{Matrix, inverse};
 
 /// Gradients and corrections, as far as the scheme carries them.
@@ -22,59 +21,44 @@ const SUMMED: [(Field, Output); 3] = [
     (Field::DENSITY_GRADIENT, Output::DENSITY_GRADIENT),
 ];
 
-/// Particles whose corrections are on the stack at a time.
-const CORRECTED: usize = 64;
-
-impl<T: Real, const D: usize> Law<T, D> for CorrectedGradients {
-    fn name(&self) -> &'static str {
-        "corrected gradients"
-    }
-    fn reads(&self) -> Fields {
-        Fields::NONE
-    }
-    fn sums(&self) -> Outputs {
+impl<const D: usize> PointLaw<D> for CorrectedGradients {
+    const NAME: &'static str = "corrected gradients";
+    const READS: Fields = Fields::NONE;
+    const WRITES: Fields = Fields::of(&[SUMMED[0].0, SUMMED[1].0, SUMMED[2].0, Field::CORRECTION]);
+    const SUMS: Outputs =
+        Outputs::of(&[SUMMED[0].1, SUMMED[1].1, SUMMED[2].1, Output::MOMENT_MATRIX]);
+    fn summed(&self) -> Outputs {
         let wanted = SUMMED
             .iter()
             .filter(|(field, _)| self.wanted.contains(*field));
         let moments = Outputs::of(&[Output::MOMENT_MATRIX]);
         wanted.fold(moments, |all, (_, sum)| all.union(Outputs::of(&[*sum])))
     }
-    fn writes(&self) -> Fields {
+    fn written(&self) -> Fields {
         self.wanted
     }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let (moments, count) = (chunk.sum(Output::MOMENT_MATRIX), chunk.count);
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
         // Once for all that it corrects.
-        let mut corrections = [Matrix::<T, D>::identity(); CORRECTED];
-        for start in (0..count).step_by(CORRECTED) {
-            let corrections = &mut corrections[..CORRECTED.min(count - start)];
-            for (n, own) in corrections.iter_mut().enumerate() {
-                *own = correction(moments, start + n);
-            }
-            for field in self.wanted.iter() {
-                let own = SUMMED.iter().find(|(own, _)| *own == field);
-                let sum = own.map(|(_, sum)| chunk.sum(*sum));
-                let ([], [column]) = chunk.columns([], [field]);
-                let width = field.components(D);
-                let column = column[start * width..].chunks_exact_mut(width);
-                for (n, (out, correction)) in column.zip(&*corrections).enumerate() {
-                    let Some(sum) = sum else {
-                        put(out, correction);
-                        continue;
-                    };
-                    if field.shape() == Shape::Matrix {
-                        put(out, &(gradient_of(sum, start + n) * correction));
-                        continue;
+        let correction = at.correction();
+        if self.wanted.contains(Field::CORRECTION) {
+            at.set_matrix(Field::CORRECTION, &correction);
+        }
+        if self.wanted.contains(Field::VELOCITY_GRADIENT) {
+            let gradient = at.sum_matrix(Output::VELOCITY_GRADIENT).times(&correction);
+            at.set_matrix(Field::VELOCITY_GRADIENT, &gradient);
+        }
+        for (field, sum) in [SUMMED[1], SUMMED[2]] {
+            if self.wanted.contains(field) {
+                for b in 0..D {
+                    let mut total = L::zero();
+                    for a in 0..D {
+                        total += at.sum_at(sum, a) * correction.0[a][b];
                     }
-                    for (b, value) in out.iter_mut().enumerate() {
-                        *value = (0..D).fold(T::zero(), |total, a| {
-                            total + sum.get(a, start + n) * correction[(a, b)]
-                        });
-                    }
+                    at.set_at(field, b, total);
                 }
             }
         }
-        Tally::default()
     }
 }
 
@@ -105,4 +89,4 @@ fn gradient_of<T: Real, const D: usize>(gradients: Summed<'_, T, D>, n: usize) -
 }
 
 /// Smallest pivot of a moment matrix that is inverted, relative to its largest entry.
-const SINGULAR: f64 = 1e-3;
+pub(super) const SINGULAR: f64 = 1e-3;

@@ -2,7 +2,8 @@
 //! Ganzenmüller 2015 (Comput. Methods Appl. Mech. Engrg. 286, 87).
 
 use super::{
-    BySum, Chunk, Effect, Evolved, Law, LedgerColumn, Setting, StepProgram, Tally, TotalLagrangian,
+    Around, BySum, CONSTANTS, Effect, Evolved, LedgerColumn, Point, PointLaw, Reach, Setting,
+    StepProgram, TotalLagrangian,
 };
 use crate::name;
 use crate::particles::{Field, Fields, Output, Outputs};
@@ -116,20 +117,20 @@ impl<const D: usize> Term<D> for HourglassControl {
 #[derive(Clone, Copy, Debug)]
 struct Stiffness;
 
-impl<T: Real, const D: usize> Law<T, D> for Stiffness {
-    fn name(&self) -> &'static str {
-        "stiffness of the hourglass control"
+impl<const D: usize> PointLaw<D> for Stiffness {
+    const NAME: &'static str = "stiffness of the hourglass control";
+    const READS: Fields = Fields::NONE;
+    const WRITES: Fields = Fields::of(&[STIFFNESS]);
+    fn prepare<T: Real>(
+        &self,
+        around: &Around<'_, T, D>,
+        constants: &mut [f64; CONSTANTS],
+    ) -> bool {
+        constants[0] = around.material.youngs_modulus().unwrap_or(0.0);
+        true
     }
-    fn reads(&self) -> Fields {
-        Fields::NONE
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&[STIFFNESS])
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let modulus = chunk.around.material.youngs_modulus().unwrap_or(0.0);
-        let ([], [stiffness]) = chunk.columns([], [STIFFNESS]);
-        stiffness.fill(T::from_f64(modulus));
-        Tally::default()
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        at.set(STIFFNESS, at.constant(0));
     }
 }

@@ -5,8 +5,8 @@ use super::access::Summed;
 use super::gradients::{GRADIENT_SUMS, velocity_gradient};
 use super::hourglass_control::STIFFNESS;
 use super::{
-    Chunk, Damage, Effect, Hypoelastic, Law, Plasticity, Rung, Setting, StepProgram, Tally,
-    not_negative,
+    Around, CONSTANTS, Chunk, Damage, Effect, Hypoelastic, Law, Plasticity, Point, PointLaw, Reach,
+    Rung, Setting, StepProgram, Tally, not_negative,
 };
 use crate::error::Problem;
 use crate::name;
@@ -122,30 +122,23 @@ impl<const D: usize> Effect<D> for HourglassFree {
 #[derive(Clone, Copy, Debug)]
 struct Stiffness(f64);
 
-impl<T: Real, const D: usize> Law<T, D> for Stiffness {
-    fn name(&self) -> &'static str {
-        "stiffness against hourglass modes"
+impl<const D: usize> PointLaw<D> for Stiffness {
+    const NAME: &'static str = "stiffness against hourglass modes";
+    const READS: Fields = Fields::of(&[Damage::DAMAGE]);
+    const WRITES: Fields = Fields::of(&[STIFFNESS]);
+    const OPTIONAL: Fields = Fields::of(&[Damage::DAMAGE]);
+    fn prepare<T: Real>(
+        &self,
+        around: &Around<'_, T, D>,
+        constants: &mut [f64; CONSTANTS],
+    ) -> bool {
+        constants[0] = -self.0 * around.material.shear_modulus.unwrap_or(0.0);
+        true
     }
-    fn reads(&self) -> Fields {
-        Fields::of(&[Damage::DAMAGE])
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&[STIFFNESS])
-    }
-    fn optional(&self) -> Fields {
-        Fields::of(&[Damage::DAMAGE])
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let modulus = chunk.around.material.shear_modulus.unwrap_or(0.0);
-        let ([damage], [stiffness]) = chunk.columns([Damage::DAMAGE], [STIFFNESS]);
-        let whole = T::from_f64(-self.0 * modulus);
-        stiffness.fill(whole);
-        for (own, damage) in stiffness.iter_mut().zip(damage) {
-            if *damage >= T::one() {
-                *own = whole * T::from_f64(FAILED);
-            }
-        }
-        Tally::default()
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        let (whole, failed) = (at.constant(0), at.get(Damage::DAMAGE).ge(L::one()));
+        at.set(STIFFNESS, L::select(failed, whole * L::of(FAILED), whole));
     }
 }
 

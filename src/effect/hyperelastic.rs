@@ -1,12 +1,14 @@
 //! Hyperelastic stresses of total-Lagrangian solids: what a law makes of the deformation gradient, and its energy.
 //! Laws are files of their own; this is what they share.
 
-use super::total_lagrangian::{matrix, put, stretches_with};
-use super::{Chunk, Law, LedgerColumn, StepProgram, Tally, TotalLagrangian};
+use super::total_lagrangian::stretches_of;
+use super::{
+    Around, CONSTANTS, LedgerColumn, Point, PointLaw, Reach, StepProgram, TotalLagrangian,
+};
 use crate::name;
 use crate::particles::{Field, Fields};
-use crate::scalar::Real;
-use crate::tensor::{Matrix, determinant, inverse};
+use crate::scalar::{Lane, Real};
+use crate::tensor::{Matrix, Square};
 use crate::term::{Stage, TermDoc};
 use core::fmt::Debug;
 
@@ -17,29 +19,29 @@ const PIOLA: Field = TotalLagrangian::PIOLA;
 
 /// What a law makes of a deformation.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Response<T: Real, const D: usize> {
+pub(super) struct Response<L, const D: usize> {
     /// First Piola–Kirchhoff stress P \[Pa\].
-    pub piola: Matrix<T, D>,
+    pub piola: Square<L, D>,
     /// −tr σ/3, with what is out of the plane \[Pa\].
-    pub pressure: T,
+    pub pressure: L,
     /// Stored energy ψ over the volume as built \[J/m³\].
-    pub energy: T,
+    pub energy: L,
     /// Upper bound of the stiffness ∂²ψ/∂F² along any direction \[Pa\], for the step.
-    pub stiffness: T,
+    pub stiffness: L,
 }
 
 /// A stored energy ψ(F) of Lamé's constants λ and μ \[Pa\].
 pub(super) trait StoredEnergy: Copy + Debug + Send + Sync + 'static {
     const NAME: &'static str;
     /// The response to F, whose determinant, inverse, and bounds of the squared stretches and their inverses are given.
-    fn respond<T: Real, const D: usize>(
+    fn respond<L: Lane, const D: usize>(
         &self,
-        lame: [T; 2],
-        gradient: &Matrix<T, D>,
-        volume: T,
-        back: &Matrix<T, D>,
-        stretches: [T; 2],
-    ) -> Response<T, D>;
+        lame: [L; 2],
+        gradient: &Square<L, D>,
+        volume: L,
+        back: &Square<L, D>,
+        stretches: [L; 2],
+    ) -> Response<L, D>;
 }
 
 /// What all hyperelastic laws do in a step.
@@ -72,37 +74,36 @@ pub(super) fn declare<T: Real, const D: usize>(program: &mut StepProgram<T, D>, 
 #[derive(Clone, Copy, Debug)]
 struct Hyperelastic<E>(E);
 
-impl<T: Real, const D: usize, E: StoredEnergy> Law<T, D> for Hyperelastic<E> {
-    fn name(&self) -> &'static str {
-        E::NAME
+impl<const D: usize, E: StoredEnergy> PointLaw<D> for Hyperelastic<E> {
+    const NAME: &'static str = E::NAME;
+    const READS: Fields = Fields::of(&[F, Field::REFERENCE_DENSITY]);
+    const WRITES: Fields = Fields::of(&[PIOLA, ELASTIC, Field::PRESSURE, Field::SOUND_SPEED]);
+    fn prepare<T: Real>(
+        &self,
+        around: &Around<'_, T, D>,
+        constants: &mut [f64; CONSTANTS],
+    ) -> bool {
+        [constants[0], constants[1]] = lame(around);
+        true
     }
-    fn reads(&self) -> Fields {
-        Fields::of(&[F, Field::REFERENCE_DENSITY])
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        let (gradient, rest) = (at.matrix(F), at.get(Field::REFERENCE_DENSITY));
+        let (volume, back) = (gradient.determinant(), gradient.inverse(0.0).0);
+        let bounds = stretches_of(&gradient, &back);
+        let lame = [at.constant(0), at.constant(1)];
+        let own = self.0.respond(lame, &gradient, volume, &back, bounds);
+        at.set_matrix(PIOLA, &own.piola);
+        at.set(ELASTIC, own.energy / rest);
+        at.set(Field::PRESSURE, own.pressure);
+        at.set(Field::SOUND_SPEED, (own.stiffness / rest).sqrt());
     }
-    fn writes(&self) -> Fields {
-        Fields::of(&[PIOLA, ELASTIC, Field::PRESSURE, Field::SOUND_SPEED])
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let material = chunk.around.material;
-        let shear = material.shear_modulus.unwrap_or(0.0);
-        let lame = [material.bulk_modulus() - 2.0 / 3.0 * shear, shear].map(T::from_f64);
-        let ([deformation, rest], [piola, elastic, pressure, sound_speed]) = chunk.columns(
-            [F, Field::REFERENCE_DENSITY],
-            [PIOLA, ELASTIC, Field::PRESSURE, Field::SOUND_SPEED],
-        );
-        for (n, out) in piola.chunks_exact_mut(D * D).enumerate() {
-            let gradient = matrix::<T, D>(deformation, n);
-            let volume = determinant(&gradient);
-            let back = inverse(&gradient, 0.0).unwrap_or_else(Matrix::identity);
-            let bounds = stretches_with(&gradient, &back);
-            let own = self.0.respond(lame, &gradient, volume, &back, bounds);
-            put(out, &own.piola);
-            elastic[n] = own.energy / rest[n];
-            pressure[n] = own.pressure;
-            sound_speed[n] = (own.stiffness / rest[n]).sqrt();
-        }
-        Tally::default()
-    }
+}
+
+/// Lamé's constants λ and μ \[Pa\] of a material.
+pub(super) fn lame<T: Real, const D: usize>(around: &Around<'_, T, D>) -> [f64; 2] {
+    let shear = around.material.shear_modulus.unwrap_or(0.0);
+    [around.material.bulk_modulus() - 2.0 / 3.0 * shear, shear]
 }
 
 /// Σ Aₐᵦ².
@@ -116,14 +117,26 @@ mod tests {
     use crate::effect::{NeoHookean, StVenantKirchhoff};
     use crate::tensor::rotation;
 
-    fn respond<E: StoredEnergy, const D: usize>(
-        law: E,
-        gradient: &Matrix<f64, D>,
-    ) -> Response<f64, D> {
-        let volume = determinant(gradient);
-        let back = inverse(gradient, 0.0).unwrap_or_else(Matrix::identity);
-        let bounds = stretches_with(gradient, &back);
-        law.respond([3.0, 2.0], gradient, volume, &back, bounds)
+    struct Of<const D: usize> {
+        piola: Matrix<f64, D>,
+        pressure: f64,
+        energy: f64,
+        stiffness: f64,
+    }
+
+    fn respond<E: StoredEnergy, const D: usize>(law: E, gradient: &Matrix<f64, D>) -> Of<D> {
+        let own = Square::<f64, D>(core::array::from_fn(|a| {
+            core::array::from_fn(|b| gradient[(a, b)])
+        }));
+        let back = own.inverse(0.0).0;
+        let bounds = stretches_of(&own, &back);
+        let own = law.respond([3.0, 2.0], &own, own.determinant(), &back, bounds);
+        Of {
+            piola: Matrix::from_fn(|a, b| own.piola.0[a][b]),
+            pressure: own.pressure,
+            energy: own.energy,
+            stiffness: own.stiffness,
+        }
     }
 
     /// A deformation that is neither small nor along axes.

@@ -1,16 +1,15 @@
 //! Elastic solids: a deviatoric stress that follows the strain rate and turns with the body, and the force it makes.
 //! The Jaumann rate as Libersky et al. 1993 and Benz & Asphaug 1995 have it, without a limit of strength.
 
-use super::gradients::{GRADIENT_SUMS, velocity_gradient};
+use super::gradients::GRADIENT_SUMS;
 use super::{
-    Chunk, Effect, Evolved, Law, LedgerColumn, Limit, Rate, Rung, Setting, StepProgram, Tally,
-    Update, View, When,
+    Around, CONSTANTS, Effect, Evolved, LedgerColumn, Point, PointLaw, PointLimit, PointRate,
+    Reach, Rung, Setting, StepProgram, Update, When,
 };
 use crate::error::Problem;
 use crate::name;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
-use crate::tensor::Symmetric;
 use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, VelocityGradient, stage};
 
 /// A hypoelastic solid: a deviatoric stress S is added to the pressure of its equation of state.
@@ -123,20 +122,21 @@ impl<const D: usize> Effect<D> for Hypoelastic {
 }
 
 /// 2 G (D − tr D/3).
-impl<T: Real, const D: usize> Rate<T, D> for Hypoelastic {
-    fn reads(&self) -> Fields {
-        Fields::NONE
+impl<const D: usize> PointRate<D> for Hypoelastic {
+    const SUMS: Outputs = GRADIENT;
+    fn prepare<T: Real>(
+        &self,
+        around: &Around<'_, T, D>,
+        constants: &mut [f64; CONSTANTS],
+    ) -> bool {
+        constants[0] = 2.0 * around.material.shear_modulus.unwrap_or(0.0);
+        true
     }
-    fn sums(&self) -> Outputs {
-        GRADIENT
-    }
-    fn source(&self, at: &View<'_, T, D>, first: usize, source: &mut [T]) {
-        let twice = T::from_f64(2.0 * at.around.material.shear_modulus.unwrap_or(0.0));
-        for (n, source) in source.chunks_exact_mut(6).enumerate() {
-            let strain = Symmetric::symmetric_part(&at.velocity_gradient(first + n));
-            for (sum, rate) in source.iter_mut().zip(strain.deviator().components()) {
-                *sum += twice * *rate;
-            }
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &Point<'_, L, D, P>, _present: L, rate: &mut [L]) {
+        let strain = at.velocity_gradient().symmetric_part().deviator();
+        for (rate, own) in rate.iter_mut().zip(strain.components()) {
+            *rate += at.constant(0) * *own;
         }
     }
 }
@@ -166,30 +166,27 @@ impl<const D: usize> Term<D> for Hypoelastic {
 #[derive(Clone, Copy, Debug)]
 struct ElasticState;
 
-impl<T: Real, const D: usize> Law<T, D> for ElasticState {
-    fn name(&self) -> &'static str {
-        "elastic waves and energy of distortion"
+impl<const D: usize> PointLaw<D> for ElasticState {
+    const NAME: &'static str = "elastic waves and energy of distortion";
+    const READS: Fields = Fields::of(&[STRESS, Field::DENSITY, Field::SOUND_SPEED]);
+    const WRITES: Fields = Fields::of(&[Field::SOUND_SPEED, DISTORTION]);
+    const RUNG: Option<Rung> = Some(Rung::Trial);
+    fn prepare<T: Real>(
+        &self,
+        around: &Around<'_, T, D>,
+        constants: &mut [f64; CONSTANTS],
+    ) -> bool {
+        constants[0] = around.material.shear_modulus.unwrap_or(0.0);
+        true
     }
-    fn reads(&self) -> Fields {
-        Fields::of(&[STRESS, Field::DENSITY, Field::SOUND_SPEED])
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&[Field::SOUND_SPEED, DISTORTION])
-    }
-    fn rung(&self) -> Option<Rung> {
-        Some(Rung::Trial)
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let modulus = T::from_f64(chunk.around.material.shear_modulus.unwrap_or(0.0));
-        let [third, four] = [4.0 / 3.0, 4.0].map(T::from_f64);
-        let ([density, stress], [sound_speed, distortion]) =
-            chunk.columns([Field::DENSITY, STRESS], [Field::SOUND_SPEED, DISTORTION]);
-        for (n, c) in sound_speed.iter_mut().enumerate() {
-            let stress = Symmetric::from_slice(&stress[n * 6..]);
-            *c = (*c * *c + third * modulus / density[n]).sqrt();
-            distortion[n] = stress.contract(&stress) / (four * modulus * density[n]);
-        }
-        Tally::default()
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        let (modulus, density) = (at.constant(0), at.get(Field::DENSITY));
+        let (c, stress) = (at.get(Field::SOUND_SPEED), at.tensor(STRESS));
+        let speed = (c * c + L::of(4.0 / 3.0) * modulus / density).sqrt();
+        at.set(Field::SOUND_SPEED, speed);
+        let distortion = stress.contract(&stress) / (L::of(4.0) * modulus * density);
+        at.set(DISTORTION, distortion);
     }
 }
 
@@ -197,42 +194,23 @@ impl<T: Real, const D: usize> Law<T, D> for ElasticState {
 #[derive(Clone, Copy, Debug)]
 struct DeformationRate;
 
-impl<T: Real, const D: usize> Law<T, D> for DeformationRate {
-    fn name(&self) -> &'static str {
-        "rate of deformation"
-    }
-    fn reads(&self) -> Fields {
-        Fields::NONE
-    }
-    fn sums(&self) -> Outputs {
-        GRADIENT
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&[DEFORMATION])
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let gradients = GRADIENT_SUMS.map(|sum| chunk.sum(sum));
-        let ([], [rate]) = chunk.columns([], [DEFORMATION]);
-        for (n, rate) in rate.iter_mut().enumerate() {
-            let gradient = velocity_gradient(gradients, n);
-            *rate = gradient
-                .iter()
-                .fold(T::zero(), |sum, part| sum + *part * *part)
-                .sqrt();
-        }
-        Tally::default()
+impl<const D: usize> PointLaw<D> for DeformationRate {
+    const NAME: &'static str = "rate of deformation";
+    const READS: Fields = Fields::NONE;
+    const WRITES: Fields = Fields::of(&[DEFORMATION]);
+    const SUMS: Outputs = GRADIENT;
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        at.set(DEFORMATION, at.velocity_gradient().square().sqrt());
     }
 }
 
-impl<T: Real, const D: usize> Limit<T, D> for Hypoelastic {
-    fn name(&self) -> &'static str {
-        "deformation: 0.1/|grad v|"
-    }
-    fn reads(&self) -> Fields {
-        Fields::of(&[DEFORMATION])
-    }
-    fn step(&self, at: &View<'_, T, D>, slot: usize) -> f64 {
-        0.1 / at.column(DEFORMATION)[slot].to_f64()
+impl<const D: usize> PointLimit<D> for Hypoelastic {
+    const NAME: &'static str = "deformation: 0.1/|grad v|";
+    const READS: Fields = Fields::of(&[DEFORMATION]);
+    #[inline(always)]
+    fn step<L: Lane, P: Reach>(&self, at: &Point<'_, L, D, P>) -> L {
+        L::of(0.1) / at.get(DEFORMATION)
     }
 }
 

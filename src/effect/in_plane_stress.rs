@@ -1,15 +1,16 @@
 //! Plane stress of total-Lagrangian sheets: the stretch across the sheet is the one that leaves no stress there.
 //! In closed form for St Venant–Kirchhoff, by Newton's method for neo-Hookean sheets.
 
-use super::hyperelastic::{self, ELASTIC, StoredEnergy};
-use super::total_lagrangian::{matrix, put, stretches_with};
+use super::hyperelastic::{self, ELASTIC, Response, StoredEnergy};
+use super::total_lagrangian::stretches_of;
 use super::{
-    Chunk, Effect, Law, NeoHookean, Setting, StVenantKirchhoff, StepProgram, Tally, TotalLagrangian,
+    Around, CONSTANTS, Effect, NeoHookean, Point, PointLaw, Reach, Setting, StVenantKirchhoff,
+    StepProgram, TotalLagrangian,
 };
 use crate::name;
 use crate::particles::{Field, Fields};
 use crate::scalar::{Lane, Real};
-use crate::tensor::{Matrix, determinant, inverse};
+use crate::tensor::Square;
 use crate::term::{Stage, TermDoc};
 
 /// A hyperelastic law of [total-Lagrangian](TotalLagrangian) solids in plane stress, in two dimensions: sheets that are free to
@@ -108,95 +109,99 @@ impl Effect<2> for InPlaneStress<NeoHookean> {
 trait Sheet: StoredEnergy {
     const EQUATION: &'static str;
     /// λ₃ of no stress across, of Lamé's constants \[Pa\] and F of the plane.
-    fn thickness(lame: [f64; 2], gradient: &Matrix<f64, 2>) -> f64;
+    fn thickness<L: Lane>(lame: [L; 2], gradient: &Square<L, 2>) -> L;
 }
 
 impl Sheet for StVenantKirchhoff {
     const EQUATION: &'static str = "P = F (λ tr E + 2 μ E), λ tr E + 2 μ E₃₃ = 0";
-    fn thickness([lambda, mu]: [f64; 2], gradient: &Matrix<f64, 2>) -> f64 {
-        let green = (gradient.transpose() * *gradient - Matrix::identity()) * 0.5;
-        (1.0 - 2.0 * lambda / (lambda + 2.0 * mu) * green.trace()).sqrt()
+    #[inline(always)]
+    fn thickness<L: Lane>([lambda, mu]: [L; 2], gradient: &Square<L, 2>) -> L {
+        let right = gradient.transposed().times(gradient);
+        let green = right
+            .plus(-L::one(), &Square::identity())
+            .scaled(L::of(0.5));
+        let two = L::of(2.0);
+        (L::one() - two * lambda / (lambda + two * mu) * green.trace()).sqrt()
     }
 }
 
 impl Sheet for NeoHookean {
     const EQUATION: &'static str = "P = μ (F − F⁻ᵀ) + λ ln(J λ₃) F⁻ᵀ, μ (λ₃² − 1) + λ ln(J λ₃) = 0";
-    fn thickness([lambda, mu]: [f64; 2], gradient: &Matrix<f64, 2>) -> f64 {
+    #[inline(always)]
+    fn thickness<L: Lane>([lambda, mu]: [L; 2], gradient: &Square<L, 2>) -> L {
         // In s = ln λ₃ the condition is rising and convex for λ ≥ 0: Newton's method comes down to the root.
-        let area = Lane::ln(determinant(gradient));
-        let mut s = -lambda * area / (lambda + 2.0 * mu);
-        for _ in 0..MOST_TRIALS {
-            let squared = Lane::exp(2.0 * s);
-            let excess = lambda.mul_add(area + s, mu * (squared - 1.0));
-            let change = excess / (2.0 * mu).mul_add(squared, lambda);
-            s -= change;
+        let (area, two) = (gradient.determinant().ln(), L::of(2.0));
+        let first = -lambda * area / (lambda + two * mu);
+        let [s] = L::iterate(MOST_TRIALS, [first], |[s]| {
+            let squared = (two * s).exp();
+            let excess = lambda.fused(area + s, mu * (squared - L::one()));
+            let change = excess / (two * mu).fused(squared, lambda);
+            let next = s - change;
             // What is no number stays one, and ends the run.
-            let least = f64::EPSILON * s.abs().max(f64::MIN_POSITIVE);
-            if change.is_nan() || change.abs() <= least {
-                break;
-            }
-        }
-        Lane::exp(s)
+            let least = L::of(f64::EPSILON) * next.abs().max(L::of(f64::MIN_POSITIVE));
+            ([next], !change.abs().gt(least))
+        });
+        s.exp()
     }
 }
 
 /// More than Newton's method takes, which is three to six.
 const MOST_TRIALS: usize = 30;
 
-impl<T: Real, E: Sheet> Law<T, 2> for InPlaneStress<E> {
-    fn name(&self) -> &'static str {
-        E::NAME
+impl<E: Sheet> PointLaw<2> for InPlaneStress<E> {
+    const NAME: &'static str = E::NAME;
+    const READS: Fields = Fields::of(&[F, Field::REFERENCE_DENSITY]);
+    const WRITES: Fields = Fields::of(&[
+        PIOLA,
+        ELASTIC,
+        THICKNESS,
+        Field::PRESSURE,
+        Field::SOUND_SPEED,
+    ]);
+    const DOUBLE: bool = true;
+    fn prepare<T: Real>(
+        &self,
+        around: &Around<'_, T, 2>,
+        constants: &mut [f64; CONSTANTS],
+    ) -> bool {
+        [constants[0], constants[1]] = hyperelastic::lame(around);
+        true
     }
-    fn reads(&self) -> Fields {
-        Fields::of(&[F, Field::REFERENCE_DENSITY])
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&[
-            PIOLA,
-            ELASTIC,
-            THICKNESS,
-            Field::PRESSURE,
-            Field::SOUND_SPEED,
-        ])
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, 2>) -> Tally {
-        let material = chunk.around.material;
-        let shear = material.shear_modulus.unwrap_or(0.0);
-        let lame = [material.bulk_modulus() - 2.0 / 3.0 * shear, shear];
-        let ([deformation, rest], [piola, elastic, thickness, pressure, sound_speed]) = chunk
-            .columns(
-                [F, Field::REFERENCE_DENSITY],
-                [
-                    PIOLA,
-                    ELASTIC,
-                    THICKNESS,
-                    Field::PRESSURE,
-                    Field::SOUND_SPEED,
-                ],
-            );
-        for (n, out) in piola.chunks_exact_mut(4).enumerate() {
-            let plane = matrix::<T, 2>(deformation, n).map(Real::to_f64);
-            let across = E::thickness(lame, &plane);
-            let gradient = Matrix::<f64, 3>::from_fn(|a, b| match (a, b) {
-                (2, 2) => across,
-                (2, _) | (_, 2) => 0.0,
-                _ => plane[(a, b)],
-            });
-            let volume = determinant(&gradient);
-            let back = inverse(&gradient, 0.0).unwrap_or_else(Matrix::identity);
-            let bounds = stretches_with(&gradient, &back);
-            let own = self.0.respond(lame, &gradient, volume, &back, bounds);
-            let stress = Matrix::<T, 2>::from_fn(|a, b| T::from_f64(own.piola[(a, b)]));
-            put(out, &stress);
-            let rest = rest[n].to_f64();
-            elastic[n] = T::from_f64(own.energy / rest);
-            thickness[n] = T::from_f64(across);
-            pressure[n] = T::from_f64(own.pressure);
-            // Stiffness against F of the plane is at most that at constant thickness.
-            sound_speed[n] = T::from_f64((own.stiffness / rest).sqrt());
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, 2, P>) {
+        let (plane, rest) = (at.matrix(F), at.get(Field::REFERENCE_DENSITY));
+        let lame = [at.constant(0), at.constant(1)];
+        let across = E::thickness(lame, &plane);
+        let own = respond(self.0, lame, &plane, across);
+        for k in 0..4 {
+            at.set_at(PIOLA, k, own.piola.0[k / 2][k % 2]);
         }
-        Tally::default()
+        at.set(ELASTIC, own.energy / rest);
+        at.set(THICKNESS, across);
+        at.set(Field::PRESSURE, own.pressure);
+        // Stiffness against F of the plane is at most that at constant thickness.
+        at.set(Field::SOUND_SPEED, (own.stiffness / rest).sqrt());
     }
+}
+
+/// The response of a sheet to F of the plane and the stretch across it.
+#[inline(always)]
+fn respond<L: Lane, E: Sheet>(
+    law: E,
+    lame: [L; 2],
+    plane: &Square<L, 2>,
+    across: L,
+) -> Response<L, 3> {
+    let mut gradient = Square::<L, 3>::zero();
+    for a in 0..2 {
+        for b in 0..2 {
+            gradient.0[a][b] = plane.0[a][b];
+        }
+    }
+    gradient.0[2][2] = across;
+    let (volume, back) = (gradient.determinant(), gradient.inverse(0.0).0);
+    let bounds = stretches_of(&gradient, &back);
+    law.respond(lame, &gradient, volume, &back, bounds)
 }
 
 #[cfg(test)]
@@ -205,34 +210,26 @@ mod tests {
 
     const LAME: [f64; 2] = [3.0, 2.0];
 
-    fn sheet<E: Sheet>(law: E, plane: &Matrix<f64, 2>) -> (hyperelastic::Response<f64, 3>, f64) {
+    fn sheet<E: Sheet>(law: E, plane: &Square<f64, 2>) -> (Response<f64, 3>, f64) {
         let across = E::thickness(LAME, plane);
-        let gradient = Matrix::<f64, 3>::from_fn(|a, b| match (a, b) {
-            (2, 2) => across,
-            (2, _) | (_, 2) => 0.0,
-            _ => plane[(a, b)],
-        });
-        let back = inverse(&gradient, 0.0).unwrap_or_else(Matrix::identity);
-        let bounds = stretches_with(&gradient, &back);
-        let response = law.respond(LAME, &gradient, determinant(&gradient), &back, bounds);
-        (response, across)
+        (respond(law, LAME, plane, across), across)
     }
 
     /// No stress across, and the stress of the plane is the slope of the sheet's own energy.
     fn relaxes<E: Sheet>(law: E) {
-        let plane = Matrix::<f64, 2>::new(1.12, 0.07, -0.05, 0.91);
+        let plane = Square([[1.12, 0.07], [-0.05, 0.91]]);
         let (own, across) = sheet(law, &plane);
-        assert!(own.piola[(2, 2)].abs() < 1e-14, "{}", own.piola[(2, 2)]);
+        assert!(own.piola.0[2][2].abs() < 1e-14, "{}", own.piola.0[2][2]);
         assert!((across - 1.0).abs() > 1e-3);
         for a in 0..2 {
             for b in 0..2 {
                 let energy = |by: f64| {
                     let mut moved = plane;
-                    moved[(a, b)] += by;
+                    moved.0[a][b] += by;
                     sheet(law, &moved).0.energy
                 };
                 let slope = (energy(1e-5) - energy(-1e-5)) / 2e-5;
-                assert!((slope - own.piola[(a, b)]).abs() < 1e-8);
+                assert!((slope - own.piola.0[a][b]).abs() < 1e-8);
             }
         }
     }
@@ -253,12 +250,9 @@ mod tests {
         for stretch in [1.3, 0.8] {
             let green = 0.5 * (stretch * stretch - 1.0_f64);
             let lateral = (1.0 - 2.0 * poisson * green).sqrt();
-            let (own, across) = sheet(
-                StVenantKirchhoff,
-                &Matrix::<f64, 2>::new(stretch, 0.0, 0.0, lateral),
-            );
-            assert!((across - lateral).abs() < 1e-14 && own.piola[(1, 1)].abs() < 1e-13);
-            assert!((own.piola[(0, 0)] - young * stretch * green).abs() < 1e-13);
+            let (own, across) = sheet(StVenantKirchhoff, &Square([[stretch, 0.0], [0.0, lateral]]));
+            assert!((across - lateral).abs() < 1e-14 && own.piola.0[1][1].abs() < 1e-13);
+            assert!((own.piola.0[0][0] - young * stretch * green).abs() < 1e-13);
 
             let excess = |y: f64| mu * (y * y - 1.0) + lambda * (stretch * y * y).ln();
             let (mut low, mut high) = (0.1, 10.0);
@@ -270,11 +264,11 @@ mod tests {
                     low = middle;
                 }
             }
-            let (own, across) = sheet(NeoHookean, &Matrix::<f64, 2>::new(stretch, 0.0, 0.0, low));
-            assert!((across - low).abs() < 1e-14 && own.piola[(1, 1)].abs() < 1e-13);
+            let (own, across) = sheet(NeoHookean, &Square([[stretch, 0.0], [0.0, low]]));
+            assert!((across - low).abs() < 1e-14 && own.piola.0[1][1].abs() < 1e-13);
             // The Kirchhoff stress μ (λ₁² − 1) + λ ln J, less that of the sides, which is zero.
             let kirchhoff = mu * (stretch * stretch - low * low);
-            assert!((own.piola[(0, 0)] - kirchhoff / stretch).abs() < 1e-13);
+            assert!((own.piola.0[0][0] - kirchhoff / stretch).abs() < 1e-13);
         }
     }
 }

@@ -27,7 +27,8 @@ pub(crate) fn reads_and_writes<T: Real, const D: usize>(
     [law.reads(), law.writes()].map(|own| own.minus(absent))
 }
 
-/// What an effect does to single particles at a stage.
+/// What an effect does to single particles at a stage. Where that is arithmetic, a [`PointLaw`](super::PointLaw) is written instead, and
+/// is one of these; a law that implements this trait itself loops over columns.
 ///
 /// A law sees a [`Chunk`]: some particles of one body, with their columns and sums. It must treat each particle
 /// by itself, so that results do not depend on where chunks end. It reaches the fields and sums that it declares and no
@@ -80,6 +81,15 @@ pub trait Law<T: Real, const D: usize>: Debug + Send + Sync {
     /// its sweep; it runs once if not given. Particles that it has changed by less are left alone while others go on (64 at a
     /// time), so what it changes must enter the sums of the particle itself, and of no other.
     fn repeats(&self) -> Option<(usize, f64)> {
+        None
+    }
+    /// Its record in a scheme that has some fields, if it is lane text.
+    #[cfg(test)]
+    fn record(
+        &self,
+        _around: &super::Around<'_, T, D>,
+        _there: Fields,
+    ) -> Option<super::recorded::Recorded> {
         None
     }
 }

@@ -19,4 +19,9 @@ pub trait Limit<T: Real, const D: usize>: Debug + Send + Sync {
     /// The largest step \[s\] of the particle in a slot; infinity if it does not limit. What is negative or no
     /// number ends the run.
     fn step(&self, at: &View<'_, T, D>, slot: usize) -> f64;
+    /// Its record, if it is lane text.
+    #[cfg(test)]
+    fn record(&self, _view: &View<'_, T, D>) -> Option<super::recorded::Recorded> {
+        None
+    }
 }

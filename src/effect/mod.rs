@@ -8,10 +8,10 @@
 //! | pair terms | sums over neighbours, each in the sweep of a [`Stage`] | [`Effect::terms`] |
 //! | fields and sums of its own | constants with a [`name!`](crate::name) and unit: scalar, vector, symmetric tensor or matrix | [`StepProgram::declare`] for fields of the state |
 //! | [evolved](Evolved) fields | integrated in time, by a rate, in an update, at a kick or drift | [`StepProgram::evolve`] |
-//! | [laws](Law) | what happens to single particles after the sweep of a stage | [`StepProgram::law`] |
+//! | [laws](PointLaw) | what happens to single particles after the sweep of a stage, as lane text or as a [loop](Law) over columns | [`StepProgram::law`] |
 //! | forces on single particles | [`Field::FORCE`](crate::particles::Field::FORCE), which laws of `Stage::Rates` add to | [`StepProgram::law`] |
 //! | [smoothing](Smoothing) lengths | how they change, and the loops that this takes | [`Effect::smoothing`], [`Effect::MODES`] |
-//! | [limits](Limit) of the step | the largest that a particle bears | [`StepProgram::limit`] |
+//! | [limits](PointLimit) of the step | the largest that a particle bears | [`StepProgram::limit`] |
 //! | a column of the ledger | the sum of a field over every body | [`StepProgram::ledger`] |
 //! | energy that it stores or dissipates | fields of both | [`StepProgram::store`], [`StepProgram::dissipate`], [`Effect::BOOKS_ENERGY`] |
 //! | requirements | what it asks of materials and integrator | [`StepProgram::require`] |
@@ -60,9 +60,13 @@ mod neo_hookean;
 mod pairing_control;
 mod plane_stress;
 mod plasticity;
+mod point;
 mod program;
 mod radial_return;
+#[cfg(test)]
+mod recorded;
 mod renormalised_hypoelastic;
+mod rows;
 mod sequence;
 mod setting;
 mod shifting;
@@ -109,6 +113,7 @@ pub use neo_hookean::NeoHookean;
 pub use pairing_control::{NearPairs, PairingControl};
 pub use plane_stress::PlaneStress;
 pub use plasticity::Plasticity;
+pub use point::{CONSTANTS, Point, PointLaw, PointLimit, PointRate, Reach};
 pub use program::{LedgerColumn, Requirement, SceneFacts, StepProgram};
 pub use renormalised_hypoelastic::RenormalisedHypoelastic;
 pub use sequence::Rung;

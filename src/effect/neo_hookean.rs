@@ -1,10 +1,10 @@
 //! The compressible neo-Hookean law: rubber, and any elastic solid under large strain.
 //! As Bonet & Wood 2008 (Nonlinear Continuum Mechanics for Finite Element Analysis, chapter 6) have it.
 
-use super::hyperelastic::{self, Response, StoredEnergy, square};
+use super::hyperelastic::{self, Response, StoredEnergy};
 use super::{Effect, Setting, StepProgram};
 use crate::scalar::{Lane, Real};
-use crate::tensor::Matrix;
+use crate::tensor::Square;
 use crate::term::TermDoc;
 
 /// The stress of a [total-Lagrangian](super::TotalLagrangian) solid by the compressible neo-Hookean law.
@@ -50,27 +50,29 @@ impl<const D: usize> Effect<D> for NeoHookean {
 
 impl StoredEnergy for NeoHookean {
     const NAME: &'static str = "neo-Hookean";
-    fn respond<T: Real, const D: usize>(
+    #[inline(always)]
+    fn respond<L: Lane, const D: usize>(
         &self,
-        [lambda, mu]: [T; 2],
-        gradient: &Matrix<T, D>,
-        volume: T,
-        back: &Matrix<T, D>,
-        [_, inverse_squared]: [T; 2],
-    ) -> Response<T, D> {
-        let half = T::from_f64(0.5);
+        [lambda, mu]: [L; 2],
+        gradient: &Square<L, D>,
+        volume: L,
+        back: &Square<L, D>,
+        [_, inverse_squared]: [L; 2],
+    ) -> Response<L, D> {
+        let half = L::of(0.5);
         // What has no volume left has no logarithm either, and ends the run.
-        let logarithm = T::from_f64(Lane::ln(volume.to_f64()));
-        let back = back.transpose();
-        let piola = (*gradient - back) * mu + back * (lambda * logarithm);
-        let in_plane = (piola * gradient.transpose()).trace();
-        let outside = lambda * logarithm * T::from_f64((3 - D) as f64);
-        let stretched = square(gradient) - T::from_f64(D as f64);
+        let logarithm = volume.ln();
+        let back = back.transposed();
+        let strained = gradient.plus(-L::one(), &back).scaled(mu);
+        let piola = strained.plus(lambda * logarithm, &back);
+        let in_plane = piola.times(&gradient.transposed()).trace();
+        let outside = lambda * logarithm * L::of((3 - D) as f64);
+        let stretched = gradient.square() - L::of(D as f64);
         // dP = μ dF + (μ − λ ln J) F⁻ᵀ dFᵀ F⁻ᵀ + λ (F⁻ᵀ:dF) F⁻ᵀ.
         let firm = (mu - lambda * logarithm).abs() + lambda;
         Response {
             piola,
-            pressure: -(in_plane + outside) / (T::from_f64(3.0) * volume),
+            pressure: -(in_plane + outside) / (L::of(3.0) * volume),
             energy: half * mu * (stretched - logarithm - logarithm)
                 + half * lambda * logarithm * logarithm,
             stiffness: mu + firm * inverse_squared,

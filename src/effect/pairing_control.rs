@@ -1,13 +1,14 @@
 //! Pairing control: particles nearer to each other than the spacing are moved apart, at free surfaces too.
 //! Shifting that acts between near pairs alone, after Xu, Stansby & Laurence 2009 and Lind et al. 2012.
 
-use super::shifting::PLACE;
-use super::{Chunk, DensityForm, Effect, Law, Rung, Setting, StepProgram, Tally, not_negative};
+use super::shifting::{PLACE, length};
+use super::{
+    DensityForm, Effect, Point, PointLaw, Reach, Rung, Setting, StepProgram, not_negative,
+};
 use crate::error::Problem;
 use crate::name;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
-use crate::sweep::add_compensated;
 use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 
 /// Moves particles apart that are nearer to each other than the spacing.
@@ -72,49 +73,25 @@ impl<const D: usize> Effect<D> for PairingControl {
     }
 }
 
-impl<T: Real, const D: usize> Law<T, D> for PairingControl {
-    fn name(&self) -> &'static str {
-        "pairing control"
-    }
-    fn reads(&self) -> Fields {
-        Fields::of(&[Field::SOUND_SPEED])
-    }
-    fn sums(&self) -> Outputs {
-        Outputs::of(&[NEAR])
-    }
-    fn writes(&self) -> Fields {
-        PLACE
-    }
-    fn adds(&self) -> Fields {
-        PLACE
-    }
-    fn optional(&self) -> Fields {
-        Fields::of(&[Field::POSITION_RESIDUAL])
-    }
-    fn rung(&self) -> Option<Rung> {
-        Some(Rung::Constraint)
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let (near, dt) = (chunk.sum(NEAR), chunk.around.dt);
-        let h = chunk.around.smoothing_length;
-        let ([c], [x, residual]) = chunk.columns(
-            [Field::SOUND_SPEED],
-            [Field::POSITION, Field::POSITION_RESIDUAL],
-        );
-        for (n, x) in x.chunks_exact_mut(D).enumerate() {
-            let sum: [f64; D] = core::array::from_fn(|d| near.get(d, n).to_f64());
-            let length = sum.iter().fold(0.0, |s, g| s + g * g).sqrt();
-            if length == 0.0 {
-                continue;
-            }
-            let factor = self.strength * h * c[n].to_f64() * dt;
-            let factor = factor.min(LONGEST * h / length);
-            for d in 0..D {
-                let by = T::from_f64(-factor * sum[d]);
-                add_compensated(&mut x[d], residual.get_mut(n * D + d), by);
-            }
+impl<const D: usize> PointLaw<D> for PairingControl {
+    const NAME: &'static str = "pairing control";
+    const READS: Fields = Fields::of(&[Field::SOUND_SPEED]);
+    const WRITES: Fields = PLACE;
+    const ADDS: Fields = PLACE;
+    const SUMS: Outputs = Outputs::of(&[NEAR]);
+    const OPTIONAL: Fields = Fields::of(&[Field::POSITION_RESIDUAL]);
+    const RUNG: Option<Rung> = Some(Rung::Constraint);
+    const DOUBLE: bool = true;
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        let (near, h) = (at.sum_vector(NEAR), at.around.smoothing_length);
+        let length = length(&near);
+        let factor = L::of(self.strength * h) * at.get(Field::SOUND_SPEED) * at.dt();
+        let factor = factor.min(L::of(LONGEST * h) / length);
+        let factor = L::select(length.gt(L::zero()), factor, L::zero());
+        for d in 0..D {
+            at.displace(d, -factor * near[d]);
         }
-        Tally::default()
     }
 }
 

@@ -2,12 +2,13 @@
 //! Without it a plane of particles is a slice of a long body, in plane strain.
 
 use super::{
-    Chunk, Effect, Evolved, Hypoelastic, Law, Rate, Setting, StepProgram, Tally, View, When,
+    Around, CONSTANTS, Effect, Evolved, Hypoelastic, Point, PointLaw, PointRate, Reach, Setting,
+    StepProgram, When,
 };
 use crate::error::Problem;
 use crate::name;
 use crate::particles::{Field, Fields, Output, Outputs};
-use crate::scalar::Real;
+use crate::scalar::{Lane, Real};
 use crate::tensor::Symmetric;
 use crate::term::{Stage, TermDoc};
 
@@ -83,23 +84,32 @@ impl Effect<2> for PlaneStress {
     }
 }
 
-/// −ν/(1 − ν) ∇·v of each particle.
-fn thinning<T: Real>(at: &View<'_, T, 2>, slot: usize) -> T {
-    let poisson = at.around.material.poisson_ratio().unwrap_or(0.0);
-    at.velocity_gradient(slot).trace() * T::from_f64(-poisson / (1.0 - poisson))
+/// −ν/(1 − ν) of the material, and twice its shear modulus.
+fn constants<T: Real>(around: &Around<'_, T, 2>) -> [f64; CONSTANTS] {
+    let poisson = around.material.poisson_ratio().unwrap_or(0.0);
+    let shear = around.material.shear_modulus.unwrap_or(0.0);
+    [-poisson / (1.0 - poisson), 2.0 * shear, 0.0, 0.0]
 }
 
-impl<T: Real> Rate<T, 2> for PlaneStress {
-    fn reads(&self) -> Fields {
-        Fields::NONE
+/// −ν/(1 − ν) ∇·v of each particle.
+#[inline(always)]
+fn thinning<L: Lane, P: Reach>(at: &Point<'_, L, 2, P>) -> L {
+    at.velocity_gradient().trace() * at.constant(0)
+}
+
+impl PointRate<2> for PlaneStress {
+    const SUMS: Outputs = GRADIENT;
+    fn prepare<T: Real>(
+        &self,
+        around: &Around<'_, T, 2>,
+        constants: &mut [f64; CONSTANTS],
+    ) -> bool {
+        *constants = self::constants(around);
+        true
     }
-    fn sums(&self) -> Outputs {
-        GRADIENT
-    }
-    fn source(&self, at: &View<'_, T, 2>, first: usize, source: &mut [T]) {
-        for (n, rate) in source.iter_mut().enumerate() {
-            *rate += thinning(at, first + n);
-        }
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &Point<'_, L, 2, P>, _present: L, rate: &mut [L]) {
+        rate[0] += thinning(at);
     }
 }
 
@@ -107,40 +117,32 @@ impl<T: Real> Rate<T, 2> for PlaneStress {
 #[derive(Clone, Copy, Debug)]
 struct ThinningStress;
 
-impl<T: Real> Rate<T, 2> for ThinningStress {
-    fn reads(&self) -> Fields {
-        Fields::NONE
+impl PointRate<2> for ThinningStress {
+    const SUMS: Outputs = GRADIENT;
+    fn prepare<T: Real>(
+        &self,
+        around: &Around<'_, T, 2>,
+        constants: &mut [f64; CONSTANTS],
+    ) -> bool {
+        *constants = self::constants(around);
+        true
     }
-    fn sums(&self) -> Outputs {
-        GRADIENT
-    }
-    fn source(&self, at: &View<'_, T, 2>, first: usize, source: &mut [T]) {
-        let twice = T::from_f64(2.0 * at.around.material.shear_modulus.unwrap_or(0.0));
-        for (n, source) in source.chunks_exact_mut(6).enumerate() {
-            let strain = Symmetric::diagonal([T::zero(), T::zero(), thinning(at, first + n)]);
-            for (sum, rate) in source.iter_mut().zip(strain.deviator().components()) {
-                *sum += twice * *rate;
-            }
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &Point<'_, L, 2, P>, _present: L, rate: &mut [L]) {
+        let strain = Symmetric::diagonal([L::zero(), L::zero(), thinning(at)]);
+        for (rate, own) in rate.iter_mut().zip(strain.deviator().components()) {
+            *rate += at.constant(1) * *own;
         }
     }
 }
 
-impl<T: Real> Law<T, 2> for PlaneStress {
-    fn name(&self) -> &'static str {
-        "pressure of plane stress"
-    }
-    fn reads(&self) -> Fields {
-        Fields::of(&[STRESS])
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&[Field::PRESSURE])
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, 2>) -> Tally {
-        let ([stress], [pressure]) = chunk.columns([STRESS], [Field::PRESSURE]);
-        for (pressure, stress) in pressure.iter_mut().zip(stress.chunks_exact(6)) {
-            *pressure = stress[2];
-        }
-        Tally::default()
+impl PointLaw<2> for PlaneStress {
+    const NAME: &'static str = "pressure of plane stress";
+    const READS: Fields = Fields::of(&[STRESS]);
+    const WRITES: Fields = Fields::of(&[Field::PRESSURE]);
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, 2, P>) {
+        at.set(Field::PRESSURE, at.get_at(STRESS, 2));
     }
 }
 

@@ -1,11 +1,10 @@
 //! Shifting: keeps the particles of a liquid evenly spread, and leaves its free surface alone.
 //! Lind et al. 2012, Skillen et al. 2013; the transport velocity of Adami, Hu & Adams 2013.
 
-use super::{Chunk, DensityForm, Effect, Law, Rung, Setting, StepProgram, Tally};
+use super::{DensityForm, Effect, Point, PointLaw, Reach, Rung, Setting, StepProgram};
 use crate::error::Problem;
 use crate::particles::{Field, Fields, Output, Outputs};
-use crate::scalar::Real;
-use crate::sweep::add_compensated;
+use crate::scalar::{Lane, Real};
 use crate::term::{ConcentrationGradient, In, Stage, stage};
 
 /// How particles are kept evenly spread.
@@ -97,72 +96,61 @@ impl<const D: usize> Effect<D> for Shifting {
     }
 }
 
-impl<T: Real, const D: usize> Law<T, D> for Shifting {
-    fn name(&self) -> &'static str {
-        "shifting"
-    }
-    fn reads(&self) -> Fields {
-        Fields::of(&[Field::VELOCITY, Field::SOUND_SPEED])
-    }
-    fn sums(&self) -> Outputs {
-        Outputs::of(&[Output::CONCENTRATION_GRADIENT, Output::MOMENT])
-    }
-    fn writes(&self) -> Fields {
-        PLACE
-    }
-    fn adds(&self) -> Fields {
-        PLACE
-    }
-    fn optional(&self) -> Fields {
-        Fields::of(&[Field::POSITION_RESIDUAL])
-    }
-    fn rung(&self) -> Option<Rung> {
-        Some(Rung::Flow)
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let [concentration, moments] =
-            [Output::CONCENTRATION_GRADIENT, Output::MOMENT].map(|sum| chunk.sum(sum));
-        let dt = chunk.around.dt;
-        let h = chunk.around.smoothing_length;
-        let ([v, c], [x, residual]) = chunk.columns(
-            [Field::VELOCITY, Field::SOUND_SPEED],
-            [Field::POSITION, Field::POSITION_RESIDUAL],
+impl<const D: usize> PointLaw<D> for Shifting {
+    const NAME: &'static str = "shifting";
+    const READS: Fields = Fields::of(&[Field::VELOCITY, Field::SOUND_SPEED]);
+    const WRITES: Fields = PLACE;
+    const ADDS: Fields = PLACE;
+    const SUMS: Outputs = Outputs::of(&[Output::CONCENTRATION_GRADIENT, Output::MOMENT]);
+    const OPTIONAL: Fields = Fields::of(&[Field::POSITION_RESIDUAL]);
+    const RUNG: Option<Rung> = Some(Rung::Flow);
+    const DOUBLE: bool = true;
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        let (h, c, dt) = (
+            at.around.smoothing_length,
+            at.get(Field::SOUND_SPEED),
+            at.dt(),
         );
-        for (n, (x, v)) in x.chunks_exact_mut(D).zip(v.chunks_exact(D)).enumerate() {
-            let factor = match *self {
-                Self::Concentration {
-                    strength,
-                    free_surface,
-                } => {
-                    let speed = v.iter().fold(0.0, |s, v| s + v.to_f64().powi(2)).sqrt();
-                    let moment = moments.get(0, n).to_f64();
-                    let inside = (moment - SURFACE[0]) / (SURFACE[1] - SURFACE[0]);
-                    let share = if free_surface {
-                        inside.clamp(0.0, 1.0)
-                    } else {
-                        1.0
-                    };
-                    (strength * h * speed * dt).min(STABLE * h * h) * share
-                }
-                // Σ (Vᵢ² + Vⱼ²) ∇W with nearly equal volumes, over the mass ρ V.
-                Self::TransportVelocity { background } => {
-                    let c = c[n].to_f64();
-                    background * c * c * dt * dt
-                }
-            };
-            let longest = LONGEST * h;
-            let sum: [f64; D] = core::array::from_fn(|d| concentration.get(d, n).to_f64());
-            let size = factor * sum.iter().fold(0.0, |s, g| s + g * g).sqrt();
-            let factor = if size > longest {
-                factor * longest / size
-            } else {
-                factor
-            };
-            for d in 0..D {
-                let by = T::from_f64(-factor * sum[d]);
-                add_compensated(&mut x[d], residual.get_mut(n * D + d), by);
+        let (speed, moment) = (length(&at.vector(Field::VELOCITY)), at.sum(Output::MOMENT));
+        let factor = match *self {
+            Self::Concentration {
+                strength,
+                free_surface,
+            } => {
+                let share = if free_surface {
+                    share(SURFACE, moment)
+                } else {
+                    L::one()
+                };
+                (L::of(strength * h) * speed * dt).min(L::of(STABLE * h * h)) * share
             }
+            // Σ (Vᵢ² + Vⱼ²) ∇W with nearly equal volumes, over the mass ρ V.
+            Self::TransportVelocity { background } => L::of(background) * c * c * dt * dt,
+        };
+        let sum = at.sum_vector(Output::CONCENTRATION_GRADIENT);
+        let (size, longest) = (factor * length(&sum), L::of(LONGEST * h));
+        let factor = L::select(size.gt(longest), factor * longest / size, factor);
+        for d in 0..D {
+            at.displace(d, -factor * sum[d]);
         }
-        Tally::default()
     }
+}
+
+/// The length of a vector.
+#[inline(always)]
+pub(super) fn length<L: Lane, const D: usize>(vector: &[L; D]) -> L {
+    let mut square = L::zero();
+    for own in vector {
+        square += *own * *own;
+    }
+    square.sqrt()
+}
+
+/// How far a value has come from the first to the second of two.
+#[inline(always)]
+pub(super) fn share<L: Lane>([from, to]: [f64; 2], value: L) -> L {
+    let share = (value - L::of(from)) / L::of(to - from);
+    // What is no number stays one.
+    L::one().min(L::zero().max(share))
 }

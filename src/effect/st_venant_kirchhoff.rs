@@ -1,10 +1,10 @@
 //! The law of St Venant and Kirchhoff: Hooke's law between Green's strain and its stress.
 //! As Bonet & Wood 2008 (Nonlinear Continuum Mechanics for Finite Element Analysis, chapter 6) have it.
 
-use super::hyperelastic::{self, Response, StoredEnergy, square};
+use super::hyperelastic::{self, Response, StoredEnergy};
 use super::{Effect, Setting, StepProgram};
-use crate::scalar::Real;
-use crate::tensor::Matrix;
+use crate::scalar::{Lane, Real};
+use crate::tensor::Square;
 use crate::term::TermDoc;
 
 /// The stress of a [total-Lagrangian](super::TotalLagrangian) solid by Hooke's law in Green's strain E = ½ (FᵀF − 1).
@@ -56,29 +56,31 @@ impl<const D: usize> Effect<D> for StVenantKirchhoff {
 
 impl StoredEnergy for StVenantKirchhoff {
     const NAME: &'static str = "St Venant–Kirchhoff";
-    fn respond<T: Real, const D: usize>(
+    #[inline(always)]
+    fn respond<L: Lane, const D: usize>(
         &self,
-        [lambda, mu]: [T; 2],
-        gradient: &Matrix<T, D>,
-        volume: T,
-        _back: &Matrix<T, D>,
-        [squared, _]: [T; 2],
-    ) -> Response<T, D> {
-        let half = T::from_f64(0.5);
-        let green = (gradient.transpose() * *gradient - Matrix::identity()) * half;
+        [lambda, mu]: [L; 2],
+        gradient: &Square<L, D>,
+        volume: L,
+        _back: &Square<L, D>,
+        [squared, _]: [L; 2],
+    ) -> Response<L, D> {
+        let (half, one) = (L::of(0.5), Square::identity());
+        let right = gradient.transposed().times(gradient);
+        let green = right.plus(-L::one(), &one).scaled(half);
         let trace = green.trace();
-        let second = Matrix::identity() * (lambda * trace) + green * (mu + mu);
-        let piola = *gradient * second;
+        let second = one.scaled(lambda * trace).plus(mu + mu, &green);
+        let piola = gradient.times(&second);
         // Out of the plane, where nothing is stretched, σ is λ tr E/J.
-        let in_plane = (piola * gradient.transpose()).trace();
-        let outside = lambda * trace * T::from_f64((3 - D) as f64);
-        let three = T::from_f64(3.0);
+        let in_plane = piola.times(&gradient.transposed()).trace();
+        let outside = lambda * trace * L::of((3 - D) as f64);
+        let three = L::of(3.0);
         // dP = dF S + F dS, of which the first counts where it pulls.
-        let pulls = (lambda * trace + mu * (squared - T::one())).max(T::zero());
+        let pulls = (lambda * trace + mu * (squared - L::one())).max(L::zero());
         Response {
             piola,
             pressure: -(in_plane + outside) / (three * volume),
-            energy: half * lambda * trace * trace + mu * square(&green),
+            energy: half * lambda * trace * trace + mu * green.square(),
             stiffness: (lambda + mu + mu) * squared + pulls,
         }
     }

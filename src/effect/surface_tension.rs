@@ -1,7 +1,10 @@
 //! Surface tension between two liquids by the curvature of their interface, as a force on the particles near it.
 //! Brackbill, Kothe & Zemach 1992 (J. Comput. Phys. 100, 335); Morris 2000; Adami, Hu & Adams 2010 (J. Comput. Phys. 229, 5011).
 
-use super::{Chunk, Effect, Law, Limit, Setting, StepProgram, Tally, View, not_negative};
+use super::{
+    Around, CONSTANTS, Effect, Point, PointLaw, PointLimit, Reach, Setting, StepProgram,
+    not_negative,
+};
 use crate::error::Problem;
 use crate::name;
 use crate::particles::{Field, Fields, Output, Outputs};
@@ -125,22 +128,22 @@ impl<const D: usize> Effect<D> for SurfaceTension {
 #[derive(Clone, Debug)]
 struct Colours([String; 2]);
 
-impl<T: Real, const D: usize> Law<T, D> for Colours {
-    fn name(&self) -> &'static str {
-        "colours of liquids"
+impl<const D: usize> PointLaw<D> for Colours {
+    const NAME: &'static str = "colours of liquids";
+    const READS: Fields = Fields::NONE;
+    const WRITES: Fields = Fields::of(&[COLOUR]);
+    fn prepare<T: Real>(
+        &self,
+        around: &Around<'_, T, D>,
+        constants: &mut [f64; CONSTANTS],
+    ) -> bool {
+        let of = |name: &String| f64::from(u8::from(*name == around.material.name));
+        constants[0] = of(&self.0[0]) + 2.0 * of(&self.0[1]);
+        true
     }
-    fn reads(&self) -> Fields {
-        Fields::NONE
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&[COLOUR])
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let of = |name: &String| f64::from(u8::from(*name == chunk.around.material.name));
-        let own = of(&self.0[0]) + 2.0 * of(&self.0[1]);
-        let ([], [colour]) = chunk.columns([], [COLOUR]);
-        colour.fill(T::from_f64(own));
-        Tally::default()
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        at.set(COLOUR, at.constant(0));
     }
 }
 
@@ -180,36 +183,24 @@ impl<const D: usize> Term<D> for ColourGradient {
 #[derive(Clone, Copy, Debug)]
 struct Normals;
 
-impl<T: Real, const D: usize> Law<T, D> for Normals {
-    fn name(&self) -> &'static str {
-        "normals of the interface"
-    }
-    fn reads(&self) -> Fields {
-        Fields::NONE
-    }
-    fn sums(&self) -> Outputs {
-        Outputs::of(&[GRADIENT])
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&[NORMAL, STEEPNESS])
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let gradients = chunk.sum(GRADIENT);
-        let least = T::from_f64(LEAST / chunk.around.smoothing_length);
-        let ([], [normal, steepness]) = chunk.columns([], [NORMAL, STEEPNESS]);
-        for (n, (normal, steepness)) in normal.chunks_exact_mut(D).zip(steepness).enumerate() {
-            let gradient: [T; D] = core::array::from_fn(|d| gradients.get(d, n));
-            let length = gradient
-                .iter()
-                .fold(T::zero(), |sum, g| sum + *g * *g)
-                .sqrt();
-            let share = if length > least { T::one() } else { T::zero() };
-            *steepness = share * length;
-            for (normal, g) in normal.iter_mut().zip(gradient) {
-                *normal = share * g / length.max(least);
-            }
+impl<const D: usize> PointLaw<D> for Normals {
+    const NAME: &'static str = "normals of the interface";
+    const READS: Fields = Fields::NONE;
+    const WRITES: Fields = Fields::of(&[NORMAL, STEEPNESS]);
+    const SUMS: Outputs = Outputs::of(&[GRADIENT]);
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        let gradient = at.sum_vector(GRADIENT);
+        let mut length = L::zero();
+        for g in gradient {
+            length += g * g;
         }
-        Tally::default()
+        let (length, least) = (length.sqrt(), L::of(LEAST / at.around.smoothing_length));
+        let share = L::select(length.gt(least), L::one(), L::zero());
+        at.set(STEEPNESS, share * length);
+        for d in 0..D {
+            at.set_at(NORMAL, d, share * gradient[d] / length.max(least));
+        }
     }
 }
 
@@ -250,40 +241,23 @@ impl<const D: usize> Term<D> for InterfaceCurvature {
 #[derive(Clone, Copy, Debug)]
 struct Force(f64);
 
-impl<T: Real, const D: usize> Law<T, D> for Force {
-    fn name(&self) -> &'static str {
-        "surface tension"
-    }
-    fn reads(&self) -> Fields {
-        Fields::of(&[NORMAL, STEEPNESS, Field::MASS, Field::DENSITY])
-    }
-    fn sums(&self) -> Outputs {
-        Outputs::of(&[TURN, SPAN])
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&[Field::FORCE])
-    }
-    fn adds(&self) -> Fields {
-        Fields::of(&[Field::FORCE])
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let [turns, spans] = [TURN, SPAN].map(|sum| chunk.sum(sum));
-        let factor = T::from_f64(self.0 * (D as f64 - 1.0));
-        let ([normal, steepness, mass, density], [force]) = chunk.columns(
-            [NORMAL, STEEPNESS, Field::MASS, Field::DENSITY],
-            [Field::FORCE],
-        );
-        for (n, steepness) in steepness.iter().enumerate() {
-            let span = spans.get(0, n);
-            if *steepness > T::zero() && span < T::zero() {
-                let curvature = turns.get(0, n) / span;
-                let size = factor * curvature * *steepness * mass[n] / density[n];
-                for d in n * D..(n + 1) * D {
-                    force[d] += size * normal[d];
-                }
-            }
+impl<const D: usize> PointLaw<D> for Force {
+    const NAME: &'static str = "surface tension";
+    const READS: Fields = Fields::of(&[NORMAL, STEEPNESS, Field::MASS, Field::DENSITY]);
+    const WRITES: Fields = Fields::of(&[Field::FORCE]);
+    const ADDS: Fields = Fields::of(&[Field::FORCE]);
+    const SUMS: Outputs = Outputs::of(&[TURN, SPAN]);
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        let (span, steepness) = (at.sum(SPAN), at.get(STEEPNESS));
+        let factor = L::of(self.0 * (D as f64 - 1.0));
+        let curvature = at.sum(TURN) / span;
+        let size = factor * curvature * steepness * at.get(Field::MASS) / at.get(Field::DENSITY);
+        let curved = steepness.gt(L::zero()) & span.lt(L::zero());
+        let size = L::select(curved, size, L::zero());
+        for d in 0..D {
+            at.add_at(Field::FORCE, d, size * at.get_at(NORMAL, d));
         }
-        Tally::default()
     }
 }
 
@@ -291,20 +265,13 @@ impl<T: Real, const D: usize> Law<T, D> for Force {
 #[derive(Clone, Copy, Debug)]
 struct CapillaryWaves(f64);
 
-impl<T: Real, const D: usize> Limit<T, D> for CapillaryWaves {
-    fn name(&self) -> &'static str {
-        "capillary waves: 0.25 sqrt(ρ h³/(2π σ))"
-    }
-    fn reads(&self) -> Fields {
-        Fields::of(&[STEEPNESS, Field::DENSITY])
-    }
-    fn step(&self, at: &View<'_, T, D>, slot: usize) -> f64 {
-        let [steepness, density] =
-            [STEEPNESS, Field::DENSITY].map(|field| at.column(field)[slot].to_f64());
-        if steepness == 0.0 {
-            return f64::INFINITY;
-        }
-        let inertia = density * at.around.smoothing_length.powi(3);
-        0.25 * (inertia / (core::f64::consts::TAU * self.0)).sqrt()
+impl<const D: usize> PointLimit<D> for CapillaryWaves {
+    const NAME: &'static str = "capillary waves: 0.25 sqrt(ρ h³/(2π σ))";
+    const READS: Fields = Fields::of(&[STEEPNESS, Field::DENSITY]);
+    #[inline(always)]
+    fn step<L: Lane, P: Reach>(&self, at: &Point<'_, L, D, P>) -> L {
+        let inertia = at.get(Field::DENSITY) * L::of(at.around.smoothing_length.powi(3));
+        let step = L::of(0.25) * (inertia / L::of(core::f64::consts::TAU * self.0)).sqrt();
+        L::select(at.get(STEEPNESS).gt(L::zero()), step, L::of(f64::INFINITY))
     }
 }

@@ -1,12 +1,12 @@
 //! Total-Lagrangian solids: deformation and forces by the neighbours and kernels of the body as built.
 //! Bonet & Kulasegaram 2001; Vignjevic, Reveles & Campbell 2006.
 
-use super::{Chunk, Effect, Law, Setting, StepProgram, Tally};
+use super::{Effect, Point, PointLaw, Reach, Setting, StepProgram};
 use crate::error::Problem;
 use crate::name;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
-use crate::tensor::{Matrix, determinant, inverse};
+use crate::tensor::{Matrix, Square, inverse};
 use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 
 /// The kinematics and the force of a total-Lagrangian solid, in reference positions X.
@@ -208,26 +208,14 @@ impl<const D: usize> Term<D> for StressForce {
 #[derive(Clone, Copy, Debug)]
 struct ReferenceCorrection;
 
-impl<T: Real, const D: usize> Law<T, D> for ReferenceCorrection {
-    fn name(&self) -> &'static str {
-        "correction of gradients as built"
-    }
-    fn reads(&self) -> Fields {
-        Fields::NONE
-    }
-    fn sums(&self) -> Outputs {
-        Outputs::of(&[Output::MOMENT_MATRIX])
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&[Field::CORRECTION])
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let moments = chunk.sum(Output::MOMENT_MATRIX);
-        let ([], [correction]) = chunk.columns([], [Field::CORRECTION]);
-        for (n, out) in correction.chunks_exact_mut(D * D).enumerate() {
-            put(out, &super::gradients::correction(moments, n));
-        }
-        Tally::default()
+impl<const D: usize> PointLaw<D> for ReferenceCorrection {
+    const NAME: &'static str = "correction of gradients as built";
+    const READS: Fields = Fields::NONE;
+    const WRITES: Fields = Fields::of(&[Field::CORRECTION]);
+    const SUMS: Outputs = Outputs::of(&[Output::MOMENT_MATRIX]);
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        at.set_matrix(Field::CORRECTION, &at.correction());
     }
 }
 
@@ -239,54 +227,39 @@ struct DeformationGradient;
 const VOLUME_RATIOS: [f64; 2] = [0.1, 10.0];
 const SQUARED_STRETCHES: [f64; 2] = [0.04, 6.25];
 
-impl<T: Real, const D: usize> Law<T, D> for DeformationGradient {
-    fn name(&self) -> &'static str {
-        "beyond the validity of total Lagrangian"
-    }
-    fn reads(&self) -> Fields {
-        Fields::of(&[Field::CORRECTION, Field::REFERENCE_DENSITY])
-    }
-    fn sums(&self) -> Outputs {
-        Outputs::of(&[DISPLACEMENT_SUM])
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&[F, Field::DENSITY])
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let (displacement, live) = (chunk.sum(DISPLACEMENT_SUM), chunk.live);
-        let ([correction, rest], [deformation, density]) = chunk.columns(
-            [Field::CORRECTION, Field::REFERENCE_DENSITY],
-            [F, Field::DENSITY],
-        );
-        let mut tally = Tally::default();
-        for (n, out) in deformation.chunks_exact_mut(D * D).enumerate() {
-            let sum = Matrix::<T, D>::from_fn(|a, b| displacement.get(a * D + b, n));
-            let gradient = Matrix::identity() + sum * matrix(correction, n);
-            let volume = determinant(&gradient);
-            density[n] = rest[n] / volume;
-            tally.limited += u64::from(n < live && is_far(&gradient, volume));
-            put(out, &gradient);
-        }
-        tally
+impl<const D: usize> PointLaw<D> for DeformationGradient {
+    const NAME: &'static str = "beyond the validity of total Lagrangian";
+    const READS: Fields = Fields::of(&[Field::CORRECTION, Field::REFERENCE_DENSITY]);
+    const WRITES: Fields = Fields::of(&[F, Field::DENSITY]);
+    const SUMS: Outputs = Outputs::of(&[DISPLACEMENT_SUM]);
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        let displaced = at
+            .sum_matrix(DISPLACEMENT_SUM)
+            .times(&at.matrix(Field::CORRECTION));
+        let gradient = Square::identity().plus(L::one(), &displaced);
+        let volume = gradient.determinant();
+        at.set(Field::DENSITY, at.get(Field::REFERENCE_DENSITY) / volume);
+        at.set_matrix(F, &gradient);
+        at.limited(is_far(&gradient, volume));
     }
 }
 
 /// Whether a deformation is beyond what neighbours as built can tell.
-fn is_far<T: Real, const D: usize>(gradient: &Matrix<T, D>, volume: T) -> bool {
+#[inline(always)]
+fn is_far<L: Lane, const D: usize>(gradient: &Square<L, D>, volume: L) -> L::Mask {
     // With ‖F − 1‖ below 0.4 the stretches are between 0.6 and 1.4, and det F between 0.2 and 2.8: bounds of the stretches,
     // at most √D as large, are within the limits by far, and need no inverse.
-    let apart = (0..D * D).fold(T::zero(), |sum, k| {
-        let own = gradient[(k / D, k % D)] - if k / D == k % D { T::one() } else { T::zero() };
-        sum + own * own
-    });
-    if apart.to_f64() < 0.16 {
-        return false;
+    let change = gradient.plus(-L::one(), &Square::identity());
+    let apart = !change.square().lt(L::of(0.16));
+    if !L::somewhere(apart) {
+        return apart;
     }
-    let within = |[low, high]: [f64; 2], value: f64| low < value && value < high;
-    let [right, back] = stretches(gradient).map(Real::to_f64);
-    !within(VOLUME_RATIOS, volume.to_f64())
-        || right > SQUARED_STRETCHES[1]
-        || back * SQUARED_STRETCHES[0] > 1.0
+    let ([low, high], [least, most]) = (VOLUME_RATIOS, SQUARED_STRETCHES);
+    let [right, back] = stretches_of(gradient, &gradient.inverse(0.0).0);
+    let within = L::of(low).lt(volume) & volume.lt(L::of(high));
+    let within = within & !right.gt(L::of(most)) & !(back * L::of(least)).gt(L::one());
+    apart & !within
 }
 
 /// Bounds of the largest squared stretch, and of the inverse of the smallest, by Gershgorin's circles of FᵀF and its
@@ -301,38 +274,47 @@ pub(super) fn stretches_with<T: Real, const D: usize>(
     gradient: &Matrix<T, D>,
     back: &Matrix<T, D>,
 ) -> [T; 2] {
-    let bound = |matrix: Matrix<T, D>| {
-        (0..D).fold(T::zero(), |most, row| {
-            let sum = (0..D).fold(T::zero(), |sum, column| sum + matrix[(row, column)].abs());
-            most.max(sum)
-        })
-    };
-    [
-        bound(gradient.transpose() * *gradient),
-        bound(*back * back.transpose()),
-    ]
+    stretches_of(&square(gradient), &square(back))
+}
+
+/// The same of rows of particles.
+#[inline(always)]
+pub(super) fn stretches_of<L: Lane, const D: usize>(
+    gradient: &Square<L, D>,
+    back: &Square<L, D>,
+) -> [L; 2] {
+    let right = gradient.transposed().times(gradient);
+    let back = back.times(&back.transposed());
+    let (mut stretched, mut shrunk) = (L::zero(), L::zero());
+    for row in 0..D {
+        let (mut sum, mut other) = (L::zero(), L::zero());
+        for column in 0..D {
+            sum += right.0[row][column].abs();
+            other += back.0[row][column].abs();
+        }
+        (stretched, shrunk) = (stretched.max(sum), shrunk.max(other));
+    }
+    [stretched, shrunk]
+}
+
+fn square<T: Real, const D: usize>(matrix: &Matrix<T, D>) -> Square<T, D> {
+    Square(core::array::from_fn(|a| {
+        core::array::from_fn(|b| matrix[(a, b)])
+    }))
 }
 
 /// P L.
 #[derive(Clone, Copy, Debug)]
 struct CorrectedStress;
 
-impl<T: Real, const D: usize> Law<T, D> for CorrectedStress {
-    fn name(&self) -> &'static str {
-        "corrected Piola stress"
-    }
-    fn reads(&self) -> Fields {
-        Fields::of(&[PIOLA, Field::CORRECTION])
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&[CORRECTED])
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let ([piola, correction], [out]) = chunk.columns([PIOLA, Field::CORRECTION], [CORRECTED]);
-        for (n, out) in out.chunks_exact_mut(D * D).enumerate() {
-            put(out, &(matrix::<T, D>(piola, n) * matrix(correction, n)));
-        }
-        Tally::default()
+impl<const D: usize> PointLaw<D> for CorrectedStress {
+    const NAME: &'static str = "corrected Piola stress";
+    const READS: Fields = Fields::of(&[PIOLA, Field::CORRECTION]);
+    const WRITES: Fields = Fields::of(&[CORRECTED]);
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        let corrected = at.matrix(PIOLA).times(&at.matrix(Field::CORRECTION));
+        at.set_matrix(CORRECTED, &corrected);
     }
 }
 

@@ -1,7 +1,10 @@
 //! Two liquids, or a liquid and a gas, of unlike density in one scheme: what keeps their interface sharp.
 //! Grenier, Antuono, Colagrossi, Le Touzé & Alessandrini 2009 (J. Comput. Phys. 228, 8380).
 
-use super::{Chunk, DensityForm, Effect, Law, Setting, StepProgram, Tally, not_negative};
+use super::{
+    Around, CONSTANTS, DensityForm, Effect, Point, PointLaw, Reach, Setting, StepProgram,
+    not_negative,
+};
 use crate::error::Problem;
 use crate::name;
 use crate::particles::{Field, Fields, Output, Outputs};
@@ -93,21 +96,21 @@ impl<const D: usize> Effect<D> for TwoPhase {
 #[derive(Clone, Copy, Debug)]
 struct Phases;
 
-impl<T: Real, const D: usize> Law<T, D> for Phases {
-    fn name(&self) -> &'static str {
-        "phases"
+impl<const D: usize> PointLaw<D> for Phases {
+    const NAME: &'static str = "phases";
+    const READS: Fields = Fields::NONE;
+    const WRITES: Fields = Fields::of(&[PHASE]);
+    fn prepare<T: Real>(
+        &self,
+        around: &Around<'_, T, D>,
+        constants: &mut [f64; CONSTANTS],
+    ) -> bool {
+        constants[0] = around.material.reference_density();
+        true
     }
-    fn reads(&self) -> Fields {
-        Fields::NONE
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&[PHASE])
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let rest = chunk.around.material.reference_density();
-        let ([], [phase]) = chunk.columns([], [PHASE]);
-        phase.fill(T::from_f64(rest));
-        Tally::default()
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        at.set(PHASE, at.constant(0));
     }
 }
 

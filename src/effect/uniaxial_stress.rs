@@ -2,12 +2,13 @@
 //! Without it a line of particles is a layer of an infinite plate, in uniaxial strain.
 
 use super::{
-    Chunk, Effect, Evolved, Hypoelastic, Law, Rate, Setting, StepProgram, Tally, View, When,
+    Around, CONSTANTS, Effect, Evolved, Hypoelastic, Point, PointLaw, PointRate, Reach, Setting,
+    StepProgram, When,
 };
 use crate::error::Problem;
 use crate::name;
 use crate::particles::{Field, Fields, Output, Outputs};
-use crate::scalar::Real;
+use crate::scalar::{Lane, Real};
 use crate::tensor::Symmetric;
 use crate::term::{Stage, TermDoc};
 
@@ -77,23 +78,32 @@ impl Effect<1> for UniaxialStress {
     }
 }
 
-/// −ν ∂v/∂x of each particle.
-fn widening<T: Real>(at: &View<'_, T, 1>, slot: usize) -> T {
-    let poisson = at.around.material.poisson_ratio().unwrap_or(0.0);
-    at.velocity_gradient(slot)[(0, 0)] * T::from_f64(-poisson)
+/// −ν of the material, and twice its shear modulus.
+fn constants<T: Real>(around: &Around<'_, T, 1>) -> [f64; CONSTANTS] {
+    let poisson = around.material.poisson_ratio().unwrap_or(0.0);
+    let shear = around.material.shear_modulus.unwrap_or(0.0);
+    [-poisson, 2.0 * shear, 0.0, 0.0]
 }
 
-impl<T: Real> Rate<T, 1> for UniaxialStress {
-    fn reads(&self) -> Fields {
-        Fields::NONE
+/// −ν ∂v/∂x of each particle.
+#[inline(always)]
+fn widening<L: Lane, P: Reach>(at: &Point<'_, L, 1, P>) -> L {
+    at.velocity_gradient().trace() * at.constant(0)
+}
+
+impl PointRate<1> for UniaxialStress {
+    const SUMS: Outputs = GRADIENT;
+    fn prepare<T: Real>(
+        &self,
+        around: &Around<'_, T, 1>,
+        constants: &mut [f64; CONSTANTS],
+    ) -> bool {
+        *constants = self::constants(around);
+        true
     }
-    fn sums(&self) -> Outputs {
-        GRADIENT
-    }
-    fn source(&self, at: &View<'_, T, 1>, first: usize, source: &mut [T]) {
-        for (n, rate) in source.iter_mut().enumerate() {
-            *rate += widening(at, first + n);
-        }
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &Point<'_, L, 1, P>, _present: L, rate: &mut [L]) {
+        rate[0] += widening(at);
     }
 }
 
@@ -101,40 +111,32 @@ impl<T: Real> Rate<T, 1> for UniaxialStress {
 #[derive(Clone, Copy, Debug)]
 struct WideningStress;
 
-impl<T: Real> Rate<T, 1> for WideningStress {
-    fn reads(&self) -> Fields {
-        Fields::NONE
+impl PointRate<1> for WideningStress {
+    const SUMS: Outputs = GRADIENT;
+    fn prepare<T: Real>(
+        &self,
+        around: &Around<'_, T, 1>,
+        constants: &mut [f64; CONSTANTS],
+    ) -> bool {
+        *constants = self::constants(around);
+        true
     }
-    fn sums(&self) -> Outputs {
-        GRADIENT
-    }
-    fn source(&self, at: &View<'_, T, 1>, first: usize, source: &mut [T]) {
-        let twice = T::from_f64(2.0 * at.around.material.shear_modulus.unwrap_or(0.0));
-        for (n, source) in source.chunks_exact_mut(6).enumerate() {
-            let rate = widening(at, first + n);
-            let strain = Symmetric::diagonal([T::zero(), rate, rate]);
-            for (sum, rate) in source.iter_mut().zip(strain.deviator().components()) {
-                *sum += twice * *rate;
-            }
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &Point<'_, L, 1, P>, _present: L, rate: &mut [L]) {
+        let own = widening(at);
+        let strain = Symmetric::diagonal([L::zero(), own, own]);
+        for (rate, own) in rate.iter_mut().zip(strain.deviator().components()) {
+            *rate += at.constant(1) * *own;
         }
     }
 }
 
-impl<T: Real> Law<T, 1> for UniaxialStress {
-    fn name(&self) -> &'static str {
-        "pressure of uniaxial stress"
-    }
-    fn reads(&self) -> Fields {
-        Fields::of(&[STRESS])
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&[Field::PRESSURE])
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, 1>) -> Tally {
-        let ([stress], [pressure]) = chunk.columns([STRESS], [Field::PRESSURE]);
-        for (pressure, stress) in pressure.iter_mut().zip(stress.chunks_exact(6)) {
-            *pressure = stress[1];
-        }
-        Tally::default()
+impl PointLaw<1> for UniaxialStress {
+    const NAME: &'static str = "pressure of uniaxial stress";
+    const READS: Fields = Fields::of(&[STRESS]);
+    const WRITES: Fields = Fields::of(&[Field::PRESSURE]);
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, 1, P>) {
+        at.set(Field::PRESSURE, at.get_at(STRESS, 1));
     }
 }

@@ -1,7 +1,7 @@
 //! Densities held to the space that particles really take, in closed flows.
 //! The re-initialisation of Colagrossi & Landrini 2003, relaxed over time.
 
-use super::{Effect, Rate, Setting, StepProgram, View, not_negative};
+use super::{Effect, Point, PointRate, Reach, Setting, StepProgram, not_negative};
 use crate::error::Problem;
 use crate::material::Material;
 use crate::name;
@@ -118,22 +118,14 @@ struct Relaxation {
     unity: f64,
 }
 
-impl<T: Real, const D: usize> Rate<T, D> for Relaxation {
-    fn reads(&self) -> Fields {
-        Fields::of(&[Field::SOUND_SPEED])
+impl<const D: usize> PointRate<D> for Relaxation {
+    const READS: Fields = Fields::of(&[Field::SOUND_SPEED]);
+    const SUMS: Outputs = Outputs::of(&[SUMMED]);
+    const GROWTH: bool = true;
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &Point<'_, L, D, P>, present: L, rate: &mut [L]) {
+        let factor = L::of(self.strength / at.around.smoothing_length);
+        let excess = at.sum(SUMMED) / (L::of(self.unity) * present) - L::one();
+        rate[0] += factor * at.get(Field::SOUND_SPEED) * excess;
     }
-    fn sums(&self) -> Outputs {
-        Outputs::of(&[SUMMED])
-    }
-    fn growth(&self, at: &View<'_, T, D>, first: usize, present: &[T], growth: &mut [T]) {
-        let sound_speed = &at.column(Field::SOUND_SPEED)[first..];
-        let summed = at.sum(SUMMED);
-        let factor = T::from_f64(self.strength / at.around.smoothing_length);
-        let unity = T::from_f64(self.unity);
-        for (n, (growth, c)) in growth.iter_mut().zip(sound_speed).enumerate() {
-            let excess = summed.get(0, first + n) / (unity * present[n]) - T::one();
-            *growth += factor * *c * excess;
-        }
-    }
-    fn source(&self, _at: &View<'_, T, D>, _first: usize, _source: &mut [T]) {}
 }

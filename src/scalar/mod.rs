@@ -156,6 +156,11 @@ pub trait Lane:
     fn map(self, f: impl Fn(Self::Scalar) -> Self::Scalar) -> Self;
     /// `self * factor + summand`, with one rounding on a fused lane and two elsewhere.
     fn mul_add(self, factor: Self, summand: Self) -> Self;
+    /// `self * factor + summand` with one rounding on every lane; slow where the machine lacks the instruction.
+    #[inline(always)]
+    fn fused(self, factor: Self, summand: Self) -> Self {
+        Self::from_fn(|k| self.extract(k).fused(factor.extract(k), summand.extract(k)))
+    }
     /// Square root.
     fn sqrt(self) -> Self;
     /// Square root of what is finite and not negative, within twice the machine epsilon, by whichever of
@@ -258,6 +263,47 @@ pub trait Lane:
     fn positive_part(self) -> Self {
         self.max(Self::zero())
     }
+    /// Whether a mask holds anywhere, so that what it chooses is worth computing. In a [`Record`] all is computed.
+    #[inline(always)]
+    fn somewhere(mask: Self::Mask) -> bool {
+        mask.any()
+    }
+    /// Repeats `step`, which returns the next state and where it is the last, at most `most` times. Each element has the state that it
+    /// would have alone: one that is done stays as it is while others go on. A [`Record`] holds all `most` steps.
+    ///
+    /// ```
+    /// use meshfree::scalar::{Lane, Lanes};
+    /// /// √a by Newton's method.
+    /// fn root<L: Lane>(a: L) -> L {
+    ///     let [x] = L::iterate(60, [a], |[x]| {
+    ///         let next = (x + a / x) * L::of(0.5);
+    ///         ([next], (next - x).abs().le(next * L::of(1e-15)))
+    ///     });
+    ///     x
+    /// }
+    /// let both = root(Lanes::<f64, 2, false>::from_fn(|k| [2.0, 1e6][k]));
+    /// assert_eq!([both.extract(0), both.extract(1)], [root(2.0), root(1e6)]);
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    fn iterate<const N: usize>(
+        most: usize,
+        mut state: [Self; N],
+        step: impl Fn([Self; N]) -> ([Self; N], Self::Mask),
+    ) -> [Self; N] {
+        let mut open = Self::Mask::all_of(true);
+        for _ in 0..most {
+            if !Self::somewhere(open) {
+                break;
+            }
+            let (next, done) = step(state);
+            for k in 0..N {
+                state[k] = Self::select(open, next[k], state[k]);
+            }
+            open = open & !done;
+        }
+        state
+    }
 }
 
 /// A floating-point type that particles can be stored in: `f32` or `f64`.
@@ -304,8 +350,6 @@ pub trait Real:
     fn from_f64(value: f64) -> Self;
     /// Widened to `f64`.
     fn to_f64(self) -> f64;
-    /// `self * factor + summand` with one rounding; slow where the machine lacks the instruction.
-    fn fused(self, factor: Self, summand: Self) -> Self;
 }
 
 /// Lanes of a row, by the scalar alone.
@@ -349,6 +393,10 @@ macro_rules! real {
             #[inline(always)]
             fn mul_add(self, factor: $T, summand: $T) -> $T {
                 self * factor + summand
+            }
+            #[inline(always)]
+            fn fused(self, factor: $T, summand: $T) -> $T {
+                $T::mul_add(self, factor, summand)
             }
             #[inline(always)]
             fn sqrt(self) -> $T {
@@ -450,10 +498,6 @@ macro_rules! real {
             #[inline(always)]
             fn to_f64(self) -> f64 {
                 self as f64
-            }
-            #[inline(always)]
-            fn fused(self, factor: $T, summand: $T) -> $T {
-                $T::mul_add(self, factor, summand)
             }
         }
     };

@@ -3,7 +3,7 @@
 
 use crate::parallel::{cut, for_each};
 use crate::particles::{Columns, Field, Fields, Shape};
-use crate::scalar::Real;
+use crate::scalar::{Lane, Real};
 use crate::tensor::{Matrix, Symmetric, Vector};
 
 /// How an image follows from its source.
@@ -337,7 +337,7 @@ const GRAIN: usize = 256;
 
 /// The rounded sum and its exact rounding error (Knuth 1969).
 #[inline(always)]
-pub(crate) fn two_sum<T: Real>(a: T, b: T) -> (T, T) {
+pub(crate) fn two_sum<L: Lane>(a: L, b: L) -> (L, L) {
     let sum = a + b;
     let part = sum - a;
     (sum, (a - (sum - part)) + (b - part))

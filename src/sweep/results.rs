@@ -208,7 +208,7 @@ impl<T: Real, const D: usize> Results<T, D> {
     }
 
     /// The sums that were [`stored`](Self::stored), with the forces between blocks.
-    #[cfg(feature = "checkpoint")]
+    #[cfg(any(test, feature = "checkpoint"))]
     pub(crate) fn of_stored(
         outputs: Outputs,
         (data, first): (Vec<T>, usize),

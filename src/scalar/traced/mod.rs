@@ -92,6 +92,8 @@ pub enum Operation {
     Binary(Binary, Traced, Traced),
     /// a b + c, with one rounding where lanes are fused.
     MulAdd(Traced, Traced, Traced),
+    /// a b + c, with one rounding everywhere.
+    Fused(Traced, Traced, Traced),
     /// A number to a constant power.
     Power(Traced, f64),
     /// a < b
@@ -122,7 +124,7 @@ impl Operation {
                 [Some(a.0), Some(b.0), None]
             }
             O::And(a, b) | O::Or(a, b) => [Some(a.0), Some(b.0), None],
-            O::MulAdd(a, b, c) => [Some(a.0), Some(b.0), Some(c.0)],
+            O::MulAdd(a, b, c) | O::Fused(a, b, c) => [Some(a.0), Some(b.0), Some(c.0)],
             O::Select(mask, a, b) => [Some(mask.0), Some(a.0), Some(b.0)],
         }
     }
@@ -254,6 +256,7 @@ impl Record {
                 Operation::Unary(operation, a) => unary(operation, value(a)),
                 Operation::Binary(operation, a, b) => binary(operation, value(a), value(b)),
                 Operation::MulAdd(a, b, c) => value(a).mul_add(value(b), value(c)),
+                Operation::Fused(a, b, c) => value(a).fused(value(b), value(c)),
                 Operation::Power(a, exponent) => value(a).powf(exponent),
                 Operation::Select(mask, a, b) => L::select(holds(mask), value(a), value(b)),
                 Operation::Less(a, b) => {
@@ -419,6 +422,9 @@ impl Lane for Traced {
     fn mul_add(self, factor: Self, summand: Self) -> Self {
         number(Operation::MulAdd(self, factor, summand))
     }
+    fn fused(self, factor: Self, summand: Self) -> Self {
+        number(Operation::Fused(self, factor, summand))
+    }
     fn sqrt(self) -> Self {
         number(Operation::Unary(Unary::SquareRoot, self))
     }
@@ -442,6 +448,9 @@ impl Lane for Traced {
     }
     fn select(mask: TracedMask, yes: Self, no: Self) -> Self {
         number(Operation::Select(mask, yes, no))
+    }
+    fn somewhere(_mask: TracedMask) -> bool {
+        true
     }
     fn powf(self, exponent: f64) -> Self {
         number(Operation::Power(self, exponent))

@@ -7,12 +7,15 @@ use crate::scalar::{Lanes, Real};
 /// Every operation that a lane has.
 fn everything<L: Lane>(a: L, b: L) -> Vec<L> {
     let either = a.lt(b) | !(a.le(L::zero()) & b.gt(L::of(0.3))) & L::Mask::all_of(true);
-    let mut sum = a.mul_add(b, L::one()) / (b * b + L::of(0.1));
+    let mut sum = a.mul_add(b, L::one()) / b.fused(b, L::of(0.1));
     sum += a.powi(3) - b.abs().powf(1.3);
     sum -= (-a).exp().min(b.abs().sqrt()).max(L::of(0.1));
     sum += a.sin() * b.cos() + (a * L::of(0.5)).acos() * b.atan() - a.cbrt();
     sum *= b.abs().root() + (b * b + L::of(0.1)).ln();
     sum /= a.recip().positive_part() + L::of(0.7);
+    let halved = |[x, n]: [L; 2]| ([x * L::of(0.5), n + L::one()], x.lt(L::of(0.1)));
+    let [left, steps] = L::iterate(12, [a.abs(), L::zero()], halved);
+    sum += left * steps;
     vec![L::select(either, sum, a), L::select(a.ge(b), b, sum), b]
 }
 

@@ -1,7 +1,9 @@
 //! Heat conduction: a temperature of one's own, its pair term, its limit of the step and its column in the ledger.
 //! P. W. Cleary, J. J. Monaghan, Journal of Computational Physics 148 (1999) 227–264.
 
-use meshfree::effect::{BySum, Effect, Evolved, LedgerColumn, Limit, Setting, StepProgram, View};
+use meshfree::effect::{
+    BySum, Effect, Evolved, LedgerColumn, Point, PointLimit, Reach, Setting, StepProgram,
+};
 use meshfree::name;
 use meshfree::particles::{Field, Fields, Output, Outputs};
 use meshfree::scalar::{Lane, Real};
@@ -84,16 +86,13 @@ impl<const D: usize> Term<D> for HeatConduction {
     }
 }
 
-impl<T: Real, const D: usize> Limit<T, D> for HeatConduction {
-    fn name(&self) -> &'static str {
-        "conduction: 0.15 h² ρ c/k"
-    }
-    fn reads(&self) -> Fields {
-        Fields::of(&[CONDUCTIVITY, Field::DENSITY])
-    }
-    fn step(&self, at: &View<'_, T, D>, slot: usize) -> f64 {
-        let number = |field| at.column(field)[slot].to_f64();
-        let diffusivity = number(CONDUCTIVITY) / (number(Field::DENSITY) * self.specific_heat);
-        0.15 * at.around.smoothing_length.powi(2) / diffusivity
+impl<const D: usize> PointLimit<D> for HeatConduction {
+    const NAME: &'static str = "conduction: 0.15 h² ρ c/k";
+    const READS: Fields = Fields::of(&[CONDUCTIVITY, Field::DENSITY]);
+    #[inline(always)]
+    fn step<L: Lane, P: Reach>(&self, at: &Point<'_, L, D, P>) -> L {
+        let capacity = at.get(Field::DENSITY) * L::of(self.specific_heat);
+        let h2 = L::of(0.15 * at.around.smoothing_length.powi(2));
+        h2 / (at.get(CONDUCTIVITY) / capacity)
     }
 }

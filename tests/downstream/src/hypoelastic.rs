@@ -1,11 +1,12 @@
 //! A hypoelastic solid: a deviatoric stress of one's own that follows the strain rate, and the force it makes.
 //! The Jaumann rate as in W. Benz, E. Asphaug, Computer Physics Communications 87 (1995) 253–265.
 
-use meshfree::effect::{Effect, Evolved, Limit, Rate, Setting, StepProgram, Update, View, When};
+use meshfree::effect::{
+    Effect, Evolved, Point, PointLimit, PointRate, Reach, Setting, StepProgram, Update, When,
+};
 use meshfree::name;
 use meshfree::particles::{Field, Fields, Output, Outputs};
 use meshfree::scalar::{Lane, Real};
-use meshfree::tensor::Symmetric;
 use meshfree::term::{In, Layout, Pair, Sums, Term, TermDoc, VelocityGradient, stage};
 
 /// Deviatoric stress S \[Pa\], positive in tension: xx, yy, zz, yz, xz, xy.
@@ -39,20 +40,14 @@ impl<const D: usize> Effect<D> for Hypoelastic {
 }
 
 /// 2 G (D − tr D/3) with D the symmetric part of the corrected velocity gradient at the middle of the drift.
-impl<T: Real, const D: usize> Rate<T, D> for Hypoelastic {
-    fn reads(&self) -> Fields {
-        Fields::NONE
-    }
-    fn sums(&self) -> Outputs {
-        Outputs::of(&[Output::VELOCITY_GRADIENT, Output::MOMENT_MATRIX])
-    }
-    fn source(&self, at: &View<'_, T, D>, first: usize, source: &mut [T]) {
-        let twice = T::from_f64(2.0 * self.shear_modulus);
-        for (n, source) in source.chunks_exact_mut(6).enumerate() {
-            let strain = Symmetric::symmetric_part(&at.velocity_gradient(first + n));
-            for (sum, rate) in source.iter_mut().zip(strain.deviator().components()) {
-                *sum += twice * *rate;
-            }
+impl<const D: usize> PointRate<D> for Hypoelastic {
+    const SUMS: Outputs = Outputs::of(&[Output::VELOCITY_GRADIENT, Output::MOMENT_MATRIX]);
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &Point<'_, L, D, P>, _present: L, rate: &mut [L]) {
+        let strain = at.velocity_gradient().symmetric_part().deviator();
+        let twice = L::of(2.0 * self.shear_modulus);
+        for k in 0..6 {
+            rate[k] += twice * strain.components()[k];
         }
     }
 }
@@ -83,17 +78,13 @@ impl<const D: usize> Term<D> for Hypoelastic {
     }
 }
 
-impl<T: Real, const D: usize> Limit<T, D> for Hypoelastic {
-    fn name(&self) -> &'static str {
-        "elastic waves: 0.5 h/sqrt(c² + 4G/3ρ)"
-    }
-    fn reads(&self) -> Fields {
-        Fields::of(&[Field::DENSITY, Field::SOUND_SPEED])
-    }
-    fn step(&self, at: &View<'_, T, D>, slot: usize) -> f64 {
-        let number = |field| at.column(field)[slot].to_f64();
-        let shear = 4.0 / 3.0 * self.shear_modulus / number(Field::DENSITY);
-        let speed2 = number(Field::SOUND_SPEED).powi(2) + shear;
-        0.5 * at.around.smoothing_length / speed2.sqrt()
+impl<const D: usize> PointLimit<D> for Hypoelastic {
+    const NAME: &'static str = "elastic waves: 0.5 h/sqrt(c² + 4G/3ρ)";
+    const READS: Fields = Fields::of(&[Field::DENSITY, Field::SOUND_SPEED]);
+    #[inline(always)]
+    fn step<L: Lane, P: Reach>(&self, at: &Point<'_, L, D, P>) -> L {
+        let shear = L::of(4.0 / 3.0 * self.shear_modulus) / at.get(Field::DENSITY);
+        let speed = (at.get(Field::SOUND_SPEED).powi(2) + shear).sqrt();
+        L::of(0.5 * at.around.smoothing_length) / speed
     }
 }

@@ -1,7 +1,7 @@
 //! A wall law: walls that show a liquid its mean pressure, each neighbour's brought to the wall's height.
 //! After S. Adami, X. Y. Hu, N. A. Adams, Journal of Computational Physics 231 (2012) 7057–7075.
 
-use meshfree::effect::{Chunk, Effect, Law, Setting, StepProgram, Tally};
+use meshfree::effect::{Effect, Point, PointLaw, Reach, Setting, StepProgram};
 use meshfree::name;
 use meshfree::particles::{Field, Fields, Output, Outputs};
 use meshfree::scalar::{Lane, Real};
@@ -52,30 +52,15 @@ impl<const D: usize> Term<D> for LevelWall {
     }
 }
 
-impl<T: Real, const D: usize> Law<T, D> for LevelWall {
-    fn name(&self) -> &'static str {
-        "level pressure of walls"
-    }
-    fn reads(&self) -> Fields {
-        Fields::NONE
-    }
-    fn sums(&self) -> Outputs {
-        Outputs::of(&LEVELLED)
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&[Field::PRESSURE])
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let [sums, unities] = LEVELLED.map(|output| chunk.sum(output));
-        let ([], [pressure]) = chunk.columns([], [Field::PRESSURE]);
-        for (n, pressure) in pressure.iter_mut().enumerate() {
-            let (sum, unity) = (sums.get(0, n), unities.get(0, n));
-            *pressure = if unity > T::zero() {
-                sum / unity
-            } else {
-                T::zero()
-            };
-        }
-        Tally::default()
+impl<const D: usize> PointLaw<D> for LevelWall {
+    const NAME: &'static str = "level pressure of walls";
+    const READS: Fields = Fields::NONE;
+    const WRITES: Fields = Fields::of(&[Field::PRESSURE]);
+    const SUMS: Outputs = Outputs::of(&LEVELLED);
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        let [sum, unity] = LEVELLED.map(|output| at.sum(output));
+        let wet = unity.gt(L::zero());
+        at.set(Field::PRESSURE, L::select(wet, sum / unity, L::zero()));
     }
 }

@@ -1,0 +1,475 @@
+//! Every law, rate and limit that is lane text is recorded here, and the record followed to the bits of its loop on the host.
+//! Those that are not lane text yet are listed by name, and the list can only shrink.
+
+use super::continuity::{Compression, Divergence};
+use super::declared::{SLOTS, around, material, optional};
+use super::density::{ContactActivity, SolvedSmoothing, SummedDensity};
+use super::gradients::CorrectedGradients;
+use super::point::{CONSTANTS, OfLaw, OfLimit, OfRate};
+use super::viscosity_switch::ViscositySwitch;
+use super::{
+    Around, Chunk, DensityForm, Effect, Evolved, Point, PointLaw, PointLimit, PointRate, Setting,
+    Slices, StepProgram, View,
+};
+use crate::kernel::{Kernel, WendlandC2};
+use crate::particles::{Columns, Field, Fields, Outputs, Shape};
+use crate::scalar::{Lane, Mask, Real, Record, Traced, Unrecordable};
+use crate::sweep::{Results, add_compensated};
+use crate::term::viscosity::MorrisMonaghan;
+use crate::term::{MOST_READS, MOST_SUMS, Stage};
+use std::collections::BTreeSet;
+
+/// The record of a part of a step. It is given the numbers of fields, then of sums, then constants of the body, then the step, then the
+/// present value of a rate; it results in the numbers of the fields that are written and one where the law has limited, in the rate, or in
+/// the limit.
+#[derive(Debug)]
+pub struct Recorded {
+    record: Result<Record, Unrecordable>,
+    fields: Fields,
+    writes: Fields,
+    sums: Outputs,
+    double: bool,
+    constants: [f64; CONSTANTS],
+    acts: bool,
+}
+
+impl Recorded {
+    /// What is made of some numbers, in the precision of the part.
+    fn follow<T: Real>(&self, given: &[f64]) -> Vec<T> {
+        let record = self.record.as_ref().expect("a record");
+        if self.double {
+            return record.follow(given).into_iter().map(T::from_f64).collect();
+        }
+        let given: Vec<_> = given.iter().map(|value| T::from_f64(*value)).collect();
+        record.follow(&given)
+    }
+}
+
+/// Numbers, sums, constants, the step and the present value.
+type Given = (
+    [Traced; MOST_READS],
+    [Traced; MOST_SUMS],
+    [Traced; CONSTANTS],
+    [Traced; 2],
+);
+
+fn given<const D: usize>(fields: Fields, sums: Outputs, all: &[Traced]) -> Given {
+    let (width, summed) = (fields.width(D), sums.width(D));
+    let take = |from: usize, count: usize| move |k: usize| all[from + k.min(count)];
+    (
+        core::array::from_fn(take(0, width)),
+        core::array::from_fn(take(width, summed)),
+        core::array::from_fn(take(width + summed, CONSTANTS)),
+        [
+            all[width + summed + CONSTANTS],
+            all[width + summed + CONSTANTS + 1],
+        ],
+    )
+}
+
+fn of<const D: usize>(
+    (fields, writes, sums): (Fields, Fields, Outputs),
+    double: bool,
+    text: impl FnOnce(Given) -> Vec<Traced>,
+    (constants, acts): ([f64; CONSTANTS], bool),
+) -> Recorded {
+    let inputs = fields.width(D) + sums.width(D) + CONSTANTS + 2;
+    let record = Record::of(inputs, |all| text(given::<D>(fields, sums, all)));
+    Recorded {
+        record,
+        fields,
+        writes,
+        sums,
+        double,
+        constants,
+        acts,
+    }
+}
+
+/// Records a law in a scheme that has some fields.
+pub fn law<T: Real, A: PointLaw<D>, const D: usize>(
+    law: &A,
+    around: &Around<'_, T, D>,
+    there: Fields,
+) -> Recorded {
+    let fields = A::READS.union(A::WRITES);
+    let mut all = [0.0; CONSTANTS];
+    let acts = PointLaw::prepare(law, around, &mut all);
+    of::<D>(
+        (fields, law.written(), A::SUMS),
+        A::DOUBLE,
+        |(mut numbers, sums, constants, [dt, _])| {
+            let mut point = Point::<Traced, D, OfLaw<T, A, D>> {
+                numbers: &mut numbers,
+                sums: &sums,
+                there: &there,
+                access: &super::access::Access::of_law::<T, D>(law),
+                limited: None,
+                change: None,
+                dt,
+                constants,
+                displacement: [Traced::of(0.0); D],
+                around,
+            };
+            law.point(&mut point);
+            let displacement = point.displacement;
+            let limited = point.limited.unwrap_or_else(|| Mask::all_of(false));
+            let written = law.written().iter().flat_map(|field| {
+                let start = fields.offset(field, D);
+                start..start + field.components(D)
+            });
+            let places = fields.offset(Field::POSITION, D);
+            let moved = A::WRITES.contains(Field::POSITION);
+            let own = |k: usize| match k.checked_sub(places) {
+                Some(d) if moved && d < D => displacement[d],
+                _ => numbers[k],
+            };
+            let mut results: Vec<_> = written.map(own).collect();
+            results.push(Lane::select(limited, Traced::of(1.0), Traced::of(0.0)));
+            results
+        },
+        (all, acts),
+    )
+}
+
+/// Records a rate as a view of it has access.
+pub fn rate<T: Real, A: PointRate<D>, const D: usize>(rate: &A, view: &View<'_, T, D>) -> Recorded {
+    let mut all = [0.0; CONSTANTS];
+    let acts = PointRate::prepare(rate, &view.around, &mut all);
+    let carried = view.columns.fields();
+    let there = carried.minus(carried.minus(A::READS));
+    of::<D>(
+        (A::READS, Fields::NONE, A::SUMS),
+        false,
+        |(mut numbers, sums, constants, [dt, present])| {
+            let point = Point::<Traced, D, OfRate<T, A, D>> {
+                numbers: &mut numbers,
+                sums: &sums,
+                there: &there,
+                access: &view.access,
+                limited: None,
+                change: None,
+                dt,
+                constants,
+                displacement: [Traced::of(0.0); D],
+                around: &view.around,
+            };
+            let width = if A::GROWTH {
+                1
+            } else {
+                view.access.components::<D>()
+            };
+            let mut own = vec![Traced::of(0.0); width];
+            rate.point(&point, present, &mut own);
+            own
+        },
+        (all, acts),
+    )
+}
+
+/// Records a limit.
+pub fn limit<T: Real, A: PointLimit<D>, const D: usize>(
+    limit: &A,
+    view: &View<'_, T, D>,
+) -> Recorded {
+    of::<D>(
+        (A::READS, Fields::NONE, A::SUMS),
+        true,
+        |(mut numbers, sums, constants, [dt, _])| {
+            let point = Point::<Traced, D, OfLimit<T, A, D>> {
+                numbers: &mut numbers,
+                sums: &sums,
+                there: &A::READS,
+                access: &view.access,
+                limited: None,
+                change: None,
+                dt,
+                constants,
+                displacement: [Traced::of(0.0); D],
+                around: &view.around,
+            };
+            vec![PointLimit::step(limit, &point)]
+        },
+        ([0.0; CONSTANTS], true),
+    )
+}
+
+/// Numbers without pattern, most of them positive; in matrices near unity.
+fn noise<T: Real>(n: usize) -> T {
+    T::from_f64(2.0 * (1e4 * (n as f64 + 0.7).sin()).fract().abs() - 0.3)
+}
+
+fn columns<T: Real, const D: usize>(fields: Fields) -> Columns<T, D> {
+    let mut columns = Columns::new(fields, SLOTS);
+    for (n, (field, column)) in columns.iter_mut().enumerate() {
+        let is_matrix = field.shape() == Shape::Matrix;
+        for (k, value) in column.iter_mut().enumerate() {
+            let own = noise::<T>(7 * k + 1000 * n);
+            *value = match is_matrix {
+                true if (k % (D * D)).is_multiple_of(D + 1) => T::one() + own * T::from_f64(0.2),
+                true => own * T::from_f64(0.2),
+                false => own,
+            };
+        }
+    }
+    columns
+}
+
+fn sums<T: Real, const D: usize>(outputs: Outputs) -> Results<T, D> {
+    let data = (0..outputs.width(D) * SLOTS.next_multiple_of(16))
+        .map(noise)
+        .collect();
+    Results::of_stored(outputs, (data, 0), Vec::new())
+}
+
+fn same<T: Real>(found: T, expected: T, what: &str) {
+    let (found, expected) = (found.to_f64(), expected.to_f64());
+    assert!(
+        found.to_bits() == expected.to_bits() || (found.is_nan() && expected.is_nan()),
+        "{what}: {found:e} {expected:e}"
+    );
+}
+
+/// The numbers of a particle that a record is given, the step and a present value.
+fn numbers<T: Real, const D: usize>(
+    own: &Recorded,
+    columns: &Columns<T, D>,
+    summed: &Results<T, D>,
+    slot: usize,
+    others: [f64; 2],
+) -> Vec<f64> {
+    let mut all = Vec::new();
+    for field in own.fields.iter() {
+        let width = field.components(D);
+        let column = columns.raw(field).get(slot * width..(slot + 1) * width);
+        all.extend((0..width).map(|k| column.map_or(0.0, |column| column[k].to_f64())));
+    }
+    for output in own.sums.iter() {
+        all.extend((0..output.components(D)).map(|k| summed.get(output, k, slot).to_f64()));
+    }
+    all.extend(own.constants);
+    all.extend(others);
+    all
+}
+
+/// Follows the records of all parts of a program; names of those that are none go to `others`.
+fn check<T: Real, const D: usize>(
+    program: &StepProgram<T, D>,
+    fields: Fields,
+    others: &mut BTreeSet<String>,
+) -> usize {
+    let (material, mut followed) = (material::<T>(), 0);
+    for (law, in_drift) in program
+        .laws
+        .iter()
+        .flatten()
+        .flat_map(|law| [(law, true), (law, false)])
+    {
+        let summed = sums::<T, D>(law.sums());
+        let around = Around {
+            in_drift,
+            ..around(&summed, &material)
+        };
+        let there = law.reads().union(law.writes());
+        let there = there.minus(there.minus(fields));
+        let Some(own) = law.record(&around, there) else {
+            others.insert(law.name().into());
+            continue;
+        };
+        if !own.acts {
+            continue;
+        }
+        let before = columns::<T, D>(fields);
+        let mut after = before.clone();
+        let live = SLOTS - 3;
+        let tally = Chunk::new(Slices::of(&mut after), 0..SLOTS, live, around).run(&**law);
+        let mut limited = 0;
+        for slot in 0..SLOTS {
+            let given = numbers(&own, &before, &summed, slot, [around.dt, 0.0]);
+            let results = own.follow::<T>(&given);
+            let mut found = results.iter();
+            for field in own.writes.iter() {
+                let width = field.components(D);
+                for (k, found) in found.by_ref().take(width).enumerate() {
+                    let at = slot * width + k;
+                    if field == Field::POSITION {
+                        let mut x = before.raw(field)[at];
+                        let mut lost = before.raw(Field::POSITION_RESIDUAL).get(at).copied();
+                        add_compensated(&mut x, lost.as_mut(), *found);
+                        same(x, after.raw(field)[at], &format!("{law:?}"));
+                    } else if field == Field::POSITION_RESIDUAL {
+                        // With the position.
+                    } else if let Some(expected) = after.raw(field).get(at) {
+                        same(*found, *expected, &format!("{law:?}, {field:?} of {slot}"));
+                    }
+                }
+            }
+            limited += u64::from(slot < live && results[results.len() - 1] > T::zero());
+        }
+        assert_eq!(limited, tally.limited, "{law:?}");
+        followed += 1;
+    }
+    let columns = columns::<T, D>(fields);
+    let rates = program
+        .evolved
+        .iter()
+        .flat_map(|own| own.rates.iter().map(|rate| (own.field, rate)));
+    for (field, rate) in rates.chain(program.pending.iter().map(|(field, rate)| (*field, rate))) {
+        let summed = sums::<T, D>(rate.sums());
+        let view = View::new(&columns, around(&summed, &material)).of_rate(&**rate, field);
+        let Some(own) = rate.record(&view) else {
+            let name = format!("{rate:?}");
+            others.insert(name.split([' ', '(']).next().unwrap_or_default().into());
+            continue;
+        };
+        let present: Vec<T> = (0..SLOTS).map(noise).collect();
+        let (mut growth, width) = (vec![T::zero(); SLOTS], field.components(D));
+        let mut source = vec![T::zero(); SLOTS * width];
+        rate.growth(&view, 0, &present, &mut growth);
+        rate.source(&view, 0, &mut source);
+        for slot in 0..SLOTS {
+            let given = numbers(
+                &own,
+                &columns,
+                &summed,
+                slot,
+                [view.around.dt, present[slot].to_f64()],
+            );
+            let found = own.follow::<T>(&given);
+            let expected = if source.iter().any(|value| *value != T::zero()) {
+                &source[slot * width..(slot + 1) * width]
+            } else {
+                &growth[slot..=slot]
+            };
+            assert_eq!(found.len(), expected.len());
+            for (found, expected) in found.iter().zip(expected) {
+                same(*found, *expected, &format!("{rate:?} of {slot}"));
+            }
+        }
+        followed += 1;
+    }
+    for limit in &program.limits {
+        let summed = sums::<T, D>(limit.sums());
+        let view = View::new(&columns, around(&summed, &material)).of_limit(&**limit);
+        let Some(own) = limit.record(&view) else {
+            others.insert(limit.name().into());
+            continue;
+        };
+        for slot in 0..SLOTS {
+            let given = numbers(&own, &columns, &summed, slot, [0.0; 2]);
+            same(own.follow(&given)[0], limit.step(&view, slot), limit.name());
+        }
+        followed += 1;
+    }
+    followed
+}
+
+fn setting<const D: usize>(density: DensityForm) -> Setting
+where
+    WendlandC2: Kernel<D>,
+{
+    Setting::of::<D>(&WendlandC2, 1.3, (density, density))
+}
+
+/// A program with its optional fields, and without them.
+fn both<T: Real, const D: usize>(
+    program: &StepProgram<T, D>,
+    others: &mut BTreeSet<String>,
+) -> usize {
+    check(program, program.fields(), others);
+    check(program, program.fields().union(optional(program)), others)
+}
+
+fn effect<T: Real, const D: usize>(
+    effect: &impl Effect<D>,
+    density: DensityForm,
+    others: &mut BTreeSet<String>,
+) -> usize
+where
+    WendlandC2: Kernel<D>,
+{
+    let mut program = StepProgram::<T, D>::new(setting::<D>(density));
+    effect.register(&mut program);
+    both(&program, others)
+}
+
+/// Laws and rates of the scheme itself.
+fn of_the_scheme<T: Real, const D: usize>(others: &mut BTreeSet<String>) -> usize
+where
+    WendlandC2: Kernel<D>,
+{
+    let mut followed = 0;
+    for form in [
+        DensityForm::NumberDensity,
+        DensityForm::Normalised,
+        DensityForm::Lam,
+        DensityForm::Summation,
+        DensityForm::Continuity,
+    ] {
+        let mut program = StepProgram::<T, D>::new(setting::<D>(form));
+        program.law(Stage::Density, SummedDensity(form));
+        program.law(Stage::Density, ContactActivity);
+        program.law(
+            Stage::Density,
+            SolvedSmoothing {
+                eta: 1.3,
+                limits: [0.5, 2.0],
+            },
+        );
+        program.law(
+            Stage::Gradients,
+            CorrectedGradients {
+                wanted: Fields::of(&[Field::PRESSURE_GRADIENT]),
+            },
+        );
+        let switch = ViscositySwitch::of::<_, D>(&MorrisMonaghan::STANDARD, form, 2.0);
+        program.law(Stage::Rates, switch.expect("a switch"));
+        let compression = Compression {
+            density: form,
+            pressure: form,
+        };
+        program.evolve(Evolved::kicked(Field::DENSITY).by(compression));
+        program.evolve(Evolved::kicked(Field::SMOOTHING_LENGTH).by(Divergence(compression)));
+        followed += both(&program, others);
+    }
+    followed
+}
+
+/// Parts that are loops over columns. Strength, failure and rheology are objects of a particle at a time.
+const ON_THE_HOST: &[&str] = &[
+    "BySum",
+    "coefficients of viscosity",
+    "failure",
+    "mismatch of motion and gradient",
+    "plastic flow",
+    "pressure of Riemann walls",
+    "pressure of walls",
+    "viscosity from shear",
+    "walls without slip",
+    "yielding of the hourglass control",
+];
+
+fn all<T: Real>() -> (usize, BTreeSet<String>) {
+    let (mut followed, mut others) = (0, BTreeSet::new());
+    macro_rules! each {
+        (liquid [$($a:expr),*] solid [$($b:expr),*] total_lagrangian [$($c:expr),*] sheet [$($d:expr),*] rod [$($e:expr),*]) => {
+            $(followed += effect::<T, 2>(&$a, DensityForm::Continuity, &mut others);)*
+            $(followed += effect::<T, 3>(&$b, DensityForm::Continuity, &mut others);)*
+            $(followed += effect::<T, 3>(&$c, DensityForm::Deformation, &mut others);)*
+            $(followed += effect::<T, 2>(&$d, DensityForm::Deformation, &mut others);)*
+            $(followed += effect::<T, 1>(&$e, DensityForm::Continuity, &mut others);)*
+        };
+    }
+    crate::for_each_effect!(each);
+    followed += of_the_scheme::<T, 2>(&mut others);
+    (followed, others)
+}
+
+#[test]
+fn records_have_the_bits_of_loops_on_the_host() {
+    let (followed, others) = all::<f64>();
+    assert!(followed > 20, "{followed}");
+    let listed: BTreeSet<String> = ON_THE_HOST.iter().map(|name| (*name).into()).collect();
+    assert_eq!(others, listed, "parts that are not lane text");
+    assert_eq!(all::<f32>(), (followed, listed));
+}
