@@ -156,6 +156,15 @@ impl Entries {
             kick: kick.into_iter().flatten().collect(),
         }
     }
+
+    /// All entries by phase, in the order of a step.
+    pub(super) fn phases(&self) -> [(&'static str, Vec<Entry>); 3] {
+        [
+            ("evaluation", self.evaluation.clone()),
+            ("middle of a drift", self.drift.clone()),
+            ("kick", [&self.work[..], &self.kick[..]].concat()),
+        ]
+    }
 }
 
 impl<T: Real, const D: usize> Scheme<T, D> {

@@ -48,7 +48,6 @@
 //! Total-Lagrangian schemes need no second pass. Their pairs share out the power −½ Fᵢⱼ·uᵢⱼ of the velocities u with which
 //! forces are summed, and each particle adds the work −Fᵢ·(v̄ᵢ − uᵢ) of its own force: the sum is the same. In a leapfrog v̄ − u
 //! is of second order in the step, and so is what this moves between neighbours.
-
 //!
 //! [`Cavitation`]: crate::effect::Cavitation
 //! [`ConsistentSmoothing`]: crate::effect::ConsistentSmoothing

@@ -2,7 +2,7 @@
 //! Fields and sums of effects have full names, and one name is one thing.
 
 use super::Scheme;
-use super::entry::{Entries, Entry, Kind, Part};
+use super::entry::{Entry, Kind, Part};
 use crate::effect::MOST_LAWS;
 use crate::error::Problem;
 use crate::particles::{Field, Fields, Output, Outputs};
@@ -44,22 +44,16 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         problems.extend(laws.into_iter().flatten());
         self.check_forces(&mut problems);
         self.check_evolved(&mut problems);
-        let Entries {
-            evaluation,
-            drift,
-            work,
-            kick,
-        } = &self.entries;
         let parts = |entries: &[Entry]| -> Vec<Part> {
             entries.iter().flat_map(|own| self.parts(*own)).collect()
         };
-        let drift = parts(drift);
+        let [evaluation, drift, kick] = self.entries.phases().map(|(_, own)| parts(&own));
         // What a drift writes is there for the evaluation after it, as what belongs to the state.
         let written = |known: Fields, part: &Part| known.union(part.writes);
         let mut known = drift.iter().fold(self.state(), written);
         // The stage of the reference configuration runs once, when the scene is built.
         let reference = parts(&[Entry::Stage(Stage::Reference)]);
-        let rest = [parts(evaluation), drift, parts(work), parts(kick)].concat();
+        let rest = [evaluation, drift, kick].concat();
         for part in reference.iter().chain(&rest) {
             self.check(part, known, &mut problems);
             known = written(known, part);

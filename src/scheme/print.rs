@@ -2,7 +2,7 @@
 //! What is not printed here is not in the program that runs.
 
 use super::Scheme;
-use super::entry::{Entries, Kind, Part};
+use super::entry::{Kind, Part};
 use crate::particles::{Fields, Outputs};
 use crate::scalar::Real;
 use core::fmt;
@@ -47,19 +47,8 @@ impl<T: Real, const D: usize> Scheme<T, D> {
     #[must_use]
     pub fn step_program(&self) -> String {
         let mut lines = vec![format!("{}, step by step", self.name)];
-        let Entries {
-            evaluation,
-            drift,
-            work,
-            kick,
-        } = &self.entries;
-        let kick = [&work[..], &kick[..]].concat();
-        let phases = [
-            ("evaluation", evaluation),
-            ("middle of a drift", drift),
-            ("kick", &kick),
-        ];
-        for (phase, entries) in phases.into_iter().filter(|own| !own.1.is_empty()) {
+        let phases = self.entries.phases().into_iter();
+        for (phase, entries) in phases.filter(|own| !own.1.is_empty()) {
             lines.push(phase.into());
             for part in entries.iter().flat_map(|entry| self.parts(*entry)) {
                 let verb = match part.kind {
