@@ -1,12 +1,12 @@
 //! A sum whose bits depend on neither the order of its terms nor their grouping: a fixed-point number that holds every `f64`.
-//! Digits of 32 bits stand in 64-bit integers, which leaves room for carries, and are rounded once at the end.
+//! The small superaccumulator of R. M. Neal, arXiv 1505.05571 (2015), after U. Kulisch & W. L. Miranker (1981).
 
 /// Digits from the smallest subnormal number up to 2^1102.
 const DIGITS: usize = 68;
 /// Additions after which carries are passed on: digits of so many terms fit an `i64`.
 const PENDING: u32 = 1 << 30;
 
-/// An exact sum of numbers.
+/// An exact sum of numbers: digits of 32 bits in 64-bit integers, which leaves room for carries, rounded once at the end.
 #[derive(Clone, Debug)]
 pub(crate) struct ExactSum {
     digits: [i64; DIGITS],
@@ -71,7 +71,7 @@ impl ExactSum {
         self.pending = 1;
     }
 
-    /// The nearest `f64`, the even one of two; what is no number or infinite as in any sum of `f64`.
+    /// The nearest `f64`, the even one of two; NaN and infinite terms count as in any sum of `f64`.
     pub fn value(&self) -> f64 {
         if self.beyond.is_nan() {
             return f64::NAN;

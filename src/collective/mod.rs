@@ -144,7 +144,7 @@ impl Join for bool {
     }
 }
 
-/// The smaller value and, of equal ones, the lower number. What is no number is not smaller.
+/// The smaller value and, of equal ones, the lower number. NaN is not smaller.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Least(pub f64, pub usize);
 

@@ -137,7 +137,7 @@ impl Sheet for NeoHookean {
             let excess = lambda.fused(area + s, mu * (squared - L::one()));
             let change = excess / (two * mu).fused(squared, lambda);
             let next = s - change;
-            // What is no number stays one, and ends the run.
+            // NaN stays NaN, and ends the run.
             let least = L::of(f64::EPSILON) * next.abs().max(L::of(f64::MIN_POSITIVE));
             ([next], !change.abs().gt(least))
         });

@@ -11,7 +11,7 @@
 //! | [laws](PointLaw) | what happens to single particles after the sweep of a stage, as lane text or as a [loop](Law) over columns | [`StepProgram::law`] |
 //! | forces on single particles | [`Field::FORCE`](crate::particles::Field::FORCE), which laws of `Stage::Rates` add to | [`StepProgram::law`] |
 //! | [smoothing](Smoothing) lengths | how they change, and the loops that this takes | [`Effect::smoothing`], [`Effect::MODES`] |
-//! | [limits](PointLimit) of the step | the largest that a particle bears | [`StepProgram::limit`] |
+//! | [limits](PointLimit) of the step | the largest that is stable at a particle | [`StepProgram::limit`] |
 //! | a column of the ledger | the sum of a field over every body | [`StepProgram::ledger`] |
 //! | energy that it stores or dissipates | fields of both | [`StepProgram::store`], [`StepProgram::dissipate`], [`Effect::BOOKS_ENERGY`] |
 //! | requirements | what it asks of materials and integrator | [`StepProgram::require`] |

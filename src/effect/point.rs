@@ -19,7 +19,7 @@ use core::marker::PhantomData;
 /// Mark [`point`](Self::point), and every function that it calls, `#[inline(always)]`. Without products that round once
 /// ([`Lane::mul_add`]) its results are the same on every machine.
 ///
-/// A field of `WRITES` that is not among `READS` or `ADDS` is not loaded: the law must set it for every particle, or it is no number.
+/// A field of `WRITES` that is not among `READS` or `ADDS` is not loaded: the law must set it for every particle, or it is NaN.
 ///
 /// ```
 /// use meshfree::effect::{Effect, Point, PointLaw, Reach, Rung, Setting, StepProgram};

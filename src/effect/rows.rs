@@ -247,7 +247,7 @@ fn load_columns<T: Real, L: Lane>(
         if own.loads {
             load(&own.column[start * own.width..], own.width, numbers);
         } else {
-            // What is only written starts as no number, so that one that is not set is seen.
+            // What is only written starts as NaN, so that one that is not set is seen.
             numbers.fill(L::of(f64::NAN));
         }
     }

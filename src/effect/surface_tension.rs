@@ -1,6 +1,7 @@
 //! Surface tension between two liquids by the curvature of their interface, as a force on the particles near it.
 //! Brackbill, Kothe & Zemach 1992 (J. Comput. Phys. 100, 335); Morris 2000; Adami, Hu & Adams 2010 (J. Comput. Phys. 229, 5011).
 
+use super::shifting::length;
 use super::{
     Around, CONSTANTS, Effect, Point, PointLaw, PointLimit, Reach, Setting, StepProgram,
     not_negative,
@@ -191,15 +192,11 @@ impl<const D: usize> PointLaw<D> for Normals {
     #[inline(always)]
     fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
         let gradient = at.sum_vector(GRADIENT);
-        let mut length = L::zero();
-        for g in gradient {
-            length += g * g;
-        }
-        let (length, least) = (length.sqrt(), L::of(LEAST / at.around.smoothing_length));
-        let share = L::select(length.gt(least), L::one(), L::zero());
-        at.set(STEEPNESS, share * length);
+        let (steepness, least) = (length(&gradient), L::of(LEAST / at.around.smoothing_length));
+        let share = L::select(steepness.gt(least), L::one(), L::zero());
+        at.set(STEEPNESS, share * steepness);
         for d in 0..D {
-            at.set_at(NORMAL, d, share * gradient[d] / length.max(least));
+            at.set_at(NORMAL, d, share * gradient[d] / steepness.max(least));
         }
     }
 }

@@ -1,6 +1,6 @@
 //! A thin sheet of rubber between two levels of water, two and three particles thick: thinner than the kernel of the water.
 //! Others let water see, push and leak through it. Here a train of impulses from the water shakes it, until it leaks: the
-//! cure is eight steps in one of the water's, and a viscosity of its own.
+//! remedy is eight steps in one of the water's, and a viscosity of its own.
 
 use super::harness::{Cures, Row, Varied, largest_share, lasting};
 use super::stretch_and_twist::rubber;
