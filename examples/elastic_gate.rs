@@ -72,11 +72,6 @@ impl Case {
         let shear = self.youngs / (2.0 * (1.0 + POISSON));
         Material::new("rubber", law).with_shear_modulus(shear)
     }
-    /// Stable steps of the gate in one of the water, from their speeds of sound and smoothing lengths.
-    fn steps(&self) -> u32 {
-        let wave = self.youngs * (1.0 - POISSON) / ((1.0 + POISSON) * (1.0 - 2.0 * POISSON));
-        ((wave / RUBBER).sqrt() / self.sound_speed * 1.3 / 0.8).max(1.0) as u32
-    }
     fn scene<T: Real>(&self) -> Scene<T, 2> {
         let dx = self.dx;
         let [width, depth] = WATER.map(|length| self.cells(length));
@@ -103,7 +98,10 @@ impl Case {
             .fix("gate", move |[_, y]| *y > root)
             // It swings in a gap.
             .between("gate", "tank", Interaction::None)
-            .sub_cycle("gate", self.steps())
+            .sub_cycle(
+                "gate",
+                common::stable_steps([self.youngs, POISSON, RUBBER], self.sound_speed),
+            )
             .acceleration(|_| [0.0, -GRAVITY])
     }
 }

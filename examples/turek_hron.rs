@@ -183,12 +183,6 @@ impl Case {
         (free, LENGTH / (free + 0.5))
     }
 
-    /// Stable steps of the beam in one of the water, from their speeds of sound and smoothing lengths.
-    fn steps(&self) -> u32 {
-        let wave = self.youngs * (1.0 - POISSON) / ((1.0 + POISSON) * (1.0 - 2.0 * POISSON));
-        ((wave / self.density).sqrt() / self.sound_speed * 1.3 / 0.8).max(1.0) as u32
-    }
-
     fn beam<T: Real>(&self) -> Body<T, 2> {
         let law = Linear::from_elastic_constants(self.density, self.youngs, POISSON);
         let shear = self.youngs / (2.0 * (1.0 + POISSON));
@@ -309,7 +303,10 @@ impl Case {
             .boundary(Periodic::along(0, low, high))
             .load(relax.on("water"))
             .fix("beam", |[x, _]| *x < ROOT + 1e-6)
-            .sub_cycle("beam", self.steps());
+            .sub_cycle(
+                "beam",
+                common::stable_steps([self.youngs, POISSON, self.density], self.sound_speed),
+            );
         if self.push {
             scene.load(push.on("beam"))
         } else {

@@ -32,6 +32,13 @@ pub type Failure = Box<dyn std::error::Error + Send + Sync>;
 /// What an example does with its options, in one precision.
 pub type Perform = fn(&Options) -> Result<(), Failure>;
 
+/// Stable steps of an elastic structure in one of the liquid around it, of the same spacing, from their speeds of sound and
+/// smoothing lengths, 0.8 dx and 1.3 dx. The structure has a Young's modulus \[Pa\], a Poisson ratio and a density \[kg/m³\].
+pub fn stable_steps([youngs, poisson, density]: [f64; 3], sound_speed: f64) -> u32 {
+    let modulus = youngs * (1.0 - poisson) / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
+    ((modulus / density).sqrt() / sound_speed * 1.3 / 0.8).max(1.0) as u32
+}
+
 /// Reads the command line, sets the threads, and runs the example in the precision asked for. Only examples in which single
 /// precision is of interest are given both: each takes as long to compile as the other.
 ///
