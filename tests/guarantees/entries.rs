@@ -1,72 +1,13 @@
 //! What an entry of a step is given: the sums of its own sweep, and the time.
 //! By effects of this file, with the published surface alone.
 
-use meshfree::effect::{
-    Chunk, During, Effect, Evolved, Law, Limit, Rate, Setting, StepProgram, Tally, View, When,
-};
+use super::filled::{FILLED, WHERE_DENSITIES_ARE};
+use meshfree::effect::{During, Effect, Evolved, Limit, Rate, Setting, StepProgram, View, When};
 use meshfree::integrator::{DriftKickDrift, Integrator, KickDriftKick};
 use meshfree::name;
-use meshfree::particles::{Field, Fields, Output, Outputs};
+use meshfree::particles::{Field, Fields, Outputs};
 use meshfree::prelude::*;
 use meshfree::scheme::DensityForm;
-use meshfree::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
-
-const FILLED: Field = Field::scalar(name!("filling", "1"));
-const FILLING: Output = Output::scalar(name!("filling", "1"));
-
-/// Σ V W, summed where densities are.
-#[derive(Clone, Copy, Debug)]
-struct Filled;
-
-impl<const D: usize> Term<D> for Filled {
-    const READS: Fields = Fields::of(&[Field::MASS, Field::DENSITY]);
-    const WRITES: Outputs = Outputs::of(&[FILLING]);
-    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let volume = pair.j(Field::MASS) / pair.j(Field::DENSITY);
-        sums.add(FILLING, volume * pair.w);
-    }
-    fn document(&self) -> TermDoc {
-        TermDoc {
-            name: "filling".into(),
-            equation: "Σ V W",
-            source: "a test",
-        }
-    }
-}
-
-impl<const D: usize> Effect<D> for Filled {
-    type Terms = (In<stage::Density, Self>,);
-    fn terms(&self, _setting: &Setting) -> Self::Terms {
-        (In::new(*self),)
-    }
-    fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
-        program.declare(FILLED, 0.0);
-        program.law(Stage::Density, *self);
-    }
-}
-
-impl<T: Real, const D: usize> Law<T, D> for Filled {
-    fn name(&self) -> &'static str {
-        "filling"
-    }
-    fn reads(&self) -> Fields {
-        Fields::NONE
-    }
-    fn sums(&self) -> Outputs {
-        Outputs::of(&[FILLING])
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&[FILLED])
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let sums = chunk.sum(FILLING);
-        let ([], [filled]) = chunk.columns([], [FILLED]);
-        for (n, filled) in filled.iter_mut().enumerate() {
-            *filled = sums.get(0, n);
-        }
-        Tally::default()
-    }
-}
 
 /// Two copper rods that meet at 200 m/s, and what becomes of them.
 fn impact(scheme: Scheme<f64, 1>) -> Simulation<f64, 1> {
@@ -85,7 +26,11 @@ fn impact(scheme: Scheme<f64, 1>) -> Simulation<f64, 1> {
 #[test]
 fn sums_at_the_densities_leave_contacts_alone() {
     let plain = impact(schemes::impact_by_continuity().compose());
-    let filled = impact(schemes::impact_by_continuity().with(Filled).compose());
+    let filled = impact(
+        schemes::impact_by_continuity()
+            .with(WHERE_DENSITIES_ARE)
+            .compose(),
+    );
     let velocities =
         |of: &Simulation<f64, 1>| of.all().map(|p| p.velocity()[0]).collect::<Vec<_>>();
     assert_eq!(velocities(&plain), velocities(&filled));

@@ -9,6 +9,7 @@ mod bits;
 mod causes;
 mod counted_work;
 mod entries;
+mod filled;
 mod filling;
 mod forces_of_laws;
 mod invariance;

@@ -1,6 +1,7 @@
 //! What a scheme says of itself is what it runs, and what the architecture page shows.
 //! The page holds the step programs of one liquid and one solid as the crate prints them.
 
+use super::filled::{FILLED, WHERE_GRADIENTS_ARE};
 use meshfree::effect::{
     BySum, Chunk, Damage, Effect, HourglassFree, Hypoelastic, Law, Setting, StepProgram,
     SurfaceTension, Tally,
@@ -554,70 +555,13 @@ fn the_driver_names_no_effect_and_effects_do_not_import_the_driver() {
     }
 }
 
-/// Σ V W at the stage of gradients, with which a scheme may have gradients of its own.
-#[derive(Clone, Copy, Debug)]
-struct Filled;
-
-const FILLED: Field = Field::scalar(name!("filling", "1"));
-const FILLING: Output = Output::scalar(name!("sum of volumes", "1"));
-
-impl<const D: usize> Term<D> for Filled {
-    const READS: Fields = Fields::of(&[Field::MASS, Field::DENSITY]);
-    const WRITES: Outputs = Outputs::of(&[FILLING]);
-    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        sums.add(
-            FILLING,
-            pair.j(Field::MASS) / pair.j(Field::DENSITY) * pair.w,
-        );
-    }
-    fn document(&self) -> TermDoc {
-        TermDoc {
-            name: "filling".into(),
-            equation: "Σ V W",
-            source: "a test",
-        }
-    }
-}
-
-impl<const D: usize> Effect<D> for Filled {
-    type Terms = (In<stage::Gradients, Self>,);
-    fn terms(&self, _setting: &Setting) -> Self::Terms {
-        (In::new(*self),)
-    }
-    fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
-        program.declare(FILLED, 0.0);
-        program.law(Stage::Gradients, *self);
-    }
-}
-
-impl<T: Real, const D: usize> Law<T, D> for Filled {
-    fn name(&self) -> &'static str {
-        "filling"
-    }
-    fn reads(&self) -> Fields {
-        Fields::NONE
-    }
-    fn sums(&self) -> Outputs {
-        Outputs::of(&[FILLING])
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&[FILLED])
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let filled = chunk.sum(FILLING);
-        let ([], [column]) = chunk.columns([], [FILLED]);
-        for (n, own) in column.iter_mut().enumerate() {
-            *own = filled.get(0, n);
-        }
-        Tally::default()
-    }
-}
-
 /// Schemes without and with gradients of their own take a term of an effect at their stage.
 #[test]
 fn a_term_of_an_effect_at_the_stage_of_gradients_is_summed() {
-    let plain: Scheme<f64, 2> = schemes::impact().with(Filled).compose();
-    let corrected: Scheme<f64, 2> = schemes::updated_lagrangian().with(Filled).compose();
+    let plain: Scheme<f64, 2> = schemes::impact().with(WHERE_GRADIENTS_ARE).compose();
+    let corrected: Scheme<f64, 2> = schemes::updated_lagrangian()
+        .with(WHERE_GRADIENTS_ARE)
+        .compose();
     for scheme in [plain, corrected] {
         let copper = catalogue::copper().with_shear_modulus(46e9);
         let block = Body::block("block", copper, [0.0; 2], [0.02, 0.02], 1e-3);
