@@ -132,10 +132,12 @@
 //! | a result of Lam, Shen & Gong (2002) to repeat | [`schemes::lam2002`] with [`LamLeapfrog`](integrator::LamLeapfrog), bodies bonded |
 //! | a liquid with a free surface, still or violent | [`schemes::weakly_compressible`] |
 //! | the same, violent and for long enough that particles leave their lattice unevenly | [`schemes::weakly_compressible`] with [`ExpansionMemory`](effect::ExpansionMemory) and [`Shifting::STANDARD`](effect::Shifting), in a plane [`ConsistentShifting`](effect::ConsistentShifting) |
+//! | the same, with what shifting carries exchanged between particles, so that no volume is lost | [`schemes::weakly_compressible`] with [`ExpansionMemory`](effect::ExpansionMemory) and [`ArbitraryLagrangian`](effect::ArbitraryLagrangian) |
 //! | the same, without a coefficient to choose | [`schemes::riemann_liquid`] |
 //! | two liquids, or a liquid and a gas | [`schemes::weakly_compressible`] with [`TwoPhase`](effect::TwoPhase), bodies bonded |
 //! | the same with surface tension between them | [`SchemeBuilder::liquid`](scheme::SchemeBuilder::liquid) with [`SurfaceTension`](effect::SurfaceTension) and a weak [transport velocity](scheme::Shifting::TransportVelocity), bodies bonded |
 //! | a liquid that fills what encloses it | [`schemes::weakly_compressible`] with [`Shifting::CLOSED`](scheme::Shifting::CLOSED) and [walls](effect::ExtrapolatedPressure) with a floor of −∞ |
+//! | the same on a lattice that stays where it is | [`schemes::weakly_compressible`] with [`Eulerian`](effect::Eulerian) |
 //! | a liquid in tension, as one that spins or is drawn out | [`schemes::weakly_compressible`] with [`Shifting::STANDARD`](scheme::Shifting::STANDARD), [`ArtificialPressure`](effect::ArtificialPressure) and [`PairingControl`](effect::PairingControl) |
 //! | a result of LS-DYNA to repeat | [`schemes::ls_dyna_default`], [`schemes::ls_dyna_fluid`] and their renormalised forms |
 //! | a gas | [`schemes::gas`]; where unlike gases touch or shear, with [`ArtificialConduction`](effect::ArtificialConduction) |

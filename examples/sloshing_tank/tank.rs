@@ -3,6 +3,7 @@
 
 use super::elastic;
 use super::pulse::{Pulse, STANDARD_GRAVITY};
+use meshfree::effect::ArbitraryLagrangian;
 use meshfree::error::{BuildError, Error, Problem};
 use meshfree::material::{Liquid, SoundSpeed};
 use meshfree::observe::PressureProbe;
@@ -29,12 +30,15 @@ const FEWEST: f64 = 4.0;
 /// The form whose particles lie as those of a liquid do: shifting, from a lattice that is displaced. From an even one layers of it
 /// stay at the struck wall. `ConsistentShifting` drives one particle in 25 into the walls in three dimensions.
 const EVEN: &str = "even";
+/// The same places at the start; particles exchange mass on their way.
+const ALE: &str = "ale";
 /// By how many spacings.
 const JITTER: f64 = 0.15;
 
 /// The forms of the scheme that can be compared.
-pub const SCHEMES: [&str; 10] = [
+pub const SCHEMES: [&str; 11] = [
     EVEN,
+    ALE,
     "standard",
     "riemann",
     "shifting",
@@ -192,7 +196,14 @@ impl Case {
         let gravity = [0.0, 0.0, -GRAVITY];
         let filled = [self.size[0], self.size[1], self.depth()];
         let water = Body::block("water", water, [0.0; 3], filled, self.spacing)
-            .jitter(if self.scheme == EVEN { JITTER } else { 0.0 }, 1)
+            .jitter(
+                if [EVEN, ALE].contains(&self.scheme.as_str()) {
+                    JITTER
+                } else {
+                    0.0
+                },
+                1,
+            )
             .hydrostatic(gravity, surface);
         let closed = [[true; 2]; 3];
         let tank = Wall::around("tank", [0.0; 3], self.size, self.spacing, LAYERS, closed)
@@ -239,6 +250,10 @@ impl Case {
             EVEN | "shifting" => standard
                 .with(ExpansionMemory)
                 .with(Shifting::STANDARD)
+                .compose(),
+            ALE => standard
+                .with(ExpansionMemory)
+                .with(ArbitraryLagrangian::<false>::default())
                 .compose(),
             "molteni" => standard
                 .density_diffusion(Molteni::default())

@@ -20,7 +20,8 @@ use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 /// neither: what it moves keeps its density.
 ///
 /// **For flow in a plane.** In a closed tank in three dimensions it drives water into the walls, one particle in 25 within 80 ms at
-/// 30 g ([sloshing](crate#pages)), for a reason that is not known yet: take [`Shifting::STANDARD`](super::Shifting::STANDARD) there.
+/// 30 g ([sloshing](crate#pages)). [`ArbitraryLagrangian`](super::ArbitraryLagrangian), where mass passes between particles instead, does
+/// not, nor does [`Shifting::STANDARD`](super::Shifting::STANDARD).
 ///
 /// **Free surface**, by the first moment of the neighbourhood over that of the lattice, which is ½ at a flat surface: below
 /// 0.95 the part of δu along Σ V ∇W, out of or into the liquid, fades, and is gone at 0.75; below 0.6 the rest
@@ -67,7 +68,7 @@ impl ConsistentShifting {
     pub const VELOCITY: Field = Field::vector(name!("shifting_velocity", "m/s"));
 }
 
-const SHIFT: Field = ConsistentShifting::VELOCITY;
+pub(super) const SHIFT: Field = ConsistentShifting::VELOCITY;
 /// Σⱼ Vⱼ (1 + 0.2 (W/W₀)⁴) ∇W \[1/m\].
 const CONCENTRATION: Output = Output::vector(name!("crowding", "1/m"));
 /// Σⱼ Vⱼ ∇W \[1/m\], out of the liquid.
@@ -175,7 +176,7 @@ impl<const D: usize> PointLaw<D> for ConsistentShifting {
 
 /// Moves particles by δu.
 #[derive(Clone, Copy, Debug)]
-struct Displace;
+pub(super) struct Displace;
 
 impl<const D: usize> PointLaw<D> for Displace {
     const NAME: &'static str = "consistent shifting";

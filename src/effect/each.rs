@@ -28,6 +28,8 @@ macro_rules! for_each_effect {
                 $crate::effect::ArtificialPressure::default(),
                 $crate::effect::PairingControl::default(),
                 $crate::effect::ConsistentShifting::default(),
+                $crate::effect::ArbitraryLagrangian::<false>::default(),
+                $crate::effect::Eulerian::<false>,
                 $crate::effect::TwoPhase::default(),
                 $crate::effect::SurfaceTension::between("oil", "water", 0.03),
                 $crate::effect::ExtrapolatedPressure::default(),

@@ -65,6 +65,8 @@ pub struct StepProgram<T: Real, const D: usize> {
     pub(crate) requirements: Vec<Requirement<T>>,
     pub(crate) step_factor: f64,
     pub(crate) wall_normals: bool,
+    /// Whether particles move with their velocities.
+    pub(crate) moves: bool,
     /// Fields of energy over mass that is stored, and of what has been dissipated.
     pub(crate) stored: Vec<Field>,
     pub(crate) dissipated: Vec<Field>,
@@ -99,6 +101,7 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
             requirements: Vec::new(),
             step_factor: 1.0,
             wall_normals: false,
+            moves: true,
             stored: Vec::new(),
             dissipated: Vec::new(),
             books_energy: true,
@@ -195,6 +198,11 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
     /// Asks for the normals of walls in [`WallSurface`](crate::boundary::WallSurface).
     pub fn ask_for_wall_normals(&mut self) {
         self.wall_normals = true;
+    }
+
+    /// Holds particles in their places, whatever their velocities.
+    pub fn stay(&mut self) {
+        self.moves = false;
     }
 
     /// Asks for a column that keeps its values from step to step: nothing here writes it, or a law does for the step

@@ -65,11 +65,15 @@ impl<T: Real, const D: usize> Group<T, D> {
         ]);
         let (mass, density) = (&*mass, &*density);
         let (rest, moment) = (&*rest, &*moment);
+        // Liquids know nothing of their neighbourhood at rest.
+        let or = |column: &[T], slot: usize, own: T| column.get(slot).copied().unwrap_or(own);
+        let lattice = T::from_f64(self.scheme.lattice_consistency_factor);
         for_each(cut(weight, GRAIN), |piece, weight| {
             for (n, weight) in weight.iter_mut().enumerate() {
                 let slot = piece * GRAIN + n;
                 let sum = rates.get(Output::COMPRESSION, 0, slot);
-                let rate = form.compression(sum, density[slot], rest[slot], moment[slot]);
+                let [rest, moment] = [or(rest, slot, T::one()), or(moment, slot, lattice)];
+                let rate = form.compression(sum, density[slot], rest, moment);
                 *weight = mass[slot] / (density[slot] * (T::one() + dt * rate));
             }
         });

@@ -17,8 +17,11 @@ use crate::sweep::{Results, add_compensated};
 use std::ops::Range;
 
 impl<T: Real, const D: usize> Group<T, D> {
-    /// x ← x + dt v with v the present velocity.
+    /// x ← x + dt v with v the present velocity, where particles move.
     pub(super) fn move_particles(&mut self, dt: f64) {
+        if !self.scheme.program.moves {
+            return;
+        }
         let dt = T::from_f64(dt);
         let mobile = self.particles.mobile * D;
         let [x, residual, v] = self.particles.columns.many_mut([
@@ -33,6 +36,9 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// x ← x + da a with the accelerations of the last evaluation.
     pub(super) fn move_by_rates(&mut self, da: f64) {
+        if !self.scheme.program.moves {
+            return;
+        }
         let gravity = self.work.evaluated_gravity;
         let da = T::from_f64(da);
         let rates = &self.work.rates;

@@ -261,6 +261,8 @@ macro_rules! for_each_term {
             $crate::effect::SummedMass,
             $crate::effect::Crowding { over_kernel_at_spacing: 20.0 },
             $crate::effect::ShiftedContinuity,
+            $crate::effect::Exchange::<false, true>,
+            $crate::effect::Exchange::<true, true>,
             $crate::effect::TwoPhase::default(),
             $crate::effect::WithinPhase($crate::term::Fourtakas::default()),
             $crate::effect::ColourGradient,

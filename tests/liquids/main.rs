@@ -7,6 +7,7 @@ mod tank;
 
 mod across_boundaries;
 mod advice;
+mod arbitrary_lagrangian;
 mod dam_break;
 mod drops;
 mod drum;
