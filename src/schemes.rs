@@ -161,9 +161,9 @@ pub fn lam2002() -> SchemeBuilder<CubicSpline, MonaghanGingold> {
 /// | viscous flow without a surface | `.with_kernel(WendlandC4).h_over_dx(2.2)` | half the error of velocities in less time |
 ///
 /// **Slow viscous flow under pressure** comes out too slow where p ≫ μ |∇v| + ρ v²: the pressure force hardens the lattice of
-/// particles against shear, vortices of Re 10 under 300 μ U k have 0.57 of their speed. [`ConsistentShifting`](crate::effect::ConsistentShifting)
-/// or [`Shifting::CLOSED`](crate::effect::Shifting::CLOSED) take a part of that away, [`Scene::advise`](crate::scene::Scene::advise) names the
-/// condition, and [hard cases](crate#pages) has numbers. A sound speed of ten times the flow is too low where viscosity makes the
+/// particles against shear, vortices of Re 10 under 300 μ U k have 0.57 of their speed. With
+/// [`PressureDifference`](crate::effect::PressureDifference) and [`ConsistentShifting`](crate::effect::ConsistentShifting) they have 1.02 of it
+/// under any pressure. [`Scene::advise`](crate::scene::Scene::advise) names the condition, and [hard cases](crate#pages) has numbers. A sound speed of ten times the flow is too low where viscosity makes the
 /// pressure, as in films; advice and the [verdict](crate::simulation::Thresholds::compression) name one that is not.
 ///
 /// Not h/dx 1.3, with which finer spacings make waves and pressure at rest worse. At 1.5 the front of a dam break is nearer than

@@ -28,6 +28,7 @@ macro_rules! for_each_effect {
                 $crate::effect::ArtificialPressure::default(),
                 $crate::effect::PairingControl::default(),
                 $crate::effect::ConsistentShifting::default(),
+                $crate::effect::PressureDifference,
                 $crate::effect::TwoPhase::default(),
                 $crate::effect::SurfaceTension::between("oil", "water", 0.03),
                 $crate::effect::ExtrapolatedPressure::default(),

@@ -65,6 +65,8 @@ pub struct StepProgram<T: Real, const D: usize> {
     pub(crate) requirements: Vec<Requirement<T>>,
     pub(crate) step_factor: f64,
     pub(crate) wall_normals: bool,
+    /// Fields of rigid bodies that are walls: of which the smallest is taken, and which it is written to.
+    pub(crate) least_on_rigid: Vec<[Field; 2]>,
     /// Fields of energy over mass that is stored, and of what has been dissipated.
     pub(crate) stored: Vec<Field>,
     pub(crate) dissipated: Vec<Field>,
@@ -99,6 +101,7 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
             requirements: Vec::new(),
             step_factor: 1.0,
             wall_normals: false,
+            least_on_rigid: Vec::new(),
             stored: Vec::new(),
             dissipated: Vec::new(),
             books_energy: true,
@@ -195,6 +198,13 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
     /// Asks for the normals of walls in [`WallSurface`](crate::boundary::WallSurface).
     pub fn ask_for_wall_normals(&mut self) {
         self.wall_normals = true;
+    }
+
+    /// Writes to every particle of a [rigid body](crate::scene::Scene::rigid) that liquid meets as a wall the smallest value that a
+    /// field has on those of them that liquid reaches, after the laws of walls: a number of the whole body, which no law can find.
+    pub fn least_on_rigid_bodies(&mut self, of: Field, to: Field) {
+        self.needed = self.needed.union(Fields::of(&[of, to]));
+        self.least_on_rigid.push([of, to]);
     }
 
     /// Asks for a column that keeps its values from step to step: nothing here writes it, or a law does for the step

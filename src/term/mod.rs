@@ -261,6 +261,7 @@ macro_rules! for_each_term {
             $crate::effect::SummedMass,
             $crate::effect::Crowding { over_kernel_at_spacing: 20.0 },
             $crate::effect::ShiftedContinuity,
+            $crate::effect::PressureSlope,
             $crate::effect::TwoPhase::default(),
             $crate::effect::WithinPhase($crate::term::Fourtakas::default()),
             $crate::effect::ColourGradient,
