@@ -158,6 +158,7 @@ pub fn lam2002() -> SchemeBuilder<CubicSpline, MonaghanGingold> {
 /// | sound, water hammer | `.density_diffusion(Antuono::default())` | waves lose a fifteenth of what they lose without; half as many pairs again |
 /// | water that stays at rest, a front on a dry bed | `.with_kernel(CubicSpline).h_over_dx(1.2)` | the same error in a third of the time; waves lose three times as much |
 /// | waves | `.h_over_dx(2.0)` and α = 0.005 | crests lose less than half, in the same time |
+/// | waves, from crest to crest | `.renormalised()` and α = 0.005 | on 40 particles a wavelength crests keep their height within 0.4 % a period, where they lose 6 %; a sweep more |
 /// | viscous flow without a surface | `.with_kernel(WendlandC4).h_over_dx(2.2)` | half the error of velocities in less time |
 ///
 /// **Slow viscous flow under pressure** comes out too slow where p ≫ μ |∇v| + ρ v²: the pressure force hardens the lattice of
