@@ -122,6 +122,7 @@ fn program<const D: usize, E: Effects<D>>(list: &E, setting: &Setting) -> Vec<St
         format!("{:?} {:?}", program.evolved, program.pending.len()),
         format!("{:?} {:?}", program.ledger, program.documents),
         format!("{:?} {}", program.step_factor, program.wall_normals),
+        format!("{:?} {}", program.least_on_rigid, program.moves),
         format!("{}", program.requirements.len()),
     ];
     let laws = program.laws.iter().flatten();

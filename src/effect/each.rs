@@ -30,6 +30,7 @@ macro_rules! for_each_effect {
                 $crate::effect::ConsistentShifting::default(),
                 $crate::effect::ArbitraryLagrangian::<false>::default(),
                 $crate::effect::Eulerian::<false>,
+                $crate::effect::PressureDifference,
                 $crate::effect::TwoPhase::default(),
                 $crate::effect::SurfaceTension::between("oil", "water", 0.03),
                 $crate::effect::ExtrapolatedPressure::default(),

@@ -64,6 +64,7 @@ mod pairing_control;
 mod plane_stress;
 mod plasticity;
 mod point;
+mod pressure_difference;
 mod program;
 mod radial_return;
 #[cfg(test)]
@@ -120,6 +121,7 @@ pub use pairing_control::{NearPairs, PairingControl};
 pub use plane_stress::PlaneStress;
 pub use plasticity::Plasticity;
 pub use point::{CONSTANTS, Point, PointLaw, PointLimit, PointRate, Reach};
+pub use pressure_difference::{PressureDifference, PressureSlope};
 pub use program::{LedgerColumn, Requirement, SceneFacts, StepProgram};
 pub use renormalised_hypoelastic::RenormalisedHypoelastic;
 pub use sequence::Rung;

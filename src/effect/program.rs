@@ -67,6 +67,8 @@ pub struct StepProgram<T: Real, const D: usize> {
     pub(crate) wall_normals: bool,
     /// Whether particles move with their velocities.
     pub(crate) moves: bool,
+    /// Fields of rigid bodies that are walls: of which the smallest is taken, and which it is written to.
+    pub(crate) least_on_rigid: Vec<[Field; 2]>,
     /// Fields of energy over mass that is stored, and of what has been dissipated.
     pub(crate) stored: Vec<Field>,
     pub(crate) dissipated: Vec<Field>,
@@ -102,6 +104,7 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
             step_factor: 1.0,
             wall_normals: false,
             moves: true,
+            least_on_rigid: Vec::new(),
             stored: Vec::new(),
             dissipated: Vec::new(),
             books_energy: true,
@@ -203,6 +206,13 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
     /// Holds particles in their places, whatever their velocities.
     pub fn stay(&mut self) {
         self.moves = false;
+    }
+
+    /// Writes to every particle of a [rigid body](crate::scene::Scene::rigid) that liquid meets as a wall the smallest value that a
+    /// field has on those of them that liquid reaches, after the laws of walls: a number of the whole body, which no law can find.
+    pub fn least_on_rigid_bodies(&mut self, of: Field, to: Field) {
+        self.needed = self.needed.union(Fields::of(&[of, to]));
+        self.least_on_rigid.push([of, to]);
     }
 
     /// Asks for a column that keeps its values from step to step: nothing here writes it, or a law does for the step

@@ -252,6 +252,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                         },
                         before: vec![[0.0; D]; apart.unwrap_or(0)],
                         evaluated: f64::NAN,
+                        rigid: self.scene.rigid.contains(&solid.name),
                     }),
                 )
             }

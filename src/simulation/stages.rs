@@ -7,7 +7,7 @@ use crate::boundary::WallSurface;
 use crate::clock::Instant;
 use crate::effect::{Around, Chunk, Law, MOST_LAWS, Slices};
 use crate::parallel::GRAIN;
-use crate::particles::Field;
+use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::scheme::Scheme;
 use crate::sweep::{PairSweep, Pass, SweepInput};
@@ -254,6 +254,27 @@ impl<T: Real, const D: usize> Group<T, D> {
         let spent = &mut self.work.spent.laws[Stage::Walls.number()];
         for (own, outcome) in spent.iter_mut().zip(&outcomes) {
             *own += outcome.time;
+        }
+        for own in &scheme.program.least_on_rigid {
+            self.find_least_on_rigid(*own);
+        }
+    }
+
+    /// Writes the smallest value of a field on wet particles of each rigid body to another field of all of its particles.
+    fn find_least_on_rigid(&mut self, [of, to]: [Field; 2]) {
+        let sums = &self.work.sums;
+        let [from, least] = self.particles.columns.many_mut([of, to]);
+        for wall in &self.walls {
+            if !wall.structure.as_ref().is_some_and(|own| own.rigid) {
+                continue;
+            }
+            // Liquid reaches those whose sums of it are not empty.
+            let wet = wall
+                .slots
+                .clone()
+                .filter(|slot| sums.get(Output::UNITY, 0, *slot) > T::zero());
+            let smallest = wet.map(|slot| from[slot]).reduce(T::min);
+            least[wall.slots.start..wall.end].fill(smallest.unwrap_or_else(T::zero));
         }
     }
 

@@ -53,6 +53,8 @@ pub(crate) struct Structure<T, const D: usize> {
     pub before: Vec<[f64; D]>,
     /// The time \[s\] of that evaluation; no number before the first.
     pub evaluated: f64,
+    /// Whether it moves as a rigid body.
+    pub rigid: bool,
 }
 
 impl<T: Real, const D: usize> WallState<T, D> {

@@ -263,6 +263,7 @@ macro_rules! for_each_term {
             $crate::effect::ShiftedContinuity,
             $crate::effect::Exchange::<false, true>,
             $crate::effect::Exchange::<true, true>,
+            $crate::effect::PressureSlope,
             $crate::effect::TwoPhase::default(),
             $crate::effect::WithinPhase($crate::term::Fourtakas::default()),
             $crate::effect::ColourGradient,

@@ -11,7 +11,7 @@ use meshfree::scene::Start;
 use meshfree::scheme::Shifting;
 use meshfree::study::channel::{Couette, Poiseuille, PowerLawPoiseuille};
 use meshfree::study::taylor_green::TaylorGreen;
-use meshfree::term::viscosity::Inviscid;
+use meshfree::term::viscosity::{Inviscid, MonaghanGingold};
 use meshfree::term::{
     Antuono, CentralViscosity, Fourtakas, LaminarViscosity, Molteni, PressureForce,
 };
@@ -67,6 +67,21 @@ fn a_standing_wave_keeps_its_period() {
     assert!((plain[0] - 1.0).abs() < 0.005, "{text}");
     assert!((riemann_walls[0] - 1.0).abs() < 0.005, "{text}");
     assert!((renormalised[0] - 1.0).abs() < 0.01, "{text}");
+}
+
+/// 40 particles a wavelength: corrected gradients keep the height of a wave within 1 % a period, from which the artificial viscosity
+/// of the control alone takes more.
+#[test]
+fn a_standing_wave_keeps_its_height_with_corrected_gradients() {
+    let viscosity = |alpha| MonaghanGingold { alpha, beta: 0.0 };
+    let scheme = || schemes::weakly_compressible();
+    let [period, crest] = swings(scheme().with_viscosity(viscosity(0.005)).renormalised());
+    let [_, control] = swings(scheme());
+    let text = format!("period {period}, second crest {crest}, control {control}");
+    println!("{text}");
+    assert!((crest - 1.0).abs() < 0.01, "{text}");
+    assert!((period - 1.0).abs() < 0.01, "{text}");
+    assert!(control < 0.96, "{text}");
 }
 
 const WIDTH: f64 = 1e-3;

@@ -97,7 +97,7 @@ scales! {
         Skip "viscous pressure compresses the liquid by less than 1 %", below 0.01;
         Optional "viscous pressure compresses the liquid by 1 to 3 %, and forces are low by some per cent", below 0.03;
         => Impossible "viscous pressure compresses the liquid, and forces come out far too low";
-    UNDER_PRESSURE "shifting", "p/(mu U/L + rho U2)":
+    UNDER_PRESSURE "pressure by differences", "p/(mu U/L + rho U2)":
         Skip "pressure is of the order of the stresses of the flow", below 3.0;
         Optional "pressure hardens the lattice of particles against shear: slow viscous flow comes out slower by 10 to 20 %", below 30.0;
         => Recommend "pressure hardens the lattice of particles against shear: slow viscous flow comes out at about half of its speed";

@@ -42,7 +42,7 @@
 //! | viscosity, against that of the scheme | (α h c/10)/ν | Re ≥ 10⁴ | impossible ≥ 1 |
 //! | no-slip walls | U dx/ν | ≥ 50 | < 10 |
 //! | sound speed above that of viscous pressure | p_v/(ρ c²), p_v of lubrication theory: 1.5 μ V L²/h³ of a film that plates close with V, 12 μ U L/h² of a gap with [`Known::gap`] and [`Known::speed`] | < 0.01 | impossible ≥ 0.03 |
-//! | shifting, in slow viscous flow (Re < 10³) | p/(μ U/L + ρ U²) | < 3 | recommended ≥ 30 |
+//! | pressure by differences, in slow viscous flow (Re < 10³) | p/(μ U/L + ρ U²) | < 3 | recommended ≥ 30 |
 //! | gravity | U/√(g L), or a/g | ≥ 10 | < 10 |
 //! | surface tension | ρ U² L/σ; ρ a L²/σ | ≥ 10³ | < 100; < 10 |
 //! | two-way coupling | 0.014 (ρ U²/E)(L/t)³ | < 10⁻³ | ≥ 10⁻² |

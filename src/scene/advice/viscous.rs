@@ -6,6 +6,7 @@ use super::liquids::Flow;
 use super::measures::{Measures, extents};
 use super::{Advice, Known, Need};
 use crate::boundary::Slip;
+use crate::effect::{PointLaw, PressureDifference};
 use crate::material::SoundSpeed;
 use crate::particles::Field;
 use crate::scalar::Real;
@@ -152,15 +153,15 @@ impl<T: Real, const D: usize> Scene<T, D> {
         let heads = extents(body).into_iter().zip(&measures.pull);
         let head = heads.map(|(size, a)| flow.density * size * a).sum::<f64>();
         let stresses = mu * flow.speed / length + flow.density * flow.speed.powi(2);
-        let laws = part.scheme.program.laws.iter().flatten();
-        let shifts = laws
-            .map(|law| law.name())
-            .any(|name| name.contains("shifting"));
-        let line = UNDER_PRESSURE.line(&body.name, start.max(head) / stresses, Some(shifts));
+        let mut laws = part.scheme.program.laws.iter().flatten();
+        let name = <PressureDifference as PointLaw<D>>::NAME;
+        let by_differences = laws.any(|law| law.name() == name);
+        let line =
+            UNDER_PRESSURE.line(&body.name, start.max(head) / stresses, Some(by_differences));
         advice.add(if line.need == Need::Skip {
             line
         } else {
-            line.because("ConsistentShifting, strength 0.1, takes a part of that away")
+            line.because("PressureDifference with ConsistentShifting does away with it where no free surface is near")
         });
     }
 }

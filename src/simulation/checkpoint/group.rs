@@ -52,6 +52,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                     spins: _,
                     before,
                     evaluated,
+                    rigid: _,
                 } = structure;
                 let numbers = accelerations.as_flattened();
                 file.put(format!("{name}/wall{k}/accelerations"), D, numbers);
