@@ -159,6 +159,7 @@ impl<const D: usize> Effect<D> for OwnTerm {
 }
 
 impl<const D: usize> Term<D> for OwnTerm {
+    const NAME: &'static str = "tests::own_term";
     const READS: Fields = Fields::of(&[OWN]);
     const WRITES: Outputs = Outputs::of(&[SUM]);
     #[inline(always)]
