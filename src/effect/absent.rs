@@ -122,7 +122,7 @@ fn program<const D: usize, E: Effects<D>>(list: &E, setting: &Setting) -> Vec<St
         format!("{:?}", program.declared),
         format!("{:?} {:?}", program.evolved, program.pending.len()),
         format!("{:?} {:?}", program.ledger, program.documents),
-        format!("{:?} {}", program.step_factor, program.wall_normals),
+        format!("{:?} {}", program.step_factor(), program.wall_normals),
         format!("{}", program.requirements.len()),
     ];
     let laws = program.laws.iter().flatten();

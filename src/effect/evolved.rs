@@ -135,6 +135,10 @@ pub trait Rate<T: Real, const D: usize>: Debug + Send + Sync {
     fn growth(&self, _at: &View<'_, T, D>, _first: usize, _present: &[T], _growth: &mut [T]) {}
     /// Adds s, `components` numbers a particle from slot `first` on.
     fn source(&self, at: &View<'_, T, D>, first: usize, source: &mut [T]);
+    /// What the parts of a rate are ordered by, before their debug text: the name of the type.
+    fn name(&self) -> &'static str {
+        core::any::type_name::<Self>()
+    }
     /// Its record, if it is lane text.
     #[cfg(test)]
     fn record(&self, _view: &View<'_, T, D>) -> Option<super::recorded::Recorded> {
@@ -245,6 +249,11 @@ impl<T: Real, const D: usize> Evolved<T, D> {
             residual: T::COMPENSATED.then_some(residual),
             ..self
         }
+    }
+    /// Whether its rate reads another field, which changes at the same time, as it is before that.
+    pub(crate) fn precedes(&self, other: &Self) -> bool {
+        let reads = |rate: &Box<dyn Rate<T, D>>| rate.reads().contains(other.field);
+        self.field != other.field && self.when == other.when && self.rates.iter().any(reads)
     }
     /// With a part of its rate.
     #[must_use]

@@ -90,7 +90,8 @@ impl<const D: usize> Effects<D> for () {
 }
 
 impl<const D: usize, A: Effects<D>, B: Effect<D>> Effects<D> for (A, B) {
-    type At<S: StageMarker<D>> = <A::At<S> as TermList<D>>::Then<<B::Terms as StagedTerms<D>>::At<S>>;
+    type At<S: StageMarker<D>> =
+        <A::At<S> as TermList<D>>::Then<<B::Terms as StagedTerms<D>>::At<S>>;
     const READS: Fields = A::READS
         .union(B::NEEDS)
         .union(<B::Terms as StagedTerms<D>>::READS);

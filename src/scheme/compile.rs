@@ -125,7 +125,7 @@ impl<K, V, W, E> SchemeBuilder<K, V, W, E> {
             energy: own.energy,
             smoothing,
             h_over_dx: setting.h_over_dx,
-            step_factor: own.step_factor * program.step_factor,
+            step_factor: own.step_factor * program.step_factor(),
             consistent_at_rest: own.consistency == Consistency::AtRest,
             between: own.between,
             kernel_problems: crate::kernel::problems_of(&self.kernel),
