@@ -206,6 +206,9 @@ impl<T: Real, const D: usize> Rate<T, D> for ByField {
 }
 
 /// A field that is integrated in time.
+///
+/// Of fields that change together, one whose rate reads another changes before it; else they change in the order of their
+/// names. Where each reads the other the scheme is refused.
 #[derive(Debug)]
 pub struct Evolved<T: Real, const D: usize> {
     /// The field.

@@ -290,7 +290,7 @@ fn lists_in_other_orders_are_the_same_scheme() {
         [damping, volumes, diffusion, shift, viscous]
     };
     all_the_same::<1>(liquids, |scheme| {
-        let water = catalogue::weakly_compressible_water(1.0).with_viscosity(0.1);
+        let water = catalogue::weakly_compressible_water(1.0).with_dynamic_viscosity(0.1);
         let stretch = |[x]: [f64; 1], start| Start {
             velocity: [0.1 * (9.0 * x).sin()],
             ..start
@@ -376,7 +376,8 @@ fn lists_in_other_orders_are_refused_in_the_same_words() {
 #[test]
 fn two_terms_of_one_name_are_refused_by_both_names() {
     let (a, b) = (Adds::<1>(0.1), Adds::<1>(0.7));
-    let all = orders! { schemes::gas(); [Adds::<0>(0.3), a, b] [b, Adds::<0>(0.3), a] };
+    let all: [Scheme<f64, 1>; 2] =
+        orders! { schemes::gas(); [Adds::<0>(0.3), a, b] [b, Adds::<0>(0.3), a] };
     let [first, second] = all.map(|scheme| {
         let gas = Material::new("gas", IdealGas::new(1.4, 1.0));
         let gas = Body::block("gas", gas, [0.0], [1.0], 0.02).energy(2.5);
