@@ -25,6 +25,7 @@ impl<const D: usize, A: Clone + Debug + Send + Sync + 'static> Effect<D> for Abs
 struct AsOne<A>(A);
 
 impl<const D: usize, A: Terms<D>> Term<D> for AsOne<A> {
+    const NAME: &'static str = "meshfree::as_one";
     const READS: Fields = A::READS;
     const WRITES: Outputs = A::WRITES;
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
@@ -121,7 +122,7 @@ fn program<const D: usize, E: Effects<D>>(list: &E, setting: &Setting) -> Vec<St
         format!("{:?}", program.declared),
         format!("{:?} {:?}", program.evolved, program.pending.len()),
         format!("{:?} {:?}", program.ledger, program.documents),
-        format!("{:?} {}", program.step_factor, program.wall_normals),
+        format!("{:?} {}", program.step_factor(), program.wall_normals),
         format!("{:?} {}", program.least_on_rigid, program.moves),
         format!("{}", program.requirements.len()),
     ];

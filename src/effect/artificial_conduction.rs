@@ -114,6 +114,7 @@ impl<const D: usize> Effect<D> for ArtificialConduction {
 }
 
 impl<const D: usize> Term<D> for ArtificialConduction {
+    const NAME: &'static str = "meshfree::artificial_conduction";
     const READS: Fields = Fields::of(&[
         Field::VELOCITY,
         Field::MASS,

@@ -84,6 +84,7 @@ impl<const D: usize> Effect<D> for ArtificialPressure {
 }
 
 impl<const D: usize> Term<D> for TensionRepulsion {
+    const NAME: &'static str = "meshfree::tension_repulsion";
     const READS: Fields = Fields::of(&[Field::WEIGHT, Field::PRESSURE]);
     const WRITES: Outputs = Outputs::of(&[Output::FORCE]);
     #[inline(always)]

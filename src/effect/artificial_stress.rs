@@ -121,6 +121,7 @@ fn tensile_part<L: Lane>(stress: &Symmetric<L>) -> Symmetric<L> {
 }
 
 impl<const D: usize> Term<D> for Repulsion {
+    const NAME: &'static str = "meshfree::repulsion";
     const READS: Fields = Fields::of(&[
         TENSION,
         Field::MASS,

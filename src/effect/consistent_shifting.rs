@@ -201,6 +201,7 @@ pub struct Crowding {
 }
 
 impl<const D: usize> Term<D> for Crowding {
+    const NAME: &'static str = "meshfree::crowding";
     const READS: Fields = Fields::of(&[Field::WEIGHT]);
     const WRITES: Outputs = Outputs::of(&[CONCENTRATION, OUTWARDS, FULLNESS]);
     #[inline(always)]
@@ -231,6 +232,7 @@ impl<const D: usize> Term<D> for Crowding {
 pub struct ShiftedContinuity;
 
 impl<const D: usize> Term<D> for ShiftedContinuity {
+    const NAME: &'static str = "meshfree::shifted_continuity";
     const READS: Fields = Fields::of(&[Field::WEIGHT, Field::DENSITY, SHIFT]);
     const WRITES: Outputs = Outputs::of(&[RATE]);
     #[inline(always)]

@@ -135,6 +135,10 @@ pub trait Rate<T: Real, const D: usize>: Debug + Send + Sync {
     fn growth(&self, _at: &View<'_, T, D>, _first: usize, _present: &[T], _growth: &mut [T]) {}
     /// Adds s, `components` numbers a particle from slot `first` on.
     fn source(&self, at: &View<'_, T, D>, first: usize, source: &mut [T]);
+    /// What the parts of a rate are ordered by, before their debug text: the name of the type.
+    fn name(&self) -> &'static str {
+        core::any::type_name::<Self>()
+    }
     /// Its record, if it is lane text.
     #[cfg(test)]
     fn record(&self, _view: &View<'_, T, D>) -> Option<super::recorded::Recorded> {
@@ -202,6 +206,9 @@ impl<T: Real, const D: usize> Rate<T, D> for ByField {
 }
 
 /// A field that is integrated in time.
+///
+/// Of fields that change together, one whose rate reads another changes before it; else they change in the order of their
+/// names. Where each reads the other the scheme is refused.
 #[derive(Debug)]
 pub struct Evolved<T: Real, const D: usize> {
     /// The field.
@@ -245,6 +252,11 @@ impl<T: Real, const D: usize> Evolved<T, D> {
             residual: T::COMPENSATED.then_some(residual),
             ..self
         }
+    }
+    /// Whether its rate reads another field, which changes at the same time, as it is before that.
+    pub(crate) fn precedes(&self, other: &Self) -> bool {
+        let reads = |rate: &Box<dyn Rate<T, D>>| rate.reads().contains(other.field);
+        self.field != other.field && self.when == other.when && self.rates.iter().any(reads)
     }
     /// With a part of its rate.
     #[must_use]

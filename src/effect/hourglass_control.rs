@@ -72,6 +72,7 @@ impl<const D: usize> Effect<D> for HourglassControl {
 }
 
 impl<const D: usize> Term<D> for HourglassControl {
+    const NAME: &'static str = "meshfree::hourglass_control";
     const READS: Fields = Fields::of(&[
         Field::POSITION_RESIDUAL,
         Field::VELOCITY,

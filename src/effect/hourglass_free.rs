@@ -204,6 +204,7 @@ impl<T: Real, const D: usize> Law<T, D> for HourglassFree {
 }
 
 impl<const D: usize> Term<D> for VelocityMismatch {
+    const NAME: &'static str = "meshfree::velocity_mismatch";
     const READS: Fields = Fields::of(&[Field::VELOCITY, Field::MASS, Field::DENSITY, STIFFNESS]);
     const WRITES: Outputs = Outputs::of(&[DIFFERENCE, CENTRE]);
     const TENSILE: Fields = Fields::of(&[STIFFNESS]);
@@ -228,6 +229,7 @@ impl<const D: usize> Term<D> for VelocityMismatch {
 }
 
 impl<const D: usize> Term<D> for HourglassFree {
+    const NAME: &'static str = "meshfree::hourglass_free";
     const READS: Fields = Fields::of(&[
         MISMATCH,
         STIFFNESS,

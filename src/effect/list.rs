@@ -5,7 +5,7 @@ use super::{Setting, Smoothing, StepProgram};
 use crate::particles::{Field, Fields};
 use crate::scalar::Real;
 use crate::sweep::SmoothingMode;
-use crate::term::{StageMarker, StagedTerms, Terms, stage};
+use crate::term::{StageMarker, StagedTerms, TermList, Terms, stage};
 use core::fmt::Debug;
 
 /// A physical or numerical effect: its pair terms, and what it does to single particles.
@@ -48,7 +48,7 @@ pub trait Effect<const D: usize>: Clone + Debug + Send + Sync + 'static {
 /// A list of effects.
 pub trait Effects<const D: usize>: Clone + Debug + Send + Sync + 'static {
     /// The pair terms of a stage.
-    type At<S: StageMarker<D>>: Terms<D>;
+    type At<S: StageMarker<D>>: TermList<D>;
     /// What terms and laws read.
     const READS: Fields;
     /// The modes of loops that their smoothing may ask for.
@@ -90,7 +90,8 @@ impl<const D: usize> Effects<D> for () {
 }
 
 impl<const D: usize, A: Effects<D>, B: Effect<D>> Effects<D> for (A, B) {
-    type At<S: StageMarker<D>> = <A::At<S> as Terms<D>>::Then<<B::Terms as StagedTerms<D>>::At<S>>;
+    type At<S: StageMarker<D>> =
+        <A::At<S> as TermList<D>>::Then<<B::Terms as StagedTerms<D>>::At<S>>;
     const READS: Fields = A::READS
         .union(B::NEEDS)
         .union(<B::Terms as StagedTerms<D>>::READS);

@@ -25,6 +25,7 @@ pub(super) const RATE: Output = Output::scalar(name!("density_rate_of_exchange",
 pub struct Exchange<const STILL: bool, const HEAT: bool>;
 
 impl<const D: usize, const STILL: bool, const HEAT: bool> Term<D> for Exchange<STILL, HEAT> {
+    const NAME: &'static str = "meshfree::exchange_of_mass";
     const READS: Fields = {
         let all = Fields::of(&[Field::WEIGHT, Field::DENSITY, Field::VELOCITY]);
         let all = if STILL {

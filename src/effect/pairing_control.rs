@@ -96,6 +96,7 @@ impl<const D: usize> PointLaw<D> for PairingControl {
 }
 
 impl<const D: usize> Term<D> for NearPairs {
+    const NAME: &'static str = "meshfree::near_pairs";
     const READS: Fields = Fields::of(&[Field::WEIGHT]);
     const WRITES: Outputs = Outputs::of(&[NEAR]);
     #[inline(always)]

@@ -63,7 +63,7 @@ pub struct StepProgram<T: Real, const D: usize> {
     pub(crate) ledger: Vec<LedgerColumn>,
     pub(crate) documents: Vec<TermDoc>,
     pub(crate) requirements: Vec<Requirement<T>>,
-    pub(crate) step_factor: f64,
+    step_factors: Vec<f64>,
     pub(crate) wall_normals: bool,
     /// Whether particles move with their velocities.
     pub(crate) moves: bool,
@@ -101,7 +101,7 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
             ledger: Vec::new(),
             documents: Vec::new(),
             requirements: Vec::new(),
-            step_factor: 1.0,
+            step_factors: Vec::new(),
             wall_normals: false,
             moves: true,
             least_on_rigid: Vec::new(),
@@ -159,7 +159,12 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
 
     /// Multiplies the step factor, for what lowers the stable step by a known share.
     pub fn shorten_step(&mut self, factor: f64) {
-        self.step_factor *= factor;
+        self.step_factors.push(factor);
+    }
+
+    /// The product of the shares by which the step is shortened.
+    pub(crate) fn step_factor(&self) -> f64 {
+        self.step_factors.iter().product()
     }
 
     /// Keeps the sum of a scalar field over every body in the ledger, as [`Budget::totals`].
@@ -307,15 +312,14 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
         self.cannot_set(field, components)
     }
 
-    /// The fields of the state other than position and velocity, each once, in the order of declaration.
-    pub(crate) fn state(&self) -> impl Iterator<Item = Field> {
+    /// The fields of the state other than position and velocity, each once, in the order of their names.
+    pub(crate) fn state(&self) -> impl Iterator<Item = Field> + use<T, D> {
         let declared = self.declared.iter().map(|own| own.field);
-        let all: Vec<_> = declared
-            .chain(self.evolved.iter().map(|own| own.field))
-            .collect();
-        let first = |k: &usize| !all[..*k].contains(&all[*k]);
-        let kept: Vec<_> = (0..all.len()).filter(first).map(|k| all[k]).collect();
-        kept.into_iter()
+        let evolved = self.evolved.iter().map(|own| own.field);
+        let mut all: Vec<Field> = declared.chain(evolved).collect();
+        all.sort_by_key(|field| field.full_name());
+        all.dedup();
+        all.into_iter()
     }
 
     /// The order of the laws of a stage, as indices of those that there are.
@@ -324,9 +328,12 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
         sequence(laws, stage, &|field| self.name_of(field))
     }
 
-    /// Puts the laws of every stage into their order; those without one stay as they are, and the scheme is refused.
+    /// Puts all that effects have said into an order that does not depend on that of their list. Laws and evolved fields that
+    /// have none stand by their names, and the scheme is refused.
     pub(crate) fn arrange(&mut self) {
         for stage in Stage::ALL {
+            let laws = &mut self.laws[stage.number()];
+            laws.sort_by_cached_key(|law| (law.name(), format!("{law:?}")));
             let Ok(order) = self.sequence(stage) else {
                 continue;
             };
@@ -339,8 +346,56 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
         let is_clear = |field: &Field| field.name_among(fields.iter()) == field.name();
         let clear: Vec<Field> = fields.iter().filter(is_clear).collect();
         self.namesakes = fields.minus(Fields::of(&clear));
+        self.arrange_evolved();
+        self.pending.sort_by_key(|(field, _)| field.full_name());
+        self.declared.sort_by(|a, b| {
+            let names = a.field.full_name().cmp(b.field.full_name());
+            names.then(a.start.total_cmp(&b.start))
+        });
         // Of limits that ask for the same step the first is named.
         self.limits.sort_by_key(|limit| limit.name());
+        self.ledger.sort_by_cached_key(|own| format!("{own:?}"));
+        self.documents.sort_by_cached_key(|own| format!("{own:?}"));
+        self.stored.sort_by_key(|field| field.full_name());
+        self.dissipated.sort_by_key(|field| field.full_name());
+        self.step_factors.sort_by(f64::total_cmp);
+    }
+
+    /// A field whose rate reads another stands before it, so that it sees the value of before; fields stand by their names else.
+    fn arrange_evolved(&mut self) {
+        let mut left = core::mem::take(&mut self.evolved);
+        for own in &mut left {
+            let rates = &mut own.rates;
+            rates.sort_by_cached_key(|rate| (rate.name(), format!("{rate:?}")));
+        }
+        left.sort_by_cached_key(|own| (own.field.full_name(), format!("{own:?}")));
+        while !left.is_empty() {
+            let is_first = |own: &Evolved<T, D>| !left.iter().any(|other| other.precedes(own));
+            let at = left.iter().position(is_first).unwrap_or(0);
+            self.evolved.push(left.remove(at));
+        }
+    }
+
+    /// Puts all that effects have said into another order, as another list of effects does, and then into its own again.
+    pub(crate) fn permute(&mut self, mut seed: u64) {
+        let seed = &mut seed;
+        for laws in &mut self.laws {
+            shuffle(laws, seed);
+        }
+        for own in &mut self.evolved {
+            shuffle(&mut own.rates, seed);
+        }
+        shuffle(&mut self.evolved, seed);
+        shuffle(&mut self.pending, seed);
+        shuffle(&mut self.declared, seed);
+        shuffle(&mut self.limits, seed);
+        shuffle(&mut self.ledger, seed);
+        shuffle(&mut self.documents, seed);
+        shuffle(&mut self.requirements, seed);
+        shuffle(&mut self.stored, seed);
+        shuffle(&mut self.dissipated, seed);
+        shuffle(&mut self.step_factors, seed);
+        self.arrange();
     }
 
     /// The name of a field in files and messages: the full one if another field of the program has the same name.
@@ -349,5 +404,13 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
             return field.full_name();
         }
         field.name()
+    }
+}
+
+fn shuffle<X>(all: &mut [X], seed: &mut u64) {
+    for k in (1..all.len()).rev() {
+        // Knuth's generator of 64 bits, of which the high ones are random.
+        *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        all.swap(k, (*seed >> 33) as usize % (k + 1));
     }
 }

@@ -43,6 +43,7 @@ impl<const D: usize> Effect<D> for RenormalisedHypoelastic {
 }
 
 impl<const D: usize> Term<D> for RenormalisedHypoelastic {
+    const NAME: &'static str = "meshfree::renormalised_hypoelastic";
     const READS: Fields = Fields::of(&[STRESS, Field::MASS, Field::DENSITY, Field::CORRECTION]);
     const WRITES: Outputs = Outputs::of(&[Output::FORCE]);
     #[inline(always)]

@@ -153,6 +153,7 @@ impl<const D: usize> PointLaw<D> for Colours {
 pub struct ColourGradient;
 
 impl<const D: usize> Term<D> for ColourGradient {
+    const NAME: &'static str = "meshfree::colour_gradient";
     const READS: Fields = Fields::of(&[COLOUR, Field::MASS, Field::DENSITY]);
     const WRITES: Outputs = Outputs::of(&[GRADIENT]);
     #[inline(always)]
@@ -206,6 +207,7 @@ impl<const D: usize> PointLaw<D> for Normals {
 pub struct InterfaceCurvature;
 
 impl<const D: usize> Term<D> for InterfaceCurvature {
+    const NAME: &'static str = "meshfree::interface_curvature";
     const READS: Fields = Fields::of(&[NORMAL, STEEPNESS, Field::MASS, Field::DENSITY]);
     const WRITES: Outputs = Outputs::of(&[TURN, SPAN]);
     #[inline(always)]

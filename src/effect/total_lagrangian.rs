@@ -116,6 +116,7 @@ const LOCKED: f64 = 0.495;
 pub struct ReferenceMoment;
 
 impl<const D: usize> Term<D> for ReferenceMoment {
+    const NAME: &'static str = "meshfree::reference_moment";
     const READS: Fields = Fields::of(&[Field::REFERENCE_POSITION, Field::WEIGHT]);
     const WRITES: Outputs = Outputs::of(&[Output::MOMENT_MATRIX]);
     #[inline(always)]
@@ -143,6 +144,7 @@ impl<const D: usize> Term<D> for ReferenceMoment {
 pub struct DisplacementGradient;
 
 impl<const D: usize> Term<D> for DisplacementGradient {
+    const NAME: &'static str = "meshfree::displacement_gradient";
     const READS: Fields = Fields::of(&[
         Field::POSITION_RESIDUAL,
         Field::REFERENCE_POSITION,
@@ -175,6 +177,7 @@ impl<const D: usize> Term<D> for DisplacementGradient {
 pub struct StressForce;
 
 impl<const D: usize> Term<D> for StressForce {
+    const NAME: &'static str = "meshfree::stress_force";
     const READS: Fields = Fields::of(&[
         Field::POSITION_RESIDUAL,
         Field::REFERENCE_POSITION,

@@ -122,6 +122,7 @@ fn alike<L: Lane, const D: usize, P: Layout>(pair: &Pair<'_, L, D, P>) -> L::Mas
 }
 
 impl<const D: usize> Term<D> for TwoPhase {
+    const NAME: &'static str = "meshfree::two_phase";
     const READS: Fields = Fields::of(&[Field::WEIGHT, Field::PRESSURE, PHASE]);
     const WRITES: Outputs = Outputs::of(&[Output::FORCE]);
     #[inline(always)]
@@ -149,6 +150,7 @@ impl<const D: usize> Term<D> for TwoPhase {
 pub struct WithinPhase<X>(pub X);
 
 impl<const D: usize, X: Term<D>> Term<D> for WithinPhase<X> {
+    const NAME: &'static str = X::NAME;
     const READS: Fields = X::READS.union(Fields::of(&[PHASE]));
     const WRITES: Outputs = X::WRITES;
     const TENSILE: Fields = X::TENSILE;

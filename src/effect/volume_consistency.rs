@@ -49,6 +49,7 @@ const SUMMED: Output = Output::scalar(name!("summed_density", "kg/m³"));
 pub struct SummedMass;
 
 impl<const D: usize> Term<D> for SummedMass {
+    const NAME: &'static str = "meshfree::summed_mass";
     const READS: Fields = Fields::of(&[Field::POSITION_RESIDUAL, Field::MASS]);
     const WRITES: Outputs = Outputs::of(&[SUMMED]);
     #[inline(always)]

@@ -160,6 +160,7 @@ const BEFORE: Output = Output::vector(name!("liquid_velocity_before_wall", "m/s"
 pub struct VelocityBeforeWall;
 
 impl<const D: usize> Term<D> for VelocityBeforeWall {
+    const NAME: &'static str = "meshfree::velocity_before_wall";
     const READS: Fields = Fields::of(&[Field::MASS, Field::DENSITY, Field::VELOCITY]);
     const WRITES: Outputs = Outputs::of(&[BEFORE]);
     #[inline(always)]

@@ -13,8 +13,8 @@ use crate::particles::{Field, Fields};
 use crate::scalar::Real;
 use crate::sweep::{FusedKernel, PairSweep, SmoothingMode};
 use crate::term::{
-    ArtificialViscosity, KernelMoment, KernelSum, SlopeInH, Stage, StageMarker, StagedTerms, Terms,
-    Unity, Viscosity, stage,
+    ArtificialViscosity, ByName, Join, KernelMoment, KernelSum, SlopeInH, Stage, StageMarker,
+    StagedTerms, Terms, Unity, Viscosity, stage,
 };
 
 impl<K, V, W, E> SchemeBuilder<K, V, W, E> {
@@ -49,8 +49,8 @@ impl<K, V, W, E> SchemeBuilder<K, V, W, E> {
         // Where density follows from sums, contacts are among these.
         sweeps[Stage::Contacts.number()] = compiled.reference().filter(|_| integrated);
         sweeps[Stage::Density.number()] = compiled.density(own.density);
-        let walls = self.walls.terms(&setting).at::<stage::Walls>();
-        let walls = walls.then(compiled.of::<stage::Walls>());
+        let walls = ByName::<_, D>(self.walls.terms(&setting).at::<stage::Walls>());
+        let walls = Join(walls, compiled.of::<stage::Walls>());
         sweeps[Stage::Walls.number()] = compiled.named(walls);
         sweeps[Stage::Gradients.number()] = compiled.gradients();
         sweeps[Stage::Flow.number()] = compiled.named(compiled.of::<stage::Flow>());
@@ -125,7 +125,7 @@ impl<K, V, W, E> SchemeBuilder<K, V, W, E> {
             energy: own.energy,
             smoothing,
             h_over_dx: setting.h_over_dx,
-            step_factor: own.step_factor * program.step_factor,
+            step_factor: own.step_factor * program.step_factor(),
             consistent_at_rest: own.consistency == Consistency::AtRest,
             between: own.between,
             kernel_problems: crate::kernel::problems_of(&self.kernel),
@@ -201,8 +201,8 @@ where
     E: Effects<D>,
 {
     /// The terms of a stage.
-    fn of<S: StageMarker<D>>(&self) -> E::At<S> {
-        self.own.effects.at::<S>(&self.setting)
+    fn of<S: StageMarker<D>>(&self) -> ByName<E::At<S>, D> {
+        ByName(self.own.effects.at::<S>(&self.setting))
     }
 
     fn sweep<T: Real>(&self, terms: impl Terms<D>) -> Box<dyn PairSweep<T, D>> {
@@ -238,13 +238,13 @@ where
             return self.named(own);
         }
         if matches!(form, DensityForm::Normalised | DensityForm::Lam) {
-            return Some(self.sweep(sums.then((Unity,)).then(own)));
+            return Some(self.sweep(Join(Join(sums, (Unity,)), own)));
         }
         let solved = matches!(self.setting.smoothing, Smoothing::Consistent(_));
         if const { E::LOOPS & SmoothingMode::Own.bit() != 0 } && solved {
-            return Some(self.sweep(sums.then((SlopeInH,)).then(own)));
+            return Some(self.sweep(Join(Join(sums, (SlopeInH,)), own)));
         }
-        Some(self.sweep(sums.then(own)))
+        Some(self.sweep(Join(sums, own)))
     }
 
     /// The sums at rest from which densities measure.
@@ -258,7 +258,7 @@ where
     fn gradients<T: Real>(&self) -> Option<Box<dyn PairSweep<T, D>>> {
         let own = self.of::<stage::Gradients>();
         if self.makes_gradients() {
-            return Some(self.sweep(Gradients::<V, W, E>::NEW.then(own)));
+            return Some(self.sweep(Join(Gradients::<V, W, E>::NEW, own)));
         }
         self.named(own)
     }
@@ -273,12 +273,12 @@ where
 
     fn rates<T: Real>(&self, with_compression: bool) -> Box<dyn PairSweep<T, D>> {
         let viscosity = (Viscosity(self.own.viscosity.clone()),);
-        let forces = self.of::<stage::Pressure>().then(viscosity);
-        let forces = forces.then(self.of::<stage::Rates>());
-        let forces = forces.then(self.of::<stage::Power>());
+        let forces = Join(self.of::<stage::Pressure>(), viscosity);
+        let forces = Join(forces, self.of::<stage::Rates>());
+        let forces = Join(forces, self.of::<stage::Power>());
         // Liquids sum it in drifts alone.
         if const { E::ENERGY } && with_compression {
-            return self.sweep(forces.then(self.of::<stage::Compression>()));
+            return self.sweep(Join(forces, self.of::<stage::Compression>()));
         }
         self.sweep(forces)
     }
@@ -286,7 +286,7 @@ where
     fn continuity<T: Real>(&self, integrated: bool) -> Option<Box<dyn PairSweep<T, D>>> {
         let own = self.of::<stage::Continuity>();
         if const { !E::SUMS } || integrated {
-            return self.named(self.of::<stage::Compression>().then(own));
+            return self.named(Join(self.of::<stage::Compression>(), own));
         }
         self.named(own)
     }

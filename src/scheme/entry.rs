@@ -263,18 +263,17 @@ impl<T: Real, const D: usize> Scheme<T, D> {
             .map_or(Outputs::NONE, |sweep| sweep.outputs())
     }
 
-    /// The terms of a sweep. They share one loop, so the order of their names is as good as any.
+    /// The terms of a sweep, in the order in which they run.
     fn term_parts(&self, stage: Stage) -> Vec<Part> {
         let Some(sweep) = self.sweep(stage) else {
             return Vec::new();
         };
         let mut terms = sweep.uses();
-        terms.retain(|term| !term.name.is_empty());
-        terms.sort_by(|a, b| a.name.cmp(&b.name));
+        terms.retain(|term| !term.document.name.is_empty());
         let part = |term: TermUse| Part {
             reads: term.reads.minus(term.reads.minus(sweep.fields())),
-            makes: term.writes,
-            ..Part::of(Kind::Term, stage.name(), term.name)
+            makes: term.writes.minus(term.writes.minus(sweep.outputs())),
+            ..Part::of(Kind::Term, stage.name(), term.document.name)
         };
         terms.into_iter().map(part).collect()
     }

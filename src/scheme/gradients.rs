@@ -6,7 +6,7 @@ use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Lane;
 use crate::term::{
     ArtificialViscosity, DensityGradient, Layout, MomentMatrix, Pair, PressureGradient, Sums, Term,
-    TermDoc, Terms, VelocityGradient, not_empty,
+    TermUse, Terms, VelocityGradient,
 };
 use core::marker::PhantomData;
 
@@ -90,7 +90,6 @@ where
         }
         writes
     };
-    not_empty!(D);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
         // Each of the first two sums the moment matrix, and the last one that of the liquid alone.
@@ -105,19 +104,17 @@ where
             PressureGradient.pair(pair, sums);
         }
     }
-    fn document(&self) -> Vec<TermDoc> {
+    fn uses(&self) -> Vec<TermUse> {
         let wanted = Self::wanted::<D>();
-        let mut documents = Vec::new();
-        if wanted.contains(Field::DENSITY_GRADIENT) {
-            documents.push(Term::<D>::document(&DensityGradient));
+        let first = if wanted.contains(Field::DENSITY_GRADIENT) {
+            TermUse::of::<D, _>(&DensityGradient)
         } else if wanted.contains(Field::VELOCITY_GRADIENT) {
-            documents.push(Term::<D>::document(&VelocityGradient));
+            TermUse::of::<D, _>(&VelocityGradient)
         } else {
-            documents.push(Term::<D>::document(&MomentMatrix));
-        }
-        if wanted.contains(Field::PRESSURE_GRADIENT) {
-            documents.push(Term::<D>::document(&PressureGradient));
-        }
-        documents
+            TermUse::of::<D, _>(&MomentMatrix)
+        };
+        let pressure = wanted.contains(Field::PRESSURE_GRADIENT);
+        let pressure = pressure.then(|| TermUse::of::<D, _>(&PressureGradient));
+        core::iter::once(first).chain(pressure).collect()
     }
 }

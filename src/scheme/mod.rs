@@ -163,18 +163,11 @@ impl<T: Real, const D: usize> Scheme<T, D> {
             .collect()
     }
 
-    /// Puts the laws of every stage into another order, as another list of effects does, and then into their own again: for
-    /// tests of what their order depends on.
+    /// Puts what effects do in a step into another order, as another list of effects does, and then into its own again: for
+    /// tests of what its order depends on.
     #[doc(hidden)]
-    pub fn permute_laws(&mut self, mut seed: u64) {
-        for laws in &mut self.program.laws {
-            for k in (1..laws.len()).rev() {
-                // Knuth's generator of 64 bits, of which the high ones are random.
-                seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-                laws.swap(k, (seed >> 33) as usize % (k + 1));
-            }
-        }
-        self.program.arrange();
+    pub fn permute(&mut self, seed: u64) {
+        self.program.permute(seed);
     }
 
     /// The fields that a particle carries under this scheme.

@@ -7,6 +7,7 @@ use crate::effect::MOST_LAWS;
 use crate::error::Problem;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Real;
+use crate::sweep::PairSweep;
 use crate::term::Stage;
 
 /// What the driver itself gives every particle before a step, or keeps for it.
@@ -42,6 +43,7 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         }
         let laws = Stage::ALL.map(|stage| self.program.sequence(stage).err());
         problems.extend(laws.into_iter().flatten());
+        self.check_names(&mut problems);
         self.check_forces(&mut problems);
         self.check_evolved(&mut problems);
         let parts = |entries: &[Entry]| -> Vec<Part> {
@@ -67,6 +69,26 @@ impl<T: Real, const D: usize> Scheme<T, D> {
             self.check(&part, known, &mut problems);
         }
         problems
+    }
+
+    /// Whether the terms of every sweep have names of their own, by which they are ordered.
+    fn check_names(&self, problems: &mut Vec<Problem>) {
+        for stage in Stage::ALL {
+            let mut terms = self.sweep(stage).map_or(Vec::new(), PairSweep::uses);
+            terms.sort_by(|a, b| (a.name, &a.text).cmp(&(b.name, &b.text)));
+            for pair in terms.windows(2).filter(|pair| pair[0].name == pair[1].name) {
+                problems.push(Problem::Incompatible {
+                    what: format!(
+                        "the terms `{}` and `{}` of the stage {} have one name, {}",
+                        pair[0].document.name,
+                        pair[1].document.name,
+                        stage.name(),
+                        pair[0].name
+                    ),
+                    remedy: "leave one of the two effects out, or give its term a name of its own (Term::NAME)",
+                });
+            }
+        }
     }
 
     /// Whether laws give forces where these join others.
@@ -117,6 +139,20 @@ impl<T: Real, const D: usize> Scheme<T, D> {
                 });
             }
             seen = seen.union(Fields::of(&[own.field]));
+        }
+        for (k, own) in self.program.evolved.iter().enumerate() {
+            let mut rest = self.program.evolved[k + 1..].iter();
+            if let Some(other) = rest.find(|other| other.precedes(own)) {
+                let [own, other] = [own, other].map(|one| self.program.name_of(one.field));
+                problems.push(Problem::Incompatible {
+                    what: format!(
+                        "the rate of {other} of the scheme {} reads {own} as it is before that changes, and the rate of {own}, by \
+                         itself or through others, {other}",
+                        self.name
+                    ),
+                    remedy: "let a law write one of the rates into a field, and integrate by that (ByField)",
+                });
+            }
         }
         for (field, _) in &self.program.pending {
             problems.push(Problem::Incompatible {

@@ -31,6 +31,7 @@ impl Oblique {
 }
 
 impl Term<2> for Oblique {
+    const NAME: &'static str = "meshfree::oblique";
     const READS: Fields = Fields::of(&[Field::VELOCITY, Field::MASS]);
     const WRITES: Outputs = Outputs::of(&[Output::FORCE]);
     #[inline(always)]
@@ -238,6 +239,7 @@ struct StressForce;
 const STRESS: Field = Field::tensor(name!("stress", "Pa"));
 
 impl Term<2> for StressForce {
+    const NAME: &'static str = "meshfree::stress_force";
     const READS: Fields = Fields::of(&[Field::WEIGHT, STRESS]);
     const WRITES: Outputs = Outputs::of(&[Output::FORCE]);
     #[inline(always)]

@@ -3,7 +3,7 @@
 
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Lane;
-use crate::term::{Layout, Pair, Sums, TermDoc, Terms};
+use crate::term::{Layout, Pair, Sums, TermUse, Terms};
 
 /// The terms of rates, of which the power with the mean velocities v̄ of a kick is summed (Owen 2014), and what it gains
 /// with their accelerations a: of −½ Fᵢⱼ·v̄ᵢⱼ and −½ Fᵢⱼ·aᵢⱼ the first is that of the kick, and the first with τ of the
@@ -30,15 +30,6 @@ impl<P: Terms<D>, const D: usize> Terms<D> for Working<P> {
     ]));
     const WRITES: Outputs = SUMS;
     const TENSILE: Fields = P::TENSILE;
-    // Nothing is joined to what has been composed.
-    type Then<B: Terms<D>> = B;
-    fn then<B: Terms<D>>(self, next: B) -> B {
-        next
-    }
-    type After<A: Terms<D>> = A;
-    fn after<A: Terms<D>>(self, first: A) -> A {
-        first
-    }
     #[inline(always)]
     fn pair<L: Lane, C: Layout>(&self, pair: &Pair<'_, L, D, C>, sums: &mut Sums<L, D, C>) {
         self.0.pair(pair, sums);
@@ -59,7 +50,7 @@ impl<P: Terms<D>, const D: usize> Terms<D> for Working<P> {
         sums.add(Output::POWER, work * L::of(0.5));
         sums.add(Output::POWER_OF_ACCELERATION, gained * L::of(0.5));
     }
-    fn document(&self) -> Vec<TermDoc> {
-        self.0.document()
+    fn uses(&self) -> Vec<TermUse> {
+        self.0.uses()
     }
 }

@@ -19,6 +19,7 @@ pub struct ConcentrationGradient<const D: usize> {
 }
 
 impl<const D: usize> Term<D> for ConcentrationGradient<D> {
+    const NAME: &'static str = "meshfree::concentration_gradient";
     const READS: Fields = Fields::of(&[Field::WEIGHT]);
     const WRITES: Outputs = Outputs::of(&[Output::CONCENTRATION_GRADIENT, Output::MOMENT]);
     #[inline(always)]
@@ -47,6 +48,7 @@ impl<const D: usize> Term<D> for ConcentrationGradient<D> {
 pub struct Nothing;
 
 impl<const D: usize> Term<D> for Nothing {
+    const NAME: &'static str = "meshfree::nothing";
     const READS: Fields = Fields::NONE;
     const WRITES: Outputs = Outputs::NONE;
     #[inline(always)]

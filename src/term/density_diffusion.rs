@@ -43,6 +43,7 @@ impl Default for Molteni {
 }
 
 impl<const D: usize> Term<D> for Molteni {
+    const NAME: &'static str = "meshfree::molteni";
     const READS: Fields = READS;
     const WRITES: Outputs = WRITES;
     #[inline(always)]
@@ -100,6 +101,7 @@ fn dynamic_jump<L: Lane, const D: usize, P: Layout>(pair: &Pair<'_, L, D, P>) ->
 }
 
 impl<const D: usize> Term<D> for Fourtakas {
+    const NAME: &'static str = "meshfree::fourtakas";
     const READS: Fields = READS.union(Fields::of(&[Field::PRESSURE]));
     const WRITES: Outputs = WRITES;
     #[inline(always)]
@@ -144,6 +146,7 @@ impl Default for Antuono {
 }
 
 impl<const D: usize> Term<D> for Antuono {
+    const NAME: &'static str = "meshfree::antuono";
     const READS: Fields = READS.union(Fields::of(&[Field::DENSITY_GRADIENT]));
     const WRITES: Outputs = WRITES;
     #[inline(always)]
@@ -178,6 +181,7 @@ impl<const D: usize> Term<D> for Antuono {
 pub struct RiemannDiffusion;
 
 impl<const D: usize> Term<D> for RiemannDiffusion {
+    const NAME: &'static str = "meshfree::riemann_diffusion";
     const READS: Fields = READS.union(Fields::of(&[Field::PRESSURE]));
     const WRITES: Outputs = WRITES;
     #[inline(always)]

@@ -13,6 +13,7 @@ use crate::scalar::Lane;
 pub struct VelocityGradient;
 
 impl<const D: usize> Term<D> for VelocityGradient {
+    const NAME: &'static str = "meshfree::velocity_gradient";
     const READS: Fields = Fields::of(&[Field::VELOCITY, Field::MASS, Field::DENSITY]);
     const WRITES: Outputs = Outputs::of(&[Output::VELOCITY_GRADIENT, Output::MOMENT_MATRIX]);
     #[inline(always)]
@@ -40,6 +41,7 @@ impl<const D: usize> Term<D> for VelocityGradient {
 pub struct MomentMatrix;
 
 impl<const D: usize> Term<D> for MomentMatrix {
+    const NAME: &'static str = "meshfree::moment_matrix";
     const READS: Fields = Fields::of(&[Field::MASS, Field::DENSITY]);
     const WRITES: Outputs = Outputs::of(&[Output::MOMENT_MATRIX]);
     #[inline(always)]
@@ -66,6 +68,7 @@ impl<const D: usize> Term<D> for MomentMatrix {
 pub struct PressureGradient;
 
 impl<const D: usize> Term<D> for PressureGradient {
+    const NAME: &'static str = "meshfree::pressure_gradient";
     const READS: Fields = Fields::of(&[Field::PRESSURE, Field::MASS, Field::DENSITY]);
     const WRITES: Outputs = Outputs::of(&[Output::PRESSURE_GRADIENT, Output::MOMENT_MATRIX]);
     #[inline(always)]
@@ -92,6 +95,7 @@ impl<const D: usize> Term<D> for PressureGradient {
 pub struct DensityGradient;
 
 impl<const D: usize> Term<D> for DensityGradient {
+    const NAME: &'static str = "meshfree::density_gradient";
     const READS: Fields = Fields::of(&[Field::MASS, Field::DENSITY]);
     const WRITES: Outputs = Outputs::of(&[Output::DENSITY_GRADIENT, Output::MOMENT_MATRIX]);
     #[inline(always)]

@@ -49,6 +49,7 @@ const READS: Fields = Fields::of(&[
 ]);
 
 impl<const D: usize> Term<D> for LaminarViscosity {
+    const NAME: &'static str = "meshfree::laminar_viscosity";
     const READS: Fields = READS;
     const WRITES: Outputs = Outputs::of(&[Output::FORCE]);
     #[inline(always)]
@@ -65,6 +66,7 @@ impl<const D: usize> Term<D> for LaminarViscosity {
 }
 
 impl<const D: usize> Term<D> for CentralViscosity {
+    const NAME: &'static str = "meshfree::central_viscosity";
     const READS: Fields = READS;
     const WRITES: Outputs = Outputs::of(&[Output::FORCE]);
     #[inline(always)]

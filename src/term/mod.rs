@@ -114,15 +114,14 @@ pub use density_diffusion::{Antuono, Fourtakas, Molteni, RiemannDiffusion};
 pub use force::{Along, FreeForce};
 pub use gradient::{DensityGradient, MomentMatrix, PressureGradient, VelocityGradient};
 pub use laminar_viscosity::{CentralViscosity, LaminarViscosity};
-pub use list::Terms;
-pub(crate) use list::not_empty;
+pub(crate) use list::{ByName, Join};
+pub use list::{Names, TermList, Terms};
 pub use momentum::{InternalEnergy, MidpointReconstruction, PressureForce};
 pub(crate) use pair::assert_room;
 pub use pair::{Layout, MOST_READS, MOST_SUMS, Pair, Sums};
 pub use probe::{Probe, probe};
 pub(crate) use renormalised::corrected;
 pub use renormalised::{RenormalisedCompression, RenormalisedPressureForce};
-pub(crate) use staged::Join;
 pub use staged::{In, StageMarker, StagedTerms, stage};
 pub use stages::Stage;
 pub use sums::{Compression, KernelMoment, KernelSum, SlopeInH, Unity};
@@ -140,15 +139,31 @@ pub struct TermDoc {
     pub source: &'static str,
 }
 
-/// What a term of a sweep reads and writes, for the check of a scheme's order.
+/// A term of a sweep, for the check of a scheme's order and for people.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TermUse {
-    /// Its name.
-    pub name: String,
+    /// Its [name](Term::NAME).
+    pub name: &'static str,
+    /// What it is, for people.
+    pub document: TermDoc,
+    /// Its debug text, with its parameters.
+    pub text: String,
     /// What it reads.
     pub reads: Fields,
     /// What it writes.
     pub writes: Outputs,
+}
+
+impl TermUse {
+    pub(crate) fn of<const D: usize, A: Term<D>>(term: &A) -> Self {
+        Self {
+            name: A::NAME,
+            document: term.document(),
+            text: format!("{term:?}"),
+            reads: A::READS,
+            writes: A::WRITES,
+        }
+    }
 }
 
 /// One effect between pairs of particles.
@@ -173,6 +188,7 @@ pub struct TermUse {
 /// struct SummedDensity;
 ///
 /// impl<const D: usize> Term<D> for SummedDensity {
+///     const NAME: &'static str = "mine::summed_density";
 ///     const READS: Fields = Fields::of(&[Field::MASS]);
 ///     const WRITES: Outputs = Outputs::of(&[SUMMED]);
 ///     #[inline(always)]
@@ -186,9 +202,13 @@ pub struct TermUse {
 /// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a pair term in {D} dimensions",
-    note = "implement `Term<{D}>`: the fields it reads and writes, and what a pair adds to the sums"
+    note = "implement `Term<{D}>`: its name, the fields it reads and writes, and what a pair adds to the sums"
 )]
 pub trait Term<const D: usize>: Clone + Debug + Send + Sync + 'static {
+    /// The package and the name there, as `meshfree::pressure_force`. Terms of effects run in the order of these names, so that
+    /// the order of a list of effects changes no bit. A scheme that has two terms of one name in a sweep is refused. A
+    /// term that restricts another, as [`WithinPhase`](crate::effect::WithinPhase), has the name of that.
+    const NAME: &'static str;
     /// Fields of i and j that the term reads, beside the position.
     const READS: Fields;
     /// Sums that the term adds to. A term that sets `radial`, `shear` or `force` names

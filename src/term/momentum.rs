@@ -21,6 +21,7 @@ use crate::scalar::Lane;
 pub struct PressureForce;
 
 impl<const D: usize> Term<D> for PressureForce {
+    const NAME: &'static str = "meshfree::pressure_force";
     const READS: Fields = Fields::of(&[Field::WEIGHT, Field::PRESSURE_COEFFICIENT]);
     const WRITES: Outputs = Outputs::of(&[Output::FORCE]);
     #[inline(always)]
@@ -69,6 +70,7 @@ impl MidpointReconstruction {
 }
 
 impl<const D: usize> Term<D> for MidpointReconstruction {
+    const NAME: &'static str = "meshfree::midpoint_reconstruction";
     const READS: Fields = Fields::of(&[
         Field::MASS,
         Field::DENSITY,
@@ -106,6 +108,7 @@ impl<const D: usize> Term<D> for MidpointReconstruction {
 pub struct InternalEnergy;
 
 impl<const D: usize> Term<D> for InternalEnergy {
+    const NAME: &'static str = "meshfree::internal_energy";
     const READS: Fields = Fields::of(&[Field::VELOCITY]);
     const WRITES: Outputs = Outputs::of(&[Output::POWER]);
     #[inline(always)]

@@ -21,6 +21,7 @@ use core::marker::PhantomData;
 /// # #[derive(Clone, Debug)]
 /// # struct Reads<const TENSORS: usize>;
 /// # impl<const TENSORS: usize> Term<3> for Reads<TENSORS> {
+/// #     const NAME: &'static str = "meshfree::reads";
 /// #     const READS: Fields = {
 /// #         const NAMES: [&Name; 11] = [
 /// #             name!("0", ""), name!("1", ""), name!("2", ""), name!("3", ""), name!("4", ""), name!("5", ""),
@@ -53,6 +54,7 @@ use core::marker::PhantomData;
 /// # #[derive(Clone, Debug)]
 /// # struct Reads<const TENSORS: usize>;
 /// # impl<const TENSORS: usize> Term<3> for Reads<TENSORS> {
+/// #     const NAME: &'static str = "meshfree::reads";
 /// #     const READS: Fields = {
 /// #         const NAMES: [&Name; 11] = [
 /// #             name!("0", ""), name!("1", ""), name!("2", ""), name!("3", ""), name!("4", ""), name!("5", ""),

@@ -36,6 +36,7 @@ pub(crate) fn corrected<L: Lane, const D: usize>(
 pub struct RenormalisedPressureForce;
 
 impl<const D: usize> Term<D> for RenormalisedPressureForce {
+    const NAME: &'static str = "meshfree::renormalised_pressure_force";
     const READS: Fields = Fields::of(&[
         Field::WEIGHT,
         Field::PRESSURE_COEFFICIENT,
@@ -70,6 +71,7 @@ impl<const D: usize> Term<D> for RenormalisedPressureForce {
 pub struct RenormalisedCompression;
 
 impl<const D: usize> Term<D> for RenormalisedCompression {
+    const NAME: &'static str = "meshfree::renormalised_compression";
     const READS: Fields = Fields::of(&[Field::VELOCITY, Field::WEIGHT, Field::CORRECTION]);
     const WRITES: Outputs = Outputs::of(&[Output::COMPRESSION]);
     #[inline(always)]

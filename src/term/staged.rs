@@ -1,9 +1,8 @@
 //! Terms by stage: of the terms of an effect, those that share the sweep of one stage, as a type.
 //! A sweep is compiled once for the terms that it has, whatever else the schemes that use it name.
 
-use super::{Layout, Pair, Sums, Term, TermDoc, TermUse, Terms, not_empty};
-use crate::particles::{Fields, Outputs};
-use crate::scalar::Lane;
+use super::{Term, TermList};
+use crate::particles::Fields;
 use core::fmt::Debug;
 use core::marker::PhantomData;
 
@@ -12,14 +11,14 @@ macro_rules! markers {
         /// A [`Stage`](crate::term::Stage), or the part of its sweep that comes first or last, as a type.
         pub trait StageMarker<const D: usize>: Clone + Debug + Send + Sync + 'static {
             /// The terms `A` of this stage in the sweep of stage `S`: all of them if it is the same, none if not.
-            type Of<S: StageMarker<D>, A: Terms<D>>: Terms<D>;
+            type Of<S: StageMarker<D>, A: TermList<D>>: TermList<D>;
             /// The terms of this stage in the sweep of stage `S`.
-            fn put<S: StageMarker<D>, A: Terms<D>>(terms: A) -> Self::Of<S, A>;
+            fn put<S: StageMarker<D>, A: TermList<D>>(terms: A) -> Self::Of<S, A>;
             $(
                 #[doc(hidden)]
-                type $If<A: Terms<D>>: Terms<D>;
+                type $If<A: TermList<D>>: TermList<D>;
                 #[doc(hidden)]
-                fn $put<A: Terms<D>>(terms: A) -> Self::$If<A>;
+                fn $put<A: TermList<D>>(terms: A) -> Self::$If<A>;
             )*
         }
         $(
@@ -33,21 +32,21 @@ macro_rules! markers {
     (@each [$([$_m:ident $Before:ident $before:ident])*] [$Marker:ident $If:ident $put:ident]
         $([$Next:ident $After:ident $after:ident])*) => {
         impl<const D: usize> StageMarker<D> for $Marker {
-            type Of<S: StageMarker<D>, A: Terms<D>> = S::$If<A>;
-            fn put<S: StageMarker<D>, A: Terms<D>>(terms: A) -> Self::Of<S, A> {
+            type Of<S: StageMarker<D>, A: TermList<D>> = S::$If<A>;
+            fn put<S: StageMarker<D>, A: TermList<D>>(terms: A) -> Self::Of<S, A> {
                 S::$put(terms)
             }
-            type $If<A: Terms<D>> = A;
-            fn $put<A: Terms<D>>(terms: A) -> A {
+            type $If<A: TermList<D>> = A;
+            fn $put<A: TermList<D>>(terms: A) -> A {
                 terms
             }
             $(
-                type $Before<A: Terms<D>> = ();
-                fn $before<A: Terms<D>>(_terms: A) {}
+                type $Before<A: TermList<D>> = ();
+                fn $before<A: TermList<D>>(_terms: A) {}
             )*
             $(
-                type $After<A: Terms<D>> = ();
-                fn $after<A: Terms<D>>(_terms: A) {}
+                type $After<A: TermList<D>> = ();
+                fn $after<A: TermList<D>>(_terms: A) {}
             )*
         }
         markers!(@each [$([$_m $Before $before])* [$Marker $If $put]] $([$Next $After $after])*);
@@ -56,7 +55,7 @@ macro_rules! markers {
 
 /// The stages that have sweeps, as types, for the terms of effects: `In<stage::Rates, A>`.
 pub mod stage {
-    use super::{Debug, Terms};
+    use super::{Debug, TermList};
 
     markers! {
         /// [`Stage::Reference`](crate::term::Stage::Reference).
@@ -107,7 +106,7 @@ impl<S, A> In<S, A> {
 /// Terms of an effect, each with its stage: a tuple of up to four `In<Stage, Term>`, `()` for none.
 pub trait StagedTerms<const D: usize>: Clone + Debug + Send + Sync + 'static {
     /// The terms of one stage.
-    type At<S: StageMarker<D>>: Terms<D>;
+    type At<S: StageMarker<D>>: TermList<D>;
     /// What all terms read.
     const READS: Fields;
     /// The terms of one stage.
@@ -123,7 +122,7 @@ impl<const D: usize> StagedTerms<D> for () {
 /// The terms `A` of stage `M` in the sweep of stage `S`.
 type Own<S, M, A, const D: usize> = <M as StageMarker<D>>::Of<S, (A,)>;
 /// `A` and then `B`.
-type Then<A, B, const D: usize> = <A as Terms<D>>::Then<B>;
+type Then<A, B, const D: usize> = <A as TermList<D>>::Then<B>;
 
 /// Lists of terms as one, from the left.
 macro_rules! joined {
@@ -153,29 +152,3 @@ staged!(M A);
 staged!(M A, 1 N B);
 staged!(M A, 1 N B, 2 O C);
 staged!(M A, 1 N B, 2 O C, 3 Q E);
-
-/// Two lists of terms of one sweep, the first first.
-#[derive(Clone, Debug)]
-pub struct Join<A, B>(pub A, pub B);
-
-impl<const D: usize, A: Terms<D>, B: Terms<D>> Terms<D> for Join<A, B> {
-    const READS: Fields = A::READS.union(B::READS);
-    const WRITES: Outputs = A::WRITES.union(B::WRITES);
-    const TENSILE: Fields = A::TENSILE.union(B::TENSILE);
-    not_empty!(D);
-    #[inline(always)]
-    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        self.0.pair(pair, sums);
-        self.1.pair(pair, sums);
-    }
-    fn document(&self) -> Vec<TermDoc> {
-        let mut documents = self.0.document();
-        documents.extend(self.1.document());
-        documents
-    }
-    fn uses(&self) -> Vec<TermUse> {
-        let mut uses = self.0.uses();
-        uses.extend(self.1.uses());
-        uses
-    }
-}

@@ -1,5 +1,5 @@
 //! The stages of a step, in which sweeps over pairs and laws of single particles run.
-//! Order among effects is the stage that each names, and within a stage what their laws declare; never the order of a list.
+//! Order among effects is the stage that each names, and within it the names of terms and what laws declare; never a list.
 
 /// A stage of a step: a sweep over pairs, if any term names the stage, and then the laws that name it, in the order that
 /// follows from [what they declare](crate::effect::Law).

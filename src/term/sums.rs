@@ -10,6 +10,7 @@ use crate::scalar::Lane;
 pub struct KernelSum;
 
 impl<const D: usize> Term<D> for KernelSum {
+    const NAME: &'static str = "meshfree::kernel_sum";
     const READS: Fields = Fields::of(&[Field::POSITION_RESIDUAL, Field::WEIGHT]);
     const WRITES: Outputs = Outputs::of(&[Output::KERNEL_SUM, Output::CONTACT_SUM]);
     #[inline(always)]
@@ -30,6 +31,7 @@ impl<const D: usize> Term<D> for KernelSum {
 pub struct Unity;
 
 impl<const D: usize> Term<D> for Unity {
+    const NAME: &'static str = "meshfree::unity";
     const READS: Fields = Fields::of(&[Field::POSITION_RESIDUAL, Field::MASS, Field::DENSITY]);
     const WRITES: Outputs = Outputs::of(&[Output::UNITY]);
     #[inline(always)]
@@ -52,6 +54,7 @@ impl<const D: usize> Term<D> for Unity {
 pub struct KernelMoment;
 
 impl<const D: usize> Term<D> for KernelMoment {
+    const NAME: &'static str = "meshfree::kernel_moment";
     const READS: Fields = Fields::of(&[Field::POSITION_RESIDUAL, Field::WEIGHT]);
     const WRITES: Outputs = Outputs::of(&[Output::MOMENT]);
     #[inline(always)]
@@ -73,6 +76,7 @@ impl<const D: usize> Term<D> for KernelMoment {
 pub struct SlopeInH;
 
 impl<const D: usize> Term<D> for SlopeInH {
+    const NAME: &'static str = "meshfree::slope_in_h";
     const READS: Fields = Fields::of(&[Field::WEIGHT]);
     const WRITES: Outputs = Outputs::of(&[Output::SLOPE_IN_H]);
     #[inline(always)]
@@ -96,6 +100,7 @@ impl<const D: usize> Term<D> for SlopeInH {
 pub struct Compression;
 
 impl<const D: usize> Term<D> for Compression {
+    const NAME: &'static str = "meshfree::compression";
     const READS: Fields = Fields::of(&[Field::VELOCITY, Field::WEIGHT]);
     const WRITES: Outputs = Outputs::of(&[Output::COMPRESSION]);
     #[inline(always)]

@@ -13,6 +13,7 @@ use crate::scalar::Lane;
 pub struct LiquidNearWall;
 
 impl<const D: usize> Term<D> for LiquidNearWall {
+    const NAME: &'static str = "meshfree::liquid_near_wall";
     const READS: Fields = Fields::of(&[Field::MASS, Field::DENSITY, Field::PRESSURE]);
     const WRITES: Outputs = Outputs::of(&[
         Output::UNITY,
@@ -48,6 +49,7 @@ impl<const D: usize> Term<D> for LiquidNearWall {
 pub struct VelocityAtWall;
 
 impl<const D: usize> Term<D> for VelocityAtWall {
+    const NAME: &'static str = "meshfree::velocity_at_wall";
     const READS: Fields = Fields::of(&[Field::MASS, Field::DENSITY, Field::VELOCITY]);
     const WRITES: Outputs = Outputs::of(&[Output::LIQUID_VELOCITY, Output::LIQUID_ARM]);
     #[inline(always)]
@@ -73,6 +75,7 @@ impl<const D: usize> Term<D> for VelocityAtWall {
 pub struct ViscosityAtWall;
 
 impl<const D: usize> Term<D> for ViscosityAtWall {
+    const NAME: &'static str = "meshfree::viscosity_at_wall";
     const READS: Fields = Fields::of(&[Field::MASS, Field::DENSITY, Field::DYNAMIC_VISCOSITY]);
     const WRITES: Outputs = Outputs::of(&[Output::LIQUID_VISCOSITY]);
     #[inline(always)]

@@ -561,6 +561,7 @@ const STRESS: Field = Field::tensor(name!("stress", "Pa"));
 const TRACTION: Output = Output::vector(name!("traction", "N"));
 
 impl<const D: usize> Term<D> for Stress {
+    const NAME: &'static str = "tests::stress";
     const READS: Fields = Fields::of(&[STRESS]);
     const WRITES: Outputs = Outputs::of(&[TRACTION]);
     #[inline(always)]

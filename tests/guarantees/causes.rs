@@ -623,6 +623,7 @@ impl<const D: usize> Effect<D> for Unlimited {
 }
 
 impl<const D: usize> Term<D> for Unlimited {
+    const NAME: &'static str = "tests::unlimited";
     const READS: Fields = Fields::of(&[DYE, Field::MASS, Field::DENSITY]);
     const WRITES: Outputs = Outputs::of(&[FLOW]);
     #[inline(always)]

@@ -19,6 +19,7 @@ pub const WHERE_DENSITIES_ARE: Filled<stage::Density> = Filled(Stage::Density, P
 pub const WHERE_GRADIENTS_ARE: Filled<stage::Gradients> = Filled(Stage::Gradients, PhantomData);
 
 impl<const D: usize, M: StageMarker<D>> Term<D> for Filled<M> {
+    const NAME: &'static str = "tests::filled";
     const READS: Fields = Fields::of(&[Field::MASS, Field::DENSITY]);
     const WRITES: Outputs = Outputs::of(&[FILLING]);
     #[inline(always)]

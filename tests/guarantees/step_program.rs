@@ -159,6 +159,7 @@ impl<const D: usize> Effect<D> for OwnTerm {
 }
 
 impl<const D: usize> Term<D> for OwnTerm {
+    const NAME: &'static str = "tests::own_term";
     const READS: Fields = Fields::of(&[OWN]);
     const WRITES: Outputs = Outputs::of(&[SUM]);
     #[inline(always)]
@@ -459,7 +460,7 @@ fn more_laws_and_fields_than_there_is_room_for_are_refused() {
     assert!(many(32, 32).is_empty());
     for (laws, fields, what) in [
         (33, 0, "has room for 32 laws, and not for `a law of a test`"),
-        (0, 33, "no room for `test::32` beside 32 others"),
+        (0, 33, "no room for `test::9` beside 32 others"),
     ] {
         let found = many(laws, fields);
         assert_eq!(found.len(), 1, "{found:?}");

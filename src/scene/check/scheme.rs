@@ -26,13 +26,6 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                 recommended: kernel.h_over_dx,
             });
         }
-        for (what, value, must_be) in &scheme.problems {
-            problems.push(Problem::Parameter {
-                what: what.clone(),
-                value: *value,
-                must_be,
-            });
-        }
         let facts = SceneFacts {
             bodies: self
                 .bodies
@@ -45,8 +38,18 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             integrated: scheme.program.integrated(),
             written: scheme.program.written(),
         };
+        let parameters = scheme.problems.iter().cloned();
+        let parameters = parameters.map(|(what, value, must_be)| Problem::Parameter {
+            what,
+            value,
+            must_be,
+        });
         let asked = scheme.program.requirements.iter();
-        problems.extend(asked.filter_map(|requirement| requirement(&facts)));
+        let asked = asked.filter_map(|requirement| requirement(&facts));
+        let mut of_effects: Vec<Problem> = parameters.chain(asked).collect();
+        // Not in the order of the list of effects.
+        of_effects.sort_by_cached_key(ToString::to_string);
+        problems.extend(of_effects);
         for (what, value, must_be) in &scheme.kernel_problems {
             problems.push(Problem::Parameter {
                 what: format!("{what} of the {} kernel", kernel.name),

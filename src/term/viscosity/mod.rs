@@ -112,6 +112,7 @@ pub trait ArtificialViscosity<const D: usize>: Clone + Debug + Send + Sync + 'st
 pub struct Viscosity<V>(pub V);
 
 impl<const D: usize, V: ArtificialViscosity<D>> Term<D> for Viscosity<V> {
+    const NAME: &'static str = "meshfree::artificial_viscosity";
     const READS: Fields = Fields::of(&[
         Field::VELOCITY,
         Field::MASS,

@@ -57,6 +57,7 @@ impl<const D: usize> Effect<D> for HeatConduction {
 }
 
 impl<const D: usize> Term<D> for HeatConduction {
+    const NAME: &'static str = "downstream::heat_conduction";
     const READS: Fields = Fields::of(&[
         TEMPERATURE,
         CONDUCTIVITY,

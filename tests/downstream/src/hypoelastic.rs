@@ -53,6 +53,7 @@ impl<const D: usize> PointRate<D> for Hypoelastic {
 }
 
 impl<const D: usize> Term<D> for Hypoelastic {
+    const NAME: &'static str = "downstream::hypoelastic";
     const READS: Fields = Fields::of(&[
         STRESS,
         Field::MASS,

@@ -28,6 +28,7 @@ impl<const D: usize> Effect<D> for LevelWall {
 }
 
 impl<const D: usize> Term<D> for LevelWall {
+    const NAME: &'static str = "downstream::level_wall";
     const READS: Fields = Fields::of(&[Field::MASS, Field::DENSITY, Field::PRESSURE]);
     const WRITES: Outputs = Outputs::of(&LEVELLED);
     #[inline(always)]

@@ -31,6 +31,7 @@ impl<const D: usize> Effect<D> for Electrons {
 }
 
 impl<const D: usize> Term<D> for Electrons {
+    const NAME: &'static str = "electrons::electrons";
     const READS: Fields = Fields::of(&[TEMPERATURE, Field::MASS, Field::DENSITY]);
     const WRITES: Outputs = Outputs::of(&[FLOW]);
     #[inline(always)]
