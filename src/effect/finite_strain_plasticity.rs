@@ -1,7 +1,7 @@
 //! Elastic–plastic solids under finite strain: a total-Lagrangian stress with the yield condition of von Mises.
 //! The multiplicative plasticity of Simo 1992 (Simo & Hughes 1998, box 9.1), with pressure by the equation of state.
 
-use super::radial_return::{after, before, radial_return};
+use super::radial_return::{before, returned};
 use super::total_lagrangian::stretches_of;
 use super::{
     Around, CONSTANTS, Effect, Hypoelastic, LedgerColumn, Plasticity, Point, PointLaw, Reach, Rung,
@@ -140,7 +140,7 @@ impl<const D: usize> PointLaw<D> for FiniteStrainPlasticity {
         let before = before(at);
         // √(3/2 s:s) falls by 3 G tr b̄/3 for each unit of plastic strain.
         let stiffness = shear * elastic.deformation.trace() / volume;
-        let back = radial_return(von_mises, stiffness, |more| after(law, &before, more, dt));
+        let back = returned(law, &before, dt, [von_mises, stiffness]);
         let mut stress = trial;
         at.limited(back.flows);
         if L::somewhere(back.flows) {

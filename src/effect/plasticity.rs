@@ -1,7 +1,7 @@
 //! Plastic flow of solids: the deviatoric stress returns to the yield surface of the material's law of strength.
 //! The radial return of Wilkins 1964, implicit in the plastic strain for any hardening and rate.
 
-use super::radial_return::{after, before, radial_return};
+use super::radial_return::{before, returned};
 use super::{
     Around, CONSTANTS, Damage, Effect, Hypoelastic, LedgerColumn, PlaneStress, Point, PointLaw,
     Reach, Rung, SceneFacts, Setting, StepProgram, UniaxialStress, plane_stress,
@@ -174,11 +174,7 @@ impl<const D: usize> PointLaw<D> for Plasticity {
             3.0 * modulus
         };
         let (before, dt) = (before(at), at.dt());
-        let returned = |trial: L| {
-            radial_return(trial, L::of(stiffness), |more| {
-                after(law, &before, more, dt)
-            })
-        };
+        let returned = |trial: L| returned(law, &before, dt, [trial, L::of(stiffness)]);
         let own = at.tensor(STRESS);
         let mut trial = own.von_mises();
         let mut back = returned(trial);

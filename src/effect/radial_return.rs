@@ -28,12 +28,7 @@ pub(super) fn before<L: Lane, const D: usize, P: Reach>(
 
 /// The yield stress \[Pa\] after `more` plastic strain within `dt` \[s\].
 #[inline(always)]
-pub(super) fn after<L: Lane>(
-    law: &dyn StrengthObject,
-    before: &PlasticState<L>,
-    more: L,
-    dt: L,
-) -> L {
+fn after<L: Lane>(law: &dyn StrengthObject, before: &PlasticState<L>, more: L, dt: L) -> L {
     law.yield_stress(&PlasticState {
         strain: before.strain + more,
         rate: L::select(dt.gt(L::zero()), more / dt, L::zero()),
@@ -52,10 +47,22 @@ pub(super) struct Return<L: Lane> {
     pub yields: L,
 }
 
+/// The return of a stress of von Mises σ \[Pa\] by a law of strength within `dt` \[s\]. A function of its own, so that loops with
+/// several returns hold one text of it.
+#[inline(never)]
+pub(super) fn returned<L: Lane>(
+    law: &dyn StrengthObject,
+    before: &PlasticState<L>,
+    dt: L,
+    [trial, stiffness]: [L; 2],
+) -> Return<L> {
+    radial_return(trial, stiffness, |more| after(law, before, more, dt))
+}
+
 /// The plastic strain Δ at which σ − k Δ has come down to the yield stress Y(Δ), and that yield stress, where σ is above Y(0).
 /// `trial` is σ \[Pa\], `stiffness` k \[Pa\].
 #[inline(always)]
-pub(super) fn radial_return<L: Lane>(trial: L, stiffness: L, yields: impl Fn(L) -> L) -> Return<L> {
+fn radial_return<L: Lane>(trial: L, stiffness: L, yields: impl Fn(L) -> L) -> Return<L> {
     let first = yields(L::zero());
     let mut own = Return {
         flows: !trial.le(first),

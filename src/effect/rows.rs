@@ -242,6 +242,12 @@ fn rows<T: Real, L: Lane, A: PointLaw<D>, const D: usize>(
     tally
 }
 
+/// A row of numbers.
+#[inline(always)]
+fn row<L: Lane>(own: impl Fn(usize) -> f64) -> L {
+    L::from_fn(|e| Real::from_f64(own(e)))
+}
+
 /// What the row of particles that starts some slots shows of their wall; of a row that is not full the last particle is repeated.
 #[inline(never)]
 fn load_wall<T: Real, L: Lane, const D: usize>(
@@ -253,7 +259,6 @@ fn load_wall<T: Real, L: Lane, const D: usize>(
         return;
     };
     let slot = |e: usize| (slots.start + e).min(slots.end - 1);
-    let row = |own: &dyn Fn(usize) -> f64| L::from_fn(|e| Real::from_f64(own(e)));
     let mut fall = [[0.0; D]; MOST_LANES];
     for (e, fall) in fall[..L::WIDTH].iter_mut().enumerate() {
         let own = wall.acceleration(slot(e));
@@ -261,14 +266,14 @@ fn load_wall<T: Real, L: Lane, const D: usize>(
             fall[d] = around.gravity[d] - own[d];
         }
     }
-    all.fall = core::array::from_fn(|d| row(&|e| fall[e][d]));
+    all.fall = core::array::from_fn(|d| row(|e| fall[e][d]));
     if wall.normal(slots.start).is_some() {
         let mut normal = [[0.0; D]; MOST_LANES];
         for (e, normal) in normal[..L::WIDTH].iter_mut().enumerate() {
             let own = wall.normal(slot(e)).unwrap_or_else(Vector::zeros);
             *normal = core::array::from_fn(|d| own[d].to_f64());
         }
-        all.normal = core::array::from_fn(|d| row(&|e| normal[e][d]));
+        all.normal = core::array::from_fn(|d| row(|e| normal[e][d]));
     }
     if wall.velocity_gradient(slots.start).is_some() {
         let mut gradient = [Matrix::zeros(); MOST_LANES];
@@ -279,7 +284,7 @@ fn load_wall<T: Real, L: Lane, const D: usize>(
         }
         for a in 0..D {
             for b in 0..D {
-                all.gradient.0[a][b] = row(&|e| gradient[e][(a, b)]);
+                all.gradient.0[a][b] = row(|e| gradient[e][(a, b)]);
             }
         }
     }
