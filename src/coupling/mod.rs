@@ -66,7 +66,7 @@ pub use liquid_structure::LiquidStructure;
 pub use penalty::Penalty;
 pub use tied::Tied;
 
-use crate::particles::{Columns, Field};
+use crate::particles::{Columns, Field, Fields};
 use crate::scalar::Real;
 use crate::term::TermDoc;
 use core::fmt::Debug;
@@ -96,6 +96,13 @@ pub struct CoupledParticle<T, const D: usize> {
 }
 
 impl<T: Real, const D: usize> CoupledParticle<T, D> {
+    /// The fields that couplings see of a particle, which must be at hand where they act.
+    pub const READS: Fields = Fields::of(&[
+        Field::POSITION,
+        Field::VELOCITY,
+        Field::MASS,
+        Field::DENSITY,
+    ]);
     /// What couplings see of the particle in a slot.
     pub(crate) fn of(columns: &Columns<T, D>, slot: usize, spacing: T) -> Self {
         Self {
@@ -282,5 +289,28 @@ pub trait Coupling<T: Real, const D: usize>: Debug + Send + Sync {
     /// What is wrong with its parameters, as `(field, value, what it must be)`; empty if nothing.
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         Vec::new()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of columns for what couplings declare, and no others; without one of them there is nothing to see.
+    #[test]
+    fn couplings_see_what_they_declare() {
+        let reads = CoupledParticle::<f64, 2>::READS;
+        let mut columns = Columns::<f64, 2>::new(reads, 3);
+        for (n, (_, column)) in columns.iter_mut().enumerate() {
+            column.fill(1.0 + n as f64);
+        }
+        let own = CoupledParticle::of(&columns, 2, 0.1);
+        let seen = [own.position[1], own.velocity[0], own.mass, own.density];
+        assert!(seen.iter().all(|value| *value >= 1.0) && own.spacing == 0.1);
+        for field in reads.iter() {
+            let columns = Columns::<f64, 2>::new(reads.minus(Fields::of(&[field])), 3);
+            let seen = std::panic::catch_unwind(|| CoupledParticle::of(&columns, 2, 0.1));
+            assert!(seen.is_err(), "{field:?}");
+        }
     }
 }

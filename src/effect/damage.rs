@@ -3,12 +3,12 @@
 
 use super::plasticity::cold;
 use super::{
-    Chunk, Effect, Hypoelastic, Law, LedgerColumn, Plasticity, Point, PointLaw, Reach, Rung,
-    Setting, StepProgram, Tally,
+    Around, CONSTANTS, Effect, Hypoelastic, LedgerColumn, Plasticity, Point, PointLaw, Reach, Rung,
+    Setting, StepProgram,
 };
 use crate::error::Problem;
 use crate::material::failure::FailureState;
-use crate::material::strength::ROOM_TEMPERATURE;
+use crate::material::strength::{PlasticHeating, ROOM_TEMPERATURE};
 use crate::name;
 use crate::particles::{Field, Fields};
 use crate::scalar::{Lane, Real};
@@ -144,88 +144,76 @@ impl<const D: usize> Effect<D> for Damage {
     }
 }
 
-impl<T: Real, const D: usize> Law<T, D> for Damage {
-    fn name(&self) -> &'static str {
-        "failure"
+impl<const D: usize> PointLaw<D> for Damage {
+    const NAME: &'static str = "failure";
+    const READS: Fields = Fields::of(&[
+        STRESS,
+        DAMAGE,
+        FAILED,
+        FLOWED,
+        Field::PRESSURE,
+        Plasticity::STRAIN,
+        Plasticity::WORK,
+    ]);
+    const WRITES: Fields = Fields::of(&[STRESS, DAMAGE, FAILED, FLOWED]);
+    const OPTIONAL: Fields = Fields::of(&[Plasticity::STRAIN, Plasticity::WORK]);
+    const RUNG: Option<Rung> = Some(Rung::Failure);
+    const DOUBLE: bool = true;
+    fn prepare<T: Real>(&self, around: &Around<'_, T, D>, _all: &mut [f64; CONSTANTS]) -> bool {
+        around.in_drift && around.material.failure().is_some()
     }
-    fn reads(&self) -> Fields {
-        Fields::of(&[
-            STRESS,
-            DAMAGE,
-            FAILED,
-            FLOWED,
-            Field::PRESSURE,
-            Plasticity::STRAIN,
-            Plasticity::WORK,
-        ])
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&[STRESS, DAMAGE, FAILED, FLOWED])
-    }
-    fn optional(&self) -> Fields {
-        Fields::of(&[Plasticity::STRAIN, Plasticity::WORK])
-    }
-    fn rung(&self) -> Option<Rung> {
-        Some(Rung::Failure)
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let mut tally = Tally::default();
-        let (material, dt) = (chunk.around.material, chunk.around.dt);
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        let material = at.around.material;
         let Some(law) = material.failure() else {
-            return tally;
+            return;
         };
-        if !chunk.around.in_drift {
-            return tally;
-        }
-        let heating = material.plastic_heating();
-        let live = chunk.live;
-        let ([pressure, strain, work], [damage, failed, flowed, stress]) = chunk.columns(
-            [Field::PRESSURE, Plasticity::STRAIN, Plasticity::WORK],
-            [DAMAGE, FAILED, FLOWED, STRESS],
+        let (zero, one) = (L::zero(), L::one());
+        let (damage, failed, flowed) = (at.get(DAMAGE), at.get(FAILED), at.get(FLOWED));
+        let (stress, pressure) = (at.tensor(STRESS), at.get(Field::PRESSURE));
+        let (strain, work, dt) = (
+            at.get(Plasticity::STRAIN),
+            at.get(Plasticity::WORK),
+            at.dt(),
         );
-        for (n, stress) in stress.chunks_exact_mut(6).enumerate() {
-            if damage[n] < T::one() {
-                let deviator = Symmetric::from_slice(stress).to_f64();
-                let pressure = pressure[n].to_f64();
-                let [now, work] =
-                    [strain, work].map(|column| column.get(n).map_or(0.0, |value| value.to_f64()));
-                let increment = now - flowed[n].to_f64();
-                flowed[n] = T::from_f64(now);
-                let state = FailureState {
-                    strain: now,
-                    increment,
-                    rate: if dt > 0.0 { increment / dt } else { 0.0 },
-                    temperature: heating.map_or(ROOM_TEMPERATURE, |own| own.temperature(work)),
-                    pressure,
-                    von_mises: deviator.von_mises(),
-                    principal_stress: largest(&deviator) - pressure,
-                };
-                let more = damage[n].to_f64() + law.damage(&state);
-                damage[n] = T::from_f64(more.min(1.0));
-                if damage[n] >= T::one() {
-                    failed[n] = T::one();
-                    tally.limited += u64::from(n < live);
-                }
-            }
-            if damage[n] >= T::one() {
-                stress.fill(T::zero());
-            }
+        let increment = strain - flowed;
+        let temperature = |own: PlasticHeating| own.temperature(work);
+        let state = FailureState {
+            strain,
+            increment,
+            rate: L::select(dt.gt(zero), increment / dt, zero),
+            temperature: (material.plastic_heating())
+                .map_or_else(|| L::of(ROOM_TEMPERATURE), temperature),
+            pressure,
+            von_mises: stress.von_mises(),
+            principal_stress: largest(&stress) - pressure,
+        };
+        let whole = damage.lt(one);
+        let more = (damage + law.damage(&state)).min(one);
+        let damage = L::select(whole, more, damage);
+        // In `f32` damage may round to one.
+        let fails = damage.ge(one);
+        at.limited(fails & failed.lt(one));
+        at.set(FLOWED, L::select(whole, strain, flowed));
+        at.set(DAMAGE, damage);
+        at.set(FAILED, L::select(fails, one, failed));
+        for (k, own) in stress.components().iter().enumerate() {
+            at.set_at(STRESS, k, L::select(fails, zero, *own));
         }
-        tally
     }
 }
 
 /// The largest principal value of a tensor without trace, by the angle of Lode.
-fn largest(deviator: &Symmetric<f64>) -> f64 {
-    let second = 0.5 * deviator.contract(deviator);
-    if second <= 0.0 {
-        return 0.0;
-    }
+#[inline(always)]
+fn largest<L: Lane>(deviator: &Symmetric<L>) -> L {
+    let second = L::of(0.5) * deviator.contract(deviator);
     let [xx, yy, zz, yz, xz, xy] = *deviator.components();
     let third = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
-    let radius = (second / 3.0).sqrt();
-    let angle = Lane::acos((0.5 * third / radius.powi(3)).clamp(-1.0, 1.0)) / 3.0;
-    2.0 * radius * Lane::cos(angle)
+    let radius = (second / L::of(3.0)).sqrt();
+    let cosine = (L::of(0.5) * third / radius.powi(3)).max(-L::one());
+    let angle = cosine.min(L::one()).acos() / L::of(3.0);
+    let own = L::of(2.0) * radius * angle.cos();
+    L::select(second.gt(L::zero()), own, L::zero())
 }
 
 /// Pressure without tension where a particle has failed.

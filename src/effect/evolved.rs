@@ -5,7 +5,7 @@ use super::access::{Access, Summed};
 use super::gradients::{GRADIENT_SUMS, velocity_gradient};
 use super::{Around, Limit};
 use crate::particles::{Columns, Field, Fields, Output, Outputs};
-use crate::scalar::Real;
+use crate::scalar::{Lane, Real};
 use crate::tensor::Matrix;
 use core::fmt::Debug;
 
@@ -164,6 +164,11 @@ impl BySum {
             over: Some(Field::MASS),
         }
     }
+    /// The rate of a particle, of its sum and what that is divided by.
+    #[inline(always)]
+    pub(super) fn point<L: Lane>(sum: L, over: Option<L>) -> L {
+        over.map_or(sum, |over| sum / over)
+    }
 }
 
 impl<T: Real, const D: usize> Rate<T, D> for BySum {
@@ -179,10 +184,13 @@ impl<T: Real, const D: usize> Rate<T, D> for BySum {
         let summed = at.sum(self.sum);
         for (n, values) in source.chunks_exact_mut(width).enumerate() {
             for (k, value) in values.iter_mut().enumerate() {
-                let sum = summed.get(k, first + n);
-                *value += over.map_or(sum, |over| sum / over[first + n]);
+                *value += Self::point(summed.get(k, first + n), over.map(|over| over[first + n]));
             }
         }
+    }
+    #[cfg(test)]
+    fn record(&self, _view: &View<'_, T, D>) -> Option<super::recorded::Recorded> {
+        Some(super::recorded::by_sum::<T, D>(self))
     }
 }
 

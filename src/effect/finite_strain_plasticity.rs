@@ -1,19 +1,17 @@
 //! Elastic–plastic solids under finite strain: a total-Lagrangian stress with the yield condition of von Mises.
 //! The multiplicative plasticity of Simo 1992 (Simo & Hughes 1998, box 9.1), with pressure by the equation of state.
 
-use super::hyperelastic::square;
-use super::radial_return::{after, radial_return};
-use super::total_lagrangian::{matrix, put, stretches_with};
+use super::radial_return::{before, returned};
+use super::total_lagrangian::stretches_of;
 use super::{
-    Chunk, Effect, Hypoelastic, Law, LedgerColumn, Plasticity, Rung, Setting, StepProgram, Tally,
-    TotalLagrangian,
+    Around, CONSTANTS, Effect, Hypoelastic, LedgerColumn, Plasticity, Point, PointLaw, Reach, Rung,
+    Setting, StepProgram, TotalLagrangian,
 };
 use crate::error::Problem;
-use crate::material::strength::{PlasticState, ROOM_TEMPERATURE};
 use crate::name;
 use crate::particles::{Field, Fields};
 use crate::scalar::{Lane, Real};
-use crate::tensor::{Matrix, Symmetric, determinant, inverse};
+use crate::tensor::{Square, Symmetric};
 use crate::term::{Stage, TermDoc};
 
 /// The stress of a [total-Lagrangian](TotalLagrangian) solid that yields. Of the deformation gradient F a part is plastic and
@@ -108,143 +106,148 @@ impl<const D: usize> Effect<D> for FiniteStrainPlasticity {
     }
 }
 
-impl<T: Real, const D: usize> Law<T, D> for FiniteStrainPlasticity {
-    fn name(&self) -> &'static str {
-        "plastic flow"
+impl<const D: usize> PointLaw<D> for FiniteStrainPlasticity {
+    const NAME: &'static str = "plastic flow";
+    const READS: Fields = Fields::of(&[
+        F,
+        CP,
+        STRAIN,
+        WORK,
+        Field::PRESSURE,
+        Field::SOUND_SPEED,
+        Field::DENSITY,
+        Field::REFERENCE_DENSITY,
+    ]);
+    const WRITES: Fields = Fields::of(&[PIOLA, CP, STRAIN, WORK, DISTORTION, Field::SOUND_SPEED]);
+    const RUNG: Option<Rung> = Some(Rung::Flow);
+    const DOUBLE: bool = true;
+    fn prepare<T: Real>(&self, around: &Around<'_, T, D>, _all: &mut [f64; CONSTANTS]) -> bool {
+        super::plasticity::flows(around)
     }
-    fn reads(&self) -> Fields {
-        Fields::of(&[
-            F,
-            CP,
-            STRAIN,
-            WORK,
-            Field::PRESSURE,
-            Field::SOUND_SPEED,
-            Field::DENSITY,
-            Field::REFERENCE_DENSITY,
-        ])
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&[PIOLA, CP, STRAIN, WORK, DISTORTION, Field::SOUND_SPEED])
-    }
-    fn rung(&self) -> Option<Rung> {
-        Some(Rung::Flow)
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let mut tally = Tally::default();
-        let (material, dt) = (chunk.around.material, chunk.around.dt);
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        let material = at.around.material;
         let (Some(law), Some(shear)) = (material.strength(), material.shear_modulus) else {
-            return tally;
+            return;
         };
-        let heating = material.plastic_heating();
-        let (live, reference) = (chunk.live, material.reference_density());
-        let ([pressure, density, rest, deformation], [piola, plastic, strain, work, distortion, c]) =
-            chunk.columns(
-                [Field::PRESSURE, Field::DENSITY, Field::REFERENCE_DENSITY, F],
-                [PIOLA, CP, STRAIN, WORK, DISTORTION, Field::SOUND_SPEED],
-            );
-        for (n, out) in piola.chunks_exact_mut(D * D).enumerate() {
-            let gradient = matrix::<T, D>(deformation, n);
-            let volume = determinant(&gradient).to_f64();
-            let p = pressure[n].to_f64();
-            let mut elastic = Elastic::of(&gradient, volume, &plastic[n * 6..]);
-            let trial = elastic.stress(shear);
-            let von_mises = (1.5 * square(&trial)).sqrt() / volume;
-            let (flowed, worked) = (strain[n].to_f64(), work[n].to_f64());
-            let before = PlasticState {
-                strain: flowed,
-                rate: 0.0,
-                temperature: heating.map_or(ROOM_TEMPERATURE, |own| own.temperature(worked)),
-                pressure: p,
-                density_ratio: density[n].to_f64() / reference,
-            };
-            let mut stress = trial;
-            // √(3/2 s:s) falls by 3 G tr b̄/3 for each unit of plastic strain.
-            let stiffness = shear * elastic.trace() / volume;
-            let back = radial_return(von_mises, stiffness, |more| after(law, &before, more, dt));
-            if let Some([increment, yields]) = back {
-                stress *= yields / von_mises;
-                elastic.return_to(&stress, shear);
-                elastic.pull_back(&mut plastic[n * 6..(n + 1) * 6]);
-                strain[n] = T::from_f64(flowed + increment);
-                work[n] = T::from_f64(worked + yields * increment * volume / rest[n].to_f64());
-                tally.limited += u64::from(n < live);
+        let (gradient, p, dt) = (at.matrix(F), at.get(Field::PRESSURE), at.dt());
+        let (rest, shear) = (at.get(Field::REFERENCE_DENSITY), L::of(shear));
+        let (volume, three) = (gradient.determinant(), L::of(3.0));
+        let plastic = at.tensor(CP);
+        let mut elastic = Elastic::of(&gradient, volume, &plastic);
+        let trial = elastic.stress(shear);
+        let von_mises = (L::of(1.5) * trial.square()).sqrt() / volume;
+        let before = before(at);
+        // √(3/2 s:s) falls by 3 G tr b̄/3 for each unit of plastic strain.
+        let stiffness = shear * elastic.deformation.trace() / volume;
+        let back = returned(law, &before, dt, [von_mises, stiffness]);
+        let mut stress = trial;
+        at.limited(back.flows);
+        if L::somewhere(back.flows) {
+            let pick = |yes: L, no: L| L::select(back.flows, yes, no);
+            stress = stress.scaled(pick(back.yields / von_mises, L::one()));
+            elastic.return_to(&stress, shear, back.flows);
+            let left = elastic.pull_back();
+            for (k, own) in left.components().iter().enumerate() {
+                at.set_at(CP, k, pick(*own, plastic.components()[k]));
             }
-            // Of Kirchhoff's stress the part in the space of the body, pulled back on one side.
-            let kirchhoff = Matrix::<T, D>::from_fn(|a, b| {
-                let pressure = if a == b { volume * p } else { 0.0 };
-                T::from_f64(stress[(a, b)] - pressure)
-            });
-            let back = inverse(&gradient, 0.0).unwrap_or_else(Matrix::identity);
-            put(out, &(kirchhoff * back.transpose()));
-            let rest = rest[n].to_f64();
-            distortion[n] = T::from_f64(0.5 * shear * (elastic.trace() - 3.0) / rest);
-            // Along X: the speed of longitudinal waves over the smallest stretch.
-            let squared = c[n].to_f64().powi(2) + 4.0 / 3.0 * shear / (rest / volume);
-            let [_, over] = stretches_with(&gradient, &back);
-            c[n] = T::from_f64((squared * over.to_f64()).sqrt());
+            let (strain, work) = (before.strain + back.increment, at.get(WORK));
+            let more = back.yields * back.increment * volume / rest;
+            at.set(STRAIN, pick(strain, before.strain));
+            at.set(WORK, pick(work + more, work));
         }
-        tally
+        // Of Kirchhoff's stress the part in the space of the body, pulled back on one side.
+        let mut kirchhoff = Square::<L, D>::zero();
+        for a in 0..D {
+            for b in 0..D {
+                kirchhoff.0[a][b] = stress.0[a][b];
+            }
+            kirchhoff.0[a][a] -= volume * p;
+        }
+        let back = gradient.inverse(0.0).0;
+        at.set_matrix(PIOLA, &kirchhoff.times(&back.transposed()));
+        let strained = elastic.deformation.trace() - three;
+        at.set(DISTORTION, L::of(0.5) * shear * strained / rest);
+        // Along X: the speed of longitudinal waves over the smallest stretch.
+        let c = at.get(Field::SOUND_SPEED);
+        let squared = c * c + L::of(4.0 / 3.0) * shear / (rest / volume);
+        let [_, over] = stretches_of(&gradient, &back);
+        at.set(Field::SOUND_SPEED, (squared * over).sqrt());
     }
 }
 
 /// The elastic, volume-free deformation b̄ of a particle, in space.
-struct Elastic {
+struct Elastic<L> {
     /// J^(−1/3) F, one out of the plane.
-    gradient: Matrix<f64, 3>,
-    deformation: Matrix<f64, 3>,
+    gradient: Square<L, 3>,
+    deformation: Square<L, 3>,
 }
 
-impl Elastic {
+impl<L: Lane> Elastic<L> {
     /// Of F and Cₚ⁻¹ − 1.
-    fn of<T: Real, const D: usize>(gradient: &Matrix<T, D>, volume: f64, plastic: &[T]) -> Self {
-        let shrunk = Lane::powf(volume, -1.0 / 3.0);
-        let gradient = Matrix::<f64, 3>::from_fn(|a, b| {
-            let own = if a < D && b < D {
-                gradient[(a, b)].to_f64()
-            } else {
-                f64::from(u8::from(a == b))
-            };
-            own * shrunk
-        });
-        let plastic = Symmetric::from_slice(plastic).to_f64();
-        let inverse =
-            Matrix::<f64, 3>::from_fn(|a, b| f64::from(u8::from(a == b)) + plastic.at(a, b));
-        Self {
-            gradient,
-            deformation: gradient * inverse * gradient.transpose(),
-        }
-    }
-    fn trace(&self) -> f64 {
-        self.deformation.trace()
-    }
-    /// G dev b̄ \[Pa\].
-    fn stress(&self, shear: f64) -> Matrix<f64, 3> {
-        let mean = Matrix::<f64, 3>::identity() * (self.trace() / 3.0);
-        (self.deformation - mean) * shear
-    }
-    /// That of which the stress is this one, with a determinant of one: kept at that of the trial, as box 9.1 has it, the
-    /// trace would gather all plastic work as elastic energy.
-    fn return_to(&mut self, stress: &Matrix<f64, 3>, shear: f64) {
-        let deviator = stress / shear;
-        // det(a + m 1) = m³ − ½ (a:a) m + det a, which rises beyond its root.
-        let (half, third) = (0.5 * square(&deviator), determinant(&deviator));
-        let mut mean = (self.trace() / 3.0).max(1.0);
-        for _ in 0..MOST_MEANS {
-            let change = ((mean * mean - half) * mean + third - 1.0) / (3.0 * mean * mean - half);
-            mean -= change;
-            if change.abs() <= f64::EPSILON * mean {
-                break;
+    #[inline(always)]
+    fn of<const D: usize>(gradient: &Square<L, D>, volume: L, plastic: &Symmetric<L>) -> Self {
+        let mut whole = Square::identity();
+        for a in 0..D {
+            for b in 0..D {
+                whole.0[a][b] = gradient.0[a][b];
             }
         }
-        self.deformation = deviator + Matrix::<f64, 3>::identity() * mean;
+        let gradient = whole.scaled(volume.powf(-1.0 / 3.0));
+        let mut inverse = Square::identity();
+        for a in 0..3 {
+            for b in 0..3 {
+                inverse.0[a][b] += plastic.at(a, b);
+            }
+        }
+        Self {
+            gradient,
+            deformation: gradient.times(&inverse).times(&gradient.transposed()),
+        }
+    }
+    /// G dev b̄ \[Pa\].
+    #[inline(always)]
+    fn stress(&self, shear: L) -> Square<L, 3> {
+        let mean = self.deformation.trace() / L::of(3.0);
+        self.deformation
+            .plus(-mean, &Square::identity())
+            .scaled(shear)
+    }
+    /// That of which the stress is this one, with a determinant of one, where it is asked for: kept at that of the trial, as box
+    /// 9.1 has it, the trace would gather all plastic work as elastic energy.
+    #[inline(always)]
+    fn return_to(&mut self, stress: &Square<L, 3>, shear: L, asked: L::Mask) {
+        let mut deviator = *stress;
+        for row in &mut deviator.0 {
+            for own in row {
+                *own /= shear;
+            }
+        }
+        // det(a + m 1) = m³ − ½ (a:a) m + det a, which rises beyond its root.
+        let (half, third) = (L::of(0.5) * deviator.square(), deviator.determinant());
+        let first = (self.deformation.trace() / L::of(3.0)).max(L::one());
+        let [mean] = L::iterate(MOST_MEANS, [first], |[mean]| {
+            let excess = (mean * mean - half) * mean + third - L::one();
+            let change = excess / (L::of(3.0) * mean * mean - half);
+            let next = mean - change;
+            ([next], !asked | change.abs().le(L::of(f64::EPSILON) * next))
+        });
+        let own = deviator.plus(mean, &Square::identity());
+        for a in 0..3 {
+            for b in 0..3 {
+                let before = self.deformation.0[a][b];
+                self.deformation.0[a][b] = L::select(asked, own.0[a][b], before);
+            }
+        }
     }
     /// Cₚ⁻¹ − 1.
-    fn pull_back<T: Real>(&self, plastic: &mut [T]) {
-        let back = inverse(&self.gradient, 0.0).unwrap_or_else(Matrix::identity);
-        let inverse = back * self.deformation * back.transpose() - Matrix::identity();
-        let own = Symmetric::symmetric_part(&inverse);
-        plastic.copy_from_slice(&own.components().map(T::from_f64));
+    #[inline(always)]
+    fn pull_back(&self) -> Symmetric<L> {
+        let back = self.gradient.inverse(0.0).0;
+        let inverse = back.times(&self.deformation).times(&back.transposed());
+        inverse
+            .plus(-L::one(), &Square::identity())
+            .symmetric_part()
     }
 }
 

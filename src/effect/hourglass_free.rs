@@ -1,18 +1,17 @@
 //! Hourglass control of updated-Lagrangian solids: a stiffness against what a gradient does not see.
 //! After Zhang, Wu, Lourenço & Hu 2025, in a form whose forces are central and opposite for every pair.
 
-use super::access::Summed;
-use super::gradients::{GRADIENT_SUMS, velocity_gradient};
+use super::gradients::GRADIENT_SUMS;
 use super::hourglass_control::STIFFNESS;
 use super::{
-    Around, CONSTANTS, Chunk, Damage, Effect, Hypoelastic, Law, Plasticity, Point, PointLaw, Reach,
-    Rung, Setting, StepProgram, Tally, not_negative,
+    Around, CONSTANTS, Damage, Effect, Hypoelastic, Plasticity, Point, PointLaw, Reach, Rung,
+    Setting, StepProgram, not_negative,
 };
 use crate::error::Problem;
 use crate::name;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
-use crate::tensor::{Symmetric, Vector, rotation};
+use crate::tensor::Square;
 use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 
 /// Stiffness against hourglass modes, for [`Hypoelastic`] solids. Particles may move in zigzag without any change of
@@ -147,59 +146,47 @@ const LEAST: f64 = 1e-30;
 /// What is left of the stiffness of a failed particle: next to nothing, and no zero to divide by.
 const FAILED: f64 = 1e-9;
 
-impl<T: Real, const D: usize> Law<T, D> for HourglassFree {
-    fn name(&self) -> &'static str {
-        "mismatch of motion and gradient"
+impl<const D: usize> PointLaw<D> for HourglassFree {
+    const NAME: &'static str = "mismatch of motion and gradient";
+    const READS: Fields =
+        Fields::of(&[MISMATCH, FLOWED, STRESS, Plasticity::STRAIN, Damage::DAMAGE]);
+    const WRITES: Fields = Fields::of(&[MISMATCH, FLOWED]);
+    const SUMS: Outputs = Outputs::of(&[DIFFERENCE, CENTRE]).union(Outputs::of(&GRADIENT_SUMS));
+    const OPTIONAL: Fields = Fields::of(&[Plasticity::STRAIN, Damage::DAMAGE]);
+    const RUNG: Option<Rung> = Some(Rung::Flow);
+    fn prepare<T: Real>(
+        &self,
+        around: &Around<'_, T, D>,
+        constants: &mut [f64; CONSTANTS],
+    ) -> bool {
+        constants[0] = 3.0 * around.material.shear_modulus.unwrap_or(0.0);
+        around.in_drift
     }
-    fn reads(&self) -> Fields {
-        Fields::of(&[MISMATCH, FLOWED, STRESS, Plasticity::STRAIN, Damage::DAMAGE])
-    }
-    fn sums(&self) -> Outputs {
-        Outputs::of(&[DIFFERENCE, CENTRE]).union(Outputs::of(&GRADIENT_SUMS))
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&[MISMATCH, FLOWED])
-    }
-    fn optional(&self) -> Fields {
-        Fields::of(&[Plasticity::STRAIN, Damage::DAMAGE])
-    }
-    fn rung(&self) -> Option<Rung> {
-        Some(Rung::Flow)
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        if !chunk.around.in_drift {
-            return Tally::default();
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        let (zero, one, dt) = (L::zero(), L::one(), at.dt());
+        let (gradient, before) = (at.velocity_gradient(), at.vector(MISMATCH));
+        let (difference, centre) = (at.sum_vector(DIFFERENCE), at.sum_vector(CENTRE));
+        let linear = gradient.dot(&centre);
+        let mut left = one;
+        if at.has(Plasticity::STRAIN) {
+            let strain = at.get(Plasticity::STRAIN);
+            let more = strain - at.get(FLOWED);
+            at.set(FLOWED, strain);
+            let yields = at.tensor(STRESS).von_mises();
+            let share = yields / (yields + at.constant(0) * more);
+            left = L::select(more.gt(zero), share, one);
         }
-        let [difference, centre] = [DIFFERENCE, CENTRE].map(|sum| chunk.sum(sum));
-        let gradients = GRADIENT_SUMS.map(|sum| chunk.sum(sum));
-        let dt = T::from_f64(chunk.around.dt);
-        let modulus = chunk.around.material.shear_modulus.unwrap_or(0.0);
-        let ([stress, strain, damage], [mismatch, flowed]) = chunk.columns(
-            [STRESS, Plasticity::STRAIN, Damage::DAMAGE],
-            [MISMATCH, FLOWED],
-        );
-        for (n, own) in mismatch.chunks_exact_mut(D).enumerate() {
-            let gradient = velocity_gradient(gradients, n);
-            let at = |sum: Summed<'_, T, D>| Vector::<T, D>::from_fn(|d, _| sum.get(d, n));
-            let rate = at(difference) - gradient * at(centre);
-            let spin = (gradient - gradient.transpose()) * (dt * T::from_f64(0.5));
-            let mut left = T::one();
-            if let Some(strain) = strain.get(n) {
-                let more = (*strain - flowed[n]).to_f64();
-                flowed[n] = *strain;
-                let yields = Symmetric::from_slice(&stress[6 * n..]).to_f64().von_mises();
-                if more > 0.0 {
-                    left = T::from_f64(yields / (yields + 3.0 * modulus * more));
-                }
-            }
-            if damage.get(n).is_some_and(|damage| *damage >= T::one()) {
-                left = T::zero();
-            }
-            let before = Vector::<T, D>::from_fn(|d, _| own[d]);
-            let turned = rotation(&spin) * (before + rate * dt) * left;
-            own.copy_from_slice(turned.as_slice());
+        left = L::select(at.get(Damage::DAMAGE).ge(one), zero, left);
+        let spin = gradient.plus(-one, &gradient.transposed());
+        let mut after = [zero; D];
+        for d in 0..D {
+            after[d] = before[d] + (difference[d] - linear[d]) * dt;
         }
-        Tally::default()
+        let turned = Square::rotation(&spin.scaled(dt * L::of(0.5))).dot(&after);
+        for d in 0..D {
+            at.set_at(MISMATCH, d, turned[d] * left);
+        }
     }
 }
 

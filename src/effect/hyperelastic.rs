@@ -8,7 +8,7 @@ use super::{
 use crate::name;
 use crate::particles::{Field, Fields};
 use crate::scalar::{Lane, Real};
-use crate::tensor::{Matrix, Square};
+use crate::tensor::Square;
 use crate::term::{Stage, TermDoc};
 use core::fmt::Debug;
 
@@ -106,16 +106,11 @@ pub(super) fn lame<T: Real, const D: usize>(around: &Around<'_, T, D>) -> [f64; 
     [around.material.bulk_modulus() - 2.0 / 3.0 * shear, shear]
 }
 
-/// Σ Aₐᵦ².
-pub(super) fn square<T: Real, const D: usize>(matrix: &Matrix<T, D>) -> T {
-    matrix.iter().fold(T::zero(), |sum, x| sum + *x * *x)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::effect::{NeoHookean, StVenantKirchhoff};
-    use crate::tensor::rotation;
+    use crate::tensor::{Matrix, rotation};
 
     struct Of<const D: usize> {
         piola: Matrix<f64, D>,

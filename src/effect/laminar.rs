@@ -1,11 +1,11 @@
 //! Physical viscosity: a pair form of the Laplacian, what walls without slip show, and laws that follow the shear.
 //! Morris, Fox & Zhu 1997; Adami, Hu & Adams 2012, eqs. 22, 23.
 
-use super::access::Summed;
-use super::gradients::{GRADIENT_SUMS, velocity_gradient};
-use super::{Chunk, Effect, Law, Rung, Setting, StepProgram, Tally};
+use super::gradients::GRADIENT_SUMS;
+use super::viscosity_switch::shear2;
+use super::{Around, CONSTANTS, Effect, Point, PointLaw, Reach, Rung, Setting, StepProgram};
 use crate::particles::{Field, Fields, Output, Outputs};
-use crate::scalar::Real;
+use crate::scalar::{Lane, Mask, Real};
 use crate::term::{In, Stage, Term, VelocityAtWall, VelocityGradient, ViscosityAtWall, stage};
 
 /// A physical viscosity, of the liquids' own dynamic viscosity:
@@ -57,58 +57,41 @@ impl<const D: usize, X: Term<D>> Effect<D> for Laminar<X> {
 #[derive(Clone, Copy, Debug)]
 struct NoSlip;
 
-/// What a wall sees of the liquid before it.
-const SEEN: [Output; 4] = [
-    Output::UNITY,
-    Output::LIQUID_VELOCITY,
-    Output::LIQUID_ARM,
-    Output::LIQUID_VISCOSITY,
-];
-
-impl<T: Real, const D: usize> Law<T, D> for NoSlip {
-    fn name(&self) -> &'static str {
-        "walls without slip"
-    }
-    fn reads(&self) -> Fields {
-        Fields::of(&[Field::VELOCITY])
-    }
-    fn sums(&self) -> Outputs {
-        Outputs::of(&SEEN)
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&[Field::VELOCITY, Field::DYNAMIC_VISCOSITY])
-    }
-    fn rung(&self) -> Option<Rung> {
-        Some(Rung::Constraint)
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let [unities, velocities, arms, viscosities] = SEEN.map(|sum| chunk.sum(sum));
-        let first = chunk.first;
-        let wall = chunk.around.wall.filter(|wall| wall.sticks());
-        let dry = T::from_f64(super::walls::DRY);
-        let ([], [velocity, viscosity]) =
-            chunk.columns([], [Field::VELOCITY, Field::DYNAMIC_VISCOSITY]);
-        for (n, (v, viscosity)) in velocity.chunks_exact_mut(D).zip(viscosity).enumerate() {
-            let unity = unities.get(0, n);
-            let Some(wall) = wall.filter(|_| unity > dry) else {
-                *viscosity = T::zero();
-                continue;
-            };
-            for (d, v) in v.iter_mut().enumerate() {
-                let liquid = velocities.get(d, n);
-                *v = *v + *v - liquid / unity;
+impl<const D: usize> PointLaw<D> for NoSlip {
+    const NAME: &'static str = "walls without slip";
+    const READS: Fields = Fields::of(&[Field::VELOCITY]);
+    const WRITES: Fields = Fields::of(&[Field::VELOCITY, Field::DYNAMIC_VISCOSITY]);
+    const SUMS: Outputs = Outputs::of(&[
+        Output::UNITY,
+        Output::LIQUID_VELOCITY,
+        Output::LIQUID_ARM,
+        Output::LIQUID_VISCOSITY,
+    ]);
+    const RUNG: Option<Rung> = Some(Rung::Constraint);
+    const OF_WALLS: bool = true;
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        let unity = at.sum(Output::UNITY);
+        let (liquid, arm) = (
+            at.sum_vector(Output::LIQUID_VELOCITY),
+            at.sum_vector(Output::LIQUID_ARM),
+        );
+        let viscosity = at.sum(Output::LIQUID_VISCOSITY) / unity;
+        let sticks = at.around.wall.is_some_and(|wall| wall.sticks());
+        let wet = L::Mask::all_of(sticks) & unity.gt(L::of(super::walls::DRY));
+        at.set(
+            Field::DYNAMIC_VISCOSITY,
+            L::select(wet, viscosity, L::zero()),
+        );
+        let gradient = at.wall.gradient;
+        for d in 0..D {
+            let own = at.get_at(Field::VELOCITY, d);
+            let mut mirrored = own + own - liquid[d] / unity;
+            for k in 0..D {
+                mirrored -= gradient.0[d][k] * (arm[k] / unity);
             }
-            if let Some(gradient) = wall.velocity_gradient(first + n) {
-                for (d, v) in v.iter_mut().enumerate() {
-                    for k in 0..D {
-                        let arm = arms.get(k, n) / unity;
-                        *v -= T::from_f64(gradient[(d, k)]) * arm;
-                    }
-                }
-            }
-            *viscosity = viscosities.get(0, n) / unity;
+            at.set_at(Field::VELOCITY, d, L::select(wet, mirrored, own));
         }
-        Tally::default()
     }
 }
 
@@ -147,54 +130,24 @@ impl<const D: usize> Effect<D> for GeneralisedNewtonian {
     }
 }
 
-impl<T: Real, const D: usize> Law<T, D> for GeneralisedNewtonian {
-    fn name(&self) -> &'static str {
-        "viscosity from shear"
+impl<const D: usize> PointLaw<D> for GeneralisedNewtonian {
+    const NAME: &'static str = "viscosity from shear";
+    const READS: Fields = Fields::of(&[Field::DYNAMIC_VISCOSITY]);
+    const WRITES: Fields = Fields::of(&[Field::DYNAMIC_VISCOSITY]);
+    const SUMS: Outputs = Outputs::of(&GRADIENT_SUMS);
+    const RUNG: Option<Rung> = Some(Rung::Flow);
+    fn prepare<T: Real>(&self, around: &Around<'_, T, D>, _all: &mut [f64; CONSTANTS]) -> bool {
+        around.material.rheology().is_some()
     }
-    fn reads(&self) -> Fields {
-        Fields::of(&[Field::DYNAMIC_VISCOSITY])
-    }
-    fn sums(&self) -> Outputs {
-        Outputs::of(&GRADIENT_SUMS)
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&[Field::DYNAMIC_VISCOSITY])
-    }
-    fn rung(&self) -> Option<Rung> {
-        Some(Rung::Flow)
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let (around, gradients) = (chunk.around, GRADIENT_SUMS.map(|sum| chunk.sum(sum)));
-        let ([], [viscosity]) = chunk.columns([], [Field::DYNAMIC_VISCOSITY]);
-        if let Some(law) = around.material.rheology() {
-            let mut rates = [T::zero(); SHEARED];
-            for (part, viscosity) in viscosity.chunks_mut(SHEARED).enumerate() {
-                let rates = &mut rates[..viscosity.len()];
-                for (n, rate) in rates.iter_mut().enumerate() {
-                    *rate = shear_rate(gradients, part * SHEARED + n);
-                }
-                law.viscosities(rates, viscosity);
-            }
-        }
-        Tally::default()
-    }
-}
-
-/// √(2 D:D) \[1/s\] with D the symmetric part of ∇v without its trace.
-fn shear_rate<T: Real, const D: usize>(gradients: [Summed<'_, T, D>; 2], n: usize) -> T {
-    let gradient = velocity_gradient(gradients, n);
-    let half = T::from_f64(0.5);
-    let mean = gradient.trace() / T::from_f64(D as f64);
-    let mut square = T::zero();
-    for a in 0..D {
-        for b in 0..D {
-            let own = (gradient[(a, b)] + gradient[(b, a)]) * half;
-            let own = if a == b { own - mean } else { own };
-            square += own * own;
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        if let Some(law) = at.around.material.rheology() {
+            // √(2 D:D) with D the symmetric part of ∇v without its trace.
+            let square = shear2(&at.velocity_gradient());
+            at.set(
+                Field::DYNAMIC_VISCOSITY,
+                law.viscosity((square + square).sqrt()),
+            );
         }
     }
-    (square + square).sqrt()
 }
-
-/// Particles whose shear rates are on the stack at a time.
-const SHEARED: usize = 64;

@@ -120,7 +120,7 @@ pub use neo_hookean::NeoHookean;
 pub use pairing_control::{NearPairs, PairingControl};
 pub use plane_stress::PlaneStress;
 pub use plasticity::Plasticity;
-pub use point::{CONSTANTS, Point, PointLaw, PointLimit, PointRate, Reach};
+pub use point::{AtWall, CONSTANTS, Point, PointLaw, PointLimit, PointRate, Reach};
 pub use pressure_difference::{PressureDifference, PressureSlope};
 pub use program::{LedgerColumn, Requirement, SceneFacts, StepProgram};
 pub use renormalised_hypoelastic::RenormalisedHypoelastic;

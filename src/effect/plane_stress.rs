@@ -148,57 +148,53 @@ impl PointLaw<2> for PlaneStress {
 
 /// The strain δ across a sheet, beyond the elastic one, at which a return to the yield surface leaves no stress there.
 ///
-/// `trial` is S \[Pa\] after the elastic change, its zz component the pressure; `left` gives Y/σ for a stress of von Mises
-/// \[Pa\], one where it does not yield.
-pub(super) fn strain_across(
-    trial: &Symmetric<f64>,
+/// `trial` is S \[Pa\] after the elastic change, its zz component the pressure; `asked` says where δ is asked for, and `left` gives
+/// Y/σ for a stress of von Mises \[Pa\], one where it does not yield.
+#[inline(always)]
+pub(super) fn strain_across<L: Lane>(
+    trial: &Symmetric<L>,
     [bulk, shear]: [f64; 2],
-    left: impl Fn(f64) -> f64,
-) -> f64 {
-    let pressure = trial.at(2, 2);
-    let excess = |strain: f64| {
-        let changed = with_strain_across(trial, shear, strain);
-        let share = left(changed.von_mises());
-        [
-            share.mul_add(changed.at(2, 2), bulk.mul_add(strain, -pressure)),
-            share,
-        ]
-    };
+    asked: L::Mask,
+    left: impl Fn(L) -> L,
+) -> L {
+    let (pressure, bulk) = (trial.at(2, 2), L::of(bulk));
     // The elastic slope K + 4G/3 is an upper bound for a law that hardens, and K a lower one for any share that falls
     // while σ grows: Newton with what lies between, kept within its bracket by halving.
-    let (mut strain, mut low, mut high) = (0.0, f64::NEG_INFINITY, f64::INFINITY);
-    let size = trial.von_mises().max(f64::MIN_POSITIVE);
-    for _ in 0..MOST_TRIALS {
-        let [residual, share] = excess(strain);
-        if residual.abs() <= 1e-14 * size {
-            break;
-        }
-        if residual > 0.0 {
-            high = strain;
-        } else {
-            low = strain;
-        }
-        let mut next = strain - residual / (4.0 / 3.0 * shear).mul_add(share, bulk);
-        if next <= low || next >= high {
-            next = 0.5 * (low + high);
-        }
-        if next == strain || !next.is_finite() {
-            break;
-        }
-        strain = next;
-    }
+    let endless = L::of(f64::INFINITY);
+    let least = L::of(1e-14) * trial.von_mises().max(L::of(f64::MIN_POSITIVE));
+    let [strain, _, _] = L::iterate(
+        MOST_TRIALS,
+        [L::zero(), -endless, endless],
+        |[strain, low, high]| {
+            let changed = with_strain_across(trial, shear, strain);
+            let share = left(changed.von_mises());
+            let residual = share.fused(changed.at(2, 2), bulk.fused(strain, -pressure));
+            let above = residual.gt(L::zero());
+            let (low, high) = (
+                L::select(above, low, strain),
+                L::select(above, strain, high),
+            );
+            let next = strain - residual / L::of(4.0 / 3.0 * shear).fused(share, bulk);
+            let outside = next.le(low) | next.ge(high);
+            let next = L::select(outside, L::of(0.5) * (low + high), next);
+            let stays = (next.le(strain) & next.ge(strain)) | !next.abs().lt(endless);
+            let done = !asked | residual.abs().le(least) | stays;
+            ([L::select(done, strain, next), low, high], done)
+        },
+    );
     strain
 }
 
 /// Most trials of a return; some ten are enough, because the slope is at most 1 + 4G/3K from the one taken.
-const MOST_TRIALS: usize = 100;
+const MOST_TRIALS: usize = 40;
 
 /// S with the elastic change by a strain across the sheet.
-pub(super) fn with_strain_across(
-    stress: &Symmetric<f64>,
+#[inline(always)]
+pub(super) fn with_strain_across<L: Lane>(
+    stress: &Symmetric<L>,
     shear: f64,
-    strain: f64,
-) -> Symmetric<f64> {
-    let change = Symmetric::diagonal([-1.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0]);
-    stress.plus(2.0 * shear * strain, &change)
+    strain: L,
+) -> Symmetric<L> {
+    let change = Symmetric::diagonal([-1.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0].map(L::of));
+    stress.plus(L::of(2.0 * shear) * strain, &change)
 }

@@ -1,18 +1,16 @@
 //! Plastic flow of solids: the deviatoric stress returns to the yield surface of the material's law of strength.
 //! The radial return of Wilkins 1964, implicit in the plastic strain for any hardening and rate.
 
-use super::radial_return::{after, radial_return};
+use super::radial_return::{before, returned};
 use super::{
-    Chunk, Damage, Effect, Hypoelastic, Law, LedgerColumn, PlaneStress, Rung, SceneFacts, Setting,
-    StepProgram, Tally, UniaxialStress, plane_stress,
+    Around, CONSTANTS, Damage, Effect, Hypoelastic, LedgerColumn, PlaneStress, Point, PointLaw,
+    Reach, Rung, SceneFacts, Setting, StepProgram, UniaxialStress, plane_stress,
 };
 use crate::error::Problem;
 use crate::material::Material;
-use crate::material::strength::{PlasticState, ROOM_TEMPERATURE};
 use crate::name;
 use crate::particles::{Field, Fields};
-use crate::scalar::Real;
-use crate::tensor::Symmetric;
+use crate::scalar::{Lane, Real};
 use crate::term::{Stage, TermDoc};
 
 /// Plasticity with the condition of von Mises, added to [`Hypoelastic`]: the deviatoric stress S returns to the yield surface after
@@ -150,94 +148,78 @@ pub(super) fn cold<T: Real>(
     })
 }
 
-impl<T: Real, const D: usize> Law<T, D> for Plasticity {
-    fn name(&self) -> &'static str {
-        "plastic flow"
-    }
-    fn reads(&self) -> Fields {
-        let own = Fields::of(&[STRESS, STRAIN, WORK, Field::PRESSURE, Field::DENSITY]);
-        own.union(FREE).union(Fields::of(&[FAILED]))
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&[STRESS, STRAIN, WORK]).union(FREE)
-    }
-    fn optional(&self) -> Fields {
-        FREE.union(Fields::of(&[FAILED]))
-    }
-    fn before(&self) -> Fields {
-        Fields::of(&[FAILED])
-    }
-    fn rung(&self) -> Option<Rung> {
-        Some(Rung::Flow)
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let mut tally = Tally::default();
-        let (material, dt) = (chunk.around.material, chunk.around.dt);
-        let (Some(law), Some(modulus)) = (material.strength(), material.shear_modulus) else {
-            return tally;
-        };
+impl<const D: usize> PointLaw<D> for Plasticity {
+    const NAME: &'static str = "plastic flow";
+    const READS: Fields = Fields::of(&[STRESS, STRAIN, WORK, Field::PRESSURE, Field::DENSITY])
+        .union(FREE)
+        .union(Fields::of(&[FAILED]));
+    const WRITES: Fields = Fields::of(&[STRESS, STRAIN, WORK]).union(FREE);
+    const OPTIONAL: Fields = FREE.union(Fields::of(&[FAILED]));
+    const BEFORE: Fields = Fields::of(&[FAILED]);
+    const RUNG: Option<Rung> = Some(Rung::Flow);
+    const DOUBLE: bool = true;
+    fn prepare<T: Real>(&self, around: &Around<'_, T, D>, _all: &mut [f64; CONSTANTS]) -> bool {
         // Stress changes in drifts alone.
-        if !chunk.around.in_drift {
-            return tally;
-        }
-        let heating = material.plastic_heating();
-        let (live, rest) = (chunk.live, material.reference_density());
-        let ([pressure, density, failed], [stress, strain, work, lateral, across]) = chunk.columns(
-            [Field::PRESSURE, Field::DENSITY, FAILED],
-            [STRESS, STRAIN, WORK, LATERAL_STRAIN, THICKNESS_STRAIN],
-        );
-        let stiffness = if lateral.is_empty() {
-            3.0 * modulus
-        } else {
-            material.youngs_modulus().unwrap_or(0.0)
-        };
-        let poisson = material.poisson_ratio().unwrap_or(0.0);
-        let bulk = material.bulk_modulus();
-        for (n, stress) in stress.chunks_exact_mut(6).enumerate() {
-            // Failed material supports no shear stress: it does not flow, harden or heat.
-            if failed.get(n).is_some_and(|failed| *failed >= T::one()) {
-                continue;
-            }
-            let own = Symmetric::from_slice(stress).to_f64();
-            let mut trial = own.von_mises();
-            let (flowed, worked) = (strain[n].to_f64(), work[n].to_f64());
-            let density = density[n].to_f64();
-            let before = PlasticState {
-                strain: flowed,
-                rate: 0.0,
-                temperature: heating.map_or(ROOM_TEMPERATURE, |own| own.temperature(worked)),
-                pressure: pressure[n].to_f64(),
-                density_ratio: density / rest,
-            };
-            let returned =
-                |trial: f64| radial_return(trial, stiffness, |more| after(law, &before, more, dt));
-            let Some([mut increment, mut yields]) = returned(trial) else {
-                continue;
-            };
-            if let Some(across) = across.get_mut(n) {
-                let left = |trial: f64| returned(trial).map_or(1.0, |[_, yields]| yields / trial);
-                let more = plane_stress::strain_across(&own, [bulk, modulus], left);
-                let changed = plane_stress::with_strain_across(&own, modulus, more);
-                stress.copy_from_slice(&changed.components().map(T::from_f64));
-                *across += T::from_f64(more);
-                trial = changed.von_mises();
-                [increment, yields] = returned(trial).unwrap_or([0.0, trial]);
-            }
-            if let Some(lateral) = lateral.get_mut(n) {
-                // Flow keeps volume, and takes back the widening of the elastic strain that it replaces.
-                let widening = (0.5 - poisson) * increment;
-                *lateral += T::from_f64(widening.copysign(-stress[0].to_f64()));
-            }
-            let share = T::from_f64(yields / trial);
-            for component in stress {
-                *component *= share;
-            }
-            strain[n] = T::from_f64(flowed + increment);
-            work[n] = T::from_f64(worked + yields * increment / density);
-            tally.limited += u64::from(n < live);
-        }
-        tally
+        around.in_drift && flows(around)
     }
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        let material = at.around.material;
+        let (Some(law), Some(modulus)) = (material.strength(), material.shear_modulus) else {
+            return;
+        };
+        let stiffness = if at.has(LATERAL_STRAIN) {
+            material.youngs_modulus().unwrap_or(0.0)
+        } else {
+            3.0 * modulus
+        };
+        let (before, dt) = (before(at), at.dt());
+        let returned = |trial: L| returned(law, &before, dt, [trial, L::of(stiffness)]);
+        let own = at.tensor(STRESS);
+        let mut trial = own.von_mises();
+        let mut back = returned(trial);
+        // Failed material supports no shear stress: it does not flow, harden or heat.
+        let flows = back.flows & at.get(FAILED).lt(L::one());
+        at.limited(flows);
+        if !L::somewhere(back.flows) {
+            return;
+        }
+        let mut stress = own;
+        if at.has(THICKNESS_STRAIN) {
+            let left = |trial: L| {
+                let own = returned(trial);
+                L::select(own.flows, own.yields / trial, L::one())
+            };
+            let bulk = material.bulk_modulus();
+            let more = plane_stress::strain_across(&own, [bulk, modulus], flows, left);
+            stress = plane_stress::with_strain_across(&own, modulus, more);
+            at.add_at(THICKNESS_STRAIN, 0, L::select(flows, more, L::zero()));
+            trial = stress.von_mises();
+            back = returned(trial);
+            back.yields = L::select(back.flows, back.yields, trial);
+        }
+        if at.has(LATERAL_STRAIN) {
+            // Flow keeps volume, and takes back the widening of the elastic strain that it replaces.
+            let poisson = material.poisson_ratio().unwrap_or(0.0);
+            let widening = L::of(0.5 - poisson) * back.increment;
+            let widening = L::select(own.at(0, 0).lt(L::zero()), widening, -widening);
+            at.add_at(LATERAL_STRAIN, 0, L::select(flows, widening, L::zero()));
+        }
+        let share = back.yields / trial;
+        for (k, component) in stress.components().iter().enumerate() {
+            let kept = own.components()[k];
+            at.set_at(STRESS, k, L::select(flows, *component * share, kept));
+        }
+        let (strain, work) = (before.strain + back.increment, at.get(WORK));
+        let more = back.yields * back.increment / at.get(Field::DENSITY);
+        at.set(STRAIN, L::select(flows, strain, before.strain));
+        at.set(WORK, L::select(flows, work + more, work));
+    }
+}
+
+/// Whether a body has what plastic flow needs.
+pub(super) fn flows<T: Real, const D: usize>(around: &Around<'_, T, D>) -> bool {
+    around.material.strength().is_some() && around.material.shear_modulus.is_some()
 }
 
 #[cfg(test)]
@@ -247,6 +229,7 @@ mod tests {
     use crate::material::strength::{JohnsonCook, LinearHardening, PlasticHeating, Strength};
     use crate::prelude::*;
     use crate::scheme::Start;
+    use crate::tensor::Symmetric;
 
     const RHO: f64 = 1000.0;
     const C: f64 = 100.0;

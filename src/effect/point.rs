@@ -69,6 +69,8 @@ pub trait PointLaw<const D: usize>: Debug + Send + Sync + 'static {
     const BEFORE: Fields = Fields::NONE;
     /// See [`Law::rung`](super::Law::rung).
     const RUNG: Option<Rung> = None;
+    /// Whether it is for particles of walls, and sees their [wall](AtWall).
+    const OF_WALLS: bool = false;
     /// Whether it computes in `f64` where particles are stored in `f32`.
     const DOUBLE: bool = false;
     /// Those of `SUMS` that it uses, by its own parameters.
@@ -78,6 +80,10 @@ pub trait PointLaw<const D: usize>: Debug + Send + Sync + 'static {
     /// Those of `WRITES` that it writes, by its own parameters; of others [`Point::has`] says that they are not there.
     fn written(&self) -> Fields {
         Self::WRITES
+    }
+    /// Those of `OPTIONAL` that it does without, by its own parameters; it needs the others.
+    fn spared(&self) -> Fields {
+        Self::OPTIONAL
     }
     /// See [`Law::repeats`](super::Law::repeats); [`Point::changed`] takes the change.
     fn repeated(&self) -> Option<(usize, f64)> {
@@ -175,6 +181,30 @@ impl<T: Real, const D: usize, A: PointLimit<D>> Reach for OfLimit<T, A, D> {
     const SUMS: Outputs = A::SUMS;
 }
 
+/// What laws [of walls](PointLaw::OF_WALLS) see of the wall at a particle; all zero for others.
+#[derive(Clone, Copy, Debug)]
+pub struct AtWall<L, const D: usize> {
+    /// Gravity less the acceleration of the wall \[m/s²\].
+    pub fall: [L; D],
+    /// The unit vector from the liquid into the wall, where the scheme
+    /// [asks for normals](super::StepProgram::ask_for_wall_normals).
+    pub normal: [L; D],
+    /// The velocity gradient ∂vₐ/∂x_b of the wall \[1/s\], row a.
+    pub gradient: Square<L, D>,
+}
+
+impl<L: Lane, const D: usize> AtWall<L, D> {
+    /// Without a wall.
+    #[inline(always)]
+    pub(super) fn none() -> Self {
+        Self {
+            fall: [L::zero(); D],
+            normal: [L::zero(); D],
+            gradient: Square::zero(),
+        }
+    }
+}
+
 /// A particle in the hands of a law, rate or limit, or a row of particles: the fields and sums that it declares, and no others. Whoever
 /// asks for more ends the run with a panic that names both.
 #[derive(Debug)]
@@ -190,6 +220,8 @@ pub struct Point<'a, L: Lane, const D: usize, P: Reach> {
     pub(super) constants: [L; CONSTANTS],
     /// By how much the particles are moved \[m\].
     pub(super) displacement: [L; D],
+    /// The wall that the particles belong to.
+    pub wall: &'a AtWall<L, D>,
     /// What is around the particles of the row, the same for all of them.
     pub around: &'a Around<'a, P::Scalar, D>,
 }

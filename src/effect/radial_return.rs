@@ -1,96 +1,158 @@
 //! The radial return: how far plastic flow goes until the stress has come down to the yield stress.
 //! One equation in one unknown, solved to rounding for any hardening, softening and rate.
 
-use crate::material::strength::{PlasticState, Strength};
+use super::{Plasticity, Point, Reach};
+use crate::material::StrengthObject;
+use crate::material::strength::{PlasticState, ROOM_TEMPERATURE};
+use crate::particles::Field;
+use crate::scalar::Lane;
+
+/// The state of a point at rest, with its plastic strain, work, pressure and density.
+#[inline(always)]
+pub(super) fn before<L: Lane, const D: usize, P: Reach>(
+    at: &Point<'_, L, D, P>,
+) -> PlasticState<L> {
+    let material = at.around.material;
+    let temperature = material.plastic_heating().map_or_else(
+        || L::of(ROOM_TEMPERATURE),
+        |own| own.temperature(at.get(Plasticity::WORK)),
+    );
+    PlasticState {
+        strain: at.get(Plasticity::STRAIN),
+        rate: L::zero(),
+        temperature,
+        pressure: at.get(Field::PRESSURE),
+        density_ratio: at.get(Field::DENSITY) / L::of(material.reference_density()),
+    }
+}
 
 /// The yield stress \[Pa\] after `more` plastic strain within `dt` \[s\].
-pub(super) fn after(law: &dyn Strength, before: &PlasticState, more: f64, dt: f64) -> f64 {
+#[inline(always)]
+fn after<L: Lane>(law: &dyn StrengthObject, before: &PlasticState<L>, more: L, dt: L) -> L {
     law.yield_stress(&PlasticState {
         strain: before.strain + more,
-        rate: if dt > 0.0 { more / dt } else { 0.0 },
+        rate: L::select(dt.gt(L::zero()), more / dt, L::zero()),
         ..*before
     })
 }
 
-/// The plastic strain Δ at which σ − k Δ has come down to the yield stress Y(Δ), and that yield stress \[Pa\]; none
-/// where σ is not above it. `trial` is σ \[Pa\], `stiffness` k \[Pa\].
-pub(super) fn radial_return(
-    trial: f64,
-    stiffness: f64,
-    yields: impl Fn(f64) -> f64,
-) -> Option<[f64; 2]> {
-    let first = yields(0.0);
-    if trial <= first {
-        return None;
+/// What a return comes to.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Return<L: Lane> {
+    /// Where the stress was above the yield stress.
+    pub flows: L::Mask,
+    /// The plastic strain Δ; zero elsewhere.
+    pub increment: L,
+    /// The yield stress \[Pa\] after it; elsewhere that at no strain.
+    pub yields: L,
+}
+
+/// The return of a stress of von Mises σ \[Pa\] by a law of strength within `dt` \[s\]. A function of its own, so that loops with
+/// several returns hold one text of it.
+#[inline(never)]
+pub(super) fn returned<L: Lane>(
+    law: &dyn StrengthObject,
+    before: &PlasticState<L>,
+    dt: L,
+    [trial, stiffness]: [L; 2],
+) -> Return<L> {
+    radial_return(trial, stiffness, |more| after(law, before, more, dt))
+}
+
+/// The plastic strain Δ at which σ − k Δ has come down to the yield stress Y(Δ), and that yield stress, where σ is above Y(0).
+/// `trial` is σ \[Pa\], `stiffness` k \[Pa\].
+#[inline(always)]
+fn radial_return<L: Lane>(trial: L, stiffness: L, yields: impl Fn(L) -> L) -> Return<L> {
+    let first = yields(L::zero());
+    let mut own = Return {
+        flows: !trial.le(first),
+        increment: L::zero(),
+        yields: first,
+    };
+    if !L::somewhere(own.flows) {
+        return own;
     }
-    let excess = |strain: f64| trial - stiffness * strain - yields(strain);
+    let excess = |strain: L| trial - stiffness * strain - yields(strain);
     // Beyond it a law that hardens is above the stress; one that softens may go on until no stress is left.
     let mut high = (trial - first) / stiffness;
     let mut above = excess(high);
-    let rounding = 4.0 * f64::EPSILON * trial;
-    if above > rounding {
-        high = trial / stiffness;
-        above = excess(high);
+    let rounding = L::of(4.0 * f64::EPSILON) * trial;
+    let softens = own.flows & above.gt(rounding);
+    if L::somewhere(softens) {
+        high = L::select(softens, trial / stiffness, high);
+        above = L::select(softens, excess(high), above);
     }
-    let strain = root(excess, [0.0, trial - first], [high, above], rounding);
-    Some([strain, yields(strain)])
+    let strain = root(
+        excess,
+        [L::zero(), trial - first],
+        [high, above],
+        (rounding, own.flows),
+    );
+    own.increment = L::select(own.flows, strain, own.increment);
+    own.yields = L::select(own.flows, yields(strain), first);
+    own
 }
 
 /// Where a function passes from positive to negative between two places that are not negative: a first secant, then
 /// inverse quadratic interpolation where it is safe (Chandrupatla 1997), or bisection. `low` and `high` are places with
-/// their values.
-fn root(function: impl Fn(f64) -> f64, low: [f64; 2], high: [f64; 2], rounding: f64) -> f64 {
-    let ([mut a, mut f_a], [mut b, mut f_b]) = (high, low);
-    let mut next = a + f_a / (f_a - f_b) * (b - a);
-    for _ in 0..MOST_TRIALS {
-        let [best, residual] = smaller([a, f_a], [b, f_b]);
-        let least = 2.0 * f64::EPSILON * best;
-        if residual.abs() <= rounding || 2.0 * least > (b - a).abs() {
-            return best;
-        }
-        next = next.max(a.min(b) + least).min(a.max(b) - least);
-        let f_next = function(next);
-        // The end that is given up is the third place of the interpolation.
-        let [c, f_c] = if (f_next > 0.0) == (f_a > 0.0) {
-            [a, f_a]
-        } else {
-            let given_up = [b, f_b];
-            [b, f_b] = [a, f_a];
-            given_up
-        };
-        [a, f_a] = [next, f_next];
-        let along = (a - b) / (c - b);
-        let up = (f_a - f_b) / (f_c - f_b);
-        next = if up * up < along && (1.0 - up) * (1.0 - up) < 1.0 - along {
+/// their values; `asked` says where a root is asked for.
+#[inline(always)]
+fn root<L: Lane>(
+    function: impl Fn(L) -> L,
+    low: [L; 2],
+    high: [L; 2],
+    (rounding, asked): (L, L::Mask),
+) -> L {
+    let ([a, f_a], [b, f_b]) = (high, low);
+    let next = a + f_a / (f_a - f_b) * (b - a);
+    let [a, f_a, b, f_b, _] = L::iterate(
+        MOST_TRIALS,
+        [a, f_a, b, f_b, next],
+        |[a, f_a, b, f_b, next]| {
+            let [best, residual] = smaller([a, f_a], [b, f_b]);
+            let least = L::of(2.0 * f64::EPSILON) * best;
+            let narrow = (least + least).gt((b - a).abs());
+            let done = !asked | residual.abs().le(rounding) | narrow;
+            if !L::somewhere(!done) {
+                return ([a, f_a, b, f_b, next], done);
+            }
+            let next = next.max(a.min(b) + least).min(a.max(b) - least);
+            let f_next = function(next);
+            // The end that is given up is the third place of the interpolation.
+            let (above, other) = (f_next.gt(L::zero()), f_a.gt(L::zero()));
+            let same = done | (above & other) | (!above & !other);
+            let pick = |yes: L, no: L| L::select(same, yes, no);
+            let ([c, f_c], [b, f_b]) = ([pick(a, b), pick(f_a, f_b)], [pick(b, a), pick(f_b, f_a)]);
+            let (a, f_a) = (L::select(done, a, next), L::select(done, f_a, f_next));
+            let along = (a - b) / (c - b);
+            let up = (f_a - f_b) / (f_c - f_b);
+            let safe =
+                (up * up).lt(along) & ((L::one() - up) * (L::one() - up)).lt(L::one() - along);
             let share = f_a / (f_b - f_a) * f_c / (f_b - f_c)
                 + (c - a) / (b - a) * f_a / (f_c - f_a) * f_b / (f_c - f_b);
-            a + share * (b - a)
-        } else {
-            middle(a.min(b), a.max(b))
-        };
-    }
+            let inside = middle(a.min(b), a.max(b));
+            let next = L::select(safe, a + share * (b - a), inside);
+            ([a, f_a, b, f_b, next], done)
+        },
+    );
     smaller([a, f_a], [b, f_b])[0]
 }
 
 /// Of two places with their values, that with the smaller one.
-fn smaller(first: [f64; 2], second: [f64; 2]) -> [f64; 2] {
-    if first[1].abs() < second[1].abs() {
-        first
-    } else {
-        second
-    }
+#[inline(always)]
+fn smaller<L: Lane>(first: [L; 2], second: [L; 2]) -> [L; 2] {
+    let less = first[1].abs().lt(second[1].abs());
+    let pick = |k: usize| L::select(less, first[k], second[k]);
+    [pick(0), pick(1)]
 }
 
 /// The middle of an interval; of its logarithm where it spans decades, because powers of plastic strain and rate put
 /// roots there.
-fn middle(low: f64, high: f64) -> f64 {
-    if high <= WIDE * low {
-        0.5 * (low + high)
-    } else if low > 0.0 {
-        (low * high).sqrt()
-    } else {
-        high / WIDE
-    }
+#[inline(always)]
+fn middle<L: Lane>(low: L, high: L) -> L {
+    let wide = L::of(WIDE);
+    let apart = L::select(low.gt(L::zero()), (low * high).sqrt(), high / wide);
+    L::select(high.le(wide * low), L::of(0.5) * (low + high), apart)
 }
 
 /// Ratio of the ends of an interval above which it is halved in the logarithm.
@@ -98,14 +160,14 @@ const WIDE: f64 = 1e3;
 
 /// More than any law of the crate takes, which is two for perfect plasticity and linear hardening, and 27 for what has
 /// an infinite slope at zero strain or rate. What is no number stays so and ends the run.
-const MOST_TRIALS: usize = 100;
+const MOST_TRIALS: usize = 60;
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::material::strength::{
         CowperSymonds, DruckerPrager, JohnsonCook, LinearHardening, PerfectPlasticity,
-        PowerHardening, SteinbergGuinan, TensionCompression,
+        PowerHardening, SteinbergGuinan, Strength, TensionCompression,
     };
 
     #[test]
@@ -118,7 +180,8 @@ mod tests {
             };
             let trial = 1.3 * law.yield_stress(&before);
             let back = radial_return(trial, 3.0 * 77e9, |more| after(&law, &before, more, 1e-9));
-            let [strain, stress] = back.unwrap();
+            assert!(back.flows);
+            let (strain, stress) = (back.increment, back.yields);
             let exact = (trial - law.yield_stress(&before)) / (3.0 * 77e9 + modulus);
             assert!((strain / exact - 1.0).abs() < 1e-13, "{strain} {exact}");
             assert!((stress / (trial - 3.0 * 77e9 * exact) - 1.0).abs() < 1e-14);
@@ -128,7 +191,7 @@ mod tests {
     /// Far and near, slow and fast, for strain that begins and that goes on; calls of the law are counted.
     #[test]
     fn every_law_is_consistent_with_its_stress() {
-        let laws: Vec<Box<dyn Strength>> = vec![
+        let laws: Vec<Box<dyn StrengthObject>> = vec![
             Box::new(PerfectPlasticity::new(0.3e9)),
             Box::new(LinearHardening::new(0.4e9, 0.1e9)),
             Box::new(PowerHardening::new(90e6, 292e6, 0.31)),
@@ -162,13 +225,15 @@ mod tests {
                         calls.set(calls.get() + 1);
                         after(&**law, &before, more, dt)
                     };
-                    let [more, stress] = radial_return(trial, stiffness, yields).unwrap();
+                    let back = radial_return(trial, stiffness, yields);
+                    let (more, stress) = (back.increment, back.yields);
+                    assert!(back.flows);
                     let left = (trial - stiffness * more) / stress - 1.0;
                     assert!(left.abs() < 1e-12, "{} {left}", law.name());
                     assert!(more >= 0.0 && stress <= trial * (1.0 + 1e-15));
                     most = most.max(calls.get());
                     let below = law.yield_stress(&before) * (1.0 - 1e-9);
-                    assert!(radial_return(below, stiffness, yields).is_none());
+                    assert!(!radial_return(below, stiffness, yields).flows);
                 }
             }
         }
@@ -180,11 +245,12 @@ mod tests {
     #[test]
     fn a_law_that_softens_has_a_root_too() {
         let brittle = |strain: f64| 1e8 * (-strain / 1e-6).exp();
-        let [strain, stress] = radial_return(1.5e8, 3e9, brittle).unwrap();
+        let back = radial_return(1.5e8, 3e9, brittle);
+        let (strain, stress) = (back.increment, back.yields);
         assert!(((1.5e8 - 3e9 * strain) - stress).abs() < 1e-6);
         assert!((strain / 0.05 - 1.0).abs() < 1e-6 && stress < 1.0);
         // What is no number stays so.
-        let [_, stress] = radial_return(1e8, 3e9, |_| f64::NAN).unwrap();
-        assert!(stress.is_nan());
+        let back = radial_return(1e8, 3e9, |_| f64::NAN);
+        assert!(back.flows && back.yields.is_nan());
     }
 }

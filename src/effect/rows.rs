@@ -2,15 +2,17 @@
 //! Numbers of a row are loaded and stored here, so that a law compiles to its own arithmetic alone.
 
 use super::access::Access;
-use super::point::{CONSTANTS, OfLaw, OfLimit, OfRate};
+use super::point::{AtWall, CONSTANTS, OfLaw, OfLimit, OfRate};
 use super::shifting::PLACE;
 use super::{
     Around, Chunk, Law, Limit, Point, PointLaw, PointLimit, PointRate, Rate, Rung, Tally, View,
 };
 use crate::particles::{Field, Fields, Output, Outputs};
-use crate::scalar::{Lane, Real};
+use crate::scalar::{Lane, MOST_LANES, Real};
 use crate::sweep::{Results, add_compensated};
+use crate::tensor::{Matrix, Vector};
 use crate::term::{MOST_READS, MOST_SUMS};
+use core::ops::Range;
 
 /// Most fields and most sums of a law, rate or limit.
 const MOST: usize = 32;
@@ -147,7 +149,7 @@ impl<T: Real, const D: usize, A: PointLaw<D>> Law<T, D> for A {
         A::ADDS
     }
     fn optional(&self) -> Fields {
-        A::OPTIONAL
+        self.spared()
     }
     fn before(&self) -> Fields {
         A::BEFORE
@@ -198,10 +200,14 @@ fn rows<T: Real, L: Lane, A: PointLaw<D>, const D: usize>(
     }
     let constants = constants.map(L::of);
     let (mut numbers, mut sums) = ([L::zero(); MOST_READS], [L::zero(); MOST_SUMS]);
+    let mut wall = AtWall::none();
     let mut tally = Tally::default();
     for start in (0..count).step_by(L::WIDTH) {
         load_columns(lent, start, &mut numbers);
         load_sums(around.sums, &list[..sums_count], first + start, &mut sums);
+        if A::OF_WALLS {
+            load_wall(&around, first + start..first + count, &mut wall);
+        }
         let mut point = Point::<L, D, OfLaw<T, A, D>> {
             numbers: &mut numbers,
             sums: &sums,
@@ -212,6 +218,7 @@ fn rows<T: Real, L: Lane, A: PointLaw<D>, const D: usize>(
             dt: L::of(around.dt),
             constants,
             displacement: [L::zero(); D],
+            wall: &wall,
             around: &around,
         };
         law.point(&mut point);
@@ -233,6 +240,54 @@ fn rows<T: Real, L: Lane, A: PointLaw<D>, const D: usize>(
         store_columns(lent, start, &numbers);
     }
     tally
+}
+
+/// A row of numbers.
+#[inline(always)]
+fn row<L: Lane>(own: impl Fn(usize) -> f64) -> L {
+    L::from_fn(|e| Real::from_f64(own(e)))
+}
+
+/// What the row of particles that starts some slots shows of their wall; of a row that is not full the last particle is repeated.
+#[inline(never)]
+fn load_wall<T: Real, L: Lane, const D: usize>(
+    around: &Around<'_, T, D>,
+    slots: Range<usize>,
+    all: &mut AtWall<L, D>,
+) {
+    let Some(wall) = around.wall else {
+        return;
+    };
+    let slot = |e: usize| (slots.start + e).min(slots.end - 1);
+    let mut fall = [[0.0; D]; MOST_LANES];
+    for (e, fall) in fall[..L::WIDTH].iter_mut().enumerate() {
+        let own = wall.acceleration(slot(e));
+        for d in 0..D {
+            fall[d] = around.gravity[d] - own[d];
+        }
+    }
+    all.fall = core::array::from_fn(|d| row(|e| fall[e][d]));
+    if wall.normal(slots.start).is_some() {
+        let mut normal = [[0.0; D]; MOST_LANES];
+        for (e, normal) in normal[..L::WIDTH].iter_mut().enumerate() {
+            let own = wall.normal(slot(e)).unwrap_or_else(Vector::zeros);
+            *normal = core::array::from_fn(|d| own[d].to_f64());
+        }
+        all.normal = core::array::from_fn(|d| row(|e| normal[e][d]));
+    }
+    if wall.velocity_gradient(slots.start).is_some() {
+        let mut gradient = [Matrix::zeros(); MOST_LANES];
+        for (e, gradient) in gradient[..L::WIDTH].iter_mut().enumerate() {
+            *gradient = wall
+                .velocity_gradient(slot(e))
+                .unwrap_or_else(Matrix::zeros);
+        }
+        for a in 0..D {
+            for b in 0..D {
+                all.gradient.0[a][b] = row(|e| gradient[e][(a, b)]);
+            }
+        }
+    }
 }
 
 /// The numbers of the row that starts with a slot of the chunk. Compiled once for all laws, as [`store_columns`].
@@ -405,6 +460,7 @@ fn rates<T: Real, L: Lane, A: PointRate<D>, const D: usize>(
     let constants = constants.map(L::of);
     let given = Given::new(at, A::READS, A::SUMS);
     let (mut numbers, mut sums) = ([L::zero(); MOST_READS], [L::zero(); MOST_SUMS]);
+    let wall = AtWall::none();
     for (n, values) in values.chunks_mut(L::WIDTH * width).enumerate() {
         let start = n * L::WIDTH;
         given.load(&at.around, first + start, (&mut numbers, &mut sums));
@@ -423,6 +479,7 @@ fn rates<T: Real, L: Lane, A: PointRate<D>, const D: usize>(
             dt: L::of(at.around.dt),
             constants,
             displacement: [L::zero(); D],
+            wall: &wall,
             around: &at.around,
         };
         rate.point(&point, before[0], &mut own[..width]);
@@ -461,6 +518,7 @@ impl<T: Real, const D: usize, A: PointLimit<D>> Limit<T, D> for A {
                 dt: at.around.dt,
                 constants: [0.0; CONSTANTS],
                 displacement: [0.0; D],
+                wall: &AtWall::none(),
                 around: &at.around,
             },
         )

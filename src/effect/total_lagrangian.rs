@@ -6,7 +6,7 @@ use crate::error::Problem;
 use crate::name;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
-use crate::tensor::{Matrix, Square, inverse};
+use crate::tensor::{Matrix, Square};
 use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 
 /// The kinematics and the force of a total-Lagrangian solid, in reference positions X.
@@ -268,16 +268,10 @@ fn is_far<L: Lane, const D: usize>(gradient: &Square<L, D>, volume: L) -> L::Mas
 /// Bounds of the largest squared stretch, and of the inverse of the smallest, by Gershgorin's circles of FᵀF and its
 /// inverse; exact where the axes are principal.
 pub(crate) fn stretches<T: Real, const D: usize>(gradient: &Matrix<T, D>) -> [T; 2] {
-    let back = inverse(gradient, 0.0).unwrap_or_else(Matrix::identity);
-    stretches_with(gradient, &back)
-}
-
-/// The same with the inverse at hand.
-pub(super) fn stretches_with<T: Real, const D: usize>(
-    gradient: &Matrix<T, D>,
-    back: &Matrix<T, D>,
-) -> [T; 2] {
-    stretches_of(&square(gradient), &square(back))
+    let own = Square::<T, D>(core::array::from_fn(|a| {
+        core::array::from_fn(|b| gradient[(a, b)])
+    }));
+    stretches_of(&own, &own.inverse(0.0).0)
 }
 
 /// The same of rows of particles.
@@ -300,12 +294,6 @@ pub(super) fn stretches_of<L: Lane, const D: usize>(
     [stretched, shrunk]
 }
 
-fn square<T: Real, const D: usize>(matrix: &Matrix<T, D>) -> Square<T, D> {
-    Square(core::array::from_fn(|a| {
-        core::array::from_fn(|b| matrix[(a, b)])
-    }))
-}
-
 /// P L.
 #[derive(Clone, Copy, Debug)]
 struct CorrectedStress;
@@ -318,17 +306,5 @@ impl<const D: usize> PointLaw<D> for CorrectedStress {
     fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
         let corrected = at.matrix(PIOLA).times(&at.matrix(Field::CORRECTION));
         at.set_matrix(CORRECTED, &corrected);
-    }
-}
-
-/// The n-th matrix of a column.
-pub(super) fn matrix<T: Real, const D: usize>(column: &[T], n: usize) -> Matrix<T, D> {
-    Matrix::from_fn(|a, b| column[n * D * D + a * D + b])
-}
-
-/// Writes a matrix row by row.
-pub(super) fn put<T: Real, const D: usize>(out: &mut [T], matrix: &Matrix<T, D>) {
-    for (k, value) in out.iter_mut().enumerate() {
-        *value = matrix[(k / D, k % D)];
     }
 }

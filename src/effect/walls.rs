@@ -1,8 +1,7 @@
 //! Wall laws: how walls of particles answer a liquid.
 //! Adami, Hu & Adams 2012; the one-sided Riemann problem of Zhang, Hu & Adams 2017.
 
-use super::access::Summed;
-use super::{Around, Chunk, Effect, Law, Setting, StepProgram, Tally};
+use super::{Effect, Point, PointLaw, Reach, Setting, StepProgram};
 use crate::name;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
@@ -51,54 +50,34 @@ impl<const D: usize> Effect<D> for ExtrapolatedPressure {
     }
 }
 
-/// The extrapolated pressure of a wall particle before it is cut at the floor; none where it is dry.
-#[inline(always)]
-fn extrapolated<T: Real, const D: usize>(
-    around: &Around<'_, T, D>,
-    [unity, pressure, moment]: &[Summed<'_, T, D>; 3],
-    (first, n): (usize, usize),
-) -> Option<T> {
-    let unity = unity.get(0, n);
-    if unity <= T::from_f64(DRY) {
-        return None;
-    }
-    let wall = around.wall?;
-    let (own, gravity) = (wall.acceleration(first + n), around.gravity);
-    let sum = (0..D).fold(pressure.get(0, n), |sum, d| {
-        sum + moment.get(d, n) * T::from_f64(gravity[d] - own[d])
-    });
-    Some(sum / unity)
-}
-
-const PRESSED: [Output; 3] = [
+const PRESSED: Outputs = Outputs::of(&[
     Output::UNITY,
     Output::LIQUID_PRESSURE,
     Output::LIQUID_MOMENT,
-];
+]);
 
-impl<T: Real, const D: usize> Law<T, D> for ExtrapolatedPressure {
-    fn name(&self) -> &'static str {
-        "pressure of walls"
+/// The extrapolated pressure of wall particles and a push, not below a floor; zero where they are dry.
+#[inline(always)]
+fn press<L: Lane, const D: usize, P: Reach>(at: &mut Point<'_, L, D, P>, push: L, floor: f64) {
+    let (unity, moment) = (at.sum(Output::UNITY), at.sum_vector(Output::LIQUID_MOMENT));
+    let mut sum = at.sum(Output::LIQUID_PRESSURE);
+    for d in 0..D {
+        sum += moment[d] * at.wall.fall[d];
     }
-    fn reads(&self) -> Fields {
-        Fields::NONE
-    }
-    fn sums(&self) -> Outputs {
-        Outputs::of(&PRESSED)
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&[Field::PRESSURE])
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let floor = T::from_f64(self.floor);
-        let (around, first) = (chunk.around, chunk.first);
-        let sums = PRESSED.map(|sum| chunk.sum(sum));
-        let ([], [pressure]) = chunk.columns([], [Field::PRESSURE]);
-        for (n, pressure) in pressure.iter_mut().enumerate() {
-            let own = extrapolated(&around, &sums, (first, n));
-            *pressure = own.map_or(T::zero(), |p| p.max(floor));
-        }
-        Tally::default()
+    let own = (sum / unity + push).max(L::of(floor));
+    let dry = unity.le(L::of(DRY));
+    at.set(Field::PRESSURE, L::select(dry, L::zero(), own));
+}
+
+impl<const D: usize> PointLaw<D> for ExtrapolatedPressure {
+    const NAME: &'static str = "pressure of walls";
+    const READS: Fields = Fields::NONE;
+    const WRITES: Fields = Fields::of(&[Field::PRESSURE]);
+    const SUMS: Outputs = PRESSED;
+    const OF_WALLS: bool = true;
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        press(at, L::zero(), self.floor);
     }
 }
 
@@ -179,44 +158,23 @@ impl<const D: usize> Term<D> for VelocityBeforeWall {
     }
 }
 
-impl<T: Real, const D: usize> Law<T, D> for RiemannWalls {
-    fn name(&self) -> &'static str {
-        "pressure of Riemann walls"
-    }
-    fn reads(&self) -> Fields {
-        Fields::of(&[Field::VELOCITY, Field::DENSITY, Field::SOUND_SPEED])
-    }
-    fn sums(&self) -> Outputs {
-        Outputs::of(&PRESSED).union(Outputs::of(&[BEFORE]))
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&[Field::PRESSURE])
-    }
-    fn before(&self) -> Fields {
-        Fields::of(&[Field::VELOCITY])
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let floor = T::from_f64(self.floor);
-        let (around, first) = (chunk.around, chunk.first);
-        let (sums, before) = (PRESSED.map(|sum| chunk.sum(sum)), chunk.sum(BEFORE));
-        let ([velocity, density, sound_speed], [pressure]) = chunk.columns(
-            [Field::VELOCITY, Field::DENSITY, Field::SOUND_SPEED],
-            [Field::PRESSURE],
-        );
-        for (n, pressure) in pressure.iter_mut().enumerate() {
-            let at_rest = extrapolated(&around, &sums, (first, n));
-            let unity = sums[0].get(0, n);
-            let liquid: [T; D] = core::array::from_fn(|d| before.get(d, n) / unity);
-            let normal = (around.wall).and_then(|wall| wall.normal(first + n));
-            let push = normal.map_or(T::zero(), |normal| {
-                let inwards = (0..D).fold(T::zero(), |sum, d| {
-                    sum + (liquid[d] - velocity[n * D + d]) * normal[d]
-                });
-                riemann_push(inwards, density[n], sound_speed[n])
-            });
-            *pressure = at_rest.map_or(T::zero(), |p| (p + push).max(floor));
+impl<const D: usize> PointLaw<D> for RiemannWalls {
+    const NAME: &'static str = "pressure of Riemann walls";
+    const READS: Fields = Fields::of(&[Field::VELOCITY, Field::DENSITY, Field::SOUND_SPEED]);
+    const WRITES: Fields = Fields::of(&[Field::PRESSURE]);
+    const SUMS: Outputs = PRESSED.union(Outputs::of(&[BEFORE]));
+    const BEFORE: Fields = Fields::of(&[Field::VELOCITY]);
+    const OF_WALLS: bool = true;
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        let (unity, before) = (at.sum(Output::UNITY), at.sum_vector(BEFORE));
+        let (own, normal) = (at.vector(Field::VELOCITY), at.wall.normal);
+        let mut inwards = L::zero();
+        for d in 0..D {
+            inwards += (before[d] / unity - own[d]) * normal[d];
         }
-        Tally::default()
+        let (density, sound_speed) = (at.get(Field::DENSITY), at.get(Field::SOUND_SPEED));
+        press(at, riemann_push(inwards, density, sound_speed), self.floor);
     }
 }
 
@@ -225,9 +183,10 @@ impl<T: Real, const D: usize> Law<T, D> for RiemannWalls {
 /// Pairs take the mean of both sides, so liquid feels p* = p + ρβu: the pressure between it and its mirror image of
 /// speed −u, p + ½ρβ(u − (−u)), with the limiter β = min(3 (u − (−u)), c) of Zhang, Hu & Adams 2017, eqs. 13, 14.
 /// Theirs is zero where liquid leaves; here it acts down to the floor of walls, or what has struck still bounces.
-fn riemann_push<T: Real>(inwards: T, density: T, sound_speed: T) -> T {
+#[inline(always)]
+fn riemann_push<L: Lane>(inwards: L, density: L, sound_speed: L) -> L {
     let closing = inwards + inwards;
-    let limited = (T::from_f64(Riemann::STANDARD.limiter) * closing.abs()).min(sound_speed);
+    let limited = (L::of(Riemann::STANDARD.limiter) * closing.abs()).min(sound_speed);
     density * limited * closing
 }
 

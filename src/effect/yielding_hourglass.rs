@@ -2,11 +2,13 @@
 //! After the idea that a control must not bear what the solid does not (Ganzenmüller 2015); the measure is of this crate.
 
 use super::hourglass_control::STIFFNESS;
-use super::{Chunk, Effect, Law, Plasticity, Rung, Setting, StepProgram, Tally};
+use super::radial_return::before;
+use super::{
+    Around, CONSTANTS, Effect, Plasticity, Point, PointLaw, Reach, Rung, Setting, StepProgram,
+};
 use crate::error::Problem;
-use crate::material::strength::{PlasticState, ROOM_TEMPERATURE};
 use crate::particles::{Field, Fields};
-use crate::scalar::Real;
+use crate::scalar::{Lane, Real};
 use crate::term::{Stage, TermDoc};
 
 /// Cuts the stiffness of [`HourglassControl`](super::HourglassControl) where a [`FiniteStrainPlasticity`](super::FiniteStrainPlasticity) solid has flowed.
@@ -60,44 +62,30 @@ impl<const D: usize> Effect<D> for YieldingHourglass {
     }
 }
 
-impl<T: Real, const D: usize> Law<T, D> for YieldingHourglass {
-    fn name(&self) -> &'static str {
-        "yielding of the hourglass control"
+impl<const D: usize> PointLaw<D> for YieldingHourglass {
+    const NAME: &'static str = "yielding of the hourglass control";
+    const READS: Fields = Fields::of(&[STIFFNESS, STRAIN, WORK, Field::PRESSURE, Field::DENSITY]);
+    const WRITES: Fields = Fields::of(&[STIFFNESS]);
+    const RUNG: Option<Rung> = Some(Rung::Flow);
+    const DOUBLE: bool = true;
+    fn prepare<T: Real>(&self, around: &Around<'_, T, D>, _all: &mut [f64; CONSTANTS]) -> bool {
+        super::plasticity::flows(around)
     }
-    fn reads(&self) -> Fields {
-        Fields::of(&[STIFFNESS, STRAIN, WORK, Field::PRESSURE, Field::DENSITY])
-    }
-    fn writes(&self) -> Fields {
-        Fields::of(&[STIFFNESS])
-    }
-    fn rung(&self) -> Option<Rung> {
-        Some(Rung::Flow)
-    }
-    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        let material = chunk.around.material;
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        let material = at.around.material;
         let (Some(law), Some(shear)) = (material.strength(), material.shear_modulus) else {
-            return Tally::default();
+            return;
         };
-        let (heating, rest) = (material.plastic_heating(), material.reference_density());
-        let modulus = material.youngs_modulus().unwrap_or(0.0);
-        let ([strain, work, pressure, density], [stiffness]) =
-            chunk.columns([STRAIN, WORK, Field::PRESSURE, Field::DENSITY], [STIFFNESS]);
-        for (n, stiffness) in stiffness.iter_mut().enumerate() {
-            let flowed = strain[n].to_f64();
-            if flowed <= 0.0 {
-                continue;
-            }
-            let worked = work[n].to_f64();
-            let yields = law.yield_stress(&PlasticState {
-                strain: flowed,
-                rate: 0.0,
-                temperature: heating.map_or(ROOM_TEMPERATURE, |own| own.temperature(worked)),
-                pressure: pressure[n].to_f64(),
-                density_ratio: density[n].to_f64() / rest,
-            });
-            let left = yields / (3.0 * shear).mul_add(flowed, yields);
-            *stiffness = T::from_f64(modulus * left);
-        }
-        Tally::default()
+        let modulus = L::of(material.youngs_modulus().unwrap_or(0.0));
+        let state = before(at);
+        let yields = law.yield_stress(&state);
+        let left = yields / L::of(3.0 * shear).fused(state.strain, yields);
+        let own = L::select(
+            state.strain.gt(L::zero()),
+            modulus * left,
+            at.get(STIFFNESS),
+        );
+        at.set(STIFFNESS, own);
     }
 }

@@ -34,6 +34,9 @@ pub mod eos;
 mod erased;
 pub mod failure;
 mod liquid;
+mod objects;
+#[cfg(test)]
+mod recorded;
 pub mod rheology;
 mod solid;
 pub mod strength;
@@ -41,14 +44,14 @@ pub mod strength;
 pub use erased::EosObject;
 use erased::Erased;
 pub use liquid::{Liquid, SoundSpeed};
+pub use objects::{FailureObject, RheologyObject, StrengthObject};
 
 use crate::scalar::Real;
 use core::fmt::Debug;
 use eos::EquationOfState;
-use failure::Failure;
-use rheology::{RheologyObject, ViscosityLaw};
+use rheology::ViscosityLaw;
 use std::sync::Arc;
-use strength::{PlasticHeating, Strength};
+use strength::PlasticHeating;
 
 /// Whether a constant of a material, in SI units, is not negative and so small that its products are numbers.
 fn is_size(value: f64) -> bool {
@@ -69,10 +72,10 @@ pub struct Material<T: Real> {
     pub shear_modulus: Option<f64>,
     /// Dynamic viscosity μ \[Pa s\], if known; a [rheology](Self::with_rheology) goes before it.
     pub dynamic_viscosity: Option<f64>,
-    rheology: Option<Arc<dyn RheologyObject<T>>>,
-    strength: Option<Arc<dyn Strength>>,
+    rheology: Option<Arc<dyn RheologyObject>>,
+    strength: Option<Arc<dyn StrengthObject>>,
     plastic_heating: Option<PlasticHeating>,
-    failure: Option<Arc<dyn Failure>>,
+    failure: Option<Arc<dyn FailureObject>>,
     sound_speed: SoundSpeed,
     eos: Arc<dyn EosObject<T>>,
 }
@@ -142,7 +145,7 @@ impl<T: Real> Material<T> {
     #[must_use]
     pub fn with_rheology(mut self, law: impl ViscosityLaw) -> Self {
         self.dynamic_viscosity = None;
-        self.rheology = Some(Arc::new(rheology::Erased(law)));
+        self.rheology = Some(Arc::new(law));
         self
     }
 
@@ -154,11 +157,11 @@ impl<T: Real> Material<T> {
     /// The viscosity law: the [one given](Self::with_rheology), or the Newtonian of the constant
     /// [`dynamic_viscosity`](Self::dynamic_viscosity); `None` for what has no viscosity.
     #[must_use]
-    pub fn rheology(&self) -> Option<&dyn RheologyObject<T>> {
+    pub fn rheology(&self) -> Option<&dyn RheologyObject> {
         let constant = self.dynamic_viscosity.as_ref();
         self.rheology
             .as_deref()
-            .or(constant.map(|viscosity| viscosity as &dyn RheologyObject<T>))
+            .or(constant.map(|viscosity| viscosity as &dyn RheologyObject))
     }
     /// How the sound speed of a [`Liquid`] was chosen; [`Physical`](SoundSpeed::Physical) for all else.
     #[must_use]

@@ -1,9 +1,9 @@
 //! What makes a material a solid: elastic constants, strength, the heat of plastic work, and failure.
 //! They act under schemes with the effects that take them, and are known to reports without.
 
-use super::Material;
 use super::failure::Failure;
 use super::strength::{PlasticHeating, PlasticState, Strength};
+use super::{FailureObject, Material, StrengthObject};
 use crate::scalar::Real;
 use std::sync::Arc;
 
@@ -50,11 +50,11 @@ impl<T: Real> Material<T> {
     /// The law of strength: the [one given](Self::with_strength), or perfect plasticity at the constant
     /// [`yield_stress`](Self::yield_stress); `None` for what has neither.
     #[must_use]
-    pub fn strength(&self) -> Option<&dyn Strength> {
+    pub fn strength(&self) -> Option<&dyn StrengthObject> {
         let constant = self.yield_stress.as_ref();
         self.strength
             .as_deref()
-            .or(constant.map(|stress| stress as &dyn Strength))
+            .or(constant.map(|stress| stress as &dyn StrengthObject))
     }
     /// The temperature that plastic work gives it, if [known](Self::with_plastic_heating).
     #[must_use]
@@ -63,7 +63,7 @@ impl<T: Real> Material<T> {
     }
     /// The law of failure, if it [has one](Self::with_failure).
     #[must_use]
-    pub fn failure(&self) -> Option<&dyn Failure> {
+    pub fn failure(&self) -> Option<&dyn FailureObject> {
         self.failure.as_deref()
     }
     /// Poisson's ratio ν = (3K − 2G)/(6K + 2G) at rest, of what has a
@@ -99,7 +99,7 @@ impl<T: Real> Material<T> {
 }
 
 /// A law whose constants are numbers, and whose yield stress is none at a strain and rate that a run may reach.
-fn problem_of_size(law: &dyn Strength) -> Option<(&'static str, f64, &'static str)> {
+fn problem_of_size(law: &dyn StrengthObject) -> Option<(&'static str, f64, &'static str)> {
     let far = PlasticState {
         strain: 10.0,
         rate: 1e9,

@@ -2,6 +2,7 @@
 //! One text of physics serves `f32` and `f64`, one particle at a time or a block of them.
 
 mod elementary;
+mod function;
 mod halves;
 mod instructions;
 mod lanes;
@@ -13,6 +14,7 @@ mod traced;
 #[cfg(target_arch = "x86_64")]
 mod twice;
 
+pub(crate) use function::{Function, OfLanes, call};
 use instructions::Instructions;
 pub use instructions::{InstructionSet, OnRows};
 pub use lanes::{LaneMask, Lanes};

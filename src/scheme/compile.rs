@@ -42,7 +42,7 @@ impl<K, V, W, E> SchemeBuilder<K, V, W, E> {
         let follows_divergence = matches!(smoothing, Smoothing::Divergence(_));
         // A switch follows the compression once a step, by the sum that the rates make.
         let support = setting.kernel.support;
-        let switch = ViscositySwitch::<T>::of(&self.viscosity, own.density, support);
+        let switch = ViscositySwitch::of(&self.viscosity, own.density, support);
         let with_rates = integrated || follows_divergence || switch.is_some();
         let mut sweeps: [Option<Box<dyn PairSweep<T, D>>>; Stage::COUNT] = Default::default();
         sweeps[Stage::Reference.number()] = compiled.named(compiled.of::<stage::Reference>());
@@ -169,7 +169,7 @@ impl<K, V, W, E> SchemeBuilder<K, V, W, E> {
         let refers =
             |sweep: &dyn PairSweep<T, D>| sweep.fields().contains(Field::REFERENCE_POSITION);
         let mut all = sweeps.iter().flatten();
-        let varies = program.setting().smoothing.varies() || self.viscosity.switch::<T>().is_some();
+        let varies = program.setting().smoothing.varies() || self.viscosity.switch().is_some();
         let mixed = all.any(|sweep| refers(sweep.as_ref()) != total) || (total && varies);
         program.require(move |_| {
             mixed.then(|| Problem::Incompatible {

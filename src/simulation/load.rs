@@ -1,7 +1,7 @@
 //! Loads: accelerations and heat sources that depend on place, velocity, density, body and time.
 //! What pushes or heats a particle whatever its neighbours are: wells, drag, rotating frames, lasers, decay.
 
-use crate::particles::Field;
+use crate::particles::{Field, Fields};
 use crate::scalar::Real;
 use core::fmt;
 
@@ -26,6 +26,9 @@ pub struct LoadPoint<'a, const D: usize> {
 }
 
 impl<const D: usize> LoadPoint<'_, D> {
+    /// The fields that loads see of a particle, which must be at hand where they act; in `f32` also
+    /// [`Field::POSITION_RESIDUAL`].
+    pub const READS: Fields = Fields::of(&[Field::POSITION, Field::VELOCITY, Field::DENSITY]);
     /// How long ago \[s\] an [event](crate::scene::Scene::event) happened; nothing if it has not, or there is none of that name.
     #[must_use]
     pub fn since(&self, event: &str) -> Option<f64> {

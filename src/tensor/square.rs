@@ -98,6 +98,31 @@ impl<L: Lane, const D: usize> Square<L, D> {
         }
         product
     }
+    /// The rotation by a spin times a time step, e^W with W antisymmetric, as [`rotation`](super::rotation).
+    #[must_use]
+    #[inline(always)]
+    pub fn rotation(spin: &Self) -> Self {
+        let one = L::one();
+        let angle2 = spin.square() * L::of(0.5);
+        let angle = angle2.sqrt();
+        let squared = angle * angle;
+        let mut first = one - squared / L::of(6.0);
+        let mut second = L::of(0.5) - squared / L::of(24.0);
+        let large = !angle.lt(L::of(1e-3));
+        if L::somewhere(large) {
+            first = L::select(large, angle.sin() / angle, first);
+            second = L::select(large, (one - angle.cos()) / squared, second);
+        }
+        let square = spin.times(spin);
+        let mut turn = Self::identity();
+        for a in 0..D {
+            for b in 0..D {
+                turn.0[a][b] += first * spin.0[a][b];
+                turn.0[a][b] += second * square.0[a][b];
+            }
+        }
+        turn
+    }
     /// The sum of the diagonal.
     #[must_use]
     #[inline(always)]
@@ -228,7 +253,8 @@ impl<L: Lane, const D: usize> Square<L, D> {
 mod tests {
     use super::*;
     use crate::scalar::Lanes;
-    use crate::tensor::{Matrix, determinant, inverse};
+    use crate::tensor::{Matrix, determinant, inverse, rotation};
+    use num_traits::One;
 
     fn same_as_scalars<const D: usize>() {
         type Row = Lanes<f64, 8, false>;
@@ -261,6 +287,14 @@ mod tests {
                     }
                 }
                 assert_eq!(bits(size.extract(lane)), bits(determinant(&own)));
+                let turned = Square::rotation(&rows.plus(-Row::one(), &rows.transposed()));
+                let expected = rotation(&(own - own.transpose()));
+                for a in 0..D {
+                    for b in 0..D {
+                        let found = turned.0[a][b].extract(lane);
+                        assert_eq!(bits(found), bits(expected[(a, b)]));
+                    }
+                }
             }
         }
         assert!(singular > 0);

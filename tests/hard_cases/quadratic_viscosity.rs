@@ -7,7 +7,7 @@ use meshfree::particles::{Field, Fields, Outputs};
 use meshfree::prelude::*;
 use meshfree::scalar::{Lane, Real};
 use meshfree::term::viscosity::{
-    ArtificialViscosity, CullenDehnen, MonaghanGingold, Switch, Viscous,
+    ArtificialViscosity, CullenDehnen, MonaghanGingold, SwitchObject, Viscous,
 };
 use meshfree::term::{Layout, Pair, Sums, TermDoc};
 
@@ -43,7 +43,7 @@ impl<V: ArtificialViscosity<1>> ArtificialViscosity<1> for LongerSteps<V> {
     fn document(&self) -> TermDoc {
         self.law.document()
     }
-    fn switch<T: Real>(&self) -> Option<Box<dyn Switch<T>>> {
+    fn switch(&self) -> Option<Box<dyn SwitchObject>> {
         self.law.switch()
     }
 }

@@ -2,7 +2,7 @@
 //! D = Σ Δε/ε_f, ε_f = (D₁ + D₂ e^(D₃ σ*))(1 + D₄ ln ε̇*)(1 + D₅ T*).
 
 use super::{Failure, FailureState};
-use crate::material::strength::ROOM_TEMPERATURE;
+use crate::material::strength::{ROOM_TEMPERATURE, heat};
 use crate::scalar::Lane;
 
 /// The law of Johnson & Cook (1985), equations 4 and 5.
@@ -92,14 +92,16 @@ impl JohnsonCookFailure {
     /// assert_eq!(law.strain_at_failure(&FailureState::default()), 1.0);
     /// ```
     #[must_use]
-    pub fn strain_at_failure(&self, state: &FailureState) -> f64 {
-        let triaxial = Lane::exp(self.exponent * state.triaxiality().min(MOST_TRIAXIAL));
-        let rate = Lane::ln((state.rate / self.reference_rate).max(1.0));
-        let above = state.temperature - self.reference_temperature;
-        let heat = above / (self.melting_temperature - self.reference_temperature);
-        self.triaxial.mul_add(triaxial, self.least)
-            * self.rate_sensitivity.mul_add(rate, 1.0)
-            * self.heat_sensitivity.mul_add(heat.clamp(0.0, 1.0), 1.0)
+    #[inline(always)]
+    pub fn strain_at_failure<L: Lane>(&self, state: &FailureState<L>) -> L {
+        let triaxial = state.triaxiality().min(L::of(MOST_TRIAXIAL));
+        let triaxial = (L::of(self.exponent) * triaxial).exp();
+        let rate = (state.rate / L::of(self.reference_rate)).max(L::one()).ln();
+        let range = [self.reference_temperature, self.melting_temperature];
+        let heat = heat(state.temperature, range);
+        L::of(self.triaxial).fused(triaxial, L::of(self.least))
+            * L::of(self.rate_sensitivity).fused(rate, L::one())
+            * L::of(self.heat_sensitivity).fused(heat, L::one())
     }
 }
 
@@ -110,16 +112,11 @@ impl Failure for JohnsonCookFailure {
     fn source(&self) -> &'static str {
         "Johnson & Cook 1985, eqs. 4 and 5"
     }
-    fn damage(&self, state: &FailureState) -> f64 {
-        if state.increment <= 0.0 {
-            return 0.0;
-        }
-        let bears = self.strain_at_failure(state);
-        if bears > 0.0 {
-            state.increment / bears
-        } else {
-            1.0
-        }
+    #[inline(always)]
+    fn damage<L: Lane>(&self, state: &FailureState<L>) -> L {
+        let (zero, bears) = (L::zero(), self.strain_at_failure(state));
+        let share = L::select(bears.gt(zero), state.increment / bears, L::one());
+        L::select(state.increment.le(zero), zero, share)
     }
     fn uses_plastic_strain(&self) -> bool {
         true

@@ -24,6 +24,7 @@
 //!
 //! ```
 //! use meshfree::material::{Material, catalogue, failure::{Failure, FailureState}};
+//! use meshfree::scalar::Lane;
 //!
 //! /// Cockcroft & Latham: the work of the largest principal stress on the plastic strain.
 //! #[derive(Debug)]
@@ -32,13 +33,14 @@
 //! impl Failure for CockcroftLatham {
 //!     fn name(&self) -> &'static str { "Cockcroft–Latham" }
 //!     fn source(&self) -> &'static str { "Cockcroft & Latham 1968" }
-//!     fn damage(&self, state: &FailureState) -> f64 {
-//!         state.principal_stress.max(0.0) * state.increment / self.work
+//!     #[inline(always)]
+//!     fn damage<L: Lane>(&self, state: &FailureState<L>) -> L {
+//!         state.principal_stress.positive_part() * state.increment / L::of(self.work)
 //!     }
 //!     fn uses_plastic_strain(&self) -> bool { true }
 //! }
 //! let alloy: Material<f32> = catalogue::aluminium().with_failure(CockcroftLatham { work: 2e8 });
-//! assert_eq!(alloy.failure().map(Failure::name), Some("Cockcroft–Latham"));
+//! assert_eq!(alloy.failure().map(|law| law.name()), Some("Cockcroft–Latham"));
 //! ```
 
 mod johnson_cook;
@@ -52,25 +54,65 @@ pub use principal_stress::PrincipalStressLimit;
 pub use spall::SpallStrength;
 
 use super::strength::ROOM_TEMPERATURE;
+use crate::scalar::Lane;
 use core::fmt::Debug;
 
-/// What a step may do harm by.
+/// What a step may do harm by, of one particle or of a row of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FailureState {
+pub struct FailureState<L = f64> {
     /// Equivalent plastic strain ε at the end of the step.
-    pub strain: f64,
+    pub strain: L,
     /// What the step has added to it, Δε.
-    pub increment: f64,
+    pub increment: L,
     /// Its rate ε̇ \[1/s\].
-    pub rate: f64,
+    pub rate: L,
     /// Temperature T \[K\].
-    pub temperature: f64,
+    pub temperature: L,
     /// Pressure p \[Pa\], positive in compression.
-    pub pressure: f64,
+    pub pressure: L,
     /// The stress of von Mises √(3/2 S:S) \[Pa\].
-    pub von_mises: f64,
+    pub von_mises: L,
     /// The largest principal stress \[Pa\], positive in tension.
-    pub principal_stress: f64,
+    pub principal_stress: L,
+}
+
+impl<L: Copy> FailureState<L> {
+    /// From its numbers in their order.
+    #[inline(always)]
+    pub(super) fn of(
+        [
+            strain,
+            increment,
+            rate,
+            temperature,
+            pressure,
+            von_mises,
+            principal_stress,
+        ]: [L; 7],
+    ) -> Self {
+        Self {
+            strain,
+            increment,
+            rate,
+            temperature,
+            pressure,
+            von_mises,
+            principal_stress,
+        }
+    }
+    /// Its numbers in their order.
+    #[inline(always)]
+    pub(super) fn numbers(&self) -> [L; 7] {
+        [
+            self.strain,
+            self.increment,
+            self.rate,
+            self.temperature,
+            self.pressure,
+            self.von_mises,
+            self.principal_stress,
+        ]
+    }
 }
 
 impl Default for FailureState {
@@ -88,7 +130,7 @@ impl Default for FailureState {
     }
 }
 
-impl FailureState {
+impl<L: Lane> FailureState<L> {
     /// The stress triaxiality σ* = −p/σ of the stress σ of von Mises; infinite where there is pressure alone, zero
     /// without stress.
     ///
@@ -99,18 +141,18 @@ impl FailureState {
     /// assert!((pulled.triaxiality() - 1.0 / 3.0).abs() < 1e-15);
     /// ```
     #[must_use]
-    pub fn triaxiality(&self) -> f64 {
-        if self.pressure == 0.0 {
-            return 0.0;
-        }
-        -self.pressure / self.von_mises
+    #[inline(always)]
+    pub fn triaxiality(&self) -> L {
+        let none = self.pressure.abs().le(L::zero());
+        L::select(none, L::zero(), -self.pressure / self.von_mises)
     }
 }
 
-/// What a step adds to damage.
+/// What a step adds to damage, in the arithmetic of [lanes](Lane).
 ///
-/// It is asked once a particle and step, in `f64` whatever the scalar of the simulation. It must not be negative; one
-/// or more is failure at once.
+/// It is asked once a row of particles and step, in `f64` whatever the scalar of the simulation. It must not be negative; one
+/// or more is failure at once. Where it decides it takes [`Lane::select`], so that it can be
+/// [recorded](crate::scalar::Record). Mark `damage` `#[inline(always)]`, as a [`Strength`](super::strength::Strength).
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a law of failure",
     note = "implement `Failure`: `damage` returns what a step adds to the damage"
@@ -121,7 +163,7 @@ pub trait Failure: Debug + Send + Sync + 'static {
     /// Author, year and equation.
     fn source(&self) -> &'static str;
     /// What the step adds to the damage D.
-    fn damage(&self, state: &FailureState) -> f64;
+    fn damage<L: Lane>(&self, state: &FailureState<L>) -> L;
     /// Whether it follows from plastic strain; then the scheme needs [`Plasticity`](crate::effect::Plasticity).
     fn uses_plastic_strain(&self) -> bool {
         false

@@ -2,6 +2,7 @@
 //! ε ≥ ε_f, whatever the stress.
 
 use super::{Failure, FailureState, not_positive};
+use crate::scalar::Lane;
 
 /// Failure where the equivalent plastic strain ε reaches ε_f, whatever the stress.
 ///
@@ -32,8 +33,9 @@ impl Failure for PlasticStrainLimit {
     fn source(&self) -> &'static str {
         "equivalent plastic strain"
     }
-    fn damage(&self, state: &FailureState) -> f64 {
-        f64::from(u8::from(state.strain >= self.strain))
+    #[inline(always)]
+    fn damage<L: Lane>(&self, state: &FailureState<L>) -> L {
+        L::select(state.strain.ge(L::of(self.strain)), L::one(), L::zero())
     }
     fn uses_plastic_strain(&self) -> bool {
         true

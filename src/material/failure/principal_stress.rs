@@ -2,6 +2,7 @@
 //! σ₁ ≥ σ_f (Rankine).
 
 use super::{Failure, FailureState, not_positive};
+use crate::scalar::Lane;
 
 /// Failure where the largest principal stress, positive in tension, reaches σ_f: brittle solids.
 ///
@@ -32,8 +33,13 @@ impl Failure for PrincipalStressLimit {
     fn source(&self) -> &'static str {
         "Rankine 1857"
     }
-    fn damage(&self, state: &FailureState) -> f64 {
-        f64::from(u8::from(state.principal_stress >= self.stress))
+    #[inline(always)]
+    fn damage<L: Lane>(&self, state: &FailureState<L>) -> L {
+        L::select(
+            state.principal_stress.ge(L::of(self.stress)),
+            L::one(),
+            L::zero(),
+        )
     }
 
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {

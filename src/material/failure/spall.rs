@@ -2,6 +2,7 @@
 //! −p ≥ σ_s.
 
 use super::{Failure, FailureState, not_positive};
+use crate::scalar::Lane;
 
 /// Failure where the tension −p reaches the spall strength σ_s: plates that break inside when waves of release meet.
 ///
@@ -34,8 +35,9 @@ impl Failure for SpallStrength {
     fn source(&self) -> &'static str {
         "tension limit"
     }
-    fn damage(&self, state: &FailureState) -> f64 {
-        f64::from(u8::from(state.pressure <= -self.tension))
+    #[inline(always)]
+    fn damage<L: Lane>(&self, state: &FailureState<L>) -> L {
+        L::select(state.pressure.le(L::of(-self.tension)), L::one(), L::zero())
     }
     fn pressure_at_failure(&self) -> Option<f64> {
         Some(-self.tension)

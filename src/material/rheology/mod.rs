@@ -39,6 +39,7 @@
 //!
 //! impl ViscosityLaw for Hyperbolic {
 //!     fn name(&self) -> &'static str { "hyperbolic" }
+//!     #[inline(always)]
 //!     fn viscosity<L: Lane>(&self, shear_rate: L) -> L {
 //!         L::of(self.at_rest) / shear_rate.mul_add(L::of(self.time), L::one())
 //!     }
@@ -46,10 +47,8 @@
 //! }
 //! let law = Hyperbolic { at_rest: 2.0, time: 0.5 };
 //! let slurry: Material<f32> = catalogue::water().with_rheology(law);
-//! let mut viscosities = [0.0; 2];
 //! let rheology = slurry.rheology().expect("it has just been given one");
-//! rheology.viscosities(&[0.0, 2.0], &mut viscosities);
-//! assert_eq!(viscosities, [2.0, 1.0]);
+//! assert_eq!([0.0, 2.0].map(|rate| rheology.viscosity(rate)), [2.0, 1.0]);
 //! ```
 
 mod carreau_yasuda;
@@ -66,12 +65,13 @@ pub use herschel_bulkley::HerschelBulkley;
 pub use newtonian::Newtonian;
 pub use power_law::PowerLaw;
 
-use crate::scalar::{Lane, Real};
+use crate::scalar::Lane;
 use core::fmt::Debug;
 
 /// A viscosity that follows from the shear rate, μ(γ̇).
 ///
-/// Parameters are plain `f64` in SI units; `L::of(parameter)` brings one into the arithmetic.
+/// Parameters are plain `f64` in SI units; `L::of(parameter)` brings one into the arithmetic, which is in the scalar of the
+/// simulation. Mark `viscosity` `#[inline(always)]`, as a [`Strength`](super::strength::Strength).
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a viscosity law",
     note = "implement `ViscosityLaw`: `viscosity` returns the dynamic viscosity for a shear rate"
@@ -89,81 +89,20 @@ pub trait ViscosityLaw: Clone + Debug + Send + Sync + 'static {
     }
 }
 
-/// A viscosity law whose type is erased: what a [`Material`](super::Material) holds.
-///
-/// Sealed; [`Material::with_rheology`](super::Material::with_rheology) makes one from any
-/// [`ViscosityLaw`].
-pub trait RheologyObject<T: Real>: sealed::Sealed + Debug + Send + Sync + 'static {
-    /// The law's name.
-    fn name(&self) -> &'static str;
-    /// Dynamic viscosity \[Pa s\] at one shear rate \[1/s\].
-    fn viscosity(&self, shear_rate: f64) -> f64;
-    /// The largest viscosity \[Pa s\] at any shear rate.
-    fn greatest_viscosity(&self) -> f64;
-    /// What is wrong with the parameters, as `(field, value, what it must be)`.
-    fn problems(&self) -> Vec<(&'static str, f64, &'static str)>;
-    /// Viscosities \[Pa s\] of a row of particles from shear rates \[1/s\]. As many particles as the
-    /// shorter slice has; nothing is allocated.
-    fn viscosities(&self, shear_rate: &[T], viscosity: &mut [T]);
-}
-
-mod sealed {
-    pub trait Sealed {}
-    impl<V> Sealed for super::Erased<V> {}
-    impl Sealed for f64 {}
-}
-
-/// The law behind a [`RheologyObject`]; a type of its own keeps the two traits' methods apart.
-#[derive(Debug)]
-pub(super) struct Erased<V>(pub(super) V);
-
-impl<T: Real, V: ViscosityLaw> RheologyObject<T> for Erased<V> {
-    fn name(&self) -> &'static str {
-        self.0.name()
-    }
-    fn viscosity(&self, shear_rate: f64) -> f64 {
-        self.0.viscosity(shear_rate)
-    }
-    fn greatest_viscosity(&self) -> f64 {
-        self.0.greatest_viscosity()
-    }
-    fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
-        self.0.problems()
-    }
-    fn viscosities(&self, shear_rate: &[T], viscosity: &mut [T]) {
-        let width = <T::Wide<false> as Lane>::WIDTH;
-        let blocks = viscosity.len().min(shear_rate.len()) / width * width;
-        let (rates, last_rates) = shear_rate.split_at(blocks);
-        let (rows, last) = viscosity.split_at_mut(blocks);
-        for (rates, row) in rates.chunks_exact(width).zip(rows.chunks_exact_mut(width)) {
-            let values = self.0.viscosity(T::Wide::<false>::from_fn(|k| rates[k]));
-            for (k, value) in row.iter_mut().enumerate() {
-                *value = values.extract(k);
-            }
-        }
-        for (rate, value) in last_rates.iter().zip(last) {
-            *value = self.0.viscosity(*rate);
-        }
-    }
-}
-
-/// A number is a constant viscosity \[Pa s\], so that a material which has only that lends it as one.
-impl<T: Real> RheologyObject<T> for f64 {
+/// A number is a constant viscosity \[Pa s\], so that a material which has only that lends it as a law.
+impl ViscosityLaw for f64 {
     fn name(&self) -> &'static str {
         Newtonian::new(*self).name()
     }
-    fn viscosity(&self, _shear_rate: f64) -> f64 {
-        *self
+    #[inline(always)]
+    fn viscosity<L: Lane>(&self, _shear_rate: L) -> L {
+        L::of(*self)
     }
     fn greatest_viscosity(&self) -> f64 {
         *self
     }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         Newtonian::new(*self).problems()
-    }
-    fn viscosities(&self, shear_rate: &[T], viscosity: &mut [T]) {
-        let count = viscosity.len().min(shear_rate.len());
-        viscosity[..count].fill(T::from_f64(*self));
     }
 }
 

@@ -49,9 +49,10 @@ impl<S: Strength> Strength for CowperSymonds<S> {
     fn source(&self) -> &'static str {
         "Cowper & Symonds 1957"
     }
-    fn yield_stress(&self, state: &PlasticState) -> f64 {
-        let ratio = (state.rate / self.doubling_rate).max(0.0);
-        self.slow.yield_stress(state) * (1.0 + Lane::powf(ratio, self.exponent.recip()))
+    #[inline(always)]
+    fn yield_stress<L: Lane>(&self, state: &PlasticState<L>) -> L {
+        let ratio = (state.rate / L::of(self.doubling_rate)).positive_part();
+        self.slow.yield_stress(state) * (L::one() + ratio.powf(self.exponent.recip()))
     }
     fn uses_temperature(&self) -> bool {
         self.slow.uses_temperature()

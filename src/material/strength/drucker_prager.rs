@@ -3,6 +3,7 @@
 
 use super::{PlasticState, Strength};
 use crate::material::eos::guard::Problems;
+use crate::scalar::Lane;
 
 /// The condition of Drucker & Prager (1952), σ + β I₁ = k with the trace I₁ = −3 p of the stress.
 ///
@@ -57,10 +58,11 @@ impl Strength for DruckerPrager {
     fn source(&self) -> &'static str {
         "Drucker & Prager 1952"
     }
-    fn yield_stress(&self, state: &PlasticState) -> f64 {
-        (3.0 * self.slope)
-            .mul_add(state.pressure, self.cohesion)
-            .max(0.0)
+    #[inline(always)]
+    fn yield_stress<L: Lane>(&self, state: &PlasticState<L>) -> L {
+        let cohesion = L::of(self.cohesion);
+        let yields = L::of(3.0 * self.slope).fused(state.pressure, cohesion);
+        yields.positive_part()
     }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         Problems::default()

@@ -3,6 +3,7 @@
 
 use super::ROOM_TEMPERATURE;
 use crate::material::eos::guard::Problems;
+use crate::scalar::Lane;
 
 /// How plastic work w \[J/kg\] warms a solid (Taylor & Quinney 1934).
 ///
@@ -54,8 +55,11 @@ impl PlasticHeating {
     }
     /// Temperature T \[K\] after plastic work w \[J/kg\].
     #[must_use]
-    pub fn temperature(&self, plastic_work: f64) -> f64 {
-        self.initial_temperature + self.share * plastic_work / self.specific_heat
+    #[inline(always)]
+    pub fn temperature<L: Lane>(&self, plastic_work: L) -> L {
+        let [first, share, heat] =
+            [self.initial_temperature, self.share, self.specific_heat].map(L::of);
+        first + share * plastic_work / heat
     }
     /// What is wrong with the parameters, as `(field, value, what it must be)`; empty if nothing.
     #[must_use]

@@ -88,12 +88,13 @@ impl Strength for JohnsonCook {
     fn source(&self) -> &'static str {
         "Johnson & Cook 1983, eq. 1"
     }
-    fn yield_stress(&self, state: &PlasticState) -> f64 {
-        let rate = Lane::ln((state.rate / self.reference_rate).max(1.0));
-        let above = state.temperature - self.reference_temperature;
-        let heat = above / (self.melting_temperature - self.reference_temperature);
-        let softened = 1.0 - Lane::powf(heat.clamp(0.0, 1.0), self.softening);
-        self.hardening.yield_stress(state) * self.rate_sensitivity.mul_add(rate, 1.0) * softened
+    #[inline(always)]
+    fn yield_stress<L: Lane>(&self, state: &PlasticState<L>) -> L {
+        let rate = (state.rate / L::of(self.reference_rate)).max(L::one()).ln();
+        let faster = L::of(self.rate_sensitivity).fused(rate, L::one());
+        let range = [self.reference_temperature, self.melting_temperature];
+        let softened = L::one() - heat(state.temperature, range).powf(self.softening);
+        self.hardening.yield_stress(state) * faster * softened
     }
     fn uses_temperature(&self) -> bool {
         self.melting_temperature.is_finite()
@@ -113,6 +114,14 @@ impl Strength for JohnsonCook {
             )
             .list()
     }
+}
+
+/// T* = (T − T_r)/(T_m − T_r), held between zero and one.
+#[inline(always)]
+pub(in crate::material) fn heat<L: Lane>(temperature: L, [reference, melting]: [f64; 2]) -> L {
+    let heat = (temperature - L::of(reference)) / L::of(melting - reference);
+    // In this order what is no number stays so.
+    L::one().min(L::zero().max(heat))
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 
 use super::{PlasticState, Strength};
 use crate::material::eos::guard::Problems;
+use crate::scalar::Lane;
 
 /// Linear isotropic hardening (Odqvist 1933, with Y a linear function of the length ε of the plastic path).
 ///
@@ -46,8 +47,9 @@ impl Strength for LinearHardening {
     fn source(&self) -> &'static str {
         "Odqvist 1933"
     }
-    fn yield_stress(&self, state: &PlasticState) -> f64 {
-        self.modulus.mul_add(state.strain, self.yield_stress)
+    #[inline(always)]
+    fn yield_stress<L: Lane>(&self, state: &PlasticState<L>) -> L {
+        L::of(self.modulus).fused(state.strain, L::of(self.yield_stress))
     }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         Problems::default()

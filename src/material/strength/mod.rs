@@ -31,6 +31,7 @@
 //!
 //! ```
 //! use meshfree::material::{Material, catalogue, strength::{PlasticState, Strength}};
+//! use meshfree::scalar::Lane;
 //!
 //! /// Voce's law of saturation, Y = Y∞ − (Y∞ − Y₀) e^(−ε/ε₀).
 //! #[derive(Debug)]
@@ -39,13 +40,15 @@
 //! impl Strength for Voce {
 //!     fn name(&self) -> &'static str { "Voce" }
 //!     fn source(&self) -> &'static str { "Voce 1948" }
-//!     fn yield_stress(&self, state: &PlasticState) -> f64 {
-//!         self.last - (self.last - self.first) * (-state.strain / self.strain).exp()
+//!     #[inline(always)]
+//!     fn yield_stress<L: Lane>(&self, state: &PlasticState<L>) -> L {
+//!         let left = (-state.strain / L::of(self.strain)).exp();
+//!         L::of(self.last) - L::of(self.last - self.first) * left
 //!     }
 //! }
 //! let law = Voce { first: 50e6, last: 200e6, strain: 0.1 };
 //! let alloy: Material<f32> = catalogue::aluminium().with_strength(law);
-//! assert_eq!(alloy.strength().map(Strength::name), Some("Voce"));
+//! assert_eq!(alloy.strength().map(|law| law.name()), Some("Voce"));
 //! ```
 
 mod cowper_symonds;
@@ -62,27 +65,54 @@ pub use cowper_symonds::CowperSymonds;
 pub use drucker_prager::DruckerPrager;
 pub use heating::PlasticHeating;
 pub use johnson_cook::JohnsonCook;
+pub(super) use johnson_cook::heat;
 pub use linear_hardening::LinearHardening;
 pub use perfect::PerfectPlasticity;
 pub use power_hardening::PowerHardening;
 pub use steinberg_guinan::SteinbergGuinan;
 pub use tension_compression::TensionCompression;
 
+use crate::scalar::Lane;
 use core::fmt::Debug;
 
-/// What a yield stress may follow from.
+/// What a yield stress may follow from, of one particle or of a row of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PlasticState {
+pub struct PlasticState<L = f64> {
     /// Equivalent plastic strain ε.
-    pub strain: f64,
+    pub strain: L,
     /// Its rate ε̇ \[1/s\].
-    pub rate: f64,
+    pub rate: L,
     /// Temperature T \[K\].
-    pub temperature: f64,
+    pub temperature: L,
     /// Pressure p \[Pa\], positive in compression.
-    pub pressure: f64,
+    pub pressure: L,
     /// Density over that at rest, ρ/ρ₀.
-    pub density_ratio: f64,
+    pub density_ratio: L,
+}
+
+impl<L: Copy> PlasticState<L> {
+    /// From its numbers in their order.
+    #[inline(always)]
+    pub(super) fn of([strain, rate, temperature, pressure, density_ratio]: [L; 5]) -> Self {
+        Self {
+            strain,
+            rate,
+            temperature,
+            pressure,
+            density_ratio,
+        }
+    }
+    /// Its numbers in their order.
+    #[inline(always)]
+    pub(super) fn numbers(&self) -> [L; 5] {
+        [
+            self.strain,
+            self.rate,
+            self.temperature,
+            self.pressure,
+            self.density_ratio,
+        ]
+    }
 }
 
 impl Default for PlasticState {
@@ -101,10 +131,12 @@ impl Default for PlasticState {
 /// 298.15 K: 25 °C, at which constants of laws are usually given.
 pub const ROOM_TEMPERATURE: f64 = 298.15;
 
-/// A yield stress.
+/// A yield stress, in the arithmetic of [lanes](Lane).
 ///
-/// It is asked for a few times a particle and step, where the particle yields, in `f64` whatever the scalar of the
-/// simulation. It must be finite and not negative for any finite state; zero is a liquid.
+/// It is asked for a few times a row of particles and step, where one of them yields, in `f64` whatever the scalar of the
+/// simulation. It must be finite and not negative for any finite state; zero is a liquid. Where it decides it takes
+/// [`Lane::select`], so that it can be [recorded](crate::scalar::Record). Mark `yield_stress` `#[inline(always)]`: then it is
+/// compiled for wider registers where the machine has them.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a law of strength",
     note = "implement `Strength`: `yield_stress` returns the yield stress for a plastic state"
@@ -115,7 +147,7 @@ pub trait Strength: Debug + Send + Sync + 'static {
     /// Author, year and equation.
     fn source(&self) -> &'static str;
     /// Yield stress Y \[Pa\].
-    fn yield_stress(&self, state: &PlasticState) -> f64;
+    fn yield_stress<L: Lane>(&self, state: &PlasticState<L>) -> L;
     /// Whether it follows from temperature; then the material needs a
     /// [`PlasticHeating`](crate::material::Material::with_plastic_heating).
     fn uses_temperature(&self) -> bool {
@@ -130,15 +162,16 @@ pub trait Strength: Debug + Send + Sync + 'static {
 /// A number is a constant yield stress \[Pa\], so that a material which has only that lends it as a law.
 impl Strength for f64 {
     fn name(&self) -> &'static str {
-        PerfectPlasticity::new(*self).name()
+        Strength::name(&PerfectPlasticity::new(*self))
     }
     fn source(&self) -> &'static str {
-        PerfectPlasticity::new(*self).source()
+        Strength::source(&PerfectPlasticity::new(*self))
     }
-    fn yield_stress(&self, state: &PlasticState) -> f64 {
-        PerfectPlasticity::new(*self).yield_stress(state)
+    #[inline(always)]
+    fn yield_stress<L: Lane>(&self, _state: &PlasticState<L>) -> L {
+        L::of(*self)
     }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
-        PerfectPlasticity::new(*self).problems()
+        Strength::problems(&PerfectPlasticity::new(*self))
     }
 }

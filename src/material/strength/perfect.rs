@@ -3,6 +3,7 @@
 
 use super::{PlasticState, Strength};
 use crate::material::eos::guard::Problems;
+use crate::scalar::Lane;
 
 /// Perfect plasticity with the condition of von Mises (1913).
 ///
@@ -39,8 +40,9 @@ impl Strength for PerfectPlasticity {
     fn source(&self) -> &'static str {
         "von Mises 1913"
     }
-    fn yield_stress(&self, _state: &PlasticState) -> f64 {
-        self.yield_stress
+    #[inline(always)]
+    fn yield_stress<L: Lane>(&self, _state: &PlasticState<L>) -> L {
+        L::of(self.yield_stress)
     }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         Problems::default()

@@ -61,10 +61,11 @@ impl Strength for PowerHardening {
     fn source(&self) -> &'static str {
         "Ludwik 1909"
     }
-    fn yield_stress(&self, state: &PlasticState) -> f64 {
+    #[inline(always)]
+    fn yield_stress<L: Lane>(&self, state: &PlasticState<L>) -> L {
         // A strain that rounding has made negative has no power.
-        let power = Lane::powf(state.strain.max(0.0), self.exponent);
-        self.hardening.mul_add(power, self.yield_stress)
+        let power = state.strain.positive_part().powf(self.exponent);
+        L::of(self.hardening).fused(power, L::of(self.yield_stress))
     }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         self.checks().list()

@@ -86,12 +86,15 @@ impl Strength for SteinbergGuinan {
     fn source(&self) -> &'static str {
         "Steinberg, Cochran & Guinan 1980, eq. 2"
     }
-    fn yield_stress(&self, state: &PlasticState) -> f64 {
-        let strain = (state.strain + self.initial_strain).max(0.0);
-        let hardened = self.yield_stress * Lane::powf(1.0 + self.hardening * strain, self.exponent);
-        let pressed = self.pressure * state.pressure / Lane::cbrt(state.density_ratio);
-        let heated = self.softening * (state.temperature - REFERENCE_TEMPERATURE);
-        hardened.min(self.greatest) * (1.0 + pressed - heated).max(0.0)
+    #[inline(always)]
+    fn yield_stress<L: Lane>(&self, state: &PlasticState<L>) -> L {
+        let (of, one) = (L::of, L::one());
+        let strain = (state.strain + of(self.initial_strain)).positive_part();
+        let hardened = (one + of(self.hardening) * strain).powf(self.exponent);
+        let hardened = (of(self.yield_stress) * hardened).min(of(self.greatest));
+        let pressed = of(self.pressure) * state.pressure / state.density_ratio.cbrt();
+        let heated = of(self.softening) * (state.temperature - of(REFERENCE_TEMPERATURE));
+        hardened * (one + pressed - heated).positive_part()
     }
     fn uses_temperature(&self) -> bool {
         self.softening > 0.0

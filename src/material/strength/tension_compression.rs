@@ -3,6 +3,7 @@
 
 use super::{PlasticState, Strength};
 use crate::material::eos::guard::Problems;
+use crate::scalar::Lane;
 
 /// Two yield stresses by the sign of pressure, as polymers have them in hydrocodes (LS-DYNA's material 124).
 ///
@@ -55,12 +56,14 @@ impl Strength for TensionCompression {
     fn source(&self) -> &'static str {
         "the two curves of LS-DYNA's material 124, with a smooth passage"
     }
-    fn yield_stress(&self, state: &PlasticState) -> f64 {
-        let x = (state.pressure / self.passage).clamp(-1.0, 1.0);
-        let smooth = 0.5 * x * (3.0 - x * x);
+    #[inline(always)]
+    fn yield_stress<L: Lane>(&self, state: &PlasticState<L>) -> L {
+        let x = (state.pressure / L::of(self.passage)).max(-L::one());
+        let x = x.min(L::one());
+        let smooth = L::of(0.5) * x * (L::of(3.0) - x * x);
         let [mean, half] =
             [1.0, -1.0].map(|sign: f64| 0.5 * sign.mul_add(self.tension, self.compression));
-        half.mul_add(smooth, mean)
+        L::of(half).fused(smooth, L::of(mean))
     }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         Problems::default()

@@ -1,9 +1,11 @@
 //! Viscosity with a coefficient for every particle, which jumps up where the flow steepens.
 //! Cullen & Dehnen 2010, with the converging-flow condition of Borrow et al. 2022.
 
-use super::{ArtificialViscosity, Surroundings, Switch, Viscous, between_own, closing_speed};
+use super::{
+    ArtificialViscosity, Surroundings, Switch, SwitchObject, Viscous, between_own, closing_speed,
+};
 use crate::particles::{Field, Fields, Output, Outputs};
-use crate::scalar::{Lane, Real};
+use crate::scalar::Lane;
 use crate::term::{Layout, Pair, Sums, TermDoc};
 
 /// Monaghan–Gingold with ᾱ = ½ (αᵢ + αⱼ) and β = 2 ᾱ, whose α rises ahead of shocks.
@@ -92,7 +94,7 @@ impl<const D: usize> ArtificialViscosity<D> for CullenDehnen {
             source: "Cullen & Dehnen 2010, sect. 3; condition ∇·v < 0 Borrow et al. 2022",
         }
     }
-    fn switch<T: Real>(&self) -> Option<Box<dyn Switch<T>>> {
+    fn switch(&self) -> Option<Box<dyn SwitchObject>> {
         Some(Box::new(*self))
     }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
@@ -107,43 +109,35 @@ impl<const D: usize> ArtificialViscosity<D> for CullenDehnen {
     }
 }
 
-impl<T: Real> Switch<T> for CullenDehnen {
+impl Switch for CullenDehnen {
     fn start(&self) -> f64 {
         0.0
     }
     fn keeps(&self) -> Fields {
         Fields::of(&[Field::DIVERGENCE])
     }
-    fn next(&self, alpha: T, around: &Surroundings<T>, dt: T) -> T {
-        let steepening = if around.divergence < T::zero() {
-            ((around.divergence_before - around.divergence) / dt).positive_part()
-        } else {
-            T::zero()
-        };
+    #[inline(always)]
+    fn next<L: Lane>(&self, alpha: L, around: &Surroundings<L>, dt: L) -> L {
+        let zero = L::zero();
+        let rate = (around.divergence_before - around.divergence) / dt;
+        let converges = around.divergence.lt(zero);
+        let steepening = L::select(converges, rate.positive_part(), zero);
         let strength = around.support * around.support * limiter(around) * steepening;
         let speed2 = around.signal_speed * around.signal_speed;
-        let local = if strength > T::zero() {
-            T::from_f64(self.maximum) * strength / (speed2 + strength)
-        } else {
-            T::zero()
-        };
-        if local >= alpha {
-            return local;
-        }
-        let rate =
-            T::from_f64(self.decay) * T::from_f64(2.0) * around.signal_speed / around.support;
-        local + (alpha - local) * (-(rate * dt)).exp()
+        let local = L::of(self.maximum) * strength / (speed2 + strength);
+        let local = L::select(strength.gt(zero), local, zero);
+        let rate = L::of(self.decay) * L::of(2.0) * around.signal_speed / around.support;
+        let decayed = local + (alpha - local) * (-(rate * dt)).exp();
+        L::select(local.ge(alpha), local, decayed)
     }
 }
 
 /// ξ of the surroundings.
-fn limiter<T: Real>(around: &Surroundings<T>) -> T {
-    let apart = (T::one() - around.divergence_sign).positive_part();
-    let closing = T::from_f64(2.0) * apart.powi(4) * around.divergence;
+#[inline(always)]
+fn limiter<L: Lane>(around: &Surroundings<L>) -> L {
+    let apart = (L::one() - around.divergence_sign).positive_part();
+    let closing = L::of(2.0) * apart.powi(4) * around.divergence;
     let closing2 = closing * closing;
-    if around.shear2 > T::zero() {
-        closing2 / (closing2 + around.shear2)
-    } else {
-        T::one()
-    }
+    let share = closing2 / (closing2 + around.shear2);
+    L::select(around.shear2.gt(L::zero()), share, L::one())
 }

@@ -3,10 +3,10 @@
 
 use super::{
     ArtificialViscosity, Balsara, CullenDehnen, Inviscid, LimitedMonaghanGingold, MonaghanGingold,
-    MorrisMonaghan, Riemann, SignalVelocity, Switch, Viscous,
+    MorrisMonaghan, Riemann, SignalVelocity, SwitchObject, Viscous,
 };
 use crate::particles::{Fields, Outputs};
-use crate::scalar::{Lane, Real};
+use crate::scalar::Lane;
 use crate::term::{Layout, Pair, Sums, TermDoc};
 use core::fmt;
 use core::str::FromStr;
@@ -132,7 +132,7 @@ macro_rules! viscosity_kind {
                     $(Self::$Law(law) => ArtificialViscosity::<D>::needs_velocity_gradient(law),)*
                 }
             }
-            fn switch<T: Real>(&self) -> Option<Box<dyn Switch<T>>> {
+            fn switch(&self) -> Option<Box<dyn SwitchObject>> {
                 match self { $(Self::$Law(law) => ArtificialViscosity::<D>::switch(law),)* }
             }
             fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {

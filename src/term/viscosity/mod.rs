@@ -46,11 +46,11 @@ pub use monaghan_gingold::MonaghanGingold;
 pub use morris_monaghan::MorrisMonaghan;
 pub use riemann::Riemann;
 pub use signal_velocity::SignalVelocity;
-pub use switch::{Surroundings, Switch};
+pub use switch::{Surroundings, Switch, SwitchObject};
 
 use super::{Layout, Pair, Sums, Term, TermDoc};
 use crate::particles::{Field, Fields, Output, Outputs};
-use crate::scalar::{Lane, Real};
+use crate::scalar::Lane;
 use core::fmt::Debug;
 
 /// What a viscosity makes of a pair.
@@ -94,7 +94,7 @@ pub trait ArtificialViscosity<const D: usize>: Clone + Debug + Send + Sync + 'st
         Self::NEEDS.contains(Field::VELOCITY_GRADIENT)
     }
     /// How the particle's own coefficient α changes, if the law has one.
-    fn switch<T: Real>(&self) -> Option<Box<dyn Switch<T>>> {
+    fn switch(&self) -> Option<Box<dyn SwitchObject>> {
         None
     }
     /// What is wrong with the parameters, as `(field, value, what it must be)`.

@@ -1,9 +1,9 @@
 //! Viscosity with a coefficient for every particle, which compression raises and time lowers.
 //! Morris & Monaghan 1997, with the source of Rosswog et al. 2000.
 
-use super::{ArtificialViscosity, Surroundings, Switch, Viscous, between_own};
+use super::{ArtificialViscosity, Surroundings, Switch, SwitchObject, Viscous, between_own};
 use crate::particles::{Field, Fields};
-use crate::scalar::{Lane, Real};
+use crate::scalar::Lane;
 use crate::term::{Layout, Pair, TermDoc};
 
 /// Monaghan–Gingold with ᾱ = ½ (αᵢ + αⱼ) and β = 2 ᾱ, whose α rises in shocks and decays behind them.
@@ -57,7 +57,7 @@ impl<const D: usize> ArtificialViscosity<D> for MorrisMonaghan {
             source: "Morris & Monaghan 1997; source term Rosswog et al. 2000",
         }
     }
-    fn switch<T: Real>(&self) -> Option<Box<dyn Switch<T>>> {
+    fn switch(&self) -> Option<Box<dyn SwitchObject>> {
         Some(Box::new(*self))
     }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
@@ -76,20 +76,19 @@ impl<const D: usize> ArtificialViscosity<D> for MorrisMonaghan {
     }
 }
 
-impl<T: Real> Switch<T> for MorrisMonaghan {
+impl Switch for MorrisMonaghan {
     fn start(&self) -> f64 {
         self.minimum
     }
     /// The exact solution at constant rates, which stays between its bounds.
-    fn next(&self, alpha: T, around: &Surroundings<T>, dt: T) -> T {
-        let [minimum, maximum, decay] = [self.minimum, self.maximum, self.decay].map(T::from_f64);
+    #[inline(always)]
+    fn next<L: Lane>(&self, alpha: L, around: &Surroundings<L>, dt: L) -> L {
+        let [minimum, maximum, decay] = [self.minimum, self.maximum, self.decay].map(L::of);
         let decay_rate = decay * around.sound_speed / around.h;
         let source = (-around.divergence).positive_part();
         let rate = decay_rate + source;
-        if rate <= T::zero() {
-            return alpha;
-        }
         let equilibrium = (decay_rate * minimum + source * maximum) / rate;
-        equilibrium + (alpha - equilibrium) * (-(rate * dt)).exp()
+        let next = equilibrium + (alpha - equilibrium) * (-(rate * dt)).exp();
+        L::select(rate.le(L::zero()), alpha, next)
     }
 }

@@ -2,27 +2,28 @@
 //! Each law's equation is in the law's file.
 
 use crate::particles::Fields;
+use crate::scalar::{Function, Lane, OfLanes, call};
 use core::fmt::Debug;
 
-/// What a switch sees of the flow around a particle.
+/// What a switch sees of the flow around a particle, or around each of a row.
 #[derive(Clone, Copy, Debug)]
-pub struct Surroundings<T> {
+pub struct Surroundings<L> {
     /// ∇·v \[1/s\].
-    pub divergence: T,
+    pub divergence: L,
     /// ∇·v of the step before \[1/s\].
-    pub divergence_before: T,
+    pub divergence_before: L,
     /// Mean sign of ∇·v, from −1 to 1.
-    pub divergence_sign: T,
+    pub divergence_sign: L,
     /// tr S Sᵀ of the traceless shear \[1/s²\].
-    pub shear2: T,
+    pub shear2: L,
     /// Sound speed \[m/s\].
-    pub sound_speed: T,
+    pub sound_speed: L,
     /// Largest signal speed towards a neighbour \[m/s\].
-    pub signal_speed: T,
+    pub signal_speed: L,
     /// Smoothing length \[m\].
-    pub h: T,
+    pub h: L,
     /// Radius of the support \[m\].
-    pub support: T,
+    pub support: L,
 }
 
 /// How a particle's own viscosity coefficient α follows the flow, once a step; see [`MorrisMonaghan`](super::MorrisMonaghan) and
@@ -31,7 +32,7 @@ pub struct Surroundings<T> {
 /// ```
 /// use meshfree::particles::Fields;
 /// use meshfree::prelude::*;
-/// use meshfree::term::viscosity::{MorrisMonaghan, Surroundings, Switch, Viscous};
+/// use meshfree::term::viscosity::{MorrisMonaghan, Surroundings, Switch, SwitchObject, Viscous};
 /// use meshfree::term::{ArtificialViscosity, Layout, Pair, TermDoc};
 ///
 /// /// α = 1 where the flow converges; elsewhere α decays in the time h/c.
@@ -49,20 +50,19 @@ pub struct Surroundings<T> {
 ///     fn document(&self) -> TermDoc {
 ///         TermDoc { name: "viscosity at once".into(), equation: "α = 1 where ∇·v < 0, else dα/dt = −α c/h", source: "an example" }
 ///     }
-///     fn switch<T: Real>(&self) -> Option<Box<dyn Switch<T>>> {
+///     fn switch(&self) -> Option<Box<dyn SwitchObject>> {
 ///         Some(Box::new(*self))
 ///     }
 /// }
 ///
-/// impl<T: Real> Switch<T> for AtOnce {
+/// impl Switch for AtOnce {
 ///     fn start(&self) -> f64 {
 ///         0.0
 ///     }
-///     fn next(&self, alpha: T, around: &Surroundings<T>, dt: T) -> T {
-///         if around.divergence < T::zero() {
-///             return T::one();
-///         }
-///         alpha * (-around.sound_speed / around.h * dt).exp()
+///     #[inline(always)]
+///     fn next<L: Lane>(&self, alpha: L, around: &Surroundings<L>, dt: L) -> L {
+///         let decayed = alpha * (-around.sound_speed / around.h * dt).exp();
+///         L::select(around.divergence.lt(L::zero()), L::one(), decayed)
 ///     }
 /// }
 ///
@@ -76,13 +76,70 @@ pub struct Surroundings<T> {
 /// assert!(alpha[99] > 0.9 && alpha[0] == 0.0);
 /// # Ok::<(), Error>(())
 /// ```
-pub trait Switch<T>: Debug + Send + Sync {
+pub trait Switch: Debug + Send + Sync + 'static {
     /// The coefficient that a particle starts with: that of a fluid long at rest.
     fn start(&self) -> f64;
-    /// The coefficient after `dt` \[s\].
-    fn next(&self, alpha: T, around: &Surroundings<T>, dt: T) -> T;
+    /// The coefficient after `dt` \[s\], in the arithmetic of [lanes](Lane) and the scalar of the simulation.
+    fn next<L: Lane>(&self, alpha: L, around: &Surroundings<L>, dt: L) -> L;
     /// Fields that particles keep for it beside the coefficient: ∇·v for that of the step before.
     fn keeps(&self) -> Fields {
         Fields::NONE
+    }
+}
+
+/// A switch whose type is erased.
+///
+/// Sealed: it is made of any [`Switch`].
+pub trait SwitchObject: Function<10> + Debug + Send + Sync {
+    /// See [`Switch::start`].
+    fn start(&self) -> f64;
+    /// See [`Switch::keeps`].
+    fn keeps(&self) -> Fields;
+}
+
+impl<S: Switch> SwitchObject for S {
+    fn start(&self) -> f64 {
+        Switch::start(self)
+    }
+    fn keeps(&self) -> Fields {
+        Switch::keeps(self)
+    }
+}
+
+impl dyn SwitchObject + '_ {
+    /// The coefficient after `dt` \[s\].
+    #[inline(always)]
+    #[must_use]
+    pub fn next<L: Lane>(&self, alpha: L, around: &Surroundings<L>, dt: L) -> L {
+        let own = [
+            alpha,
+            dt,
+            around.divergence,
+            around.divergence_before,
+            around.divergence_sign,
+            around.shear2,
+            around.sound_speed,
+            around.signal_speed,
+            around.h,
+            around.support,
+        ];
+        call(self, &own)
+    }
+}
+
+impl<S: Switch> OfLanes<10> for S {
+    #[inline(always)]
+    fn of<L: Lane>(&self, [alpha, dt, own @ ..]: [L; 10]) -> L {
+        let around = Surroundings {
+            divergence: own[0],
+            divergence_before: own[1],
+            divergence_sign: own[2],
+            shear2: own[3],
+            sound_speed: own[4],
+            signal_speed: own[5],
+            h: own[6],
+            support: own[7],
+        };
+        self.next(alpha, &around, dt)
     }
 }

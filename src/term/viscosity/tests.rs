@@ -195,7 +195,7 @@ fn every_kind_is_its_law() {
         }
         let kind_needs = ArtificialViscosity::<D>::needs_velocity_gradient(&kind);
         assert_eq!(kind_needs, law.needs_velocity_gradient());
-        let [chosen, own] = [ArtificialViscosity::<D>::switch::<f64>(&kind), law.switch()];
+        let [chosen, own] = [ArtificialViscosity::<D>::switch(&kind), law.switch()];
         assert_eq!(format!("{chosen:?}"), format!("{own:?}"));
     }
     macro_rules! check {
@@ -280,8 +280,8 @@ fn coefficients_start_at_rest_and_decay_at_their_rate() {
         h,
         support: 2.0 * h,
     };
-    let morris: &dyn Switch<f64> = &MorrisMonaghan::STANDARD;
-    let mut alpha = morris.start();
+    let morris = MorrisMonaghan::STANDARD;
+    let mut alpha = Switch::start(&morris);
     assert_eq!(alpha, 0.1);
     for _ in 0..1000 {
         alpha = morris.next(alpha, &at(-0.5, -0.5), 0.1);
@@ -296,8 +296,8 @@ fn coefficients_start_at_rest_and_decay_at_their_rate() {
         }
         assert!((alpha - 0.1 - (-1f64).exp()).abs() < 1e-12);
     }
-    let cullen: &dyn Switch<f64> = &CullenDehnen::STANDARD;
-    assert_eq!(cullen.start(), 0.0);
+    let cullen = CullenDehnen::STANDARD;
+    assert_eq!(Switch::start(&cullen), 0.0);
     // Steepening raises it at once: A = 0.5/0.1 and H²A = 28.8.
     let up = cullen.next(0.0, &at(-0.5, 0.0), 0.1);
     assert!((up - 2.0 * 28.8 / 29.8).abs() < 1e-12);
