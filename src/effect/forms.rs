@@ -4,12 +4,13 @@
 use super::continuity::{self, Divergence};
 use super::density::{ContactActivity, SolvedSmoothing, SummedDensity};
 use super::{
-    BySum, DivergenceSmoothing, Effect, Evolved, Setting, Smoothing, StepProgram, Update, When,
+    BySum, DensityForm, DivergenceSmoothing, Effect, Evolved, Setting, Smoothing, StepProgram, Update, When,
 };
+use crate::error::Problem;
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::term::{
-    Compression, In, InternalEnergy, KernelSum, MidpointReconstruction, PressureForce,
+    Compression, In, InternalEnergy, KernelSum, MatrixPressureForce, MidpointReconstruction, PressureForce,
     RenormalisedCompression, RenormalisedPressureForce, Stage, stage,
 };
 
@@ -59,6 +60,32 @@ impl<const D: usize> Effect<D> for RenormalisedPressureForce {
     }
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
         follow_compression(program);
+    }
+}
+
+/// The force of gases alone: their densities are kernel sums.
+impl<const D: usize> Effect<D> for MatrixPressureForce {
+    type Terms = (
+        In<stage::Pressure, Self>,
+        In<stage::Compression, RenormalisedCompression>,
+    );
+    const BOOKS_ENERGY: bool = true;
+    fn terms(&self, _setting: &Setting) -> Self::Terms {
+        (In::new(*self), In::new(RenormalisedCompression))
+    }
+    fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
+        let setting = *program.setting();
+        let sums = setting.density == DensityForm::Summation;
+        let follows = sums && matches!(setting.smoothing, Smoothing::Consistent(_));
+        let carries = setting.energy != EnergyForm::None;
+        program.require(move |_| {
+            (!(follows && carries)).then(|| Problem::Incompatible {
+                what: "MatrixPressureForce is the force of a gas: its density is a kernel sum with smoothing lengths that \
+                       follow it, and it carries internal energy"
+                    .into(),
+                remedy: "start from schemes::gas, or call SchemeBuilder::renormalised for other schemes",
+            })
+        });
     }
 }
 

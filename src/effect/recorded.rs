@@ -420,6 +420,7 @@ where
             Stage::Gradients,
             CorrectedGradients {
                 wanted: Fields::of(&[Field::PRESSURE_GRADIENT]),
+                by_kernel: true,
             },
         );
         let switch = ViscositySwitch::of::<_, D>(&MorrisMonaghan::STANDARD, form, 2.0);
