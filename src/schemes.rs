@@ -39,12 +39,10 @@ use crate::effect::{
 use crate::kernel::{CubicSpline, WendlandC2, WendlandC4};
 use crate::scheme::{DensityForm, EnergyForm, SchemeBuilder};
 use crate::sweep::Interaction;
-use crate::term::viscosity::{
-    Inviscid, LimitedMonaghanGingold, MonaghanGingold, Riemann,
-};
+use crate::term::viscosity::{Inviscid, LimitedMonaghanGingold, MonaghanGingold, Riemann};
 use crate::term::{
-    Fourtakas, InternalEnergy, KernelSum, MatrixPressureForce, MidpointReconstruction, PressureForce,
-    RenormalisedPressureForce, RiemannDiffusion,
+    Fourtakas, InternalEnergy, KernelSum, MatrixPressureForce, MidpointReconstruction,
+    PressureForce, RenormalisedPressureForce, RiemannDiffusion,
 };
 
 /// What solids and gases start from, with a pressure force.

@@ -2,7 +2,8 @@
 //! Price 2008 (J. Comput. Phys. 227, 10040); Wadsley, Veeravalli & Couchman 2008; on what reconstruction leaves, Rosswog 2020.
 
 use super::{
-    BySum, Effect, Evolved, LedgerColumn, Point, PointLaw, Reach, Setting, StepProgram, not_negative,
+    BySum, Effect, Evolved, LedgerColumn, Point, PointLaw, Reach, Setting, StepProgram,
+    not_negative,
 };
 use crate::error::Problem;
 use crate::name;
@@ -94,10 +95,7 @@ const SUMMED_SLOPE: Output = Output::vector(name!("sum_of_energy_gradient", "m/s
 const FLOW: Output = Output::scalar(name!("artificial_conduction", "W"));
 
 impl<const D: usize> Effect<D> for ArtificialConduction {
-    type Terms = (
-        In<stage::Gradients, EnergyGradient>,
-        In<stage::Rates, Self>,
-    );
+    type Terms = (In<stage::Gradients, EnergyGradient>, In<stage::Rates, Self>);
     const NEEDS: Fields = Fields::of(&[Field::CORRECTION]);
     const BOOKS_ENERGY: bool = true;
     fn terms(&self, _setting: &Setting) -> Self::Terms {
@@ -218,8 +216,12 @@ impl<const D: usize> Term<D> for ArtificialConduction {
                 }
             },
             source: match self.signal {
-                ConductionSignal::Pressure => "Price 2008; jump after reconstruction: Rosswog 2020, eq. 24",
-                ConductionSignal::Velocity => "Wadsley et al. 2008; jump after reconstruction: Rosswog 2020, eq. 24",
+                ConductionSignal::Pressure => {
+                    "Price 2008; jump after reconstruction: Rosswog 2020, eq. 24"
+                }
+                ConductionSignal::Velocity => {
+                    "Wadsley et al. 2008; jump after reconstruction: Rosswog 2020, eq. 24"
+                }
             },
         }
     }
@@ -252,7 +254,10 @@ mod tests {
         let h = gas.smoothing_length();
         let dt = gas.step_at_most(1e-4).unwrap();
         let middle = gas.body(0).unwrap().nth(100).unwrap();
-        (middle.scalar(ArtificialConduction::CONDUCTED).unwrap() / dt, h)
+        (
+            middle.scalar(ArtificialConduction::CONDUCTED).unwrap() / dt,
+            h,
+        )
     }
 
     const A: f64 = 0.1;

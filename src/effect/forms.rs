@@ -4,14 +4,13 @@
 use super::continuity::{self, Divergence};
 use super::density::{ContactActivity, SolvedSmoothing, SummedDensity};
 use super::{
-    BySum, DensityForm, DivergenceSmoothing, Effect, Evolved, Setting, Smoothing, StepProgram, Update, When,
+    BySum, DivergenceSmoothing, Effect, Evolved, Setting, Smoothing, StepProgram, Update, When,
 };
-use crate::error::Problem;
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::term::{
-    Compression, In, InternalEnergy, KernelSum, MatrixPressureForce, MidpointReconstruction, PressureForce,
-    RenormalisedCompression, RenormalisedPressureForce, Stage, stage,
+    Compression, In, InternalEnergy, KernelSum, MatrixPressureForce, MidpointReconstruction,
+    PressureForce, RenormalisedCompression, RenormalisedPressureForce, Stage, stage,
 };
 
 /// How internal energy follows from the work of pair forces.
@@ -63,7 +62,7 @@ impl<const D: usize> Effect<D> for RenormalisedPressureForce {
     }
 }
 
-/// The force of gases alone: their densities are kernel sums.
+/// Gradients from inverted matrices, and the work of each side's own pressure.
 impl<const D: usize> Effect<D> for MatrixPressureForce {
     type Terms = (
         In<stage::Pressure, Self>,
@@ -74,18 +73,7 @@ impl<const D: usize> Effect<D> for MatrixPressureForce {
         (In::new(*self), In::new(RenormalisedCompression))
     }
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
-        let setting = *program.setting();
-        let sums = setting.density == DensityForm::Summation;
-        let follows = sums && matches!(setting.smoothing, Smoothing::Consistent(_));
-        let carries = setting.energy != EnergyForm::None;
-        program.require(move |_| {
-            (!(follows && carries)).then(|| Problem::Incompatible {
-                what: "MatrixPressureForce is the force of a gas: its density is a kernel sum with smoothing lengths that \
-                       follow it, and it carries internal energy"
-                    .into(),
-                remedy: "start from schemes::gas, or call SchemeBuilder::renormalised for other schemes",
-            })
-        });
+        follow_compression(program);
     }
 }
 
