@@ -2,6 +2,7 @@
 //! Density of all particles against the exact one, as a mean over the gas.
 
 use super::problem::{Problem, Text, method, sweep};
+use meshfree::effect::NoWalls;
 use meshfree::kernel::{CubicSpline, WendlandC4};
 use meshfree::material::eos::IdealGas;
 use meshfree::prelude::*;
@@ -11,6 +12,7 @@ use meshfree::study::sod::Sod;
 use meshfree::study::work_precision::{Case, Failure, Method, Outcome, Quantity, relative_l1};
 use meshfree::sweep::Interaction;
 use meshfree::term::viscosity::{CullenDehnen, MonaghanGingold, SignalVelocity};
+use meshfree::term::{InternalEnergy, KernelSum, PressureForce};
 
 const SOD: Text = Text {
     key: "sod",
@@ -43,17 +45,39 @@ fn methods() -> Vec<Method> {
     vec![
         own("gas, C4, h/dx 1.8 (default)", "gas itself", 0.0, 1.0),
         own("gas, C4, h/dx 1.3", "gas", 1.3, 1.0),
-        own("gas, C4, h/dx 2.2", "gas", 2.2, 1.0),
-        own("gas, C4, h/dx 1.8, α 0.5", "gas", 1.8, 0.5),
-        own("gas, Cullen–Dehnen", "switched", 1.8, 2.0),
-        own("gas, Cullen–Dehnen, h/dx 2.2", "switched", 2.2, 2.0),
+        own("gas, C4, h/dx 1.5", "gas", 1.5, 1.0),
+        own("plain force, C4, h/dx 1.8", "plain", 1.8, 1.0),
+        own("plain force, C4, h/dx 1.3", "plain", 1.3, 1.0),
+        own("plain force, Cullen–Dehnen", "switched", 1.8, 2.0),
+        own("plain force, Cullen–Dehnen, h/dx 2.2", "switched", 2.2, 2.0),
         own("cubic, signal velocity, h/dx 1.2", "cubic signal", 1.2, 1.0),
         own("cubic, Monaghan–Gingold, h/dx 1.2", "cubic", 1.2, 1.0),
         own("cubic, Monaghan–Gingold, h/dx 1.5", "cubic", 1.5, 1.0),
     ]
 }
 
-/// The viscosity of the ready gas with another α.
+/// A gas with the plain pressure force and a viscosity.
+pub fn plain<V>(
+    viscosity: V,
+) -> SchemeBuilder<
+    WendlandC4,
+    V,
+    NoWalls,
+    (
+        ((((), PressureForce), KernelSum), InternalEnergy),
+        ConsistentSmoothing,
+    ),
+> {
+    SchemeBuilder::new(WendlandC4, viscosity)
+        .density(DensityForm::Summation)
+        .between_bodies(Interaction::Bonded)
+        .with(ConsistentSmoothing {
+            smallest: 0.2,
+            largest: 5.0,
+        })
+}
+
+/// The viscosity by signal velocity with some α.
 pub fn signal(alpha: f64) -> SignalVelocity {
     SignalVelocity {
         alpha,
@@ -77,14 +101,9 @@ fn scheme(case: &Case<'_>) -> Result<Scheme<f64, 1>, Failure> {
     };
     Ok(match case.text("scheme")? {
         "gas itself" => schemes::gas().compose(),
-        "gas" => SchemeBuilder::new(WendlandC4, signal(alpha))
-            .density(DensityForm::Summation)
-            .between_bodies(Interaction::Bonded)
-            .with(follow)
-            .h_over_dx(ratio)
-            .compose(),
-        "switched" => schemes::gas()
-            .with_viscosity(switched(alpha))
+        "gas" => schemes::gas().with(follow).h_over_dx(ratio).compose(),
+        "plain" => plain(signal(alpha)).with(follow).h_over_dx(ratio).compose(),
+        "switched" => plain(switched(alpha))
             .with(follow)
             .h_over_dx(ratio)
             .compose(),

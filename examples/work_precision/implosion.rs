@@ -1,6 +1,7 @@
 //! Noh's implosion and Sedov's blast in three dimensions, of which an eighth is run between planes of symmetry.
 //! Density against the exact one, on spacings as coarse as three dimensions allow.
 
+use super::gas::{plain, signal};
 use super::problem::{Problem, Text, method, sweep};
 use meshfree::kernel::CubicSpline;
 use meshfree::material::eos::IdealGas;
@@ -41,6 +42,7 @@ pub fn methods() -> Vec<Method> {
     vec![
         own("gas, C4, h/dx 1.8 (default)", "gas", 1.8),
         own("gas, C4, h/dx 1.3", "gas", 1.3),
+        own("plain force, C4, h/dx 1.8", "plain", 1.8),
         own("cubic, Monaghan–Gingold, h/dx 1.2", "cubic", 1.2),
     ]
 }
@@ -50,9 +52,10 @@ pub fn scheme(case: &Case<'_>) -> Result<Scheme<f64, 3>, Failure> {
     let gas = schemes::gas().h_over_dx(ratio);
     Ok(match case.text("scheme")? {
         "gas" => gas.compose(),
-        _ => gas
+        "plain" => plain(signal(1.0)).h_over_dx(ratio).compose(),
+        _ => plain(MonaghanGingold::STANDARD)
+            .h_over_dx(ratio)
             .with_kernel(CubicSpline)
-            .with_viscosity(MonaghanGingold::STANDARD)
             .compose(),
     })
 }

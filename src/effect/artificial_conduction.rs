@@ -1,12 +1,15 @@
 //! Artificial conduction: jumps of internal energy are smoothed over the kernel, as viscosity smooths jumps of velocity.
-//! Price 2008 (J. Comput. Phys. 227, 10040); Wadsley, Veeravalli & Couchman 2008 for gas under gravity.
+//! Price 2008 (J. Comput. Phys. 227, 10040); Wadsley, Veeravalli & Couchman 2008; on what reconstruction leaves, Rosswog 2020.
 
-use super::{BySum, Effect, Evolved, LedgerColumn, Setting, StepProgram, not_negative};
+use super::{
+    BySum, Effect, Evolved, LedgerColumn, Point, PointLaw, Reach, Setting, StepProgram,
+    not_negative,
+};
 use crate::error::Problem;
 use crate::name;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
-use crate::term::{In, Layout, Pair, Sums, Term, TermDoc, stage};
+use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, left_of_jump, stage};
 
 /// The speed v by which [`ArtificialConduction`] evens out energy between two particles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -23,7 +26,10 @@ pub enum ConductionSignal {
 ///
 #[doc = include_str!("../../docs/equations/artificial_conduction.html")]
 ///
-/// with the mean density ρ̄ \[kg/m³\] and a [speed](ConductionSignal) v \[m/s\]. A density that is a kernel sum is smooth where
+/// with the mean density ρ̄ \[kg/m³\] and a [speed](ConductionSignal) v \[m/s\]. The jump is what linear reconstruction from both
+/// sides leaves of eᵢ − eⱼ, by the limiter of
+/// [`LimitedMonaghanGingold`](crate::term::viscosity::LimitedMonaghanGingold) and gradients that are exact for linear fields: where the energy is
+/// smooth nothing is conducted. A density that is a kernel sum is smooth where
 /// gas of one energy meets gas of another, and the energy of particles is not, so their product, the pressure, has a
 /// jump of its own: it parts gases that should mix, turns neighbours at strong contacts, and where
 /// gas is stopped at once (Noh 1987) all heat stays in the particles that were stopped first. The conduction
@@ -82,16 +88,21 @@ impl ArtificialConduction {
 }
 
 const CONDUCTED: Field = ArtificialConduction::CONDUCTED;
+/// Gradient of the internal energy \[m/s²\], and the sum of it before it is corrected.
+const SLOPE: Field = Field::vector(name!("energy_gradient", "m/s²"));
+const SUMMED_SLOPE: Output = Output::vector(name!("sum_of_energy_gradient", "m/s²"));
 /// Power of the conduction \[W\].
 const FLOW: Output = Output::scalar(name!("artificial_conduction", "W"));
 
 impl<const D: usize> Effect<D> for ArtificialConduction {
-    type Terms = (In<stage::Rates, Self>,);
+    type Terms = (In<stage::Gradients, EnergyGradient>, In<stage::Rates, Self>);
+    const NEEDS: Fields = Fields::of(&[Field::CORRECTION]);
     const BOOKS_ENERGY: bool = true;
     fn terms(&self, _setting: &Setting) -> Self::Terms {
-        (In::new(*self),)
+        (In::new(EnergyGradient), In::new(*self))
     }
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
+        program.law(Stage::Gradients, CorrectedSlope);
         program.declare(CONDUCTED, 0.0);
         program.evolve(Evolved::kicked(CONDUCTED).by(BySum::over_mass(FLOW)));
         program.ledger(LedgerColumn {
@@ -113,6 +124,53 @@ impl<const D: usize> Effect<D> for ArtificialConduction {
     }
 }
 
+/// Σⱼ Vⱼ (eⱼ − eᵢ) g r, the sum of the energy's gradient, for [`ArtificialConduction`].
+#[derive(Clone, Copy, Debug)]
+pub struct EnergyGradient;
+
+impl<const D: usize> Term<D> for EnergyGradient {
+    const READS: Fields = Fields::of(&[Field::ENERGY, Field::MASS, Field::DENSITY]);
+    const WRITES: Outputs = Outputs::of(&[SUMMED_SLOPE]);
+    #[inline(always)]
+    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
+        let factor = -pair.j(Field::MASS) / pair.j(Field::DENSITY) * pair.weight();
+        let difference = pair.i(Field::ENERGY) - pair.j(Field::ENERGY);
+        for a in 0..D {
+            let gradient = factor * pair.r[a];
+            sums.add_product_at(SUMMED_SLOPE, a, difference, gradient);
+        }
+    }
+    fn document(&self) -> TermDoc {
+        TermDoc {
+            name: "gradient of internal energy".into(),
+            equation: "∇e = C Σⱼ Vⱼ (eⱼ − eᵢ) g r",
+            source: "Randles & Libersky 1996; García-Senz, Cabezón & Escartín 2012",
+        }
+    }
+}
+
+/// Corrects the gradient of the energy.
+#[derive(Clone, Copy, Debug)]
+struct CorrectedSlope;
+
+impl<const D: usize> PointLaw<D> for CorrectedSlope {
+    const NAME: &'static str = "corrected gradient of internal energy";
+    const READS: Fields = Fields::of(&[Field::CORRECTION]);
+    const WRITES: Fields = Fields::of(&[SLOPE]);
+    const SUMS: Outputs = Outputs::of(&[SUMMED_SLOPE]);
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        let (summed, correction) = (at.sum_vector(SUMMED_SLOPE), at.matrix(Field::CORRECTION));
+        for b in 0..D {
+            let mut slope = L::zero();
+            for a in 0..D {
+                slope += summed[a] * correction.0[a][b];
+            }
+            at.set_at(SLOPE, b, slope);
+        }
+    }
+}
+
 impl<const D: usize> Term<D> for ArtificialConduction {
     const NAME: &'static str = "meshfree::artificial_conduction";
     const READS: Fields = Fields::of(&[
@@ -121,6 +179,7 @@ impl<const D: usize> Term<D> for ArtificialConduction {
         Field::DENSITY,
         Field::PRESSURE,
         Field::ENERGY,
+        SLOPE,
     ]);
     const WRITES: Outputs = Outputs::of(&[Output::POWER, FLOW]);
     #[inline(always)]
@@ -136,7 +195,13 @@ impl<const D: usize> Term<D> for ArtificialConduction {
         };
         let masses = pair.i(Field::MASS) * (pair.mobile * pair.mobile_i) * pair.j(Field::MASS);
         let rate = masses * speed * pair.f * L::of(2.0 * self.strength) * over_densities;
-        let flow = rate * (pair.i(Field::ENERGY) - pair.j(Field::ENERGY));
+        let (mut at_i, mut at_j) = (L::zero(), L::zero());
+        for a in 0..D {
+            at_i += pair.i_at(SLOPE, a) * pair.r[a];
+            at_j += pair.j_at(SLOPE, a) * pair.r[a];
+        }
+        let whole = pair.i(Field::ENERGY) - pair.j(Field::ENERGY);
+        let flow = rate * left_of_jump(whole, at_i, at_j);
         sums.add(Output::POWER, flow);
         sums.add(FLOW, flow);
     }
@@ -145,15 +210,19 @@ impl<const D: usize> Term<D> for ArtificialConduction {
             name: format!("artificial conduction, α = {}", self.strength),
             equation: match self.signal {
                 ConductionSignal::Pressure => {
-                    "mᵢ deᵢ/dt += Σⱼ mᵢ mⱼ α v (eᵢ − eⱼ)/ρ̄ r̂·∇W, v = √(|pᵢ − pⱼ|/ρ̄)"
+                    "mᵢ deᵢ/dt += Σⱼ mᵢ mⱼ α v [eᵢ − eⱼ]/ρ̄ r̂·∇W, v = √(|pᵢ − pⱼ|/ρ̄), [eᵢ − eⱼ] after reconstruction"
                 }
                 ConductionSignal::Velocity => {
-                    "mᵢ deᵢ/dt += Σⱼ mᵢ mⱼ α v (eᵢ − eⱼ)/ρ̄ r̂·∇W, v = |v·r|/|r|"
+                    "mᵢ deᵢ/dt += Σⱼ mᵢ mⱼ α v [eᵢ − eⱼ]/ρ̄ r̂·∇W, v = |v·r|/|r|, [eᵢ − eⱼ] after reconstruction"
                 }
             },
             source: match self.signal {
-                ConductionSignal::Pressure => "Price 2008",
-                ConductionSignal::Velocity => "Wadsley et al. 2008",
+                ConductionSignal::Pressure => {
+                    "Price 2008; jump after reconstruction: Rosswog 2020, eq. 24"
+                }
+                ConductionSignal::Velocity => {
+                    "Wadsley et al. 2008; jump after reconstruction: Rosswog 2020, eq. 24"
+                }
             },
         }
     }
@@ -167,12 +236,8 @@ mod tests {
     use crate::prelude::*;
     use crate::scheme::Start;
 
-    /// v = −a x and e = e₀ + ½ k x² with the signal of the velocities: the sum is odd in the distance but for
-    /// ½ k s², so de/dt = −½ α k a ∫ |s|³ W′ ds = 3/2 α k a ∫ s² W ds.
-    #[test]
-    fn a_parabola_of_energy_is_conducted_as_the_second_moment_of_the_kernel_says() {
-        const A: f64 = 0.1;
-        const K: f64 = 0.01;
+    /// Power over mass by conduction at the middle of a bar, of an energy e(x) and with the signal of the velocities v = −a x.
+    fn conducted(energy: impl Fn(f64) -> f64 + Send + Sync + 'static) -> (f64, f64) {
         let scheme = schemes::gas()
             .with_viscosity(crate::term::viscosity::Inviscid)
             .with(ArtificialConduction {
@@ -180,9 +245,9 @@ mod tests {
                 signal: ConductionSignal::Velocity,
             });
         let law = IdealGas::new(1.4, 1.0);
-        let start = |[x]: [f64; 1], own| Start {
+        let start = move |[x]: [f64; 1], own| Start {
             velocity: [-A * x],
-            energy: 1e-3 + 0.5 * K * x * x,
+            energy: energy(x),
             ..own
         };
         let body = Body::block("gas", Material::new("gas", law), [-1.0], [1.0], 0.01).start(start);
@@ -190,17 +255,37 @@ mod tests {
         let h = gas.smoothing_length();
         let dt = gas.step_at_most(1e-4).unwrap();
         let middle = gas.body(0).unwrap().nth(100).unwrap();
-        let found = middle.scalar(ArtificialConduction::CONDUCTED).unwrap() / dt;
+        (
+            middle.scalar(ArtificialConduction::CONDUCTED).unwrap() / dt,
+            h,
+        )
+    }
+
+    const A: f64 = 0.1;
+
+    /// At a corner e = e₀ + k |x − x₀| the slope is zero and reconstruction takes nothing, so all of e is conducted:
+    /// de/dt = α k a ∫ s² |W′| ds = 4 α k a ∫₀ s W ds.
+    #[test]
+    fn a_corner_of_energy_is_conducted_as_the_first_moment_of_the_kernel_says() {
+        const K: f64 = 0.01;
+        let corner = 0.005;
+        let (found, h) = conducted(move |x| 1e-3 + K * (x - corner).abs());
         let norm = Kernel::<1>::normalisation(&WendlandC4);
         let pieces = 2000;
-        let second: f64 = (0..pieces)
+        let first: f64 = (0..pieces)
             .map(|k| {
                 let q = 2.0 * (f64::from(k) + 0.5) / f64::from(pieces);
-                2.0 * norm * q * q * Kernel::<1>::shape(&WendlandC4, q) * 2.0 / f64::from(pieces)
+                norm * q * Kernel::<1>::shape(&WendlandC4, q) * 2.0 / f64::from(pieces)
             })
             .sum();
-        let exact = 1.5 * 0.5 * K * A * second * h * h;
+        let exact = 4.0 * 0.5 * K * A * first * h;
         assert!((found / exact - 1.0).abs() < 0.02, "{found} {exact}");
+        // Away from a corner, where the slope is one and the same, nothing.
+        let (none, _) = conducted(move |x| 1e-2 + K * x);
+        assert!(none.abs() < 1e-9 * exact, "{none} {exact}");
+        // Nor of a parabola, whose slopes on two sides have the difference as their mean.
+        let (little, _) = conducted(move |x| 1e-2 + 0.5 * K * (x + 0.5) * (x + 0.5));
+        assert!(little.abs() < 1e-6 * exact, "{little} {exact}");
     }
 
     #[test]

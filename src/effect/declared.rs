@@ -229,7 +229,13 @@ where
         Fields::of(&[Field::DENSITY_GRADIENT]),
     ] {
         law("gradients", Stage::Gradients, &|program, stage| {
-            program.law(stage, CorrectedGradients { wanted });
+            program.law(
+                stage,
+                CorrectedGradients {
+                    wanted,
+                    by_kernel: false,
+                },
+            );
         });
     }
     let form = DensityForm::Continuity;

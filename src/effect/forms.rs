@@ -9,8 +9,8 @@ use super::{
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::term::{
-    Compression, In, InternalEnergy, KernelSum, MidpointReconstruction, PressureForce,
-    RenormalisedCompression, RenormalisedPressureForce, Stage, stage,
+    Compression, In, InternalEnergy, KernelSum, MatrixPressureForce, MidpointReconstruction,
+    PressureForce, RenormalisedCompression, RenormalisedPressureForce, Stage, stage,
 };
 
 /// How internal energy follows from the work of pair forces.
@@ -49,6 +49,21 @@ impl<const D: usize> Effect<D> for PressureForce {
 
 /// Both with corrected gradients.
 impl<const D: usize> Effect<D> for RenormalisedPressureForce {
+    type Terms = (
+        In<stage::Pressure, Self>,
+        In<stage::Compression, RenormalisedCompression>,
+    );
+    const BOOKS_ENERGY: bool = true;
+    fn terms(&self, _setting: &Setting) -> Self::Terms {
+        (In::new(*self), In::new(RenormalisedCompression))
+    }
+    fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
+        follow_compression(program);
+    }
+}
+
+/// Gradients from inverted matrices, and the work of each side's own pressure.
+impl<const D: usize> Effect<D> for MatrixPressureForce {
     type Terms = (
         In<stage::Pressure, Self>,
         In<stage::Compression, RenormalisedCompression>,

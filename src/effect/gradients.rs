@@ -5,13 +5,15 @@ use super::access::Summed;
 use super::{Point, PointLaw, Reach};
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
-use crate::tensor::{Matrix, inverse};
+use crate::tensor::{Matrix, Square, inverse};
 
 /// Gradients and corrections, as far as the scheme carries them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CorrectedGradients {
     /// What the sweep was asked for.
     pub wanted: Fields,
+    /// Whether kernels are the [weights](crate::term::Pair::weight_i), and their scale belongs to the correction.
+    pub by_kernel: bool,
 }
 
 /// The gradients that are sums before they are corrected.
@@ -40,7 +42,11 @@ impl<const D: usize> PointLaw<D> for CorrectedGradients {
     #[inline(always)]
     fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
         // Once for all that it corrects.
-        let correction = at.correction();
+        let correction = if self.by_kernel {
+            scaled_correction(at)
+        } else {
+            at.correction()
+        };
         if self.wanted.contains(Field::CORRECTION) {
             at.set_matrix(Field::CORRECTION, &correction);
         }
@@ -60,6 +66,30 @@ impl<const D: usize> PointLaw<D> for CorrectedGradients {
             }
         }
     }
+}
+
+/// The inverse of the moment matrix whatever its scale. Where neighbours lie along a line or in a sheet, by a pivot below
+/// [`SINGULAR`], it is that of the mean over directions: the uncorrected gradient. Such particles are counted.
+#[inline(always)]
+fn scaled_correction<L: Lane, const D: usize, P: Reach>(
+    at: &mut Point<'_, L, D, P>,
+) -> Square<L, D> {
+    let moments = at.sum_matrix(Output::MOMENT_MATRIX);
+    let (mut correction, singular) = moments.inverse(SINGULAR);
+    let mut trace = L::zero();
+    for a in 0..D {
+        trace += moments.0[a][a];
+    }
+    let alone = trace.le(L::zero());
+    let mean = L::select(alone, L::zero(), L::of(D as f64) / trace);
+    for a in 0..D {
+        for b in 0..D {
+            let uncorrected = if a == b { mean } else { L::zero() };
+            correction.0[a][b] = L::select(singular, uncorrected, correction.0[a][b]);
+        }
+    }
+    at.limited(singular & !alone);
+    correction
 }
 
 /// The inverse of a particle's moment matrix, from the sum of it.

@@ -89,7 +89,7 @@ mod yielding_hourglass;
 pub use access::Summed;
 pub use acoustic_damping::AcousticDamping;
 pub use arbitrary_lagrangian::ArbitraryLagrangian;
-pub use artificial_conduction::{ArtificialConduction, ConductionSignal};
+pub use artificial_conduction::{ArtificialConduction, ConductionSignal, EnergyGradient};
 pub use artificial_pressure::{ArtificialPressure, TensionRepulsion};
 pub use artificial_stress::{ArtificialStress, Repulsion};
 pub use cavitation::{Cavitation, ExpansionMemory};

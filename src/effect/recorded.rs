@@ -492,6 +492,7 @@ where
             Stage::Gradients,
             CorrectedGradients {
                 wanted: Fields::of(&[Field::PRESSURE_GRADIENT]),
+                by_kernel: true,
             },
         );
         for switch in [

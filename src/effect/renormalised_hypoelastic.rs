@@ -49,10 +49,10 @@ impl<const D: usize> Term<D> for RenormalisedHypoelastic {
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
         let volumes = pair.volumes();
-        let own = corrected(&pair.r, volumes * pair.f_i, |k| {
+        let own = corrected(&pair.r, volumes * pair.weight_i(), |k| {
             pair.i_at(Field::CORRECTION, k)
         });
-        let other = corrected(&pair.r, volumes * pair.f_j, |k| {
+        let other = corrected(&pair.r, volumes * pair.weight_j(), |k| {
             pair.j_at(Field::CORRECTION, k)
         });
         sums.force += pair.i_tensor(STRESS).dot(&own);

@@ -276,7 +276,8 @@ quantities! {
     VELOCITY_GRADIENT, Matrix, "velocity_gradient", "1/s";
     /// Pressure gradient ∇p.
     PRESSURE_GRADIENT, Vector, "pressure_gradient", "Pa/m";
-    /// Inverse of the kernel's first moment matrix, which makes gradients exact for linear fields.
+    /// Inverse of the moment matrix, which makes gradients exact for linear fields; in m⁻² where kernels are the
+    /// [weights](crate::term::Pair::weight_i).
     CORRECTION, Matrix, "correction", "1";
     /// The particle's own coefficient of artificial viscosity α.
     VISCOSITY_COEFFICIENT, Scalar, "viscosity_coefficient", "1";

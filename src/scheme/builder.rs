@@ -10,8 +10,8 @@ use crate::kernel::Kernel;
 use crate::scalar::Real;
 use crate::sweep::Interaction;
 use crate::term::{
-    ArtificialViscosity, InternalEnergy, KernelSum, MidpointReconstruction, PressureForce,
-    RenormalisedPressureForce,
+    ArtificialViscosity, InternalEnergy, KernelSum, MatrixPressureForce, MidpointReconstruction,
+    PressureForce, RenormalisedPressureForce,
 };
 
 /// Chooses the parts of a scheme: a kernel, an artificial viscosity, forms of density and energy, how walls
@@ -229,26 +229,26 @@ impl<K, V, W, E> SchemeBuilder<K, V, W, E> {
 /// Effects whose pressure force can take corrected gradients: lists that begin with [`PressureForce`].
 #[diagnostic::on_unimplemented(
     message = "the effects of this scheme have no pressure force whose gradients can be corrected",
-    note = "call `renormalised` once, for a scheme of solids, gases or liquids"
+    note = "call `renormalised` or `matrix_gradients` once, for a scheme of solids, gases or liquids"
 )]
 pub trait Renormalise {
-    /// The list with a [`RenormalisedPressureForce`].
-    type Renormalised;
+    /// The list with another pressure force.
+    type With<P>;
     #[doc(hidden)]
-    fn renormalised(self) -> Self::Renormalised;
+    fn with_force<P>(self, force: P) -> Self::With<P>;
 }
 
 impl Renormalise for ((), PressureForce) {
-    type Renormalised = ((), RenormalisedPressureForce);
-    fn renormalised(self) -> Self::Renormalised {
-        ((), RenormalisedPressureForce)
+    type With<P> = ((), P);
+    fn with_force<P>(self, force: P) -> Self::With<P> {
+        ((), force)
     }
 }
 
 impl<E: Renormalise, A> Renormalise for (E, A) {
-    type Renormalised = (E::Renormalised, A);
-    fn renormalised(self) -> Self::Renormalised {
-        (self.0.renormalised(), self.1)
+    type With<P> = (E::With<P>, A);
+    fn with_force<P>(self, force: P) -> Self::With<P> {
+        (self.0.with_force(force), self.1)
     }
 }
 
@@ -256,9 +256,17 @@ impl<K, V, W, E: Renormalise> SchemeBuilder<K, V, W, E> {
     /// Corrects gradients of pressure force and compression, so that they are exact for linear fields, for
     /// the price of a sweep.
     #[must_use]
-    pub fn renormalised(self) -> SchemeBuilder<K, V, W, E::Renormalised> {
+    pub fn renormalised(self) -> SchemeBuilder<K, V, W, E::With<RenormalisedPressureForce>> {
+        self.with_force(RenormalisedPressureForce)
+    }
+    /// The pressure force of gases with gradients from inverted matrices, [`MatrixPressureForce`], for the price of a sweep.
+    #[must_use]
+    pub fn matrix_gradients(self) -> SchemeBuilder<K, V, W, E::With<MatrixPressureForce>> {
+        self.with_force(MatrixPressureForce)
+    }
+    fn with_force<P>(self, force: P) -> SchemeBuilder<K, V, W, E::With<P>> {
         self.without_consistency_factor()
-            .map(|k, v, w, e| (k, v, w, e.renormalised()))
+            .map(|k, v, w, e| (k, v, w, e.with_force(force)))
     }
 }
 

@@ -61,7 +61,8 @@ impl<K, V, W, E> SchemeBuilder<K, V, W, E> {
         let makes_gradients = compiled.makes_gradients();
         if makes_gradients {
             let wanted = Gradients::<V, W, E>::wanted::<D>();
-            program.law(Stage::Gradients, CorrectedGradients { wanted });
+            let by_kernel = smoothing.mode() == SmoothingMode::Own;
+            program.law(Stage::Gradients, CorrectedGradients { wanted, by_kernel });
         }
         // A viscosity that is chosen at run time reads what others of its kind do, and nothing may write that.
         let remembered = Fields::of(&[Field::VISCOSITY_COEFFICIENT, Field::DIVERGENCE]);

@@ -18,7 +18,7 @@ impl<const D: usize> Term<D> for VelocityGradient {
     const WRITES: Outputs = Outputs::of(&[Output::VELOCITY_GRADIENT, Output::MOMENT_MATRIX]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let factor = -pair.j(Field::MASS) / pair.j(Field::DENSITY) * pair.f;
+        let factor = -pair.j(Field::MASS) / pair.j(Field::DENSITY) * pair.weight();
         for a in 0..D {
             for b in 0..D {
                 let gradient = factor * pair.r[b];
@@ -46,7 +46,7 @@ impl<const D: usize> Term<D> for MomentMatrix {
     const WRITES: Outputs = Outputs::of(&[Output::MOMENT_MATRIX]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let factor = -pair.j(Field::MASS) / pair.j(Field::DENSITY) * pair.f;
+        let factor = -pair.j(Field::MASS) / pair.j(Field::DENSITY) * pair.weight();
         for a in 0..D {
             for b in 0..D {
                 let gradient = factor * pair.r[b];
@@ -74,7 +74,7 @@ impl<const D: usize> Term<D> for PressureGradient {
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
         // The products of the moment matrix, which are made once for both.
-        let factor = -pair.j(Field::MASS) / pair.j(Field::DENSITY) * pair.f;
+        let factor = -pair.j(Field::MASS) / pair.j(Field::DENSITY) * pair.weight();
         let difference = pair.i(Field::PRESSURE) - pair.j(Field::PRESSURE);
         for a in 0..D {
             let gradient = factor * pair.r[a];
@@ -102,7 +102,7 @@ impl<const D: usize> Term<D> for DensityGradient {
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
         let density = pair.j(Field::DENSITY);
         // The density of a wall does not follow from the flow.
-        let factor = -pair.j(Field::MASS) / density * (pair.f * pair.mobile);
+        let factor = -pair.j(Field::MASS) / density * (pair.weight() * pair.mobile);
         let difference = pair.i(Field::DENSITY) - density;
         for b in 0..D {
             let gradient = factor * pair.r[b];

@@ -14,6 +14,7 @@
 //! | [`Viscosity`] | momentum | force and signal of an [artificial viscosity](viscosity) |
 //! | [`InternalEnergy`] | energy | half the power of all forces |
 //! | [`RenormalisedPressureForce`], [`RenormalisedCompression`] | momentum, density | the same with corrected gradients |
+//! | [`MatrixPressureForce`] | momentum, energy | force of gases with gradients from inverted matrices |
 //! | [`LaminarViscosity`], [`CentralViscosity`] | momentum | force of a physical viscosity |
 //! | [`Molteni`], [`Fourtakas`], [`Antuono`], [`RiemannDiffusion`] | density | diffusion against noise |
 //! | [`ConcentrationGradient`] | position | what shifting needs |
@@ -98,7 +99,9 @@ mod density_diffusion;
 mod force;
 mod gradient;
 mod laminar_viscosity;
+mod limiter;
 mod list;
+mod matrix;
 mod momentum;
 mod pair;
 mod probe;
@@ -114,8 +117,10 @@ pub use density_diffusion::{Antuono, Fourtakas, Molteni, RiemannDiffusion};
 pub use force::{Along, FreeForce};
 pub use gradient::{DensityGradient, MomentMatrix, PressureGradient, VelocityGradient};
 pub use laminar_viscosity::{CentralViscosity, LaminarViscosity};
+pub(crate) use limiter::left_of_jump;
 pub(crate) use list::{ByName, Join};
 pub use list::{Names, TermList, Terms};
+pub use matrix::MatrixPressureForce;
 pub use momentum::{InternalEnergy, MidpointReconstruction, PressureForce};
 pub(crate) use pair::assert_room;
 pub use pair::{Layout, MOST_READS, MOST_SUMS, Pair, Sums};
@@ -296,6 +301,8 @@ macro_rules! for_each_term {
             $crate::effect::HourglassControl::default(),
             $crate::term::RenormalisedPressureForce,
             $crate::term::RenormalisedCompression,
+            $crate::term::MatrixPressureForce,
+            $crate::effect::EnergyGradient,
             $crate::term::Viscosity($crate::term::viscosity::Inviscid),
             $crate::term::Viscosity($crate::term::viscosity::MonaghanGingold::STANDARD),
             $crate::term::Viscosity($crate::term::viscosity::LimitedMonaghanGingold::STANDARD),

@@ -92,6 +92,7 @@ pub fn probe<L: Lane, const D: usize, K: Kernel<D>, A: Term<D>>(
         h,
         h_i,
         w,
+        w_j: w,
         f,
         f_i: f,
         f_j: f,

@@ -46,8 +46,12 @@ impl<const D: usize> Term<D> for RenormalisedPressureForce {
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
         let weights = pair.i(Field::WEIGHT) * pair.j(Field::WEIGHT);
-        let own = corrected(&pair.r, pair.f_i, |k| pair.i_at(Field::CORRECTION, k));
-        let other = corrected(&pair.r, pair.f_j, |k| pair.j_at(Field::CORRECTION, k));
+        let own = corrected(&pair.r, pair.weight_i(), |k| {
+            pair.i_at(Field::CORRECTION, k)
+        });
+        let other = corrected(&pair.r, pair.weight_j(), |k| {
+            pair.j_at(Field::CORRECTION, k)
+        });
         let (x_i, x_j) = (
             weights * pair.i(Field::PRESSURE_COEFFICIENT),
             weights * pair.j(Field::PRESSURE_COEFFICIENT),
@@ -76,7 +80,7 @@ impl<const D: usize> Term<D> for RenormalisedCompression {
     const WRITES: Outputs = Outputs::of(&[Output::COMPRESSION]);
     #[inline(always)]
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let gradient = corrected(&pair.r, pair.f, |k| pair.i_at(Field::CORRECTION, k));
+        let gradient = corrected(&pair.r, pair.weight(), |k| pair.i_at(Field::CORRECTION, k));
         let mut along = L::zero();
         for d in 0..D {
             along = pair.v[d].mul_add(gradient[d], along);

@@ -3,14 +3,16 @@
 
 use meshfree::boundary::Wall;
 use meshfree::effect::Laminar;
+use meshfree::kernel::WendlandC4;
 use meshfree::material::catalogue;
 use meshfree::material::eos::IdealGas;
 use meshfree::particles::Field;
 use meshfree::prelude::*;
 use meshfree::scene::Start;
 use meshfree::simulation::{Criterion, StepControl};
+use meshfree::sweep::Interaction;
 use meshfree::term::LaminarViscosity;
-use meshfree::term::viscosity::Inviscid;
+use meshfree::term::viscosity::{Inviscid, SignalVelocity};
 
 /// A dam that breaks, without artificial viscosity, which would add a signal to the speed of sound.
 fn dam<T: Real>([force, viscous]: [f64; 2]) -> (Simulation<T, 2>, StepControl) {
@@ -120,7 +122,14 @@ fn swarm<T: Real>() -> (Simulation<T, 2>, StepControl) {
             ..own
         });
     let mut used = StepControl::default();
-    let scene = Scene::new(schemes::gas().h_over_dx(SPREAD).compose()).body(body);
+    let scheme = SchemeBuilder::new(WendlandC4, SignalVelocity::STANDARD)
+        .between_bodies(Interaction::Bonded)
+        .with(ConsistentSmoothing {
+            smallest: 0.2,
+            largest: 5.0,
+        })
+        .h_over_dx(SPREAD);
+    let scene = Scene::new(scheme.compose()).body(body);
     let simulation = scene
         .steps(|own| {
             used = own;

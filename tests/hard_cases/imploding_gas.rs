@@ -10,7 +10,7 @@ use meshfree::scene::Start;
 use meshfree::scheme::EnergyForm;
 use meshfree::study::noh::Noh;
 use meshfree::study::sedov::Sedov;
-use meshfree::term::viscosity::SignalVelocity;
+use meshfree::term::viscosity::LimitedMonaghanGingold;
 use std::time::Instant;
 
 /// How strong viscosity and conduction are.
@@ -35,9 +35,9 @@ where
     } else {
         Smoothing::Fixed
     };
-    let viscosity = SignalVelocity {
+    let viscosity = LimitedMonaghanGingold {
         alpha: viscosity,
-        ..SignalVelocity::STANDARD
+        beta: viscosity,
     };
     schemes::gas()
         .with_viscosity(viscosity)

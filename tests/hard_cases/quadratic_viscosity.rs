@@ -3,9 +3,11 @@
 
 use super::gas::{density_error, plateau_error, tube};
 use super::harness::Row;
+use meshfree::kernel::WendlandC4;
 use meshfree::particles::{Field, Fields, Outputs};
 use meshfree::prelude::*;
 use meshfree::scalar::{Lane, Real};
+use meshfree::sweep::Interaction;
 use meshfree::term::viscosity::{
     ArtificialViscosity, CullenDehnen, MonaghanGingold, SwitchObject, Viscous,
 };
@@ -49,8 +51,9 @@ impl<V: ArtificialViscosity<1>> ArtificialViscosity<1> for LongerSteps<V> {
 }
 
 fn scheme<V: ArtificialViscosity<1>>(viscosity: V) -> Scheme<f64, 1> {
-    schemes::gas()
-        .with_viscosity(viscosity)
+    SchemeBuilder::new(WendlandC4, viscosity)
+        .density(DensityForm::Summation)
+        .between_bodies(Interaction::Bonded)
         .with(ConsistentSmoothing {
             smallest: 0.02,
             largest: 50.0,

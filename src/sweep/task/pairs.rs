@@ -175,6 +175,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
                 h,
                 h_i: own_scale.h,
                 w,
+                w_j,
                 f,
                 f_i,
                 f_j,

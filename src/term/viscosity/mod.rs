@@ -5,8 +5,8 @@
 //! |---|---|---|---|---|
 //! | [`Inviscid`] | `none` | nothing | – | smooth flow, to see what a scheme does by itself |
 //! | [`MonaghanGingold`] | `mg` | α c μ + β μ² on approach | – | strong shocks, older work |
-//! | [`LimitedMonaghanGingold`] | `limited` | the same on the jump that is left by reconstruction | ∇v | **solids, weak and moderate shocks** |
-//! | [`SignalVelocity`] | `signal` | the speed at which the pair's waves meet | – | gases, mixed sound speeds |
+//! | [`LimitedMonaghanGingold`] | `limited` | the same on the jump that is left by reconstruction | ∇v | **solids, gases** |
+//! | [`SignalVelocity`] | `signal` | the speed at which the pair's waves meet | – | mixed sound speeds, without gradients |
 //! | [`Balsara`] | `balsara` | Monaghan–Gingold less where the flow turns | ∇v (2D, 3D) | shear, rotation |
 //! | [`MorrisMonaghan`] | `morris-monaghan` | α of its own, fed by compression | α | strong shocks in quiet surroundings |
 //! | [`CullenDehnen`] | `cullen-dehnen` | α of its own, fed by steepening | α, ∇·v, ∇v (2D, 3D) | gas that turns, subsonic turbulence, shocks; leaves more heat where cold gas starts in collision |
@@ -16,8 +16,9 @@
 //! 0.3 % of the sound speed, and a law that grows with that ratio leaves the front ringing. A law with
 //! a fixed α does not. The page on [artificial viscosities](crate#pages) measures all of them on one front.
 //!
-//! In gases the signal velocity wears vortices down that Cullen and Dehnen's law keeps ([accuracy and cost](crate#pages)), and the latter leaves
-//! more heat where cold gas starts in collision ([hard cases](crate#pages)).
+//! In gases the signal velocity wears vortices down and heats gas that converges ahead of a shock, and Cullen and Dehnen's law leaves more
+//! heat where cold gas starts in collision; on gradients from [inverted matrices](crate::term::MatrixPressureForce) the limited law does
+//! neither ([hard cases](crate#pages)).
 //!
 //! Every law is zero for receding pairs, and symmetric in the two particles, so it conserves linear
 //! and angular momentum and turns kinetic energy into heat, never back.

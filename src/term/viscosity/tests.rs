@@ -99,6 +99,7 @@ fn ask<V: ArtificialViscosity<D>, const D: usize>(
         h: H,
         h_i: H,
         w: 1.0,
+        w_j: 1.0,
         f: -1.0,
         f_i: -1.0,
         f_j: -1.0,
