@@ -55,15 +55,25 @@ impl<const D: usize> Effect<D> for ExtrapolatedPressure {
 #[inline(always)]
 fn extrapolated<T: Real, const D: usize>(
     around: &Around<'_, T, D>,
-    [unity, pressure, moment]: &[Summed<'_, T, D>; 3],
+    sums: &[Summed<'_, T, D>; 3],
     (first, n): (usize, usize),
+) -> Option<T> {
+    before_wall(around, sums, n, around.wall?.acceleration(first + n))
+}
+
+/// The same of a wall particle that accelerates by `own` \[m/s²\].
+#[inline(always)]
+fn before_wall<T: Real, const D: usize>(
+    around: &Around<'_, T, D>,
+    [unity, pressure, moment]: &[Summed<'_, T, D>; 3],
+    n: usize,
+    own: [f64; D],
 ) -> Option<T> {
     let unity = unity.get(0, n);
     if unity <= T::from_f64(DRY) {
         return None;
     }
-    let wall = around.wall?;
-    let (own, gravity) = (wall.acceleration(first + n), around.gravity);
+    let gravity = around.gravity;
     let sum = (0..D).fold(pressure.get(0, n), |sum, d| {
         sum + moment.get(d, n) * T::from_f64(gravity[d] - own[d])
     });
@@ -96,6 +106,71 @@ impl<T: Real, const D: usize> Law<T, D> for ExtrapolatedPressure {
         let ([], [pressure]) = chunk.columns([], [Field::PRESSURE]);
         for (n, pressure) in pressure.iter_mut().enumerate() {
             let own = extrapolated(&around, &sums, (first, n));
+            *pressure = own.map_or(T::zero(), |p| p.max(floor));
+        }
+        Tally::default()
+    }
+}
+
+/// Walls whose pressure extrapolates that of the liquid before them by gravity alone: [`ExtrapolatedPressure`] without the
+/// acceleration of the wall, p_w = (Σ p_f W + g·Σ ρ_f r W)/Σ W, not below a floor.
+///
+/// For structures that strike each other in a liquid. A contact acts on single particles and accelerates them by 10⁸ m/s²
+/// and more. Over a smoothing length of water that is a difference in pressure of tens of MPa, which the liquid before the
+/// wall does not have: the wall flings it away, and the liquid gains energy that the structure does not lose
+/// ([crushed cells](crate#pages)). Where a wall accelerates as a whole, the liquid feels less of it within a spacing of
+/// the wall: take `ExtrapolatedPressure` there.
+///
+/// ```
+/// use meshfree::effect::HydrostaticWalls;
+/// use meshfree::prelude::*;
+/// let scheme: Scheme<f64, 3> = schemes::weakly_compressible()
+///     .walls(HydrostaticWalls::default())
+///     .compose();
+/// assert!(scheme.to_string().contains("without the acceleration of the wall"));
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct HydrostaticWalls {
+    /// The lowest pressure \[Pa\], as of [`ExtrapolatedPressure`].
+    pub floor: f64,
+}
+
+impl<const D: usize> Effect<D> for HydrostaticWalls {
+    type Terms = (In<stage::Walls, LiquidNearWall>,);
+    const BOOKS_ENERGY: bool = true;
+    fn terms(&self, _setting: &Setting) -> Self::Terms {
+        (In::new(LiquidNearWall),)
+    }
+    fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
+        program.law(Stage::Walls, *self);
+        program.document(TermDoc {
+            name: "pressure of walls without the acceleration of the wall".into(),
+            equation: "p_w = (Σ p_f W + g·Σ ρ_f r W)/Σ W",
+            source: "after Adami, Hu & Adams 2012, eq. 27",
+        });
+    }
+}
+
+impl<T: Real, const D: usize> Law<T, D> for HydrostaticWalls {
+    fn name(&self) -> &'static str {
+        "hydrostatic pressure of walls"
+    }
+    fn reads(&self) -> Fields {
+        Fields::NONE
+    }
+    fn sums(&self) -> Outputs {
+        Outputs::of(&PRESSED)
+    }
+    fn writes(&self) -> Fields {
+        Fields::of(&[Field::PRESSURE])
+    }
+    fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
+        let floor = T::from_f64(self.floor);
+        let around = chunk.around;
+        let sums = PRESSED.map(|sum| chunk.sum(sum));
+        let ([], [pressure]) = chunk.columns([], [Field::PRESSURE]);
+        for (n, pressure) in pressure.iter_mut().enumerate() {
+            let own = before_wall(&around, &sums, n, [0.0; D]);
             *pressure = own.map_or(T::zero(), |p| p.max(floor));
         }
         Tally::default()
@@ -232,7 +307,45 @@ fn riemann_push<T: Real>(inwards: T, density: T, sound_speed: T) -> T {
 
 #[cfg(test)]
 mod tests {
-    use super::riemann_push;
+    use super::{HydrostaticWalls, riemann_push};
+    use crate::prelude::*;
+
+    /// A floor that is about to fly upwards under water of one pressure shows the water that pressure. The control is the wall
+    /// law of the scheme, by which it shows ρ a times a good part of the smoothing length more.
+    #[test]
+    fn the_acceleration_of_a_wall_counts_where_it_is_asked_for() {
+        let (spacing, acceleration, pressure) = (0.01, 1e6, 2e4);
+        let scheme = schemes::weakly_compressible();
+        let schemes: [Scheme<f64, 2>; 2] = [
+            scheme.clone().walls(HydrostaticWalls::default()).compose(),
+            scheme.compose(),
+        ];
+        let excess = schemes.map(|scheme| {
+            let water = catalogue::weakly_compressible_water(1.0);
+            let density = water.eos().density_at(pressure, 0.0).unwrap();
+            let water = Body::block("water", water, [0.0; 2], [0.2, 0.1], spacing).density(density);
+            let floor = Body::<f64, 2>::block(
+                "floor",
+                catalogue::water(),
+                [0.0, -0.04],
+                [0.2, 0.0],
+                spacing,
+            );
+            let up = move |order: i32| {
+                move |t: f64| [0.0, acceleration * [0.5 * t * t, t, 1.0][order as usize]]
+            };
+            let floor = Wall::of("floor", floor.points().to_vec(), spacing)
+                .motion(Translation::new(up(0), up(1), up(2)));
+            let mut simulation = Scene::new(scheme).body(water).wall(floor).build().unwrap();
+            simulation.evaluate().unwrap();
+            let wall = simulation.wall("floor").unwrap();
+            let below = wall.filter(|p| p.position()[1] > -spacing);
+            below.map(|p| p.pressure() - pressure).fold(0.0, f64::max)
+        });
+        let of_acceleration = 1000.0 * acceleration * spacing;
+        assert!(excess[0].abs() < 1e-6 * pressure, "{excess:?}");
+        assert!(excess[1] > 0.5 * of_acceleration, "{excess:?}");
+    }
 
     #[test]
     fn a_fast_impact_is_a_water_hammer_and_a_gentle_one_is_quadratic() {
