@@ -321,7 +321,7 @@ mod tests {
             scheme.compose(),
         ];
         let excess = schemes.map(|scheme| {
-            let water = catalogue::weakly_compressible_water(1.0);
+            let water = catalogue::weakly_compressible_water::<f64>(1.0);
             let density = water.eos().density_at(pressure, 0.0).unwrap();
             let water = Body::block("water", water, [0.0; 2], [0.2, 0.1], spacing).density(density);
             let floor = Body::<f64, 2>::block(
@@ -340,10 +340,12 @@ mod tests {
             simulation.evaluate().unwrap();
             let wall = simulation.wall("floor").unwrap();
             let below = wall.filter(|p| p.position()[1] > -spacing);
-            below.map(|p| p.pressure() - pressure).fold(0.0, f64::max)
+            below
+                .map(|p| (p.pressure() - pressure).abs())
+                .fold(0.0, f64::max)
         });
         let of_acceleration = 1000.0 * acceleration * spacing;
-        assert!(excess[0].abs() < 1e-6 * pressure, "{excess:?}");
+        assert!(excess[0] < 1e-6 * pressure, "{excess:?}");
         assert!(excess[1] > 0.5 * of_acceleration, "{excess:?}");
     }
 
