@@ -17,7 +17,7 @@ WIDTH = 640
 
 # Example: the plot that it leaves, and the options that suit a gallery.
 PICTURES = {
-    "cellular_filler": ("c1.5mm_mu1e-3/water.svg", ["--quick"]),
+    "cellular_filler": ("c1.5mm_mu1e-3/sections.svg", ["--quick"]),
     "channel": ("poiseuille.svg", ["--quick"]),
     "dam_break": ("frame_00004.svg", ["--quick"]),
     "elastic_gate": ("gate.svg", ["--quick"]),

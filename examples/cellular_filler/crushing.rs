@@ -17,7 +17,9 @@ const SAMPLES: f64 = 150.0;
 /// Frames for ParaView.
 const FRAMES: usize = 12;
 /// Strains at which sections are kept, in shares of the last.
-pub const SECTIONS: [f64; 3] = [0.0, 0.5, 1.0];
+pub const SECTIONS: [f64; 4] = [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0];
+/// Strains of the secant moduli.
+pub const SECANTS: [f64; 2] = [0.01, 0.02];
 /// Density \[kg/m³\] of water at rest.
 const WATER: f64 = 1000.0;
 
@@ -52,14 +54,15 @@ pub struct Sample {
     pub solids: f64,
 }
 
-/// A particle of a section: place in the plane, and a value.
+/// A particle of a section: place in the plane, and a value; of one that is only shown the value is no number.
 pub type Section = Vec<(f64, f64, f64)>;
 
 /// A run.
 #[derive(Clone, Debug, Default)]
 pub struct Crushing {
     pub samples: Vec<Sample>,
-    /// Plastic strain of the structure and pressure \[MPa\] of the water, by [`SECTIONS`].
+    /// Structure, water and plates, by the pressure \[MPa\] of the water; structure and plates, by plastic strain; by
+    /// [`SECTIONS`].
     pub sections: Vec<[Section; 2]>,
     pub relative_density: f64,
     pub particles: [usize; 2],
@@ -78,21 +81,28 @@ impl Crushing {
     pub fn energy(&self) -> f64 {
         self.samples.last().map_or(0.0, |last| 2.0 * last.work)
     }
-    /// Slope of stress \[Pa\] over strain between 1.2 and 3 %, where the rate of one cell has done growing, mean of both plates.
-    pub fn stiffness(&self) -> f64 {
-        let early = || {
-            self.samples
-                .iter()
-                .filter(|s| (0.012..0.03).contains(&s.strain))
-        };
-        let n = early().count() as f64;
+    /// Stress \[Pa\] at a strain over that strain, mean of both plates, between the samples around it.
+    pub fn secant(&self, strain: f64) -> f64 {
         let stress = |s: &Sample| 0.5 * (s.stress[0] + s.stress[1]);
-        let strain = early().map(|s| s.strain).sum::<f64>() / n;
-        let mean = early().map(stress).sum::<f64>() / n;
-        let up: f64 = early()
-            .map(|s| (s.strain - strain) * (stress(s) - mean))
-            .sum();
-        up / early().map(|s| (s.strain - strain).powi(2)).sum::<f64>()
+        let pairs = self.samples.windows(2).map(|pair| (&pair[0], &pair[1]));
+        let around = |(_, after): &(&Sample, &Sample)| after.strain >= strain;
+        pairs
+            .filter(|(before, _)| before.strain < strain)
+            .find(around)
+            .map_or(f64::NAN, |(before, after)| {
+                let share = (strain - before.strain) / (after.strain - before.strain);
+                (stress(before) + share * (stress(after) - stress(before))) / strain
+            })
+    }
+    /// The most that what the water has dissipated has fallen since any time before, over the work on the water at the end:
+    /// energy that it has gained from nothing.
+    pub fn gained(&self) -> f64 {
+        let (mut most, mut fallen) = (0.0_f64, 0.0_f64);
+        for sample in &self.samples {
+            most = most.max(sample.water[2]);
+            fallen = fallen.max(most - sample.water[2]);
+        }
+        fallen / self.samples.last().map_or(f64::NAN, |last| last.water[0])
     }
     /// Mean stress \[Pa\] of the upper plate between strains of 10 and 20 %.
     pub fn plateau(&self) -> f64 {
@@ -321,43 +331,37 @@ pub fn run(case: &Crushed, folder: &Path) -> Result<Crushing, Failure> {
     Ok(record)
 }
 
-/// The structure within a spacing of the plane y = 0, which is the middle of a wall, and the water within one of the
-/// middle of the cell.
+/// What is within a spacing of the middle of the cell, with the pressure of the water; and of the plane y = 0, which is the
+/// middle of a wall, with the plastic strain of the structure.
 fn section(
     simulation: &Simulation<f64, 3>,
     wet: bool,
     (dx, middle): (f64, f64),
 ) -> Result<[Section; 2], Error> {
-    let near = |x: [f64; 3]| x[1] < dx;
-    let solid = simulation
-        .body("structure")?
-        .filter(|p| near(p.position()))
-        .map(|p| {
-            let x = p.position();
-            (
-                1e3 * x[0],
-                1e3 * x[2],
-                p.scalar(Plasticity::STRAIN).unwrap_or(0.0),
-            )
-        });
-    let solid = solid.collect();
-    let water = if wet {
-        let water = simulation
-            .body("water")?
-            .filter(|p| p.position()[1] > middle - dx);
-        water
-            .map(|p| {
-                (
-                    1e3 * p.position()[0],
-                    1e3 * p.position()[2],
-                    1e-6 * p.pressure(),
-                )
-            })
-            .collect()
-    } else {
-        Vec::new()
-    };
-    Ok([solid, water])
+    let at = |x: [f64; 3], value: f64| (1e3 * x[0], 1e3 * x[2], value);
+    let mut sections = [Vec::new(), Vec::new()];
+    let inner = |x: [f64; 3]| x[1] > middle - dx;
+    if wet {
+        let water = simulation.body("water")?;
+        let water = water.filter(|p| inner(p.position()));
+        sections[0].extend(water.map(|p| at(p.position(), 1e-6 * p.pressure())));
+    }
+    for body in ["structure", "bottom", "top"] {
+        for particle in simulation.body(body)? {
+            let x = particle.position();
+            if inner(x) {
+                sections[0].push(at(x, f64::NAN));
+            }
+            if x[1] < dx {
+                let strain = match body {
+                    "structure" => particle.scalar(Plasticity::STRAIN).unwrap_or(0.0),
+                    _ => f64::NAN,
+                };
+                sections[1].push(at(x, strain));
+            }
+        }
+    }
+    Ok(sections)
 }
 
 /// Water particles that are in the structure, nearer than half a spacing to one of it, and beyond the plates.

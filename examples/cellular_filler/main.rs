@@ -7,7 +7,9 @@ mod crush;
 mod crush_report;
 mod crushing;
 mod filler;
+mod finite_differences;
 mod report;
+mod through;
 
 use common::{Example, Failure, Options, Own};
 use crush::Crushed;
@@ -18,26 +20,26 @@ use std::process::ExitCode;
 
 const EXAMPLE: Example = Example {
     name: "cellular_filler",
-    about: "Water in cubes of side d + c with three holes of d = 3 mm, crushed at 1000 1/s to 30 %\n\
-            (Vesenjak & Ren 2007). With rigid walls these move as prescribed, and what is measured is the filler alone;\n\
-            with deforming walls an elastic-plastic structure is crushed between two plates, filled or empty.\n\
+    about: "Cubes of side d + c with three holes of d = 3 mm, filled and empty, crushed at 1000 1/s to 30 %\n\
+            (Vesenjak & Ren 2007): an elastic-plastic structure between two plates, with water in it or without.\n\
+            With rigid walls these move as prescribed, and what is measured is the filler alone.\n\
             standard: densities held to the space of particles, which are kept evenly spread; plain: neither.",
     schemes: &["standard", "plain"],
     own: &[
         own(
             "--walls",
             "NAME",
-            "rigid (default): particles in an affine crush; deforming: a solid between plates",
+            "deforming (default): a solid between plates; rigid: particles in an affine crush",
         ),
         own(
             "--cells",
             "N or LONGxHIGH",
-            "cells along outflow and crush; 4x4 (--quick: 2x2), deforming 1",
+            "cells along outflow and crush; deforming 1; rigid 4x4 (--quick: 2x2)",
         ),
         own(
             "--cell",
             "C",
-            "one thickness [mm] between the holes; all of 1.5, 1.0, 0.5 (deforming, --quick: 1.5)",
+            "one thickness [mm] between the holes; 1.5 and 1.0 (--quick: 1.5), all of 1.5, 1.0, 0.5 with --study and rigid walls",
         ),
         own(
             "--fill",
@@ -47,14 +49,23 @@ const EXAMPLE: Example = Example {
         own(
             "--viscosity",
             "PA_S",
-            "one viscosity; rigid: all of 1e-3, 1e-2, 1e-1 and 1; deforming: 1e-3",
+            "one viscosity; deforming: 1e-3; rigid: all of 1e-3, 1e-2, 1e-1 and 1",
         ),
         own(
             "--study",
             "",
-            "deforming walls: also the other viscosities at the densest cell",
+            "deforming walls: also the thinnest walls, and the other viscosities at the densest cell",
         ),
-        own("--strain", "SHARE", "final strain; 0.3 (--quick: 0.05)"),
+        own(
+            "--through",
+            "",
+            "instead: slow flow through the cell that does not move, against finite differences",
+        ),
+        own(
+            "--strain",
+            "SHARE",
+            "final strain; 0.3 (--quick: 0.1, rigid 0.05)",
+        ),
     ],
 };
 
@@ -67,11 +78,14 @@ pub(crate) fn main() -> ExitCode {
 }
 
 fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
-    match options.text("--walls").unwrap_or("rigid") {
+    if options.has("--through") {
+        return through::compare(1e-3 * options.number("--cell", 1.5)?, options);
+    }
+    match options.text("--walls").unwrap_or("deforming") {
         "rigid" => {}
         "deforming" => return deform(options),
         other => {
-            let accepted = "rigid, deforming";
+            let accepted = "deforming, rigid";
             return Err(format!("--walls: `{other}` is not accepted; it takes {accepted}").into());
         }
     }
@@ -139,7 +153,11 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
 
 /// The crush of structures that deform.
 fn deform(options: &Options) -> Result<(), Failure> {
-    let thick: &[f64] = options.pick(&[1.5, 1.0, 0.5], &[1.5]);
+    let thick: &[f64] = if options.has("--study") {
+        &[1.5, 1.0, 0.5]
+    } else {
+        options.pick(&[1.5, 1.0], &[1.5])
+    };
     let thick = match options.text("--cell") {
         Some(_) => vec![options.number("--cell", 1.5)?],
         None => thick.to_vec(),

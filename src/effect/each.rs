@@ -34,6 +34,7 @@ macro_rules! for_each_effect {
                 $crate::effect::TwoPhase::default(),
                 $crate::effect::SurfaceTension::between("oil", "water", 0.03),
                 $crate::effect::ExtrapolatedPressure::default(),
+                $crate::effect::HydrostaticWalls::default(),
                 $crate::effect::RiemannWalls::default()
             ]
             solid [

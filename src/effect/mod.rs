@@ -17,7 +17,7 @@
 //! | requirements | what it asks of materials and integrator | [`StepProgram::require`] |
 //!
 //! The pair terms of a list fuse into one loop a stage; the rest is objects that a step calls a handful of times.
-//! Wall laws ([`ExtrapolatedPressure`], [`RiemannWalls`]) are effects whose sums and laws belong to the particles of
+//! Wall laws ([`ExtrapolatedPressure`], [`HydrostaticWalls`], [`RiemannWalls`]) are effects whose sums and laws belong to the particles of
 //! walls, [`Stage::Walls`].
 //!
 //! [`Stage`]: crate::term::Stage
@@ -137,7 +137,9 @@ pub use two_phase::{TwoPhase, WithinPhase};
 pub use uniaxial_stress::UniaxialStress;
 pub(crate) use viscosity_switch::ViscositySwitch;
 pub use volume_consistency::{SummedMass, VolumeConsistency};
-pub use walls::{ExtrapolatedPressure, NoWalls, RiemannWalls, VelocityBeforeWall};
+pub use walls::{
+    ExtrapolatedPressure, HydrostaticWalls, NoWalls, RiemannWalls, VelocityBeforeWall,
+};
 pub use yielding_hourglass::YieldingHourglass;
 
 /// The parameters that are negative or not finite.

@@ -1,7 +1,7 @@
 //! Wall laws: how walls of particles answer a liquid.
 //! Adami, Hu & Adams 2012; the one-sided Riemann problem of Zhang, Hu & Adams 2017.
 
-use super::{Effect, Point, PointLaw, Reach, Setting, StepProgram};
+use super::{Around, CONSTANTS, Effect, Point, PointLaw, Reach, Setting, StepProgram};
 use crate::name;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
@@ -56,13 +56,18 @@ const PRESSED: Outputs = Outputs::of(&[
     Output::LIQUID_MOMENT,
 ]);
 
-/// The extrapolated pressure of wall particles and a push, not below a floor; zero where they are dry.
+/// The pressure of wall particles, extrapolated along an acceleration, and a push, not below a floor; zero where they are dry.
 #[inline(always)]
-fn press<L: Lane, const D: usize, P: Reach>(at: &mut Point<'_, L, D, P>, push: L, floor: f64) {
+fn press<L: Lane, const D: usize, P: Reach>(
+    at: &mut Point<'_, L, D, P>,
+    fall: [L; D],
+    push: L,
+    floor: f64,
+) {
     let (unity, moment) = (at.sum(Output::UNITY), at.sum_vector(Output::LIQUID_MOMENT));
     let mut sum = at.sum(Output::LIQUID_PRESSURE);
     for d in 0..D {
-        sum += moment[d] * at.wall.fall[d];
+        sum += moment[d] * fall[d];
     }
     let own = (sum / unity + push).max(L::of(floor));
     let dry = unity.le(L::of(DRY));
@@ -77,7 +82,70 @@ impl<const D: usize> PointLaw<D> for ExtrapolatedPressure {
     const OF_WALLS: bool = true;
     #[inline(always)]
     fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
-        press(at, L::zero(), self.floor);
+        press(at, at.wall.fall, L::zero(), self.floor);
+    }
+}
+
+/// Walls whose pressure extrapolates that of the liquid before them by gravity alone: [`ExtrapolatedPressure`] without the
+/// acceleration of the wall, p_w = (Σ p_f W + g·Σ ρ_f r W)/Σ W, not below a floor.
+///
+/// For structures that strike each other in a liquid. A contact acts on single particles and accelerates them by 10⁸ m/s²
+/// and more. Over a smoothing length of water that is a difference in pressure of tens of MPa, which the liquid before the
+/// wall does not have: the wall flings it away, and the liquid gains energy that the structure does not lose
+/// ([crushed cells](crate#pages)). Where a wall accelerates as a whole, the liquid feels less of it within a spacing of
+/// the wall: take `ExtrapolatedPressure` there.
+///
+/// ```
+/// use meshfree::effect::HydrostaticWalls;
+/// use meshfree::prelude::*;
+/// let scheme: Scheme<f64, 3> = schemes::weakly_compressible()
+///     .walls(HydrostaticWalls::default())
+///     .compose();
+/// assert!(scheme.to_string().contains("without the acceleration of the wall"));
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct HydrostaticWalls {
+    /// The lowest pressure \[Pa\], as of [`ExtrapolatedPressure`].
+    pub floor: f64,
+}
+
+impl<const D: usize> Effect<D> for HydrostaticWalls {
+    type Terms = (In<stage::Walls, LiquidNearWall>,);
+    const BOOKS_ENERGY: bool = true;
+    fn terms(&self, _setting: &Setting) -> Self::Terms {
+        (In::new(LiquidNearWall),)
+    }
+    fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
+        program.law(Stage::Walls, *self);
+        program.document(TermDoc {
+            name: "pressure of walls without the acceleration of the wall".into(),
+            equation: "p_w = (Σ p_f W + g·Σ ρ_f r W)/Σ W",
+            source: "after Adami, Hu & Adams 2012, eq. 27",
+        });
+    }
+}
+
+impl<const D: usize> PointLaw<D> for HydrostaticWalls {
+    const NAME: &'static str = "hydrostatic pressure of walls";
+    const READS: Fields = Fields::NONE;
+    const WRITES: Fields = Fields::of(&[Field::PRESSURE]);
+    const SUMS: Outputs = PRESSED;
+    const OF_WALLS: bool = true;
+    fn prepare<T: Real>(
+        &self,
+        around: &Around<'_, T, D>,
+        constants: &mut [f64; CONSTANTS],
+    ) -> bool {
+        constants[..D].copy_from_slice(&around.gravity);
+        true
+    }
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
+        let mut gravity = [L::zero(); D];
+        for d in 0..D {
+            gravity[d] = at.constant(d);
+        }
+        press(at, gravity, L::zero(), self.floor);
     }
 }
 
@@ -174,7 +242,12 @@ impl<const D: usize> PointLaw<D> for RiemannWalls {
             inwards += (before[d] / unity - own[d]) * normal[d];
         }
         let (density, sound_speed) = (at.get(Field::DENSITY), at.get(Field::SOUND_SPEED));
-        press(at, riemann_push(inwards, density, sound_speed), self.floor);
+        press(
+            at,
+            at.wall.fall,
+            riemann_push(inwards, density, sound_speed),
+            self.floor,
+        );
     }
 }
 
@@ -192,7 +265,47 @@ fn riemann_push<L: Lane>(inwards: L, density: L, sound_speed: L) -> L {
 
 #[cfg(test)]
 mod tests {
-    use super::riemann_push;
+    use super::{HydrostaticWalls, riemann_push};
+    use crate::prelude::*;
+
+    /// A floor that is about to fly upwards under water of one pressure shows the water that pressure. The control is the wall
+    /// law of the scheme, by which it shows ρ a times a good part of the smoothing length more.
+    #[test]
+    fn the_acceleration_of_a_wall_counts_where_it_is_asked_for() {
+        let (spacing, acceleration, pressure) = (0.01, 1e6, 2e4);
+        let scheme = schemes::weakly_compressible();
+        let schemes: [Scheme<f64, 2>; 2] = [
+            scheme.clone().walls(HydrostaticWalls::default()).compose(),
+            scheme.compose(),
+        ];
+        let excess = schemes.map(|scheme| {
+            let water = catalogue::weakly_compressible_water::<f64>(1.0);
+            let density = water.eos().density_at(pressure, 0.0).unwrap();
+            let water = Body::block("water", water, [0.0; 2], [0.2, 0.1], spacing).density(density);
+            let floor = Body::<f64, 2>::block(
+                "floor",
+                catalogue::water(),
+                [0.0, -0.04],
+                [0.2, 0.0],
+                spacing,
+            );
+            let up = move |order: i32| {
+                move |t: f64| [0.0, acceleration * [0.5 * t * t, t, 1.0][order as usize]]
+            };
+            let floor = Wall::of("floor", floor.points().to_vec(), spacing)
+                .motion(Translation::new(up(0), up(1), up(2)));
+            let mut simulation = Scene::new(scheme).body(water).wall(floor).build().unwrap();
+            simulation.evaluate().unwrap();
+            let wall = simulation.wall("floor").unwrap();
+            let below = wall.filter(|p| p.position()[1] > -spacing);
+            below
+                .map(|p| (p.pressure() - pressure).abs())
+                .fold(0.0, f64::max)
+        });
+        let of_acceleration = 1000.0 * acceleration * spacing;
+        assert!(excess[0] < 1e-6 * pressure, "{excess:?}");
+        assert!(excess[1] > 0.5 * of_acceleration, "{excess:?}");
+    }
 
     #[test]
     fn a_fast_impact_is_a_water_hammer_and_a_gentle_one_is_quadratic() {
