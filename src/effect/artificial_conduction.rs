@@ -129,6 +129,7 @@ impl<const D: usize> Effect<D> for ArtificialConduction {
 pub struct EnergyGradient;
 
 impl<const D: usize> Term<D> for EnergyGradient {
+    const NAME: &'static str = "meshfree::energy_gradient";
     const READS: Fields = Fields::of(&[Field::ENERGY, Field::MASS, Field::DENSITY]);
     const WRITES: Outputs = Outputs::of(&[SUMMED_SLOPE]);
     #[inline(always)]

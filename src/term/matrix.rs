@@ -30,6 +30,7 @@ use crate::scalar::Lane;
 pub struct MatrixPressureForce;
 
 impl<const D: usize> Term<D> for MatrixPressureForce {
+    const NAME: &'static str = "meshfree::matrix_pressure_force";
     const READS: Fields = Fields::of(&[
         Field::VELOCITY,
         Field::MASS,
