@@ -263,8 +263,10 @@ impl<T: Real, const D: usize> Evolved<T, D> {
     }
     /// Whether its rate reads another field, which changes at the same time, as it is before that.
     pub(crate) fn precedes(&self, other: &Self) -> bool {
-        let reads = |rate: &Box<dyn Rate<T, D>>| rate.reads().contains(other.field);
-        self.field != other.field && self.when == other.when && self.rates.iter().any(reads)
+        let mut reads = self.rates.iter().map(|rate| rate.reads());
+        self.field != other.field
+            && self.when == other.when
+            && reads.any(|fields| fields.contains(other.field))
     }
     /// With a part of its rate.
     #[must_use]
