@@ -24,29 +24,12 @@ pub trait Function<const N: usize> {
     fn of_traced(&self, given: &[Traced; N]) -> Traced;
 }
 
-/// On wider registers than those of the baseline, to the same bits: these rows have no product that is rounded once.
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma")]
-fn on_avx2<L: Lane, const N: usize>(function: &impl OfLanes<N>, given: &[L; N]) -> L {
-    function.of(*given)
-}
-
-#[inline(always)]
-fn on_this_machine<L: Lane, const N: usize>(function: &impl OfLanes<N>, given: &[L; N]) -> L {
-    #[cfg(target_arch = "x86_64")]
-    if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
-        // SAFETY: this machine has the instructions.
-        return unsafe { on_avx2(function, given) };
-    }
-    function.of(*given)
-}
-
 impl<const N: usize, F: OfLanes<N>> Function<N> for F {
     fn of_row(&self, given: &[Row; N]) -> Row {
-        on_this_machine(self, given)
+        self.of(*given)
     }
     fn of_single_row(&self, given: &[SingleRow; N]) -> SingleRow {
-        on_this_machine(self, given)
+        self.of(*given)
     }
     fn of_one(&self, given: &[f64; N]) -> f64 {
         self.of(*given)
