@@ -33,6 +33,7 @@
 //! impl Failure for CockcroftLatham {
 //!     fn name(&self) -> &'static str { "Cockcroft–Latham" }
 //!     fn source(&self) -> &'static str { "Cockcroft & Latham 1968" }
+//!     #[inline(always)]
 //!     fn damage<L: Lane>(&self, state: &FailureState<L>) -> L {
 //!         state.principal_stress.positive_part() * state.increment / L::of(self.work)
 //!     }
@@ -151,7 +152,7 @@ impl<L: Lane> FailureState<L> {
 ///
 /// It is asked once a row of particles and step, in `f64` whatever the scalar of the simulation. It must not be negative; one
 /// or more is failure at once. Where it decides it takes [`Lane::select`], so that it can be
-/// [recorded](crate::scalar::Record).
+/// [recorded](crate::scalar::Record). Mark `damage` `#[inline(always)]`, as a [`Strength`](super::strength::Strength).
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a law of failure",
     note = "implement `Failure`: `damage` returns what a step adds to the damage"

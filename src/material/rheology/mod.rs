@@ -39,6 +39,7 @@
 //!
 //! impl ViscosityLaw for Hyperbolic {
 //!     fn name(&self) -> &'static str { "hyperbolic" }
+//!     #[inline(always)]
 //!     fn viscosity<L: Lane>(&self, shear_rate: L) -> L {
 //!         L::of(self.at_rest) / shear_rate.mul_add(L::of(self.time), L::one())
 //!     }
@@ -69,7 +70,8 @@ use core::fmt::Debug;
 
 /// A viscosity that follows from the shear rate, μ(γ̇).
 ///
-/// Parameters are plain `f64` in SI units; `L::of(parameter)` brings one into the arithmetic.
+/// Parameters are plain `f64` in SI units; `L::of(parameter)` brings one into the arithmetic, which is in the scalar of the
+/// simulation. Mark `viscosity` `#[inline(always)]`, as a [`Strength`](super::strength::Strength).
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a viscosity law",
     note = "implement `ViscosityLaw`: `viscosity` returns the dynamic viscosity for a shear rate"

@@ -40,6 +40,7 @@
 //! impl Strength for Voce {
 //!     fn name(&self) -> &'static str { "Voce" }
 //!     fn source(&self) -> &'static str { "Voce 1948" }
+//!     #[inline(always)]
 //!     fn yield_stress<L: Lane>(&self, state: &PlasticState<L>) -> L {
 //!         let left = (-state.strain / L::of(self.strain)).exp();
 //!         L::of(self.last) - L::of(self.last - self.first) * left
@@ -134,7 +135,7 @@ pub const ROOM_TEMPERATURE: f64 = 298.15;
 ///
 /// It is asked for a few times a row of particles and step, where one of them yields, in `f64` whatever the scalar of the
 /// simulation. It must be finite and not negative for any finite state; zero is a liquid. Where it decides it takes
-/// [`Lane::select`], so that it can be [recorded](crate::scalar::Record).
+/// [`Lane::select`], so that it can be [recorded](crate::scalar::Record). Mark `yield_stress` `#[inline(always)]`.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a law of strength",
     note = "implement `Strength`: `yield_stress` returns the yield stress for a plastic state"

@@ -59,6 +59,7 @@ pub struct Surroundings<L> {
 ///     fn start(&self) -> f64 {
 ///         0.0
 ///     }
+///     #[inline(always)]
 ///     fn next<L: Lane>(&self, alpha: L, around: &Surroundings<L>, dt: L) -> L {
 ///         let decayed = alpha * (-around.sound_speed / around.h * dt).exp();
 ///         L::select(around.divergence.lt(L::zero()), L::one(), decayed)
