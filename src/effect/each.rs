@@ -40,6 +40,7 @@ macro_rules! for_each_effect {
             solid [
                 $crate::term::PressureForce,
                 $crate::term::RenormalisedPressureForce,
+                $crate::term::MatrixPressureForce,
                 $crate::term::MidpointReconstruction::STANDARD,
                 $crate::term::KernelSum,
                 $crate::effect::MixedSpacing,

@@ -165,7 +165,7 @@ mod tests {
         // Rows that a smooth flow has moved along each other: density stays, and no particle has its neighbours on a lattice.
         let bent = |k: u32| {
             let [x, y] = [k % count, k / count].map(|n| (f64::from(n) + 0.5) * spacing);
-            [x + 0.1 * (TAU * y).sin(), y]
+            [(x + 0.1 * (TAU * y).sin()).rem_euclid(1.0), y]
         };
         let points = (0..count * count).map(bent).collect();
         let body = Body::points_of("gas", gas, points, spacing).start(|x: [f64; 2], _| Start {

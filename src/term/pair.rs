@@ -276,8 +276,8 @@ impl<L: Lane, const D: usize, P: Layout> Pair<'_, L, D, P> {
     /// −Σⱼ Vⱼ gᵢ rᵢⱼ ⊗ rᵢⱼ, as i sees it; of its scale nothing depends, for that cancels.
     ///
     /// It is F, and −W with the particle's own smoothing length where this follows the density: the integral approach of
-    /// García-Senz, Cabezón & Escartín (2012). A kernel weighs near neighbours more than its slope does, which halves the error
-    /// of derivatives that are not linear ([accuracy and cost](crate#pages)).
+    /// García-Senz, Cabezón & Escartín (2012). A kernel weighs near neighbours more than its slope does:
+    /// on Gresho's vortex that takes a fifth off the error ([hard cases](crate#pages)).
     #[inline(always)]
     #[must_use]
     pub fn weight_i(&self) -> L {
