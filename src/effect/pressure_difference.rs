@@ -25,7 +25,7 @@ use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 ///
 /// **Free surface.** λ is one where the first moment −Σ V r·∇W/D of the neighbourhood is at least 0.95 of that of the lattice, and falls
 /// to zero at 0.75; a flat surface has one half. There the pair form stays, which holds the pressure of the surface at zero. Particles with
-/// λ below one are counted as limited. Still water of low viscosity below a free surface is noisier with this effect
+/// λ below one are counted as limited; inside the liquid some are where particles are displaced by more than a tenth of the spacing. Still water of low viscosity below a free surface is noisier with this effect
 /// ([gentle and closed flows](crate#pages)): it is for viscous liquids.
 ///
 /// **Rigid bodies** ([`Scene::rigid`](crate::scene::Scene::rigid)) feel pᵢ + pⱼ − 2 pᵣ from each pair with the liquid, where pᵣ is the
@@ -207,11 +207,11 @@ mod tests {
         Material::new("liquid", Linear::new(1000.0, SOUND))
     }
 
-    /// The largest error of the acceleration over the exact one, inside a block whose particles are displaced by up to 0.3
-    /// spacings and whose pressure is linear; and the particles that count as limited.
+    /// The largest error of the acceleration over the exact one, inside a block whose particles are displaced by up to 0.05
+    /// spacings, so that λ is one, and whose pressure is linear.
     fn error(scheme: Scheme<f64, 2>) -> f64 {
         let [a, b] = SLOPE_OF_DENSITY;
-        let body = Body::block("liquid", liquid(), [0.0; 2], [1.0; 2], 0.05).jitter(0.3, 5);
+        let body = Body::block("liquid", liquid(), [0.0; 2], [1.0; 2], 0.05).jitter(0.05, 5);
         let mut block = Scene::new(scheme)
             .body(body.start(|[x, y], own| Start {
                 density: 1005.0 + a * x + b * y,
