@@ -56,18 +56,14 @@ fn methods() -> Vec<Method> {
     ]
 }
 
+/// The effects of a gas with the plain pressure force.
+type Plain = (
+    ((((), PressureForce), KernelSum), InternalEnergy),
+    ConsistentSmoothing,
+);
+
 /// A gas with the plain pressure force and a viscosity.
-pub fn plain<V>(
-    viscosity: V,
-) -> SchemeBuilder<
-    WendlandC4,
-    V,
-    NoWalls,
-    (
-        ((((), PressureForce), KernelSum), InternalEnergy),
-        ConsistentSmoothing,
-    ),
-> {
+pub fn plain<V>(viscosity: V) -> SchemeBuilder<WendlandC4, V, NoWalls, Plain> {
     SchemeBuilder::new(WendlandC4, viscosity)
         .density(DensityForm::Summation)
         .between_bodies(Interaction::Bonded)
