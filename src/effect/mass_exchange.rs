@@ -19,6 +19,16 @@ const ENERGY: Output = Output::scalar(name!("energy_exchange", "W"));
 /// Rate of density \[kg/(m³ s)\] by δu: what it brings, and the volume that it compresses.
 pub(super) const RATE: Output = Output::scalar(name!("density_rate_of_exchange", "kg/(m³ s)"));
 
+/// Fields, and the energy where heat is exchanged.
+const fn with_heat(fields: &[Field], heat: bool) -> Fields {
+    let all = Fields::of(fields);
+    if heat {
+        all.union(Fields::of(&[Field::ENERGY]))
+    } else {
+        all
+    }
+}
+
 /// What a pair exchanges, as particles move with u + δu: Fᵢⱼ = Vᵢ Vⱼ (ρᵢ δuᵢ + ρⱼ δuⱼ)·∇ᵢW/s of mass, which carries the mean velocity and
 /// energy of the two. At rest (`STILL`) δu is −u. Nothing passes through walls.
 #[derive(Clone, Copy, Debug)]
@@ -27,29 +37,19 @@ pub struct Exchange<const STILL: bool, const HEAT: bool>;
 impl<const D: usize, const STILL: bool, const HEAT: bool> Term<D> for Exchange<STILL, HEAT> {
     const NAME: &'static str = "meshfree::exchange_of_mass";
     const READS: Fields = {
-        let all = Fields::of(&[Field::WEIGHT, Field::DENSITY, Field::VELOCITY]);
-        let all = if STILL {
+        let all = with_heat(&[Field::WEIGHT, Field::DENSITY, Field::VELOCITY], HEAT);
+        if STILL {
             all
         } else {
             all.union(Fields::of(&[SHIFT]))
-        };
-        if HEAT {
-            all.union(Fields::of(&[Field::ENERGY]))
-        } else {
-            all
         }
     };
     const WRITES: Outputs = {
-        let all = Outputs::of(&[MASS, MOMENTUM]);
-        let all = if STILL {
+        let all = <Exchanged<STILL, HEAT> as PointLaw<D>>::SUMS;
+        if STILL {
             all
         } else {
             all.union(Outputs::of(&[RATE]))
-        };
-        if HEAT {
-            all.union(Outputs::of(&[ENERGY]))
-        } else {
-            all
         }
     };
     #[inline(always)]
@@ -99,31 +99,25 @@ pub(super) struct Exchanged<const STILL: bool, const HEAT: bool>;
 
 impl<const D: usize, const STILL: bool, const HEAT: bool> PointLaw<D> for Exchanged<STILL, HEAT> {
     const NAME: &'static str = "exchange of mass";
-    const READS: Fields = Fields::of(&[Field::MASS, Field::VELOCITY, Field::WEIGHT, Field::ENERGY]);
-    const WRITES: Fields =
-        Fields::of(&[Field::MASS, Field::VELOCITY, Field::DENSITY, Field::ENERGY]);
-    const ADDS: Fields = Fields::of(&[Field::MASS, Field::VELOCITY, Field::ENERGY]);
-    const OPTIONAL: Fields = Fields::of(&[Field::ENERGY]);
-    const SUMS: Outputs = Outputs::of(&[MASS, MOMENTUM, ENERGY]);
-    const RUNG: Option<Rung> = Some(Rung::Flow);
-    fn summed(&self) -> Outputs {
+    const READS: Fields = with_heat(&[Field::MASS, Field::VELOCITY, Field::WEIGHT], HEAT);
+    const WRITES: Fields = {
+        let adds = <Self as PointLaw<D>>::ADDS;
+        if STILL {
+            adds.union(Fields::of(&[Field::DENSITY]))
+        } else {
+            adds
+        }
+    };
+    const ADDS: Fields = with_heat(&[Field::MASS, Field::VELOCITY], HEAT);
+    const SUMS: Outputs = {
         let all = Outputs::of(&[MASS, MOMENTUM]);
         if HEAT {
             all.union(Outputs::of(&[ENERGY]))
         } else {
             all
         }
-    }
-    fn written(&self) -> Fields {
-        let mut written = Fields::of(&[Field::MASS, Field::VELOCITY]);
-        if STILL {
-            written = written.union(Fields::of(&[Field::DENSITY]));
-        }
-        if HEAT {
-            written = written.union(Fields::of(&[Field::ENERGY]));
-        }
-        written
-    }
+    };
+    const RUNG: Option<Rung> = Some(Rung::Flow);
     #[inline(always)]
     fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
         let mass = at.get(Field::MASS) + at.dt() * at.sum(MASS);

@@ -3,7 +3,7 @@
 
 use super::guard::{Problems, compression, speed};
 use super::{EosState, Guards};
-use crate::scalar::{Lane, Real};
+use crate::scalar::Lane;
 
 /// Beyond this ρ/ρ₀ the law goes on along its tangent.
 pub(super) const GREATEST_RATIO: f64 = 2.0;
@@ -49,10 +49,18 @@ fn power<L: Lane>(eta: L, exponent: f64) -> (L, L) {
         }
         (eta * sum, last)
     } else {
-        let excess = |x: <L as Lane>::Scalar| {
-            <L::Scalar as Real>::from_f64((exponent * x.to_f64().ln_1p()).exp_m1())
-        };
-        (eta.map(excess), ratio.powf(exponent - 1.0))
+        // Both with the same rounded ratio: what its rounding changes, the quotient takes back (Kahan, by Higham 2002, sect. 1.14.1).
+        let strain = ratio - L::one();
+        let rest = strain.le(L::zero()) & strain.ge(L::zero());
+        let logarithm = L::select(rest, eta, ratio.ln() * eta / strain);
+        let growth = logarithm * L::of(exponent);
+        let grown = growth.exp();
+        let share = (grown - L::one()) / grown.ln();
+        let even = grown.le(L::one()) & grown.ge(L::one());
+        let excess = growth * L::select(even, L::one(), share);
+        // A void: the logarithm has no limit, and the power is zero.
+        let excess = L::select(grown.le(L::zero()), -L::one(), excess);
+        (excess, ratio.powf(exponent - 1.0))
     }
 }
 

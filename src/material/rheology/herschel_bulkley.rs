@@ -3,7 +3,7 @@
 
 use super::{ViscosityLaw, at_most};
 use crate::material::eos::guard::Problems;
-use crate::scalar::{Lane, Real};
+use crate::scalar::Lane;
 
 /// The law of Herschel & Bulkley (1926), regularised by Papanastasiou (1987), with n = 1 the
 /// law of Bingham (1922).
@@ -71,12 +71,13 @@ impl ViscosityLaw for HerschelBulkley {
     #[inline(always)]
     fn viscosity<L: Lane>(&self, shear_rate: L) -> L {
         let power = L::of(self.consistency) * shear_rate.powf(self.index - 1.0);
-        // (1 − e⁻ˣ)/x, which is one at rest and has no digits near it if written so in `f32`.
-        let share = (shear_rate * L::of(self.time)).map(|x| {
-            let x = x.to_f64();
-            let share = if x == 0.0 { 1.0 } else { -(-x).exp_m1() / x };
-            <L::Scalar as Real>::from_f64(share)
-        });
+        // (1 − e⁻ˣ)/x, near rest with the logarithm of the rounded exponential in place of x (Kahan, by Higham 2002, sect. 1.14.1).
+        let x = shear_rate * L::of(self.time);
+        let decayed = (-x).exp();
+        let beyond = x.gt(L::one());
+        let over = L::select(beyond, -x, L::select(beyond, L::one(), decayed).ln());
+        let even = decayed.ge(L::one()) & decayed.le(L::one());
+        let share = L::select(even, L::one(), (decayed - L::one()) / over);
         let plain = share.mul_add(L::of(self.yield_stress * self.time), power);
         at_most(plain, self.greatest)
     }
