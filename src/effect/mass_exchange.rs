@@ -99,7 +99,14 @@ pub(super) struct Exchanged<const STILL: bool, const HEAT: bool>;
 
 impl<const D: usize, const STILL: bool, const HEAT: bool> PointLaw<D> for Exchanged<STILL, HEAT> {
     const NAME: &'static str = "exchange of mass";
-    const READS: Fields = with_heat(&[Field::MASS, Field::VELOCITY, Field::WEIGHT], HEAT);
+    const READS: Fields = {
+        let adds = <Self as PointLaw<D>>::ADDS;
+        if STILL {
+            adds.union(Fields::of(&[Field::WEIGHT]))
+        } else {
+            adds
+        }
+    };
     const WRITES: Fields = {
         let adds = <Self as PointLaw<D>>::ADDS;
         if STILL {
