@@ -198,7 +198,7 @@ where
 }
 
 /// A blast, its energy laid over so many spacings, with both controls.
-pub fn sedov<const D: usize>(case: &'static str, count: usize, wide: f64)
+pub fn sedov<const D: usize>(case: &'static str, count: usize, wide: f64, bound: f64)
 where
     WendlandC4: Kernel<D>,
 {
@@ -210,6 +210,6 @@ where
         value: runs[0][0],
         control: bare[0],
     }
-    .at_most(0.02);
+    .at_most(bound);
     closed(case, runs.map(|run| run[1]));
 }
