@@ -87,7 +87,11 @@ impl<const D: usize> PointLaw<D> for ExtrapolatedPressure {
 }
 
 /// Walls whose pressure extrapolates that of the liquid before them by gravity alone: [`ExtrapolatedPressure`] without the
-/// acceleration of the wall, p_w = (Σ p_f W + g·Σ ρ_f r W)/Σ W, not below a floor.
+/// acceleration of the wall, not below a floor.
+///
+#[doc = include_str!("../../docs/equations/hydrostatic_walls.html")]
+///
+/// with pressure p \[Pa\] and density ρ \[kg/m³\] of the liquid, gravity g \[m/s²\] and the kernel W.
 ///
 /// For structures that strike each other in a liquid. A contact acts on single particles and accelerates them by 10⁸ m/s²
 /// and more. Over a smoothing length of water that is a difference in pressure of tens of MPa, which the liquid before the

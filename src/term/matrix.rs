@@ -6,7 +6,7 @@ use super::{Layout, Pair, Sums, Term, TermDoc};
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Lane;
 
-/// The pressure force of a gas with gradients that are exact for linear fields on any arrangement of particles:
+/// The pressure force of a gas with gradients that are exact for linear fields on any arrangement of particles.
 ///
 /// mᵢ dvᵢ/dt = −Σⱼ Vᵢ Vⱼ (pᵢ Gᵢ + pⱼ Gⱼ), Gᵢ = Cᵢ (xⱼ − xᵢ) W(hᵢ), Cᵢ⁻¹ = Σⱼ Vⱼ (xⱼ − xᵢ) ⊗ (xⱼ − xᵢ) W(hᵢ)
 ///

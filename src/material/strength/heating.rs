@@ -17,7 +17,7 @@ use crate::scalar::Lane;
 /// use meshfree::material::strength::PlasticHeating;
 /// let copper = PlasticHeating::new(383.0);
 /// // A plastic strain of one at 300 MPa: 34 kJ/kg.
-/// let temperature = copper.temperature(300e6 / 8930.0);
+/// let temperature = copper.temperature(300e6_f64 / 8930.0);
 /// assert!((temperature - 377.1).abs() < 0.1);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
