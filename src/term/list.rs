@@ -25,7 +25,7 @@ pub trait Terms<const D: usize>: Clone + Debug + Send + Sync + 'static {
     }
 }
 
-/// Terms of effects in one sweep, as the list of effects has them: [`ByName`] runs them in the order of their names.
+/// Terms of effects in one sweep, as the list of effects has them. They run in the order of their [names](Term::NAME).
 pub trait TermList<const D: usize>: Terms<D> {
     /// The names of the terms.
     const NAMES: Names;
