@@ -6,7 +6,7 @@ use super::harness::Row;
 use meshfree::kernel::WendlandC4;
 use meshfree::particles::{Field, Fields, Outputs};
 use meshfree::prelude::*;
-use meshfree::scalar::{Lane, Real};
+use meshfree::scalar::Lane;
 use meshfree::sweep::Interaction;
 use meshfree::term::viscosity::{
     ArtificialViscosity, CullenDehnen, MonaghanGingold, SwitchObject, Viscous,
