@@ -151,8 +151,50 @@ pub fn closed(case: &'static str, [value, control]: [f64; 2]) {
     .at_most(1e-10);
 }
 
-/// The energy of 1 J, or 1 J/m, laid over so many spacings, until 0.5 s: error of the mean radius of the densest hundred particles, and
-/// change of energy; infinite if the run breaks.
+/// Where in space the exact density of a blast is largest once a kernel sum has smoothed it, whose h is that of a gas of density
+/// 1 over ρ^(1/D), in radii of the shock: where a sum over particles has its front.
+fn smoothed_front<const D: usize>(exact: &Sedov, time: f64, h_at_rest: f64) -> f64
+where
+    WendlandC4: Kernel<D>,
+{
+    /// Points of the sum in a support, along the radius and away from it, about which all is alike.
+    const FINE: i32 = 160;
+    let shock = exact.shock_radius(time);
+    let density = |r: f64| match r < shock {
+        true => exact.state(r, time).expect("a radius").density,
+        false => 1.0,
+    };
+    let support = Kernel::<D>::support(&WendlandC4);
+    let offsets = (-FINE..FINE).flat_map(|i| (0..FINE).map(move |j| [i, j]));
+    let offsets = offsets.map(|at| at.map(|k| (f64::from(k) + 0.5) / f64::from(FINE) * support));
+    let weights: Vec<_> = offsets
+        .filter(|[x, y]| x.hypot(*y) < support)
+        .map(|[x, y]| {
+            let shape = Kernel::<D>::shape(&WendlandC4, x.hypot(y));
+            (x, y, shape * y.powi(D as i32 - 2))
+        })
+        .collect();
+    let whole: f64 = weights.iter().map(|(.., w)| w).sum();
+    let smoothed = |r: f64, h: f64| {
+        let parts = weights
+            .iter()
+            .map(|(x, y, w)| w * density((r + x * h).hypot(y * h)));
+        parts.sum::<f64>() / whole
+    };
+    let mut rho = 2.0;
+    let peaks = (0..40).map(|k| {
+        let radius = 0.9 + 0.0025 * f64::from(k);
+        for _ in 0..8 {
+            let h = h_at_rest / f64::powf(rho, 1.0 / D as f64);
+            rho = 0.5 * (rho + smoothed(radius * shock, h));
+        }
+        (radius, rho)
+    });
+    peaks.max_by(|a, b| a.1.total_cmp(&b.1)).expect("radii").0
+}
+
+/// The energy of 1 J, or 1 J/m, laid over so many spacings, until 0.5 s: mean radius of the densest hundred particles over that of the
+/// shock, and change of energy; infinite if the run breaks.
 fn blast<const D: usize>(cure: Cure, form: EnergyForm, count: usize, wide: f64) -> [f64; 2]
 where
     WendlandC4: Kernel<D>,
@@ -191,25 +233,29 @@ where
         dense[0].0,
         begun.elapsed()
     );
-    [
-        (front / shock - 1.0).abs(),
-        (energy(&own) / before - 1.0).abs(),
-    ]
+    [front / shock, (energy(&own) / before - 1.0).abs()]
 }
 
 /// A blast, its energy laid over so many spacings, with both controls.
-pub fn sedov<const D: usize>(case: &'static str, count: usize, wide: f64, bound: f64)
+pub fn sedov<const D: usize>(case: &'static str, count: usize, wide: f64)
 where
     WendlandC4: Kernel<D>,
 {
     let runs = FORMS.map(|form| blast::<D>(CONDUCTING, form, count, wide));
     let bare = blast::<D>(BARE, EnergyForm::Compatible, count, wide);
+    let exact = Sedov::new(D as u8, 1.4, 1.0, 1.0).expect("a blast");
+    let h = Kernel::<D>::h_over_dx(&WendlandC4) / count as f64;
+    let front = smoothed_front::<D>(&exact, 0.5, h);
+    println!(
+        "{case}: the smoothed front is at {front} of the shock, that of the gas at {}",
+        runs[0][0]
+    );
     Row {
         case,
-        criterion: "error of the radius of the front; control: no viscosity, fixed h",
-        value: runs[0][0],
-        control: bare[0],
+        criterion: "error of the radius of the front as a kernel smooths it; control: no viscosity, fixed h",
+        value: (runs[0][0] / front - 1.0).abs(),
+        control: (bare[0] / front - 1.0).abs(),
     }
-    .at_most(bound);
+    .at_most(0.01);
     closed(case, runs.map(|run| run[1]));
 }
