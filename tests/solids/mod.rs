@@ -14,6 +14,8 @@ mod elastic_plastic_waves;
 mod events;
 mod exchange;
 mod failed_material;
+#[cfg(feature = "meshes")]
+mod filled_meshes;
 mod gas;
 mod halved_contact;
 mod held;
