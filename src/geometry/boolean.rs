@@ -108,7 +108,9 @@ impl<const D: usize, S: Shape<D>> Shape<D> for Complement<S> {
     }
     fn inside_row(&self, row: &[[f64; D]], inside: &mut [bool]) {
         self.shape.inside_row(row, inside);
-        inside.iter_mut().for_each(|inside| *inside = !*inside);
+        for inside in inside {
+            *inside = !*inside;
+        }
     }
     fn bounds(&self) -> ([f64; D], [f64; D]) {
         ([f64::NEG_INFINITY; D], [f64::INFINITY; D])

@@ -419,7 +419,9 @@ impl Shape<3> for Mesh {
             }
             if node.second == 0 {
                 let own = &self.triangles[node.first..node.first + node.count];
-                own.iter().for_each(|own| line.add(own));
+                for own in own {
+                    line.add(own);
+                }
             } else {
                 stack.extend([at + 1, node.second]);
             }

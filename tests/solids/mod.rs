@@ -10,6 +10,7 @@ mod conservation;
 mod contact;
 mod convergence;
 mod conversion;
+mod detonation;
 mod elastic_plastic_waves;
 mod events;
 mod exchange;
