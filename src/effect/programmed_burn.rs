@@ -37,12 +37,12 @@ use crate::term::{Stage, TermDoc};
 /// let charge = Body::block("charge", tnt, [0.0], [0.02], 1e-4).energy(Jwl::tnt().detonation_energy);
 /// let mut simulation = Scene::<f64, 1>::new(schemes::gas().with(burn)).body(charge).build()?;
 /// simulation.run_until(1e-6)?;
-/// let burnt = simulation.all().filter(|own| own.scalar(ProgrammedBurn::<1>::BURN_FRACTION) > Some(0.5));
+/// let burnt = simulation.all().filter(|own| own.scalar(ProgrammedBurn::BURN_FRACTION) > Some(0.5));
 /// assert!((60..75).contains(&burnt.count()), "6.93 mm of 0.1 mm");
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct ProgrammedBurn<const D: usize> {
+pub struct ProgrammedBurn {
     /// Name of the material that burns.
     pub material: String,
     /// Speed D of the detonation \[m/s\].
@@ -51,15 +51,18 @@ pub struct ProgrammedBurn<const D: usize> {
     pub width: f64,
     /// Relative volume V_CJ \[1\] of the Chapman–Jouguet state, where a shock may burn what it compresses.
     volume: Option<f64>,
-    lights: Vec<Light<D>>,
+    lights: Vec<Light>,
 }
 
 /// What is lit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Light<const D: usize> {
-    place: [f64; D],
+struct Light {
+    /// Zero beyond its coordinates.
+    place: [f64; 3],
+    /// How many coordinates it has.
+    dimensions: usize,
     /// The normal of a plane, of any length.
-    normal: Option<[f64; D]>,
+    normal: Option<[f64; 3]>,
     time: f64,
 }
 
@@ -70,7 +73,7 @@ const BURN_FRACTION: Field = Field::scalar(name!("burn_fraction", "1"));
 /// The lighting time of a particle that has not been seen \[s\].
 const UNKNOWN: f64 = 1e30;
 
-impl<const D: usize> ProgrammedBurn<D> {
+impl ProgrammedBurn {
     /// When the front arrives at a particle \[s\].
     pub const LIGHTING_TIME: Field = LIGHTING_TIME;
     /// What of a particle has burnt, from zero to one.
@@ -90,9 +93,10 @@ impl<const D: usize> ProgrammedBurn<D> {
 
     /// Lights a point \[m\] at a time \[s\].
     #[must_use]
-    pub fn lit_at_point(self, place: [f64; D], time: f64) -> Self {
+    pub fn lit_at_point<const D: usize>(self, place: [f64; D], time: f64) -> Self {
         self.lit(Light {
-            place,
+            place: padded(place),
+            dimensions: D,
             normal: None,
             time,
         })
@@ -100,15 +104,21 @@ impl<const D: usize> ProgrammedBurn<D> {
 
     /// Lights the plane through a point \[m\] with a normal of any length at a time \[s\]; the front runs to both sides.
     #[must_use]
-    pub fn lit_at_plane(self, place: [f64; D], normal: [f64; D], time: f64) -> Self {
+    pub fn lit_at_plane<const D: usize>(
+        self,
+        place: [f64; D],
+        normal: [f64; D],
+        time: f64,
+    ) -> Self {
         self.lit(Light {
-            place,
-            normal: Some(normal),
+            place: padded(place),
+            dimensions: D,
+            normal: Some(padded(normal)),
             time,
         })
     }
 
-    fn lit(mut self, light: Light<D>) -> Self {
+    fn lit(mut self, light: Light) -> Self {
         self.lights.push(light);
         self
     }
@@ -130,7 +140,7 @@ impl<const D: usize> ProgrammedBurn<D> {
     }
 }
 
-impl<const D: usize> Effect<D> for ProgrammedBurn<D> {
+impl<const D: usize> Effect<D> for ProgrammedBurn {
     type Terms = ();
     fn terms(&self, _setting: &Setting) {}
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
@@ -202,6 +212,13 @@ impl<const D: usize> Effect<D> for ProgrammedBurn<D> {
             ));
         }
         for light in &self.lights {
+            if light.dimensions != D {
+                problems.push((
+                    "number of coordinates of what is lit",
+                    light.dimensions as f64,
+                    "it must be that of the scene's dimensions",
+                ));
+            }
             let numbers = light
                 .place
                 .iter()
@@ -229,10 +246,15 @@ impl<const D: usize> Effect<D> for ProgrammedBurn<D> {
     }
 }
 
-impl<const D: usize> Light<D> {
+/// Coordinates, and zero beyond them.
+fn padded<const D: usize>(x: [f64; D]) -> [f64; 3] {
+    core::array::from_fn(|d| x.get(d).copied().unwrap_or(0.0))
+}
+
+impl Light {
     /// When a front of some speed that starts here arrives at `x`.
     #[inline(always)]
-    fn arrival<L: Lane>(&self, x: &[L; D], speed: f64) -> L {
+    fn arrival<L: Lane, const D: usize>(&self, x: &[L; D], speed: f64) -> L {
         let mut along = L::zero();
         let mut square = L::zero();
         let size = self
@@ -253,7 +275,7 @@ impl<const D: usize> Light<D> {
 }
 
 /// p ← F p, with F by time and, where it is wanted, by volume.
-impl<const D: usize> PointLaw<D> for ProgrammedBurn<D> {
+impl<const D: usize> PointLaw<D> for ProgrammedBurn {
     const NAME: &'static str = "programmed burn";
     const READS: Fields = Fields::of(&[
         Field::POSITION,

@@ -101,14 +101,14 @@ fn the_front_from_a_point_is_round_and_the_first_light_counts() {
     for own in simulation.all() {
         let [x, y] = own.position();
         let exact = (x.hypot(y) / SPEED).min(1e-6 + (x - 0.02).hypot(y) / SPEED);
-        let time = own.scalar(ProgrammedBurn::<2>::LIGHTING_TIME).unwrap();
+        let time = own.scalar(ProgrammedBurn::LIGHTING_TIME).unwrap();
         assert_relative_eq!(time, exact, max_relative = 1e-12);
     }
 }
 
 #[test]
 fn what_cannot_burn_is_named() {
-    let refusal = |burn: ProgrammedBurn<1>| {
+    let refusal = |burn: ProgrammedBurn| {
         let scene = Scene::<f64, 1>::new(schemes::gas().with(burn)).body(charge(20));
         scene.build().unwrap_err().to_string()
     };
@@ -125,6 +125,10 @@ fn what_cannot_burn_is_named() {
         (
             burn("TNT", SPEED).lit_at_plane([0.0], [0.0], 0.0),
             "normal of the plane",
+        ),
+        (
+            burn("TNT", SPEED).lit_at_point([0.0; 2], 0.0),
+            "number of coordinates",
         ),
         (
             burn("TNT", SPEED).lit_at_point([f64::NAN], 0.0),
@@ -155,7 +159,7 @@ fn a_burn_resumes() {
     }
     let [one, other] = [&whole, &resumed].map(|now| {
         let bits = now.all().map(|own| {
-            let time = own.scalar(ProgrammedBurn::<1>::LIGHTING_TIME).unwrap();
+            let time = own.scalar(ProgrammedBurn::LIGHTING_TIME).unwrap();
             [own.position()[0], own.velocity()[0], own.energy(), time].map(f64::to_bits)
         });
         bits.collect::<Vec<_>>()
@@ -163,6 +167,6 @@ fn a_burn_resumes() {
     assert_eq!(one, other);
     let burnt = whole
         .all()
-        .filter(|own| own.scalar(ProgrammedBurn::<1>::BURN_FRACTION) == Some(1.0));
+        .filter(|own| own.scalar(ProgrammedBurn::BURN_FRACTION) == Some(1.0));
     assert!((60..90).contains(&burnt.count()));
 }

@@ -189,9 +189,10 @@ fn booleans_of_meshes_hold_what_points_hold() {
     let (ball, dx) = (Ball::new([0.3, 0.1, 0.0], 1.0), 0.11);
     let [by_row, by_point] = [true, false].map(|by_row| {
         let own = || -> Box<dyn Shape<3>> {
-            match by_row {
-                true => Box::new(mesh.clone()),
-                false => Box::new(PointByPoint(mesh.clone())),
+            if by_row {
+                Box::new(mesh.clone())
+            } else {
+                Box::new(PointByPoint(mesh.clone()))
             }
         };
         [
