@@ -4,7 +4,7 @@
 mod exact;
 
 use crate::parallel::{GRAIN, Pieces, for_each, runs};
-use exact::ExactSum;
+pub(crate) use exact::ExactSum;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 

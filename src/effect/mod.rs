@@ -66,6 +66,7 @@ mod plasticity;
 mod point;
 mod pressure_difference;
 mod program;
+mod programmed_burn;
 mod radial_return;
 #[cfg(test)]
 mod recorded;
@@ -123,6 +124,7 @@ pub use plasticity::Plasticity;
 pub use point::{AtWall, CONSTANTS, Point, PointLaw, PointLimit, PointRate, Reach};
 pub use pressure_difference::{PressureDifference, PressureSlope};
 pub use program::{LedgerColumn, Requirement, SceneFacts, StepProgram};
+pub use programmed_burn::ProgrammedBurn;
 pub use renormalised_hypoelastic::RenormalisedHypoelastic;
 pub use sequence::Rung;
 pub(crate) use sequence::sequence;

@@ -26,6 +26,14 @@ impl<const D: usize, A: Shape<D>, B: Shape<D>> Shape<D> for Union<A, B> {
         );
         a.min(b)
     }
+    fn inside_row(&self, row: &[[f64; D]], inside: &mut [bool]) {
+        let mut second = vec![false; row.len()];
+        self.first.inside_row(row, inside);
+        self.second.inside_row(row, &mut second);
+        for (inside, second) in inside.iter_mut().zip(second) {
+            *inside |= second;
+        }
+    }
     fn bounds(&self) -> ([f64; D], [f64; D]) {
         let (a, b) = (self.first.bounds(), self.second.bounds());
         (
@@ -61,6 +69,14 @@ impl<const D: usize, A: Shape<D>, B: Shape<D>> Shape<D> for Intersection<A, B> {
         );
         a.max(b)
     }
+    fn inside_row(&self, row: &[[f64; D]], inside: &mut [bool]) {
+        let mut second = vec![false; row.len()];
+        self.first.inside_row(row, inside);
+        self.second.inside_row(row, &mut second);
+        for (inside, second) in inside.iter_mut().zip(second) {
+            *inside &= second;
+        }
+    }
     /// The low corner is above the high one where the shapes are apart.
     fn bounds(&self) -> ([f64; D], [f64; D]) {
         let (a, b) = (self.first.bounds(), self.second.bounds());
@@ -89,6 +105,12 @@ impl<S> Complement<S> {
 impl<const D: usize, S: Shape<D>> Shape<D> for Complement<S> {
     fn signed_distance(&self, x: &[f64; D]) -> f64 {
         -self.shape.signed_distance(x)
+    }
+    fn inside_row(&self, row: &[[f64; D]], inside: &mut [bool]) {
+        self.shape.inside_row(row, inside);
+        for inside in inside {
+            *inside = !*inside;
+        }
     }
     fn bounds(&self) -> ([f64; D], [f64; D]) {
         ([f64::NEG_INFINITY; D], [f64::INFINITY; D])

@@ -3,6 +3,7 @@
 
 use super::{Flaw, Shape};
 use crate::error::{Error, Problem, Result};
+use crate::parallel::{GRAIN, collect};
 
 /// Most particles that a shape is filled with; more is a slip of the spacing's unit.
 pub(crate) const MOST_PARTICLES: f64 = 4e9;
@@ -51,8 +52,8 @@ pub(crate) fn filled<const D: usize>(
     spacing: f64,
     origin: [f64; D],
 ) -> core::result::Result<Vec<[f64; D]>, Flaw> {
-    lattice(shape, spacing, origin, 0.0, |x| {
-        is_inside(shape.signed_distance(x))
+    lattice(shape, spacing, origin, 0.0, |row, inside| {
+        shape.inside_row(row, inside);
     })
 }
 
@@ -122,12 +123,17 @@ pub fn layers<const D: usize>(
         !is_inside(distance)
             && (distance <= near || distance <= far && has_inside(shape, x, steps, spacing))
     };
-    lattice(shape, spacing, origin, thickness + spacing, belongs).map_err(argument)
+    let mark = |row: &[[f64; D]], belong: &mut [bool]| {
+        for (x, own) in row.iter().zip(belong) {
+            *own = belongs(x);
+        }
+    };
+    lattice(shape, spacing, origin, thickness + spacing, mark).map_err(argument)
 }
 
 /// Whether a distance is that of a point inside. The sign of zero counts: it is the one thing that
 /// differs between a shape and its complement on the surface.
-fn is_inside(distance: f64) -> bool {
+pub(super) fn is_inside(distance: f64) -> bool {
     distance.is_sign_negative()
 }
 
@@ -152,13 +158,13 @@ fn has_inside<const D: usize>(
     }
 }
 
-/// The points of the lattice in the shape's box, widened by `margin` \[m\], that `keep` wants.
+/// The points of the lattice in the shape's box, widened by `margin` \[m\], that `mark` wants of each row.
 fn lattice<const D: usize>(
     shape: &(impl Shape<D> + ?Sized),
     spacing: f64,
     origin: [f64; D],
     margin: f64,
-    keep: impl Fn(&[f64; D]) -> bool,
+    mark: impl Fn(&[[f64; D]], &mut [bool]) + Sync,
 ) -> core::result::Result<Vec<[f64; D]>, Flaw> {
     if let Some(&flaw) = shape.problems().first() {
         return Err(flaw);
@@ -186,21 +192,42 @@ fn lattice<const D: usize>(
         return Err(("number of lattice points", total, FEWER));
     }
     let counts = counts.map(|n| n as usize);
+    // Rows in pieces, so that neither long rows nor many short ones are one thread's.
+    let part = counts[0].clamp(1, GRAIN);
+    let parts = counts[0].div_ceil(part);
+    let rows: usize = counts[1..].iter().product();
+    let together = (GRAIN / part).max(1);
+    let points_of = |piece: usize| {
+        let (mut found, mut row) = (Vec::new(), Vec::with_capacity(part));
+        let mut wanted = vec![false; part];
+        let all = rows * parts;
+        for number in piece * together..all.min((piece + 1) * together) {
+            let start = number % parts * part;
+            let steps = start..counts[0].min(start + part);
+            row.clear();
+            row.extend(steps.map(|step| {
+                let mut rest = number / parts;
+                core::array::from_fn(|d| {
+                    let step = if d == 0 { step } else { rest % counts[d] };
+                    rest /= if d == 0 { 1 } else { counts[d] };
+                    origin[d] + (first[d] + step as f64 + 0.5) * spacing
+                })
+            }));
+            mark(&row, &mut wanted[..row.len()]);
+            let own = || row.iter().zip(&wanted).filter(|(_, wanted)| **wanted);
+            found.try_reserve(own().count()).ok()?;
+            found.extend(own().map(|(x, _)| *x));
+        }
+        Some(found)
+    };
+    let pieces = collect((rows * parts).div_ceil(together), points_of);
+    let short = ("number of lattice points", total, FEWER);
+    let pieces: Vec<Vec<[f64; D]>> = pieces.into_iter().collect::<Option<_>>().ok_or(short)?;
     let mut points = Vec::new();
-    for k in 0..total as usize {
-        if k % counts[0] == 0 && points.try_reserve(counts[0]).is_err() {
-            return Err(("number of lattice points", total, FEWER));
-        }
-        let mut rest = k;
-        let x = core::array::from_fn(|d| {
-            let step = rest % counts[d];
-            rest /= counts[d];
-            origin[d] + (first[d] + step as f64 + 0.5) * spacing
-        });
-        if keep(&x) {
-            points.push(x);
-        }
-    }
+    points
+        .try_reserve(pieces.iter().map(Vec::len).sum())
+        .map_err(|_| short)?;
+    points.extend(pieces.into_iter().flatten());
     Ok(points)
 }
 

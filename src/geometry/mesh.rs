@@ -1,8 +1,9 @@
 //! Shapes from triangle meshes, read from STL files.
 //! Inside is where the winding number is one; the distance is that to the nearest triangle.
 
-use super::Shape;
 use super::overlap::correction;
+use super::rows::Line;
+use super::{Shape, is_inside};
 use crate::error::{Error, Problem, Result};
 use std::collections::HashMap;
 use std::fmt;
@@ -402,6 +403,30 @@ impl Shape<3> for Mesh {
     }
     fn bounds(&self) -> ([f64; 3], [f64; 3]) {
         (self.nodes[0].low, self.nodes[0].high)
+    }
+    /// By the triangles that the line through the row meets, which are found through the tree.
+    fn inside_row(&self, row: &[[f64; 3]], inside: &mut [bool]) {
+        let (Some(first), whole) = (row.first(), &self.nodes[0]) else {
+            return;
+        };
+        let places = whole.low.iter().chain(&whole.high);
+        let largest = places.fold(0.0_f64, |most, x| most.max(x.abs()));
+        let (mut line, mut stack) = (Line::new(first, largest), vec![0]);
+        while let Some(at) = stack.pop() {
+            let node = &self.nodes[at];
+            if !line.meets(&node.low, &node.high) {
+                continue;
+            }
+            if node.second == 0 {
+                let own = &self.triangles[node.first..node.first + node.count];
+                for own in own {
+                    line.add(own);
+                }
+            } else {
+                stack.extend([at + 1, node.second]);
+            }
+        }
+        line.mark(row, inside, |x| is_inside(self.signed_distance(x)));
     }
 }
 

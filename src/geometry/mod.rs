@@ -38,6 +38,8 @@ mod moved;
 mod open_cell;
 #[cfg(feature = "meshes")]
 mod overlap;
+#[cfg(feature = "meshes")]
+mod rows;
 #[cfg(test)]
 mod tests;
 
@@ -50,6 +52,7 @@ pub use boolean::{Complement, Intersection, Union};
 pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
 pub use half_space::HalfSpace;
+use lattice::is_inside;
 pub(crate) use lattice::{FEWER, MOST_PARTICLES, POSITIVE, SWAPPED, filled};
 pub use lattice::{fill, layers};
 #[cfg(feature = "meshes")]
@@ -101,6 +104,17 @@ pub trait Shape<const D: usize>: Debug + Send + Sync {
 
     /// Lowest and highest corner \[m\] of a box that holds the shape, infinite where it has no end.
     fn bounds(&self) -> ([f64; D], [f64; D]);
+
+    /// Whether points of a `row` are inside: points that differ in their first coordinate alone, which rises. Each point by
+    /// its distance if not given.
+    ///
+    /// [`fill`] asks this of the rows of its lattice; a shape that can decide a row at once gives the points that its distance
+    /// gives.
+    fn inside_row(&self, row: &[[f64; D]], inside: &mut [bool]) {
+        for (x, inside) in row.iter().zip(inside) {
+            *inside = is_inside(self.signed_distance(x));
+        }
+    }
 
     /// What is wrong with the parameters, as `(field, value, what it must be)`; nothing if not given.
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
@@ -155,6 +169,9 @@ impl<const D: usize, S: Shape<D> + ?Sized> Shape<D> for Box<S> {
     }
     fn bounds(&self) -> ([f64; D], [f64; D]) {
         (**self).bounds()
+    }
+    fn inside_row(&self, row: &[[f64; D]], inside: &mut [bool]) {
+        (**self).inside_row(row, inside);
     }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         (**self).problems()

@@ -10,10 +10,13 @@ mod conservation;
 mod contact;
 mod convergence;
 mod conversion;
+mod detonation;
 mod elastic_plastic_waves;
 mod events;
 mod exchange;
 mod failed_material;
+#[cfg(feature = "meshes")]
+mod filled_meshes;
 mod gas;
 mod halved_contact;
 mod held;

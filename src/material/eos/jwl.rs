@@ -9,9 +9,9 @@ use crate::scalar::Lane;
 ///
 #[doc = include_str!("../../../docs/equations/jwl.html")]
 ///
-/// Source: Lee, Hornig & Kury (1968). The law is that of the products alone, and does not burn: it has no reaction and no
-/// detonation front. What has burnt starts with the specific energy e = [`detonation_energy`](Self::detonation_energy), which
-/// [`Body::energy`](crate::scene::Body::energy) gives it; a body without it is cold gas at ρ₀, whose pressure is a part of that.
+/// Source: Lee, Hornig & Kury (1968). The law is that of the products alone: it has no reaction and no detonation front, which
+/// [`ProgrammedBurn`](crate::effect::ProgrammedBurn) adds. What has burnt starts with the specific energy
+/// e = [`detonation_energy`](Self::detonation_energy), which [`Body::energy`](crate::scene::Body::energy) gives it; a body without it is cold gas at ρ₀, whose pressure is a part of that.
 /// With the whole charge lit at once (a constant-volume explosion) work and impulse on what is around are right once the wave
 /// has run through it, and the pressure at the start is about half of p_CJ.
 ///
@@ -33,10 +33,6 @@ use crate::scalar::Lane;
 /// assert!((pressure(&charge(0.0)?)? / 6.28e9 - 1.0).abs() < 0.01);
 /// # Ok::<(), Error>(())
 /// ```
-///
-/// A burn that runs at the velocity of detonation D from a point is a heat source by place and time
-/// ([`Load::heating`](crate::simulation::Load::heating)), with the place as built
-/// ([`LoadPoint::as_built`](crate::simulation::LoadPoint::as_built)).
 ///
 /// Guards: below V = 0.3 the law goes on along its tangent in ρ
 /// (`compression`); c stays above a hundredth of its cold value at V = 1.
