@@ -141,6 +141,14 @@ impl Checkpoint {
         self.columns.contains_key(name)
     }
 
+    /// Whether a column with both parts in its name has any number.
+    pub fn has_numbers(&self, first: &str, second: &str) -> bool {
+        let mut all = self.columns.iter();
+        all.any(|(name, own)| {
+            name.contains(first) && name.contains(second) && !own.bytes.is_empty()
+        })
+    }
+
     /// The numbers of a column.
     pub fn get<N: Number>(&self, name: &str) -> Read<Vec<N>> {
         let column = self.columns.get(name);

@@ -10,6 +10,7 @@ mod conservation;
 mod contact;
 mod convergence;
 mod conversion;
+mod driven;
 mod elastic_plastic_waves;
 mod events;
 mod exchange;
