@@ -35,7 +35,7 @@ use std::sync::Arc;
 /// let [x, _] = piston.pose(0.62).of(0, &[0.0, 0.3]);
 /// assert!((x - stroke(0.62)).abs() < 1e-5);
 /// // Rows twice as far apart would change it by this part of its amplitude.
-/// assert!(piston.resolution().is_some_and(|off| off < 1e-3));
+/// assert!(piston.resolution().is_some_and(|off| off < 0.01));
 /// # Ok::<(), meshfree::error::Error>(())
 /// ```
 ///
