@@ -21,14 +21,31 @@
 //! meet. What has no pressure, as a cavitated drop, flies through a plane as its image does: the two change
 //! places, and the drop is on its side again. Such a wall slips along the plane. Walls of other shapes are
 //! [`Wall`]s of particles of their own: they hold liquids, move as [prescribed](Motion), and may deny slip.
+//!
+//! # Motions
+//!
+//! A [`Motion`] moves walls ([`Wall::motion`]) and clamped particles of solids, rigid ones among them
+//! ([`Scene::clamp`](crate::scene::Scene::clamp)).
+//!
+//! | motion | given by |
+//! |---|---|
+//! | [`Translation`] | functions of time, or a record of acceleration |
+//! | [`Rotation`] | an angle as a function of time, about a point or any axis |
+//! | [`Crush`] | a strain as a function of time |
+//! | [`Recorded`] | rows of time and displacement, or of time and angle |
+//! | [`Composed`] | several of them, one after the other |
 
+mod composed;
 mod inlet;
 mod lees_edwards;
 mod mirror;
 mod motion;
 mod outlet;
 mod periodic;
+mod recorded;
+mod rotation;
 mod seen;
+mod spline;
 mod surface;
 mod wall;
 
@@ -36,13 +53,16 @@ use crate::sweep::{Interaction, Transform};
 use core::fmt::Debug;
 use std::sync::Arc;
 
+pub use composed::Composed;
 pub(crate) use inlet::Emitter;
 pub use inlet::Inlet;
 pub use lees_edwards::LeesEdwards;
 pub use mirror::MirrorPlane;
-pub use motion::{Crush, Motion, Pose, Rotation, Translation};
+pub use motion::{Crush, Motion, Pose, Translation};
 pub use outlet::Outlet;
 pub use periodic::Periodic;
+pub use recorded::Recorded;
+pub use rotation::Rotation;
 pub(crate) use seen::{boundary_from, motion_from};
 pub use surface::WallSurface;
 pub use wall::{Slip, Wall};

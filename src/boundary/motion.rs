@@ -2,8 +2,6 @@
 //! A motion is evaluated once a wall and step, and applied to all of its particles.
 
 use crate::error::{Error, Problem, Result};
-use crate::origin::local;
-use crate::scalar::Lane;
 use crate::tensor::{Matrix, Vector, inverse};
 use core::fmt;
 
@@ -27,6 +25,14 @@ impl<const D: usize> Pose<D> {
             shift: [Vector::zeros(), Vector::zeros(), Vector::zeros()],
         }
     }
+    /// That of a time at which there is none: no number.
+    pub(crate) fn nowhere() -> Self {
+        let mut pose = Self::rest();
+        for own in &mut pose.shift {
+            own.fill(f64::NAN);
+        }
+        pose
+    }
     /// Position (`order` 0), velocity (1) or acceleration (2) of the point that was at `x` \[m\].
     #[must_use]
     pub fn of(&self, order: usize, x: &[f64; D]) -> [f64; D] {
@@ -42,6 +48,21 @@ impl<const D: usize> Pose<D> {
             *shift += linear * origin;
         }
         self
+    }
+    /// What follows when `next` moves what this pose has moved: x = A₂ (A₁ X + b₁) + b₂, with its derivatives by the product
+    /// rule.
+    #[must_use]
+    pub fn then(&self, next: &Self) -> Self {
+        let ([a, a1, a2], [b, b1, b2]) = (&next.linear, &self.linear);
+        let ([s, s1, s2], [t, t1, t2]) = (&next.shift, &self.shift);
+        Self {
+            linear: [a * b, a1 * b + a * b1, a2 * b + a1 * b1 * 2.0 + a * b2],
+            shift: [
+                a * t + s,
+                a1 * t + a * t1 + s1,
+                a2 * t + a1 * t1 * 2.0 + a * t2 + s2,
+            ],
+        }
     }
     /// ∇v \[1/s\] of a frame that turns or deforms: v = A′ X + b′ at x = A X + b, so ∂v/∂x = A′ A⁻¹.
     pub(crate) fn velocity_gradient(&self) -> Option<Matrix<f64, D>> {
@@ -91,6 +112,15 @@ pub trait Motion<const D: usize>: Send + Sync {
     /// it knows takes that place less `origin`, and so has the same bits wherever the scene is.
     fn pose_from(&self, origin: &[f64; D], time: f64) -> Pose<D> {
         self.pose(time).seen_from(origin)
+    }
+    /// The times \[s\] between which there is a pose; always by default. A run that goes beyond ends with an error.
+    fn span(&self) -> [f64; 2] {
+        [f64::NEG_INFINITY, f64::INFINITY]
+    }
+    /// An estimate of how far the motion is from what its rows were taken from, over its amplitude, if it is
+    /// [made of rows](super::Recorded). [`Scene::advise`](crate::scene::Scene::advise) judges it.
+    fn resolution(&self) -> Option<f64> {
+        None
     }
 }
 
@@ -260,62 +290,6 @@ impl<const D: usize> Motion<D> for Translation<D> {
     }
 }
 
-/// A rotation about a fixed point in the plane of the first two axes, by an angle given with its rate
-/// and its acceleration.
-pub struct Rotation<const D: usize> {
-    centre: [f64; D],
-    angle: Box<dyn Fn(f64) -> [f64; 3] + Send + Sync>,
-}
-
-impl<const D: usize> Rotation<D> {
-    /// About `centre` \[m\]; `angle` gives θ \[rad\], dθ/dt \[rad/s\] and d²θ/dt² \[rad/s²\], positive
-    /// from the first axis towards the second.
-    #[must_use]
-    pub fn about(
-        centre: [f64; D],
-        angle: impl Fn(f64) -> [f64; 3] + Send + Sync + 'static,
-    ) -> Self {
-        Self {
-            centre,
-            angle: Box::new(angle),
-        }
-    }
-}
-
-impl<const D: usize> Motion<D> for Rotation<D> {
-    fn name(&self) -> String {
-        "rotation".into()
-    }
-    fn pose(&self, time: f64) -> Pose<D> {
-        self.pose_from(&[0.0; D], time)
-    }
-    fn pose_from(&self, origin: &[f64; D], time: f64) -> Pose<D> {
-        let [angle, rate, growth] = (self.angle)(time);
-        let (sine, cosine) = (Lane::sin(angle), Lane::cos(angle));
-        // In the plane: R, R′ = dR/dθ, R″ = −R; elsewhere the identity does not change.
-        let plane = |m: [f64; 4], rest: f64| {
-            Matrix::<f64, D>::from_fn(|a, b| match (a, b) {
-                (0 | 1, 0 | 1) => m[2 * a + b],
-                _ if a == b => rest,
-                _ => 0.0,
-            })
-        };
-        let turn = plane([cosine, -sine, sine, cosine], 1.0);
-        let first = plane([-sine, -cosine, cosine, -sine], 0.0);
-        let second = plane([-cosine, sine, -sine, -cosine], 0.0);
-        let linear = [turn, first * rate, first * growth + second * (rate * rate)];
-        let centre = Vector::from(local(&self.centre, origin));
-        Pose {
-            shift: [
-                centre - linear[0] * centre,
-                -(linear[1] * centre),
-                -(linear[2] * centre),
-            ],
-            linear,
-        }
-    }
-}
-
 /// A uniform compression along one axis towards a plane that stays: x = X₀ + (1 − ε(t)) (X − X₀).
 pub struct Crush<const D: usize> {
     axis: usize,
@@ -362,11 +336,12 @@ impl<const D: usize> Motion<D> for Crush<D> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
+    use super::super::Rotation;
     use super::*;
 
     /// Velocity and acceleration are the differences of position and velocity.
-    fn derivatives_agree<const D: usize>(motion: &dyn Motion<D>, x: [f64; D]) {
+    pub(crate) fn derivatives_agree<const D: usize>(motion: &dyn Motion<D>, x: [f64; D]) {
         let (time, dt) = (0.37, 1e-5);
         for order in 0..2 {
             let before = motion.pose(time - dt).of(order, &x);

@@ -101,4 +101,10 @@ impl<const D: usize> Motion<D> for MotionFrom<D> {
     fn pose(&self, time: f64) -> Pose<D> {
         self.motion.pose_from(&self.origin, time)
     }
+    fn span(&self) -> [f64; 2] {
+        self.motion.span()
+    }
+    fn resolution(&self) -> Option<f64> {
+        self.motion.resolution()
+    }
 }

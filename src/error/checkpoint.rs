@@ -38,7 +38,8 @@ pub enum CheckpointProblem {
     },
     /// It is of another scene.
     #[error(
-        "it was written by another scene, which differs in {}{}: resume with the scene that wrote it",
+        "it was written by another scene, which differs in {}{}: resume with the scene that wrote it, or name what \
+         may be another by `Scene::resume_with`",
         parts.join(", "), in_brackets(.values)
     )]
     Scene {
@@ -58,10 +59,17 @@ pub enum CheckpointProblem {
     },
 }
 
+/// Most differences that a message tells.
+const MOST: usize = 20;
+
 /// The values in brackets, or nothing if there are none.
 fn in_brackets(values: &[String]) -> String {
     if values.is_empty() {
         return String::new();
     }
-    format!(" ({})", values.join("; "))
+    let told = values[..values.len().min(MOST)].join("; ");
+    match values.len().saturating_sub(MOST) {
+        0 => format!(" ({told})"),
+        left => format!(" ({told}; and {left} more)"),
+    }
 }

@@ -4,6 +4,7 @@
 #[cfg(feature = "checkpoint")]
 pub(crate) mod checkpoint;
 pub mod csv;
+pub(crate) mod hash;
 pub mod picture;
 #[cfg(feature = "pictures")]
 pub mod png;

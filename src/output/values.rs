@@ -10,9 +10,6 @@ pub(crate) struct Values(Vec<(String, String)>);
 /// Between a name and its value in a file.
 const BETWEEN: char = '\u{1f}';
 
-/// Most differences that are told.
-const MOST: usize = 5;
-
 /// A longer value is told by its begin.
 const LONGEST: usize = 120;
 
@@ -89,37 +86,27 @@ impl Values {
         )
     }
 
-    /// In words, what the values of a file are that are others in a scene, the first few.
-    pub fn differences(&self, scene: &Self) -> Vec<String> {
+    /// The values that a condition picks by name and value.
+    pub fn of(&self, picks: impl Fn(&str, &str) -> bool) -> Vec<&str> {
+        let picked = self.0.iter().filter(|(name, value)| picks(name, value));
+        picked.map(|(_, value)| value.as_str()).collect()
+    }
+
+    /// The names of what is another in a scene than in this, which is of a file, with both values; none where it is not.
+    pub fn differing(&self, scene: &Self) -> Vec<(String, Option<String>, Option<String>)> {
         let find = |all: &Self, name: &str| {
             let found = all.0.iter().find(|own| own.0 == name);
-            found.map(|own| short(&own.1))
+            found.map(|own| own.1.clone())
         };
-        let of_file = self
-            .0
-            .iter()
-            .filter_map(|(name, value)| match find(scene, name) {
-                Some(own) if own == short(value) => None,
-                Some(own) => Some(format!(
-                    "{name} is {} in the file and {own} in the scene",
-                    short(value)
-                )),
-                None => Some(format!(
-                    "{name} is {} in the file and not in the scene",
-                    short(value)
-                )),
-            });
-        let lacking = scene
-            .0
-            .iter()
-            .filter(|(name, _)| find(self, name).is_none());
-        let of_scene = lacking.map(|(name, value)| {
-            format!(
-                "{name} is {} in the scene and not in the file",
-                short(value)
-            )
+        let of_file = self.0.iter().filter_map(|(name, value)| {
+            let own = find(scene, name);
+            let differs = own.as_ref() != Some(value);
+            differs.then(|| (name.clone(), Some(short(value)), own.map(|own| short(&own))))
         });
-        of_file.chain(of_scene).take(MOST).collect()
+        let lacking = scene.0.iter();
+        let lacking = lacking.filter(|(name, _)| find(self, name).is_none());
+        let of_scene = lacking.map(|(name, value)| (name.clone(), None, Some(short(value))));
+        of_file.chain(of_scene).collect()
     }
 }
 
@@ -182,22 +169,19 @@ mod tests {
     fn what_differs_is_told_by_its_name_with_both_values() {
         let own = values(Some(1e-3), 3.0);
         assert_eq!(Values::of_text(&own.text()), own);
-        assert_eq!(own.differences(&own), Vec::<String>::new());
-        let told = own.differences(&values(Some(2e-3), 3.0));
-        assert_eq!(
-            told,
-            ["water.viscosity is 0.001 in the file and 0.002 in the scene"]
-        );
-        let told = own.differences(&values(Some(1e-3), 4.0));
-        assert_eq!(
-            told,
-            ["water.rows[1][1] is 3.0 in the file and 4.0 in the scene"]
-        );
-        let told = own.differences(&values(None, 3.0));
-        assert_eq!(
-            told,
-            ["water.viscosity is 0.001 in the file and None in the scene"]
-        );
+        assert_eq!(own.differing(&own), Vec::new());
+        let told = |scene| {
+            let told = own.differing(&scene);
+            assert_eq!(told.len(), 1);
+            let (what, file, scene) = told[0].clone();
+            [what, file.unwrap(), scene.unwrap()]
+        };
+        let other = values(Some(2e-3), 3.0);
+        assert_eq!(told(other), ["water.viscosity", "0.001", "0.002"]);
+        let other = values(Some(1e-3), 4.0);
+        assert_eq!(told(other), ["water.rows[1][1]", "3.0", "4.0"]);
+        let other = values(None, 3.0);
+        assert_eq!(told(other), ["water.viscosity", "0.001", "None"]);
     }
 
     #[test]

@@ -7,6 +7,8 @@ use crate::origin::middle;
 #[cfg(feature = "checkpoint")]
 use crate::output::checkpoint::Checkpoint;
 use crate::scalar::Real;
+#[cfg(feature = "checkpoint")]
+use crate::simulation::{Change, Changes, Difference, RARE, differences};
 use crate::simulation::{Group, Simulation};
 #[cfg(feature = "checkpoint")]
 use std::path::Path;
@@ -45,10 +47,15 @@ impl<T: Real, const D: usize> Building<T, D> {
     }
 
     #[cfg(feature = "checkpoint")]
-    fn resume(&mut self, path: &Path) -> Result<()> {
-        once!(self => &mut Building, |own, path: &Path| -> Result<()> {
+    fn resume(&mut self, path: &Path, changes: &[Change]) -> Result<()> {
+        once!(self => &mut Building, |own, path: &Path, changes: &[Change]| -> Result<()> {
             let file = Checkpoint::read(path)?;
-            own.simulation = Some(own.scene().lay_out()?.resumed(path, &file)?);
+            let changes = Changes::new(changes);
+            // Walls that are elsewhere would move the place from which columns count.
+            let origin = file.get_array("origin").ok();
+            let origin = origin.filter(|_| changes.has(Change::Walls));
+            let simulation = own.scene().lay_out(origin)?;
+            own.simulation = Some(simulation.resumed(path, &file, changes)?);
             Ok(())
         })
     }
@@ -65,7 +72,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
 
     fn built(self) -> Result<Simulation<T, D>> {
         let fixed = self.control.fixed;
-        let mut simulation = self.lay_out()?;
+        let mut simulation = self.lay_out(None)?;
         simulation.hold_velocities();
         simulation.take_references();
         let problems = simulation.isolated();
@@ -102,17 +109,68 @@ impl<T: Real, const D: usize> Scene<T, D> {
     /// [`Error::Build`] as [`build`](Self::build).
     #[cfg(feature = "checkpoint")]
     pub fn resume(self, path: impl AsRef<Path>) -> Result<Simulation<T, D>> {
-        Building::of(self).simulation(|own| own.resume(path.as_ref()))
+        self.resume_with(path, &[])
+    }
+
+    /// Goes on from a checkpoint of a scene that differs from this one in parts that `changes` names: with another integrator,
+    /// viscosity, load, motion or wall. What is not named must be the same.
+    ///
+    /// Rates are evaluated anew at the state of the file, so the run is the one in which the change happens at the end of
+    /// its last step. Where steps, outlets and events alone are named, or motions while no clamp holds anything, the
+    /// rates in the file are kept. Ledgers count on.
+    ///
+    /// ```
+    /// use meshfree::integrator::DriftKickDrift;
+    /// use meshfree::prelude::*;
+    /// use meshfree::simulation::Change;
+    /// # let file = std::env::temp_dir().join(format!("meshfree-changed-{}", std::process::id()));
+    /// let rod = |velocity| Scene::<f64, 1>::new(schemes::impact())
+    ///     .body(Body::block("rod", catalogue::copper(), [0.0], [0.01], 2e-4).velocity([velocity]))
+    ///     .boundary(MirrorPlane::wall([0.01], [1.0]));
+    /// let mut simulation = rod(20.0).build()?;
+    /// simulation.run_until(1e-6)?;
+    /// simulation.save(&file)?;
+    /// // The integrator may be another if it is named, and a body may not.
+    /// let other = || rod(20.0).integrator(DriftKickDrift);
+    /// assert_eq!(other().differences(&file)?[0].file.as_deref(), Some("KickDriftKick"));
+    /// assert!(other().resume(&file).is_err());
+    /// other().resume_with(&file, &[Change::Integrator])?.run_until(2e-6)?;
+    /// let error = rod(10.0).resume_with(&file, &[Change::Integrator]).err();
+    /// # let _ = std::fs::remove_file(file);
+    /// assert!(error.is_some_and(|error| error.to_string().contains("is 20.0 in the file and 10.0 in the scene")));
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`resume`](Self::resume), with all differences that `changes` does not cover.
+    #[cfg(feature = "checkpoint")]
+    pub fn resume_with(
+        self,
+        path: impl AsRef<Path>,
+        changes: &[Change],
+    ) -> Result<Simulation<T, D>> {
+        Building::of(self).simulation(|own| own.resume(path.as_ref(), changes))
+    }
+
+    /// All that is other in this scene than in the one that wrote a checkpoint, with both values.
+    ///
+    /// # Errors
+    /// [`Error::File`] and [`Error::Checkpoint`] if the file cannot be read.
+    #[cfg(feature = "checkpoint")]
+    pub fn differences(&self, path: impl AsRef<Path>) -> Result<Vec<Difference>> {
+        let file = Checkpoint::read(path.as_ref())?;
+        let described = (&self.hashes(), &self.values());
+        Ok(differences(described, &RARE, &file))
     }
 
     /// The simulation before anything is summed.
-    fn lay_out(self) -> Result<Simulation<T, D>> {
+    fn lay_out(self, origin: Option<[f64; D]>) -> Result<Simulation<T, D>> {
         let problems = self.problems();
         if !problems.is_empty() {
             return Err(Error::Build(BuildError { problems }));
         }
         let domain = self.domain();
-        let origin = self.origin();
+        let origin = origin.unwrap_or_else(|| self.origin());
         let groups: Vec<_> = self.plans().map(|plan| plan.lay_out(origin)).collect();
         let built = self.places_as_built(&groups);
         let couples = self.couples(&origin);

@@ -2,6 +2,7 @@
 //! Events are part of the state, so a run that resumes goes on to the same bits.
 
 use super::Scene;
+use crate::boundary::Motion;
 use crate::error::Problem;
 use crate::scalar::Real;
 use crate::simulation::{Event, Simulation};
@@ -60,6 +61,78 @@ impl<T: Real, const D: usize> Scene<T, D> {
         scene
     }
 
+    /// Clamps particles that move as `motion` has it, as [`clamp`](Self::clamp) does, until an [event](Self::event) has
+    /// happened: from the end of that step they are free, with the velocity that they have. All particles of a
+    /// [rigid](Self::rigid) body drive it as a whole.
+    ///
+    /// For a release at a time let a step [end there](Self::step_ends_at).
+    ///
+    /// ```
+    /// use meshfree::prelude::*;
+    /// use meshfree::material::eos::Linear;
+    /// // A box is lowered at 1 m/s for 0.1 s, and let go.
+    /// let wood = Material::new("wood", Linear::new(600.0, 10.0));
+    /// let mut simulation = Scene::<f64, 2>::new(schemes::impact_by_continuity())
+    ///     .body(Body::block("box", wood, [-0.1; 2], [0.1; 2], 0.02))
+    ///     .rigid("box")
+    ///     .clamp_until("box", |_| true, Translation::steady([0.0, -1.0]), "let go")
+    ///     .event("let go", |now| now.time() >= 0.1)
+    ///     .step_ends_at([0.1])
+    ///     .acceleration(|_| [0.0, -9.81])
+    ///     .build()?;
+    /// simulation.run_until(0.3)?;
+    /// let fallen = simulation.body("box")?.next().map_or(0.0, |p| p.position()[1] + 0.09);
+    /// assert!((fallen / -(0.1 + 0.2 + 0.5 * 9.81 * 0.04) - 1.0).abs() < 1e-9);
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[must_use]
+    pub fn clamp_until(
+        self,
+        body: &str,
+        region: impl Fn(&[f64; D]) -> bool + Send + Sync + 'static,
+        motion: impl Motion<D> + 'static,
+        event: &str,
+    ) -> Self {
+        let mut scene = self.fix_until(body, region, event);
+        if let Some(own) = scene.clamps.last_mut() {
+            own.motion = Some(Arc::new(motion));
+        }
+        scene
+    }
+
+    /// Catches the particles of a body for which `region` is true of where they are as built \[m\] when an
+    /// [event](Self::event) has happened: at the end of that step they stop where they are, and stay. Before it they are free.
+    /// The momentum and the kinetic energy that they lose are in the impulse and the work of the clamp
+    /// ([`Simulation::clamps`](crate::simulation::Simulation::clamps)). Catch all of a [rigid](Self::rigid) body.
+    ///
+    /// ```
+    /// use meshfree::prelude::*;
+    /// // A rod flies, and is caught.
+    /// let mut simulation = Scene::<f64, 1>::new(schemes::impact_by_continuity())
+    ///     .body(Body::block("rod", catalogue::copper(), [0.0], [0.01], 2e-4).velocity([20.0]))
+    ///     .event("caught", |now| now.time() >= 1e-6)
+    ///     .fix_from("rod", |_| true, "caught")
+    ///     .build()?;
+    /// let momentum = simulation.ledger().whole.momentum[0];
+    /// simulation.run_until(2e-6)?;
+    /// assert_eq!(simulation.ledger().whole.momentum[0], 0.0);
+    /// assert!((simulation.clamps()[0].impulse[0] / -momentum - 1.0).abs() < 1e-12);
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[must_use]
+    pub fn fix_from(
+        self,
+        body: &str,
+        region: impl Fn(&[f64; D]) -> bool + Send + Sync + 'static,
+        event: &str,
+    ) -> Self {
+        let mut scene = self.fix(body, region);
+        if let Some(own) = scene.clamps.last_mut() {
+            own.since = Some(event.into());
+        }
+        scene
+    }
+
     /// Keeps a solid body where it is, at rest, until it first feels another body, a wall or a boundary: from the end of the
     /// step in which it does it moves freely. The momentum that it is given in that step the clamp takes, and books
     /// ([`Simulation::clamps`](crate::simulation::Simulation::clamps)).
@@ -98,7 +171,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 });
             }
         }
-        let waits = self.clamps.iter().filter_map(|own| own.until.as_ref());
+        let waits = self.clamps.iter();
+        let waits = waits.flat_map(|own| own.since.iter().chain(&own.until));
         let waits = waits.chain(self.exchanges.iter().map(|own| &own.event));
         for name in waits.filter(|name| !self.events.iter().any(|own| own.name == **name)) {
             let known = self.events.iter().map(|own| format!("`{}`", own.name));

@@ -98,7 +98,10 @@ impl<T: Real, const D: usize> Scene<T, D> {
         // Files of scenes without events are as they were.
         if !events.is_empty() {
             let until: Vec<_> = clamps.iter().map(|own| &own.until).collect();
-            all.push(("events", of_texts([debug(events), debug(until)])));
+            let since: Vec<_> = clamps.iter().filter_map(|own| own.since.as_ref()).collect();
+            let since = (!since.is_empty()).then(|| debug(since));
+            let texts = [debug(events), debug(until)].into_iter().chain(since);
+            all.push(("events", of_texts(texts)));
         }
         if !exchanges.is_empty() {
             let text = |own: &super::ExchangeOf<T, D>| {
@@ -136,7 +139,38 @@ impl<T: Real, const D: usize> Scene<T, D> {
             walls.all(&format!("{name}.motion"), &wall.motion);
             walls.all(&format!("{name}.slip"), &wall.slip);
             walls.all(&format!("{name}.sliding"), &wall.sliding);
+            walls.all(&format!("{name}.container_frame"), &wall.container_frame);
+            let mut hash = Hash::new();
+            hash.numbers(wall.points.as_flattened());
+            let hash = format!("{:016x}", hash.value());
+            walls.one(format!("hash of positions of {name}"), hash);
         }
+        let mut held = Values::default();
+        for (k, own) in self.clamps.iter().enumerate() {
+            let name = format!("clamp {} of `{}`", k + 1, own.body);
+            let points = self.bodies().find(|body| body.name == own.body);
+            let points = points.map_or(&[][..], |body| &body.points);
+            let mut hash = Hash::new();
+            text(&mut hash, own.particles(points));
+            let hash = format!("{:016x}", hash.value());
+            held.one(format!("hash of particles of {name}"), hash);
+            held.all(&format!("{name}.motion"), &own.motion);
+            held.all(&format!("{name}.since"), &own.since);
+            held.all(&format!("{name}.until"), &own.until);
+        }
+        held.one("rigid bodies", self.rigid.join(", "));
+        let mut loads = Values::default();
+        let count = self.accelerations.len().to_string();
+        loads.one("number of uniform accelerations", count);
+        for (k, load) in self.loads.iter().enumerate() {
+            loads.one(format!("load {}", k + 1), load.to_string());
+        }
+        let mut couplings = Values::default();
+        for (k, own) in self.couplings.iter().enumerate() {
+            let own = (&own.first, &own.second, &own.coupling, own.exclusion);
+            couplings.all(&format!("coupling {}", k + 1), &own);
+        }
+        couplings.all("sub-cycled", &self.sub_cycled);
         let all = |name: &str, value: &dyn Debug| {
             let mut values = Values::default();
             values.all(name, &value);
@@ -154,6 +188,14 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 "what bodies do to each other",
                 all("between", &self.contacts),
             ),
+            ("clamps and rigid bodies", held),
+            ("the loads", loads),
+            ("couplings and sub-cycling", couplings),
+            (
+                "times at which steps end",
+                all("step_ends", &self.step_ends),
+            ),
+            ("events", all("events", &self.events)),
             ("the choice of steps", all("steps", &self.control)),
             ("the skin of neighbour lists", all("skin", &self.skin)),
         ]

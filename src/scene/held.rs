@@ -17,11 +17,17 @@ pub(super) struct ClampOf<const D: usize> {
     pub body: String,
     pub region: Region<D>,
     pub motion: Option<Arc<dyn Motion<D>>>,
-    /// The event that ends it.
+    /// The event that begins it, and the one that ends it.
+    pub since: Option<String>,
     pub until: Option<String>,
 }
 
 impl<const D: usize> ClampOf<D> {
+    /// Whether no event begins or ends it.
+    pub fn is_for_good(&self) -> bool {
+        self.since.is_none() && self.until.is_none()
+    }
+
     /// The numbers and places of those of some points that are clamped.
     pub fn particles(&self, points: &[[f64; D]]) -> Vec<(u32, [f64; D])> {
         let own = points.iter().enumerate().filter(|(_, x)| (self.region)(x));
@@ -63,13 +69,15 @@ impl<T: Real, const D: usize> Scene<T, D> {
             body: body.into(),
             region: Box::new(region),
             motion: None,
+            since: None,
             until: None,
         });
         self
     }
 
     /// The same with particles that move as `motion` has it, whose acceleration they are given: they start with its
-    /// velocity, and follow its path as exactly as the integrator does.
+    /// velocity, and follow its path as exactly as the integrator does. A clamp of all particles of a
+    /// [rigid](Self::rigid) body drives it as a whole.
     #[must_use]
     pub fn clamp(
         self,
@@ -128,10 +136,15 @@ impl<T: Real, const D: usize> Scene<T, D> {
         for (k, body) in self.parts[number].bodies.iter().enumerate() {
             let clamps = self.clamps.iter().filter(|own| own.body == body.name);
             group.held.clamps.extend(clamps.map(|own| {
-                let until = own.until.as_ref();
+                let event = |name: &Option<String>| {
+                    let name = name.as_ref()?;
+                    self.events.iter().position(|own| own.name == *name)
+                };
                 let particles = own.particles(&body.points).into_iter();
                 Clamp {
-                    until: until.and_then(|name| self.events.iter().position(|e| e.name == *name)),
+                    since: event(&own.since),
+                    until: event(&own.until),
+                    is_free: own.since.is_some(),
                     ..Clamp::new(
                         k,
                         particles.map(|(k, x)| (k, local(&x, origin))).collect(),

@@ -62,17 +62,26 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 }
             }
         }
-        self.release_clamps();
     }
 
-    /// Lets go of what is held until something that has happened.
-    pub(super) fn release_clamps(&mut self) {
+    /// Lets clamps begin and end by what has happened, and, after a step, stops what they catch; whether any changed.
+    pub(super) fn follow_clamps(&mut self, catches: bool) -> bool {
         let happened = &self.state.happened;
+        let has = |event: Option<usize>| event.map(|event| happened[event].1.is_some());
+        let mut any = false;
         for group in &mut self.state.groups {
-            for own in &mut group.held.clamps {
-                own.released = own.until.is_some_and(|event| happened[event].1.is_some());
+            for k in 0..group.held.clamps.len() {
+                let own = &mut group.held.clamps[k];
+                let is_free = has(own.since) == Some(false) || has(own.until) == Some(true);
+                let changed = core::mem::replace(&mut own.is_free, is_free) != is_free;
+                if changed && catches && !is_free {
+                    let time = self.state.time;
+                    group.held.take_hold(k, &mut group.particles, time);
+                }
+                any |= changed;
             }
         }
+        any
     }
 
     /// Whether a body feels another body, a wall or a boundary, or a coupling has pairs that act on it.

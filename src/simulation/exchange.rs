@@ -55,9 +55,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         any
     }
 
-    /// The same after a step, with rates anew where any changed.
+    /// The same after a step, and clamps that begin or end, with rates anew where any changed.
     pub(super) fn follow_events(&mut self) -> Result<()> {
-        if self.exchange_schemes() {
+        let held = self.follow_clamps(true);
+        if self.exchange_schemes() || held {
             self.forget_rates();
             self.evaluate_together()?;
         }

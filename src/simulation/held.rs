@@ -36,9 +36,10 @@ pub(crate) struct Clamp<const D: usize> {
     pub particles: Vec<(u32, [f64; D])>,
     /// How they move; not at all if not given.
     pub motion: Option<Arc<dyn Motion<D>>>,
-    /// The number of the event that ends it, and whether that has happened.
+    /// The numbers of the events that begin and end it, and whether it holds nothing by them.
+    pub since: Option<usize>,
     pub until: Option<usize>,
-    pub released: bool,
+    pub is_free: bool,
     /// What holds each of them \[N\] against forces of its group, and against those of couplings where it sub-cycles.
     pub forces: [Vec<[f64; D]>; 2],
     /// Momentum \[kg m/s\] and work \[J\] that these have given since the start.
@@ -94,8 +95,9 @@ impl<const D: usize> Clamp<D> {
             body,
             particles,
             motion,
+            since: None,
             until: None,
-            released: false,
+            is_free: false,
             forces: [Vec::new(), Vec::new()],
             impulse: [0.0; D],
             work: 0.0,
@@ -279,7 +281,7 @@ impl<const D: usize> Held<D> {
             let pose = motion.map(|motion| motion.pose(time));
             let given = &mut own.forces[usize::from(coupled)];
             given.clear();
-            if own.released {
+            if own.is_free {
                 continue;
             }
             for (id, rest) in &own.particles {
@@ -320,6 +322,36 @@ impl<const D: usize> Held<D> {
         }
     }
 
+    /// Gives what one of its clamps takes hold of at `time` \[s\] the velocity that it has there, and books what that gives.
+    pub fn take_hold<T: Real>(&mut self, clamp: usize, particles: &mut Particles<T, D>, time: f64) {
+        let own = &mut self.clamps[clamp];
+        let pose = own.motion.as_ref().map(|motion| motion.pose(time));
+        let after = |rest: &[f64; D]| pose.as_ref().map_or([0.0; D], |pose| pose.of(1, rest));
+        let (momentum, energy) = over(0..own.particles.len(), |k| {
+            let (id, rest) = &own.particles[k];
+            let Some(slot) = particles.slots_of(own.body, *id).next() else {
+                return ([0.0; D], 0.0);
+            };
+            let before = particles.columns.vectors(Field::VELOCITY)[slot].map(Real::to_f64);
+            let mass = particles.columns.raw(Field::MASS)[slot].to_f64();
+            let after = after(rest);
+            let squared = |v: &[f64; D]| v.iter().map(|v| v * v).sum::<f64>();
+            (
+                core::array::from_fn(|d| mass * (after[d] - before[d])),
+                0.5 * mass * (squared(&after) - squared(&before)),
+            )
+        });
+        for (sum, given) in own.impulse.iter_mut().zip(momentum) {
+            *sum += given;
+        }
+        own.work += energy;
+        for (id, rest) in &own.particles {
+            let slots = particles.slots_of(own.body, *id);
+            let v = after(rest).map(T::from_f64);
+            particles.columns.vectors_mut(Field::VELOCITY)[slots].fill(v);
+        }
+    }
+
     /// Lets rigid bodies know what periods are about to bring back of them at `time` \[s\].
     pub fn note_periods<T: Real>(
         &mut self,
@@ -354,7 +386,7 @@ impl<const D: usize> Held<D> {
 
     /// Gives what is held velocities that it can have.
     fn hold_velocities<T: Real>(&self, particles: &mut Particles<T, D>, time: f64) {
-        for own in &self.clamps {
+        for own in self.clamps.iter().filter(|own| !own.is_free) {
             let pose = own.motion.as_ref().map(|motion| motion.pose(time));
             for (id, rest) in &own.particles {
                 let v = pose.as_ref().map_or([0.0; D], |pose| pose.of(1, rest));

@@ -123,6 +123,9 @@
 //! | rates at hand, what integrators keep, the state of inlets | the integrator, and how steps are chosen | what an integrator or an effect of your own keeps outside of fields |
 //! | the positions that neighbour lists were built from, not the lists | | |
 //!
+//! `Scene::resume_with` takes a scene that differs in parts that it names, such as the integrator, viscosities, walls or
+//! loads (`Change`), and `Scene::differences` lists in what a file and a scene differ, with both values.
+//!
 //! A file knows its scene by hashes of all that can be hashed; of a load its presence, kind and body, and of a motion its
 //! name. It is refused with an [`Error::Checkpoint`] that says why if it is cut short or altered, of another scene, scalar,
 //! dimension or lane width, or if its loops ran on instructions that the machine lacks; where the machine has
@@ -187,6 +190,10 @@ mod which;
 mod work;
 mod workspace;
 
+#[cfg(feature = "checkpoint")]
+pub use checkpoint::{Change, Difference};
+#[cfg(feature = "checkpoint")]
+pub(crate) use checkpoint::{Changes, RARE, differences};
 pub use control::StepControl;
 pub use cost::{Cost, CostLine};
 pub use couplings::Contact;

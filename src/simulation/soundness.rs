@@ -4,7 +4,7 @@
 use super::Simulation;
 use super::limits::are_finite;
 use super::population::Particles;
-use crate::boundary::Pose;
+use crate::boundary::{Motion, Pose};
 use crate::collective::{over, over_pieces};
 use crate::effect::StepProgram;
 use crate::error::{Error, Problem, Result};
@@ -109,6 +109,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let Some(motion) = &wall.motion else {
                 continue;
             };
+            check_span(&**motion, end, || format!("wall `{}`", wall.name))?;
             let (before, after) = (motion.pose(time), motion.pose(end));
             let beside = |x: &[f64; D]| {
                 let [from, to] = [&before, &after].map(|pose| (pose.of(0, x), pose.of(1, x)));
@@ -159,11 +160,15 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Refuses clamps that move to where no place is.
     fn check_clamps(&self, time: f64) -> Result<()> {
         for group in &self.state.groups {
-            for clamp in group.held.clamps.iter().filter(|own| !own.released) {
+            for clamp in group.held.clamps.iter().filter(|own| !own.is_free) {
+                let body = &group.particles.bodies[clamp.body].name;
+                let whose = || format!("a clamp of body `{body}`");
+                if let Some(motion) = &clamp.motion {
+                    check_span(&**motion, time, whose)?;
+                }
                 let pose = clamp.motion.as_ref().map(|motion| motion.pose(time));
                 if let Some(value) = pose.as_ref().and_then(not_finite) {
-                    let body = &group.particles.bodies[clamp.body].name;
-                    return Err(no_motion(format!("a clamp of body `{body}`"), value, time));
+                    return Err(no_motion(whose(), value, time));
                 }
             }
         }
@@ -176,6 +181,25 @@ pub(crate) fn not_finite<const D: usize>(pose: &Pose<D>) -> Option<f64> {
     let linear = pose.linear.iter().flat_map(|a| a.iter());
     let shift = pose.shift.iter().flat_map(|b| b.iter());
     linear.chain(shift).copied().find(|x| !x.is_finite())
+}
+
+/// Refuses a time \[s\] at which a motion is no more, or not yet.
+fn check_span<const D: usize>(
+    motion: &dyn Motion<D>,
+    time: f64,
+    whose: impl Fn() -> String,
+) -> Result<()> {
+    let [first, last] = motion.span();
+    if (first..=last).contains(&time) {
+        return Ok(());
+    }
+    Err(Error::Function {
+        what: format!("motion of {} ({})", whose(), motion.name()),
+        value: f64::NAN,
+        time,
+        must_be: "the run goes beyond its rows: record it for longer, end the run before, or let it rest there by \
+                  Recorded::at_rest_beyond",
+    })
 }
 
 fn no_motion(of: String, value: f64, time: f64) -> Error {

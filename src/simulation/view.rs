@@ -94,7 +94,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     fn leave_last_step(&mut self) {
         if let Reading::Between(_) = mem::replace(&mut self.shown, Reading::LastStep) {
             self.watch_events();
-            if self.exchange_schemes() {
+            let held = self.follow_clamps(true);
+            if self.exchange_schemes() || held {
                 self.state.rates_at_hand = false;
             }
         }

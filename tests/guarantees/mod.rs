@@ -7,6 +7,8 @@ mod approach;
 mod bad_input;
 mod bits;
 mod causes;
+#[cfg(feature = "checkpoint")]
+mod changes;
 mod counted_work;
 mod entries;
 mod filled;

@@ -23,6 +23,7 @@ mod manufactured;
 mod mirror_planes;
 mod off_lattice;
 mod penalty_structure;
+mod recorded_motion;
 mod riemann_walls;
 mod sampling;
 mod sloshing;

@@ -360,7 +360,7 @@ fn what_cannot_be_held_is_refused() {
         ),
         (scene().rigid("bar"), "there is no body called `bar`"),
         (
-            scene().rigid("rod").fix("rod", |_| true),
+            scene().rigid("rod").fix("rod", |x| x[0] < 0.55),
             "is rigid, and particles of it are clamped",
         ),
         (

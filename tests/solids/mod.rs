@@ -11,6 +11,7 @@ mod contact;
 mod convergence;
 mod conversion;
 mod detonation;
+mod driven;
 mod elastic_plastic_waves;
 mod events;
 mod exchange;

@@ -187,6 +187,10 @@ scales! {
         Impossible "too few particles across to bend or flow: take a finer spacing", below 4.0;
         Optional "at the limit of what bends or flows", below 5.0;
         => Skip "resolved";
+    ROWS "rows of a recorded motion", "|s_2 - s|/A":
+        Skip "the rows resolve the motion", below 0.01;
+        Recommend "the greatest accelerations are off by 1.5 to 5 %: give rows at shorter intervals", below 0.1;
+        => Impossible "the rows do not resolve the motion: give rows at shorter intervals";
 }
 
 #[cfg(test)]

@@ -51,6 +51,7 @@
 //! | gas beside the liquid | ρ₂/ρ₁ | < 0.01 without pockets | ≥ 0.01 |
 //! | spacing across a wall, gap or film | thickness/dx | ≥ 5 | impossible < 4 |
 //! | spacing across what bends in three dimensions | thickness/dx | ≥ 7.5 | never: it costs accuracy |
+//! | rows of a [recorded motion](crate::boundary::Recorded) | how far the spline through every other row s₂ passes the rows, over the amplitude A | < 0.01 | impossible ≥ 0.1 |
 //!
 //! They are estimates of orders of magnitude, and their bands customary ones: a number near a bound says little.
 //! An [ablation](crate::study::ablation) tells what an effect really changes.
@@ -60,6 +61,7 @@ mod known;
 mod liquids;
 mod measures;
 mod print;
+mod rows;
 mod solids;
 mod viscous;
 
@@ -199,6 +201,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         self.advise_on_liquids(&measures, known, &mut advice);
         self.advise_on_solids(&measures, known, &mut advice);
         self.advise_on_spacing(known, &mut advice);
+        self.advise_on_rows(&mut advice);
         advice
     }
 

@@ -32,19 +32,23 @@ impl<T: Real, const D: usize> Scene<T, D> {
                     "make a wall of what does not flow (Scene::wall)",
                 );
             }
-            if own.particles(&part.bodies[body].points).is_empty() {
+            let (held, all) = (
+                own.particles(&part.bodies[body].points).len(),
+                part.bodies[body].points.len(),
+            );
+            if held == 0 {
                 incompatible(
                     format!("a clamp of body `{}` holds none of its particles", own.body),
                     "choose a region that holds some: it is asked for places as built, in metres",
                 );
             }
-            if self.rigid.contains(&own.body) {
+            if self.rigid.contains(&own.body) && held != all {
                 incompatible(
                     format!(
-                        "body `{}` is rigid, and particles of it are clamped",
+                        "body `{}` is rigid, and particles of it are clamped: {held} of {all}",
                         own.body
                     ),
-                    "clamp all of a body that is not rigid to give it a motion, or leave the clamp out",
+                    "clamp all of it to give it a motion, or leave the clamp out",
                 );
             }
         }
@@ -76,6 +80,22 @@ impl<T: Real, const D: usize> Scene<T, D> {
                     "bound the scene by walls of particles (Scene::wall), which it meets by a contact that Scene::couple \
                      names, or leave Scene::rigid out and give it an elastic material",
                 );
+            }
+        }
+        let walls = self.walls.iter();
+        let walls = walls.map(|own| (format!("wall `{}`", own.name), &own.motion));
+        let clamps = self.clamps.iter();
+        let clamps = clamps.map(|own| (format!("a clamp of body `{}`", own.body), &own.motion));
+        for (whose, motion) in walls.chain(clamps) {
+            let Some(motion) = motion else { continue };
+            let [first, last] = motion.span();
+            if !(first..=last).contains(&0.0) {
+                problems.push(Problem::Parameter {
+                    what: format!("first time of the motion of {whose} ({})", motion.name()),
+                    value: first,
+                    must_be: "a run starts at t = 0, where it has no place: give it rows from there on, or let it rest \
+                              there by Recorded::at_rest_beyond",
+                });
             }
         }
         let named = self.clamps.iter().map(|own| &own.body).chain(&self.rigid);

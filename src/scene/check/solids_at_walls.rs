@@ -67,7 +67,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         }
         let mut free = vec![true; body.points.len()];
         let clamps = self.clamps.iter();
-        for own in clamps.filter(|own| own.body == body.name && own.until.is_none()) {
+        for own in clamps.filter(|own| own.body == body.name && own.is_for_good()) {
             for (k, _) in own.particles(&body.points) {
                 free[k as usize] = false;
             }

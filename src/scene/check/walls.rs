@@ -120,7 +120,9 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                 };
                 parameter("spacing", wall.spacing, must_be);
             }
-            let pose = wall.motion.as_ref().map(|motion| motion.pose(0.0));
+            // What has no place yet is told with its span.
+            let motion = wall.motion.as_ref().filter(|own| own.span()[0] <= 0.0);
+            let pose = motion.map(|motion| motion.pose(0.0));
             let finite = |pose: &Pose<D>| {
                 (0..3).all(|order| {
                     let shift = pose.shift[order].iter();

@@ -1,9 +1,11 @@
 //! What a checkpoint holds of a group: what it is made of, what couplings have done to it, and what is counted.
 //! Of walls it is what follows the bodies that they are.
 
+use super::change::{Change, Changes};
 use super::held::{put_held, take_held};
 use super::particles::{check_run, put_particles, take_particles};
 use super::workspace::{put_neighborhood, put_workspace, take_neighborhood, take_workspace};
+use crate::boundary::Pose;
 use crate::material::eos::GuardCounts;
 use crate::output::checkpoint::{Checkpoint, Read, damaged};
 use crate::scalar::Real;
@@ -12,6 +14,7 @@ use crate::simulation::group::Group;
 use crate::simulation::soundness::NEGATIVE_ENERGY;
 use crate::simulation::sub_cycle::SubCycle;
 use crate::simulation::walls::Structure;
+use crate::simulation::workspace::Workspace;
 
 impl<T: Real, const D: usize> Group<T, D> {
     pub(super) fn put(&self, name: &str, file: &mut Checkpoint) {
@@ -91,7 +94,12 @@ impl<T: Real, const D: usize> Group<T, D> {
         file.put(format!("{name}/limited"), 1, counts);
     }
 
-    pub(super) fn take_state(&mut self, name: &str, file: &Checkpoint) -> Read<()> {
+    pub(super) fn take_state(
+        &mut self,
+        name: &str,
+        file: &Checkpoint,
+        changes: Changes<'_>,
+    ) -> Read<()> {
         let scheme = self.scheme.clone();
         let layers = file.get_all(&format!("{name}/handed_over"), self.emitters.len())?;
         for (emitter, layers) in self.emitters.iter_mut().zip(layers) {
@@ -99,13 +107,20 @@ impl<T: Real, const D: usize> Group<T, D> {
             let buffer = &mut self.walls[emitter.wall];
             buffer.set_motion(emitter.inflow(), &self.particles.origin);
         }
-        take_particles(&mut self.particles, &scheme, name, file)?;
+        take_particles(&mut self.particles, &scheme, (name, file), changes)?;
         for wall in &self.walls {
             check_run(&self.particles, wall.slots.start..wall.end)?;
         }
         let columns = &self.particles.columns;
         let taken = take_neighborhood(&mut self.neighborhood, columns, name, file)?;
-        self.work = take_workspace(columns, &scheme, name, file)?;
+        self.work = if changes.is_anew {
+            Workspace {
+                lengths_time: file.get_one(&format!("{name}/lengths_time"))?,
+                ..Workspace::default()
+            }
+        } else {
+            take_workspace(columns, &scheme, name, file)?
+        };
         // Lists follow from the places and lengths that they were built from.
         let (mut listed, placed_time) = taken;
         let mut exchange = |columns: &mut crate::particles::Columns<T, D>| {
@@ -139,7 +154,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             apart.work = file.get_all(&format!("{name}/apart/work"), bodies)?;
             apart.steps = file.get_one(&format!("{name}/apart/steps"))?;
         }
-        take_held(&mut self.held, name, file)?;
+        take_held(&mut self.held, (name, file), changes)?;
         self.gravity = file.get_array(&format!("{name}/gravity"))?;
         let force = file.get_all_reals::<T>(&format!("{name}/body_force"), D)?;
         self.body_force.copy_from_slice(&force);
@@ -154,10 +169,24 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.limited.clear();
         for (limit, count) in names.lines().zip(counts) {
             let known = limits(&scheme).find(|own| *own == limit);
-            let known = known.ok_or_else(|| damaged(format!("there is no limit `{limit}`")))?;
-            self.limited.push((known, count));
+            match known {
+                Some(known) => self.limited.push((known, count)),
+                None if changes.has(Change::Viscosity) => {}
+                None => return Err(damaged(format!("there is no limit `{limit}`"))),
+            }
         }
         Ok(())
+    }
+
+    /// Brings walls that are none of bodies or inlets to where their motions have them at `time` \[s\], or where they are built.
+    pub(super) fn stand_walls(&mut self, time: f64) {
+        let of_inlets: Vec<usize> = self.emitters.iter().map(|own| own.wall).collect();
+        for (k, wall) in self.walls.iter().enumerate() {
+            if wall.structure.is_none() && !of_inlets.contains(&k) {
+                let pose = wall.pose(time, None).unwrap_or_else(Pose::rest);
+                wall.place(&pose, &mut self.particles, &self.boundaries, time);
+            }
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! What a checkpoint holds of clamps and rigid bodies: what holds them, what that has given, and how they stand.
 //! Which particles are clamped or rigid follows from the scene.
 
+use super::change::{Change, Changes};
 use crate::output::checkpoint::{Checkpoint, Read};
 use crate::simulation::held::{Clamp, Held, Rigid};
 use nalgebra::{Quaternion, UnitQuaternion};
@@ -13,8 +14,9 @@ pub(super) fn put_held<const D: usize>(held: &Held<D>, name: &str, file: &mut Ch
             particles: _,
             motion: _,
             // By the events, which are kept.
+            since: _,
             until: _,
-            released: _,
+            is_free: _,
             forces,
             impulse,
             work,
@@ -44,10 +46,13 @@ pub(super) fn put_held<const D: usize>(held: &Held<D>, name: &str, file: &mut Ch
 
 pub(super) fn take_held<const D: usize>(
     held: &mut Held<D>,
-    name: &str,
-    file: &Checkpoint,
+    (name, file): (&str, &Checkpoint),
+    changes: Changes<'_>,
 ) -> Read<()> {
-    for (k, own) in held.clamps.iter_mut().enumerate() {
+    // Of clamps that may be others nothing is known.
+    let clamps = held.clamps.iter_mut();
+    let clamps = clamps.filter(|_| !changes.has(Change::Motions));
+    for (k, own) in clamps.enumerate() {
         for (n, forces) in own.forces.iter_mut().enumerate() {
             let numbers = file.get::<f64>(&format!("{name}/clamp{k}/forces{n}"))?;
             forces.clear();

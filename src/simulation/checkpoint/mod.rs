@@ -4,6 +4,7 @@
 //! Neighbour lists are not held: they follow from the positions that they were built from. Neither is what the scene
 //! supplies again.
 
+mod change;
 mod couple;
 mod group;
 mod held;
@@ -11,6 +12,7 @@ mod particles;
 mod workspace;
 
 use super::energy::Work;
+use super::group::Group;
 use super::impulses::Impulses;
 use super::run_state::State;
 use super::view::{Reading, rounding};
@@ -18,17 +20,19 @@ use super::{Criterion, Simulation, Vote};
 use crate::error::{CheckpointProblem, Error, Result};
 use crate::once::once;
 use crate::output::checkpoint::{Checkpoint, Hashes, Read, damaged};
-use crate::output::values::Values;
 use crate::scalar::{Real, width};
 use crate::scene::Described;
 use crate::sweep::{InstructionSet, Root};
 use std::path::Path;
 
+pub use change::{Change, Difference};
+pub(crate) use change::{Changes, differences};
+
 /// The version of what is held. It rises with every change of it.
 const VERSION: &str = "6";
 
 /// Parts of a scene that are hashed only where there are any.
-const RARE: [&str; 3] = [
+pub(crate) const RARE: [&str; 3] = [
     "times at which steps end",
     "events",
     "schemes that come later",
@@ -64,12 +68,28 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
     }
 
-    /// Goes on from the state in a file.
-    pub(crate) fn resumed(mut self, path: &Path, file: &Checkpoint) -> Result<Self> {
-        self.take(file).map_err(|problem| Error::Checkpoint {
+    /// Goes on from the state in a file, of a scene that may differ in what is named.
+    pub(crate) fn resumed(
+        mut self,
+        path: &Path,
+        file: &Checkpoint,
+        changes: Changes<'_>,
+    ) -> Result<Self> {
+        let problem = |problem| Error::Checkpoint {
             path: path.to_path_buf(),
             problem,
-        })?;
+        };
+        let holds = |group: &Group<T, D>| !group.held.clamps.is_empty();
+        let changes =
+            if self.state.groups.iter().any(holds) || file.has_numbers("/clamp", "/forces") {
+                changes
+            } else {
+                changes.without_clamps()
+            };
+        self.take(file, changes).map_err(problem)?;
+        if changes.is_anew {
+            self.evaluate_together()?;
+        }
         if let Ok(shown) = file.get_one::<f64>("shown") {
             if (shown - self.state.time).abs() <= rounding(shown) {
                 self.show_at(shown);
@@ -200,8 +220,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         file
     }
 
-    fn take(&mut self, file: &Checkpoint) -> Read<()> {
-        self.check(file, InstructionSet::detect())?;
+    fn take(&mut self, file: &Checkpoint, changes: Changes<'_>) -> Read<()> {
+        self.check(file, changes, InstructionSet::detect())?;
         let set = file.text("instructions")?;
         let set = InstructionSet::ALL
             .into_iter()
@@ -256,11 +276,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 .into_iter()
                 .chain(limits.chain(couplings).map(Criterion::Effect));
             let criterion = criteria.into_iter().find(|own| own.name() == name);
-            self.state.last_vote = Some(Vote {
-                step: file.get_one("last_vote/step")?,
-                criterion: criterion.ok_or_else(|| damaged("its criterion has no name"))?,
-                particle: file.get_one::<u64>("last_vote/particle")? as usize,
-            });
+            // What set the last step may be gone with a change.
+            if criterion.is_some() || changes.is_empty() {
+                self.state.last_vote = Some(Vote {
+                    step: file.get_one("last_vote/step")?,
+                    criterion: criterion.ok_or_else(|| damaged("its criterion has no name"))?,
+                    particle: file.get_one::<u64>("last_vote/particle")? as usize,
+                });
+            }
         }
         self.state.work = None;
         if file.has("work") {
@@ -290,11 +313,13 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 time: file.get_one(&format!("{name}/time"))?,
             });
         }
-        for (k, (_, at)) in self.state.happened.iter_mut().enumerate() {
-            let name = format!("event{k}/time");
+        for (name, at) in &mut self.state.happened {
             *at = None;
-            if file.has(&name) {
-                *at = Some(file.get_one(&name)?);
+            let mut known = (0..).map_while(|k| file.text(&format!("event {k}")).ok());
+            let place = known.position(|own| own == name);
+            let column = place.map(|k| format!("event{k}/time"));
+            if let Some(column) = column.filter(|own| file.has(own)) {
+                *at = Some(file.get_one(&column)?);
             }
         }
         self.exchange_schemes();
@@ -302,9 +327,28 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             couple.take_state(&format!("coupling{k}"), file)?;
         }
         for (k, group) in self.state.groups.iter_mut().enumerate() {
-            group.take_state(&format!("group{k}"), file)?;
+            group.take_state(&format!("group{k}"), file, changes)?;
         }
-        self.release_clamps();
+        if changes.has(Change::Walls) {
+            let time = self.state.time;
+            for group in &mut self.state.groups {
+                group.stand_walls(time);
+            }
+        }
+        if changes.is_anew {
+            self.state.rates_at_hand = false;
+            self.state.kept_impulses.clear();
+        }
+        self.follow_clamps(false);
+        if changes.has(Change::Motions) {
+            for group in &mut self.state.groups {
+                for k in 0..group.held.clamps.len() {
+                    if !group.held.clamps[k].is_free {
+                        (group.held).take_hold(k, &mut group.particles, self.state.time);
+                    }
+                }
+            }
+        }
         Ok(())
     }
 
@@ -316,7 +360,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     /// Whether a file goes on from a simulation like this one, on a machine of which `best` is the best.
-    fn check(&self, file: &Checkpoint, best: InstructionSet) -> Read<()> {
+    fn check(&self, file: &Checkpoint, changes: Changes<'_>, best: InstructionSet) -> Read<()> {
         if file.text("format")? != FORMAT {
             return Err(damaged("it is no checkpoint"));
         }
@@ -342,25 +386,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 });
             }
         }
-        let differs = |(part, hash): &&(&'static str, u64)| {
-            let found = file.text(&format!("hash of {part}"));
-            !found.is_ok_and(|found| found == format!("{hash:016x}"))
-        };
-        let differing = self.scene.iter().filter(differs).map(|(part, _)| *part);
-        // Parts that few scenes have, of which the file has one and the scene none.
-        let lacks = |part: &&str| {
-            let own = self.scene.iter().any(|own| own.0 == *part);
-            !own && file.text(&format!("hash of {part}")).is_ok()
-        };
-        let parts: Vec<_> = differing.chain(RARE.into_iter().filter(lacks)).collect();
+        let all = differences((&self.scene, &self.described), &RARE, file);
+        let parts = changes.refused(&all, &self.described, file);
         if !parts.is_empty() {
-            // Files of before there were values have none.
-            let values = |part: &&'static str| {
-                let own = self.described.iter().find(|own| own.0 == *part)?;
-                let found = file.text(&format!("values of {part}")).ok()?;
-                Some(Values::of_text(found).differences(&own.1))
-            };
-            let values = parts.iter().filter_map(values).flatten().collect();
+            let refused = all.iter().filter(|own| parts.contains(&own.part));
+            let values = refused.map(ToString::to_string).collect();
             return Err(CheckpointProblem::Scene { parts, values });
         }
         let set = file.text("instructions")?;
@@ -402,7 +432,11 @@ mod tests {
             let found = set.into();
             let lacks = Err(CheckpointProblem::Instructions { found });
             let expected = if runs { Ok(()) } else { lacks };
-            assert_eq!(simulation.check(&file, best), expected, "{set}");
+            assert_eq!(
+                simulation.check(&file, Changes::default(), best),
+                expected,
+                "{set}"
+            );
         }
     }
 }

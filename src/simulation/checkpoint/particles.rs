@@ -1,6 +1,7 @@
 //! What a checkpoint holds of particles: their columns, which slot each is in, and what has left.
 //! Columns are put under the names of their fields.
 
+use super::change::{Change, Changes};
 use crate::output::checkpoint::{Checkpoint, Read, damaged};
 use crate::scalar::Real;
 use crate::scheme::Scheme;
@@ -60,12 +61,16 @@ pub(super) fn put_particles<T: Real, const D: usize>(
 pub(super) fn take_particles<T: Real, const D: usize>(
     particles: &mut Particles<T, D>,
     scheme: &Scheme<T, D>,
-    name: &str,
-    file: &Checkpoint,
+    (name, file): (&str, &Checkpoint),
+    changes: Changes<'_>,
 ) -> Read<()> {
     let slots = particles.columns.slots();
     for field in particles.columns.fields().iter() {
         let column = format!("{name}/particles/{}", scheme.program.name_of(field));
+        // What a load that is new gives to.
+        if changes.has(Change::Loads) && !file.has(&column) {
+            continue;
+        }
         let numbers = file.get_all_reals(&column, slots * field.components(D))?;
         *particles.columns.column_mut(field) = numbers;
     }
