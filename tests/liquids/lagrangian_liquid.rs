@@ -4,9 +4,9 @@
 use approx::assert_relative_eq;
 use meshfree::effect::{HourglassControl, LagrangianLiquid};
 use meshfree::material::{Liquid, Material, SoundSpeed};
+use meshfree::particles::Field;
 use meshfree::prelude::*;
 use meshfree::scene::{Conversion, Distortion, Start};
-use meshfree::particles::Field;
 use meshfree::term::viscosity::{Inviscid, MonaghanGingold};
 use std::f64::consts::TAU;
 
@@ -70,7 +70,13 @@ fn a_column_settles_to_the_pressure_of_its_weight() {
         .with_viscosity(damped)
         .with(LagrangianLiquid);
     let mut column = Scene::<f64, 2>::new(scheme)
-        .body(Body::block("water", water(10.0), [0.0; 2], [0.2, height], dx))
+        .body(Body::block(
+            "water",
+            water(10.0),
+            [0.0; 2],
+            [0.2, height],
+            dx,
+        ))
         .boundary(Periodic::along(0, 0.0, 0.2))
         .boundary(MirrorPlane::symmetry([0.0; 2], [0.0, -1.0]))
         .acceleration(|_| [0.0, -G])
@@ -118,7 +124,13 @@ fn a_shock_has_the_pressure_of_its_jump() {
 fn slice(strength: f64, monitor: Conversion) -> (f64, Option<Distortion<2>>) {
     let ([length, depth], dx) = ([0.5, 0.18], 0.015);
     let gravity = [0.0, -G];
-    let body = Body::block("water", water(171.5).with_pressure_cut_off(0.0), [0.0; 2], [length, depth], dx);
+    let body = Body::block(
+        "water",
+        water(171.5).with_pressure_cut_off(0.0),
+        [0.0; 2],
+        [length, depth],
+        dx,
+    );
     let scheme = SchemeBuilder::total_lagrangian(WendlandC2, Inviscid)
         .with(HourglassControl { strength })
         .h_over_dx(1.0)
