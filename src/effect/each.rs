@@ -61,6 +61,7 @@ macro_rules! for_each_effect {
                 $crate::effect::NeoHookean,
                 $crate::effect::StVenantKirchhoff,
                 $crate::effect::FiniteStrainPlasticity,
+                $crate::effect::LagrangianLiquid,
                 $crate::effect::HourglassControl::default(),
                 $crate::effect::YieldingHourglass
             ]

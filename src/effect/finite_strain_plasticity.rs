@@ -2,7 +2,7 @@
 //! The multiplicative plasticity of Simo 1992 (Simo & Hughes 1998, box 9.1), with pressure by the equation of state.
 
 use super::radial_return::{before, returned};
-use super::total_lagrangian::stretches_of;
+use super::total_lagrangian::{require_solid, stretches_of};
 use super::{
     Around, CONSTANTS, Effect, Hypoelastic, LedgerColumn, Plasticity, Point, PointLaw, Reach, Rung,
     Setting, StepProgram, TotalLagrangian,
@@ -91,6 +91,7 @@ impl<const D: usize> Effect<D> for FiniteStrainPlasticity {
             equation: "s = G dev b̄, √(3/2 s:s)/J ≤ Y, P = (s − J p) F⁻ᵀ",
             source: "Simo & Hughes 1998, box 9.1",
         });
+        require_solid(program);
         program.require(|scene| super::plasticity::lacks_strength(scene));
         program.require(|scene| super::plasticity::lacks_temperature(scene));
         program.require(super::tension_limit::yields_beyond_tension);

@@ -15,7 +15,8 @@ use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 ///
 #[doc = include_str!("../../docs/equations/hourglass_control.html")]
 ///
-/// with x = xᵢⱼ, X = Xᵢⱼ and Ē the mean of Young's moduli (Ganzenmüller 2015). It is exactly zero under any linear
+/// with x = xᵢⱼ, X = Xᵢⱼ and Ē the mean of Young's moduli (Ganzenmüller 2015), of a [liquid](super::LagrangianLiquid) that of its
+/// bulk modulus. It is exactly zero under any linear
 /// deformation, and lies along x, so it keeps momentum and angular momentum.
 ///
 /// Its work is in the internal energy and, by itself, in the ledger as `hourglass energy`: it should be a few per cent
@@ -42,7 +43,7 @@ impl HourglassControl {
 
 const F: Field = TotalLagrangian::DEFORMATION;
 const ENERGY: Field = HourglassControl::ENERGY;
-/// Stiffness \[Pa\] of the forces that hold an hourglass control: here Young's modulus.
+/// Stiffness \[Pa\] of the forces that hold an hourglass control: here Young's modulus, or the bulk modulus of a liquid.
 pub(super) const STIFFNESS: Field = Field::scalar(name!("hourglass_stiffness", "Pa"));
 /// −½ Σⱼ fᵢⱼ·vᵢⱼ \[W\].
 const POWER: Output = Output::scalar(name!("hourglass_power", "W"));
@@ -114,7 +115,7 @@ impl<const D: usize> Term<D> for HourglassControl {
     }
 }
 
-/// Young's modulus, once.
+/// Young's modulus, or the bulk modulus of a liquid, once.
 #[derive(Clone, Copy, Debug)]
 struct Stiffness;
 
@@ -127,7 +128,9 @@ impl<const D: usize> PointLaw<D> for Stiffness {
         around: &Around<'_, T, D>,
         constants: &mut [f64; CONSTANTS],
     ) -> bool {
-        constants[0] = around.material.youngs_modulus().unwrap_or(0.0);
+        let material = around.material;
+        let firm = material.youngs_modulus();
+        constants[0] = firm.unwrap_or_else(|| material.bulk_modulus());
         true
     }
     #[inline(always)]

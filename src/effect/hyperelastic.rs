@@ -1,7 +1,7 @@
 //! Hyperelastic stresses of total-Lagrangian solids: what a law makes of the deformation gradient, and its energy.
 //! Laws are files of their own; this is what they share.
 
-use super::total_lagrangian::stretches_of;
+use super::total_lagrangian::{require_solid, stretches_of};
 use super::{
     Around, CONSTANTS, LedgerColumn, Point, PointLaw, Reach, StepProgram, TotalLagrangian,
 };
@@ -68,6 +68,7 @@ pub(super) fn declare<T: Real, const D: usize>(program: &mut StepProgram<T, D>, 
         factor: 1.0,
     });
     program.document(document);
+    require_solid(program);
 }
 
 /// P, the pressure of it, and the speed of longitudinal waves along X.

@@ -23,6 +23,7 @@ use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 /// | moderate strains, large rotations | [`StVenantKirchhoff`](super::StVenantKirchhoff) |
 /// | rubber | [`NeoHookean`](super::NeoHookean) |
 /// | metals and polymers that yield; pressure by the equation of state | [`FiniteStrainPlasticity`](super::FiniteStrainPlasticity) |
+/// | liquids, until they have flowed too far | [`LagrangianLiquid`](super::LagrangianLiquid) |
 ///
 /// [`HourglassControl`](super::HourglassControl) suppresses the modes that F does not see. A scheme of these is
 /// [`schemes::total_lagrangian`](crate::schemes::total_lagrangian).
@@ -79,30 +80,7 @@ impl<const D: usize> Effect<D> for TotalLagrangian {
         program.require(|scene| {
             (!scene.written.contains(PIOLA)).then(|| Problem::Incompatible {
                 what: "nothing in the total-Lagrangian scheme gives a stress".into(),
-                remedy: "add an effect that does: NeoHookean, StVenantKirchhoff or FiniteStrainPlasticity",
-            })
-        });
-        program.require(|scene| {
-            let soft = scene
-                .bodies
-                .iter()
-                .find(|(_, material)| material.shear_modulus.is_none_or(|modulus| modulus <= 0.0));
-            soft.map(|(body, material)| Problem::Parameter {
-                what: format!("shear modulus of body `{body}`, of {}", material.name),
-                value: material.shear_modulus.unwrap_or(0.0),
-                must_be: "a total-Lagrangian solid needs a positive one (Material::with_shear_modulus)",
-            })
-        });
-        program.require(|scene| {
-            let mut ratios = scene
-                .bodies
-                .iter()
-                .filter_map(|(body, material)| Some((body, material.poisson_ratio()?)));
-            let locked = ratios.find(|(_, ratio)| !(-1.0..LOCKED).contains(ratio));
-            locked.map(|(body, ratio)| Problem::Parameter {
-                what: format!("Poisson ratio of body `{body}`, by its bulk and shear moduli"),
-                value: ratio,
-                must_be: "it must be above -1 and below 0.495: at a half volumes lock, and no step is short enough",
+                remedy: "add an effect that does: NeoHookean, StVenantKirchhoff, FiniteStrainPlasticity, or LagrangianLiquid",
             })
         });
     }
@@ -110,6 +88,33 @@ impl<const D: usize> Effect<D> for TotalLagrangian {
 
 /// The Poisson ratio from which a solid is taken for incompressible.
 const LOCKED: f64 = 0.495;
+
+/// Asks for what a solid with a stress of its own needs: a shear modulus, and volumes that give.
+pub(super) fn require_solid<T: Real, const D: usize>(program: &mut StepProgram<T, D>) {
+    program.require(|scene| {
+        let soft = scene
+            .bodies
+            .iter()
+            .find(|(_, material)| material.shear_modulus.is_none_or(|modulus| modulus <= 0.0));
+        soft.map(|(body, material)| Problem::Parameter {
+            what: format!("shear modulus of body `{body}`, of {}", material.name),
+            value: material.shear_modulus.unwrap_or(0.0),
+            must_be: "a total-Lagrangian solid needs a positive one (Material::with_shear_modulus)",
+        })
+    });
+    program.require(|scene| {
+        let mut ratios = scene
+            .bodies
+            .iter()
+            .filter_map(|(body, material)| Some((body, material.poisson_ratio()?)));
+        let locked = ratios.find(|(_, ratio)| !(-1.0..LOCKED).contains(ratio));
+        locked.map(|(body, ratio)| Problem::Parameter {
+            what: format!("Poisson ratio of body `{body}`, by its bulk and shear moduli"),
+            value: ratio,
+            must_be: "it must be above -1 and below 0.495: at a half volumes lock, and no step is short enough",
+        })
+    });
+}
 
 /// −Σⱼ V₀ⱼ Xᵢⱼ ⊗ ∇₀W, whose inverse is L.
 #[derive(Clone, Copy, Debug)]

@@ -94,6 +94,19 @@ impl Conversion {
         simulation: &Simulation<T, D>,
         body: &str,
     ) -> Result<bool> {
+        Ok(self.distortion(simulation, body)?.is_some())
+    }
+
+    /// The first particle of a body that is beyond the bounds, and in what, at the last evaluation: the reason for which a run with the
+    /// neighbours as built should stop.
+    ///
+    /// # Errors
+    /// As [`is_due`](Self::is_due).
+    pub fn distortion<T: Real, const D: usize>(
+        &self,
+        simulation: &Simulation<T, D>,
+        body: &str,
+    ) -> Result<Option<Distortion<D>>> {
         for (what, [least, most]) in [("volumes", self.volumes), ("stretches", self.stretches)] {
             if !((0.0..1.0).contains(&least) && most > 1.0) {
                 let value = if most > 1.0 { least } else { most };
@@ -105,17 +118,30 @@ impl Conversion {
                 .into());
             }
         }
-        let mut due = false;
-        for particle in simulation.body(body)? {
+        for (index, particle) in simulation.body(body)?.enumerate() {
             let gradient = deformation(&particle, body)?;
-            let volume = determinant(&gradient);
             let [most, least] = stretches(&gradient);
-            let within =
-                |[low, high]: [f64; 2], [least, most]: [f64; 2]| low <= least && most <= high;
-            due |= !within(self.volumes, [volume; 2])
-                || !within(self.stretches, [least.sqrt().recip(), most.sqrt()]);
+            let volume = determinant(&gradient);
+            let found = [
+                ("det F", volume, self.volumes),
+                ("least stretch", least.sqrt().recip(), self.stretches),
+                ("largest stretch", most.sqrt(), self.stretches),
+            ];
+            let beyond = |(_, value, [low, high]): &(&str, f64, [f64; 2])| {
+                !(*low <= *value && *value <= *high)
+            };
+            if let Some((quantity, value, bounds)) = found.into_iter().find(beyond) {
+                return Ok(Some(Distortion {
+                    quantity,
+                    value,
+                    bounds,
+                    particle: index,
+                    position: particle.position(),
+                    time: simulation.time(),
+                }));
+            }
         }
-        Ok(due)
+        Ok(None)
     }
 
     /// The body as it is now, for a scheme with [`Hypoelastic`], and [`Plasticity`] if it has flowed.
@@ -164,6 +190,34 @@ impl Conversion {
             }
         }
         Ok(own)
+    }
+}
+
+/// Where a total-Lagrangian body is deformed beyond the bounds of a [`Conversion`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Distortion<const D: usize> {
+    /// `det F`, `least stretch` or `largest stretch`.
+    pub quantity: &'static str,
+    /// Its value \[1\].
+    pub value: f64,
+    /// The bounds that it has left.
+    pub bounds: [f64; 2],
+    /// The index of the particle in its body.
+    pub particle: usize,
+    /// Its place \[m\].
+    pub position: [f64; D],
+    /// When \[s\].
+    pub time: f64,
+}
+
+impl<const D: usize> core::fmt::Display for Distortion<D> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let [low, high] = self.bounds;
+        write!(
+            f,
+            "{} {:.3} of particle {} at {:.4?} m is not from {low} to {high}, at t = {:.6} s",
+            self.quantity, self.value, self.particle, self.position, self.time
+        )
     }
 }
 

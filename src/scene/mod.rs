@@ -91,7 +91,7 @@ mod numerics;
 mod plan;
 
 pub use body::{Body, Start};
-pub use conversion::Conversion;
+pub use conversion::{Conversion, Distortion};
 #[cfg(feature = "checkpoint")]
 pub(crate) use fingerprint::Described;
 

@@ -17,6 +17,7 @@ mod gentle_flows;
 mod groups;
 mod indicators;
 mod jet_on_step;
+mod lagrangian_liquid;
 mod lees_edwards;
 mod liquid_conservation;
 mod manufactured;
