@@ -6,6 +6,8 @@ mod bars;
 #[path = "../common/mod.rs"]
 mod common;
 mod elastic;
+mod forms;
+mod heights;
 mod pulse;
 mod report;
 mod run;
@@ -70,7 +72,13 @@ const EXAMPLE: Example = Example {
             "NAME",
             "a slice of the tank in 2D with air above the water: on, off, both",
         ),
-        own("--compare", "", "all schemes side by side"),
+        own(
+            "--compare",
+            "",
+            "SPH, ALE, Eulerian and Lagrangian water side by side, on a slice",
+        ),
+        own("--in-space", "", "with --compare: in 3D, at 15 mm"),
+        own("--compare-schemes", "", "all schemes side by side"),
         own("--bars", "", "measures what must hold"),
     ],
 };
@@ -91,26 +99,34 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
     println!("{}", case.choices());
     if let Some(youngs) = case.youngs {
         println!("{}", elastic::choices(&case, youngs));
-        if options.has("--bars") || options.has("--compare") {
-            return Err(
-                "--bars and --compare are of rigid walls; leave out --walls elastic".into(),
-            );
+        let of_rigid = ["--bars", "--compare", "--compare-schemes"];
+        if let Some(option) = of_rigid.into_iter().find(|own| options.has(own)) {
+            return Err(format!("{option} is of rigid walls; leave out --walls elastic").into());
         }
     }
     if let Some(which) = options.text("--air") {
         return air::compare::<T>(&case, which, options);
     }
+    if options.has("--compare") {
+        let in_space = options.has("--in-space");
+        let spacing = if in_space {
+            options.spacing_or(0.015, 0.03)
+        } else {
+            options.spacing_or(0.01, 0.015)
+        };
+        return forms::compare(&Case { spacing, ..case }, in_space, options);
+    }
     if options.has("--bars") {
         return bars::measure::<T>(&case, options);
     }
     let mut runs: Vec<(String, Record)> = Vec::new();
-    let schemes = if options.has("--compare") {
+    let schemes = if options.has("--compare-schemes") {
         EXAMPLE.schemes.to_vec()
     } else {
         vec![case.scheme.as_str()]
     };
     for scheme in schemes {
-        let folder = if options.has("--compare") {
+        let folder = if options.has("--compare-schemes") {
             options.folder().join(scheme)
         } else {
             options.folder().to_path_buf()
@@ -120,7 +136,7 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
             ..case.clone()
         };
         // Sensors all over the ends take time, which schemes are compared by.
-        let ends = !options.has("--compare") && case.peak() > 0.0;
+        let ends = !options.has("--compare-schemes") && case.peak() > 0.0;
         runs.push((scheme.into(), run::run::<T>(&case, Some(&folder), ends)?));
     }
     let runs: Vec<_> = runs

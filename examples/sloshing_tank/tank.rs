@@ -20,10 +20,10 @@ const SENSOR: f64 = 0.020;
 /// Smoothing length over spacing.
 pub const H_OVER_DX: f64 = 1.5;
 /// Layers of wall particles that this needs.
-const LAYERS: usize = 3;
+pub const LAYERS: usize = 3;
 /// Coefficient of the artificial viscosity. It acts as ν = α h c/10, so at the physical sound speed
 /// a tenth of the usual 0.02 still is 4·10⁻³ m²/s at 10 mm.
-const ALPHA: f64 = 0.002;
+pub const ALPHA: f64 = 0.002;
 /// Fewest particles over the depth of the water.
 const FEWEST: f64 = 4.0;
 
@@ -33,7 +33,7 @@ const EVEN: &str = "even";
 /// The same places at the start; particles exchange mass on their way.
 const ALE: &str = "ale";
 /// By how many spacings.
-const JITTER: f64 = 0.15;
+pub const JITTER: f64 = 0.15;
 
 /// The forms of the scheme that can be compared.
 pub const SCHEMES: [&str; 11] = [
