@@ -51,7 +51,7 @@ macro_rules! for_each_effect {
                 $crate::effect::Plasticity,
                 $crate::effect::Damage,
                 $crate::effect::DensityFloor::default(),
-                $crate::effect::ProgrammedBurn::new("copper", 4e3).lit_at_point([0.0], 0.0),
+                $crate::effect::ProgrammedBurn::new("test", 4e3).lit_at_point([0.0], 0.0),
                 $crate::effect::ArtificialConduction::default(),
                 $crate::effect::ArtificialStress::default(),
                 $crate::effect::HourglassFree::default()

@@ -14,9 +14,7 @@ use crate::term::{Stage, TermDoc};
 ///
 /// with the pressure p of the [products](crate::material::eos::Jwl), the burn fraction F \[1\], the speed D \[m/s\] of the
 /// detonation, the distance \[m\] from what is lit at the time t₀ \[s\], the lighting time t_L \[s\] by the straight way of the first
-/// of them to arrive, the smoothing length h \[m\] of the body as built and the [width](Self::width) w \[1\] of the front. With a
-/// [volume burn](Self::with_volume_burn) what a shock compresses to the volume V_CJ burns before the front arrives (Wilkins'
-/// second law); F is the larger of both.
+/// of them to arrive, the smoothing length h \[m\] of the body as built and the [width](Self::width) w \[1\] of the front.
 ///
 /// The energy of detonation is that of the body at the start ([`Body::energy`](crate::scene::Body::energy)), as in other codes: cold
 /// explosive stores it without pressure, and the work of F p takes it out. So energy closes, and nothing moves before the front. The
@@ -49,8 +47,6 @@ pub struct ProgrammedBurn {
     pub speed: f64,
     /// Width w of the front in smoothing lengths \[1\]; 1.5 by default, as in LS-DYNA with elements for smoothing lengths.
     pub width: f64,
-    /// Relative volume V_CJ \[1\] of the Chapman–Jouguet state, where a shock may burn what it compresses.
-    volume: Option<f64>,
     lights: Vec<Light>,
 }
 
@@ -86,7 +82,6 @@ impl ProgrammedBurn {
             material: material.into(),
             speed,
             width: 1.5,
-            volume: None,
             lights: Vec::new(),
         }
     }
@@ -127,16 +122,6 @@ impl ProgrammedBurn {
     #[must_use]
     pub fn width(self, width: f64) -> Self {
         Self { width, ..self }
-    }
-
-    /// Lets what is compressed burn before the front arrives: F ≥ (1 − V)/(1 − V_CJ), with V = ρ₀/ρ and the relative volume V_CJ
-    /// of the Chapman–Jouguet state, 1 − p_CJ/(ρ₀ D²).
-    #[must_use]
-    pub fn with_volume_burn(self, volume: f64) -> Self {
-        Self {
-            volume: Some(volume),
-            ..self
-        }
     }
 }
 
@@ -195,13 +180,6 @@ impl<const D: usize> Effect<D> for ProgrammedBurn {
                 "width of the detonation front",
                 self.width,
                 "it must be finite and positive, in smoothing lengths",
-            ));
-        }
-        if let Some(bad) = self.volume.filter(|v| !(*v > 0.0 && *v < 1.0)) {
-            problems.push((
-                "relative volume of the Chapman–Jouguet state",
-                bad,
-                "it must be above 0 and below 1: 1 − p/(ρ₀ D²)",
             ));
         }
         if self.lights.is_empty() {
@@ -274,15 +252,10 @@ impl Light {
     }
 }
 
-/// p ← F p, with F by time and, where it is wanted, by volume.
+/// p ← F p.
 impl<const D: usize> PointLaw<D> for ProgrammedBurn {
     const NAME: &'static str = "programmed burn";
-    const READS: Fields = Fields::of(&[
-        Field::POSITION,
-        Field::DENSITY,
-        Field::PRESSURE,
-        LIGHTING_TIME,
-    ]);
+    const READS: Fields = Fields::of(&[Field::POSITION, Field::PRESSURE, LIGHTING_TIME]);
     const WRITES: Fields = Fields::of(&[Field::PRESSURE, LIGHTING_TIME, BURN_FRACTION]);
     const RUNG: Option<Rung> = Some(Rung::Trial);
     fn prepare<T: Real>(
@@ -292,7 +265,6 @@ impl<const D: usize> PointLaw<D> for ProgrammedBurn {
     ) -> bool {
         constants[0] = around.time;
         constants[1] = self.speed / (self.width * around.smoothing_length);
-        constants[2] = around.material.reference_density();
         around.material.name == self.material
     }
     #[inline(always)]
@@ -307,11 +279,7 @@ impl<const D: usize> PointLaw<D> for ProgrammedBurn {
         }
         let known = at.get(LIGHTING_TIME);
         let lighting = L::select(known.ge(L::of(UNKNOWN)), first, known);
-        let mut fraction = (at.constant(0) - lighting) * at.constant(1);
-        if let Some(volume) = self.volume {
-            let squeezed = L::one() - at.constant(2) / at.get(Field::DENSITY);
-            fraction = fraction.max(squeezed * L::of(1.0 / (1.0 - volume)));
-        }
+        let fraction = (at.constant(0) - lighting) * at.constant(1);
         let fraction = fraction.positive_part().min(L::one());
         at.set(LIGHTING_TIME, lighting);
         at.set(BURN_FRACTION, fraction);

@@ -121,7 +121,6 @@ fn what_cannot_burn_is_named() {
             burn("TNT", SPEED).width(f64::NAN),
             "width of the detonation front",
         ),
-        (burn("TNT", SPEED).with_volume_burn(1.2), "Chapman–Jouguet"),
         (
             burn("TNT", SPEED).lit_at_plane([0.0], [0.0], 0.0),
             "normal of the plane",
