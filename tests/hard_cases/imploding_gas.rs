@@ -160,9 +160,12 @@ where
     /// Points of the sum in a support, along the radius and away from it, about which all is alike.
     const FINE: i32 = 160;
     let shock = exact.shock_radius(time);
-    let density = |r: f64| match r < shock {
-        true => exact.state(r, time).expect("a radius").density,
-        false => 1.0,
+    let density = |r: f64| {
+        if r < shock {
+            exact.state(r, time).expect("a radius").density
+        } else {
+            1.0
+        }
     };
     let support = Kernel::<D>::support(&WendlandC4);
     let offsets = (-FINE..FINE).flat_map(|i| (0..FINE).map(move |j| [i, j]));
