@@ -41,12 +41,15 @@ use crate::term::{Stage, TermDoc};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProgrammedBurn {
-    /// Name of the material that burns.
-    pub material: String,
-    /// Speed D of the detonation \[m/s\].
-    pub speed: f64,
-    /// Width w of the front in smoothing lengths \[1\]; 1.5 by default, as in LS-DYNA with elements for smoothing lengths.
-    pub width: f64,
+    charges: Vec<Charge>,
+}
+
+/// A material that burns.
+#[derive(Clone, Debug, PartialEq)]
+struct Charge {
+    material: String,
+    speed: f64,
+    width: f64,
     lights: Vec<Light>,
 }
 
@@ -78,11 +81,14 @@ impl ProgrammedBurn {
     /// A burn of a material, by its name, at the speed \[m/s\] of its detonation. Light it somewhere.
     #[must_use]
     pub fn new(material: &str, speed: f64) -> Self {
-        Self {
+        let charge = Charge {
             material: material.into(),
             speed,
             width: 1.5,
             lights: Vec::new(),
+        };
+        Self {
+            charges: vec![charge],
         }
     }
 
@@ -114,14 +120,33 @@ impl ProgrammedBurn {
     }
 
     fn lit(mut self, light: Light) -> Self {
-        self.lights.push(light);
+        if let Some(own) = self.charges.last_mut() {
+            own.lights.push(light);
+        }
         self
     }
 
-    /// Sets the width of the front in smoothing lengths \[1\].
+    /// Sets the width w of the front in smoothing lengths \[1\]; 1.5 by default, as in LS-DYNA with elements for smoothing
+    /// lengths.
     #[must_use]
-    pub fn width(self, width: f64) -> Self {
-        Self { width, ..self }
+    pub fn width(mut self, width: f64) -> Self {
+        if let Some(own) = self.charges.last_mut() {
+            own.width = width;
+        }
+        self
+    }
+
+    /// Adds the burn of another material, as of a main charge behind a booster. Each is lit by itself: light the main charge
+    /// where and when the front of the booster arrives.
+    #[must_use]
+    pub fn and(mut self, other: Self) -> Self {
+        self.charges.extend(other.charges);
+        self
+    }
+
+    /// The charge of a material.
+    fn of(&self, material: &str) -> Option<&Charge> {
+        self.charges.iter().find(|own| own.material == material)
     }
 }
 
@@ -132,95 +157,110 @@ impl<const D: usize> Effect<D> for ProgrammedBurn {
         program.declare(LIGHTING_TIME, UNKNOWN);
         program.declare(BURN_FRACTION, 0.0);
         program.law(Stage::State, self.clone());
-        let own = self.material.clone();
-        program.require(move |scene| {
-            let there = scene
-                .bodies
-                .iter()
-                .any(|(_, material)| material.name == own);
-            (!there).then(|| Problem::Incompatible {
-                what: format!("ProgrammedBurn is of the material `{own}`, and no body has it"),
-                remedy: "name the material of the explosive as in Material::new",
-            })
-        });
-        let own = self.material.clone();
-        program.require(move |scene| {
-            let mut bodies = scene.bodies.iter();
-            let cold = bodies
-                .find(|(_, material)| material.name == own && !material.eos().uses_energy())?;
-            Some(Problem::Incompatible {
-                what: format!(
-                    "`{}` is to burn, and its equation of state knows no energy",
-                    cold.0
-                ),
-                remedy: "take the products of the explosive (eos::Jwl)",
-            })
-        });
-        program.document(TermDoc {
-            name: format!(
-                "programmed burn of {}, D = {} m/s",
-                self.material, self.speed
-            ),
-            equation: "p ← F p, F = min(1, max(0, (t − t_L) D/(w h))), t_L = min(t₀ + |x − x₀|/D)",
-            source: "Wilkins 1964",
-        });
+        for (k, charge) in self.charges.iter().enumerate() {
+            let own = charge.material.clone();
+            let twice = self.charges[..k].iter().any(|other| other.material == own);
+            program.require(move |scene| {
+                let there = || scene.bodies.iter().filter(|body| body.1.name == own);
+                let (what, remedy) = if there().count() == 0 {
+                    (
+                        format!("ProgrammedBurn is of the material `{own}`, and no body has it"),
+                        "name the material of the explosive as in Material::new",
+                    )
+                } else if twice {
+                    (
+                        format!("ProgrammedBurn has the material `{own}` twice"),
+                        "light one charge at several places, or give one of two materials another name",
+                    )
+                } else {
+                    let cold = there().find(|body| !body.1.eos().uses_energy())?;
+                    (
+                        format!("`{}` is to burn, and its equation of state knows no energy", cold.0),
+                        "take the products of the explosive (eos::Jwl)",
+                    )
+                };
+                Some(Problem::Incompatible { what, remedy })
+            });
+            program.document(TermDoc {
+                name: format!("programmed burn of {}, D = {} m/s", charge.material, charge.speed),
+                equation: "p ← F p, F = min(1, max(0, (t − t_L) D/(w h))), t_L = min(t₀ + |x − x₀|/D)",
+                source: "Wilkins 1964",
+            });
+        }
     }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
-        let mut problems = Vec::new();
-        let finite_and_positive = |x: f64| x.is_finite() && x > 0.0;
-        if !finite_and_positive(self.speed) {
-            problems.push((
-                "speed of the detonation",
-                self.speed,
-                "it must be finite and positive, in m/s",
-            ));
-        }
-        if !finite_and_positive(self.width) {
-            problems.push((
-                "width of the detonation front",
-                self.width,
-                "it must be finite and positive, in smoothing lengths",
-            ));
-        }
-        if self.lights.is_empty() {
-            problems.push((
-                "number of places that are lit",
-                0.0,
-                "it must be one or more: ProgrammedBurn::lit_at_point or lit_at_plane",
-            ));
-        }
-        for light in &self.lights {
-            if light.dimensions != D {
-                problems.push((
-                    "number of coordinates of what is lit",
-                    light.dimensions as f64,
-                    "it must be that of the scene's dimensions",
-                ));
-            }
-            let numbers = light
+        let is_size = |x: f64| x.is_finite() && x > 0.0;
+        let of_charge = |own: &Charge| {
+            [
+                (
+                    is_size(own.speed),
+                    (
+                        "speed of the detonation",
+                        own.speed,
+                        "it must be finite and positive, in m/s",
+                    ),
+                ),
+                (
+                    is_size(own.width),
+                    (
+                        "width of the detonation front",
+                        own.width,
+                        "it must be finite and positive, in smoothing lengths",
+                    ),
+                ),
+                (
+                    !own.lights.is_empty(),
+                    (
+                        "number of places that are lit",
+                        0.0,
+                        "it must be one or more: ProgrammedBurn::lit_at_point or lit_at_plane",
+                    ),
+                ),
+            ]
+        };
+        let of_light = |own: &Light| {
+            let numbers = own
                 .place
                 .iter()
-                .chain([&light.time])
-                .chain(light.normal.iter().flatten());
-            if let Some(bad) = numbers.copied().find(|x| !x.is_finite()) {
-                problems.push((
-                    "place, normal or time of what is lit",
-                    bad,
-                    "it must be finite, in metres and seconds",
-                ));
-            }
-            if light
-                .normal
-                .is_some_and(|normal| normal.iter().all(|n| *n == 0.0))
-            {
-                problems.push((
-                    "normal of the plane that is lit",
-                    0.0,
-                    "it must have a length",
-                ));
-            }
-        }
-        problems
+                .chain([&own.time])
+                .chain(own.normal.iter().flatten());
+            let bad = numbers.copied().find(|x| !x.is_finite());
+            [
+                (
+                    own.dimensions == D,
+                    (
+                        "number of coordinates of what is lit",
+                        own.dimensions as f64,
+                        "it must be that of the scene's dimensions",
+                    ),
+                ),
+                (
+                    bad.is_none(),
+                    (
+                        "place, normal or time of what is lit",
+                        bad.unwrap_or(0.0),
+                        "it must be finite, in metres and seconds",
+                    ),
+                ),
+                (
+                    own.normal != Some([0.0; 3]),
+                    (
+                        "normal of the plane that is lit",
+                        0.0,
+                        "it must have a length",
+                    ),
+                ),
+            ]
+        };
+        let lights = self.charges.iter().flat_map(|own| &own.lights);
+        let all = self
+            .charges
+            .iter()
+            .flat_map(of_charge)
+            .chain(lights.flat_map(of_light));
+        all.filter(|(fine, _)| !fine)
+            .map(|(_, problem)| problem)
+            .collect()
     }
 }
 
@@ -230,16 +270,16 @@ fn padded<const D: usize>(x: [f64; D]) -> [f64; 3] {
 }
 
 impl Light {
-    /// When a front of some speed that starts here arrives at `x`.
+    /// When a front of some speed that starts here arrives at `x`, which counts from an origin.
     #[inline(always)]
-    fn arrival<L: Lane, const D: usize>(&self, x: &[L; D], speed: f64) -> L {
+    fn arrival<L: Lane, const D: usize>(&self, x: &[L; D], origin: &[f64; D], speed: f64) -> L {
         let mut along = L::zero();
         let mut square = L::zero();
         let size = self
             .normal
             .map_or(1.0, |n| n.iter().map(|n| n * n).sum::<f64>().sqrt());
         for d in 0..D {
-            let out = x[d] - L::of(self.place[d]);
+            let out = x[d] - L::of(self.place[d] - origin[d]);
             square = out.mul_add(out, square);
             along = out.mul_add(L::of(self.normal.map_or(0.0, |n| n[d] / size)), along);
         }
@@ -263,19 +303,22 @@ impl<const D: usize> PointLaw<D> for ProgrammedBurn {
         around: &Around<'_, T, D>,
         constants: &mut [f64; CONSTANTS],
     ) -> bool {
+        let Some(charge) = self.of(&around.material.name) else {
+            return false;
+        };
         constants[0] = around.time;
-        constants[1] = self.speed / (self.width * around.smoothing_length);
-        around.material.name == self.material
+        constants[1] = charge.speed / (charge.width * around.smoothing_length);
+        true
     }
     #[inline(always)]
     fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
-        let mut x = at.vector(Field::POSITION);
-        for (x, origin) in x.iter_mut().zip(at.around.origin) {
-            *x = *x + L::of(origin);
-        }
+        let Some(charge) = self.of(&at.around.material.name) else {
+            return;
+        };
+        let (x, origin) = (at.vector(Field::POSITION), at.around.origin);
         let mut first = L::of(UNKNOWN);
-        for light in &self.lights {
-            first = first.min(light.arrival(&x, self.speed));
+        for light in &charge.lights {
+            first = first.min(light.arrival(&x, &origin, charge.speed));
         }
         let known = at.get(LIGHTING_TIME);
         let lighting = L::select(known.ge(L::of(UNKNOWN)), first, known);

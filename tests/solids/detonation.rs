@@ -106,6 +106,52 @@ fn the_front_from_a_point_is_round_and_the_first_light_counts() {
     }
 }
 
+/// Far from the origin of coordinates a front is as fast, in `f32` too.
+#[test]
+fn where_a_charge_stands_changes_no_lighting_time() {
+    let times = |far: f64| {
+        let burn = ProgrammedBurn::new("TNT", SPEED).lit_at_point([far + 5e-4, 5e-4], 0.0);
+        let tnt = Material::new("TNT", Jwl::tnt());
+        let body = Body::block("charge", tnt, [far, 0.0], [far + 0.016, 0.016], 1e-3);
+        let simulation = Scene::<f32, 2>::new(schemes::gas().with(burn))
+            .body(body.energy(Jwl::tnt().detonation_energy))
+            .build()
+            .unwrap();
+        let all = simulation.all();
+        all.map(|own| own.scalar(ProgrammedBurn::LIGHTING_TIME).unwrap())
+            .collect::<Vec<f64>>()
+    };
+    for (here, far) in times(0.0).into_iter().zip(times(1024.0)) {
+        assert_relative_eq!(here, far, max_relative = 1e-6);
+    }
+}
+
+#[test]
+fn a_booster_and_a_main_charge_burn_each_at_its_speed() {
+    let half = |name: &str, at: f64| {
+        let material = Material::new(name, Jwl::tnt());
+        let body = Body::block(name, material, [at], [at + 0.05], 5e-4);
+        body.energy(Jwl::tnt().detonation_energy)
+    };
+    let booster = ProgrammedBurn::new("booster", SPEED).lit_at_plane([0.0], [1.0], 0.0);
+    let main = ProgrammedBurn::new("main", 0.5 * SPEED).lit_at_plane([0.1], [1.0], 1e-6);
+    let simulation = Scene::<f64, 1>::new(schemes::gas().with(booster.and(main)))
+        .body(half("booster", 0.0))
+        .body(half("main", 0.05))
+        .build()
+        .unwrap();
+    for own in simulation.all() {
+        let x = own.position()[0];
+        let exact = if x < 0.05 {
+            x / SPEED
+        } else {
+            1e-6 + (0.1 - x) / (0.5 * SPEED)
+        };
+        let time = own.scalar(ProgrammedBurn::LIGHTING_TIME).unwrap();
+        assert_relative_eq!(time, exact, max_relative = 1e-12);
+    }
+}
+
 #[test]
 fn what_cannot_burn_is_named() {
     let refusal = |burn: ProgrammedBurn| {
@@ -116,6 +162,7 @@ fn what_cannot_burn_is_named() {
     for (burn, part) in [
         (ProgrammedBurn::new("TNT", SPEED), "places that are lit"),
         (burn("RDX", SPEED), "RDX"),
+        (burn("TNT", SPEED).and(burn("TNT", SPEED)), "`TNT` twice"),
         (burn("TNT", -1.0), "speed of the detonation"),
         (
             burn("TNT", SPEED).width(f64::NAN),
