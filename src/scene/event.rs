@@ -54,11 +54,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
         region: impl Fn(&[f64; D]) -> bool + Send + Sync + 'static,
         event: &str,
     ) -> Self {
-        let mut scene = self.fix(body, region);
-        if let Some(own) = scene.clamps.last_mut() {
-            own.until = Some(event.into());
-        }
-        scene
+        self.fix(body, region)
+            .with_last_clamp(|own| own.until = Some(event.into()))
     }
 
     /// Clamps particles that move as `motion` has it, as [`clamp`](Self::clamp) does, until an [event](Self::event) has
@@ -93,11 +90,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
         motion: impl Motion<D> + 'static,
         event: &str,
     ) -> Self {
-        let mut scene = self.fix_until(body, region, event);
-        if let Some(own) = scene.clamps.last_mut() {
-            own.motion = Some(Arc::new(motion));
-        }
-        scene
+        self.clamp(body, region, motion)
+            .with_last_clamp(|own| own.until = Some(event.into()))
     }
 
     /// Catches the particles of a body for which `region` is true of where they are as built \[m\] when an
@@ -126,11 +120,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
         region: impl Fn(&[f64; D]) -> bool + Send + Sync + 'static,
         event: &str,
     ) -> Self {
-        let mut scene = self.fix(body, region);
-        if let Some(own) = scene.clamps.last_mut() {
-            own.since = Some(event.into());
-        }
-        scene
+        self.fix(body, region)
+            .with_last_clamp(|own| own.since = Some(event.into()))
     }
 
     /// Keeps a solid body where it is, at rest, until it first feels another body, a wall or a boundary: from the end of the

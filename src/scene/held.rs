@@ -85,11 +85,16 @@ impl<T: Real, const D: usize> Scene<T, D> {
         region: impl Fn(&[f64; D]) -> bool + Send + Sync + 'static,
         motion: impl Motion<D> + 'static,
     ) -> Self {
-        let mut scene = self.fix(body, region);
-        if let Some(own) = scene.clamps.last_mut() {
-            own.motion = Some(Arc::new(motion));
+        self.fix(body, region)
+            .with_last_clamp(|own| own.motion = Some(Arc::new(motion)))
+    }
+
+    /// With the clamp that was added last changed.
+    pub(super) fn with_last_clamp(mut self, change: impl FnOnce(&mut ClampOf<D>)) -> Self {
+        if let Some(own) = self.clamps.last_mut() {
+            change(own);
         }
-        scene
+        self
     }
 
     /// Lets a solid body move as a rigid one: by the sum of the forces on its particles and by their moment about its
