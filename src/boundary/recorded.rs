@@ -34,7 +34,7 @@ use std::sync::Arc;
 /// let piston = Recorded::translation(&rows)?.at_rest_beyond();
 /// let [x, _] = piston.pose(0.62).of(0, &[0.0, 0.3]);
 /// assert!((x - stroke(0.62)).abs() < 1e-5);
-/// // Rows twice as far apart would change it by this part of its amplitude.
+/// // Every other row alone would change it by this part of its amplitude.
 /// assert!(piston.resolution().is_some_and(|off| off < 0.01));
 /// # Ok::<(), meshfree::error::Error>(())
 /// ```
@@ -64,7 +64,7 @@ const FASTER: f64 = 10.0;
 /// The least part of the range of a record that counts as a jump.
 const LEAST: f64 = 0.01;
 
-/// What a record beyond its last row by rounding is shorter by, over its length.
+/// How far beyond its rows a time still counts as within, for rounding, over the length of the record.
 const ROUNDING: f64 = 1e-9;
 
 impl<const D: usize> Recorded<D> {
@@ -216,7 +216,8 @@ fn check<const W: usize>(what: &str, rows: &[(f64, [f64; W])]) -> Result<()> {
     let wrong = |x: &f64| !x.is_finite() || x.abs() >= MOST;
     for (k, (time, own)) in rows.iter().enumerate() {
         if let Some(bad) = own.iter().copied().find(wrong) {
-            let must_be = "it must be a finite number below 1e100: mend the row, or take it out";
+            let must_be =
+                "it must be a finite number below 1e100: correct the row, or leave it out";
             return refuse(what, &format!("number in row {}", k + 1), bad, must_be);
         }
         if wrong(time) || (k > 0 && *time <= rows[k - 1].0) {
@@ -226,7 +227,7 @@ fn check<const W: usize>(what: &str, rows: &[(f64, [f64; W])]) -> Result<()> {
     }
     if let Some((k, ratio)) = jump(rows) {
         let must_be = "it must be below 10: between this row and the one before it the motion jumps; give rows in \
-                       between, mend the row, or let angles go on beyond a full turn";
+                       between, correct the row, or let angles go on beyond a full turn";
         let of = format!("speed up to row {} over that of the rows around it", k + 1);
         return refuse(what, &of, ratio, must_be);
     }

@@ -17,7 +17,7 @@ pub enum Change {
     Integrator,
     /// Uniform accelerations and loads. What closures do cannot be compared: name it whenever one is another.
     Loads,
-    /// Viscosities: the terms of schemes that carry the same fields, by the same kernel, density and energy, and the
+    /// Viscosities: the terms of schemes that have the same fields, by the same kernel, density and energy, and the
     /// viscosities and rheologies of materials.
     Viscosity,
     /// Clamps and how they move: what they hold takes their velocity at the restart, from which what they have given counts.
