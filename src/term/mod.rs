@@ -96,6 +96,7 @@ use core::fmt::Debug;
 
 mod concentration;
 mod density_diffusion;
+mod density_sums;
 mod force;
 mod gradient;
 mod laminar_viscosity;
@@ -114,6 +115,7 @@ mod wall;
 
 pub use concentration::{ConcentrationGradient, Nothing};
 pub use density_diffusion::{Antuono, Fourtakas, Molteni, RiemannDiffusion};
+pub use density_sums::{Compression, KernelMoment, KernelSum, SlopeInH, Unity};
 pub use force::{Along, FreeForce};
 pub use gradient::{DensityGradient, MomentMatrix, PressureGradient, VelocityGradient};
 pub use laminar_viscosity::{CentralViscosity, LaminarViscosity};
@@ -123,13 +125,13 @@ pub use list::{Names, TermList, Terms};
 pub use matrix::MatrixPressureForce;
 pub use momentum::{InternalEnergy, MidpointReconstruction, PressureForce};
 pub(crate) use pair::assert_room;
-pub use pair::{Layout, MOST_READS, MOST_SUMS, Pair, Sums};
+pub use pair::{Layout, MOST_READS, MOST_SUMS, Pair};
 pub use probe::{Probe, probe};
 pub(crate) use renormalised::corrected;
 pub use renormalised::{RenormalisedCompression, RenormalisedPressureForce};
 pub use staged::{In, StageMarker, StagedTerms, stage};
 pub use stages::Stage;
-pub use sums::{Compression, KernelMoment, KernelSum, SlopeInH, Unity};
+pub use sums::Sums;
 pub use viscosity::{ArtificialViscosity, Viscosity, Viscous};
 pub use wall::{LiquidNearWall, VelocityAtWall, ViscosityAtWall};
 
