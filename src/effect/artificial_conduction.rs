@@ -26,8 +26,8 @@ pub enum ConductionSignal {
 ///
 #[doc = include_str!("../../docs/equations/artificial_conduction.html")]
 ///
-/// with the mean density ρ̄ \[kg/m³\] and a [speed](ConductionSignal) v \[m/s\]. The jump is what linear reconstruction from both
-/// sides leaves of eᵢ − eⱼ, by the limiter of
+/// with the mean density ρ̄ \[kg/m³\] and a [speed](ConductionSignal) v \[m/s\]. The jump Δe is what linear reconstruction from both
+/// sides leaves of eᵢ − eⱼ, by the limiter φ of
 /// [`LimitedMonaghanGingold`](crate::term::viscosity::LimitedMonaghanGingold) and gradients that are exact for linear fields: where the energy is
 /// smooth nothing is conducted. A density that is a kernel sum is smooth where
 /// gas of one energy meets gas of another, and the energy of particles is not, so their product, the pressure, has a
