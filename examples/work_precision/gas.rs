@@ -20,8 +20,6 @@ const SOD: Text = Text {
     setting: "Gas of γ 1.4, density 1 and pressure 1 against 0.125 and 0.1, in a tube of 1 m with equal masses, after 0.2 s; \
               the spacing is that on the left. Mean error of density over mean density. One dimension.",
     words: include_str!("words/sod.md"),
-    errors: &[0.03, 0.01, 0.003],
-    seconds: &[0.1, 10.0],
 };
 const NOH: Text = Text {
     key: "noh",
@@ -29,8 +27,6 @@ const NOH: Text = Text {
     setting: "Cold gas of γ 5/3 runs into a wall at 1 m/s; density after 0.6 s within 0.4 m of the wall, half of it behind the \
               shock. Mean error of density over mean density. One dimension.",
     words: include_str!("words/noh.md"),
-    errors: &[0.1, 0.03, 0.01],
-    seconds: &[0.1, 10.0],
 };
 const QUANTITY: &str = "density";
 

@@ -15,8 +15,6 @@ const TEXT: Text = Text {
     setting: "Gas of γ 5/3 and 1 kg/m³ that turns by up to 1 m/s at 0.2 m from its middle, at a third of the speed of sound, in a \
               periodic square of 1 m, after 1 s. Mean error of velocity over mean velocity (Gresho & Chan 1990). Two dimensions.",
     words: include_str!("words/gresho.md"),
-    errors: &[0.3, 0.1],
-    seconds: &[1.0, 10.0],
 };
 const VELOCITY: &str = "velocity of the vortex";
 

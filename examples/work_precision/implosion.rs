@@ -18,8 +18,6 @@ const NOH: Text = Text {
     setting: "Cold gas of γ 5/3 runs at 1 m/s to a point; density after 0.6 s within 0.4 m of it, of which 0.2 m are behind the shock, \
               where it is 64 times the first. Mean error of density over mean density, by volume.",
     words: include_str!("words/noh_3d.md"),
-    errors: &[0.3, 0.1],
-    seconds: &[10.0, 60.0],
 };
 const SEDOV: Text = Text {
     key: "sedov_3d",
@@ -27,8 +25,6 @@ const SEDOV: Text = Text {
     setting: "A joule at a point of cold gas of γ 1.4 and 1 kg/m³, until its shock is 0.4 m out; density within 0.48 m. Mean error \
               of density over mean density, by volume.",
     words: include_str!("words/sedov_3d.md"),
-    errors: &[0.3, 0.1],
-    seconds: &[10.0, 60.0],
 };
 const DENSITY: &str = "density";
 const PLATEAU: &str = "density of the plateau";

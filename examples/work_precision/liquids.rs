@@ -22,8 +22,6 @@ const TANK: Text = Text {
     setting: "Water of 1 m depth and 0.5 m width at rest for 1.6 s: root mean square error of pressure over ρgH in the last \
               0.32 s, after it was released with the pressure of rest. Two dimensions.",
     words: include_str!("words/tank.md"),
-    errors: &[0.01, 0.003, 0.001],
-    seconds: &[1.0, 60.0],
 };
 const WAVE: Text = Text {
     key: "wave",
@@ -31,8 +29,6 @@ const WAVE: Text = Text {
     setting: "Half a wavelength of 2 m on 1 m of water, amplitude 5 cm, from a flat surface through one period; error of that \
               period against theory of third order. Two dimensions.",
     words: include_str!("words/wave.md"),
-    errors: &[0.01, 0.003],
-    seconds: &[1.0, 60.0],
 };
 const DAM: Text = Text {
     key: "dam",
@@ -41,8 +37,6 @@ const DAM: Text = Text {
               friction; the place of its front at t √(2g/a) = 2.5, against that of 112 particles over the width. Two \
               dimensions.",
     words: include_str!("words/dam.md"),
-    errors: &[0.03, 0.01],
-    seconds: &[1.0, 60.0],
 };
 const GRAVITY: f64 = 9.81;
 /// The step factor of all schemes.

@@ -20,10 +20,13 @@ mod within;
 
 use clap::Parser;
 use clap::builder::PossibleValuesParser;
-use meshfree::study::work_precision::{Clock, Failure, Report};
+use meshfree::study::work_precision::{Clock, Failure, Report, save_page};
 use problem::Problem;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::time::{Duration, Instant};
+
+const TITLE: &str = "meshfree: what accuracy costs in time";
 
 type Make = fn(bool) -> Result<Problem, Failure>;
 
@@ -51,7 +54,7 @@ const PROBLEMS: &[(&str, Make)] = &[
 /// The command line.
 #[derive(Parser)]
 #[command(
-    about = "What an error costs: all problems, and the page of them, into docs/ and out/work_precision."
+    about = "What an error costs: all problems, and the pages of them, into docs/ and out/work_precision."
 )]
 struct Line {
     /// Three coarse spacings of each problem, into out/work_precision
@@ -61,6 +64,12 @@ struct Line {
     #[arg(long, value_name = "KEY,KEY", value_delimiter = ',',
           value_parser = PossibleValuesParser::new(PROBLEMS.iter().map(|(key, _)| *key)))]
     only: Vec<String>,
+    /// One method of a problem, by its name there
+    #[arg(long, requires = "only", requires = "spacing")]
+    method: Option<String>,
+    /// One spacing of that method [m]
+    #[arg(long, requires = "method", value_name = "DX")]
+    spacing: Option<f64>,
     /// Where files go instead
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -78,11 +87,37 @@ struct Line {
 /// After this time of a problem none of its runs is begun; what was not run is a row that says so.
 const BUDGET: Duration = Duration::from_secs(180);
 
+/// The state of the program, where it is known.
+fn commit() -> Option<String> {
+    let found = Command::new("git")
+        .args(["rev-parse", "--short", "HEAD"])
+        .output();
+    let found = found.ok().filter(|found| found.status.success())?;
+    Some(String::from_utf8(found.stdout).ok()?.trim().into())
+}
+
 /// Runs a study, and leaves its rows and its plot.
-fn measure(problem: Problem, quick: bool, data: &Path, out: &Path) -> Result<Report, Failure> {
-    let key = problem.text.key;
-    let report = problem
-        .study
+fn measure(problem: Problem, line: &Line, data: &Path, out: &Path) -> Result<Report, Failure> {
+    let (text, quick) = (problem.text, line.quick);
+    let key = text.key;
+    let command = format!(
+        "cargo run --release --example work_precision -- --only {key} --method '{{method}}' --spacing {{spacing}}"
+    );
+    let mut study = problem.study;
+    for (name, note) in [
+        ("command", command),
+        ("setting", text.setting.into()),
+        ("advice", text.words.into()),
+    ] {
+        study = study.note(name, &note);
+    }
+    if let Some(commit) = commit() {
+        study = study.note("commit", &commit);
+    }
+    if let Some((method, spacing)) = line.method.as_ref().zip(line.spacing) {
+        study = study.point(method, spacing);
+    }
+    let report = study
         .repeats(if quick { 1 } else { 3 })
         .clock(Clock::Processor)
         .repeat_up_to(Duration::from_millis(500))
@@ -119,7 +154,7 @@ pub(crate) fn main() -> Result<(), Failure> {
     }
     // A quick run, or one of some problems, checks that everything works: it does not touch the documentation.
     let whole = !quick && line.only.is_empty();
-    let out = line.out.unwrap_or_else(|| {
+    let out = line.out.clone().unwrap_or_else(|| {
         if whole {
             "docs".into()
         } else {
@@ -132,7 +167,7 @@ pub(crate) fn main() -> Result<(), Failure> {
         out.clone()
     };
     let start = Instant::now();
-    let mut page = page::Page::new();
+    let (mut page, mut reports) = (page::Page::new(), Vec::new());
     for (key, make) in PROBLEMS {
         if !line.only.is_empty() && !line.only.iter().any(|own| own == key) {
             continue;
@@ -141,12 +176,13 @@ pub(crate) fn main() -> Result<(), Failure> {
         // A problem that fails is a section that says so, and the others run.
         let done = make(quick).and_then(|problem| {
             let text = problem.text;
-            Ok((text, measure(problem, quick, &data, &out)?))
+            Ok((text, measure(problem, &line, &data, &out)?))
         });
         match done {
             Ok((text, report)) => {
                 println!("{report}\n{key}: {:.1} s\n", begin.elapsed().as_secs_f64());
                 page.add(&text, &report);
+                reports.push(report);
             }
             Err(why) => {
                 println!("{key}: failed: {why}\n");
@@ -159,8 +195,9 @@ pub(crate) fn main() -> Result<(), Failure> {
     }
     let seconds = start.elapsed().as_secs_f64();
     page.save(&out.join("accuracy_and_cost.md"))?;
+    save_page(out.join("accuracy.html"), TITLE, &reports)?;
     println!(
-        "{seconds:.0} s; the page is in {}, all rows in {}",
+        "{seconds:.0} s; the pages are in {}, all rows in {}",
         out.display(),
         data.display()
     );

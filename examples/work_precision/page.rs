@@ -1,14 +1,13 @@
-//! The page of a study: for every problem its plot, errors by spacing, the runs on the front, the laws, answers, and the words about them.
+//! The page of all problems: what to take for each, their plots, and what single choices buy; every run is on the page for a browser.
 //! All numbers are from the run that writes it.
 
 use super::choices;
 use super::problem::Text;
 use super::recommended;
 use meshfree::error::Error;
-use meshfree::output::table::{Table, significant};
-use meshfree::study::work_precision::{Estimate, Refusal, Report, Row, View};
+use meshfree::output::table::Table;
+use meshfree::study::work_precision::{Estimate, Report, View};
 use std::path::Path;
-use std::time::Duration;
 
 const HEAD: &str = include_str!("words/head.md");
 const CHOSEN: &str = include_str!("words/choices.md");
@@ -16,7 +15,10 @@ const ENERGY: &str = include_str!("words/energy.md");
 const RECOMMENDED: &str = include_str!("words/recommended.md");
 
 pub struct Page {
-    body: String,
+    /// A picture of each problem, and what failed.
+    pictures: Vec<String>,
+    failures: String,
+    energy: String,
     choices: Table,
     recommended: Table,
     /// Problems that failed.
@@ -28,24 +30,12 @@ pub struct Page {
     seconds: f64,
 }
 
-/// The first reason, without those of the other methods.
-fn shortly(why: &Refusal) -> String {
-    match why {
-        Refusal::NoMethod(all) => {
-            let own = all.iter().map(|(method, why)| format!("{method}: {why}"));
-            own.take(1)
-                .chain((all.len() > 1).then(|| format!("and {} more", all.len() - 1)))
-                .collect::<Vec<_>>()
-                .join("; ")
-        }
-        other => other.to_string(),
-    }
-}
-
 impl Page {
     pub fn new() -> Self {
         Self {
-            body: String::new(),
+            pictures: Vec::new(),
+            failures: String::new(),
+            energy: String::new(),
             choices: choices::table(),
             recommended: recommended::table(),
             failed: 0,
@@ -56,13 +46,13 @@ impl Page {
 
     /// What compatible energy costs, after the problems so far.
     pub fn price_of_energy(&mut self, table: &Table) {
-        self.body += &format!("\n{ENERGY}\n{}", table.markdown());
+        self.energy = format!("\n{ENERGY}\n{}", table.markdown());
     }
 
     /// A problem that gave no report.
     pub fn fail(&mut self, key: &str, why: &str) {
         self.failed += 1;
-        self.body += &format!("\n## {key}\n\nFailed: {why}\n");
+        self.failures += &format!("\n{key} failed: {why}\n");
     }
 
     pub fn add(&mut self, text: &Text, report: &Report) {
@@ -75,73 +65,8 @@ impl Page {
             .iter()
             .map(|row| row.seconds * row.repeats as f64);
         self.seconds += times.filter(|time| time.is_finite()).sum::<f64>();
-        let mut front = Table::new([
-            "on the front",
-            "spacing [m]",
-            "error [%]",
-            "time [s]",
-            "steps",
-            "pairs",
-        ]);
-        for row in view.front() {
-            front.row([
-                row.method.clone(),
-                significant(row.spacing, 3),
-                view.error(row)
-                    .map_or(String::new(), |error| significant(100.0 * error, 3)),
-                significant(row.seconds, 2),
-                row.work.steps.to_string(),
-                significant(row.work.pairs as f64, 3),
-            ]);
-        }
-        let answer = |what: String, found: Result<_, Refusal>| match found {
-            Ok(recipe) => format!("- {what}: {recipe}\n"),
-            Err(why) => format!("- {what}: no answer ({})\n", shortly(&why)),
-        };
-        let errors = text.errors.iter();
-        let mut answers: String = errors
-            .map(|&error| {
-                answer(
-                    format!("error of {} %", significant(100.0 * error, 2)),
-                    view.for_error(error),
-                )
-            })
-            .collect();
-        answers.extend(text.seconds.iter().map(|&seconds| {
-            answer(
-                format!("within {seconds} s"),
-                view.within(Duration::from_secs_f64(seconds)),
-            )
-        }));
-        let failed = report.rows().iter().filter(|row| view.error(row).is_none());
-        let mut without = String::new();
-        for row in failed {
-            let Row { method, status, .. } = row;
-            let spacing = significant(row.spacing, 3);
-            without += &format!("- no error: {method}, spacing {spacing} m: {status:?}\n");
-        }
-        self.body += &format!(
-            "\n## {}\n\n{}\n\n![{}](accuracy_{}.svg)\n\n{}\n{}\n{}\n{}\n{}",
-            text.title,
-            text.setting,
-            text.title,
-            text.key,
-            text.words,
-            spacings_table(report, &view).markdown(),
-            front.markdown(),
-            view.fits().markdown(),
-            answers,
-        );
-        if !without.is_empty() {
-            self.body += &format!("\n{without}");
-        }
-        for other in report.views().skip(1) {
-            self.body += &format!(
-                "\n{}:\n\n{}",
-                other.quantity().name(),
-                spacings_table(report, &other).markdown()
-            );
-        }
+        self.pictures
+            .push(format!("![{}](accuracy_{}.svg)", text.title, text.key));
     }
 
     /// How the finest runs were foretold.
@@ -169,14 +94,15 @@ impl Page {
             some => format!(" {some} problems failed, as their sections say."),
         };
         let text = format!(
-            "{HEAD}\nThe runs took {:.0} s. Of {all} finest runs the laws through the coarser ones foretold the \
+            "{HEAD}\n{RECOMMENDED}\n{}{}\n{}\nThe runs took {:.0} s. Of {all} finest runs the laws through the coarser ones foretold the \
              error of {errors} within 25 % and refused that of {no_errors}; {held} were within intervals of 90 %. The price of \
-             the coarser ones foretold the time of {times} within 15 % and refused that of {no_times}.{failed}\n\n{RECOMMENDED}\n\
-             {}\n{CHOSEN}\n{}{}",
-            self.seconds,
+             the coarser ones foretold the time of {times} within 15 % and refused that of {no_times}.{failed}\n\n{CHOSEN}\n{}{}",
             self.recommended.markdown(),
+            self.failures,
+            grid(&self.pictures),
+            self.seconds,
             self.choices.markdown(),
-            self.body
+            self.energy
         );
         let fail = |cause| Error::File {
             action: "write",
@@ -190,22 +116,11 @@ impl Page {
     }
 }
 
-/// Errors of all methods by spacing.
-fn spacings_table(report: &Report, view: &View<'_>) -> Table {
-    let mut spacings: Vec<f64> = report.rows().iter().map(|row| row.spacing).collect();
-    spacings.sort_by(|a, b| b.total_cmp(a));
-    spacings.dedup();
-    let heads = spacings
-        .iter()
-        .map(|dx| format!("dx {}", significant(*dx, 3)));
-    let mut table = Table::new(std::iter::once("method".to_string()).chain(heads));
-    for method in report.methods() {
-        let rows = report.rows().iter().filter(|row| row.method == method);
-        let cells = rows.map(|row| {
-            view.error(row)
-                .map_or("–".into(), |error| significant(error, 3))
-        });
-        table.row(std::iter::once(method.to_string()).chain(cells));
+/// Pictures three in a row.
+fn grid(pictures: &[String]) -> String {
+    let mut table = Table::new(["", "", ""]);
+    for row in pictures.chunks(3) {
+        table.row((0..3).map(|k| row.get(k).cloned().unwrap_or_default()));
     }
-    table
+    table.markdown()
 }

@@ -14,9 +14,6 @@ pub struct Text {
     pub setting: &'static str,
     /// What to choose and why.
     pub words: &'static str,
-    /// Errors that are asked for, and seconds.
-    pub errors: &'static [f64],
-    pub seconds: &'static [f64],
 }
 
 /// What is said about it, and its study.

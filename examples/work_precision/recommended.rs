@@ -33,9 +33,7 @@ const GAINS: f64 = 0.9;
 pub fn table() -> Table {
     Table::new([
         "problem",
-        "recommended",
-        "of",
-        "error [%]",
+        "advice",
         "its time over the least for that error",
         "pairs over the least",
         "error foretold over found (90 %)",
@@ -76,9 +74,14 @@ pub fn add(table: &mut Table, key: &str, title: &str, report: &Report) {
     let (seconds, pairs) = (row.seconds, row.work.pairs as f64);
     table.row([
         title.to_string(),
-        (*method).to_string(),
-        view.quantity().name().to_string(),
-        significant(100.0 * error, 2),
+        format!(
+            "for {} % of {}, take `{method}` at {} m: {} s, {} pairs",
+            significant(100.0 * error, 2),
+            view.quantity().name(),
+            significant(row.spacing, 3),
+            significant(seconds, 2),
+            significant(pairs, 2),
+        ),
         format!(
             "{:.2}",
             over_least(report, &view, error, seconds, Column::Seconds)

@@ -29,16 +29,12 @@ const COPPER: Text = Text {
     setting: "A rod of 10 mm at 20 m/s strikes one of 20 mm at rest; the pressure along both after 3.2 µs, when waves run \
               through both and the first has come back from the free end: mean error over mean pressure. One dimension.",
     words: include_str!("words/rods_copper.md"),
-    errors: &[0.1, 0.03, 0.01],
-    seconds: &[0.1, 10.0],
 };
 const PMMA: Text = Text {
     key: "rods_pmma",
     title: "Copper rod on PMMA rod",
     setting: "As above with a target of PMMA, whose impedance is a tenth.",
     words: include_str!("words/rods_pmma.md"),
-    errors: &[0.1, 0.03, 0.01],
-    seconds: &[0.1, 10.0],
 };
 const TENSION: Text = Text {
     key: "rods_tension",
@@ -48,8 +44,6 @@ const TENSION: Text = Text {
               the rise of the first front, and the ripple: the root mean square by which neighbours in tension differ from a \
               smooth curve, over the tension.",
     words: include_str!("words/rods_tension.md"),
-    errors: &[0.1, 0.03, 0.01],
-    seconds: &[0.1, 10.0],
 };
 const PRESSURE: &str = "pressure along the rods";
 const RISE: &str = "rise of the front in µs";

@@ -14,24 +14,18 @@ const LINE: Text = Text {
     setting: "A standing wave of 1 m, amplitude 10⁻⁸ c, in a period of its length, after one period of time: root mean square \
               error of velocity over that of the wave.",
     words: include_str!("words/sound_1d.md"),
-    errors: &[0.1, 0.03, 0.01],
-    seconds: &[0.1, 10.0],
 };
 const PLANE: Text = Text {
     key: "sound_2d",
     title: "Sound in a liquid, two dimensions",
     setting: "The same wave in a periodic strip, 16 spacings high.",
     words: include_str!("words/sound_2d.md"),
-    errors: &[0.1, 0.03, 0.01],
-    seconds: &[1.0, 10.0],
 };
 const SPACE: Text = Text {
     key: "sound_3d",
     title: "Sound in a liquid, three dimensions",
     setting: "The same wave in a periodic bar, 12 spacings wide and high.",
     words: include_str!("words/sound_3d.md"),
-    errors: &[0.1, 0.03, 0.01],
-    seconds: &[1.0, 10.0],
 };
 const SOUND: f64 = 10.0;
 const QUANTITY: &str = "velocity of a sound wave";

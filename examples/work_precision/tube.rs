@@ -15,8 +15,6 @@ const SOD: Text = Text {
     setting: "The tube of one dimension with particles of equal mass on cubic lattices, twice as wide on the right, sixteen spacings \
               of the left across between periods. Mean error of density over mean density after 0.2 s.",
     words: include_str!("words/sod_3d.md"),
-    errors: &[0.03, 0.01],
-    seconds: &[10.0, 60.0],
 };
 const DENSITY: &str = "density";
 /// Spacings of the left across the tube.

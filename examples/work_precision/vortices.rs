@@ -18,8 +18,6 @@ const TEXT: Text = Text {
     setting: "Four vortices of 1 m/s in a periodic square of 1 m, after 0.5 s, when the speed has fallen to 0.67; root mean \
               square error of velocity over velocity. Two dimensions.",
     words: include_str!("words/vortices.md"),
-    errors: &[0.1, 0.03, 0.01],
-    seconds: &[1.0, 60.0],
 };
 const VELOCITY: &str = "velocity of the vortices";
 const SPEED: &str = "speed by the energy";

@@ -24,6 +24,7 @@
 //! | [`ghia`] | centre-line velocities of the lid-driven cavity |
 //! | [`records`] | files of measured and published curves |
 //! | [`work_precision`] | what accuracy costs in time: sweeps, fits of error and cost, and the questions that they answer |
+//! | [`with_error_bar`] | a result with the interval that its spacing leaves, from coarser companions |
 //! | [`cost_model`] | what a run will cost, before it and from its first steps |
 //! | [`ablation`] | what each effect changes and costs, by runs without it |
 //! | [`norms`] | differences of profiles, plateau, rise time, overshoot, arrival, observed order |
@@ -44,6 +45,7 @@ pub mod channel;
 mod check;
 pub mod cost_model;
 pub mod dam_break;
+mod error_bars;
 pub mod free_beam;
 pub mod ghia;
 pub mod godunov_rods;
@@ -59,6 +61,8 @@ pub mod sod;
 pub mod standing_wave;
 pub mod taylor_green;
 pub mod work_precision;
+
+pub use error_bars::{ErrorBar, NoErrorBar, with_error_bar};
 
 /// What a reference solution could not do, and what to change.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -11,6 +11,7 @@ mod causes;
 mod changes;
 mod counted_work;
 mod entries;
+mod error_bars;
 mod filled;
 mod filling;
 mod forces_of_laws;

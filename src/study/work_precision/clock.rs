@@ -16,6 +16,16 @@ pub enum Clock {
     Processor,
 }
 
+impl Clock {
+    /// What it counts, in words.
+    pub(super) fn words(self) -> &'static str {
+        match self {
+            Self::Wall => "the steps on the wall",
+            Self::Processor => "the run on processors",
+        }
+    }
+}
+
 /// When a run began.
 pub(super) struct Begin {
     wall: Instant,

@@ -51,7 +51,7 @@ fn json_number(value: f64) -> String {
     }
 }
 
-fn json_text(text: &str) -> String {
+pub(super) fn json_text(text: &str) -> String {
     let mut out = String::from("\"");
     for c in text.chars() {
         match c {
@@ -225,14 +225,15 @@ impl Report {
         Ok(())
     }
 
-    /// The report in JSON: the machine, quantities, rows with all choices and counts, and the laws.
+    /// The report in JSON: the machine, notes, quantities, rows with all choices and counts, and the laws.
     #[must_use]
     pub fn json(&self) -> String {
         let machine = format!(
-            "{{\"architecture\": {}, \"processor\": {}, \"threads\": {}, \"version\": {}}}",
+            "{{\"architecture\": {}, \"processor\": {}, \"threads\": {}, \"clock\": {}, \"code\": \"meshfree\", \"version\": {}}}",
             json_text(std::env::consts::ARCH),
             json_text(&processor()),
             crate::parallel::threads(),
+            json_text(self.clock.words()),
             json_text(env!("CARGO_PKG_VERSION"))
         );
         let quantities: Vec<_> = self
@@ -262,8 +263,9 @@ impl Report {
             }
         }
         format!(
-            "{{\n  \"study\": {},\n  \"machine\": {machine},\n  \"quantities\": [{}],\n  \"rows\": [\n{}\n  ],\n  \"laws\": [\n{}\n  ]\n}}\n",
+            "{{\n  \"study\": {},\n  \"machine\": {machine},\n  \"notes\": {},\n  \"quantities\": [{}],\n  \"rows\": [\n{}\n  ],\n  \"laws\": [\n{}\n  ]\n}}\n",
             json_text(&self.name),
+            super::page::notes(&self.notes),
             quantities.join(", "),
             rows.join(",\n"),
             laws.join(",\n")

@@ -48,7 +48,7 @@
 //! | what did an error take, in pairs that no machine changes? | [`View::work_at`] |
 //! | which runs are beaten by no other? | [`View::front`] |
 //! | does the law foretell the finest run from the others? | [`View::foretold`] |
-//! | all of it to look at | [`Report`] as text, [`Report::csv`], [`Report::json`], [`View::figure`] |
+//! | all of it to look at | [`Report`] as text, [`Report::csv`], [`Report::json`], [`View::figure`], [`page`] for a browser |
 
 mod answer;
 mod case;
@@ -58,6 +58,7 @@ mod export;
 mod fit;
 mod history;
 mod outcome;
+mod page;
 mod plot;
 mod price;
 mod quantity;
@@ -72,6 +73,7 @@ pub use clock::Clock;
 pub use fit::{Estimate, PowerFit};
 pub use history::History;
 pub use outcome::{Outcome, relative_l1, relative_l2, residual};
+pub use page::{json, page, save_page};
 pub use plot::Column;
 pub use price::Price;
 pub use quantity::{Norm, Quantity, Reference};
@@ -103,6 +105,8 @@ pub struct WorkPrecision<'a> {
     repeat_up_to: Duration,
     budget: Option<Duration>,
     clock: Clock,
+    notes: Vec<(String, String)>,
+    point: Option<(String, f64)>,
     watch: Option<Box<Watch<'a>>>,
 }
 
@@ -126,6 +130,8 @@ impl<'a> WorkPrecision<'a> {
             repeat_up_to: Duration::from_secs(1),
             budget: None,
             clock: Clock::default(),
+            notes: Vec::new(),
+            point: None,
             watch: None,
         }
     }
@@ -199,6 +205,29 @@ impl<'a> WorkPrecision<'a> {
     #[must_use]
     pub fn clock(mut self, clock: Clock) -> Self {
         self.clock = clock;
+        self
+    }
+
+    /// A note that goes with the report into [`Report::json`] and the [`page`].
+    ///
+    /// | name | text |
+    /// |---|---|
+    /// | `command` | what repeats a run, with `{method}` and `{spacing}` where they stand in it ([`point`](Self::point)) |
+    /// | `commit` | the state of the program |
+    /// | `setting` | what runs, and what its error is |
+    /// | `advice` | paragraphs about the study, with `**emphasis**` and code between backticks |
+    #[must_use]
+    pub fn note(mut self, name: &str, text: &str) -> Self {
+        self.notes.push((name.into(), text.into()));
+        self
+    }
+
+    /// Runs this method on this spacing \[m\] alone: one point of a study, again.
+    ///
+    /// An error that is measured against finer runs has none to be measured against.
+    #[must_use]
+    pub fn point(mut self, method: &str, spacing: f64) -> Self {
+        self.point = Some((method.into(), spacing));
         self
     }
 
@@ -279,7 +308,22 @@ impl<'a> WorkPrecision<'a> {
     /// # Errors
     /// If the study has no quantity, no spacing, or one that is none. A run that fails is a row of the report.
     pub fn run(mut self) -> Result<Report> {
-        let methods = self.all_methods();
+        let mut methods = self.all_methods();
+        if let Some((method, spacing)) = &self.point {
+            let known: Vec<_> = methods.iter().map(|own| own.name.clone()).collect();
+            methods.retain(|own| own.name == *method);
+            self.spacings = vec![*spacing];
+            if methods.is_empty() {
+                return Err(Error::Argument(Problem::Incompatible {
+                    what: format!(
+                        "the study `{}` has no method `{method}` but `{}`",
+                        self.name,
+                        known.join("`, `")
+                    ),
+                    remedy: "take one of these names",
+                }));
+            }
+        }
         self.check(&methods)?;
         let mut spacings = self.spacings.clone();
         spacings.sort_by(|a, b| b.total_cmp(a));
@@ -307,7 +351,9 @@ impl<'a> WorkPrecision<'a> {
                 runs.push(run);
             }
         }
-        Ok(Report::new(self.name, self.quantities, methods, measured))
+        let mut report = Report::new(self.name, self.quantities, methods, measured);
+        (report.notes, report.clock) = (self.notes, self.clock);
+        Ok(report)
     }
 
     /// One run with its repeats.

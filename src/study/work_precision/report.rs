@@ -3,6 +3,7 @@
 
 use super::answer::Recipe;
 use super::case::Method;
+use super::clock::Clock;
 use super::fit::PowerFit;
 use super::outcome::Outcome;
 use super::price::Price;
@@ -94,6 +95,8 @@ pub struct Report {
     pub(super) quantities: Vec<Quantity>,
     pub(super) methods: Vec<Method>,
     pub(super) rows: Vec<Row>,
+    pub(super) notes: Vec<(String, String)>,
+    pub(super) clock: Clock,
 }
 
 impl Report {
@@ -127,6 +130,8 @@ impl Report {
             quantities,
             methods,
             rows,
+            notes: Vec::new(),
+            clock: Clock::default(),
         }
     }
 
