@@ -108,7 +108,7 @@
 //! | [`output`] | tables, plots, pictures, particle files, progress |
 //! | [`study`] | exact and reference solutions, norms, orders of convergence |
 //! | [`error`] | what went wrong, where, and what to try |
-//! | [`boundary`] | mirror planes, periodic directions, sheared or not, a trait for others; walls, inlets and outlets of liquids |
+//! | [`boundary`] | mirror planes, periodic directions, sheared or not, a trait for others; walls, inlets and outlets of liquids, and what flows through them |
 //! | [`integrator`] | leapfrogs, Runge–Kutta methods, the printed method of Lam, Shen & Gong |
 //! | [`scheme`] | how a scheme is composed: density form, energy form, smoothing, effects |
 //! | [`effect`] | effects: diffusion, shifting, damping, viscosities, walls, each in one file, and your own |

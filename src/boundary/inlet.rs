@@ -1,16 +1,21 @@
 //! Inlets: openings through which liquid enters at a prescribed velocity.
 //! A buffer of moving wall particles stands behind the opening and hands over its front layer.
 
-use super::{Motion, Pose, Wall};
+use super::{Inflow, Motion, OpenBoundary, OpenPlace, Pose, Wall};
 use crate::geometry::{MOST_PARTICLES, POSITIVE};
 use crate::origin::local;
 use crate::tensor::{Vector, length};
+use core::fmt;
+use std::sync::Arc;
 
 /// An opening through which a body receives particles.
 ///
 /// Behind it stands a buffer as thick as the kernel reaches, which moves with the inflow and has the
 /// pressure of the liquid before it. Whenever it has gone one spacing, its front layer becomes liquid
 /// and the rest steps back.
+///
+/// With a velocity that depends on place or time ([`through`](Self::through)) every point of the opening has a column of
+/// particles of its own behind it, which hands one over by every spacing that the inflow before it has gone.
 ///
 /// ```
 /// use meshfree::boundary::Inlet;
@@ -25,13 +30,32 @@ use crate::tensor::{Vector, length};
 /// assert_eq!(simulation.particles(), 200 + 9 * 10);
 /// # Ok::<(), Error>(())
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Inlet<const D: usize> {
     pub(crate) body: String,
     pub(crate) opening: Vec<[f64; D]>,
+    /// Its direction alone counts where there is a state.
     pub(crate) velocity: [f64; D],
     pub(crate) spacing: f64,
     pub(crate) reserve: usize,
+    /// Velocities that differ by place or time; none if all of it has one.
+    pub(crate) state: Option<Arc<dyn OpenBoundary<D>>>,
+}
+
+impl<const D: usize> fmt::Debug for Inlet<D> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut all = f.debug_struct("Inlet");
+        all.field("body", &self.body)
+            .field("opening", &self.opening)
+            .field("velocity", &self.velocity)
+            .field("spacing", &self.spacing)
+            .field("reserve", &self.reserve);
+        // Checkpoints of inlets without one are as they were.
+        if let Some(state) = &self.state {
+            all.field("state", state);
+        }
+        all.finish()
+    }
 }
 
 impl<const D: usize> Inlet<D> {
@@ -52,6 +76,34 @@ impl<const D: usize> Inlet<D> {
             velocity,
             spacing,
             reserve,
+            state: None,
+        }
+    }
+
+    /// The same with a velocity that a [boundary](OpenBoundary) gives by place and time, as [`FlowRate`](super::FlowRate) and
+    /// [`VelocityProfile`](super::VelocityProfile) do; `inwards` points into the liquid, across the opening, and may have any length.
+    ///
+    /// Particles enter with the pressure of the buffer. The velocity may be zero, and its part along `inwards` must not be negative:
+    /// a run in which it is ends with an error.
+    ///
+    /// ```
+    /// use meshfree::boundary::{Inlet, VelocityProfile};
+    /// let opening = (0..20).map(|k| [0.0, 0.05 * (f64::from(k) + 0.5)]).collect();
+    /// let parabola = VelocityProfile::new(|[_, y]: [f64; 2], _| [6.0 * y * (1.0 - y), 0.0]);
+    /// let inlet = Inlet::through("water", opening, [1.0, 0.0], 0.05, 400, parabola);
+    /// ```
+    #[must_use]
+    pub fn through(
+        body: &str,
+        opening: Vec<[f64; D]>,
+        inwards: [f64; D],
+        spacing: f64,
+        reserve: usize,
+        state: impl OpenBoundary<D> + 'static,
+    ) -> Self {
+        Self {
+            state: Some(Arc::new(state)),
+            ..Self::new(body, opening, inwards, spacing, reserve)
         }
     }
 
@@ -63,8 +115,23 @@ impl<const D: usize> Inlet<D> {
     /// The buffer behind the opening, `layers` thick.
     pub(crate) fn buffer(&self, layers: usize) -> Wall<D> {
         let points = (0..layers).flat_map(|k| self.layer(k)).collect();
-        let inflow = Inflow::new(self.velocity, self.spacing, 0);
-        Wall::of(&format!("inlet of {}", self.body), points, self.spacing).motion(inflow)
+        let buffer = Wall::of(&format!("inlet of {}", self.body), points, self.spacing);
+        if self.state.is_some() {
+            return buffer;
+        }
+        buffer.motion(Uniform::new(self.velocity, self.spacing, 0))
+    }
+
+    /// What moves a buffer of so many layers, where velocities differ by place or time, for a body of a group.
+    pub(crate) fn inflow(
+        &self,
+        layers: usize,
+        fed: (usize, f64),
+        origin: &[f64; D],
+    ) -> Option<Inflow<D>> {
+        let state = (self.state.clone()?, self.direction());
+        let size = (self.spacing, layers);
+        Some(Inflow::new(state, &self.opening, size, fed, origin))
     }
 
     /// A layer of the buffer as built.
@@ -86,12 +153,42 @@ impl<const D: usize> Inlet<D> {
         }
     }
 
+    /// What is wrong with the velocities at the start.
+    fn velocities_at_start(
+        &self,
+        state: &dyn OpenBoundary<D>,
+    ) -> Option<(&'static str, f64, &'static str)> {
+        let inwards = self.direction();
+        self.opening.iter().find_map(|&position| {
+            let at = OpenPlace {
+                position,
+                time: 0.0,
+                inwards,
+            };
+            let Some(v) = state.velocity(&at) else {
+                let must_be =
+                    "an inlet needs one: a boundary that gives a pressure alone is for an outlet";
+                return Some(("velocity at t = 0", f64::NAN, must_be));
+            };
+            let along: f64 = (0..D).map(|d| v[d] * inwards[d]).sum();
+            let must_be = "it must be finite, in m/s, and point into the liquid or be zero";
+            (!along.is_finite() || along < 0.0).then_some(("velocity at t = 0", along, must_be))
+        })
+    }
+
     /// What is wrong with it, as `(what, value, what it must be)`.
     pub(crate) fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         let mut problems = Vec::new();
         let speed = length(&Vector::from(self.velocity));
         if !speed.is_finite() || speed == 0.0 {
-            problems.push(("velocity", speed, "it must be finite and not zero, in m/s"));
+            problems.push(match self.state {
+                None => ("velocity", speed, "it must be finite and not zero, in m/s"),
+                Some(_) => (
+                    "direction",
+                    speed,
+                    "it must be finite and not zero, and point into the liquid",
+                ),
+            });
         }
         if self.opening.is_empty() {
             problems.push(("opening", 0.0, "it must have at least one point"));
@@ -106,17 +203,24 @@ impl<const D: usize> Inlet<D> {
             let must_be = "memory for it is kept from the start: it must stay below 4e9 particles";
             problems.push(("reserve", self.reserve as f64, must_be));
         }
+        let Some(state) = &self.state else {
+            return problems;
+        };
+        problems.extend(state.problems());
+        if problems.is_empty() && state.span()[0] <= 0.0 {
+            problems.extend(self.velocities_at_start(&**state));
+        }
         problems
     }
 }
 
 /// Moves a buffer with the inflow, and back by one spacing for every layer handed over.
-pub(crate) struct Inflow<const D: usize> {
+pub(crate) struct Uniform<const D: usize> {
     velocity: [f64; D],
     back: [f64; D],
 }
 
-impl<const D: usize> Inflow<D> {
+impl<const D: usize> Uniform<D> {
     fn new(velocity: [f64; D], spacing: f64, layers: u64) -> Self {
         let size = length(&Vector::from(velocity));
         let step = velocity.map(|v| v / size * spacing);
@@ -127,7 +231,7 @@ impl<const D: usize> Inflow<D> {
     }
 }
 
-impl<const D: usize> Motion<D> for Inflow<D> {
+impl<const D: usize> Motion<D> for Uniform<D> {
     fn name(&self) -> String {
         "inflow".into()
     }
@@ -155,8 +259,8 @@ pub(crate) struct Emitter<const D: usize> {
 
 impl<const D: usize> Emitter<D> {
     /// How its buffer moves until the next layer is due.
-    pub fn inflow(&self) -> Inflow<D> {
-        Inflow::new(self.velocity, self.spacing, self.layers)
+    pub fn inflow(&self) -> Uniform<D> {
+        Uniform::new(self.velocity, self.spacing, self.layers)
     }
 
     /// The layer that becomes liquid at `time` \[s\], with its velocity; `None` before it is due.

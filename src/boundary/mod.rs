@@ -10,7 +10,7 @@
 //! | [`LeesEdwards`] | the copy one period on, which slides past | homogeneous shear without walls, rheology |
 //! | [`Wall`] | – (particles of its own) | tanks, obstacles, pistons of any shape, for liquids |
 //! | [`Inlet`] | – (particles enter) | channels, jets |
-//! | [`Outlet`] | – (particles leave) | liquid that is driven out |
+//! | [`Outlet`] | – (particles leave) | liquid that is driven out, or leaves at a given pressure |
 //!
 //! Boundaries combine: a later one also shows images of the images of earlier ones, which fills edges
 //! and corners. Images are found when neighbour lists are made, and follow their particles until the
@@ -21,6 +21,18 @@
 //! meet. What has no pressure, as a cavitated drop, flies through a plane as its image does: the two change
 //! places, and the drop is on its side again. Such a wall slips along the plane. Walls of other shapes are
 //! [`Wall`]s of particles of their own: they hold liquids, move as [prescribed](Motion), and may deny slip.
+//!
+//! # Open boundaries
+//!
+//! An [`OpenBoundary`] gives the liquid in the buffer of an inlet or an outlet its velocity or its pressure.
+//!
+//! | boundary | gives | to |
+//! |---|---|---|
+//! | [`VelocityProfile`] | velocity as a function of place and time | [`Inlet::through`] |
+//! | [`FlowRate`] | velocity, by the volume that enters in a time | [`Inlet::through`] |
+//! | [`GivenPressure`] | pressure; velocity comes from inside | [`Outlet::buffer`] |
+//!
+//! Flow rates and pressures are numbers, or [`TimeSeries`].
 //!
 //! # Motions
 //!
@@ -36,10 +48,14 @@
 //! | [`Composed`] | several of them, one after the other |
 
 mod composed;
+mod flow_rate;
+mod given_pressure;
+mod inflow;
 mod inlet;
 mod lees_edwards;
 mod mirror;
 mod motion;
+mod open;
 mod outlet;
 mod periodic;
 mod recorded;
@@ -47,6 +63,8 @@ mod rotation;
 mod seen;
 mod spline;
 mod surface;
+mod time_series;
+mod velocity_profile;
 mod wall;
 
 use crate::sweep::{Interaction, Transform};
@@ -54,17 +72,24 @@ use core::fmt::Debug;
 use std::sync::Arc;
 
 pub use composed::Composed;
+pub use flow_rate::FlowRate;
+pub use given_pressure::GivenPressure;
+pub(crate) use inflow::Inflow;
 pub(crate) use inlet::Emitter;
 pub use inlet::Inlet;
 pub use lees_edwards::LeesEdwards;
 pub use mirror::MirrorPlane;
 pub use motion::{Crush, Motion, Pose, Translation};
+pub(crate) use open::BEYOND;
+pub use open::{OpenBoundary, OpenPlace};
 pub use outlet::Outlet;
 pub use periodic::Periodic;
 pub use recorded::Recorded;
 pub use rotation::Rotation;
 pub(crate) use seen::{boundary_from, motion_from};
 pub use surface::WallSurface;
+pub use time_series::TimeSeries;
+pub use velocity_profile::VelocityProfile;
 pub use wall::{Slip, Wall};
 
 /// A boundary that acts through images of particles.

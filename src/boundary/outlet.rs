@@ -1,13 +1,18 @@
 //! Outlets: where particles leave the simulation, and what they must do to be taken out.
-//! What leaves is counted, with its mass and momentum.
+//! What leaves is counted, with its mass and momentum. Before a plane may lie a buffer of given pressure or velocity.
 
-use crate::geometry::SWAPPED;
+use super::OpenBoundary;
+use crate::geometry::{POSITIVE, SWAPPED};
 use crate::origin::local;
+use core::fmt;
+use std::sync::Arc;
 
 /// A reason to take particles out.
 ///
 /// They leave when neighbour lists are next made, so put a plane a support behind the place where the
 /// flow is looked at.
+///
+/// An end without a [buffer](Self::buffer) is a free surface: the pressure there is zero, whatever the flow.
 ///
 /// ```
 /// use meshfree::boundary::Outlet;
@@ -15,8 +20,40 @@ use crate::origin::local;
 /// assert!(end.takes(&[1.1, 5.0], &[0.0, 0.0]) && !end.takes(&[0.9, 5.0], &[0.0, 0.0]));
 /// assert!(Outlet::faster_than(10.0).takes(&[0.0], &[-11.0]));
 /// ```
-#[derive(Clone, Debug, PartialEq)]
-pub struct Outlet<const D: usize>(Reason<D>);
+#[derive(Clone)]
+pub struct Outlet<const D: usize>(Reason<D>, Option<Buffer<D>>);
+
+/// Liquid before a plane whose state is given.
+#[derive(Clone, Debug)]
+pub(crate) struct Buffer<const D: usize> {
+    /// Its thickness \[m\].
+    pub depth: f64,
+    pub state: Arc<dyn OpenBoundary<D>>,
+}
+
+impl<const D: usize> fmt::Debug for Outlet<D> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut all = f.debug_tuple("Outlet");
+        all.field(&self.0);
+        // Checkpoints of outlets without one are as they were.
+        if let Some(buffer) = &self.1 {
+            all.field(buffer);
+        }
+        all.finish()
+    }
+}
+
+/// The same place and buffer; boundaries are the same if one is a clone of the other.
+impl<const D: usize> PartialEq for Outlet<D> {
+    fn eq(&self, other: &Self) -> bool {
+        let same = match (&self.1, &other.1) {
+            (None, None) => true,
+            (Some(a), Some(b)) => a.depth == b.depth && Arc::ptr_eq(&a.state, &b.state),
+            _ => false,
+        };
+        self.0 == other.0 && same
+    }
+}
 
 #[derive(Clone, Debug, PartialEq)]
 enum Reason<const D: usize> {
@@ -29,19 +66,58 @@ impl<const D: usize> Outlet<D> {
     /// Beyond the plane through `point` \[m\]; `normal` points to where particles leave.
     #[must_use]
     pub fn plane(point: [f64; D], normal: [f64; D]) -> Self {
-        Self(Reason::Beyond { point, normal })
+        Self(Reason::Beyond { point, normal }, None)
     }
 
     /// Outside of the box from `low` to `high` \[m\]: the box in which a simulation is active.
     #[must_use]
     pub fn outside_box(low: [f64; D], high: [f64; D]) -> Self {
-        Self(Reason::Outside { low, high })
+        Self(Reason::Outside { low, high }, None)
     }
 
     /// Faster than `speed` \[m/s\]: particles that a run can do without, as LS-DYNA's MAXV.
     #[must_use]
     pub fn faster_than(speed: f64) -> Self {
-        Self(Reason::Faster { speed })
+        Self(Reason::Faster { speed }, None)
+    }
+
+    /// Lets the liquid within `depth` \[m\] before a plane have the velocity or the pressure that a [boundary](OpenBoundary)
+    /// gives; what it does not give is extrapolated from inside.
+    ///
+    /// A particle of the buffer takes what the liquid has at its place mirrored at the inner face of the buffer (Tafuni et al.
+    /// 2018, whose ghost nodes lie there): a polynomial of second degree fitted to the particles of its body inside, weighted
+    /// by a kernel. Theirs is of first degree, which loses the curvature of a parabolic profile: the flow meets a buffer that
+    /// is too slow, and the pressure inside is too high. The particle keeps that velocity until the next evaluation; no force
+    /// acts on it.
+    ///
+    /// So `depth` must be at least what the kernel reaches, and as much liquid must be inside. Walls of a channel go on beyond
+    /// the plane by as much. A given pressure is that of the whole buffer. Where the pressure falls along the flow, as in
+    /// liquid that is accelerated, the inner face has it to the fall over four spacings.
+    ///
+    /// Energy and momentum that the buffer gives are in no column of the ledger. Liquid leaves; where it flows back for long
+    /// the buffer empties, and with it the end becomes a free surface.
+    ///
+    /// ```
+    /// use meshfree::boundary::{GivenPressure, Outlet};
+    /// let end = Outlet::plane([2.0, 0.0], [1.0, 0.0]).buffer(0.2, GivenPressure::of(500.0));
+    /// assert!(end.takes(&[2.1, 0.0], &[0.0; 2]) && !end.takes(&[1.9, 0.0], &[0.0; 2]));
+    /// ```
+    #[must_use]
+    pub fn buffer(mut self, depth: f64, state: impl OpenBoundary<D> + 'static) -> Self {
+        self.1 = Some(Buffer {
+            depth,
+            state: Arc::new(state),
+        });
+        self
+    }
+
+    /// The point \[m\] and the unit normal, outwards, of its plane, with the buffer before it; none if there is none.
+    pub(crate) fn open(&self) -> Option<([f64; D], [f64; D], &Buffer<D>)> {
+        let (Reason::Beyond { point, normal }, Some(buffer)) = (&self.0, &self.1) else {
+            return None;
+        };
+        let size = normal.iter().map(|n| n * n).sum::<f64>().sqrt();
+        Some((*point, normal.map(|n| n / size), buffer))
     }
 
     /// Whether a particle at `x` \[m\] with velocity `v` \[m/s\] leaves.
@@ -59,7 +135,7 @@ impl<const D: usize> Outlet<D> {
 
     /// The same for places that are counted from an origin \[m\].
     pub(crate) fn seen_from(&self, origin: &[f64; D]) -> Self {
-        Self(match &self.0 {
+        let reason = match &self.0 {
             Reason::Beyond { point, normal } => Reason::Beyond {
                 point: local(point, origin),
                 normal: *normal,
@@ -69,13 +145,25 @@ impl<const D: usize> Outlet<D> {
                 high: local(high, origin),
             },
             Reason::Faster { speed } => Reason::Faster { speed: *speed },
-        })
+        };
+        Self(reason, self.1.clone())
     }
 
     /// What is wrong with it, as `(what, value, what it must be)`.
     pub(crate) fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         let finite = |values: &[f64]| values.iter().copied().find(|x| !x.is_finite());
-        match &self.0 {
+        let mut problems = Vec::new();
+        if let Some(Buffer { depth, state }) = &self.1 {
+            if !(depth.is_finite() && *depth > 0.0) {
+                problems.push(("depth of the buffer", *depth, POSITIVE));
+            }
+            if !matches!(self.0, Reason::Beyond { .. }) {
+                let must_be = "a buffer lies before a plane: take Outlet::plane";
+                problems.push(("depth of the buffer", *depth, must_be));
+            }
+            problems.extend(state.problems());
+        }
+        let own = match &self.0 {
             Reason::Beyond { point, normal } => {
                 let bad = finite(point).or(finite(normal));
                 let bad = bad.or((normal.iter().all(|&n| n == 0.0)).then_some(0.0));
@@ -106,8 +194,8 @@ impl<const D: usize> Outlet<D> {
                 *speed,
                 "must be positive, in m/s",
             )),
-        }
-        .into_iter()
-        .collect()
+        };
+        problems.extend(own);
+        problems
     }
 }

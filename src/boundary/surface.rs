@@ -22,6 +22,7 @@ pub struct WallSurface<'a, T, const D: usize> {
     gradient: Option<Matrix<f64, D>>,
     gradients: &'a [Matrix<f64, D>],
     slip: Slip,
+    flows: bool,
     scalar: PhantomData<T>,
 }
 
@@ -50,8 +51,21 @@ impl<'a, T: Real, const D: usize> WallSurface<'a, T, D> {
             gradient,
             gradients,
             slip,
+            flows: false,
             scalar: PhantomData,
         }
+    }
+
+    /// Whether it is the buffer of an inlet.
+    pub(crate) fn that_flows(mut self, flows: bool) -> Self {
+        self.flows = flows;
+        self
+    }
+
+    /// Whether it is liquid: the buffer of an inlet, which has its own velocity and the viscosity of the liquid before it.
+    #[must_use]
+    pub fn flows(&self) -> bool {
+        self.flows
     }
 
     /// Whether liquid sticks to it.

@@ -51,7 +51,8 @@ impl<const D: usize, X: Term<D>> Effect<D> for Laminar<X> {
     }
 }
 
-/// What a wall without slip shows: the mirrored velocity of [`Laminar`] and the mean viscosity; one with slip has none.
+/// What a wall without slip shows: the mirrored velocity of [`Laminar`] and the mean viscosity; one with slip has none. The buffer of an
+/// inlet is liquid: it has its own velocity and the mean viscosity.
 ///
 /// With ∇v_wall = L, its velocity is 2 v_wall(x_w) − Σ v_f W/Σ W − L·Σ r W/Σ W.
 #[derive(Clone, Copy, Debug)]
@@ -78,10 +79,13 @@ impl<const D: usize> PointLaw<D> for NoSlip {
         );
         let viscosity = at.sum(Output::LIQUID_VISCOSITY) / unity;
         let sticks = at.around.wall.is_some_and(|wall| wall.sticks());
-        let wet = L::Mask::all_of(sticks) & unity.gt(L::of(super::walls::DRY));
+        let flows = at.around.wall.is_some_and(|wall| wall.flows());
+        let near = unity.gt(L::of(super::walls::DRY));
+        let wet = L::Mask::all_of(sticks) & near;
+        let viscous = L::Mask::all_of(sticks || flows) & near;
         at.set(
             Field::DYNAMIC_VISCOSITY,
-            L::select(wet, viscosity, L::zero()),
+            L::select(viscous, viscosity, L::zero()),
         );
         let gradient = at.wall.gradient;
         for d in 0..D {

@@ -3,7 +3,7 @@
 
 use super::numerics::{FOLLOWING_SKINS, SKINS};
 use super::{Body, Part, Scene};
-use crate::boundary::{Emitter, Inlet, Slip, Wall, boundary_from, motion_from};
+use crate::boundary::{Emitter, Inflow, Inlet, Slip, Wall, boundary_from, motion_from};
 use crate::origin::local;
 use crate::particles::{Columns, Field, Fields};
 use crate::scalar::{Real, width};
@@ -95,7 +95,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
 
     /// Lays the group out: a column for each field that the scheme or a contact names, and places counted from an origin \[m\].
     pub fn lay_out(mut self, origin: [f64; D]) -> Group<T, D> {
-        let emitters = self.place_inlets(&origin);
+        let (emitters, inflows) = self.place_inlets(&origin);
         let interactions = self.interactions();
         let unilateral = interactions.contains(&Interaction::Unilateral);
         let fields_of = |scheme: &Scheme<T, D>| {
@@ -187,6 +187,9 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             group.outlets = outlets.map(|own| own.seen_from(&origin)).collect();
         }
         group.emitters = emitters;
+        for (wall, inflow) in inflows {
+            group.walls[wall].inflow = Some(inflow);
+        }
         group.exchanges = exchanges;
         group.sub_cycle = self.scene.sub_cycle_of(self.number);
         self.scene.hold(self.number, &mut group);
@@ -269,6 +272,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             rest: wall.points.iter().map(|x| local(x, origin)).collect(),
             normals,
             motion: wall.motion.as_ref().map(|own| motion_from(own, origin)),
+            inflow: None,
             slip: wall.slip,
             sliding: wall.sliding,
             container_frame: wall.container_frame,
@@ -311,23 +315,33 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         body.points.len() + inlets.map(|inlet| inlet.reserve).sum::<usize>()
     }
 
-    /// Puts a buffer behind every inlet, before the structures, and returns what hands its layers over.
-    fn place_inlets(&mut self, origin: &[f64; D]) -> Vec<Emitter<D>> {
+    /// Puts a buffer behind every inlet, before the structures, and returns what hands its layers over, and what moves buffers
+    /// of other velocities, by the numbers of their walls.
+    fn place_inlets(&mut self, origin: &[f64; D]) -> (Vec<Emitter<D>>, Vec<(usize, Inflow<D>)>) {
         let reach = self.scheme.kernel.support * self.scheme.h_over_dx;
         let is_wall = |(_, origin): &(Wall<D>, Origin)| matches!(origin, Origin::Wall(_));
         let structures = self.walls.partition_point(is_wall);
-        let (mut buffers, mut emitters) = (Vec::new(), Vec::new());
+        let layers = reach.ceil() as usize + 1;
+        let (mut buffers, mut emitters, mut inflows) = (Vec::new(), Vec::new(), Vec::new());
         for (k, inlet) in self.inlets() {
             let at = structures + buffers.len();
             buffers.push((
-                inlet.buffer(reach.ceil() as usize + 1),
+                inlet.buffer(layers),
                 Origin::Wall(self.scene.walls.len() + k),
             ));
             let fed = self.bodies.iter().position(|body| body.name == inlet.body);
-            emitters.extend(fed.map(|body| inlet.emitter(body, at, origin)));
+            let Some(fed) = fed else {
+                continue;
+            };
+            let material = &self.bodies[fed].material;
+            let (_, sound_speed) = material.state(material.reference_density(), 0.0);
+            match inlet.inflow(layers, (fed, sound_speed), origin) {
+                Some(inflow) => inflows.push((at, inflow)),
+                None => emitters.push(inlet.emitter(fed, at, origin)),
+            }
         }
         self.walls.splice(structures..structures, buffers);
-        emitters
+        (emitters, inflows)
     }
 
     /// Mass \[kg\] of a wall particle: its volume, filled with the first liquid at rest.

@@ -108,10 +108,12 @@ impl<T: Real, const D: usize> System for Stepping<'_, T, D> {
             if !(all || self.has(k)) {
                 continue;
             }
+            self.simulation.state.groups[k].fill_buffers(time)?;
             self.simulation.state.groups[k].evaluate(time, elapsed);
             self.simulation.follow_moves(k);
             self.simulation.apply_loads(k, time)?;
             let group = &mut self.simulation.state.groups[k];
+            group.free_buffers();
             if group.sub_cycle.is_some() {
                 group.hold(time, false);
             }

@@ -159,7 +159,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let walls = (0..self.wall_count()).filter_map(|k| Some((k, self.find_wall(k)?.1)));
             walls.filter_map(|(k, wall)| wall.motion.as_ref().map(|motion| (k, motion)))
         };
-        if moving().next().is_none() {
+        let mut walls = self.state.groups.iter().flat_map(|group| &group.walls);
+        let flows = walls.any(|wall| wall.inflow.is_some());
+        if moving().next().is_none() && !flows {
             return self.contact_power(false);
         }
         // Kicks begin and end a step; the pose of the last evaluation is that of the forces.
@@ -168,7 +170,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let turning = motion.pose(time).linear[1];
             (0..D).all(|d| length(&turning.column(d).into_owned()) == 0.0)
         });
-        if rigid {
+        if rigid && !flows {
             let carried = moving().map(|(k, motion)| {
                 let v = motion.pose(time).shift[1];
                 -power(&self.force_on_wall(k), &v.into())
@@ -178,11 +180,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let mut taken = Collective::new();
         for group in &self.state.groups {
             for (wall, forces) in group.walls.iter().zip(group.forces_on_walls()) {
-                let Some(pose) = wall.motion.as_ref().map(|motion| motion.pose(time)) else {
-                    continue;
-                };
+                let pose = wall.motion.as_ref().map(|motion| motion.pose(time));
                 for (slot, force) in forces {
-                    let v = pose.of(1, &wall.rest[wall.rest_of(&group.particles.ids, slot)]);
+                    let number = wall.rest_of(&group.particles.ids, slot);
+                    let v = match (&pose, &wall.inflow) {
+                        (Some(pose), _) => pose.of(1, &wall.rest[number]),
+                        (None, Some(inflow)) => inflow.place(number, &wall.rest[number])[1],
+                        (None, None) => continue,
+                    };
                     taken.add(power(&force, &v));
                 }
             }

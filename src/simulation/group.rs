@@ -231,7 +231,11 @@ impl<T: Real, const D: usize> Group<T, D> {
     fn place_walls(&mut self, time: f64, chord: Option<[f64; 2]>) {
         self.body_force = self.gravity.map(T::from_f64);
         let listed = self.neighborhood.rebuilds > 0;
-        for wall in self.walls.iter().filter(|wall| wall.structure.is_none()) {
+        for wall in &mut self.walls {
+            wall.flow(&mut self.particles, &self.boundaries, time, chord);
+        }
+        let placed = |wall: &&WallState<T, D>| wall.structure.is_none() && wall.inflow.is_none();
+        for wall in self.walls.iter().filter(placed) {
             let pose = wall.pose(time, chord);
             if let Some(pose) = pose.as_ref().filter(|_| wall.container_frame) {
                 let acceleration = pose.of(2, &wall.rest[0]);
@@ -262,11 +266,28 @@ impl<T: Real, const D: usize> Group<T, D> {
                 any = true;
                 for x in layer {
                     self.particles
-                        .insert(&self.scheme, emitter.body, x, velocity)?;
+                        .insert(&self.scheme, emitter.body, [x, velocity], None)?;
                 }
                 let buffer = &mut self.walls[emitter.wall];
                 buffer.set_motion(emitter.inflow(), &self.particles.origin);
             }
+        }
+        for wall in &mut self.walls {
+            let slots = wall.slots.clone();
+            let Some(inflow) = &mut wall.inflow else {
+                continue;
+            };
+            let (body, particles) = (inflow.body, &mut self.particles);
+            let material = particles.bodies[body].material.clone();
+            let name = particles.bodies[body].name.clone();
+            inflow.advance((time, &name), |own| {
+                any = true;
+                // Of the pressure that the buffer had before the liquid, or waves would start from it.
+                let slot = particles.slot_of[slots.start + own.number] as usize;
+                let pressure = particles.columns.raw(Field::PRESSURE)[slot].to_f64();
+                let density = material.eos().density_at(pressure, 0.0);
+                particles.insert(&self.scheme, body, [own.x, own.velocity], density)
+            })?;
         }
         if any {
             // Lists do not know the new ones.

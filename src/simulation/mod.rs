@@ -164,6 +164,7 @@ mod loads;
 mod neighbor;
 mod neighborhood;
 mod observed;
+mod outflow;
 mod outlook;
 mod own_work;
 mod pair_list;

@@ -350,7 +350,8 @@ impl<T: Real, const D: usize> Particles<T, D> {
         Vec::new()
     }
 
-    /// Appends one particle to a body, like its material at rest, at a place \[m\] that is counted from the origin.
+    /// Appends one particle to a body, like its material at rest or of a density \[kg/m³\], at a place \[m\] that is counted
+    /// from the origin.
     ///
     /// # Errors
     /// If the reserve of the body is used up.
@@ -358,8 +359,8 @@ impl<T: Real, const D: usize> Particles<T, D> {
         &mut self,
         scheme: &Scheme<T, D>,
         body: usize,
-        x: [f64; D],
-        velocity: [f64; D],
+        [x, velocity]: [[f64; D]; 2],
+        density: Option<f64>,
     ) -> Result<()> {
         let (slots, end) = (self.bodies[body].slots.clone(), self.bodies[body].end);
         let free = self.bodies[body]
@@ -377,7 +378,7 @@ impl<T: Real, const D: usize> Particles<T, D> {
         let slot = slots.end;
         let start = Start {
             velocity,
-            density: self.bodies[body].material.reference_density(),
+            density: density.unwrap_or_else(|| self.bodies[body].material.reference_density()),
             energy: 0.0,
         };
         let own = &self.bodies[body];

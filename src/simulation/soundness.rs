@@ -98,12 +98,17 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             .collect()
     }
 
-    /// Refuses a step of `dt` \[s\] at whose end a boundary, a wall or a clamp is nowhere, or in which a wall moves otherwise than its
+    /// Refuses a step of `dt` \[s\] at whose end a boundary, a wall, an inlet or a clamp is nowhere, or in which a wall moves otherwise than its
     /// own velocity, as one that jumps does.
     pub(super) fn check_motions(&self, dt: f64) -> Result<()> {
         let (time, end) = (self.state.time, self.state.time + dt);
         self.check_boundaries(end)?;
         self.check_clamps(end)?;
+        for group in &self.state.groups {
+            for inflow in group.walls.iter().filter_map(|wall| wall.inflow.as_ref()) {
+                inflow.check(end, &group.particles.bodies[inflow.body].name)?;
+            }
+        }
         let spacing = self.spacing();
         for wall in self.state.groups.iter().flat_map(|group| &group.walls) {
             let Some(motion) = &wall.motion else {

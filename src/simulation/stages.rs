@@ -218,7 +218,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             return;
         };
         let mut outcomes = [Outcome::default(); MOST_LAWS];
-        for wall in &self.walls {
+        for (number, wall) in self.walls.iter().enumerate() {
             let run = wall.slots.start..wall.end;
             let (own, behind) = rest.split(run.len());
             rest = behind;
@@ -229,10 +229,15 @@ impl<T: Real, const D: usize> Group<T, D> {
                     wall.motion.as_ref().map(|motion| motion.pose(time)),
                     wall.slip,
                 ),
-                wall.structure
-                    .as_ref()
-                    .map(|structure| structure.accelerations.as_slice()),
+                match (&wall.structure, &wall.inflow) {
+                    (Some(structure), _) => Some(structure.accelerations.as_slice()),
+                    (None, Some(inflow)) => Some(inflow.accelerations()),
+                    (None, None) => None,
+                },
                 (wall.structure.as_ref()).map_or(&[], |structure| &structure.spins.gradients),
+            )
+            .that_flows(
+                self.emitters.iter().any(|own| own.wall == number) || wall.inflow.is_some(),
             );
             let around = Around {
                 sums: &self.work.sums,

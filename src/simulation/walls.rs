@@ -4,7 +4,7 @@
 use super::population::Particles;
 use super::spin::Spins;
 use super::workspace::Workspace;
-use crate::boundary::{Boundary, Motion, Pose, Slip, motion_from};
+use crate::boundary::{Boundary, Inflow, Motion, Pose, Slip, motion_from};
 use crate::coupling::{CoupledParticle, Coupling};
 use crate::particles::Field;
 use crate::scalar::Real;
@@ -25,6 +25,8 @@ pub(crate) struct WallState<T, const D: usize> {
     /// Unit vectors from the liquid into it, by identity; none if the scheme does not ask for them.
     pub normals: Vec<[f64; D]>,
     pub motion: Option<Arc<dyn Motion<D>>>,
+    /// What moves it if it is the buffer of an inlet whose velocity differs by place or time.
+    pub inflow: Option<Inflow<D>>,
     pub slip: Slip,
     /// Velocity of its surface in addition to its motion \[m/s\].
     pub sliding: [f64; D],
@@ -90,16 +92,47 @@ impl<T: Real, const D: usize> WallState<T, D> {
         boundaries: &[Arc<dyn Boundary<D>>],
         time: f64,
     ) {
-        let run = self.slots.start..self.end;
         // A wall that is crushed has its particles closer, and each stands for less volume.
-        let mass = T::from_f64(self.mass * determinant(&pose.linear[0]).abs());
+        let mass = self.mass * determinant(&pose.linear[0]).abs();
+        let at = |_: usize, rest: &[f64; D]| [pose.of(0, rest), pose.of(1, rest)];
+        self.place_by(at, mass, particles, boundaries, time);
+    }
+
+    /// Moves the buffer of an inlet to where it is at `time` \[s\]; `chord` \[s\] are the ends of the drift under way.
+    pub fn flow(
+        &mut self,
+        particles: &mut Particles<T, D>,
+        boundaries: &[Arc<dyn Boundary<D>>],
+        time: f64,
+        chord: Option<[f64; 2]>,
+    ) {
+        if let Some(inflow) = &mut self.inflow {
+            inflow.move_to(time, chord);
+        }
+        if let Some(inflow) = &self.inflow {
+            let at = |number: usize, rest: &[f64; D]| inflow.place(number, rest);
+            self.place_by(at, self.mass, particles, boundaries, time);
+        }
+    }
+
+    /// Brings its particles, of a mass \[kg\], to places \[m\] with velocities \[m/s\], by their numbers and where they were built.
+    fn place_by(
+        &self,
+        at: impl Fn(usize, &[f64; D]) -> [[f64; D]; 2],
+        mass: f64,
+        particles: &mut Particles<T, D>,
+        boundaries: &[Arc<dyn Boundary<D>>],
+        time: f64,
+    ) {
+        let run = self.slots.start..self.end;
+        let mass = T::from_f64(mass);
         let columns = &mut particles.columns;
         if let Some(masses) = columns.raw_mut(Field::MASS).get_mut(run.clone()) {
             masses.fill(mass);
         }
         for slot in run {
-            let rest = &self.rest[self.rest_of(&particles.ids, slot)];
-            let (x, own) = (pose.of(0, rest), pose.of(1, rest));
+            let number = self.rest_of(&particles.ids, slot);
+            let [x, own] = at(number, &self.rest[number]);
             let v: [f64; D] = core::array::from_fn(|d| own[d] + self.sliding[d]);
             let rounded = x.map(T::from_f64);
             columns.vectors_mut(Field::POSITION)[slot] = rounded;

@@ -23,6 +23,7 @@ mod liquid_conservation;
 mod manufactured;
 mod mirror_planes;
 mod off_lattice;
+mod open_boundaries;
 mod penalty_structure;
 mod recorded_motion;
 mod riemann_walls;

@@ -53,12 +53,48 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 });
             }
         }
+        self.check_buffers(problems);
         for (what, value, must_be) in self.outlets.iter().flat_map(Outlet::problems) {
             problems.push(Problem::Parameter {
                 what: format!("{what} of an outlet"),
                 value,
                 must_be,
             });
+        }
+    }
+}
+
+impl<T: Real, const D: usize> Scene<T, D> {
+    /// Whether schemes and buffers of outlets go together.
+    fn check_buffers(&self, problems: &mut Vec<Problem>) {
+        let buffers = || self.outlets.iter().filter_map(Outlet::open);
+        for part in self.parts.iter().filter(|_| buffers().next().is_some()) {
+            let scheme = &part.scheme;
+            if !scheme.meets_walls() || !scheme.density.is_integrated() {
+                problems.push(Problem::Incompatible {
+                    what: format!(
+                        "an outlet has a buffer of given density, and the scheme {} is none of a liquid whose density \
+                         evolves",
+                        scheme.name
+                    ),
+                    remedy: "take a scheme of liquids (schemes::weakly_compressible), or an outlet without a buffer",
+                });
+                continue;
+            }
+            let widest = part
+                .bodies
+                .iter()
+                .map(|body| body.spacing)
+                .fold(0.0, f64::max);
+            let reach = scheme.kernel.support * scheme.h_over_dx * widest;
+            for (_, _, buffer) in buffers().filter(|own| own.2.depth < reach) {
+                problems.push(Problem::Parameter {
+                    what: "depth of the buffer of an outlet".into(),
+                    value: buffer.depth,
+                    must_be: "it must be as much as the kernel reaches, its support times h, or the liquid inside feels the \
+                              end: make it deeper",
+                });
+            }
         }
     }
 }

@@ -78,6 +78,12 @@ impl<T: Real, const D: usize> Group<T, D> {
         put_held(held, name, file);
         let layers: Vec<u64> = emitters.iter().map(|own| own.layers).collect();
         file.put(format!("{name}/handed_over"), 1, layers);
+        for (k, wall) in walls.iter().enumerate() {
+            if let Some(inflow) = &wall.inflow {
+                file.put(format!("{name}/wall{k}/gone"), 1, &inflow.gone);
+                file.put_one(format!("{name}/wall{k}/gone_by"), inflow.time);
+            }
+        }
         let evaluated_gravity = work.evaluated_gravity.map(Real::to_f64);
         file.put(format!("{name}/gravity"), 1, gravity);
         file.put(format!("{name}/evaluated_gravity"), 1, evaluated_gravity);
@@ -106,6 +112,13 @@ impl<T: Real, const D: usize> Group<T, D> {
             emitter.layers = layers;
             let buffer = &mut self.walls[emitter.wall];
             buffer.set_motion(emitter.inflow(), &self.particles.origin);
+        }
+        for (k, wall) in self.walls.iter_mut().enumerate() {
+            if let Some(inflow) = &mut wall.inflow {
+                let count = inflow.gone.len();
+                inflow.gone = file.get_all(&format!("{name}/wall{k}/gone"), count)?;
+                inflow.time = file.get_one(&format!("{name}/wall{k}/gone_by"))?;
+            }
         }
         take_particles(&mut self.particles, &scheme, (name, file), changes)?;
         for wall in &self.walls {
@@ -182,7 +195,7 @@ impl<T: Real, const D: usize> Group<T, D> {
     pub(super) fn stand_walls(&mut self, time: f64) {
         let of_inlets: Vec<usize> = self.emitters.iter().map(|own| own.wall).collect();
         for (k, wall) in self.walls.iter().enumerate() {
-            if wall.structure.is_none() && !of_inlets.contains(&k) {
+            if wall.structure.is_none() && wall.inflow.is_none() && !of_inlets.contains(&k) {
                 let pose = wall.pose(time, None).unwrap_or_else(Pose::rest);
                 wall.place(&pose, &mut self.particles, &self.boundaries, time);
             }

@@ -363,12 +363,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let Some([low, high]) = self.domain else {
             return (0, None);
         };
-        if self
-            .state
-            .groups
-            .iter()
-            .any(|group| group.walls.iter().any(|wall| wall.motion.is_some()))
-        {
+        if self.state.groups.iter().any(|group| {
+            (group.walls.iter()).any(|wall| wall.motion.is_some() || wall.inflow.is_some())
+        }) {
             return (0, None);
         }
         let (mut count, mut first) = (0, None);
@@ -437,7 +434,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Whether what acts from outside is known to the momentum residual: uniform loads, walls, boundaries and laws.
     pub(super) fn books_momentum(&self) -> bool {
-        let own = |group: &Group<T, D>| group.emitters.is_empty() && group.held.is_empty();
+        let own = |group: &Group<T, D>| {
+            let flows = group.walls.iter().any(|wall| wall.inflow.is_some());
+            let leaves = group.outlets.iter().any(|outlet| outlet.open().is_some());
+            group.emitters.is_empty() && group.held.is_empty() && !flows && !leaves
+        };
         self.loads.is_empty() && self.state.groups.iter().all(own) && self.removed().particles == 0
     }
 

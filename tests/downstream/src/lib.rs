@@ -7,6 +7,7 @@ pub mod heat;
 pub mod hypoelastic;
 pub mod integrator;
 pub mod kernel;
+pub mod pump;
 pub mod viscosity;
 pub mod wall;
 

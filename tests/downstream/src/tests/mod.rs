@@ -3,4 +3,5 @@
 mod heat;
 mod hypoelastic;
 mod parts;
+mod pump;
 mod two_crates;
