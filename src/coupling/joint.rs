@@ -44,7 +44,8 @@ type OfTime = Arc<dyn Fn(f64) -> f64 + Send + Sync>;
 /// Constraints must not repeat each other: of two hinges in space on one axis the second is a [`ball`](Self::ball) or
 /// a [`distance`](Self::distance). A scene with such joints is not built. A body whose particles are all
 /// [clamped](crate::scene::Scene::clamp) holds others as ground that moves. Bodies of one group meet at a joint by their
-/// kernels where they are near; [`Interaction::None`](crate::sweep::Interaction::None) leaves the joint alone.
+/// kernels where they are near; [`Interaction::None`](crate::sweep::Interaction::None) leaves the joint alone. Of a body that has left by an
+/// outlet the others are held as by one at rest.
 ///
 /// Springs and dampers limit the step: 0.1/(√(k/m) + c/m), with the mass m that the bodies have along q, where the leapfrog has the
 /// period of a spring to 0.05 %.

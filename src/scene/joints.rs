@@ -30,13 +30,13 @@ impl<T: Real, const D: usize> Scene<T, D> {
     /// use meshfree::coupling::Joint;
     /// use meshfree::prelude::*;
     /// // Two bars that hinge on each other fold as they fly: momentum and energy stay.
-    /// let bar = |name, x: f64| {
+    /// let bar = |name, x: f64, length: f64| {
     ///     let steel = Material::new("steel", Linear::new(7800.0, 20.0));
-    ///     Body::block(name, steel, [x, 0.0], [x + 0.4, 0.1], 0.05)
+    ///     Body::block(name, steel, [x, 0.0], [x + length, 0.1], 0.05)
     /// };
     /// let mut simulation = Scene::<f64, 2>::new(schemes::impact_by_continuity())
-    ///     .body(bar("left", -0.4).velocity([0.0, 1.0]))
-    ///     .body(bar("right", 0.0))
+    ///     .body(bar("left", -0.4, 0.4).velocity([0.0, 1.0]))
+    ///     .body(bar("right", 0.0, 0.8))
     ///     .rigid("left")
     ///     .rigid("right")
     ///     .between("left", "right", Interaction::None)

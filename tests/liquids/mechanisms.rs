@@ -13,7 +13,7 @@ fn a_hinged_flap_floats_upright() {
     let (low, size, density) = ([14.0, 4.0], [3.0, 9.0], 400.0);
     let high = [low[0] + size[0], low[1] + size[1]];
     let hinge = [15.5 * DX, 4.5 * DX];
-    let spin = 6.0;
+    let spin = 10.0;
     let turns = move |[x, y]: [f64; 2], start: Start<2>| Start {
         velocity: [-spin * (y - hinge[1]), spin * (x - hinge[0])],
         ..start
@@ -57,7 +57,7 @@ fn a_hinged_flap_floats_upright() {
         end.kinetic,
         simulation.steps()
     );
-    assert!(most > 0.1, "{most}");
+    assert!(most > 0.08, "{most}");
     assert!(angle.abs() < 0.03, "{angle}");
     assert_relative_eq!(held, lift, max_relative = 0.05);
     assert!(
