@@ -8,6 +8,7 @@
 //! | [`Penalty`] | what presses, by springs between near particles | contact of thin bodies, of single layers |
 //! | [`Tied`] | what it is tied to, by springs between what is near as built | bodies of unlike schemes that never part |
 //! | a [`Coupling`] of one's own | a wall, or a pair force | |
+//! | a [`Joint`] | what a rigid body is hinged to, slides along or is driven by | mechanisms of rigid bodies |
 //!
 //! A coupling acts in one of two ways, or in both:
 //!
@@ -55,6 +56,7 @@
 
 mod contact_density;
 mod friction;
+mod joint;
 mod liquid_structure;
 mod penalty;
 mod spring;
@@ -62,6 +64,8 @@ mod tied;
 
 pub use contact_density::ContactDensity;
 pub use friction::{Anchor, Coulomb, Touch};
+pub use joint::Joint;
+pub(crate) use joint::{Kind, Motor};
 pub use liquid_structure::LiquidStructure;
 pub use penalty::Penalty;
 pub use tied::Tied;

@@ -151,6 +151,19 @@ pub enum Error {
         /// To when \[s\].
         end: f64,
     },
+    /// A joint of rigid bodies that cannot be held.
+    #[error(
+        "the joint {joint} cannot be held at t = {time} s: {cause}; take smaller steps (a lower StepControl::courant), a spring in place of \
+         one joint, or end the run before"
+    )]
+    Joint {
+        /// The joint, with its bodies.
+        joint: String,
+        /// When \[s\].
+        time: f64,
+        /// Why.
+        cause: &'static str,
+    },
     /// The simulation has failed before.
     #[error("the simulation has failed and takes no further step; what happened first: {cause}")]
     Failed {
@@ -284,9 +297,14 @@ mod tests {
                 time: 1.0,
                 must_be: "it must be finite",
             },
+            Error::Joint {
+                joint: "hinge of `flap` and the ground".into(),
+                time: 1.0,
+                cause: "no",
+            },
             Error::Argument(Problem::EmptyScene),
         ];
-        let mut seen = [false; 12];
+        let mut seen = [false; 13];
         for error in &all {
             let variant = match error {
                 Error::Build(_) => 0,
@@ -301,10 +319,11 @@ mod tests {
                 Error::Argument(_) => 9,
                 Error::StoredEnergy { .. } => 10,
                 Error::Function { .. } => 11,
+                Error::Joint { .. } => 12,
             };
             seen[variant] = true;
         }
-        assert_eq!(seen, [true; 12]);
+        assert_eq!(seen, [true; 13]);
         all
     }
 

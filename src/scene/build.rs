@@ -174,6 +174,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         let groups: Vec<_> = self.plans().map(|plan| plan.lay_out(origin)).collect();
         let built = self.places_as_built(&groups);
         let couples = self.couples(&origin);
+        let joints = self.joints_of(&groups, &origin);
         #[cfg(feature = "checkpoint")]
         let (hashes, values) = (self.hashes(), self.values());
         let mut simulation = Simulation::new(
@@ -186,7 +187,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
             self.loads,
         )
         .with_step_ends(self.step_ends)
-        .with_events(self.events);
+        .with_events(self.events)
+        .with_joints(joints)?;
         simulation.built = built;
         #[cfg(feature = "checkpoint")]
         let simulation = simulation.of_scene(hashes, values);

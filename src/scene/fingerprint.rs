@@ -25,6 +25,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             sub_cycled,
             clamps,
             rigid,
+            joints,
             accelerations,
             loads,
             step_ends,
@@ -95,6 +96,9 @@ impl<T: Real, const D: usize> Scene<T, D> {
         if !step_ends.is_empty() {
             all.push(("times at which steps end", of_texts([debug(step_ends)])));
         }
+        if !joints.is_empty() {
+            all.push(("joints", of_texts(sorted(joints))));
+        }
         // Files of scenes without events are as they were.
         if !events.is_empty() {
             let until: Vec<_> = clamps.iter().map(|own| &own.until).collect();
@@ -159,6 +163,10 @@ impl<T: Real, const D: usize> Scene<T, D> {
             held.all(&format!("{name}.until"), &own.until);
         }
         held.one("rigid bodies", self.rigid.join(", "));
+        let mut joints = Values::default();
+        for (k, own) in sorted(&self.joints).into_iter().enumerate() {
+            joints.one(format!("joint {}", k + 1), own);
+        }
         let mut loads = Values::default();
         let count = self.accelerations.len().to_string();
         loads.one("number of uniform accelerations", count);
@@ -196,6 +204,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 all("step_ends", &self.step_ends),
             ),
             ("events", all("events", &self.events)),
+            ("joints", joints),
             ("the choice of steps", all("steps", &self.control)),
             ("the skin of neighbour lists", all("skin", &self.skin)),
         ]
@@ -252,6 +261,13 @@ fn scheme_text<T: Real, const D: usize>(scheme: &Arc<Scheme<T, D>>) -> String {
 /// Its debug text without the addresses of functions.
 fn debug(value: impl Debug) -> String {
     without_addresses(&format!("{value:?}"))
+}
+
+/// The texts of what has no order.
+fn sorted(all: &[impl Debug]) -> Vec<String> {
+    let mut all: Vec<String> = all.iter().map(debug).collect();
+    all.sort_unstable();
+    all
 }
 
 fn text(hash: &mut Hash, value: impl Debug) {

@@ -54,7 +54,7 @@
 //! ([`Scene::couple`]), and a stiff group takes steps of its own ([`Scene::sub_cycle`]).
 //!
 //! Parts of a body are clamped by [`Scene::fix`] and [`Scene::clamp`], and a body moves as a rigid one by
-//! [`Scene::rigid`]. Particles leave by [`Scene::outlet`].
+//! [`Scene::rigid`], which [`Scene::joint`] joins to others and to the ground. Particles leave by [`Scene::outlet`].
 //!
 //! A [`MirrorPlane`](crate::boundary::MirrorPlane) holds solids and liquids. Walls of particles ([`Scene::wall`]) hold liquids by
 //! the wall law of their scheme, and solids by contact, which has to be named.
@@ -87,6 +87,7 @@ mod exchange;
 #[cfg(feature = "checkpoint")]
 mod fingerprint;
 mod held;
+mod joints;
 mod numerics;
 mod plan;
 
@@ -107,6 +108,7 @@ use crate::simulation::{Event, Load, StepControl, UniformLoad};
 use crate::sweep::{InstructionSet, Interaction, Root};
 use exchange::ExchangeOf;
 use held::ClampOf;
+use joints::JointOf;
 use plan::Plan;
 use std::sync::Arc;
 
@@ -139,6 +141,7 @@ pub struct Scene<T: Real, const D: usize> {
     sub_cycled: Vec<(String, u32)>,
     clamps: Vec<ClampOf<D>>,
     rigid: Vec<String>,
+    joints: Vec<JointOf<D>>,
     accelerations: Vec<UniformLoad<D>>,
     loads: Vec<Load<D>>,
     step_ends: Vec<f64>,
@@ -190,6 +193,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             sub_cycled: Vec::new(),
             clamps: Vec::new(),
             rigid: Vec::new(),
+            joints: Vec::new(),
             accelerations: Vec::new(),
             loads: Vec::new(),
             step_ends: Vec::new(),

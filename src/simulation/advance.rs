@@ -121,7 +121,9 @@ impl<T: Real, const D: usize> System for Stepping<'_, T, D> {
         if self.alone.is_none() {
             self.simulation.couple();
             self.simulation.check_couples(time)?;
+            self.simulation.state.add_forces_of_joints(time)?;
             self.simulation.hold(time);
+            self.simulation.state.hold_forces(time);
             self.simulation.state.evaluations += 1;
             self.simulation.state.rates_at_hand = true;
         }
@@ -140,18 +142,22 @@ impl<T: Real, const D: usize> System for Stepping<'_, T, D> {
         for group in self.groups() {
             group.run_all(|entries| &entries.kick, moment);
         }
-        let apart = self.shared().into_iter();
-        for group in apart.flat_map(|state| &mut state.groups) {
+        let Some(state) = self.shared() else {
+            return;
+        };
+        for group in &mut state.groups {
             if let Some(apart) = &mut group.sub_cycle {
                 apart.kick(&mut group.particles, dt);
             }
         }
+        state.hold_motions(state.evaluated, true);
     }
 
     fn drift(&mut self, dt: f64, offset: f64) -> Result<()> {
         let (begin, half) = (self.start + offset, 0.5 * dt);
         if let Some(state) = self.shared() {
             state.impulses.time = begin + dt;
+            state.hold_drift(begin, dt)?;
         }
         self.sub_cycle(begin, dt, true)?;
         for group in self.groups() {
@@ -190,6 +196,9 @@ impl<T: Real, const D: usize> System for Stepping<'_, T, D> {
     fn predict(&mut self, dt: f64) {
         for group in self.groups() {
             group.predict(dt);
+        }
+        if let Some(state) = self.shared() {
+            state.hold_motions(state.impulses.time, false);
         }
     }
 
@@ -257,7 +266,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub(super) fn step_together(&mut self, dt: f64) -> Result<()> {
         let integrator = self.integrator.clone();
         self.state.due += dt;
-        self.together(dt, |own| integrator.step(own, dt))
+        self.state.turn_joints(None);
+        self.together(dt, |own| integrator.step(own, dt))?;
+        self.state.turn_joints(Some(dt));
+        self.state.check_joints()
     }
 
     /// Evaluates all rates at the present state.

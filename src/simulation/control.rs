@@ -163,6 +163,17 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 };
             }
         }
+        if let Some((step, [group, rigid])) =
+            self.state.step_of_joints().filter(|own| own.0 < all.step)
+        {
+            let group = &self.state.groups[group];
+            let body = &group.particles.bodies[group.held.rigid[rigid].body];
+            all = Vote {
+                step,
+                criterion: Criterion::Effect(super::joint_forces::LIMIT),
+                particle: group.particles.first_id + body.ids.start,
+            };
+        }
         Ok(all)
     }
 

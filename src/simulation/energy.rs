@@ -23,6 +23,8 @@ pub struct EnergyLedger {
     /// Work of the forces that [laws](crate::effect::Law) give particles ([`Field::FORCE`]) since the start. Of a force that stores
     /// energy, as surface tension does, it is what that has released.
     pub law_work: f64,
+    /// Work of [joints](crate::coupling::Joint) of rigid bodies on these since the start: of motors, less what dampers took and springs store.
+    pub joint_work: f64,
     /// Kinetic energy that left through outlets.
     pub left: f64,
     /// What viscosities, diffusion, shifting and the steps have taken: the work done less the gain in
@@ -36,8 +38,9 @@ pub(super) struct Work {
     pub start: f64,
     pub load: f64,
     pub wall: f64,
-    /// What laws had worked \[J\].
+    /// What laws and joints had worked \[J\].
     pub laws: f64,
+    pub joints: f64,
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
@@ -50,6 +53,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             own.state.work = Some(Work {
                 start: kinetic + compression,
                 laws: own.work_of_laws(None),
+                joints: own.state.joints.work(),
                 ..Work::default()
             });
         });
@@ -62,14 +66,17 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let (kinetic, compression) = self.stored();
         let left = self.removed().kinetic;
         let laws = self.work_of_laws(None) - work.laws;
+        let joints = self.state.joints.work() - work.joints;
+        let supplied = work.start + work.load + work.wall + laws + joints;
         Some(EnergyLedger {
             kinetic,
             compression,
             load_work: work.load,
             wall_work: work.wall,
             law_work: laws,
+            joint_work: joints,
             left,
-            dissipated: work.start + work.load + work.wall + laws - kinetic - compression - left,
+            dissipated: supplied - kinetic - compression - left,
         })
     }
 
@@ -112,6 +119,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
         for (_, force, _) in self.given_by_laws(alone, 0.0) {
             add_half(force, dt);
+        }
+        if alone.is_none() {
+            add_half(self.state.forces_of_ground(), dt);
         }
         let mut load = 0.0;
         if !self.loads.is_empty() {

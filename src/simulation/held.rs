@@ -60,8 +60,9 @@ pub(crate) struct Rigid<const D: usize> {
     pub inertia: Vector3<f64>,
     /// The centre of mass \[m\].
     pub centre: [f64; D],
-    /// From principal axes to space.
+    /// From principal axes to space, now and as built.
     pub turn: UnitQuaternion<f64>,
+    pub built: UnitQuaternion<f64>,
     /// What periods have brought its particles back by \[m\], by number; the centre goes on.
     pub back: Vec<[f64; D]>,
 }
@@ -81,7 +82,7 @@ pub struct Clamped {
     pub work: f64,
 }
 
-fn lowered<const D: usize>(vector: &Vector3<f64>) -> [f64; D] {
+pub(super) fn lowered<const D: usize>(vector: &Vector3<f64>) -> [f64; D] {
     core::array::from_fn(|d| vector[d])
 }
 
@@ -142,6 +143,7 @@ impl<const D: usize> Rigid<D> {
             inertia: moments,
             centre,
             turn,
+            built: turn,
             back: vec![[0.0; D]; points.len()],
         }
     }
@@ -185,25 +187,36 @@ impl<const D: usize> Rigid<D> {
 
     /// The same of a moment in space.
     pub fn answer_in_space(&self, moment: &Vector3<f64>) -> Vector3<f64> {
-        self.turn * self.answer(&(self.turn.inverse() * moment))
+        self.answer_at(&self.turn, moment)
     }
 
-    /// Turns freely over `dt` \[s\] with an angular momentum \[kg m²/s\] that stays: rotations about the principal axes,
-    /// one after the other and back (Dullweber, Leimkuhler & McLachlan 1997, J. Chem. Phys. 107, 5840).
-    fn rotate(&mut self, momentum: &Vector3<f64>, dt: f64) {
+    /// The same where it is turned otherwise.
+    pub fn answer_at(&self, turn: &UnitQuaternion<f64>, moment: &Vector3<f64>) -> Vector3<f64> {
+        turn * self.answer(&(turn.inverse() * moment))
+    }
+
+    /// How it is turned after `dt` \[s\] of free rotation with an angular momentum \[kg m²/s\] that stays: by rotations about the
+    /// principal axes, one after the other and back (Dullweber, Leimkuhler & McLachlan 1997, J. Chem. Phys. 107, 5840).
+    pub fn rotated(
+        &self,
+        mut turn: UnitQuaternion<f64>,
+        momentum: &Vector3<f64>,
+        dt: f64,
+    ) -> UnitQuaternion<f64> {
         let axes = [Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis()];
         for (axis, share) in [(0, 0.5), (1, 0.5), (2, 1.0), (1, 0.5), (0, 0.5)] {
-            let own = self.turn.inverse() * momentum;
+            let own = turn.inverse() * momentum;
             let angle = share * dt * self.answer(&own)[axis];
             if angle != 0.0 {
-                self.turn *= UnitQuaternion::from_axis_angle(&axes[axis], angle);
+                turn *= UnitQuaternion::from_axis_angle(&axes[axis], angle);
             }
         }
-        self.turn.renormalize();
+        turn.renormalize();
+        turn
     }
 
     /// The sum over its particles that are there of a vector in a slot, and of its moment about the centre.
-    fn sums<T: Real>(
+    pub fn sums<T: Real>(
         &self,
         particles: &Particles<T, D>,
         of: impl Fn(usize) -> Vector3<f64> + Sync,
@@ -232,8 +245,25 @@ impl<const D: usize> Rigid<D> {
         }
     }
 
+    /// Adds a force \[N\] and a moment \[N m\] about the centre, shared out as what accelerates it as one.
+    pub fn push<T: Real>(
+        &self,
+        particles: &Particles<T, D>,
+        forces: &mut Forces<'_, T, D>,
+        [force, moment]: [Vector3<f64>; 2],
+    ) {
+        let (a, turning) = (force / self.mass, self.answer_in_space(&moment));
+        for (id, place) in self.places.iter().enumerate() {
+            let all = a + turning.cross(&(self.turn * place));
+            for slot in particles.slots_of(self.body, id as u32) {
+                let mass = particles.columns.raw(Field::MASS)[slot].to_f64();
+                forces.add(slot, lowered(&(mass * all)).map(T::from_f64));
+            }
+        }
+    }
+
     /// Its momentum \[kg m/s\], and its angular momentum \[kg m²/s\] about its centre.
-    fn momenta<T: Real>(&self, particles: &Particles<T, D>) -> [Vector3<f64>; 2] {
+    pub fn momenta<T: Real>(&self, particles: &Particles<T, D>) -> [Vector3<f64>; 2] {
         let columns = &particles.columns;
         let (mass, v) = (columns.raw(Field::MASS), columns.vectors(Field::VELOCITY));
         self.sums(particles, |slot| {
@@ -242,7 +272,11 @@ impl<const D: usize> Rigid<D> {
     }
 
     /// Brings its particles to where it is, with the velocities that it has.
-    fn place<T: Real>(&self, particles: &mut Particles<T, D>, [momentum, spin]: [Vector3<f64>; 2]) {
+    pub fn place<T: Real>(
+        &self,
+        particles: &mut Particles<T, D>,
+        [momentum, spin]: [Vector3<f64>; 2],
+    ) {
         let (v, turning) = (momentum / self.mass, self.answer_in_space(&spin));
         for (id, place) in self.places.iter().enumerate() {
             let place = self.turn * place;
@@ -367,6 +401,21 @@ impl<const D: usize> Held<D> {
         }
     }
 
+    /// The clamp that moves a body now, if one does.
+    pub fn driver(&self, body: usize) -> Option<usize> {
+        let mut clamps = self.clamps.iter();
+        clamps.position(|own| own.body == body && !own.is_free)
+    }
+
+    /// Lets the clamp that moves a rigid body take an impulse and its moment on it, at its velocity and spin.
+    pub fn take(&mut self, rigid: usize, [n, a]: [Vector3<f64>; 2], [v, w]: [Vector3<f64>; 2]) {
+        if let Some(clamp) = self.driver(self.rigid[rigid].body) {
+            let clamp = &mut self.clamps[clamp];
+            (0..D).for_each(|d| clamp.impulse[d] -= n[d]);
+            clamp.work -= n.dot(&v) + a.dot(&w);
+        }
+    }
+
     /// Whether a body of the group leaves as a whole, or not at all.
     pub fn is_rigid(&self, body: usize) -> bool {
         self.rigid.iter().any(|own| own.body == body)
@@ -379,7 +428,7 @@ impl<const D: usize> Held<D> {
             for d in 0..D {
                 own.centre[d] += dt * momentum[d] / own.mass;
             }
-            own.rotate(&spin, dt);
+            own.turn = own.rotated(own.turn, &spin, dt);
             own.place(particles, [momentum, spin]);
         }
     }
@@ -449,5 +498,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         for group in &mut self.state.groups {
             group.held.hold_velocities(&mut group.particles, time);
         }
+        self.state.hold_motions(time, false);
     }
 }

@@ -4,6 +4,7 @@
 use super::Simulation;
 use super::group::Group;
 use super::impulses::{Impulses, PairForces};
+use super::joints::Jointing;
 use super::population::BodyState;
 use super::which::{Which, find};
 use crate::collective::{Collective, over};
@@ -88,6 +89,9 @@ pub struct Ledger {
     /// Momentum that forces of laws ([`Field::FORCE`]) have given since the start \[kg m/s\]; their work is in the totals of each
     /// body, as `work of laws`.
     pub law_impulse: Vec<f64>,
+    /// Momentum that the ground has given by [joints](crate::coupling::Joint) since the start \[kg m/s\]. What joints have worked is in the
+    /// totals of the whole, with what their springs store, what dampers have taken and motors worked.
+    pub joint_impulse: Vec<f64>,
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
@@ -145,6 +149,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.record_clamps(alone, dt);
         if alone.is_none() {
             self.record_couples(dt);
+            self.state.record_joints(dt);
         }
     }
 
@@ -300,6 +305,13 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             whole.add_total(&of_couplings("energy of couplings", couple.acting.stored));
             whole.add_total(&of_couplings("heat of couplings", couple.acting.heat));
         }
+        if !self.state.joints.is_empty() {
+            let sum = |of: fn(&Jointing<D>) -> f64| self.state.joints.all.iter().map(of).sum();
+            whole.add_total(&of_couplings("work of joints", sum(|own| own.work)));
+            whole.add_total(&of_couplings("energy of joints", sum(Jointing::stored)));
+            whole.add_total(&of_couplings("heat of joints", sum(|own| own.heat)));
+            whole.add_total(&of_couplings("work of motors", sum(|own| own.motor_work)));
+        }
         let count = bodies.len();
         let boundaries = count + self.wall_count()..self.blocks();
         let boundary_impulse = (0..D)
@@ -318,6 +330,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             whole,
             boundary_impulse,
             law_impulse: law_impulse.collect(),
+            joint_impulse: self.state.joints.given_by_ground().to_vec(),
         }
     }
 

@@ -45,6 +45,8 @@
 //! | mass, momentum, kinetic and internal energy of every body, impulse of boundaries | [`Simulation::ledger`] |
 //! | force between two bodies, or a body and a boundary | [`Simulation::force_between`] |
 //! | force, impulse and work of clamps | [`Simulation::clamps`] |
+//! | place, motion, inertia and forces of a rigid body | [`Simulation::rigid_body`] |
+//! | coordinates, forces, impulse and work of joints | [`Simulation::joints`] |
 //! | work, stored energy, heat and penetration of couplings | [`Simulation::contacts`], [`Simulation::largest_penetration`] |
 //! | force and impulse on a wall | [`Simulation::wall_force`], [`Simulation::wall_impulse`] |
 //! | energy of a liquid, work on it, dissipation | [`Simulation::energy`] |
@@ -157,6 +159,10 @@ mod held;
 mod images;
 mod impulses;
 mod indicators;
+mod joint_forces;
+mod joint_rows;
+mod joint_system;
+mod joints;
 mod ledger;
 mod limits;
 mod load;
@@ -172,6 +178,7 @@ mod phases;
 mod population;
 mod query;
 mod reference;
+mod rigid_body;
 mod run;
 mod run_state;
 mod settle;
@@ -206,6 +213,7 @@ pub use load::{Load, LoadPoint};
 pub use neighbor::Neighbor;
 pub use phases::Phases;
 pub use query::{ParticleView, ParticleViews};
+pub use rigid_body::{Jointed, RigidBody};
 pub use stability::{
     Arrangement, Breach, Extreme, StabilityReport, StepHistory, Thresholds, Verdict,
 };
@@ -220,6 +228,8 @@ pub(crate) use event::Event;
 pub(crate) use exchange::Exchange;
 pub(crate) use group::Group;
 pub(crate) use held::{Clamp, Rigid};
+pub(crate) use joint_rows::{Frame, Geometry};
+pub(crate) use joints::Jointing;
 pub(crate) use loads::{ACCELERATION, is_square_finite};
 pub(crate) use pair_list::PairList;
 pub use population::Removed;

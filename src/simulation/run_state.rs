@@ -5,6 +5,7 @@ use super::contact::Couple;
 use super::event::Happened;
 use super::group::Group;
 use super::impulses::Impulses;
+use super::joints::Joints;
 use super::{Simulation, Vote, energy, stability, stored};
 use crate::scalar::Real;
 
@@ -15,6 +16,8 @@ pub(in crate::simulation) struct State<T: Real, const D: usize> {
     pub groups: Vec<Group<T, D>>,
     /// Bodies that act on each other, or on themselves, by forces between pairs.
     pub couples: Vec<Couple<T, D>>,
+    /// Joints of rigid bodies.
+    pub joints: Joints<D>,
     /// Time \[s\].
     pub time: f64,
     pub steps: u64,
@@ -49,6 +52,7 @@ impl<T: Real, const D: usize> State<T, D> {
         Self {
             groups,
             couples,
+            joints: Joints::default(),
             time: 0.0,
             steps: 0,
             evaluations: 0,

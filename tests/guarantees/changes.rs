@@ -140,6 +140,86 @@ fn another_wall_is_the_one_that_would_have_moved_from_then_on() -> Result<()> {
 }
 
 #[test]
+fn other_steps_are_those_of_a_run_that_takes_them_from_then_on() -> Result<()> {
+    let still = || tank(0.02, 1e-3, 0.0);
+    let file = saved("steps", still())?;
+    // Times at which steps end, of which a run built with them feels nothing before.
+    let ends = || still().step_ends_at([0.5 * (WHEN + END)]);
+    let mut whole = ends().build()?;
+    whole.run_until(END)?;
+    let mut resumed = ends().resume_with(&file, &[Change::Steps])?;
+    resumed.run_until(END)?;
+    assert!(bits(&whole) == bits(&resumed));
+    let mut same = still().resume(&file)?;
+    same.run_until(END)?;
+    let _ = std::fs::remove_file(&file);
+    assert!(bits(&same) != bits(&whole));
+    Ok(())
+}
+
+#[test]
+fn another_load_is_the_one_that_would_have_begun_then() -> Result<()> {
+    let still = || tank(0.02, 1e-3, 0.0);
+    let file = saved("load", still())?;
+    let later = |time: f64, value: f64| if time > WHEN + 0.01 { value } else { 0.0 };
+    // One of all particles, and one by place.
+    let shaken = || still().acceleration(move |t| [later(t, 3.0), 0.0]);
+    let pushed = || {
+        still().load(Load::acceleration(move |at| {
+            [0.0, later(at.time, 2.0 * at.position[0])]
+        }))
+    };
+    let mut ends = Vec::new();
+    for scene in [&shaken as &dyn Fn() -> Scene<f64, 2>, &pushed] {
+        let refused = scene().resume(&file).err();
+        assert!(refused.is_some_and(|error| error.to_string().contains("the loads")));
+        let mut run = scene().resume_with(&file, &[Change::Loads])?;
+        run.run_until(END)?;
+        assert!(bits(&run) == bits(&exchanged(scene(), 0.02)?));
+        ends.push(bits(&run));
+    }
+    let same = exchanged(still(), 0.02)?;
+    let _ = std::fs::remove_file(&file);
+    assert!(ends[0] != ends[1] && !ends.contains(&bits(&same)));
+    Ok(())
+}
+
+/// Water that runs out over the floor of a tank, to where an outlet is.
+fn runs_out(place: f64) -> Scene<f64, 2> {
+    let water = catalogue::weakly_compressible_water(20.0);
+    let sides = [[true, true], [true, false]];
+    Scene::new(schemes::weakly_compressible())
+        .body(Body::block("water", water, [0.0; 2], [0.4, 0.4], 0.05))
+        .wall(Wall::around("tank", [0.0; 2], [1.5, 0.6], 0.05, 5, sides))
+        .outlet(Outlet::plane([place, 0.0], [1.0, 0.0]))
+        .acceleration(|_| [0.0, -9.81])
+}
+
+#[test]
+fn another_outlet_is_the_one_that_nothing_had_reached() -> Result<()> {
+    let (far, near) = (1.2, 0.7);
+    let file = saved("outlet", runs_out(far))?;
+    let mut whole = runs_out(near).build()?;
+    while whole.time() < WHEN {
+        whole.step()?;
+    }
+    assert_eq!(whole.removed().particles, 0);
+    let end = 0.4;
+    whole.run_until(end)?;
+    let refused = runs_out(near).resume(&file).err();
+    let mut run = runs_out(near).resume_with(&file, &[Change::Outlets])?;
+    let mut same = runs_out(far).resume(&file)?;
+    let _ = std::fs::remove_file(&file);
+    assert!(refused.is_some_and(|error| error.to_string().contains("outlets")));
+    run.run_until(end)?;
+    same.run_until(end)?;
+    assert!(bits(&run) == bits(&whole));
+    assert_eq!(run.removed(), whole.removed());
+    assert!(run.removed().particles > 0 && same.removed().particles == 0);
+    Ok(())
+}
+
+#[test]
 fn what_is_not_named_is_refused_with_both_values() -> Result<()> {
     let file = saved("refused", tank(0.02, 1e-3, 0.0))?;
     let refusal = |scene: Scene<f64, 2>, changes: &[Change]| {

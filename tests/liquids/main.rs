@@ -21,6 +21,7 @@ mod lagrangian_liquid;
 mod lees_edwards;
 mod liquid_conservation;
 mod manufactured;
+mod mechanisms;
 mod mirror_planes;
 mod off_lattice;
 mod open_boundaries;

@@ -9,8 +9,8 @@ use meshfree::material::eos::Linear;
 use meshfree::prelude::*;
 use meshfree::term::viscosity::MonaghanGingold;
 
-const DX: f64 = 0.02;
-const G: f64 = 9.81;
+pub(crate) const DX: f64 = 0.02;
+pub(crate) const G: f64 = 9.81;
 const SOUND: f64 = 20.0;
 
 pub(crate) fn rubber(density: f64, youngs: f64) -> Material<f64> {
@@ -18,18 +18,23 @@ pub(crate) fn rubber(density: f64, youngs: f64) -> Material<f64> {
     Material::new("rubber", law).with_shear_modulus(youngs / 2.6)
 }
 
-fn stuff(density: f64) -> Material<f64> {
+pub(crate) fn stuff(density: f64) -> Material<f64> {
     Material::new("stuff", Linear::new(density, SOUND))
 }
 
 /// A box of so many spacings, from the place of its lower corner in spacings.
-fn boxed(name: &str, material: Material<f64>, [i, j]: [f64; 2], [m, n]: [f64; 2]) -> Body<f64, 2> {
+pub(crate) fn boxed(
+    name: &str,
+    material: Material<f64>,
+    [i, j]: [f64; 2],
+    [m, n]: [f64; 2],
+) -> Body<f64, 2> {
     let (low, high) = ([i * DX, j * DX], [(i + m) * DX, (j + n) * DX]);
     Body::block(name, material, low, high, DX)
 }
 
 /// Water of `depth` spacings in a tank of `width`, around boxes that are given by two corners in spacings.
-fn water(width: i32, depth: i32, around: &[[[f64; 2]; 2]]) -> Body<f64, 2> {
+pub(crate) fn water(width: i32, depth: i32, around: &[[[f64; 2]; 2]]) -> Body<f64, 2> {
     let cells =
         (0..depth).flat_map(|j| (0..width).map(move |i| [f64::from(i) + 0.5, f64::from(j) + 0.5]));
     let free = |x: &[f64; 2]| {
@@ -42,12 +47,12 @@ fn water(width: i32, depth: i32, around: &[[[f64; 2]; 2]]) -> Body<f64, 2> {
     Body::points_of("water", liquid, points, DX).hydrostatic([0.0, -G], [0.0, deep])
 }
 
-fn tank(width: i32, height: i32) -> Wall<2> {
+pub(crate) fn tank(width: i32, height: i32) -> Wall<2> {
     let high = [f64::from(width) * DX, f64::from(height) * DX];
     Wall::around("tank", [0.0; 2], high, DX, 4, [[true; 2], [true, false]])
 }
 
-fn liquid() -> Scene<f64, 2> {
+pub(crate) fn liquid() -> Scene<f64, 2> {
     let viscosity = MonaghanGingold {
         alpha: 0.1,
         beta: 0.0,

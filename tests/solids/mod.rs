@@ -23,6 +23,7 @@ mod halved_contact;
 mod held;
 mod hourglass;
 mod integrators;
+mod joints;
 mod kernels_on_lattices;
 mod loads;
 mod manufactured;

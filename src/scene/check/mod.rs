@@ -61,6 +61,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         self.check_solids_at_walls(&mut problems);
         self.check_sub_cycles(&mut problems);
         self.check_held(&mut problems);
+        self.check_joints(&mut problems);
         self.check_events(&mut problems);
         self.check_exchanges(&mut problems);
         let before = problems.len();

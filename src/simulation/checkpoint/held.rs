@@ -36,6 +36,7 @@ pub(super) fn put_held<const D: usize>(held: &Held<D>, name: &str, file: &mut Ch
             inertia: _,
             centre,
             turn,
+            built: _,
             back,
         } = own;
         file.put(format!("{name}/rigid{k}/centre"), 1, centre);

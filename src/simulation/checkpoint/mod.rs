@@ -8,6 +8,7 @@ mod change;
 mod couple;
 mod group;
 mod held;
+mod joints;
 mod particles;
 mod workspace;
 
@@ -32,9 +33,10 @@ pub(crate) use change::{Changes, differences};
 const VERSION: &str = "6";
 
 /// Parts of a scene that are hashed only where there are any.
-pub(crate) const RARE: [&str; 3] = [
+pub(crate) const RARE: [&str; 4] = [
     "times at which steps end",
     "events",
+    "joints",
     "schemes that come later",
 ];
 
@@ -123,6 +125,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let State {
             groups,
             couples,
+            joints,
             time,
             steps,
             evaluations,
@@ -193,9 +196,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             load,
             wall,
             laws,
+            joints,
         }) = work
         {
             file.put("work".into(), 1, [*start, *load, *wall, *laws]);
+            file.put_one("work of joints".into(), *joints);
         }
         let (width, rows) = stores.rows();
         file.put_one("stored energy/limit".into(), stores.limit());
@@ -214,6 +219,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         for (k, couple) in couples.iter().enumerate() {
             couple.put(&format!("coupling{k}"), &mut file);
         }
+        joints.put(&mut file);
         for (k, group) in groups.iter().enumerate() {
             group.put(&format!("group{k}"), &mut file);
         }
@@ -272,9 +278,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 .couples
                 .iter()
                 .map(|couple| couple.coupling.name());
+            let names = limits.chain(couplings).chain([super::joint_forces::LIMIT]);
             let criteria = Criterion::ALL
                 .into_iter()
-                .chain(limits.chain(couplings).map(Criterion::Effect));
+                .chain(names.map(Criterion::Effect));
             let criterion = criteria.into_iter().find(|own| own.name() == name);
             // What set the last step may be gone with a change.
             if criterion.is_some() || changes.is_empty() {
@@ -293,6 +300,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 load,
                 wall,
                 laws,
+                // Files of before there were any have none.
+                joints: file.get_one("work of joints").unwrap_or(0.0),
             });
         }
         // Files of before there were any begin them anew.
@@ -326,6 +335,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         for (k, couple) in self.state.couples.iter_mut().enumerate() {
             couple.take_state(&format!("coupling{k}"), file)?;
         }
+        self.state.joints.take_state(file)?;
         for (k, group) in self.state.groups.iter_mut().enumerate() {
             group.take_state(&format!("group{k}"), file, changes)?;
         }
