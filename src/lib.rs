@@ -105,6 +105,7 @@
 //! | [`coupling`] | how bodies of different schemes act on each other: liquid and structure, contact, ties |
 //! | [`simulation`] | steps, criteria of the time step, ledgers, questions about particles |
 //! | [`observe`] | pressure probes, wave gauges, flow through planes, fields at points and on grids |
+//! | [`run`](mod@run) | runs with observers by schedule and criteria that end them |
 //! | [`output`] | tables, plots, pictures, particle files, progress |
 //! | [`study`] | exact and reference solutions, norms, orders of convergence |
 //! | [`error`] | what went wrong, where, and what to try |
@@ -283,6 +284,7 @@ pub mod output;
 mod parallel;
 pub mod particles;
 pub mod prelude;
+pub mod run;
 pub mod scalar;
 pub mod scene;
 pub mod scheme;

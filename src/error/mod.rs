@@ -174,6 +174,16 @@ pub enum Error {
         /// The particle's number in the body.
         particle: usize,
     },
+    /// An observer or a criterion of a [run](crate::run) failed.
+    #[error("{observer} failed at t = {time} s: {cause}")]
+    Observer {
+        /// Which.
+        observer: String,
+        /// When \[s\].
+        time: f64,
+        /// Why. It is part of the error's text, and so no [`source`](std::error::Error::source) of it.
+        cause: crate::run::Failure,
+    },
     /// A file could not be written or read.
     #[error("cannot {action} {}: {cause}", path.display())]
     File {
@@ -285,8 +295,13 @@ mod tests {
                 must_be: "it must be finite",
             },
             Error::Argument(Problem::EmptyScene),
+            Error::Observer {
+                observer: "the observer every 0.1 s".into(),
+                time: 1.0,
+                cause: "the disk is full".into(),
+            },
         ];
-        let mut seen = [false; 12];
+        let mut seen = [false; 13];
         for error in &all {
             let variant = match error {
                 Error::Build(_) => 0,
@@ -301,10 +316,11 @@ mod tests {
                 Error::Argument(_) => 9,
                 Error::StoredEnergy { .. } => 10,
                 Error::Function { .. } => 11,
+                Error::Observer { .. } => 12,
             };
             seen[variant] = true;
         }
-        assert_eq!(seen, [true; 12]);
+        assert_eq!(seen, [true; 13]);
         all
     }
 

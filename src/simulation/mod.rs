@@ -226,6 +226,7 @@ pub(crate) use population::{BodyState, Particles};
 pub(crate) use side::{MetWall, Side};
 pub(crate) use spin::Spins;
 pub(crate) use sub_cycle::SubCycle;
+pub(crate) use view::rounding;
 pub(crate) use walls::{Structure, WallState};
 
 use crate::error::{Error, Result};
