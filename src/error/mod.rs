@@ -182,7 +182,7 @@ pub enum Error {
         /// When \[s\].
         time: f64,
         /// Why. It is part of the error's text, and so no [`source`](std::error::Error::source) of it.
-        cause: crate::run::Failure,
+        cause: Failure,
     },
     /// A file could not be written or read.
     #[error("cannot {action} {}: {cause}", path.display())]
@@ -206,6 +206,9 @@ pub enum Error {
     #[error(transparent)]
     Argument(#[from] Problem),
 }
+
+/// Why an observer or a criterion of a run fails: any error, for `?`.
+pub type Failure = Box<dyn std::error::Error + Send + Sync>;
 
 /// The crate's result.
 pub type Result<T> = core::result::Result<T, Error>;

@@ -41,6 +41,7 @@ mod schedule;
 mod stop;
 mod summary;
 
+pub use crate::error::Failure;
 pub use schedule::Schedule;
 pub use stop::Stop;
 pub use summary::{End, Summary};
@@ -58,9 +59,6 @@ use receipt::Receipt;
 use schedule::{Clock, Moment};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
-
-/// Why an observer or a criterion fails: any error, for `?`.
-pub type Failure = Box<dyn std::error::Error + Send + Sync>;
 
 /// What an observer does with what it is shown.
 type Show<'r, T, const D: usize> =

@@ -199,9 +199,12 @@ fn the_wall_clock_ends_a_run_at_a_step_of_it() {
     assert_eq!(plain.bits_hash(), ended.bits_hash());
 }
 
+/// A run with something more.
+type Changed = fn(Run<'_, f64, 1>) -> Run<'_, f64, 1>;
+
 #[test]
 fn failures_and_nonsense_are_named() {
-    let refused = |run: fn(Run<'_, f64, 1>) -> Run<'_, f64, 1>| {
+    let refused = |run: Changed| {
         let mut rod = rod();
         let error = run(Run::new(&mut rod, END)).go().unwrap_err();
         assert_eq!(rod.steps(), 0, "{error}");
@@ -210,7 +213,7 @@ fn failures_and_nonsense_are_named() {
     fn on(run: Run<'_, f64, 1>, schedule: Schedule) -> Run<'_, f64, 1> {
         run.observe(schedule, |_| Ok(()))
     }
-    let cases: [(fn(Run<'_, f64, 1>) -> Run<'_, f64, 1>, &str); 9] = [
+    let cases: [(Changed, &str); 9] = [
         (
             |run| on(run, Schedule::every(0.0)),
             "interval of a schedule is 0: it must be positive",
