@@ -93,13 +93,15 @@ impl<'r, T: Real, const D: usize> Stop<'r, T, D> {
         })
     }
 
-    /// Ends the run when the kinetic energy K is steady: when over the last `over` seconds
+    /// Ends the run when the kinetic energy is steady.
+    ///
+    /// That is when the kinetic energy K of the last `over` seconds has
     ///
     /// ```text
     /// max K − min K ≤ share · largest K of the run,
     /// ```
     ///
-    /// that is when its mean rate there is at most share·K/over. Take `over` longer than the slowest swing of what is to come to
+    /// so that its mean rate there is at most share/over of the largest. Take `over` longer than the slowest swing of what is to come to
     /// rest: a window that is shorter finds a turning point steady.
     ///
     /// ```
