@@ -3,13 +3,15 @@
 
 mod common;
 
-use common::{Example, Failure, Movie, Options, Own, Shade, evenly, picture, watch};
+use common::{Example, Failure, Options, Own, Shade, evenly, picture};
 use meshfree::boundary::Wall;
 use meshfree::material::rheology::PowerLaw;
 use meshfree::material::{Liquid, Material, SoundSpeed};
 use meshfree::output::csv::CsvWriter;
 use meshfree::output::svg::{Axis, Figure, Panel, Series};
+use meshfree::output::vtu::Pvd;
 use meshfree::prelude::*;
+use meshfree::run::{Run, Schedule};
 use meshfree::study::channel::{Couette, Poiseuille, PowerLawPoiseuille};
 use meshfree::term::viscosity::Inviscid;
 use meshfree::term::{CentralViscosity, LaminarViscosity};
@@ -152,28 +154,31 @@ fn run<T: Real>(options: &Options, name: &str, flow: Flow) -> Result<(), Failure
 
     let columns = ["time_s", "y_m", "velocity_m_s", "exact_m_s"];
     let mut csv = CsvWriter::create(options.file(&format!("{name}.csv")), &columns)?;
-    let mut movie = Movie::create(options.file(&format!("{name}.pvd")))?;
+    let mut movie = Pvd::create(options.file(&format!("{name}.pvd")))?;
     let mut curves = Vec::new();
     let mut worst = 0.0_f64;
-    let summary = watch(name, &mut simulation, &flow.times(until), |now| {
-        let mut profile = Vec::new();
-        for particle in now.all() {
-            let (y, u) = (particle.position()[1], particle.velocity()[0]);
-            let exact = flow.exact(y.clamp(0.0, WIDTH), now.time())?;
-            csv.row(&[now.time(), y, u, exact])?;
-            worst = worst.max((u - exact).abs() / SPEED);
-            profile.push((y, u));
-        }
-        let mut exact = Vec::new();
-        for y in evenly(WIDTH, 101) {
-            exact.push((y, flow.exact(y, now.time())?));
-        }
-        let label = format!("t = {:.2} s", now.time());
-        curves.push(Series::line("exact", exact).reference());
-        curves.push(Series::markers(&label, profile));
-        movie.frame(now)?;
-        Ok(())
-    })?;
+    let summary = Run::new(&mut simulation, until)
+        .label(name)
+        .observe(Schedule::at(flow.times(until)), |now| {
+            let mut profile = Vec::new();
+            for particle in now.all() {
+                let (y, u) = (particle.position()[1], particle.velocity()[0]);
+                let exact = flow.exact(y.clamp(0.0, WIDTH), now.time())?;
+                csv.row(&[now.time(), y, u, exact])?;
+                worst = worst.max((u - exact).abs() / SPEED);
+                profile.push((y, u));
+            }
+            let mut exact = Vec::new();
+            for y in evenly(WIDTH, 101) {
+                exact.push((y, flow.exact(y, now.time())?));
+            }
+            let label = format!("t = {:.2} s", now.time());
+            curves.push(Series::line("exact", exact).reference());
+            curves.push(Series::markers(&label, profile));
+            movie.frame(now.time(), &now.vtu_with_walls())?;
+            Ok(())
+        })
+        .go()?;
     let panel = Panel::new(
         Axis::linear("distance y", "m"),
         Axis::linear("velocity", "m/s"),

@@ -3,14 +3,16 @@
 
 mod common;
 
-use common::{Example, Failure, Movie, Options, Own, Records, Shade, evenly, picture, watch};
+use common::{Example, Failure, Options, Own, Records, Shade, picture};
 use meshfree::boundary::{Outlet, Wall};
 use meshfree::effect::NeoHookean;
 use meshfree::material::eos::Linear;
 use meshfree::material::{SoundSpeed, catalogue};
 use meshfree::output::csv::CsvWriter;
 use meshfree::output::svg::{Axis, Figure, Marker, Panel, Series};
+use meshfree::output::vtu::Pvd;
 use meshfree::prelude::*;
+use meshfree::run::{Run, Schedule};
 use meshfree::study::records::Record;
 use std::process::ExitCode;
 
@@ -138,29 +140,32 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
         "elastic_gate_j_m",
     ];
     let mut csv = CsvWriter::create(options.file("history.csv"), &columns)?;
-    let mut movie = Movie::create(options.file("gate.pvd"))?;
+    let mut movie = Pvd::create(options.file("gate.pvd"))?;
     let mut samples: [Vec<(f64, f64)>; 2] = Default::default();
     let mut pictures = Vec::new();
-    let times = evenly(until, 1 + (until / 0.002).ceil() as usize);
-    let summary = watch(EXAMPLE.name, &mut simulation, &times, |now| {
-        let at = tip(now)?;
-        let moved = [at[0] - first[0], at[1] - first[1]];
-        let ledger = now.ledger();
-        let gate = &ledger.bodies[1].1;
-        let elastic = gate.total("elastic energy").unwrap_or(0.0);
-        csv.row(&[now.time(), moved[0], moved[1], gate.kinetic, elastic])?;
-        let count = samples[0].len();
-        if count.is_multiple_of(10) {
-            movie.frame(now)?;
-        }
-        if [times.len() / 5, times.len() / 2, times.len() - 1].contains(&count) {
-            pictures.push(picture(now, Shade::Speed, [0, 1], case.dx));
-        }
-        for (line, value) in samples.iter_mut().zip(moved) {
-            line.push((now.time(), value));
-        }
-        Ok(())
-    })?;
+    let times = 1 + (until / 0.002).ceil() as usize;
+    let summary = Run::new(&mut simulation, until)
+        .label(EXAMPLE.name)
+        .observe(Schedule::evenly(times), |now| {
+            let at = tip(now)?;
+            let moved = [at[0] - first[0], at[1] - first[1]];
+            let ledger = now.ledger();
+            let gate = &ledger.bodies[1].1;
+            let elastic = gate.total("elastic energy").unwrap_or(0.0);
+            csv.row(&[now.time(), moved[0], moved[1], gate.kinetic, elastic])?;
+            let count = samples[0].len();
+            if count.is_multiple_of(10) {
+                movie.frame(now.time(), &now.vtu_with_walls())?;
+            }
+            if [times / 5, times / 2, times - 1].contains(&count) {
+                pictures.push(picture(now, Shade::Speed, [0, 1], case.dx));
+            }
+            for (line, value) in samples.iter_mut().zip(moved) {
+                line.push((now.time(), value));
+            }
+            Ok(())
+        })
+        .go()?;
 
     let mut figure = Figure::new().columns(2).shared_legend();
     let kinds = [("x", "dx_m", "tip, along"), ("y", "dy_m", "tip, up")];

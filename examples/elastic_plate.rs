@@ -3,12 +3,14 @@
 
 mod common;
 
-use common::{Example, Failure, Movie, Options, Own, Shade, evenly, picture, watch};
+use common::{Example, Failure, Options, Own, Shade, picture};
 use meshfree::effect::{HourglassFree, NeoHookean, StVenantKirchhoff};
 use meshfree::material::eos::Linear;
 use meshfree::output::csv::CsvWriter;
 use meshfree::output::svg::{Axis, Figure, Panel, Series};
+use meshfree::output::vtu::Pvd;
 use meshfree::prelude::*;
+use meshfree::run::{Run, Schedule};
 use meshfree::scene::Start;
 use meshfree::term::viscosity::LimitedMonaghanGingold;
 use std::process::ExitCode;
@@ -196,44 +198,49 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
     columns.extend(names.iter().map(|name| name.replace(' ', "_") + "_j_m"));
     let columns: Vec<_> = columns.iter().map(String::as_str).collect();
     let mut csv = CsvWriter::create(options.file("history.csv"), &columns)?;
-    let mut movie = Movie::create(options.file("plate.pvd"))?;
+    let mut movie = Pvd::create(options.file("plate.pvd"))?;
     let mut samples = Vec::new();
     let mut energies: [Vec<(f64, f64)>; 4] = Default::default();
     let mut deepest = None;
-    let times = evenly(until, 1 + (until / case.known[0] * 200.0).ceil() as usize);
-    let summary = watch(EXAMPLE.name, &mut simulation, &times, |now| {
-        let height = middle(now, &tip) - rest;
-        let whole = now.ledger().whole;
-        let totals = names.iter().map(|name| whole.total(name).unwrap_or(0.0));
-        let mechanical = whole.kinetic + stored(&case, now);
-        let own = [
-            now.time(),
-            height,
-            whole.kinetic,
-            whole.internal,
-            mechanical,
-        ];
-        csv.row(&own.into_iter().chain(totals).collect::<Vec<_>>())?;
-        if samples.len() % 10 == 0 {
-            movie.frame(now)?;
-        }
-        samples.push((now.time(), height));
-        let hourglass = whole.total("hourglass energy").unwrap_or(0.0);
-        for (line, value) in
-            energies
-                .iter_mut()
-                .zip([whole.kinetic, whole.internal, hourglass, mechanical])
-        {
-            line.push((now.time(), value));
-        }
-        if deepest
-            .as_ref()
-            .is_none_or(|(most, _): &(f64, _)| height.abs() > *most)
-        {
-            deepest = Some((height.abs(), picture(now, Shade::Pressure, [0, 1], spacing)));
-        }
-        Ok(())
-    })?;
+    let summary = Run::new(&mut simulation, until)
+        .label(EXAMPLE.name)
+        .observe(
+            Schedule::evenly(1 + (until / case.known[0] * 200.0).ceil() as usize),
+            |now| {
+                let height = middle(now, &tip) - rest;
+                let whole = now.ledger().whole;
+                let totals = names.iter().map(|name| whole.total(name).unwrap_or(0.0));
+                let mechanical = whole.kinetic + stored(&case, now);
+                let own = [
+                    now.time(),
+                    height,
+                    whole.kinetic,
+                    whole.internal,
+                    mechanical,
+                ];
+                csv.row(&own.into_iter().chain(totals).collect::<Vec<_>>())?;
+                if samples.len() % 10 == 0 {
+                    movie.frame(now.time(), &now.vtu_with_walls())?;
+                }
+                samples.push((now.time(), height));
+                let hourglass = whole.total("hourglass energy").unwrap_or(0.0);
+                for (line, value) in
+                    energies
+                        .iter_mut()
+                        .zip([whole.kinetic, whole.internal, hourglass, mechanical])
+                {
+                    line.push((now.time(), value));
+                }
+                if deepest
+                    .as_ref()
+                    .is_none_or(|(most, _): &(f64, _)| height.abs() > *most)
+                {
+                    deepest = Some((height.abs(), picture(now, Shade::Pressure, [0, 1], spacing)));
+                }
+                Ok(())
+            },
+        )
+        .go()?;
 
     let name = options.text("--formulation").unwrap_or("total").to_string();
     let mut figure = Figure::new().panel(

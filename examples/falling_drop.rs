@@ -3,11 +3,12 @@
 
 mod common;
 
-use common::{Example, Failure, Options, Shade, evenly, picture, watch};
+use common::{Example, Failure, Options, Shade, picture};
 use meshfree::observe::PressureProbe;
 use meshfree::output::csv::CsvWriter;
 use meshfree::output::svg::Figure;
 use meshfree::prelude::*;
+use meshfree::run::{Run, Schedule};
 
 const EXAMPLE: Example = Example {
     name: "falling_drop",
@@ -39,17 +40,19 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
     let columns = ["time_s", "pressure_pa", "impulse_n_s", "missing_n_s"];
     let mut table = CsvWriter::create(options.file("below.csv"), &columns)?;
     let start = now.ledger().whole;
-    let times = evenly(options.until_or(0.02, 0.01), 81);
     let mut panels = Vec::new();
-    let summary = watch("drop", &mut now, &times, |now| {
-        // What the water has lost, and its weight has given, is what the pan has got.
-        let given = start.momentum[1] + gravity[1] * start.mass * now.time();
-        let impulse = now.wall_impulse("pan")?[1];
-        let missing = given - now.ledger().whole.momentum[1] - impulse;
-        table.row(&[now.time(), below.pressure(now), impulse, missing])?;
-        panels.push(picture(now, Shade::Speed, [0, 1], dx));
-        Ok(())
-    })?;
+    let summary = Run::new(&mut now, options.until_or(0.02, 0.01))
+        .label("drop")
+        .observe(Schedule::evenly(81), |now| {
+            // What the water has lost, and its weight has given, is what the pan has got.
+            let given = start.momentum[1] + gravity[1] * start.mass * now.time();
+            let impulse = now.wall_impulse("pan")?[1];
+            let missing = given - now.ledger().whole.momentum[1] - impulse;
+            table.row(&[now.time(), below.pressure(now), impulse, missing])?;
+            panels.push(picture(now, Shade::Speed, [0, 1], dx));
+            Ok(())
+        })
+        .go()?;
     let shown = panels.into_iter().skip(20).step_by(20);
     let figure = Figure::new().columns(1).panel_size(720.0, 290.0);
     let figure = shown.fold(figure, Figure::panel);

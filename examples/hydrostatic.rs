@@ -3,12 +3,14 @@
 
 mod common;
 
-use common::{Example, Failure, Movie, Options, Shade, evenly, picture, watch};
+use common::{Example, Failure, Options, Shade, picture};
 use meshfree::boundary::Wall;
 use meshfree::material::{Material, SoundSpeed, catalogue};
 use meshfree::output::csv::CsvWriter;
 use meshfree::output::svg::{Axis, Figure, Panel, Series};
+use meshfree::output::vtu::Pvd;
 use meshfree::prelude::*;
+use meshfree::run::{Run, Schedule};
 use meshfree::scene::Start;
 use meshfree::term::Antuono;
 use std::process::ExitCode;
@@ -74,27 +76,30 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
 
     let columns = ["time_s", "rms_of_rho_g_h", "surface_m", "speed_of_c0"];
     let mut csv = CsvWriter::create(options.file("rest.csv"), &columns)?;
-    let mut movie = Movie::create(options.file("column.pvd"))?;
+    let mut movie = Pvd::create(options.file("column.pvd"))?;
     let mut last = [0.0; 3];
-    let summary = watch(EXAMPLE.name, &mut simulation, &evenly(until, 21), |now| {
-        let errors = now.all().map(|particle| {
-            let exact = 1000.0 * GRAVITY * (DEPTH - particle.position()[1]);
-            (particle.pressure() - exact).powi(2)
-        });
-        let mean = errors.sum::<f64>() / now.particles() as f64;
-        let fastest = now
-            .all()
-            .map(|particle| particle.velocity()[0].hypot(particle.velocity()[1]))
-            .fold(0.0, f64::max);
-        last = [
-            mean.sqrt() / (1000.0 * GRAVITY * DEPTH),
-            surface(now),
-            fastest / sound_speed(),
-        ];
-        csv.row(&[now.time(), last[0], last[1], last[2]])?;
-        movie.frame(now)?;
-        Ok(())
-    })?;
+    let summary = Run::new(&mut simulation, until)
+        .label(EXAMPLE.name)
+        .observe(Schedule::evenly(21), |now| {
+            let errors = now.all().map(|particle| {
+                let exact = 1000.0 * GRAVITY * (DEPTH - particle.position()[1]);
+                (particle.pressure() - exact).powi(2)
+            });
+            let mean = errors.sum::<f64>() / now.particles() as f64;
+            let fastest = now
+                .all()
+                .map(|particle| particle.velocity()[0].hypot(particle.velocity()[1]))
+                .fold(0.0, f64::max);
+            last = [
+                mean.sqrt() / (1000.0 * GRAVITY * DEPTH),
+                surface(now),
+                fastest / sound_speed(),
+            ];
+            csv.row(&[now.time(), last[0], last[1], last[2]])?;
+            movie.frame(now.time(), &now.vtu_with_walls())?;
+            Ok(())
+        })
+        .go()?;
 
     let profile = simulation.all();
     let profile = profile.map(|particle| (particle.pressure(), particle.position()[1]));

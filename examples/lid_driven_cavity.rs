@@ -3,12 +3,14 @@
 
 mod common;
 
-use common::{Example, Failure, Movie, Options, Own, Shade, evenly, picture, watch};
+use common::{Example, Failure, Options, Own, Shade, evenly, picture};
 use meshfree::boundary::Wall;
 use meshfree::material::{Liquid, Material, SoundSpeed};
 use meshfree::output::csv::CsvWriter;
 use meshfree::output::svg::{Axis, Figure, Panel, Series};
+use meshfree::output::vtu::Pvd;
 use meshfree::prelude::*;
+use meshfree::run::{Run, Schedule};
 use meshfree::scheme::Shifting;
 use meshfree::study::ghia::{ALONG_X, ALONG_Y, CentreLinePoint};
 use meshfree::term::LaminarViscosity;
@@ -118,31 +120,33 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
     let mut simulation = scene::<T>(options, reynolds, spacing).build()?;
 
     let name = format!("cavity_{reynolds:.0}");
-    let mut movie = Movie::create(options.file(&format!("{name}.pvd")))?;
+    let mut movie = Pvd::create(options.file(&format!("{name}.pvd")))?;
     let columns = ["time_s", "kinetic_energy_j_m"];
     let mut history = CsvWriter::create(options.file(&format!("{name}_energy.csv")), &columns)?;
     // Eddies of the size of a few particles come and go: the profiles are means over the last quarter.
-    let times = evenly(until, 4 * SAMPLES + 1);
     let places = evenly(1.0, PLACES);
     let mut profiles = [[0.0; PLACES]; 2];
     let mut taken = 0;
-    let summary = watch(EXAMPLE.name, &mut simulation, &times, |now| {
-        history.row(&[now.time(), now.ledger().whole.kinetic])?;
-        if taken % 4 == 0 {
-            movie.frame(now)?;
-        }
-        taken += 1;
-        if taken <= 3 * SAMPLES + 1 {
-            return Ok(());
-        }
-        for (profile, (_, component, _, point)) in profiles.iter_mut().zip(LINES) {
-            for (mean, place) in profile.iter_mut().zip(&places) {
-                let own = velocity(now, point(*place), component, 2.5 * spacing);
-                *mean += own / SAMPLES as f64;
+    let summary = Run::new(&mut simulation, until)
+        .label(EXAMPLE.name)
+        .observe(Schedule::evenly(4 * SAMPLES + 1), |now| {
+            history.row(&[now.time(), now.ledger().whole.kinetic])?;
+            if taken % 4 == 0 {
+                movie.frame(now.time(), &now.vtu_with_walls())?;
             }
-        }
-        Ok(())
-    })?;
+            taken += 1;
+            if taken <= 3 * SAMPLES + 1 {
+                return Ok(());
+            }
+            for (profile, (_, component, _, point)) in profiles.iter_mut().zip(LINES) {
+                for (mean, place) in profile.iter_mut().zip(&places) {
+                    let own = velocity(now, point(*place), component, 2.5 * spacing);
+                    *mean += own / SAMPLES as f64;
+                }
+            }
+            Ok(())
+        })
+        .go()?;
 
     let columns = ["line", "place", "velocity", "reference"];
     let mut csv = CsvWriter::create(options.file(&format!("{name}.csv")), &columns)?;

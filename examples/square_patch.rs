@@ -4,13 +4,14 @@
 #[path = "common/mod.rs"]
 mod common;
 
-use common::{Example, Failure, Options, Own, evenly, watch};
+use common::{Example, Failure, Options, Own};
 use meshfree::effect::{ArtificialPressure, PairingControl};
 use meshfree::material::SoundSpeed;
 use meshfree::output::csv::CsvWriter;
 use meshfree::output::svg::{Axis, Cloud, Figure, Panel, Series};
 use meshfree::output::vtu::Pvd;
 use meshfree::prelude::*;
+use meshfree::run::{Run, Schedule};
 use meshfree::scene::Start;
 use meshfree::simulation::Thresholds;
 use std::f64::consts::PI;
@@ -106,47 +107,50 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
     let mut movie = Pvd::create(options.file("patch.pvd"))?;
     let (mut panels, mut history): (Vec<Panel>, Vec<[f64; 5]>) = (Vec::new(), Vec::new());
     let mut frame = 0;
-    let summary = watch(EXAMPLE.name, &mut patch, &evenly(until, 41), |now| {
-        let turn = |p: meshfree::simulation::ParticleView<'_, T, 2>| {
-            let ([x, y], [u, v]) = (p.position(), p.velocity());
-            p.mass() * (x * v - y * u)
-        };
-        let report = now.stability();
-        let [nearest, close] = report
-            .arrangement
-            .map_or([1.0, 0.0], |now| [now.nearest, now.close]);
-        let row = [
-            now.time(),
-            nearest,
-            close,
-            now.all().map(turn).sum(),
-            now.ledger().whole.kinetic,
-        ];
-        csv.row(&row)?;
-        history.push(row);
-        if frame % 10 == 0 {
-            movie.frame(now.time(), &now.vtu())?;
-        }
-        if [10, 20, 40].contains(&frame) {
-            let points = now.all().map(|p| {
-                let [x, y] = p.position();
-                (x, y, p.pressure())
-            });
-            let color = Axis::linear("pressure", "Pa").range(-100.0, 100.0);
-            let reach = [0.0, 1.1, 1.6, 0.0, 2.9][frame / 10];
-            panels.push(
-                Panel::new(
-                    Axis::linear("x", "m").range(-reach, reach),
-                    Axis::linear("y", "m").range(-reach, reach),
-                )
-                .cloud(Cloud::new(color, points).diameter(spacing))
-                .equal_aspect()
-                .title(&format!("t = {:.0} s", now.time())),
-            );
-        }
-        frame += 1;
-        Ok(())
-    })?;
+    let summary = Run::new(&mut patch, until)
+        .label(EXAMPLE.name)
+        .observe(Schedule::evenly(41), |now| {
+            let turn = |p: meshfree::simulation::ParticleView<'_, T, 2>| {
+                let ([x, y], [u, v]) = (p.position(), p.velocity());
+                p.mass() * (x * v - y * u)
+            };
+            let report = now.stability();
+            let [nearest, close] = report
+                .arrangement
+                .map_or([1.0, 0.0], |now| [now.nearest, now.close]);
+            let row = [
+                now.time(),
+                nearest,
+                close,
+                now.all().map(turn).sum(),
+                now.ledger().whole.kinetic,
+            ];
+            csv.row(&row)?;
+            history.push(row);
+            if frame % 10 == 0 {
+                movie.frame(now.time(), &now.vtu())?;
+            }
+            if [10, 20, 40].contains(&frame) {
+                let points = now.all().map(|p| {
+                    let [x, y] = p.position();
+                    (x, y, p.pressure())
+                });
+                let color = Axis::linear("pressure", "Pa").range(-100.0, 100.0);
+                let reach = [0.0, 1.1, 1.6, 0.0, 2.9][frame / 10];
+                panels.push(
+                    Panel::new(
+                        Axis::linear("x", "m").range(-reach, reach),
+                        Axis::linear("y", "m").range(-reach, reach),
+                    )
+                    .cloud(Cloud::new(color, points).diameter(spacing))
+                    .equal_aspect()
+                    .title(&format!("t = {:.0} s", now.time())),
+                );
+            }
+            frame += 1;
+            Ok(())
+        })
+        .go()?;
     let mut figure = Figure::new().title(&format!("spinning square patch, cure: {cure}"));
     for panel in panels {
         figure = figure.panel(panel);

@@ -3,12 +3,14 @@
 
 mod common;
 
-use common::{Example, Failure, Movie, Options, Own, Shade, evenly, picture, watch};
+use common::{Example, Failure, Options, Own, Shade, picture};
 use meshfree::boundary::Wall;
 use meshfree::material::{Material, SoundSpeed, catalogue};
 use meshfree::output::csv::CsvWriter;
 use meshfree::output::svg::{Axis, Figure, Panel, Series};
+use meshfree::output::vtu::Pvd;
 use meshfree::prelude::*;
+use meshfree::run::{Run, Schedule};
 use meshfree::scene::Start;
 use meshfree::scheme::Shifting;
 use meshfree::study::standing_wave::StandingWave;
@@ -95,22 +97,27 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
 
     let columns = ["time_s", "amplitude_m", "linear_theory_m"];
     let mut csv = CsvWriter::create(options.file("wave.csv"), &columns)?;
-    let mut movie = Movie::create(options.file("wave.pvd"))?;
+    let mut movie = Pvd::create(options.file("wave.pvd"))?;
     let exact = |t: f64| wave.elevation(0.0, t - 0.25 * wave.period());
     let mut samples = Vec::new();
-    let times = evenly(until, 1 + (until / period * 40.0).round() as usize);
-    let summary = watch(EXAMPLE.name, &mut simulation, &times, |now| {
-        let height = amplitude(now, wave.wavenumber());
-        csv.row(&[now.time(), height, exact(now.time())])?;
-        if samples.len() % 10 == 0 {
-            movie.frame(now)?;
-        }
-        samples.push((now.time(), height));
-        Ok(())
-    })?;
+    let summary = Run::new(&mut simulation, until)
+        .label(EXAMPLE.name)
+        .observe(
+            Schedule::evenly(1 + (until / period * 40.0).round() as usize),
+            |now| {
+                let height = amplitude(now, wave.wavenumber());
+                csv.row(&[now.time(), height, exact(now.time())])?;
+                if samples.len() % 10 == 0 {
+                    movie.frame(now.time(), &now.vtu_with_walls())?;
+                }
+                samples.push((now.time(), height));
+                Ok(())
+            },
+        )
+        .go()?;
 
     let rises = rises(&samples);
-    let theory = times.iter().map(|&t| (t, exact(t)));
+    let theory = samples.iter().map(|&(t, _)| (t, exact(t)));
     Figure::new()
         .panel(
             Panel::new(Axis::linear("time", "s"), Axis::linear("amplitude", "m"))

@@ -3,11 +3,13 @@
 
 mod common;
 
-use common::{Example, Failure, Movie, Options, Own, Shade, evenly, picture, watch};
+use common::{Example, Failure, Options, Own, Shade, evenly, picture};
 use meshfree::material::{Liquid, Material, SoundSpeed};
 use meshfree::output::csv::CsvWriter;
 use meshfree::output::svg::{Axis, Figure, Panel, Series};
+use meshfree::output::vtu::Pvd;
 use meshfree::prelude::*;
+use meshfree::run::{Run, Schedule};
 use meshfree::scene::Start;
 use meshfree::scheme::Shifting;
 use meshfree::study::taylor_green::TaylorGreen;
@@ -66,30 +68,33 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
 
     let columns = ["time_s", "speed_m_s", "exact_m_s", "error_percent"];
     let mut csv = CsvWriter::create(options.file("decay.csv"), &columns)?;
-    let mut movie = Movie::create(options.file("vortices.pvd"))?;
+    let mut movie = Pvd::create(options.file("vortices.pvd"))?;
     let (mut decay, mut worst) = (Vec::new(), 0.0_f64);
-    let summary = watch(EXAMPLE.name, &mut simulation, &evenly(until, 21), |now| {
-        let energy: f64 = now
-            .all()
-            .map(|particle| {
-                let [u, v] = particle.velocity();
-                0.5 * particle.mass() * (u * u + v * v)
-            })
-            .sum();
-        // The greatest speed that belongs to the energy: the greatest of one particle is noise.
-        let exact = flow.greatest_speed(now.time());
-        let speed = exact * (energy / flow.kinetic_energy(now.time())).sqrt();
-        let error = speed / exact - 1.0;
-        worst = if error.abs() > worst.abs() {
-            error
-        } else {
-            worst
-        };
-        csv.row(&[now.time(), speed, exact, 100.0 * error])?;
-        decay.push((now.time(), speed));
-        movie.frame(now)?;
-        Ok(())
-    })?;
+    let summary = Run::new(&mut simulation, until)
+        .label(EXAMPLE.name)
+        .observe(Schedule::evenly(21), |now| {
+            let energy: f64 = now
+                .all()
+                .map(|particle| {
+                    let [u, v] = particle.velocity();
+                    0.5 * particle.mass() * (u * u + v * v)
+                })
+                .sum();
+            // The greatest speed that belongs to the energy: the greatest of one particle is noise.
+            let exact = flow.greatest_speed(now.time());
+            let speed = exact * (energy / flow.kinetic_energy(now.time())).sqrt();
+            let error = speed / exact - 1.0;
+            worst = if error.abs() > worst.abs() {
+                error
+            } else {
+                worst
+            };
+            csv.row(&[now.time(), speed, exact, 100.0 * error])?;
+            decay.push((now.time(), speed));
+            movie.frame(now.time(), &now.vtu_with_walls())?;
+            Ok(())
+        })
+        .go()?;
 
     let exact = evenly(until, 101).into_iter();
     let exact = exact.map(|t| (t, flow.greatest_speed(t)));

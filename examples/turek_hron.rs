@@ -3,15 +3,17 @@
 
 mod common;
 
-use common::{Example, Failure, Movie, Options, Own, evenly, watch};
+use common::{Example, Failure, Options, Own};
 use meshfree::boundary::Wall;
 use meshfree::effect::StVenantKirchhoff;
 use meshfree::material::eos::Linear;
 use meshfree::material::{Liquid, SoundSpeed};
 use meshfree::output::csv::CsvWriter;
 use meshfree::output::svg::{Axis, Cloud, Figure, Panel, Series};
+use meshfree::output::vtu::Pvd;
 use meshfree::particles::Field;
 use meshfree::prelude::*;
+use meshfree::run::{Run, Schedule};
 use meshfree::term::LaminarViscosity;
 use meshfree::term::viscosity::Inviscid;
 use std::f64::consts::PI;
@@ -394,7 +396,7 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
         "inflow_m_s",
     ];
     let mut csv = CsvWriter::create(options.file("history.csv"), &names)?;
-    let mut movie = Movie::create(options.file("flow.pvd"))?;
+    let mut movie = Pvd::create(options.file("flow.pvd"))?;
     let mut samples: [Vec<(f64, f64)>; 4] = Default::default();
     let mut before = (0.0, [0.0; 2]);
     let mut highest: Option<(f64, Panel)> = None;
@@ -403,35 +405,41 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
     } else {
         1.0
     };
-    let times = evenly(until, 1 + (40.0 * until / period).ceil().max(20.0) as usize);
-    let summary = watch(EXAMPLE.name, &mut simulation, &times, |now| {
-        let moved = tip(now)?;
-        // On the beam now, on the cylinder as mean since the last time.
-        let impulse = now.wall_impulse("cylinder")?;
-        let beam = now.force_between("beam", "water")?;
-        let span = (now.time() - before.0).max(f64::MIN_POSITIVE);
-        let force: [f64; 2] = core::array::from_fn(|d| beam[d] + (impulse[d] - before.1[d]) / span);
-        before = (now.time(), impulse);
-        let entering = now
-            .body("water")?
-            .filter(|p| (0.0..2.0 * RADIUS).contains(&p.position()[0]));
-        let [speeds, count] =
-            entering.fold([0.0; 2], |[sum, n], p| [sum + p.velocity()[0], n + 1.0]);
-        let inflow = speeds / count;
-        csv.row(&[now.time(), moved[0], moved[1], force[0], force[1], inflow])?;
-        if samples[0].len().is_multiple_of(20) {
-            movie.frame(now)?;
-        }
-        let values = [moved[0], moved[1], force[0], inflow];
-        for (line, value) in samples.iter_mut().zip(values) {
-            line.push((now.time(), value));
-        }
-        let late = now.time() > 0.6 * until;
-        if late && highest.as_ref().is_none_or(|(most, _)| moved[1] > *most) {
-            highest = Some((moved[1], field(now, case.dx, "speed", "m/s", speed)?));
-        }
-        Ok(())
-    })?;
+    let summary = Run::new(&mut simulation, until)
+        .label(EXAMPLE.name)
+        .observe(
+            Schedule::evenly(1 + (40.0 * until / period).ceil().max(20.0) as usize),
+            |now| {
+                let moved = tip(now)?;
+                // On the beam now, on the cylinder as mean since the last time.
+                let impulse = now.wall_impulse("cylinder")?;
+                let beam = now.force_between("beam", "water")?;
+                let span = (now.time() - before.0).max(f64::MIN_POSITIVE);
+                let force: [f64; 2] =
+                    core::array::from_fn(|d| beam[d] + (impulse[d] - before.1[d]) / span);
+                before = (now.time(), impulse);
+                let entering = now
+                    .body("water")?
+                    .filter(|p| (0.0..2.0 * RADIUS).contains(&p.position()[0]));
+                let [speeds, count] =
+                    entering.fold([0.0; 2], |[sum, n], p| [sum + p.velocity()[0], n + 1.0]);
+                let inflow = speeds / count;
+                csv.row(&[now.time(), moved[0], moved[1], force[0], force[1], inflow])?;
+                if samples[0].len().is_multiple_of(20) {
+                    movie.frame(now.time(), &now.vtu_with_walls())?;
+                }
+                let values = [moved[0], moved[1], force[0], inflow];
+                for (line, value) in samples.iter_mut().zip(values) {
+                    line.push((now.time(), value));
+                }
+                let late = now.time() > 0.6 * until;
+                if late && highest.as_ref().is_none_or(|(most, _)| moved[1] > *most) {
+                    highest = Some((moved[1], field(now, case.dx, "speed", "m/s", speed)?));
+                }
+                Ok(())
+            },
+        )
+        .go()?;
 
     let [along, across, drag, inflow] = samples;
     let [mean, amplitude] = case.tip;

@@ -3,15 +3,17 @@
 
 mod common;
 
-use common::{Example, Failure, Movie, Options, Own, evenly, watch};
+use common::{Example, Failure, Options, Own, evenly};
 use meshfree::boundary::Wall;
 use meshfree::effect::NeoHookean;
 use meshfree::material::eos::Linear;
 use meshfree::material::{SoundSpeed, catalogue};
 use meshfree::output::csv::CsvWriter;
 use meshfree::output::svg::{Axis, Cloud, Figure, Panel, Series};
+use meshfree::output::vtu::Pvd;
 use meshfree::particles::Field;
 use meshfree::prelude::*;
+use meshfree::run::{Run, Schedule};
 use std::collections::BTreeMap;
 use std::process::ExitCode;
 
@@ -167,28 +169,30 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
         "elastic_plate_j_m",
     ];
     let mut csv = CsvWriter::create(options.file("history.csv"), &columns)?;
-    let mut movie = Movie::create(options.file("plate.pvd"))?;
+    let mut movie = Pvd::create(options.file("plate.pvd"))?;
     let mut samples = Vec::new();
-    let times = evenly(until, 121);
-    let summary = watch(EXAMPLE.name, &mut simulation, &times, |now| {
-        let at = middle(now)?;
-        let ledger = now.ledger();
-        let [water, plate] = [0, 1].map(|body| &ledger.bodies[body].1);
-        let elastic = plate.total("elastic energy").unwrap_or(0.0);
-        csv.row(&[
-            now.time(),
-            at,
-            expected,
-            water.kinetic,
-            plate.kinetic,
-            elastic,
-        ])?;
-        if samples.len().is_multiple_of(20) {
-            movie.frame(now)?;
-        }
-        samples.push((now.time(), at));
-        Ok(())
-    })?;
+    let summary = Run::new(&mut simulation, until)
+        .label(EXAMPLE.name)
+        .observe(Schedule::evenly(121), |now| {
+            let at = middle(now)?;
+            let ledger = now.ledger();
+            let [water, plate] = [0, 1].map(|body| &ledger.bodies[body].1);
+            let elastic = plate.total("elastic energy").unwrap_or(0.0);
+            csv.row(&[
+                now.time(),
+                at,
+                expected,
+                water.kinetic,
+                plate.kinetic,
+                elastic,
+            ])?;
+            if samples.len().is_multiple_of(20) {
+                movie.frame(now.time(), &now.vtu_with_walls())?;
+            }
+            samples.push((now.time(), at));
+            Ok(())
+        })
+        .go()?;
 
     // The last third has settled.
     let settled: Vec<f64> = samples[2 * samples.len() / 3..]

@@ -105,6 +105,7 @@
 //! | [`coupling`] | how bodies of different schemes act on each other: liquid and structure, contact, ties |
 //! | [`simulation`] | steps, criteria of the time step, ledgers, questions about particles |
 //! | [`observe`] | pressure probes, wave gauges, flow through planes, fields at points and on grids |
+//! | [`run`](mod@run) | runs with observers by schedule and criteria that end them |
 //! | [`output`] | tables, plots, pictures, particle files, progress |
 //! | [`study`] | exact and reference solutions, norms, orders of convergence |
 //! | [`error`] | what went wrong, where, and what to try |
@@ -222,6 +223,9 @@
 //! | page | what it holds |
 //! |---|---|
 //! | [tutorials](https://github.com/meshfree/meshfree/blob/main/docs/tutorials.md) | four programs, from a rod to a liquid with a structure |
+//! | [output in time](https://github.com/meshfree/meshfree/blob/main/docs/how_to_output.md) | observers by schedule, criteria that end a run, receipts |
+//! | [ParaView and films](https://github.com/meshfree/meshfree/blob/main/docs/how_to_paraview.md) | particle files and films, and how to look at them |
+//! | [stop and go on](https://github.com/meshfree/meshfree/blob/main/docs/how_to_restart.md) | checkpoints and restarts |
 //! | [gallery](https://github.com/meshfree/meshfree/blob/main/docs/gallery.md) | a picture of each example |
 //! | [theory](https://github.com/meshfree/meshfree/blob/main/docs/theory.md) | what is solved |
 //! | [extending](https://github.com/meshfree/meshfree/blob/main/docs/extending.md) | a kernel, law, boundary, integrator or effect of your own |
@@ -251,7 +255,7 @@
 //! | feature | default | what it adds | by |
 //! |---|---|---|---|
 //! | `parallel` | yes | threads; without it a run takes one, to the same bits | `rayon` |
-//! | `pictures` | no | [`output::picture`] as PNG and SVG files | `png` |
+//! | `pictures` | no | [`output::picture`] as PNG and SVG files, films | `png` |
 //! | `progress` | no | the drawing of [`output::progress`] | `indicatif` |
 //! | `checkpoint` | no | `Simulation::save` and `Scene::resume` | `safetensors` |
 //! | `meshes` | no | shapes from STL files | `stl_io` |
@@ -283,6 +287,7 @@ pub mod output;
 mod parallel;
 pub mod particles;
 pub mod prelude;
+pub mod run;
 pub mod scalar;
 pub mod scene;
 pub mod scheme;
@@ -300,6 +305,12 @@ mod pages {
     pub struct Readme;
     #[doc = include_str!("../docs/tutorials.md")]
     pub struct Tutorials;
+    #[doc = include_str!("../docs/how_to_output.md")]
+    pub struct Output;
+    #[doc = include_str!("../docs/how_to_paraview.md")]
+    pub struct ParaView;
+    #[doc = include_str!("../docs/how_to_restart.md")]
+    pub struct Restart;
     #[doc = include_str!("../docs/extending.md")]
     pub struct Extending;
 }

@@ -1,7 +1,7 @@
 //! One case: the scene, the run, and what is sampled on the way.
 //! x is the way out, z the direction of the crush; the depth y is one cell between planes of symmetry.
 
-use super::common::{Failure, Movie};
+use super::common::Failure;
 use meshfree::effect::HydrostaticWalls;
 use meshfree::geometry::{Cuboid, OpenCell, Shape, fill};
 use meshfree::observe::FlowPlane;
@@ -9,6 +9,7 @@ use meshfree::output::csv::CsvWriter;
 use meshfree::output::picture::Picture;
 use meshfree::output::progress::Progress;
 use meshfree::output::svg::{Axis, Color};
+use meshfree::output::vtu::Pvd;
 use meshfree::prelude::*;
 use meshfree::term::LaminarViscosity;
 use meshfree::term::viscosity::MonaghanGingold;
@@ -217,8 +218,8 @@ pub fn run<T: Real>(case: &Case, folder: &Path) -> Result<Record, Failure> {
         "void_loss_m3",
     ];
     let mut file = CsvWriter::create(folder.join("filler.csv"), &columns)?;
-    let mut movie = Movie::create(folder.join("water.pvd"))?;
-    movie.frame(&simulation)?;
+    let mut movie = Pvd::create(folder.join("water.pvd"))?;
+    movie.frame(simulation.time(), &simulation.vtu_with_walls())?;
     let mut progress = Progress::new(case.name());
     let end = case.end();
     let mut before = [0.0; 2];
@@ -252,7 +253,7 @@ pub fn run<T: Real>(case: &Case, folder: &Path) -> Result<Record, Failure> {
             water * strain,
         ])?;
         if k % (SAMPLES / FRAMES) == 0 {
-            movie.frame(&simulation)?;
+            movie.frame(simulation.time(), &simulation.vtu_with_walls())?;
         }
         record.samples.push(sample);
     }

@@ -1,4 +1,4 @@
-//! What the examples of liquids share: options, threads and precision, progress, files of particles.
+//! What the examples share: options, threads and precision, pictures.
 //! An example describes itself, names what runs in each precision, and is left with its scene.
 //!
 //! ```text
@@ -16,18 +16,17 @@
 // Each example uses a part of this.
 #![allow(dead_code, unused_imports)]
 
+mod draw;
 mod options;
 mod records;
-mod watch;
 
+pub use draw::{Shade, evenly, picture, save_picture};
 pub use options::{Example, Options, Own};
 pub use records::Records;
-pub use watch::{Movie, Shade, Summary, evenly, picture, save_picture, watch};
 
 use std::process::ExitCode;
 
-/// What can end an example early.
-pub type Failure = Box<dyn std::error::Error + Send + Sync>;
+pub use meshfree::run::Failure;
 
 /// What an example does with its options, in one precision.
 pub type Perform = fn(&Options) -> Result<(), Failure>;

@@ -8,7 +8,6 @@ use super::common::{Failure, Options, Own, Records};
 use meshfree::observe::{PressureProbe, WaveGauge};
 use meshfree::output::csv::CsvWriter;
 use meshfree::output::progress::Progress;
-use meshfree::output::vtu::{Pvd, Vtu};
 use meshfree::prelude::*;
 use meshfree::simulation::Phases;
 use meshfree::term::viscosity::{MonaghanGingold, Riemann};
@@ -477,28 +476,6 @@ pub fn run<T: Real, const D: usize>(
         .filter(|particle| !inside(simulation, particle.position()))
         .count();
     Ok(history)
-}
-
-/// Adds a frame for ParaView: the liquid with pressure, density and velocity, and the walls.
-pub fn paraview<T: Real, const D: usize>(
-    series: &mut Pvd,
-    now: &Simulation<T, D>,
-) -> Result<(), Failure> {
-    let walls = now.walls().map(|name| now.wall(name));
-    let walls = walls.collect::<Result<Vec<_>, _>>()?;
-    let all = || now.all().chain(walls.iter().cloned().flatten());
-    let liquid = now.particles();
-    let vtu = Vtu::new(all().map(|p| p.position()))
-        .scalar("pressure", all().map(|p| p.pressure() as f32))
-        .scalar("density", all().map(|p| p.density() as f32))
-        .vector("velocity", all().map(|p| p.velocity().map(|v| v as f32)))
-        .scalar(
-            "wall",
-            all().enumerate().map(|(k, _)| u8::from(k >= liquid)),
-        )
-        .time(now.time());
-    series.frame(now.time(), &vtu)?;
-    Ok(())
 }
 
 /// One line of a comparison with something measured.

@@ -183,7 +183,7 @@ impl Flat {
             y > top || (-deep..=length + deep).contains(&x) && y >= -deep
         };
         let frame = |now: &Simulation<T, 2>, k: usize| {
-            violent::paraview(&mut series, now)?;
+            series.frame(now.time(), &now.vtu_with_walls())?;
             figures::plane(self, now, &options.file(&format!("frame_{k:05}")))
         };
         let watch = self.watch(&simulation)?;

@@ -150,7 +150,7 @@ pub fn perform<T: Real>(options: &Options, choices: &Choices) -> Result<(), Fail
         x[2] > TANK[2] || (in_tank && !boxed)
     };
     let frame = |now: &Simulation<T, 3>, k: usize| {
-        violent::paraview(&mut series, now)?;
+        series.frame(now.time(), &now.vtu_with_walls())?;
         figures::space(now, &options.file(&format!("frame_{k:05}")))
     };
     let keep = Keep {

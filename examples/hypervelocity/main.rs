@@ -9,11 +9,12 @@ mod draw;
 
 use cases::Case;
 use cloud::Measured;
-use common::{Example, Failure, Options, Own, evenly, watch};
+use common::{Example, Failure, Options, Own};
 use meshfree::effect::{Damage, DensityFloor, Hypoelastic, Plasticity};
 use meshfree::output::csv::CsvWriter;
 use meshfree::output::vtu::Pvd;
 use meshfree::prelude::*;
+use meshfree::run::{Run, Schedule};
 use meshfree::term::viscosity::MonaghanGingold;
 use std::process::ExitCode;
 
@@ -120,33 +121,36 @@ where
     let mut csv = CsvWriter::create(options.file("ledger.csv"), &columns)?;
     let mut movie = Pvd::create(options.file("cloud.pvd"))?;
     let (mut frame, mut panels, mut history) = (0, Vec::new(), Vec::new());
-    let watched = watch(EXAMPLE.name, &mut simulation, &evenly(until, 41), |now| {
-        let whole = now.ledger().whole;
-        let seen = Measured::of(now, &case, spacing);
-        let row = [
-            now.time(),
-            whole.kinetic,
-            whole.internal,
-            whole.total("distortion").unwrap_or(0.0),
-            whole.total("plastic work").unwrap_or(0.0),
-            whole.total("failed mass").unwrap_or(0.0),
-            whole.momentum[0],
-            whole.total_energy() / start.total_energy() - 1.0,
-            seen.front,
-            seen.front_speed,
-            seen.hole,
-        ];
-        csv.row(&row)?;
-        history.push(row);
-        if frame % 10 == 0 {
-            movie.frame(now.time(), &now.vtu())?;
-        }
-        if [10, 20, 40].contains(&frame) {
-            panels.push(draw::bodies(now, &case, spacing));
-        }
-        frame += 1;
-        Ok(())
-    });
+    let watched = Run::new(&mut simulation, until)
+        .label(EXAMPLE.name)
+        .observe(Schedule::evenly(41), |now| {
+            let whole = now.ledger().whole;
+            let seen = Measured::of(now, &case, spacing);
+            let row = [
+                now.time(),
+                whole.kinetic,
+                whole.internal,
+                whole.total("distortion").unwrap_or(0.0),
+                whole.total("plastic work").unwrap_or(0.0),
+                whole.total("failed mass").unwrap_or(0.0),
+                whole.momentum[0],
+                whole.total_energy() / start.total_energy() - 1.0,
+                seen.front,
+                seen.front_speed,
+                seen.hole,
+            ];
+            csv.row(&row)?;
+            history.push(row);
+            if frame % 10 == 0 {
+                movie.frame(now.time(), &now.vtu())?;
+            }
+            if [10, 20, 40].contains(&frame) {
+                panels.push(draw::bodies(now, &case, spacing));
+            }
+            frame += 1;
+            Ok(())
+        })
+        .go();
     if watched.is_err() {
         // What broke can be looked at.
         simulation.vtu().write(options.file("broken.vtu"))?;

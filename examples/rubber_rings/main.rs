@@ -5,7 +5,7 @@
 mod common;
 mod pieces;
 
-use common::{Example, Failure, Options, Own, evenly, watch};
+use common::{Example, Failure, Options, Own};
 use meshfree::coupling::ContactDensity;
 use meshfree::effect::{ArtificialStress, HourglassFree, Hypoelastic, NeoHookean};
 use meshfree::material::eos::Linear;
@@ -13,6 +13,7 @@ use meshfree::output::csv::CsvWriter;
 use meshfree::output::svg::{Axis, Cloud, Figure, Panel, Series};
 use meshfree::output::vtu::Pvd;
 use meshfree::prelude::*;
+use meshfree::run::{Run, Schedule};
 use meshfree::term::viscosity::LimitedMonaghanGingold;
 use pieces::pieces;
 use std::process::ExitCode;
@@ -132,48 +133,51 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
     ];
     let mut csv = CsvWriter::create(options.file("history.csv"), &columns)?;
     let mut movie = Pvd::create(options.file("rings.pvd"))?;
-    let times = evenly(until, 61);
     let (mut panels, mut history) = (Vec::new(), Vec::new());
     let mut frame = 0;
-    let summary = watch(EXAMPLE.name, &mut rings, &times, |now| {
-        let ledger = now.ledger();
-        let whole = &ledger.whole;
-        let energy = |p: f64| p * p / (2.0 * bulk_modulus());
-        let compression: f64 = now
-            .all()
-            .map(|p| p.mass() / p.density() * energy(p.pressure()))
-            .sum();
-        let distortion = whole.total("distortion").unwrap_or(0.0);
-        // A total-Lagrangian ring knows its stored energy as one.
-        let elastic = whole.total("elastic energy");
-        let [distortion, compression] = elastic.map_or([distortion, compression], |all| [all, 0.0]);
-        let mut count = 0;
-        for body in ["left", "right"] {
-            let places: Vec<_> = now.body(body)?.map(|p| p.position()).collect();
-            count += pieces(&places, 1.6 * spacing).len();
-        }
-        let left = &ledger.bodies[0].1;
-        let row = [
-            now.time(),
-            whole.momentum[0],
-            whole.kinetic,
-            whole.internal,
-            distortion,
-            compression,
-            left.momentum[0] / left.mass,
-            count as f64,
-        ];
-        csv.row(&row)?;
-        history.push(row);
-        if frame % 10 == 0 {
-            movie.frame(now.time(), &now.vtu())?;
-        }
-        if [0, 20, 60].contains(&frame) {
-            panels.push(picture(now, spacing));
-        }
-        frame += 1;
-        Ok(())
-    })?;
+    let summary = Run::new(&mut rings, until)
+        .label(EXAMPLE.name)
+        .observe(Schedule::evenly(61), |now| {
+            let ledger = now.ledger();
+            let whole = &ledger.whole;
+            let energy = |p: f64| p * p / (2.0 * bulk_modulus());
+            let compression: f64 = now
+                .all()
+                .map(|p| p.mass() / p.density() * energy(p.pressure()))
+                .sum();
+            let distortion = whole.total("distortion").unwrap_or(0.0);
+            // A total-Lagrangian ring knows its stored energy as one.
+            let elastic = whole.total("elastic energy");
+            let [distortion, compression] =
+                elastic.map_or([distortion, compression], |all| [all, 0.0]);
+            let mut count = 0;
+            for body in ["left", "right"] {
+                let places: Vec<_> = now.body(body)?.map(|p| p.position()).collect();
+                count += pieces(&places, 1.6 * spacing).len();
+            }
+            let left = &ledger.bodies[0].1;
+            let row = [
+                now.time(),
+                whole.momentum[0],
+                whole.kinetic,
+                whole.internal,
+                distortion,
+                compression,
+                left.momentum[0] / left.mass,
+                count as f64,
+            ];
+            csv.row(&row)?;
+            history.push(row);
+            if frame % 10 == 0 {
+                movie.frame(now.time(), &now.vtu())?;
+            }
+            if [0, 20, 60].contains(&frame) {
+                panels.push(picture(now, spacing));
+            }
+            frame += 1;
+            Ok(())
+        })
+        .go()?;
 
     let share = |k: usize| {
         history

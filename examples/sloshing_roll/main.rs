@@ -144,7 +144,7 @@ where
     };
     let mut series = Pvd::create(options.file("particles.pvd"))?;
     let frame = |now: &Simulation<T, D>, k: usize| {
-        violent::paraview(&mut series, now)?;
+        series.frame(now.time(), &now.vtu_with_walls())?;
         picture(now, breadth, &options.file(&format!("frame_{k:05}")))
     };
     let inside = |now: &Simulation<T, D>, x: [f64; D]| {

@@ -6,12 +6,13 @@ mod common;
 mod profile;
 mod shots;
 
-use common::{Example, Failure, Options, Own, Records, evenly, watch};
+use common::{Example, Failure, Options, Own, Records};
 use meshfree::effect::{FiniteStrainPlasticity, HourglassFree, Plasticity};
 use meshfree::output::csv::CsvWriter;
 use meshfree::output::svg::{Axis, Cloud, Figure, Panel, Series};
 use meshfree::output::vtu::Pvd;
 use meshfree::prelude::*;
+use meshfree::run::{Run, Schedule};
 use meshfree::term::viscosity::{LimitedMonaghanGingold, MonaghanGingold};
 use profile::Layers;
 use std::collections::HashSet;
@@ -236,33 +237,36 @@ fn perform(options: &Options) -> Result<(), Failure> {
     let mut csv = CsvWriter::create(options.file("history.csv"), &columns)?;
     let mut movie = Pvd::create(options.file("bar.pvd"))?;
     let (mut frame, mut panels, mut lengths) = (0, Vec::new(), Vec::new());
-    let summary = watch(EXAMPLE.name, &mut simulation, &evenly(until, 81), |now| {
-        let whole = now.ledger().whole;
-        let profile = layers.profile(now);
-        let length = layers.length(now);
-        let foot = profile.first().map_or(0.0, |own| own[1]);
-        let strains = now.all().filter_map(|p| p.scalar(Plasticity::STRAIN));
-        csv.row(&[
-            now.time(),
-            length,
-            foot,
-            whole.momentum[2],
-            whole.kinetic,
-            whole.internal,
-            whole.total("distortion").unwrap_or(0.0),
-            whole.total("plastic work").unwrap_or(0.0),
-            strains.fold(0.0, f64::max),
-        ])?;
-        lengths.push((1e6 * now.time(), 1e3 * length, 1e3 * foot));
-        if frame % 20 == 0 {
-            movie.frame(now.time(), &now.vtu())?;
-        }
-        if [20, 80].contains(&frame) {
-            panels.push(picture(now, bar, spacing, &plane));
-        }
-        frame += 1;
-        Ok(())
-    })?;
+    let summary = Run::new(&mut simulation, until)
+        .label(EXAMPLE.name)
+        .observe(Schedule::evenly(81), |now| {
+            let whole = now.ledger().whole;
+            let profile = layers.profile(now);
+            let length = layers.length(now);
+            let foot = profile.first().map_or(0.0, |own| own[1]);
+            let strains = now.all().filter_map(|p| p.scalar(Plasticity::STRAIN));
+            csv.row(&[
+                now.time(),
+                length,
+                foot,
+                whole.momentum[2],
+                whole.kinetic,
+                whole.internal,
+                whole.total("distortion").unwrap_or(0.0),
+                whole.total("plastic work").unwrap_or(0.0),
+                strains.fold(0.0, f64::max),
+            ])?;
+            lengths.push((1e6 * now.time(), 1e3 * length, 1e3 * foot));
+            if frame % 20 == 0 {
+                movie.frame(now.time(), &now.vtu())?;
+            }
+            if [20, 80].contains(&frame) {
+                panels.push(picture(now, bar, spacing, &plane));
+            }
+            frame += 1;
+            Ok(())
+        })
+        .go()?;
 
     let profile = layers.profile(&simulation);
     let mut csv = CsvWriter::create(options.file("profile.csv"), &["z_m", "radius_m"])?;

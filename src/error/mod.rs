@@ -187,6 +187,16 @@ pub enum Error {
         /// The particle's number in the body.
         particle: usize,
     },
+    /// An observer or a criterion of a [run](crate::run) failed.
+    #[error("{observer} failed at t = {time} s: {cause}")]
+    Observer {
+        /// Which.
+        observer: String,
+        /// When \[s\].
+        time: f64,
+        /// Why. It is part of the error's text, and so no [`source`](std::error::Error::source) of it.
+        cause: Failure,
+    },
     /// A file could not be written or read.
     #[error("cannot {action} {}: {cause}", path.display())]
     File {
@@ -209,6 +219,9 @@ pub enum Error {
     #[error(transparent)]
     Argument(#[from] Problem),
 }
+
+/// Why an observer or a criterion of a run fails: any error, for `?`.
+pub type Failure = Box<dyn std::error::Error + Send + Sync>;
 
 /// The crate's result.
 pub type Result<T> = core::result::Result<T, Error>;
@@ -303,8 +316,13 @@ mod tests {
                 cause: "no",
             },
             Error::Argument(Problem::EmptyScene),
+            Error::Observer {
+                observer: "the observer every 0.1 s".into(),
+                time: 1.0,
+                cause: "the disk is full".into(),
+            },
         ];
-        let mut seen = [false; 13];
+        let mut seen = [false; 14];
         for error in &all {
             let variant = match error {
                 Error::Build(_) => 0,
@@ -320,6 +338,7 @@ mod tests {
                 Error::StoredEnergy { .. } => 10,
                 Error::Function { .. } => 11,
                 Error::Joint { .. } => 12,
+                Error::Observer { .. } => 13,
             };
             seen[variant] = true;
         }

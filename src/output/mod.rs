@@ -4,7 +4,10 @@
 #[cfg(feature = "checkpoint")]
 pub(crate) mod checkpoint;
 pub mod csv;
+#[cfg(feature = "pictures")]
+pub mod film;
 pub(crate) mod hash;
+pub(crate) mod json;
 pub mod picture;
 #[cfg(feature = "pictures")]
 pub mod png;

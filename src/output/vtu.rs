@@ -3,10 +3,11 @@
 
 use super::csv::number;
 use super::vtk::{Array, FieldTuple, VtkFile, check_lengths, padded};
-use super::{write_whole, xml_escape};
+use super::{file_error, write_whole, xml_escape};
 use crate::error::Result;
 use crate::particles::Shape;
 use std::fmt::Write as _;
+use std::fs;
 use std::path::{Path, PathBuf};
 
 pub use super::vtk::VtkNumber;
@@ -216,6 +217,40 @@ impl Pvd {
         Ok(series)
     }
 
+    /// Goes on with the series in a file, for a run that is resumed at `time` \[s\]: frames after that are listed no longer, and
+    /// are written again. A series that is not there is started.
+    ///
+    /// ```no_run
+    /// # use meshfree::output::vtu::Pvd;
+    /// let movie = Pvd::resume("out/jet.pvd", 0.25)?;
+    /// # Ok::<(), meshfree::error::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// When the file cannot be read or written.
+    pub fn resume(path: impl AsRef<Path>, time: f64) -> Result<Self> {
+        let path = path.as_ref();
+        let mut series = Self {
+            path: path.to_path_buf(),
+            frames: 0,
+            entries: String::new(),
+        };
+        if path.exists() {
+            let text = fs::read_to_string(path).map_err(file_error("read", path))?;
+            for line in text.lines() {
+                let entry = line.split_once(" timestep=\"");
+                let at = entry.and_then(|(_, rest)| rest.split('"').next()?.parse::<f64>().ok());
+                if at.is_some_and(|at| at <= time) {
+                    series.entries += line;
+                    series.entries.push('\n');
+                    series.frames += 1;
+                }
+            }
+        }
+        series.write()?;
+        Ok(series)
+    }
+
     /// Writes a frame next to the list, as `jet_00000.vtu` for `jet.pvd`, and lists it.
     ///
     /// ```no_run
@@ -272,8 +307,6 @@ impl Pvd {
 mod tests {
     use super::super::tests::Folder;
     use super::*;
-    use std::fs;
-
     /// The text of an attribute in the tag that starts at the front of `tag`.
     fn attribute<'a>(tag: &'a str, name: &str) -> &'a str {
         let tag = tag.split('>').next().unwrap();
@@ -369,6 +402,14 @@ mod tests {
         let tags: Vec<_> = text.split("<DataSet ").skip(1).collect();
         assert_eq!(tags.len(), 2);
         assert_eq!(attribute(tags[1], "timestep"), "1e-7");
+        assert_eq!(attribute(tags[1], "file"), "jet_00001.vtu");
+        // Resumed between the two, the second is written again.
+        let mut resumed = Pvd::resume(folder.file("jet.pvd"), 5e-8).unwrap();
+        resumed.frame(2e-7, &Vtu::new([[0.0]])).unwrap();
+        let text = fs::read_to_string(folder.file("jet.pvd")).unwrap();
+        let tags: Vec<_> = text.split("<DataSet ").skip(1).collect();
+        let times = tags.iter().map(|tag| attribute(tag, "timestep"));
+        assert_eq!(times.collect::<Vec<_>>(), ["0", "2e-7"]);
         assert_eq!(attribute(tags[1], "file"), "jet_00001.vtu");
     }
 }

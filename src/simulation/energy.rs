@@ -80,6 +80,26 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         })
     }
 
+    /// Kinetic energy \[J\] of all bodies: that of the [ledger](Self::ledger), for less.
+    ///
+    /// ```
+    /// use meshfree::prelude::*;
+    /// let rod = Scene::<f64, 1>::new(schemes::impact())
+    ///     .body(Body::block("rod", catalogue::copper(), [0.0], [0.01], 2e-4).velocity([20.0]))
+    ///     .build()?;
+    /// assert_eq!(rod.kinetic_energy(), rod.ledger().whole.kinetic);
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[must_use]
+    pub fn kinetic_energy(&self) -> f64 {
+        let mut all = Collective::new();
+        for (group, body) in self.all_bodies() {
+            let columns = &group.particles.columns;
+            all.add_range(body.slots.clone(), |slot| kinetic(columns, slot));
+        }
+        all.value()
+    }
+
     /// Kinetic energy, and energy stored in compression.
     pub(super) fn stored(&self) -> (f64, f64) {
         let mut all = Collective::new();

@@ -63,6 +63,7 @@
 //! [`Simulation::body`] runs over the particles of a body in the order in which the scene placed them,
 //! although they are sorted in memory, so the n-th is the same particle throughout. Bodies and walls are asked for by
 //! name or by index ([`Which`]), and one that the scene does not have is an error.
+//! [`Simulation::column`] gives a field as it lies in memory, without a copy.
 //! [`ParticleView::for_each_neighbor`] shows the neighbours of a particle, with images behind planes and across periods.
 //! [`Simulation::run_with`] shows the simulation to a closure after every step, and at the end:
 //!
@@ -143,6 +144,7 @@ mod advance;
 mod approach;
 #[cfg(feature = "checkpoint")]
 mod checkpoint;
+mod column;
 mod contact;
 mod control;
 mod cost;
@@ -202,6 +204,7 @@ mod workspace;
 pub use checkpoint::{Change, Difference};
 #[cfg(feature = "checkpoint")]
 pub(crate) use checkpoint::{Changes, RARE, differences};
+pub use column::Column;
 pub use control::StepControl;
 pub use cost::{Cost, CostLine};
 pub use couplings::Contact;
@@ -237,6 +240,7 @@ pub(crate) use population::{BodyState, Particles};
 pub(crate) use side::{MetWall, Side};
 pub(crate) use spin::Spins;
 pub(crate) use sub_cycle::SubCycle;
+pub(crate) use view::rounding;
 pub(crate) use walls::{Structure, WallState};
 
 use crate::error::{Error, Result};

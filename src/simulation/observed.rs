@@ -24,7 +24,7 @@ pub(crate) struct ObservedImage<T, const D: usize> {
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
-    fn boundaries(&self) -> &[Arc<dyn Boundary<D>>] {
+    pub(crate) fn boundaries(&self) -> &[Arc<dyn Boundary<D>>] {
         &self.state.groups[0].boundaries
     }
 

@@ -13,7 +13,7 @@ use crate::material::Material;
 use crate::material::eos::GuardCounts;
 use crate::origin::{global, local};
 use crate::particles::{Field, Shape};
-use crate::scalar::Real;
+use crate::scalar::{InstructionSet, Real};
 use crate::scheme::Scheme;
 use std::ops::Range;
 
@@ -112,7 +112,7 @@ pub struct ParticleViews<'a, T: Real, const D: usize> {
 
 impl<'a, T: Real, const D: usize> ParticleViews<'a, T, D> {
     /// Those with some of the numbers that the group has given.
-    fn new(group: &'a Group<T, D>, ids: Range<usize>) -> Self {
+    pub(super) fn new(group: &'a Group<T, D>, ids: Range<usize>) -> Self {
         let slots = group.particles.slot_of[ids].iter();
         Self { group, slots }
     }
@@ -225,7 +225,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     /// Every wall with the first group of liquids that meets it, in the order of the scene.
-    fn all_walls(&self) -> impl Iterator<Item = OfWall<'_, T, D>> + Clone {
+    pub(super) fn all_walls(&self) -> impl Iterator<Item = OfWall<'_, T, D>> + Clone {
         (0..self.wall_count()).filter_map(|index| self.find_wall(index))
     }
 
@@ -478,6 +478,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// The schemes of all groups, that of the scene first.
     pub fn schemes(&self) -> impl Iterator<Item = &Scheme<T, D>> {
         self.state.groups.iter().map(|group| &*group.scheme)
+    }
+
+    /// The instruction set that its pair loops run on.
+    pub(crate) fn instructions(&self) -> InstructionSet {
+        self.state.groups[0].instructions.or_detected()
     }
 
     /// The integrator's name.

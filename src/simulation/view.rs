@@ -21,7 +21,7 @@ pub(super) enum Reading<T: Real, const D: usize> {
 }
 
 /// Times \[s\] that are one, near a time \[s\].
-pub(super) fn rounding(time: f64) -> f64 {
+pub(crate) fn rounding(time: f64) -> f64 {
     1e-12 * time.abs()
 }
 

@@ -23,6 +23,7 @@ mod place;
 mod readings;
 #[cfg(feature = "checkpoint")]
 mod restart;
+mod runs;
 mod step_limits;
 mod step_program;
 mod stored_energy;

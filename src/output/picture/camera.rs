@@ -83,6 +83,30 @@ impl Camera {
         self.low[0] <= self.high[0] && self.scale.is_normal()
     }
 
+    /// The coordinate along which the picture goes to a side (0 right, 1 down), if that is one of x, y and z.
+    pub(super) fn along(&self, side: usize) -> Option<usize> {
+        (0..3).find(|axis| self.axes[side][*axis].abs() > 1.0 - 1e-9)
+    }
+
+    /// Where a value \[m\] of the coordinate along a side is \[pixels\].
+    pub(super) fn pixel(&self, side: usize, value: f64) -> f64 {
+        let sign: f64 = self.axes[side].iter().sum();
+        let middle = 0.5 * (self.low[side] + self.high[side]);
+        self.middle[side] + self.scale * (sign.signum() * value - middle)
+    }
+
+    /// The value \[m\] of that coordinate at a pixel.
+    pub(super) fn coordinate(&self, side: usize, pixel: f64) -> f64 {
+        let sign: f64 = self.axes[side].iter().sum();
+        let middle = 0.5 * (self.low[side] + self.high[side]);
+        sign.signum() * ((pixel - self.middle[side]) / self.scale + middle)
+    }
+
+    /// How far right and down a metre along x, y or z goes.
+    pub(super) fn direction(&self, axis: usize) -> [f64; 2] {
+        [0, 1].map(|side| self.axes[side][axis])
+    }
+
     /// Where a place is in the picture.
     pub(super) fn place(&self, at: Point) -> Point {
         core::array::from_fn(|axis| {

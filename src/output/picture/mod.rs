@@ -40,6 +40,8 @@
 
 mod camera;
 mod canvas;
+mod font;
+mod page;
 
 use super::svg::{Axis, Bar, Color, level_color};
 #[cfg(feature = "pictures")]
@@ -379,6 +381,16 @@ impl Picture {
                 remedy: "give it particles, or bounds of which high is above low",
             };
             Err(problem.into())
+        }
+    }
+
+    /// With this title, unless it has one.
+    #[cfg(feature = "pictures")]
+    pub(super) fn or_title(self, title: &str) -> Self {
+        if self.title.is_empty() {
+            self.title(title)
+        } else {
+            self
         }
     }
 

@@ -109,7 +109,7 @@ impl Axis {
     }
 
     /// The scale for these values, with a margin as a fraction of the range at free ends.
-    pub(super) fn scale(&self, values: impl Iterator<Item = f64>, margin: f64) -> Scale {
+    pub(in crate::output) fn scale(&self, values: impl Iterator<Item = f64>, margin: f64) -> Scale {
         let log = self.log;
         let place = move |value: f64| if log { value.log10() } else { value };
         let usable = move |value: &f64| value.is_finite() && (!log || *value > 0.0);
@@ -156,7 +156,7 @@ impl Axis {
 
 /// The map from values to places between 0 and 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Scale {
+pub(in crate::output) struct Scale {
     pub(super) low: f64,
     pub(super) high: f64,
     pub(super) log: bool,
@@ -164,15 +164,15 @@ pub(super) struct Scale {
 
 /// The labelled ticks, the unlabelled ones, and the power of ten that the labels leave out.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Ticks {
-    pub(super) major: Vec<(f64, String)>,
+pub(in crate::output) struct Ticks {
+    pub(in crate::output) major: Vec<(f64, String)>,
     pub(super) minor: Vec<f64>,
-    pub(super) power: i32,
+    pub(in crate::output) power: i32,
 }
 
 impl Scale {
     /// Between 0 and 1 inside the range; not a number where the scale has no place.
-    pub(super) fn place(&self, value: f64) -> f64 {
+    pub(in crate::output) fn place(&self, value: f64) -> f64 {
         let value = match self.log {
             true if value > 0.0 => value.log10(),
             true => f64::NAN,
@@ -182,7 +182,7 @@ impl Scale {
     }
 
     /// About `count` ticks.
-    pub(super) fn ticks(&self, count: f64) -> Ticks {
+    pub(in crate::output) fn ticks(&self, count: f64) -> Ticks {
         let span = self.high - self.low;
         if self.log && span >= 0.9 {
             self.decade_ticks(count)

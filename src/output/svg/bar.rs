@@ -11,16 +11,16 @@ use std::fmt::Write as _;
 const WIDTH: f64 = 12.0;
 const LABEL: f64 = 12.5;
 /// The number of colours.
-pub(super) const LEVELS: usize = 64;
+pub(in crate::output) const LEVELS: usize = 64;
 /// The colour of values that have no place on the scale.
 const UNKNOWN: Color = Color(170, 170, 170);
 
 /// A colour bar whose scale and ticks are known.
 #[derive(Debug)]
 pub(in crate::output) struct Bar {
-    label: String,
-    scale: Scale,
-    pub(super) ticks: Ticks,
+    pub(in crate::output) label: String,
+    pub(in crate::output) scale: Scale,
+    pub(in crate::output) ticks: Ticks,
 }
 
 impl Bar {

@@ -80,7 +80,7 @@ pub(super) fn widest(ticks: &Ticks) -> f64 {
     widths.fold(0.0, f64::max)
 }
 
-pub(super) fn power_label(ticks: &Ticks) -> String {
+pub(in crate::output) fn power_label(ticks: &Ticks) -> String {
     match ticks.power {
         0 => String::new(),
         power => signed(&format!("×10^{{{power}}}")),

@@ -43,8 +43,9 @@ mod slope;
 mod text;
 
 pub use axis::Axis;
-pub(super) use bar::{Bar, level_color};
+pub(super) use bar::{Bar, LEVELS, level_color};
 pub use color::{Color, PALETTE, viridis};
+pub(super) use draw::power_label;
 pub use figure::Figure;
 #[cfg(feature = "pictures")]
 pub(super) use figure::page;
@@ -54,6 +55,7 @@ pub use panel::Panel;
 #[cfg(feature = "pictures")]
 pub(super) use path::px;
 pub use series::{Cloud, Marker, Series};
+pub(super) use text::parts;
 
 #[cfg(test)]
 mod tests {

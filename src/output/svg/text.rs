@@ -4,7 +4,7 @@
 use super::super::xml_escape;
 
 /// Splits `10^{-3} m_{0}` into parts and their shift: 1 raised, -1 lowered, 0 neither.
-fn parts(text: &str) -> Vec<(i8, &str)> {
+pub(in crate::output) fn parts(text: &str) -> Vec<(i8, &str)> {
     let mut parts = Vec::new();
     let mut rest = text;
     while let Some(at) = rest.find(['^', '_']) {

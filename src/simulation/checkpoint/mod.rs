@@ -362,13 +362,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         Ok(())
     }
 
-    /// The instruction set that its pair loops run on.
-    fn instructions(&self) -> InstructionSet {
-        let first = self.state.groups.first();
-        let asked = first.map_or_else(InstructionSet::detect, |group| group.instructions);
-        asked.or_detected()
-    }
-
     /// Whether a file goes on from a simulation like this one, on a machine of which `best` is the best.
     fn check(&self, file: &Checkpoint, changes: Changes<'_>, best: InstructionSet) -> Read<()> {
         if file.text("format")? != FORMAT {

@@ -1,10 +1,11 @@
 //! A report as text, comma-separated values and JSON.
-//! JSON is written by hand: a handful of names, numbers and texts.
+//! Rows have all choices and counts, so that a file alone repeats a study.
 
 use super::fit::Estimate;
 use super::report::{Report, Row, Status, View};
 use crate::error::Result;
-use crate::output::csv::{Cell, CsvWriter, number};
+use crate::output::csv::{Cell, CsvWriter};
+use crate::output::json::{json_number, json_object, json_text, processor};
 use crate::output::table::{Table, significant};
 use crate::output::write_whole;
 use core::fmt;
@@ -40,28 +41,6 @@ fn ended(row: &Row) -> (&'static str, &str) {
         Status::Failed(why) => ("failed", why),
         Status::NotRun(why) => ("not run", why),
     }
-}
-
-/// A number in JSON, which has no infinity.
-fn json_number(value: f64) -> String {
-    if value.is_finite() {
-        number(value)
-    } else {
-        "null".into()
-    }
-}
-
-pub(super) fn json_text(text: &str) -> String {
-    let mut out = String::from("\"");
-    for c in text.chars() {
-        match c {
-            '"' => out += "\\\"",
-            '\\' => out += "\\\\",
-            c if (c as u32) < 0x20 => out += &format!("\\u{:04x}", c as u32),
-            c => out.push(c),
-        }
-    }
-    out + "\""
 }
 
 fn json_estimate(estimate: Estimate) -> String {
@@ -265,7 +244,11 @@ impl Report {
         format!(
             "{{\n  \"study\": {},\n  \"machine\": {machine},\n  \"notes\": {},\n  \"quantities\": [{}],\n  \"rows\": [\n{}\n  ],\n  \"laws\": [\n{}\n  ]\n}}\n",
             json_text(&self.name),
-            super::page::notes(&self.notes),
+            json_object(
+                self.notes
+                    .iter()
+                    .map(|(name, text)| (name, json_text(text)))
+            ),
             quantities.join(", "),
             rows.join(",\n"),
             laws.join(",\n")
@@ -311,12 +294,4 @@ impl Report {
     pub fn save_json(&self, path: impl AsRef<Path>) -> Result<()> {
         write_whole(path.as_ref(), self.json().as_bytes())
     }
-}
-
-/// The processor's name where the system tells it.
-pub(super) fn processor() -> String {
-    let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let line = text.lines().find(|line| line.starts_with("model name"));
-    let name = line.and_then(|line| line.split_once(':'));
-    name.map_or("unknown".into(), |(_, name)| name.trim().into())
 }

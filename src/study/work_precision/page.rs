@@ -1,7 +1,6 @@
 //! A page of studies for a browser: any column against any other, filters, laws, failures, and commands that repeat a run.
 //! One file that needs nothing beside it.
 
-use super::export::json_text;
 use super::report::Report;
 use crate::error::Result;
 use crate::output::write_whole;
@@ -51,12 +50,4 @@ pub fn save_page<'a>(
     reports: impl IntoIterator<Item = &'a Report>,
 ) -> Result<()> {
     write_whole(path.as_ref(), page(title, reports).as_bytes())
-}
-
-/// Notes in JSON.
-pub(super) fn notes(notes: &[(String, String)]) -> String {
-    let own = notes
-        .iter()
-        .map(|(name, text)| format!("{}: {}", json_text(name), json_text(text)));
-    format!("{{{}}}", own.collect::<Vec<_>>().join(", "))
 }
