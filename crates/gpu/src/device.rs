@@ -53,7 +53,7 @@ impl Adapter {
 /// ```
 #[derive(Debug)]
 pub struct Device {
-    device: wgpu::Device,
+    inner: wgpu::Device,
     queue: wgpu::Queue,
     adapter: Adapter,
     threads: u32,
@@ -122,7 +122,7 @@ impl Device {
             message: error.to_string(),
         })?;
         Ok(Self {
-            device,
+            inner: device,
             queue,
             adapter,
             threads: THREADS,
@@ -142,7 +142,7 @@ impl Device {
     ///
     /// [`Error::Size`] if that is none, or more than the device takes.
     pub fn with_threads(mut self, threads: u32) -> Result<Self, Error> {
-        let most = self.device.limits().max_compute_invocations_per_workgroup;
+        let most = self.inner.limits().max_compute_invocations_per_workgroup;
         if threads == 0 || threads > most {
             return Err(Error::Size {
                 what: "threads of a work group, at most",
@@ -170,7 +170,7 @@ impl Device {
         make: impl FnOnce() -> V,
         refused: impl FnOnce(String) -> Error,
     ) -> Result<V, Error> {
-        let scope = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let scope = self.inner.push_error_scope(wgpu::ErrorFilter::Validation);
         let made = make();
         match block_on(scope.pop()) {
             None => Ok(made),
@@ -189,7 +189,7 @@ impl Device {
         let source = frame.source(body, self.threads);
         let make = || {
             let module = self
-                .device
+                .inner
                 .create_shader_module(wgpu::ShaderModuleDescriptor {
                     label: None,
                     source: wgpu::ShaderSource::Wgsl(source.as_str().into()),
@@ -212,20 +212,20 @@ impl Device {
                 })
                 .collect();
             let layout = self
-                .device
+                .inner
                 .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
                     label: None,
                     entries: &entries,
                 });
             let whole = self
-                .device
+                .inner
                 .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                     label: None,
                     bind_group_layouts: &[Some(&layout)],
                     immediate_size: 0,
                 });
             let pipeline = self
-                .device
+                .inner
                 .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
                     label: None,
                     layout: Some(&whole),
@@ -258,8 +258,8 @@ impl Device {
     pub(crate) fn room(&self, what: &'static str, bytes: usize) -> Result<wgpu::Buffer, Error> {
         let size = (bytes as u64).max(16).next_multiple_of(16);
         self.fits(what, size)?;
-        let scope = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
-        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
+        let scope = self.inner.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+        let buffer = self.inner.create_buffer(&wgpu::BufferDescriptor {
             label: Some(what),
             size,
             usage: BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST,
@@ -280,7 +280,7 @@ impl Device {
 
     /// Writes bytes to the start of what has room for them.
     pub(crate) fn write(&self, buffer: &wgpu::Buffer, bytes: &[u8]) {
-        if bytes.len() % 4 == 0 {
+        if bytes.len().is_multiple_of(4) {
             self.queue.write_buffer(buffer, 0, bytes);
         }
     }
@@ -290,7 +290,7 @@ impl Device {
         let groups = (count as u32).div_ceil(kernel.threads).max(1);
         let across = groups.min(self.most_groups);
         let scene = [count as u32, across * kernel.threads, 0, 0];
-        let scene = self.device.create_buffer_init(&BufferInitDescriptor {
+        let scene = self.inner.create_buffer_init(&BufferInitDescriptor {
             label: None,
             contents: &scene.map(u32::to_ne_bytes).concat(),
             usage: BufferUsages::UNIFORM,
@@ -303,7 +303,7 @@ impl Device {
                 resource: buffer.as_entire_binding(),
             })
             .collect();
-        let group = self.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        let group = self.inner.create_bind_group(&wgpu::BindGroupDescriptor {
             label: None,
             layout: &kernel.layout,
             entries: &entries,
@@ -318,7 +318,7 @@ impl Device {
     /// Runs kernels one after another: each sees what those before it have written.
     pub(crate) fn launch(&self, kernels: &[&Bound]) {
         let mut encoder = self
-            .device
+            .inner
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         for own in kernels {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
@@ -336,19 +336,19 @@ impl Device {
             return Ok(Vec::new());
         }
         let size = (bytes as u64).next_multiple_of(8);
-        let back = self.device.create_buffer(&wgpu::BufferDescriptor {
+        let back = self.inner.create_buffer(&wgpu::BufferDescriptor {
             label: None,
             size,
             usage: BufferUsages::MAP_READ | BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
         let mut encoder = self
-            .device
+            .inner
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         encoder.copy_buffer_to_buffer(buffer, 0, &back, 0, size);
         self.queue.submit([encoder.finish()]);
         back.slice(..).map_async(wgpu::MapMode::Read, |_| {});
-        let waited = self.device.poll(wgpu::PollType::wait_indefinitely());
+        let waited = self.inner.poll(wgpu::PollType::wait_indefinitely());
         waited.map_err(|error| lost(error.to_string()))?;
         let mapped = back.slice(..).get_mapped_range();
         let mapped = mapped.map_err(|error| lost(format!("{error:?}")))?;

@@ -20,7 +20,7 @@ fn polynomial(d: Dialect, x: &str, coefficients: impl DoubleEndedIterator<Item =
 fn alternating(first: u32, step: u32, count: u32) -> impl DoubleEndedIterator<Item = f64> {
     (0..count).map(move |n| {
         let factorial: f64 = (1..=first + step * n).map(f64::from).product();
-        if n % 2 == 0 {
+        if n.is_multiple_of(2) {
             -1.0 / factorial
         } else {
             1.0 / factorial
@@ -74,7 +74,7 @@ pub fn functions(d: Dialect) -> String {
     let factorials = (2..2 + exp).map(|n| 1.0 / (1..=n).map(f64::from).product::<f64>());
     let odd = (0..log).map(|n| 2.0 / f64::from(2 * n + 3));
     let series = (0..atan).map(|n: u32| {
-        let sign = if n % 2 == 0 { -1.0 } else { 1.0 };
+        let sign = if n.is_multiple_of(2) { -1.0 } else { 1.0 };
         sign / f64::from(2 * n + 3)
     });
     let root_half = if double {

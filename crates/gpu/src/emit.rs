@@ -218,7 +218,7 @@ impl Names {
                 let [a, b, c] = [a, b, c].map(|at| self.number(at));
                 Made::Number(format!("{fma}({a}, {b}, {c})"))
             }
-            O::Power(_, exponent) if exponent == 0.0 => Made::Plain(d.constant(1.0)),
+            O::Power(_, 0.0) => Made::Plain(d.constant(1.0)),
             O::Power(a, exponent) => Made::Number(self.power(a, exponent)),
             O::Less(a, b) => Made::Mask(format!("{} < {}", self.number(a), self.number(b))),
             O::LessOrEqual(a, b) => Made::Mask(format!("{} <= {}", self.number(a), self.number(b))),
@@ -298,20 +298,19 @@ pub fn emit(record: &Record, dialect: Dialect, input: &dyn Fn(usize) -> (String,
             Made::Number(made) => (false, made),
             Made::Mask(made) => (true, made),
         };
-        names.of[at] = match known.get(&made) {
-            Some(name) => name.clone(),
-            None => {
-                let name = format!("t{at}");
-                let (to, count) = if varies[at] {
-                    (&mut text.within, 1)
-                } else {
-                    (&mut text.before, 0)
-                };
-                writeln!(to, "{}", dialect.declare(is_mask, &name, &made)).expect("a string");
-                text.counts[count] += 1;
-                known.insert(made, name.clone());
-                name
-            }
+        names.of[at] = if let Some(name) = known.get(&made) {
+            name.clone()
+        } else {
+            let name = format!("t{at}");
+            let (to, count) = if varies[at] {
+                (&mut text.within, 1)
+            } else {
+                (&mut text.before, 0)
+            };
+            writeln!(to, "{}", dialect.declare(is_mask, &name, &made)).expect("a string");
+            text.counts[count] += 1;
+            known.insert(made, name.clone());
+            name
         };
     }
     let results = record.results().iter();

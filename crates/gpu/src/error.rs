@@ -95,11 +95,13 @@ pub enum Error {
         /// How many are needed.
         wanted: usize,
     },
-    /// Something of a scene that does not run on a device yet.
-    #[error("{what} does not run on a device yet; run the scene on the host")]
-    Unsupported {
-        /// What it is.
+    /// An update asks for what the sweep that its particles are there for does not have.
+    #[error("the sweep has no {what} `{name}`; add a term that has it")]
+    Absent {
+        /// `field` or `sum`.
         what: &'static str,
+        /// Its name.
+        name: &'static str,
     },
     /// The device was lost, or gave no answer.
     #[error("the device was lost: {message}; resume from the last checkpoint")]

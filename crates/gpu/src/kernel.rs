@@ -54,10 +54,10 @@ impl Frame<'_> {
             buffers,
         } = *self;
         let t = dialect.scalar();
-        let arrays = buffers.iter().enumerate();
+        let arrays = buffers.iter();
         match dialect.language {
             Language::Wgsl => {
-                let arrays = arrays.map(|(n, own)| {
+                let arrays = arrays.enumerate().map(|(n, own)| {
                     let access = if own.writable { "read_write" } else { "read" };
                     let of = if own.numbers { t } else { "u32" };
                     let n = n + 1;
@@ -71,9 +71,12 @@ impl Frame<'_> {
                     Precision::Double => ("u64", "0x7ff0000000000000lu", "0x7ff8000000000000lu"),
                 };
                 // `scene.zero` is not known to the compiler, which would refuse such constants.
-                let special = |name: &str, value: &str| match body.contains(name) {
-                    true => format!("let {name} = bitcast<{t}>({bits}(scene.zero) + {value});\n"),
-                    false => String::new(),
+                let special = |name: &str, value: &str| {
+                    if body.contains(name) {
+                        format!("let {name} = bitcast<{t}>({bits}(scene.zero) + {value});\n")
+                    } else {
+                        String::new()
+                    }
                 };
                 let functions = if body.contains("_of(") {
                     elementary::functions(dialect)
@@ -95,7 +98,7 @@ if (i >= scene.count) {{ return; }}
                 )
             }
             Language::Cuda => {
-                let arrays = arrays.map(|(_, own)| {
+                let arrays = arrays.map(|own| {
                     let constant = if own.writable { "" } else { "const " };
                     let of = if own.numbers { t } else { "unsigned" };
                     format!(", {constant}{of}* __restrict__ {}", own.name)
@@ -105,12 +108,15 @@ if (i >= scene.count) {{ return; }}
                     Precision::Double => |bits: u64| format!("__longlong_as_double({bits:#x}ll)"),
                 };
                 let single = dialect.precision == Precision::Single;
-                let special = |name: &str, [f, d]: [u64; 2]| match body.contains(name) {
-                    true => format!(
-                        "const {t} {name} = {};\n",
-                        of(if single { f << 32 } else { d })
-                    ),
-                    false => String::new(),
+                let special = |name: &str, [f, d]: [u64; 2]| {
+                    if body.contains(name) {
+                        format!(
+                            "const {t} {name} = {};\n",
+                            of(if single { f << 32 } else { d })
+                        )
+                    } else {
+                        String::new()
+                    }
                 };
                 format!(
                     "struct Scene {{ unsigned count, row, zero, spare; }};

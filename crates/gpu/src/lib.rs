@@ -23,6 +23,7 @@ mod error;
 mod kernel;
 mod pairs;
 mod points;
+mod resident;
 
 pub use device::{Adapter, Device};
 pub use dialect::{Dialect, Language, Precision};
@@ -30,3 +31,4 @@ pub use emit::{Text, emit};
 pub use error::{Error, Part};
 pub use pairs::{PairKernel, PairLists, Shared};
 pub use points::PointKernel;
+pub use resident::{Given, Launch, Resident};

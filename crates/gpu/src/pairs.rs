@@ -1,11 +1,12 @@
 //! Sums over neighbours, from the record of one pair: one thread a particle, along the list of its cluster.
 //! Lists are those of the host, cluster by cluster; what depends on i alone stands before the loop.
 
-use crate::device::Kernel;
+use crate::device::{Bound, Kernel};
 use crate::kernel::{Array, Frame, THREADS, pack, pack_indices, unpack};
 use crate::{Device, Dialect, Error, Language, Part, Precision, emit};
 use core::cell::RefCell;
 use meshfree::neighbors::{Block, ChunkList};
+use meshfree::particles::{Fields, Outputs};
 use meshfree::sweep::PairRecord;
 use std::collections::BTreeSet;
 
@@ -85,11 +86,13 @@ impl PairLists {
 #[derive(Debug)]
 pub struct PairKernel {
     kernel: Kernel,
-    stride: usize,
-    sums: usize,
+    pub(crate) reads: Fields,
+    pub(crate) writes: Outputs,
+    pub(crate) stride: usize,
+    pub(crate) sums: usize,
     support: f64,
-    dimensions: usize,
-    precision: Precision,
+    pub(crate) dimensions: usize,
+    pub(crate) precision: Precision,
 }
 
 fn body(pair: &PairRecord, dimensions: usize, width: usize, dialect: Dialect) -> String {
@@ -199,6 +202,8 @@ impl PairKernel {
         let body = body(pair, dimensions, width, dialect);
         Ok(Self {
             kernel: device.kernel(&part, &frame, &body)?,
+            reads: pair.reads,
+            writes: pair.writes,
             stride: pair.reads.width(dimensions),
             sums: pair.writes.width(dimensions),
             support: pair.support,
@@ -236,13 +241,30 @@ impl PairKernel {
         lists: &PairLists,
         shared: &Shared,
     ) -> Result<Vec<f64>, Error> {
-        let size = |what, found: usize, wanted: usize| match found == wanted {
-            true => Ok(()),
-            false => Err(Error::Size {
-                what,
-                found,
-                wanted,
-            }),
+        let (_, rows, launch) = self.bind(device, (records, count), lists, shared)?;
+        device.launch(&[&launch]);
+        let bytes = count * self.sums * self.precision.bytes();
+        Ok(unpack(&device.download(&rows, bytes)?, self.precision))
+    }
+
+    /// Records and sums on the device, and the sweep between them.
+    pub(crate) fn bind(
+        &self,
+        device: &Device,
+        (records, count): (&[f64], usize),
+        lists: &PairLists,
+        shared: &Shared,
+    ) -> Result<(wgpu::Buffer, wgpu::Buffer, Bound), Error> {
+        let size = |what, found: usize, wanted: usize| {
+            if found == wanted {
+                Ok(())
+            } else {
+                Err(Error::Size {
+                    what,
+                    found,
+                    wanted,
+                })
+            }
         };
         size(
             "numbers of the body force",
@@ -275,7 +297,7 @@ impl PairKernel {
         let bytes = count * self.sums * self.precision.bytes();
         let rows = device.room("the sums", bytes)?;
         let buffers = [&records, &shared, &clusters, &segments, &list, &rows];
-        device.launch(&[&device.bind(&self.kernel, &buffers, count)]);
-        Ok(unpack(&device.download(&rows, bytes)?, self.precision))
+        let launch = device.bind(&self.kernel, &buffers, count);
+        Ok((records, rows, launch))
     }
 }

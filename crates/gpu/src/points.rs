@@ -18,7 +18,7 @@ pub struct PointKernel {
 }
 
 /// How many numbers a record is given, as far as it looks.
-fn inputs(record: &Record) -> usize {
+pub(crate) fn inputs(record: &Record) -> usize {
     let all = record.operations().iter().map(|own| match own {
         meshfree::scalar::Operation::Input(k) => k + 1,
         _ => 0,

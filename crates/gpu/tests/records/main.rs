@@ -22,6 +22,11 @@ fn tolerance(precision: Precision) -> f64 {
     }
 }
 
+/// Whether a difference is too large, or no number.
+fn exceeds(own: f64, precision: Precision) -> bool {
+    own.is_nan() || own > tolerance(precision)
+}
+
 /// The largest difference between device and host over the largest value, of all results of a record.
 fn difference(
     device: &Device,
@@ -64,12 +69,15 @@ fn difference(
             }
             let apart = (found - expected).abs();
             let own = if apart == 0.0 { 0.0 } else { apart / largest };
-            if !(own <= tolerance(precision)) && worst <= tolerance(precision) {
+            if exceeds(own, precision) && !exceeds(worst, precision) {
                 println!(
                     "{name}, result {result} of {n}, {precision:?}: {found:e} {expected:e} of {largest:e}"
                 );
             }
-            worst = if own <= worst { worst } else { own };
+            if worst.is_nan() || own <= worst {
+                continue;
+            }
+            worst = own;
         }
     }
     worst
@@ -107,7 +115,7 @@ impl Outcome {
                 continue;
             }
             let own = difference(device, name, record, columns, precision);
-            if !(own <= tolerance(precision)) {
+            if exceeds(own, precision) {
                 self.failed.push(format!("{name}, {precision:?}: {own:e}"));
             }
             if own > self.worst[n].0 {

@@ -26,9 +26,10 @@ where
         let side = |from: usize| {
             move |field: Field, k: usize| {
                 // What a probe asks for beside the fields that are read is zero.
-                match fields.contains(field) {
-                    true => given[from + fields.offset(field, D) + k],
-                    false => Lane::of(0.0),
+                if fields.contains(field) {
+                    given[from + fields.offset(field, D) + k]
+                } else {
+                    Lane::of(0.0)
                 }
             }
         };
