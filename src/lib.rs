@@ -246,6 +246,7 @@
 //! | [what effects cost](https://github.com/meshfree/meshfree/blob/main/docs/effects.md) | what each effect costs |
 //! | [defaults](https://github.com/meshfree/meshfree/blob/main/docs/defaults.md) | reasons for the defaults |
 //! | [speed](https://github.com/meshfree/meshfree/blob/main/docs/speed.md) | speed, memory and time to compile |
+//! | [on a GPU](https://github.com/meshfree/meshfree/blob/main/docs/gpu.md) | what runs on a device, how, and what does not |
 //! | [compared with other codes](https://github.com/meshfree/meshfree/blob/main/docs/comparison.md) | what other codes have, and how fast they are |
 //! | [architecture](https://github.com/meshfree/meshfree/blob/main/docs/architecture.md) | layers, the data of a step, decisions |
 //! | [licences](https://github.com/meshfree/meshfree/blob/main/docs/licences.md) | licences, versions, sources of data |
@@ -259,6 +260,7 @@
 //! | `progress` | no | the drawing of [`output::progress`] | `indicatif` |
 //! | `checkpoint` | no | `Simulation::save` and `Scene::resume` | `safetensors` |
 //! | `meshes` | no | shapes from STL files | `stl_io` |
+//! | `devices` | no | records of sweeps, laws, rates and limits, from which a device runs them | |
 //! | `precompiled` | no | nothing but time: what runs a scene is compiled with the crate, in all dimensions and scalars, and not with each program | |
 //!
 //! On two cores the first program above takes 40 s to compile for release from nothing, and 10 s when a line of it changes.

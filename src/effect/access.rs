@@ -105,15 +105,20 @@ impl Access {
         }
     }
 
-    #[cold]
-    #[track_caller]
-    fn refuse(&self, does: &str, what: &str, method: &str) -> ! {
-        let part = match self.part {
+    /// What it is called in messages.
+    pub(super) fn name(&self) -> String {
+        match self.part {
             Part::Law(name) => format!("law `{name}`"),
             Part::RateOf(field) => format!("rate of `{}`", field.name()),
             Part::Limit(name) => format!("limit `{name}`"),
             Part::Driver => "driver".into(),
-        };
+        }
+    }
+
+    #[cold]
+    #[track_caller]
+    fn refuse(&self, does: &str, what: &str, method: &str) -> ! {
+        let part = self.name();
         panic!("the {part} {does} `{what}`, which it does not declare: name it in its `{method}`")
     }
 }

@@ -140,8 +140,8 @@ pub trait Rate<T: Real, const D: usize>: Debug + Send + Sync {
         core::any::type_name::<Self>()
     }
     /// Its record, if it is lane text.
-    #[cfg(test)]
-    fn record(&self, _view: &View<'_, T, D>) -> Option<super::recorded::Recorded> {
+    #[cfg(any(test, feature = "devices"))]
+    fn record(&self, _view: &View<'_, T, D>) -> Option<super::PointRecord> {
         None
     }
 }
@@ -188,8 +188,8 @@ impl<T: Real, const D: usize> Rate<T, D> for BySum {
             }
         }
     }
-    #[cfg(test)]
-    fn record(&self, _view: &View<'_, T, D>) -> Option<super::recorded::Recorded> {
+    #[cfg(any(test, feature = "devices"))]
+    fn record(&self, _view: &View<'_, T, D>) -> Option<super::PointRecord> {
         Some(super::recorded::by_sum::<T, D>(self))
     }
 }

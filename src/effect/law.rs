@@ -84,12 +84,12 @@ pub trait Law<T: Real, const D: usize>: Debug + Send + Sync {
         None
     }
     /// Its record in a scheme that has some fields, if it is lane text.
-    #[cfg(test)]
+    #[cfg(any(test, feature = "devices"))]
     fn record(
         &self,
         _around: &super::Around<'_, T, D>,
         _there: Fields,
-    ) -> Option<super::recorded::Recorded> {
+    ) -> Option<super::PointRecord> {
         None
     }
 }

@@ -20,8 +20,8 @@ pub trait Limit<T: Real, const D: usize>: Debug + Send + Sync {
     /// number ends the run.
     fn step(&self, at: &View<'_, T, D>, slot: usize) -> f64;
     /// Its record, if it is lane text.
-    #[cfg(test)]
-    fn record(&self, _view: &View<'_, T, D>) -> Option<super::recorded::Recorded> {
+    #[cfg(any(test, feature = "devices"))]
+    fn record(&self, _view: &View<'_, T, D>) -> Option<super::PointRecord> {
         None
     }
 }

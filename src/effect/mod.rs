@@ -69,7 +69,7 @@ mod pressure_difference;
 mod program;
 mod programmed_burn;
 mod radial_return;
-#[cfg(test)]
+#[cfg(any(test, feature = "devices"))]
 mod recorded;
 mod renormalised_hypoelastic;
 mod rows;
@@ -127,6 +127,8 @@ pub use point::{AtWall, CONSTANTS, Point, PointLaw, PointLimit, PointRate, Reach
 pub use pressure_difference::{PressureDifference, PressureSlope};
 pub use program::{LedgerColumn, Requirement, SceneFacts, StepProgram};
 pub use programmed_burn::ProgrammedBurn;
+#[cfg(any(test, feature = "devices"))]
+pub use recorded::{PointRecord, point_records};
 pub use renormalised_hypoelastic::RenormalisedHypoelastic;
 pub use sequence::Rung;
 pub(crate) use sequence::sequence;

@@ -167,12 +167,8 @@ impl<T: Real, const D: usize, A: PointLaw<D>> Law<T, D> for A {
     fn repeats(&self) -> Option<(usize, f64)> {
         self.repeated()
     }
-    #[cfg(test)]
-    fn record(
-        &self,
-        around: &Around<'_, T, D>,
-        there: Fields,
-    ) -> Option<super::recorded::Recorded> {
+    #[cfg(any(test, feature = "devices"))]
+    fn record(&self, around: &Around<'_, T, D>, there: Fields) -> Option<super::PointRecord> {
         Some(super::recorded::law(self, around, there))
     }
 }
@@ -392,8 +388,8 @@ impl<T: Real, const D: usize, A: PointRate<D>> Rate<T, D> for A {
             rates::<T, T::Wide<false>, A, D>(self, at, first, &[], source, width);
         }
     }
-    #[cfg(test)]
-    fn record(&self, view: &View<'_, T, D>) -> Option<super::recorded::Recorded> {
+    #[cfg(any(test, feature = "devices"))]
+    fn record(&self, view: &View<'_, T, D>) -> Option<super::PointRecord> {
         Some(super::recorded::rate(self, view))
     }
 }
@@ -523,8 +519,8 @@ impl<T: Real, const D: usize, A: PointLimit<D>> Limit<T, D> for A {
             },
         )
     }
-    #[cfg(test)]
-    fn record(&self, view: &View<'_, T, D>) -> Option<super::recorded::Recorded> {
+    #[cfg(any(test, feature = "devices"))]
+    fn record(&self, view: &View<'_, T, D>) -> Option<super::PointRecord> {
         Some(super::recorded::limit(self, view))
     }
 }

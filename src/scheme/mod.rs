@@ -133,6 +133,29 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         self.kernel
     }
 
+    /// One pair of each sweep, recorded for a device, with its stage.
+    ///
+    /// ```
+    /// use meshfree::particles::Output;
+    /// let scheme = meshfree::schemes::weakly_compressible().compose::<f64, 2>();
+    /// let sweeps = scheme.pair_records()?;
+    /// assert!(sweeps.iter().any(|(_, pair)| pair.writes.contains(Output::FORCE)));
+    /// # Ok::<(), meshfree::scalar::Unrecordable>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// If a term, or the kernel, does what cannot be recorded.
+    #[cfg(feature = "devices")]
+    pub fn pair_records(
+        &self,
+    ) -> Result<Vec<(Stage, crate::sweep::PairRecord)>, crate::scalar::Unrecordable> {
+        let all = Stage::ALL.iter();
+        all.filter_map(|&stage| Some((stage, self.sweep(stage)?.record())))
+            .map(|(stage, record)| Ok((stage, record?)))
+            .collect()
+    }
+
     /// The sweep of a stage, if any term names the stage.
     pub(crate) fn sweep(&self, stage: Stage) -> Option<&dyn PairSweep<T, D>> {
         self.sweeps[stage.number()].as_deref()

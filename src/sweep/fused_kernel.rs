@@ -65,6 +65,13 @@ pub trait PairSweep<T: Real, const D: usize>: Debug + Send + Sync {
     fn document(&self) -> Vec<TermDoc>;
     /// What each of its terms reads and writes.
     fn uses(&self) -> Vec<TermUse>;
+    /// One pair of it, recorded for a device.
+    ///
+    /// # Errors
+    ///
+    /// If a term, or the kernel, does what cannot be recorded.
+    #[cfg(feature = "devices")]
+    fn record(&self) -> Result<super::PairRecord, crate::scalar::Unrecordable>;
     /// Packs what a pass reads. `records` keeps its memory between calls.
     fn pack(&self, pass: Pass, input: &SweepInput<'_, T, D>, records: &mut Records<T>);
     /// Renews the mean velocities in records packed for [`Pass::Work`].
@@ -113,6 +120,11 @@ impl<T: Real, const D: usize, K: Kernel<D>, P: Terms<D>, const MODE: u8> PairSwe
 
     fn uses(&self) -> Vec<TermUse> {
         self.terms.uses()
+    }
+
+    #[cfg(feature = "devices")]
+    fn record(&self) -> Result<super::PairRecord, crate::scalar::Unrecordable> {
+        super::pair_record::record::<T, K, P, D, MODE>(&self.kernel, &self.terms)
     }
 
     fn pack(&self, pass: Pass, input: &SweepInput<'_, T, D>, records: &mut Records<T>) {

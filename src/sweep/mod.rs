@@ -50,6 +50,8 @@
 //! [`Field::POSITION_RESIDUAL`]: crate::particles::Field::POSITION_RESIDUAL
 
 mod fused_kernel;
+#[cfg(feature = "devices")]
+mod pair_record;
 mod records;
 mod results;
 mod task;
@@ -60,6 +62,8 @@ mod work;
 // For the crate's own benches: no part of its interface.
 #[doc(hidden)]
 pub use fused_kernel::{FusedKernel, PairSweep, Pass, SweepInput};
+#[cfg(feature = "devices")]
+pub use pair_record::PairRecord;
 #[doc(hidden)]
 pub use records::Records;
 pub use records::Transform;

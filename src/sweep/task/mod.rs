@@ -17,12 +17,14 @@ use crate::scalar::{OnAvx2, OnAvx512};
 use crate::term::{Layout, MOST_READS, Sums, Terms};
 use core::marker::PhantomData;
 use meetings::{Meeting, Meetings, block_of};
+#[cfg(feature = "devices")]
+pub(super) use pairs::apply;
 use shown::Shown;
 use std::ops::Range;
 
 /// Ways of running: bits of [`SmoothingMode`].
-const MEAN: u8 = SmoothingMode::Mean.bit();
-const OWN: u8 = SmoothingMode::Own.bit();
+pub(super) const MEAN: u8 = SmoothingMode::Mean.bit();
+pub(super) const OWN: u8 = SmoothingMode::Own.bit();
 
 /// The layout of a sweep: what its terms name, and what the way of running adds.
 pub(super) struct Composed<T, P, const D: usize, const HOW: u8>(PhantomData<(T, P)>);

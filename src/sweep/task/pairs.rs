@@ -228,7 +228,7 @@ impl<T: Real, K, P, const D: usize> Task<'_, T, K, P, D> {
 /// Turns the pair's forces along directions into vectors, and adds them with the free one to the kept force; `OPPOSITE` are those
 /// on j.
 #[inline(always)]
-fn apply<L: Lane, const D: usize, C: Layout, const OPPOSITE: bool>(
+pub(in crate::sweep) fn apply<L: Lane, const D: usize, C: Layout, const OPPOSITE: bool>(
     pair: &Pair<'_, L, D, C>,
     sums: &mut Sums<L, D, C>,
 ) {

@@ -1,44 +1,30 @@
 //! Every law, rate and limit of the crate is recorded here, and the record followed to the bits of its loop on the host.
 //! Laws that a material holds are recorded in `material`.
 
-use super::continuity::{Compression, Divergence};
-use super::declared::{SLOTS, around, optional};
-use super::density::{ContactActivity, SolvedSmoothing, SummedDensity};
-use super::gradients::CorrectedGradients;
-use super::point::{AtWall, CONSTANTS, OfLaw, OfLimit, OfRate};
-use super::viscosity_switch::ViscositySwitch;
-use super::{
-    Around, BySum, Chunk, DensityForm, Effect, Evolved, PlaneStress, Plasticity, Point, PointLaw,
-    PointLimit, PointRate, Rate, Setting, Slices, StepProgram, UniaxialStress, View,
-};
+use super::PointRecord;
 use crate::boundary::{Slip, WallSurface};
+use crate::effect::continuity::{Compression, Divergence};
+use crate::effect::declared::{SLOTS, around, optional};
+use crate::effect::density::{ContactActivity, SolvedSmoothing, SummedDensity};
+use crate::effect::gradients::CorrectedGradients;
+use crate::effect::viscosity_switch::ViscositySwitch;
+use crate::effect::{
+    Around, Chunk, DensityForm, Effect, Evolved, PlaneStress, Plasticity, Setting, Slices,
+    StepProgram, UniaxialStress, View,
+};
 use crate::kernel::{Kernel, WendlandC2};
 use crate::material::Material;
 use crate::material::failure::JohnsonCookFailure;
 use crate::material::rheology::CarreauYasuda;
 use crate::material::strength::JohnsonCook;
 use crate::particles::{Columns, Field, Fields, Outputs, Shape};
-use crate::scalar::{Lane, Mask, Real, Record, Traced, Unrecordable};
+use crate::scalar::Real;
 use crate::sweep::{Results, add_compensated};
-use crate::tensor::{Matrix, Square};
+use crate::tensor::Matrix;
+use crate::term::Stage;
 use crate::term::viscosity::{CullenDehnen, MorrisMonaghan};
-use crate::term::{MOST_READS, MOST_SUMS, Stage};
 
-/// The record of a part of a step. It is given the numbers of fields, then of sums, then constants of the body, then the step, then the
-/// present value of a rate, then what is seen of a wall; it results in the numbers of the fields that are written and one where the law has limited, in the rate, or in
-/// the limit.
-#[derive(Debug)]
-pub struct Recorded {
-    record: Result<Record, Unrecordable>,
-    fields: Fields,
-    writes: Fields,
-    sums: Outputs,
-    double: bool,
-    constants: [f64; CONSTANTS],
-    acts: bool,
-}
-
-impl Recorded {
+impl PointRecord {
     /// What is made of some numbers, in the precision of the part.
     fn follow<T: Real>(&self, given: &[f64]) -> Vec<T> {
         let record = self.record.as_ref().expect("a record");
@@ -48,180 +34,6 @@ impl Recorded {
         let given: Vec<_> = given.iter().map(|value| T::from_f64(*value)).collect();
         record.follow(&given)
     }
-}
-
-/// Numbers, sums, constants, the step and the present value, and the wall.
-type Given<const D: usize> = (
-    [Traced; MOST_READS],
-    [Traced; MOST_SUMS],
-    [Traced; CONSTANTS],
-    [Traced; 2],
-    AtWall<Traced, D>,
-);
-
-fn given<const D: usize>(fields: Fields, sums: Outputs, all: &[Traced]) -> Given<D> {
-    let (width, summed) = (fields.width(D), sums.width(D));
-    let take = |from: usize, count: usize| move |k: usize| all[from + k.min(count)];
-    let others = width + summed + CONSTANTS;
-    let wall = &all[others + 2..];
-    (
-        core::array::from_fn(take(0, width)),
-        core::array::from_fn(take(width, summed)),
-        core::array::from_fn(take(width + summed, CONSTANTS)),
-        [all[others], all[others + 1]],
-        AtWall {
-            fall: core::array::from_fn(|d| wall[d]),
-            normal: core::array::from_fn(|d| wall[D + d]),
-            gradient: Square(core::array::from_fn(|a| {
-                core::array::from_fn(|b| wall[2 * D + a * D + b])
-            })),
-        },
-    )
-}
-
-fn of<const D: usize>(
-    (fields, writes, sums): (Fields, Fields, Outputs),
-    double: bool,
-    text: impl FnOnce(Given<D>) -> Vec<Traced>,
-    (constants, acts): ([f64; CONSTANTS], bool),
-) -> Recorded {
-    let inputs = fields.width(D) + sums.width(D) + CONSTANTS + 2 + 2 * D + D * D;
-    let record = Record::of(inputs, |all| text(given::<D>(fields, sums, all)));
-    Recorded {
-        record,
-        fields,
-        writes,
-        sums,
-        double,
-        constants,
-        acts,
-    }
-}
-
-/// Records a law in a scheme that has some fields.
-pub fn law<T: Real, A: PointLaw<D>, const D: usize>(
-    law: &A,
-    around: &Around<'_, T, D>,
-    there: Fields,
-) -> Recorded {
-    let fields = A::READS.union(A::WRITES);
-    let mut all = [0.0; CONSTANTS];
-    let acts = PointLaw::prepare(law, around, &mut all);
-    of::<D>(
-        (fields, law.written(), A::SUMS),
-        A::DOUBLE,
-        |(mut numbers, sums, constants, [dt, _], wall)| {
-            let mut point = Point::<Traced, D, OfLaw<T, A, D>> {
-                numbers: &mut numbers,
-                sums: &sums,
-                there: &there,
-                access: &super::access::Access::of_law::<T, D>(law),
-                limited: None,
-                change: None,
-                dt,
-                constants,
-                displacement: [Traced::of(0.0); D],
-                wall: &wall,
-                around,
-            };
-            law.point(&mut point);
-            let displacement = point.displacement;
-            let limited = point.limited.unwrap_or_else(|| Mask::all_of(false));
-            let written = law.written().iter().flat_map(|field| {
-                let start = fields.offset(field, D);
-                start..start + field.components(D)
-            });
-            let places = fields.offset(Field::POSITION, D);
-            let moved = A::WRITES.contains(Field::POSITION);
-            let own = |k: usize| match k.checked_sub(places) {
-                Some(d) if moved && d < D => displacement[d],
-                _ => numbers[k],
-            };
-            let mut results: Vec<_> = written.map(own).collect();
-            results.push(Lane::select(limited, Traced::of(1.0), Traced::of(0.0)));
-            results
-        },
-        (all, acts),
-    )
-}
-
-/// Records a rate as a view of it has access.
-pub fn rate<T: Real, A: PointRate<D>, const D: usize>(rate: &A, view: &View<'_, T, D>) -> Recorded {
-    let mut all = [0.0; CONSTANTS];
-    let acts = PointRate::prepare(rate, &view.around, &mut all);
-    let carried = view.columns.fields();
-    let there = carried.minus(carried.minus(A::READS));
-    of::<D>(
-        (A::READS, Fields::NONE, A::SUMS),
-        false,
-        |(mut numbers, sums, constants, [dt, present], wall)| {
-            let point = Point::<Traced, D, OfRate<T, A, D>> {
-                numbers: &mut numbers,
-                sums: &sums,
-                there: &there,
-                access: &view.access,
-                limited: None,
-                change: None,
-                dt,
-                constants,
-                displacement: [Traced::of(0.0); D],
-                wall: &wall,
-                around: &view.around,
-            };
-            let width = if A::GROWTH {
-                1
-            } else {
-                view.access.components::<D>()
-            };
-            let mut own = vec![Traced::of(0.0); width];
-            rate.point(&point, present, &mut own);
-            own
-        },
-        (all, acts),
-    )
-}
-
-/// Records a limit.
-pub fn limit<T: Real, A: PointLimit<D>, const D: usize>(
-    limit: &A,
-    view: &View<'_, T, D>,
-) -> Recorded {
-    of::<D>(
-        (A::READS, Fields::NONE, A::SUMS),
-        true,
-        |(mut numbers, sums, constants, [dt, _], wall)| {
-            let point = Point::<Traced, D, OfLimit<T, A, D>> {
-                numbers: &mut numbers,
-                sums: &sums,
-                there: &A::READS,
-                access: &view.access,
-                limited: None,
-                change: None,
-                dt,
-                constants,
-                displacement: [Traced::of(0.0); D],
-                wall: &wall,
-                around: &view.around,
-            };
-            vec![PointLimit::step(limit, &point)]
-        },
-        ([0.0; CONSTANTS], true),
-    )
-}
-
-/// Records a rate that is a sum.
-pub fn by_sum<T: Real, const D: usize>(rate: &BySum) -> Recorded {
-    let (fields, sums) = (Rate::<T, D>::reads(rate), Rate::<T, D>::sums(rate));
-    of::<D>(
-        (fields, Fields::NONE, sums),
-        false,
-        |(numbers, sums, ..)| {
-            let over = rate.over.map(|_| numbers[0]);
-            let own = &sums[..rate.sum.components(D)];
-            own.iter().map(|sum| BySum::point(*sum, over)).collect()
-        },
-        ([0.0; CONSTANTS], true),
-    )
 }
 
 /// Numbers without pattern, most of them positive; in matrices near unity.
@@ -262,7 +74,7 @@ fn same<T: Real>(found: T, expected: T, what: &str) {
 
 /// The numbers of a particle that a record is given, the step and a present value.
 fn numbers<T: Real, const D: usize>(
-    own: &Recorded,
+    own: &PointRecord,
     columns: &Columns<T, D>,
     summed: &Results<T, D>,
     slot: usize,
@@ -330,7 +142,7 @@ impl<const D: usize> Seen<D> {
 fn material<T: Real>() -> Material<T> {
     let strength = JohnsonCook::new(0.2, 0.5, 0.31).with_rate_sensitivity(0.025);
     let failure = JohnsonCookFailure::new(0.05, 3.44, -2.12).with_rate_sensitivity(0.002);
-    super::declared::material()
+    crate::effect::declared::material()
         .with_strength(strength.with_softening(1.09, 1356.0))
         .with_failure(failure.with_heat_sensitivity(0.61, 1793.0))
         .with_rheology(CarreauYasuda::new(0.056, 3.45e-3, 3.313, 0.3568))

@@ -1,0 +1,112 @@
+//! What can go wrong between a scheme and a device, each with what to do about it.
+//! A part that cannot be recorded is named with the operation that keeps it from that.
+
+use meshfree::scalar::Unrecordable;
+
+/// A part of a scheme, by its kind and name, as messages give it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Part {
+    /// `pair term`, `law`, `equation of state`, …
+    pub kind: &'static str,
+    /// Its own name.
+    pub name: String,
+}
+
+impl core::fmt::Display for Part {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "{} `{}`", self.kind, self.name)
+    }
+}
+
+/// Why something does not run on a device.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A part of a scheme cannot be recorded.
+    #[error("the {part} cannot run on a device: {cause}")]
+    Unrecordable {
+        /// Which one.
+        part: Part,
+        /// What it does, and what to do instead.
+        cause: Unrecordable,
+    },
+    /// There is no adapter.
+    #[error(
+        "no adapter for Vulkan was found; install the driver of the card, or the software driver (Debian: `mesa-vulkan-drivers libvulkan1`)"
+    )]
+    NoAdapter,
+    /// No adapter has the name that was asked for.
+    #[error("no adapter is named `{wanted}`; there are: {}", .found.join(", "))]
+    UnknownAdapter {
+        /// What was asked for.
+        wanted: String,
+        /// What there is.
+        found: Vec<String>,
+    },
+    /// The adapter cannot be opened.
+    #[error("the adapter `{adapter}` cannot be opened: {message}")]
+    Refused {
+        /// Its name.
+        adapter: String,
+        /// What the driver says.
+        message: String,
+    },
+    /// The adapter has no `f64`.
+    #[error(
+        "the adapter `{adapter}` cannot compute in f64 with 64-bit integers; take `Precision::Single` or another adapter"
+    )]
+    NoDouble {
+        /// Its name.
+        adapter: String,
+    },
+    /// What is asked for needs more memory than the device binds at once.
+    #[error(
+        "{what} takes {bytes} bytes, and the device binds {most} at once; take fewer particles, or an adapter with larger bindings"
+    )]
+    TooLarge {
+        /// What it is.
+        what: &'static str,
+        /// What it takes.
+        bytes: u64,
+        /// What there is.
+        most: u64,
+    },
+    /// The device has no memory left.
+    #[error("the device has no memory left for {what}; take fewer particles")]
+    OutOfMemory {
+        /// What it was asked for.
+        what: &'static str,
+    },
+    /// The driver does not take the text of a kernel.
+    #[error("the driver does not take the kernel of the {part}: {message}")]
+    Kernel {
+        /// Whose.
+        part: Part,
+        /// What it says.
+        message: String,
+    },
+    /// What a kernel is given has another size than it asks for.
+    #[error("{what}: {found} were given, and {wanted} are needed")]
+    Size {
+        /// What it is.
+        what: &'static str,
+        /// How many were given.
+        found: usize,
+        /// How many are needed.
+        wanted: usize,
+    },
+    /// An update asks for what the sweep that its particles are there for does not have.
+    #[error("the sweep has no {what} `{name}`; add a term that has it")]
+    Absent {
+        /// `field` or `sum`.
+        what: &'static str,
+        /// Its name.
+        name: &'static str,
+    },
+    /// The device was lost, or gave no answer.
+    #[error("the device was lost: {message}; resume from the last checkpoint")]
+    Lost {
+        /// What the driver says.
+        message: String,
+    },
+}

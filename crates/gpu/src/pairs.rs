@@ -1,0 +1,303 @@
+//! Sums over neighbours, from the record of one pair: one thread a particle, along the list of its cluster.
+//! Lists are those of the host, cluster by cluster; what depends on i alone stands before the loop.
+
+use crate::device::{Bound, Kernel};
+use crate::kernel::{Array, Frame, THREADS, pack, pack_indices, unpack};
+use crate::{Device, Dialect, Error, Language, Part, Precision, emit};
+use core::cell::RefCell;
+use meshfree::neighbors::{Block, ChunkList};
+use meshfree::particles::{Fields, Outputs};
+use meshfree::sweep::PairRecord;
+use std::collections::BTreeSet;
+
+const BUFFERS: [Array; 6] = [
+    Array::numbers("records"),
+    Array::numbers("settings"),
+    Array::indices("clusters"),
+    Array::indices("segments"),
+    Array::indices("list"),
+    Array::numbers("rows").written(),
+];
+
+/// What all pairs of a sweep share.
+#[derive(Clone, Debug)]
+pub struct Shared {
+    /// The smoothing length \[m\] where it is one for all.
+    pub smoothing_length: f64,
+    /// First moment of the kernel gradient on the lattice.
+    pub lattice_consistency_factor: f64,
+    /// The acceleration that acts on all particles \[m/s²\]; as many numbers as there are dimensions.
+    pub body_force: Vec<f64>,
+}
+
+/// The neighbours of clusters of particles, as a device reads them.
+#[derive(Clone, Debug, Default)]
+pub struct PairLists {
+    /// Where the segments of each cluster start, and its block; then the end of the last.
+    clusters: Vec<u32>,
+    /// Start, end and block of each segment.
+    segments: Vec<u32>,
+    list: Vec<u32>,
+    /// One where the particles of a block move by forces.
+    mobile: Vec<f64>,
+    width: usize,
+}
+
+impl PairLists {
+    /// Lists of the host with `width` particles a cluster, and the blocks that its segments name.
+    #[must_use]
+    pub fn new(chunks: &[ChunkList], blocks: &[Block], width: usize) -> Self {
+        let mut own = Self {
+            mobile: blocks
+                .iter()
+                .map(|block| f64::from(u8::from(!block.wall)))
+                .collect(),
+            width,
+            ..Self::default()
+        };
+        for chunk in chunks {
+            for bounds in chunk.starts.windows(2) {
+                let first = own.clusters.len() / 2 * width;
+                let block = blocks.partition_point(|block| block.slots.end <= first);
+                own.clusters.push((own.segments.len() / 3) as u32);
+                own.clusters
+                    .push(block.min(blocks.len().saturating_sub(1)) as u32);
+                for segment in &chunk.segments[bounds[0] as usize..bounds[1] as usize] {
+                    let listed = &chunk.neighbors[segment.start as usize..segment.end as usize];
+                    let start = own.list.len() as u32;
+                    own.list.extend_from_slice(listed);
+                    own.segments
+                        .extend([start, own.list.len() as u32, segment.block]);
+                }
+            }
+        }
+        own.clusters.extend([(own.segments.len() / 3) as u32, 0]);
+        own
+    }
+
+    /// How many neighbours are listed.
+    #[must_use]
+    pub fn entries(&self) -> usize {
+        self.list.len()
+    }
+}
+
+/// The sums over the pairs of a sweep, compiled for a device.
+#[derive(Debug)]
+pub struct PairKernel {
+    kernel: Kernel,
+    pub(crate) reads: Fields,
+    pub(crate) writes: Outputs,
+    pub(crate) stride: usize,
+    pub(crate) sums: usize,
+    support: f64,
+    pub(crate) dimensions: usize,
+    pub(crate) precision: Precision,
+}
+
+fn body(pair: &PairRecord, dimensions: usize, width: usize, dialect: Dialect) -> String {
+    let (stride, sums) = (pair.reads.width(dimensions), pair.writes.width(dimensions));
+    let x = pair.reads.offset(pair.listed, dimensions);
+    let used = RefCell::new(BTreeSet::new());
+    let text = emit(&pair.record, dialect, &|k| {
+        if k < 2 * stride {
+            used.borrow_mut().insert(k);
+        }
+        match k.checked_sub(2 * stride) {
+            None if k < stride => (format!("i{k}"), false),
+            None => (format!("j{}", k - stride), true),
+            Some(0) => ("mobile_i".into(), false),
+            Some(1) => ("mobile_j".into(), true),
+            Some(n) => (format!("settings[{}u]", n - 1), false),
+        }
+    });
+    let mut used = used.into_inner();
+    if pair.uniform {
+        used.extend((0..dimensions).flat_map(|d| [x + d, stride + x + d]));
+    }
+    let far: Vec<_> = (0..dimensions)
+        .filter(|_| pair.uniform)
+        .map(|d| x + d)
+        .collect();
+    // Behind the reach stand the numbers that all share, then the blocks.
+    let blocks = dimensions + 3;
+    let load = |side: &str, k: usize| {
+        let value = format!("records[{side} * {stride}u + {k}u]");
+        dialect.declare(false, &format!("{side}{k}"), &value) + "\n"
+    };
+    let mut body = String::new();
+    let mut add = |text: &str| body.push_str(text);
+    for &k in used.range(..stride) {
+        add(&load("i", k));
+    }
+    add(&dialect.index("cluster", &format!("i / {width}u * 2u")));
+    let mobile = |at: &str| format!("settings[{blocks}u + {at}]");
+    add(&(dialect.declare(false, "mobile_i", &mobile("clusters[cluster + 1u]")) + "\n"));
+    add(&text.before);
+    for k in 0..sums {
+        add(&dialect.variable(&format!("s{k}"), &dialect.constant(0.0)));
+    }
+    add(&dialect.index("last_segment", "clusters[cluster + 2u]"));
+    add(&dialect.each("segment", "clusters[cluster]", "last_segment"));
+    add(&(dialect.declare(false, "mobile_j", &mobile("segments[segment * 3u + 2u]")) + "\n"));
+    add(&dialect.index("end", "segments[segment * 3u + 1u]"));
+    add(&dialect.each("entry", "segments[segment * 3u]", "end"));
+    add(&dialect.index("j", "list[entry]"));
+    for &k in &far {
+        add(&load("j", k));
+    }
+    if !far.is_empty() {
+        let squares = far.iter().map(|k| format!("(i{k} - j{k}) * (i{k} - j{k})"));
+        let square = squares.collect::<Vec<_>>().join(" + ");
+        add(&format!("if ({square} >= settings[0]) {{ continue; }}\n"));
+    }
+    for &k in used.range(stride..) {
+        if !far.contains(&(k - stride)) {
+            add(&load("j", k - stride));
+        }
+    }
+    add(&text.within);
+    for (k, value) in text.results.iter().enumerate() {
+        let sum = if pair.maxima[k] {
+            let own = format!("s{k}");
+            dialect.select(&format!("{value} > {own}"), value, &own)
+        } else {
+            format!("s{k} + {value}")
+        };
+        add(&format!("s{k} = {sum};\n"));
+    }
+    add("}\n}\n");
+    for k in 0..sums {
+        add(&format!("rows[i * {sums}u + {k}u] = s{k};\n"));
+    }
+    body
+}
+
+impl PairKernel {
+    /// Compiles a sweep in some dimensions over lists with `width` particles a cluster.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NoDouble`] if the adapter has no `f64`, [`Error::Kernel`] if its driver does not take the text.
+    pub fn new(
+        device: &Device,
+        name: &str,
+        pair: &PairRecord,
+        (dimensions, width): (usize, usize),
+        precision: Precision,
+    ) -> Result<Self, Error> {
+        let dialect = Dialect {
+            language: Language::Wgsl,
+            precision,
+        };
+        let part = Part {
+            kind: "sweep",
+            name: name.into(),
+        };
+        let frame = Frame {
+            dialect,
+            name: "sweep",
+            buffers: &BUFFERS,
+        };
+        let body = body(pair, dimensions, width, dialect);
+        Ok(Self {
+            kernel: device.kernel(&part, &frame, &body)?,
+            reads: pair.reads,
+            writes: pair.writes,
+            stride: pair.reads.width(dimensions),
+            sums: pair.writes.width(dimensions),
+            support: pair.support,
+            dimensions,
+            precision,
+        })
+    }
+
+    /// The text of the kernel in a language.
+    #[must_use]
+    pub fn source(
+        pair: &PairRecord,
+        (dimensions, width): (usize, usize),
+        dialect: Dialect,
+    ) -> String {
+        let frame = Frame {
+            dialect,
+            name: "sweep",
+            buffers: &BUFFERS,
+        };
+        frame.source(&body(pair, dimensions, width, dialect), THREADS)
+    }
+
+    /// The sums of the first `count` particles, side by side for each. `records` has the fields that the sweep
+    /// [reads](PairRecord::reads), side by side for each particle, those of images behind.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Size`] if records, lists or the body force are of another size; [`Error::TooLarge`] and [`Error::OutOfMemory`] if they
+    /// do not fit; [`Error::Lost`] if the device fails.
+    pub fn run(
+        &self,
+        device: &Device,
+        (records, count): (&[f64], usize),
+        lists: &PairLists,
+        shared: &Shared,
+    ) -> Result<Vec<f64>, Error> {
+        let (_, rows, launch) = self.bind(device, (records, count), lists, shared)?;
+        device.launch(&[&launch]);
+        let bytes = count * self.sums * self.precision.bytes();
+        Ok(unpack(&device.download(&rows, bytes)?, self.precision))
+    }
+
+    /// Records and sums on the device, and the sweep between them.
+    pub(crate) fn bind(
+        &self,
+        device: &Device,
+        (records, count): (&[f64], usize),
+        lists: &PairLists,
+        shared: &Shared,
+    ) -> Result<(wgpu::Buffer, wgpu::Buffer, Bound), Error> {
+        let size = |what, found: usize, wanted: usize| {
+            if found == wanted {
+                Ok(())
+            } else {
+                Err(Error::Size {
+                    what,
+                    found,
+                    wanted,
+                })
+            }
+        };
+        size(
+            "numbers of the body force",
+            shared.body_force.len(),
+            self.dimensions,
+        )?;
+        let clusters = lists.clusters.len() / 2 - 1;
+        size(
+            "clusters that have lists",
+            clusters,
+            count.div_ceil(lists.width),
+        )?;
+        let last = lists.list.iter().max().map_or(0, |last| *last as usize + 1);
+        let wanted = last.max(count) * self.stride;
+        if records.len() < wanted {
+            size("numbers of records", records.len(), wanted)?;
+        }
+        let reach = self.support * shared.smoothing_length;
+        let mut all = vec![reach * reach, shared.smoothing_length];
+        all.push(shared.lattice_consistency_factor);
+        all.extend(&shared.body_force);
+        all.extend(&lists.mobile);
+        let numbers = |all: &[f64]| pack(all.iter().copied(), self.precision);
+        let records = device.upload("the records of particles", &numbers(records))?;
+        let shared = device.upload("what pairs share", &numbers(&all))?;
+        let indices = |all: &[u32]| device.upload("the lists of neighbours", &pack_indices(all));
+        let clusters = indices(&lists.clusters)?;
+        let segments = indices(&lists.segments)?;
+        let list = indices(&lists.list)?;
+        let bytes = count * self.sums * self.precision.bytes();
+        let rows = device.room("the sums", bytes)?;
+        let buffers = [&records, &shared, &clusters, &segments, &list, &rows];
+        let launch = device.bind(&self.kernel, &buffers, count);
+        Ok((records, rows, launch))
+    }
+}

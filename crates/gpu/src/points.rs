@@ -1,0 +1,112 @@
+//! What happens to single particles, from a record: laws, rates, limits, equations of state.
+//! Each thread follows the record for one particle.
+
+use crate::device::Kernel;
+use crate::kernel::{Array, Frame, THREADS, pack, unpack};
+use crate::{Device, Dialect, Error, Language, Part, Precision, emit};
+use meshfree::scalar::Record;
+
+const BUFFERS: [Array; 2] = [Array::numbers("given"), Array::numbers("results").written()];
+
+/// A record over single particles, compiled for a device.
+#[derive(Debug)]
+pub struct PointKernel {
+    kernel: Kernel,
+    inputs: usize,
+    results: usize,
+    precision: Precision,
+}
+
+/// How many numbers a record is given, as far as it looks.
+pub(crate) fn inputs(record: &Record) -> usize {
+    let all = record.operations().iter().map(|own| match own {
+        meshfree::scalar::Operation::Input(k) => k + 1,
+        _ => 0,
+    });
+    all.max().unwrap_or(0)
+}
+
+fn body(record: &Record, dialect: Dialect) -> String {
+    let text = emit(record, dialect, &|k| {
+        (format!("given[{k}u * scene.count + i]"), false)
+    });
+    let results = text.results.iter().enumerate();
+    let stores = results.map(|(k, value)| format!("results[{k}u * scene.count + i] = {value};\n"));
+    text.before + &stores.collect::<String>()
+}
+
+impl PointKernel {
+    /// Compiles a record.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NoDouble`] if the adapter has no `f64`, [`Error::Kernel`] if its driver does not take the text.
+    pub fn new(
+        device: &Device,
+        name: &str,
+        record: &Record,
+        precision: Precision,
+    ) -> Result<Self, Error> {
+        let dialect = Dialect {
+            language: Language::Wgsl,
+            precision,
+        };
+        let part = Part {
+            kind: "record",
+            name: name.into(),
+        };
+        let frame = Frame {
+            dialect,
+            name: "points",
+            buffers: &BUFFERS,
+        };
+        Ok(Self {
+            kernel: device.kernel(&part, &frame, &body(record, dialect))?,
+            inputs: inputs(record),
+            results: record.results().len(),
+            precision,
+        })
+    }
+
+    /// The text of the kernel in a language.
+    #[must_use]
+    pub fn source(record: &Record, dialect: Dialect) -> String {
+        let frame = Frame {
+            dialect,
+            name: "points",
+            buffers: &BUFFERS,
+        };
+        frame.source(&body(record, dialect), THREADS)
+    }
+
+    /// What the record makes of columns of numbers, column by column.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Size`] if there are fewer columns than the record reads, or columns of different lengths; [`Error::TooLarge`] and
+    /// [`Error::OutOfMemory`] if they do not fit; [`Error::Lost`] if the device fails.
+    pub fn run(&self, device: &Device, given: &[&[f64]]) -> Result<Vec<Vec<f64>>, Error> {
+        if given.len() < self.inputs {
+            return Err(Error::Size {
+                what: "columns of numbers",
+                found: given.len(),
+                wanted: self.inputs,
+            });
+        }
+        let count = given.first().map_or(0, |column| column.len());
+        if let Some(column) = given.iter().find(|column| column.len() != count) {
+            return Err(Error::Size {
+                what: "numbers of a column",
+                found: column.len(),
+                wanted: count,
+            });
+        }
+        let all = given.iter().flat_map(|column| column.iter().copied());
+        let columns = device.upload("what the particles have", &pack(all, self.precision))?;
+        let bytes = self.results * count * self.precision.bytes();
+        let results = device.room("the results", bytes)?;
+        device.launch(&[&device.bind(&self.kernel, &[&columns, &results], count)]);
+        let found = unpack(&device.download(&results, bytes)?, self.precision);
+        Ok(found.chunks(count.max(1)).map(<[f64]>::to_vec).collect())
+    }
+}

@@ -1,0 +1,480 @@
+//! A whole sweep of a liquid in space, on the device against the loop of the host, over the host's lists.
+//! Disordered particles; a body and a wall; the same bits twice and for any size of work groups.
+
+mod common;
+
+use common::{Random, device};
+use meshfree::kernel::WendlandC2;
+use meshfree::material::eos::{EquationOfState, Linear};
+use meshfree::neighbors::{Block, ClusterLists, Radii, SearchInput};
+use meshfree::particles::{Columns, Field, Output};
+use meshfree::scalar::{Lane, Real, Record, Traced};
+use meshfree::sweep::{
+    FusedKernel, InstructionSet, Interaction, PairRecord, PairSweep, Pass, Records, Results, Root,
+    SweepInput,
+};
+use meshfree::term::viscosity::MonaghanGingold;
+use meshfree::term::{Compression, Fourtakas, PressureForce, Viscosity};
+use meshfree_gpu::{
+    Device, Dialect, Error, Given, Language, PairKernel, PairLists, Precision, Resident, Shared,
+};
+
+const H: f64 = 1.5;
+const SIDES: [usize; 3] = [9, 9, 8];
+/// The lattice consistency factor, and what accelerates all.
+const FACTOR: f64 = 0.98;
+const GRAVITY: [f64; 3] = [0.0, 0.3, -9.81];
+
+type Sweep = FusedKernel<
+    WendlandC2,
+    (
+        PressureForce,
+        Viscosity<MonaghanGingold>,
+        Compression,
+        Fourtakas,
+    ),
+>;
+
+fn sweep() -> Sweep {
+    let viscosity = MonaghanGingold {
+        alpha: 0.02,
+        beta: 1.0,
+    };
+    let terms = (
+        PressureForce,
+        Viscosity(viscosity),
+        Compression,
+        Fourtakas::default(),
+    );
+    FusedKernel::new(WendlandC2, terms)
+}
+
+/// 5184 particles far from their lattice, of which the last eighth is a wall.
+struct Scene<T> {
+    columns: Columns<T, 3>,
+    lists: ClusterLists,
+    blocks: [Block; 2],
+    width: usize,
+}
+
+impl<T: Real> Scene<T> {
+    fn new() -> Self {
+        let mut random = Random(3);
+        let mut positions = Vec::new();
+        for block in 0..SIDES.iter().product::<usize>() {
+            let corner = [
+                block % SIDES[0],
+                block / SIDES[0] % SIDES[1],
+                block / (SIDES[0] * SIDES[1]),
+            ];
+            for k in 0..8_usize {
+                let cell = [k & 1, k >> 1 & 1, k >> 2];
+                let own = |d: usize| (2 * corner[d] + cell[d]) as f64 + 0.4 * random.sign();
+                positions.push([0, 1, 2].map(own));
+            }
+        }
+        let slots = positions.len();
+        let fields = PairSweep::<T, 3>::fields(&sweep());
+        let mut columns = Columns::<T, 3>::new(fields, slots);
+        for field in columns.fields().iter() {
+            for (k, value) in columns.raw_mut(field).iter_mut().enumerate() {
+                *value = T::from_f64(match field {
+                    Field::POSITION => positions[k / 3][k % 3],
+                    Field::POSITION_RESIDUAL => 1e-8 * random.sign(),
+                    Field::VELOCITY => random.sign(),
+                    Field::DENSITY => 1000.0 + 5.0 * random.sign(),
+                    Field::SOUND_SPEED => 30.0,
+                    Field::PRESSURE_COEFFICIENT | Field::PRESSURE => 4500.0 * random.sign(),
+                    _ => 1.0 + 0.01 * random.sign(),
+                });
+            }
+        }
+        let width = <T::Wide<false> as Lane>::WIDTH;
+        let water = slots / 8 * 7 / width * width;
+        let blocks =
+            [(0..water, false), (water..slots, true)].map(|(slots, wall)| Block { slots, wall });
+        let mut lists = ClusterLists::default();
+        lists.rebuild(&SearchInput {
+            positions: columns.vectors(Field::POSITION),
+            radii: Radii::Uniform(2.0 * H),
+            blocks: &blocks,
+            listed: &[],
+            width,
+            slots,
+            skin: 0.2,
+            instructions: InstructionSet::detect(),
+        });
+        Self {
+            columns,
+            lists,
+            blocks,
+            width,
+        }
+    }
+
+    /// The sums of the host, side by side for each particle.
+    fn on_host(&self, pair: &PairRecord) -> Vec<f64> {
+        let interactions = [Interaction::Bonded; 4];
+        let slots = self.columns.slots();
+        let input = SweepInput {
+            columns: &self.columns,
+            images: &[],
+            transforms: &[],
+            lists: &self.lists,
+            blocks: &self.blocks,
+            interactions: &interactions,
+            smoothing_length: H,
+            targets: 0..slots,
+            among: None,
+            body_force: GRAVITY.map(T::from_f64),
+            lattice_consistency_factor: FACTOR,
+            instructions: InstructionSet::detect(),
+            root: Root::Divider,
+        };
+        let (mut records, mut rows) = (Records::default(), Results::default());
+        let sweep = sweep();
+        sweep.pack(Pass::Rates, &input, &mut records);
+        sweep.run(Pass::Rates, &input, &records, &mut rows);
+        let mut all = Vec::new();
+        for slot in 0..slots {
+            for output in pair.writes.iter() {
+                all.extend((0..output.components(3)).map(|k| rows.get(output, k, slot).to_f64()));
+            }
+        }
+        all
+    }
+
+    /// What the pairs read, side by side for each particle.
+    fn records(&self, pair: &PairRecord) -> Vec<f64> {
+        let mut all = Vec::new();
+        for slot in 0..self.columns.slots() {
+            for field in pair.reads.iter() {
+                let width = field.components(3);
+                let own = &self.columns.raw(field)[slot * width..][..width];
+                all.extend(own.iter().map(|value| value.to_f64()));
+            }
+        }
+        all
+    }
+
+    fn lists(&self) -> PairLists {
+        PairLists::new(self.lists.chunks(), &self.blocks, self.width)
+    }
+
+    fn on_device(&self, device: &Device, pair: &PairRecord, precision: Precision) -> Vec<f64> {
+        let kernel = PairKernel::new(device, "liquid", pair, (3, self.width), precision);
+        let slots = self.columns.slots();
+        let kernel = kernel.unwrap_or_else(|error| panic!("{error}"));
+        kernel
+            .run(
+                device,
+                (&self.records(pair), slots),
+                &self.lists(),
+                &shared(),
+            )
+            .unwrap_or_else(|error| panic!("{error}"))
+    }
+}
+
+fn shared() -> Shared {
+    Shared {
+        smoothing_length: H,
+        lattice_consistency_factor: FACTOR,
+        body_force: GRAVITY.to_vec(),
+    }
+}
+
+/// The largest difference over the largest value of each sum.
+fn differences(found: &[f64], expected: &[f64], width: usize) -> Vec<f64> {
+    assert_eq!(found.len(), expected.len());
+    let of = |k: usize| {
+        let pairs = found.iter().zip(expected).skip(k).step_by(width);
+        let (apart, largest) = pairs.fold((0.0f64, 0.0f64), |(apart, largest), (a, b)| {
+            (apart.max((a - b).abs()), largest.max(b.abs()))
+        });
+        assert!(largest > 0.0, "sum {k} is zero");
+        apart / largest
+    };
+    (0..width).map(of).collect()
+}
+
+fn check<T: Real>(device: &Device, precision: Precision, most: f64) -> Vec<f64> {
+    let scene = Scene::<T>::new();
+    let pair = PairSweep::<T, 3>::record(&sweep()).expect("terms in lanes");
+    let found = scene.on_device(device, &pair, precision);
+    let width = pair.writes.width(3);
+    let own = differences(&found, &scene.on_host(&pair), width);
+    let neighbours = scene.lists().entries() / (scene.columns.slots() / scene.width);
+    println!("{precision:?}: {own:?}, lists of {neighbours}");
+    assert!(own.iter().all(|own| *own <= most), "{own:?}");
+    // Not the order of neighbours alone: the sums are those of the same scene, and not of one a little beside.
+    let mut beside = Scene::<T>::new();
+    for x in beside.columns.vectors_mut(Field::POSITION) {
+        x[0] *= T::from_f64(1.0 + 1e-4);
+    }
+    let beside = differences(&found, &beside.on_host(&pair), width);
+    assert!(beside.iter().any(|own| *own > most), "{beside:?}");
+    found
+}
+
+#[test]
+fn a_sweep_has_the_forces_of_the_host() {
+    let Some(device) = device("a sweep of a liquid") else {
+        return;
+    };
+    check::<f64>(&device, Precision::Double, 1e-12);
+    check::<f32>(&device, Precision::Single, 1e-5);
+}
+
+#[test]
+fn a_sweep_has_the_same_bits_twice_and_in_any_work_groups() {
+    let Some(device) = device("bits of a sweep") else {
+        return;
+    };
+    let scene = Scene::<f64>::new();
+    let pair = PairSweep::<f64, 3>::record(&sweep()).expect("terms in lanes");
+    let first = scene.on_device(&device, &pair, Precision::Double);
+    let mut device = device;
+    for threads in [64, 128, 256] {
+        device = device
+            .with_threads(threads)
+            .expect("a size that devices have");
+        let own = scene.on_device(&device, &pair, Precision::Double);
+        assert!(
+            own.iter()
+                .zip(&first)
+                .all(|(a, b)| a.to_bits() == b.to_bits())
+        );
+    }
+}
+
+#[test]
+fn what_does_not_fit_is_an_error() {
+    let Some(device) = device("errors of sweeps") else {
+        return;
+    };
+    let scene = Scene::<f64>::new();
+    let pair = PairSweep::<f64, 3>::record(&sweep()).expect("terms in lanes");
+    let kernel = PairKernel::new(&device, "liquid", &pair, (3, 8), Precision::Double);
+    let kernel = kernel.unwrap_or_else(|error| panic!("{error}"));
+    let (records, slots) = (scene.records(&pair), scene.columns.slots());
+    let few = kernel.run(&device, (&records[1..], slots), &scene.lists(), &shared());
+    assert!(
+        matches!(
+            few,
+            Err(Error::Size {
+                what: "numbers of records",
+                ..
+            })
+        ),
+        "{few:?}"
+    );
+    let few = kernel.run(&device, (&records, slots - 64), &scene.lists(), &shared());
+    assert!(
+        matches!(
+            few,
+            Err(Error::Size {
+                what: "clusters that have lists",
+                ..
+            })
+        ),
+        "{few:?}"
+    );
+    let mut flat = shared();
+    flat.body_force.pop();
+    let few = kernel.run(&device, (&records, slots), &scene.lists(), &flat);
+    assert!(
+        matches!(
+            few,
+            Err(Error::Size {
+                found: 2,
+                wanted: 3,
+                ..
+            })
+        ),
+        "{few:?}"
+    );
+    let most = device.adapter().most_bound as usize / 8;
+    let many = kernel.run(
+        &device,
+        (&vec![0.0; most + 1], slots),
+        &scene.lists(),
+        &shared(),
+    );
+    assert!(matches!(many, Err(Error::TooLarge { .. })), "{many:?}");
+    let unknown = Device::named("no such adapter");
+    assert!(
+        matches!(unknown, Err(Error::UnknownAdapter { .. })),
+        "{unknown:?}"
+    );
+    assert!(device.with_threads(0).is_err());
+}
+
+/// What happens to single particles in a step: a record, what it is given, and where its results go.
+struct Update(Record, Vec<Given>, Vec<(Field, usize)>);
+
+/// The time step \[s\].
+const DT: f64 = 1e-3;
+/// The mass of a particle \[kg\].
+const MASS: f64 = 1000.0;
+
+/// The equation of state, and density, velocity and place after a step of the semi-implicit Euler method.
+fn updates() -> [Update; 2] {
+    let law = Linear::new(1000.0, 30.0);
+    let state = Record::of(1, |given| {
+        let found = law.state(given[0], Traced::of(0.0));
+        let weight = Traced::of(MASS) / given[0];
+        vec![found.pressure, found.pressure, found.sound_speed, weight]
+    });
+    let [density, pressure] = [Field::DENSITY, Field::PRESSURE].map(|field| (field, 0));
+    let coefficient = (Field::PRESSURE_COEFFICIENT, 0);
+    let speed = (Field::SOUND_SPEED, 0);
+    let to = vec![pressure, coefficient, speed, (Field::WEIGHT, 0)];
+    let state = Update(state.expect("lanes"), vec![Given::Field(density.0, 0)], to);
+    let step = Record::of(12, |given| {
+        let dt = Traced::of(DT);
+        let (place, rest) = given.split_at(3);
+        let (velocity, rest) = rest.split_at(3);
+        let (density, force) = (rest[0], &rest[1..4]);
+        let growth = density * rest[4] + rest[5];
+        let mut next = vec![growth.mul_add(dt, density)];
+        let mut places = Vec::new();
+        for d in 0..3 {
+            let acceleration = force[d] / Traced::of(MASS) + Traced::of(GRAVITY[d]);
+            let velocity = acceleration.mul_add(dt, velocity[d]);
+            next.push(velocity);
+            places.push(velocity.mul_add(dt, place[d]));
+        }
+        next.extend(places);
+        next
+    });
+    let three = |field| (0..3).map(move |k| (field, k));
+    let fields = three(Field::POSITION).chain(three(Field::VELOCITY));
+    let mut given: Vec<_> = fields
+        .chain([density])
+        .map(|(f, k)| Given::Field(f, k))
+        .collect();
+    given.extend((0..3).map(|k| Given::Sum(Output::FORCE, k)));
+    given.extend([Output::COMPRESSION, Output::DENSITY_DIFFUSION].map(|sum| Given::Sum(sum, 0)));
+    let to = [density]
+        .into_iter()
+        .chain(three(Field::VELOCITY))
+        .chain(three(Field::POSITION));
+    [state, Update(step.expect("lanes"), given, to.collect())]
+}
+
+impl Scene<f64> {
+    /// An update of all particles on the host.
+    fn apply(&mut self, update: &Update, pair: &PairRecord, sums: &[f64]) {
+        let width = pair.writes.width(3);
+        for slot in 0..self.columns.slots() {
+            let given = update.1.iter().map(|own| match *own {
+                Given::Field(field, k) => self.columns.raw(field)[slot * field.components(3) + k],
+                Given::Sum(sum, k) => sums[slot * width + pair.writes.offset(sum, 3) + k],
+            });
+            let results = update.0.follow(&given.collect::<Vec<_>>());
+            for (value, (field, k)) in results.into_iter().zip(&update.2) {
+                self.columns.raw_mut(*field)[slot * field.components(3) + k] = value;
+            }
+        }
+    }
+}
+
+#[test]
+fn whole_steps_stay_on_the_device() {
+    let Some(device) = device("whole steps of a liquid") else {
+        return;
+    };
+    let mut scene = Scene::<f64>::new();
+    let pair = PairSweep::<f64, 3>::record(&sweep()).expect("terms in lanes");
+    let [state, step] = updates();
+    let kernel = PairKernel::new(&device, "liquid", &pair, (3, 8), Precision::Double);
+    let kernel = kernel.unwrap_or_else(|error| panic!("{error}"));
+    let before = scene.records(&pair);
+    let given = (before.as_slice(), scene.columns.slots());
+    let resident = Resident::new(&device, &kernel, given, &scene.lists(), &shared());
+    let resident = resident.unwrap_or_else(|error| panic!("{error}"));
+    let [of_state, of_step] = [("state", &state), ("step", &step)].map(|(name, own)| {
+        let launch = resident.update(name, &own.0, &own.1, &own.2);
+        launch.unwrap_or_else(|error| panic!("{error}"))
+    });
+    let steps = 20;
+    resident.run(&[&of_state, resident.sweep(), &of_step], steps);
+    let found = resident.records().expect("a device that answers");
+    for _ in 0..steps {
+        scene.apply(&state, &pair, &[]);
+        let sums = scene.on_host(&pair);
+        scene.apply(&step, &pair, &sums);
+    }
+    let expected = scene.records(&pair);
+    let stride = pair.reads.width(3);
+    for field in [
+        Field::POSITION,
+        Field::VELOCITY,
+        Field::DENSITY,
+        Field::PRESSURE,
+    ] {
+        let (mut apart, mut change) = (0.0f64, 0.0f64);
+        for own in (0..expected.len()).step_by(stride) {
+            for k in 0..field.components(3) {
+                let at = own + pair.reads.offset(field, 3) + k;
+                apart = apart.max((found[at] - expected[at]).abs());
+                change = change.max((before[at] - expected[at]).abs());
+            }
+        }
+        println!("{}: {apart:.1e} of a change of {change:.1e}", field.name());
+        assert!(
+            change > 0.0 && apart <= 1e-11 * change,
+            "{}: {apart:e} {change:e}",
+            field.name()
+        );
+    }
+    let absent = resident.update(
+        "step",
+        &state.0,
+        &[Given::Field(Field::SMOOTHING_LENGTH, 0)],
+        &state.2,
+    );
+    assert!(
+        matches!(absent, Err(Error::Absent { what: "field", .. })),
+        "{absent:?}"
+    );
+    let few = resident.update("step", &step.0, &step.1[1..], &step.2);
+    assert!(
+        matches!(
+            few,
+            Err(Error::Size {
+                found: 11,
+                wanted: 12,
+                ..
+            })
+        ),
+        "{few:?}"
+    );
+}
+
+/// The second language is written by the same walk; a compiler for it is not part of the tests.
+#[test]
+fn the_same_record_is_written_in_cuda() {
+    let pair = PairSweep::<f64, 3>::record(&sweep()).expect("terms in lanes");
+    let [wgsl, cuda] = [Language::Wgsl, Language::Cuda].map(|language| {
+        let precision = Precision::Double;
+        PairKernel::source(
+            &pair,
+            (3, 8),
+            Dialect {
+                language,
+                precision,
+            },
+        )
+    });
+    let operations = |text: &str, declares: &str| text.matches(declares).count();
+    let made = operations(&wgsl, "let t");
+    assert!(made > 60, "{made}");
+    assert_eq!(
+        made,
+        operations(&cuda, "const double t") + operations(&cuda, "const bool t")
+    );
+    assert!(cuda.contains("extern \"C\" __global__ void sweep(const Scene scene, const double*"));
+    assert!(!cuda.contains("let ") && !cuda.contains("f64"), "{cuda}");
+}
