@@ -342,7 +342,7 @@ mod tests {
             };
             seen[variant] = true;
         }
-        assert_eq!(seen, [true; 13]);
+        assert_eq!(seen, [true; 14]);
         all
     }
 

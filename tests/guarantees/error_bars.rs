@@ -40,10 +40,7 @@ fn rods(dx: f64, target: Material<f64>, end: f64) -> Found {
 
 /// Water that falls in a tank: kinetic energy \[J/m\], heights of the centre of mass \[m\] along and up, front \[m\] and top \[m\] at 0.15 s.
 fn tank(dx: f64) -> Found {
-    let water = Material::new(
-        "water",
-        meshfree::material::eos::Tait::new(1000.0, 30.0, 7.0),
-    );
+    let water = Material::new("water", meshfree::material::eos::Tait::new(1000.0, 30.0));
     let scene = Scene::<f64, 2>::new(schemes::weakly_compressible())
         .body(Body::block("water", water, [0.0; 2], [0.5, 0.3], dx))
         .boundary(MirrorPlane::symmetry([0.0; 2], [1.0, 0.0]))

@@ -1,7 +1,8 @@
-//! Solids that cannot be: elastic constants, strength beyond the limit of tension, bodies too thin, contacts that overlap.
+//! Solids that cannot be: elastic constants, strength beyond the limit of tension, bodies too thin, contacts that overlap, joints.
 //! Each is an error that names the field and its value and says what to do.
 
-use meshfree::coupling::ContactDensity;
+use super::joints::{OUT, bar, scene};
+use meshfree::coupling::{ContactDensity, Joint};
 use meshfree::effect::{Damage, Hypoelastic, NeoHookean, Plasticity};
 use meshfree::material::eos::Linear;
 use meshfree::material::failure::SpallStrength;
@@ -173,4 +174,60 @@ fn contacts_that_start_overlapped() {
             "{apart}: {found}"
         );
     }
+}
+
+#[test]
+fn wrong_joints_are_refused_by_name() {
+    let one = || scene().body(bar("one", [0.0; 2], [0.2; 2], 0.1));
+    let text = |scene: Scene<f64, 2>| match scene.build() {
+        Err(error @ Error::Build(_)) => error.to_string(),
+        Err(error) => panic!("{error}"),
+        Ok(_) => panic!("it was built"),
+    };
+    let says = |scene: Scene<f64, 2>, parts: &[&str]| {
+        let text = text(scene);
+        for part in parts {
+            assert!(text.contains(part), "{text}");
+        }
+    };
+    let hinge = || Joint::hinge([0.0; 2], OUT);
+    says(
+        one().joint_to_ground("one", hinge()),
+        &["`one`", "not rigid", "Scene::rigid"],
+    );
+    let rigid = || one().rigid("one");
+    says(rigid().joint_to_ground("two", hinge()), &["`two`", "one"]);
+    says(rigid().joint("one", "one", hinge()), &["to itself"]);
+    says(
+        rigid().joint_to_ground("one", Joint::slider([0.0; 2], [0.0; 2])),
+        &["length of the axis", "is 0", "direction"],
+    );
+    says(
+        rigid().joint_to_ground("one", Joint::hinge([0.0; 2], [1.0, 0.0, 0.0])),
+        &["axis in the plane"],
+    );
+    says(
+        rigid().joint_to_ground("one", hinge().stiffness(-1.0)),
+        &["stiffness of the joint (hinge)", "-1", "not negative"],
+    );
+    says(
+        rigid().joint_to_ground("one", Joint::ball([0.0; 2]).stiffness(1.0)),
+        &["no coordinate"],
+    );
+    says(
+        rigid()
+            .joint_to_ground("one", hinge())
+            .joint_to_ground("one", hinge()),
+        &["hinge of `one` and the ground", "twice", "leave it out"],
+    );
+    let clamped = rigid().fix("one", |_| true);
+    says(
+        clamped.joint_to_ground("one", hinge()),
+        &["that no body has"],
+    );
+    let wild = rigid()
+        .joint_to_ground("one", hinge().force(|_| f64::NAN))
+        .build()
+        .err();
+    assert!(matches!(wild, Some(Error::Function { value, .. }) if value.is_nan()));
 }

@@ -3,7 +3,6 @@
 
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use meshfree::coupling::Joint;
-use meshfree::error::Error;
 use meshfree::material::Material;
 use meshfree::material::eos::Linear;
 use meshfree::scene::{Body, Scene};
@@ -11,15 +10,15 @@ use meshfree::schemes;
 use meshfree::simulation::{RigidBody, Simulation, StepControl};
 use meshfree::sweep::Interaction;
 
-const OUT: [f64; 3] = [0.0, 0.0, 1.0];
+pub(crate) const OUT: [f64; 3] = [0.0, 0.0, 1.0];
 const G: f64 = 9.81;
 
-fn bar(name: &str, low: [f64; 2], high: [f64; 2], dx: f64) -> Body<f64, 2> {
+pub(crate) fn bar(name: &str, low: [f64; 2], high: [f64; 2], dx: f64) -> Body<f64, 2> {
     let material = Material::new("steel", Linear::new(1000.0, 20.0));
     Body::block(name, material, low, high, dx)
 }
 
-fn scene() -> Scene<f64, 2> {
+pub(crate) fn scene() -> Scene<f64, 2> {
     Scene::new(schemes::impact_by_continuity())
 }
 
@@ -472,60 +471,4 @@ fn a_door_on_a_leaning_axis_is_a_pendulum() {
     let own = simulation.rigid_body("door").unwrap();
     let arm = own.centre.iter().map(|x| x * x).sum::<f64>().sqrt();
     assert_relative_eq!(arm, 0.3, max_relative = 1e-12);
-}
-
-#[test]
-fn wrong_joints_are_refused_by_name() {
-    let one = || scene().body(bar("one", [0.0; 2], [0.2; 2], 0.1));
-    let text = |scene: Scene<f64, 2>| match scene.build() {
-        Err(error @ Error::Build(_)) => error.to_string(),
-        Err(error) => panic!("{error}"),
-        Ok(_) => panic!("it was built"),
-    };
-    let says = |scene: Scene<f64, 2>, parts: &[&str]| {
-        let text = text(scene);
-        for part in parts {
-            assert!(text.contains(part), "{text}");
-        }
-    };
-    let hinge = || Joint::hinge([0.0; 2], OUT);
-    says(
-        one().joint_to_ground("one", hinge()),
-        &["`one`", "not rigid", "Scene::rigid"],
-    );
-    let rigid = || one().rigid("one");
-    says(rigid().joint_to_ground("two", hinge()), &["`two`", "one"]);
-    says(rigid().joint("one", "one", hinge()), &["to itself"]);
-    says(
-        rigid().joint_to_ground("one", Joint::slider([0.0; 2], [0.0; 2])),
-        &["length of the axis", "is 0", "direction"],
-    );
-    says(
-        rigid().joint_to_ground("one", Joint::hinge([0.0; 2], [1.0, 0.0, 0.0])),
-        &["axis in the plane"],
-    );
-    says(
-        rigid().joint_to_ground("one", hinge().stiffness(-1.0)),
-        &["stiffness of the joint (hinge)", "-1", "not negative"],
-    );
-    says(
-        rigid().joint_to_ground("one", Joint::ball([0.0; 2]).stiffness(1.0)),
-        &["no coordinate"],
-    );
-    says(
-        rigid()
-            .joint_to_ground("one", hinge())
-            .joint_to_ground("one", hinge()),
-        &["hinge of `one` and the ground", "twice", "leave it out"],
-    );
-    let clamped = rigid().fix("one", |_| true);
-    says(
-        clamped.joint_to_ground("one", hinge()),
-        &["that no body has"],
-    );
-    let wild = rigid()
-        .joint_to_ground("one", hinge().force(|_| f64::NAN))
-        .build()
-        .err();
-    assert!(matches!(wild, Some(Error::Function { value, .. }) if value.is_nan()));
 }
