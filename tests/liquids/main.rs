@@ -33,4 +33,5 @@ mod sloshing;
 mod slow;
 mod solids_in_tank;
 mod sound_and_volume;
+mod sponge;
 mod structures;
