@@ -344,7 +344,7 @@ fn open_boundaries_that_make_no_sense() {
     // What only shows during the run.
     let wrong = |outlet: Outlet<2>, part: &str| {
         let ran = out(outlet).build().and_then(|mut flow| flow.run_until(0.1));
-        let error = ran.map(|_| ()).unwrap_err().to_string();
+        let error = ran.unwrap_err().to_string();
         assert!(
             error.contains("outlet of body `liquid`") && error.contains(part),
             "{error}"
