@@ -115,11 +115,12 @@ const CHOICES: &[Choice] = &[
     ),
     ("viscosity α 1 for 2", "rods_copper", IMPACT, "impact, α 1"),
     (
-        "viscosity α 0.5 for 1",
+        "matrix gradients for the plain force",
         "sod",
+        "plain force, C4, h/dx 1.8",
         GAS,
-        "gas, C4, h/dx 1.8, α 0.5",
     ),
+    ("h/dx 2.2 for 1.8", "gresho", GAS, "gas, h/dx 2.2"),
     (
         "viscosity α 0.005 for 0.02",
         "tank",

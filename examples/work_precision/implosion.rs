@@ -27,7 +27,7 @@ const SEDOV: Text = Text {
     words: include_str!("words/sedov_3d.md"),
 };
 const DENSITY: &str = "density";
-const PLATEAU: &str = "density of the plateau";
+pub const PLATEAU: &str = "density of the plateau";
 pub const PEAK: &str = "peak of density";
 const RADIUS: f64 = 0.4;
 
