@@ -1,31 +1,33 @@
 //! Error bars: a result with the interval that its spacing leaves, from companions of coarser spacings.
-//! Eça & Hoekstra 2014 (J. Comput. Phys. 262, 104), least squares of value = limit + C dxᵖ.
+//! Laws after Richardson 1911 by least squares as in Eça & Hoekstra 2014 (J. Comput. Phys. 262, 104); intervals of Venzon & Moolgavkar 1988.
 
+use super::work_precision::student_90;
 use crate::output::table::significant;
 use core::fmt;
 
 /// What can end a run.
 type Failure = Box<dyn std::error::Error + Send + Sync>;
 
-/// Orders that a fit may find and keep; beyond them the law is one of first and second order.
+/// Orders that are tried, and into how many steps their range is cut.
 const ORDERS: [f64; 2] = [0.5, 2.0];
+const STEPS: usize = 60;
 /// Fewest spacings: one more than the law has parameters.
 const FEWEST: usize = 4;
 /// The least span of spacings that shows an order: two, but for rounding.
 const LEAST_SPAN: f64 = 1.999;
-/// Factors of safety of a law that follows an order, and of any other.
-const SAFETY: [f64; 2] = [1.25, 3.0];
+/// Scatter that is presumed before any is seen, as a part of the mean change from one spacing to the next.
+const PRESUMED: f64 = 0.1;
 
 /// A result with its error bar.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ErrorBar {
     /// The result on the finest spacing, in its unit.
     pub value: f64,
-    /// Half of the interval, in the same unit: the result for spacings that vanish is within it with about 95 %.
+    /// Half of the interval, in the same unit: the result for spacings that vanish is within it with 90 %.
     pub uncertainty: f64,
     /// Where the law through all results goes for spacings that vanish.
     pub limit: f64,
-    /// The order p of the law, where the results follow one from 0.5 to 2.
+    /// The order p of the best law; none where that is at the edge of what is tried, 0.5 to 2.
     pub order: Option<f64>,
     /// Standard deviation of the results about the law.
     pub scatter: f64,
@@ -83,15 +85,15 @@ pub enum NoErrorBar {
 
 /// Runs a scene on all of these spacings \[m\], coarse to fine, and puts an error bar on the result of the finest.
 ///
-/// With n results φₖ on spacings dxₖ the law φ₀ + C dxᵖ makes the sum of squares least, with all results alike or with weights
-/// 1/dxₖ, whichever scatters less. Where it finds no order from 0.5 to 2 the law is the best of φ₀ + C dx, φ₀ + C dx² and
-/// φ₀ + C₁ dx + C₂ dx². With δ = |φ_law − φ₀| at the finest spacing, σ the standard deviation about the law, and
-/// Δ = (max φ − min φ)/(n − 1), the uncertainty is
+/// With n results φₖ on spacings dxₖ, laws φ₀ + C dxᵖ of orders p from 0.5 to 2 leave sums of squares S. The limit φ₀ is within the
+/// uncertainty with 90 %: that is how far it is from the finest result at most, over all laws with S ≤ S₀ + t² s² (profile likelihood), where
+/// S₀ is the least sum, ν = n − 3 + 2, t Student's quantile for ν degrees of freedom, and
 ///
 /// ```text
-/// U = F δ + σ + |φ − φ_law|             if σ < Δ, F = 1.25 where an order was found and 3 where none was
-/// U = 3 (σ/Δ) (δ + σ + |φ − φ_law|)     else: results that scatter more than they converge
+/// s² = (S₀ + 2 (0.1 Δ)²)/ν,   Δ = (max φ − min φ)/(n − 1)
 /// ```
+///
+/// as if two more results had been seen, each a tenth of the mean change off: few results leave no scatter to judge by.
 ///
 /// It is what the spacing leaves: errors of models, of the step, and of kernels that do not reach far enough are no part of it.
 /// Companions of 1.26, 1.6 and 2 times the spacing take 0.6 of the time of the finest run in 3D, where time goes with the fourth power of the
@@ -149,126 +151,71 @@ pub fn with_error_bar(
     Ok(of(results))
 }
 
-/// A law of the results, and how far they are off it.
+/// The law limit + C (dx/X)ᵖ of one order p, X being the largest spacing.
 #[derive(Clone, Copy, Debug)]
 struct Law {
+    order: f64,
     limit: f64,
-    finest: f64,
-    scatter: f64,
-    order: Option<f64>,
+    /// The sum of squares that it leaves, and what the square of a change of the limit adds to it.
+    left: f64,
+    stiffness: f64,
 }
 
-/// The law limit + Σ Cₖ (dx/X)^pₖ of one or two powers that makes the weighted sum of squares least.
-fn fit(results: &[[f64; 2]], weighted: bool, powers: &[f64]) -> Option<Law> {
-    let (count, largest) = (results.len(), results[0][0]);
-    let weights: Vec<f64> = results
-        .iter()
-        .map(|[dx, _]| if weighted { largest / dx } else { 1.0 })
-        .collect();
-    let whole: f64 = weights.iter().sum();
-    let columns = 1 + powers.len();
-    let design = nalgebra::DMatrix::from_fn(count, columns, |row, column| {
-        let x = results[row][0] / largest;
-        let root = (weights[row] / whole).sqrt();
-        root * if column == 0 {
-            1.0
-        } else {
-            x.powf(powers[column - 1])
-        }
-    });
-    let values = nalgebra::DVector::from_fn(count, |row, _| {
-        (weights[row] / whole).sqrt() * results[row][1]
-    });
-    let solution = design.clone().svd(true, true).solve(&values, 1e-13).ok()?;
-    let left = (&design * &solution - &values).norm_squared();
-    let last = count - 1;
-    let finest = (design.row(last) * &solution)[0] / (weights[last] / whole).sqrt();
-    Some(Law {
-        limit: solution[0],
-        finest,
-        scatter: left * count as f64,
-        order: None,
-    })
-}
-
-/// The standard deviation from the weighted sum of squares, of a law with so many parameters.
-fn with_freedom(mut law: Law, count: usize, parameters: usize) -> Law {
-    law.scatter = (law.scatter / (count - parameters) as f64).sqrt();
-    law
-}
-
-/// The best law of a free order, if that is one that can be trusted.
-fn free(results: &[[f64; 2]], weighted: bool) -> Option<Law> {
-    // The sum of squares is smooth in the order: a grid, and golden sections about its best.
-    let sum =
-        |order: f64| fit(results, weighted, &[order]).map_or(f64::INFINITY, |law| law.scatter);
-    let grid = (1..=80).map(|k| 0.05 * f64::from(k));
-    let best = grid.min_by(|a, b| sum(*a).total_cmp(&sum(*b)))?;
-    let (mut low, mut high) = (best - 0.05, best + 0.05);
-    let golden = 0.5 * (5.0f64.sqrt() - 1.0);
-    for _ in 0..60 {
-        let (a, b) = (high - golden * (high - low), low + golden * (high - low));
-        if sum(a) < sum(b) {
-            high = b;
-        } else {
-            low = a;
-        }
+/// The law of an order through results, by least squares.
+fn law(results: &[[f64; 2]], order: f64) -> Law {
+    let (count, largest) = (results.len() as f64, results[0][0]);
+    let powers = || results.iter().map(|[dx, _]| (dx / largest).powf(order));
+    let (sum, squares) = powers().fold((0.0, 0.0), |(s, q), g| (s + g, q + g * g));
+    let mean = results.iter().map(|[_, value]| value).sum::<f64>() / count;
+    // About the means, so that nothing is lost where results hardly differ.
+    let spread = squares - sum * sum / count;
+    let along = powers()
+        .zip(results)
+        .map(|(g, [_, value])| (g - sum / count) * (value - mean));
+    let factor = along.sum::<f64>() / spread;
+    let limit = mean - factor * sum / count;
+    let off = powers()
+        .zip(results)
+        .map(|(g, [_, value])| value - limit - factor * g);
+    Law {
+        order,
+        limit,
+        left: off.map(|off| off * off).sum(),
+        stiffness: count * spread / squares,
     }
-    let order = 0.5 * (low + high);
-    if !(ORDERS[0]..=ORDERS[1]).contains(&order) {
-        return None;
-    }
-    let law = with_freedom(fit(results, weighted, &[order])?, results.len(), 3);
-    Some(Law {
-        order: Some(order),
-        ..law
-    })
 }
 
 /// The error bar of results, coarse to fine.
 fn of(results: Vec<[f64; 2]>) -> ErrorBar {
-    let less = |a: &Law, b: &Law| a.scatter.total_cmp(&b.scatter);
-    let both = [false, true];
-    let found = both
+    let count = results.len();
+    let value = results[count - 1][1];
+    let [first, last] = ORDERS;
+    let laws: Vec<Law> = (0..=STEPS)
+        .map(|k| law(&results, first + (last - first) * k as f64 / STEPS as f64))
+        .collect();
+    let best = laws
         .iter()
-        .filter_map(|own| free(&results, *own))
-        .min_by(less);
-    let law = found.or_else(|| {
-        let laws = both.iter().flat_map(|own| {
-            [&[1.0][..], &[2.0], &[1.0, 2.0]].map(|powers| {
-                let law = fit(&results, *own, powers)?;
-                Some(with_freedom(law, results.len(), 1 + powers.len()))
-            })
+        .copied()
+        .reduce(|best, own| if own.left < best.left { own } else { best });
+    let best = best.unwrap_or_else(|| law(&results, first));
+    let values = || results.iter().map(|[_, value]| *value);
+    let range = values().fold(f64::MIN, f64::max) - values().fold(f64::MAX, f64::min);
+    let step = range / (count - 1) as f64;
+    let freedom = count - 3 + 2;
+    let variance = (best.left + 2.0 * (PRESUMED * step).powi(2)) / freedom as f64;
+    let most = best.left + variance * student_90(freedom).powi(2);
+    let uncertainty = laws
+        .iter()
+        .filter(|law| law.left <= most)
+        .fold(0.0, |bar: f64, law| {
+            bar.max((value - law.limit).abs() + ((most - law.left) / law.stiffness).sqrt())
         });
-        laws.flatten().min_by(less)
-    });
-    let value = results[results.len() - 1][1];
-    let (least, most) = results.iter().fold((value, value), |(low, high), [_, x]| {
-        (low.min(*x), high.max(*x))
-    });
-    let range = (most - least) / (results.len() - 1) as f64;
-    // Laws of finite results always have a solution: singular values that vanish are left out.
-    let law = law.unwrap_or(Law {
-        limit: value,
-        finest: value,
-        scatter: range,
-        order: None,
-    });
-    let (left, off) = ((law.finest - law.limit).abs(), (value - law.finest).abs());
-    let uncertainty = if range == 0.0 {
-        0.0
-    } else if law.scatter < range {
-        let safety = SAFETY[usize::from(law.order.is_none())];
-        safety * left + law.scatter + off
-    } else {
-        3.0 * law.scatter / range * (left + law.scatter + off)
-    };
     ErrorBar {
         value,
         uncertainty,
-        limit: law.limit,
-        order: law.order,
-        scatter: law.scatter,
+        limit: best.limit,
+        order: (first < best.order && best.order < last).then_some(best.order),
+        scatter: (best.left / (count - 3) as f64).sqrt(),
         results,
     }
 }
@@ -288,22 +235,22 @@ mod tests {
     fn an_order_is_found_with_its_limit() {
         for order in [0.6, 1.0, 1.7] {
             let own = bar(|dx| 3.0 - 2.0 * dx.powf(order));
-            assert_relative_eq!(own.order.expect("an order"), order, epsilon = 1e-4);
-            assert_relative_eq!(own.limit, 3.0, epsilon = 1e-4);
+            assert_relative_eq!(own.order.expect("an order"), order, epsilon = 0.013);
+            assert_relative_eq!(own.limit, 3.0, epsilon = 0.01);
             let left = 2.0 * 0.08f64.powf(order);
-            assert_relative_eq!(own.uncertainty, 1.25 * left, max_relative = 1e-3);
+            assert!((1.0..4.0).contains(&(own.uncertainty / left)), "{own}");
         }
-        // Of third order: no faster law than the second is believed, and the interval holds.
+        // Of third order: no law faster than the second is tried, and the interval holds.
         let own = bar(|dx| 3.0 - 2.0 * dx.powi(3));
         assert!(own.order.is_none() && (own.value - 3.0).abs() < own.uncertainty);
     }
 
-    /// Signs of a scatter decide what is found; the limit is in 19 of 20 intervals or more.
+    /// All signs of a scatter that is small or large beside the change of 0.12.
     #[test]
-    fn intervals_hold_the_limit_under_scatter() {
+    fn nine_of_ten_intervals_hold_the_limit_under_scatter() {
         let (mut held, mut all) = (0, 0);
-        for signs in 0..32u32 {
-            for noise in [0.002, 0.01, 0.05] {
+        for noise in [0.0005, 0.002, 0.005, 0.01, 0.02, 0.05] {
+            for signs in 0..32u32 {
                 let own = bar(|dx| {
                     let k = SPACINGS
                         .iter()
@@ -312,11 +259,12 @@ mod tests {
                     let sign = if signs >> k & 1 == 1 { 1.0 } else { -1.0 };
                     1.0 + dx + noise * sign
                 });
+                held += u32::from((own.value - 1.0).abs() <= own.uncertainty);
                 all += 1;
-                held += usize::from((own.value - 1.0).abs() <= own.uncertainty);
             }
         }
-        assert!(held * 20 >= all * 19, "{held} of {all}");
+        println!("{held} of {all}");
+        assert!(held * 10 >= all * 9, "{held} of {all}");
         // A control: the difference of the two finest results is no error bar.
         let own = bar(|dx| 1.0 + dx);
         let [before, last] = [own.results[3][1], own.results[4][1]];

@@ -404,7 +404,7 @@ fn laws_within(points: &[(f64, f64)], best: &Law, most: f64) -> Vec<Law> {
 }
 
 /// Two-sided 90 % quantile of Student's t.
-pub(super) fn student_90(freedom: usize) -> f64 {
+pub(in crate::study) fn student_90(freedom: usize) -> f64 {
     const TABLE: [f64; 10] = [
         6.314, 2.920, 2.353, 2.132, 2.015, 1.943, 1.895, 1.860, 1.833, 1.812,
     ];

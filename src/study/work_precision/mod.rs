@@ -70,6 +70,7 @@ mod tests;
 pub use answer::{Basis, Foretold, Recipe};
 pub use case::{Case, Method, Value};
 pub use clock::Clock;
+pub(super) use fit::student_90;
 pub use fit::{Estimate, PowerFit};
 pub use history::History;
 pub use outcome::{Outcome, relative_l1, relative_l2, residual};
