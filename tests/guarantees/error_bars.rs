@@ -8,8 +8,8 @@ use meshfree::study::with_error_bar;
 
 const RODS: [f64; 4] = [4e-4, 3.2e-4, 2.5e-4, 2e-4];
 const RODS_FINER: f64 = 5e-5;
-const TANK: [f64; 4] = [0.05, 0.04, 0.03125, 0.025];
-const TANK_FINER: f64 = 0.00625;
+const TANK: [f64; 4] = [0.05, 0.1 / 3.0, 0.025, 0.02];
+const TANK_FINER: f64 = 0.005;
 
 type Found = Result<[f64; 5], Box<dyn std::error::Error + Send + Sync>>;
 
@@ -43,8 +43,8 @@ fn tank(dx: f64) -> Found {
     let water = Material::new("water", meshfree::material::eos::Tait::new(1000.0, 30.0));
     let scene = Scene::<f64, 2>::new(schemes::weakly_compressible())
         .body(Body::block("water", water, [0.0; 2], [0.5, 0.3], dx))
-        .boundary(MirrorPlane::symmetry([0.0; 2], [1.0, 0.0]))
-        .boundary(MirrorPlane::symmetry([0.0; 2], [0.0, 1.0]))
+        .boundary(MirrorPlane::symmetry([0.0; 2], [-1.0, 0.0]))
+        .boundary(MirrorPlane::symmetry([0.0; 2], [0.0, -1.0]))
         .acceleration(|_| [0.0, -9.81]);
     let mut tank = scene.build()?;
     tank.run_until(0.15)?;
