@@ -56,8 +56,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     ///     .build()?;
     /// rod.run_until(1e-6)?;
     /// let pressure = rod.column("rod", Field::PRESSURE)?;
+    /// // In 1 µs the wave has gone from the wall through 3.9 mm of 10.
     /// let highest = pressure.iter().max_by(|a, b| a.1[0].total_cmp(&b.1[0]));
-    /// assert!(highest.is_some_and(|(number, own)| number > 40 && own[0] > 700e6), "{highest:?}");
+    /// assert!(highest.is_some_and(|(number, own)| number >= 30 && own[0] > 700e6), "{highest:?}");
     /// # Ok::<(), Error>(())
     /// ```
     ///

@@ -24,7 +24,7 @@ const PAGE: &str = include_str!("page.html");
 ///     .run()?;
 /// let html = page("What a square costs", [&report]);
 /// assert!(html.contains("square --spacing {spacing}"));
-/// # Ok::<(), meshfree::Error>(())
+/// # Ok::<(), meshfree::error::Error>(())
 /// ```
 #[must_use]
 pub fn page<'a>(title: &str, reports: impl IntoIterator<Item = &'a Report>) -> String {
