@@ -136,7 +136,7 @@ impl Device {
         &self.adapter
     }
 
-    /// Another number of threads a work group, for kernels that are made from now on; 64 if not asked for. Results are the same.
+    /// Another number of threads a work group, for kernels that are made from now on; 64 by default. Results are the same.
     ///
     /// # Errors
     ///
@@ -280,9 +280,7 @@ impl Device {
 
     /// Writes bytes to the start of what has room for them.
     pub(crate) fn write(&self, buffer: &wgpu::Buffer, bytes: &[u8]) {
-        if bytes.len().is_multiple_of(4) {
-            self.queue.write_buffer(buffer, 0, bytes);
-        }
+        self.queue.write_buffer(buffer, 0, bytes);
     }
 
     /// Binds buffers to a kernel that runs for some particles.

@@ -40,6 +40,14 @@ pub struct Dialect {
 }
 
 impl Dialect {
+    /// What [`Device`](crate::Device) runs.
+    pub(crate) const fn wgsl(precision: Precision) -> Self {
+        Self {
+            language: Language::Wgsl,
+            precision,
+        }
+    }
+
     /// The name of the scalar type.
     #[must_use]
     pub fn scalar(self) -> &'static str {

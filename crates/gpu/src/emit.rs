@@ -324,10 +324,7 @@ mod tests {
     use crate::Language;
 
     fn text(record: &Record) -> Text {
-        let dialect = Dialect {
-            language: Language::Wgsl,
-            precision: Precision::Double,
-        };
+        let dialect = Dialect::wgsl(Precision::Double);
         emit(record, dialect, &|k| (format!("a{k}"), k > 0))
     }
 

@@ -1,7 +1,5 @@
-//! What can go wrong between a scheme and a device, each with what to do about it.
-//! A part that cannot be recorded is named with the operation that keeps it from that.
-
-use meshfree::scalar::Unrecordable;
+//! What can go wrong on a device, each with what to do about it.
+//! What cannot be recorded is `Unrecordable` before anything gets here.
 
 /// A part of a scheme, by its kind and name, as messages give it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -22,23 +20,15 @@ impl core::fmt::Display for Part {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// A part of a scheme cannot be recorded.
-    #[error("the {part} cannot run on a device: {cause}")]
-    Unrecordable {
-        /// Which one.
-        part: Part,
-        /// What it does, and what to do instead.
-        cause: Unrecordable,
-    },
     /// There is no adapter.
     #[error(
         "no adapter for Vulkan was found; install the driver of the card, or the software driver (Debian: `mesa-vulkan-drivers libvulkan1`)"
     )]
     NoAdapter,
-    /// No adapter has the name that was asked for.
+    /// No adapter has this name.
     #[error("no adapter is named `{wanted}`; there are: {}", .found.join(", "))]
     UnknownAdapter {
-        /// What was asked for.
+        /// The name.
         wanted: String,
         /// What there is.
         found: Vec<String>,
@@ -59,7 +49,7 @@ pub enum Error {
         /// Its name.
         adapter: String,
     },
-    /// What is asked for needs more memory than the device binds at once.
+    /// An array needs more memory than the device binds at once.
     #[error(
         "{what} takes {bytes} bytes, and the device binds {most} at once; take fewer particles, or an adapter with larger bindings"
     )]
@@ -74,7 +64,7 @@ pub enum Error {
     /// The device has no memory left.
     #[error("the device has no memory left for {what}; take fewer particles")]
     OutOfMemory {
-        /// What it was asked for.
+        /// What the memory was for.
         what: &'static str,
     },
     /// The driver does not take the text of a kernel.

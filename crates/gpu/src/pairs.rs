@@ -3,7 +3,7 @@
 
 use crate::device::{Bound, Kernel};
 use crate::kernel::{Array, Frame, THREADS, pack, pack_indices, unpack};
-use crate::{Device, Dialect, Error, Language, Part, Precision, emit};
+use crate::{Device, Dialect, Error, Part, Precision, emit};
 use core::cell::RefCell;
 use meshfree::neighbors::{Block, ChunkList};
 use meshfree::particles::{Fields, Outputs};
@@ -186,10 +186,7 @@ impl PairKernel {
         (dimensions, width): (usize, usize),
         precision: Precision,
     ) -> Result<Self, Error> {
-        let dialect = Dialect {
-            language: Language::Wgsl,
-            precision,
-        };
+        let dialect = Dialect::wgsl(precision);
         let part = Part {
             kind: "sweep",
             name: name.into(),

@@ -3,7 +3,7 @@
 
 use crate::device::Kernel;
 use crate::kernel::{Array, Frame, THREADS, pack, unpack};
-use crate::{Device, Dialect, Error, Language, Part, Precision, emit};
+use crate::{Device, Dialect, Error, Part, Precision, emit};
 use meshfree::scalar::Record;
 
 const BUFFERS: [Array; 2] = [Array::numbers("given"), Array::numbers("results").written()];
@@ -47,10 +47,7 @@ impl PointKernel {
         record: &Record,
         precision: Precision,
     ) -> Result<Self, Error> {
-        let dialect = Dialect {
-            language: Language::Wgsl,
-            precision,
-        };
+        let dialect = Dialect::wgsl(precision);
         let part = Part {
             kind: "record",
             name: name.into(),

@@ -3,7 +3,7 @@
 
 use crate::device::Bound;
 use crate::kernel::{Array, Frame, unpack};
-use crate::{Device, Dialect, Error, Language, PairKernel, PairLists, Part, Shared, emit};
+use crate::{Device, Dialect, Error, PairKernel, PairLists, Part, Shared, emit};
 use meshfree::particles::{Field, Output};
 use meshfree::scalar::Record;
 
@@ -116,10 +116,7 @@ impl<'a> Resident<'a> {
                 });
             }
         }
-        let dialect = Dialect {
-            language: Language::Wgsl,
-            precision: self.kernel.precision,
-        };
+        let dialect = Dialect::wgsl(self.kernel.precision);
         // All is read before anything is written.
         let mut body = String::new();
         for (k, own) in given.iter().enumerate() {
