@@ -70,6 +70,7 @@ mod pressure_difference;
 mod program;
 mod programmed_burn;
 mod radial_return;
+mod rates;
 #[cfg(any(test, feature = "devices"))]
 mod recorded;
 mod renormalised_hypoelastic;

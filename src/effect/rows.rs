@@ -1,12 +1,10 @@
-//! Laws, rates and limits of points as objects: loops over rows of a chunk, the same for all of them.
+//! Laws of points as objects: loops over rows of a chunk, the same for all of them.
 //! Numbers of a row are loaded and stored here, so that a law compiles to its own arithmetic alone.
 
 use super::access::Access;
-use super::point::{AtWall, CONSTANTS, OfLaw, OfLimit, OfRate};
+use super::point::{AtWall, CONSTANTS, OfLaw};
 use super::shifting::PLACE;
-use super::{
-    Around, Chunk, Law, Limit, Point, PointLaw, PointLimit, PointRate, Rate, Rung, Tally, View,
-};
+use super::{Around, Chunk, Law, Point, PointLaw, Rung, Tally};
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, MOST_LANES, Real};
 use crate::sweep::{Results, add_compensated};
@@ -15,17 +13,17 @@ use crate::term::{MOST_READS, MOST_SUMS};
 use core::ops::Range;
 
 /// Most fields and most sums of a law, rate or limit.
-const MOST: usize = 32;
+pub(super) const MOST: usize = 32;
 
 /// A number of the precision of a column as one of a law, or the other way round.
 #[inline(always)]
-fn convert<A: Real, B: Real>(value: A) -> B {
+pub(super) fn convert<A: Real, B: Real>(value: A) -> B {
     B::from_f64(value.to_f64())
 }
 
 /// The numbers of the particles at the start of a column, of `width` each; of a row that is not full the last particle is repeated.
 #[inline(always)]
-fn load<T: Real, L: Lane>(column: &[T], width: usize, numbers: &mut [L]) {
+pub(super) fn load<T: Real, L: Lane>(column: &[T], width: usize, numbers: &mut [L]) {
     let Some(row) = column.get(..L::WIDTH * width) else {
         let last = column.len() / width - 1;
         for (k, number) in numbers[..width].iter_mut().enumerate() {
@@ -54,7 +52,7 @@ fn strided<T: Real, L: Lane, const N: usize>(row: &[T], numbers: &mut [L]) {
 
 /// The sums of a list of the particles from `slot` on.
 #[inline(never)]
-fn load_sums<T: Real, L: Lane, const D: usize>(
+pub(super) fn load_sums<T: Real, L: Lane, const D: usize>(
     results: &Results<T, D>,
     list: &[(Output, usize)],
     slot: usize,
@@ -77,7 +75,7 @@ fn load_sums<T: Real, L: Lane, const D: usize>(
 }
 
 /// Where each sum of those that are used stands among the numbers of a row that has room for all of a set.
-fn places_of_sums<const D: usize>(
+pub(super) fn places_of_sums<const D: usize>(
     sums: Outputs,
     used: Outputs,
 ) -> ([(Output, usize); MOST], usize) {
@@ -356,7 +354,7 @@ fn store<T: Real, L: Lane>(numbers: &[L], column: &mut [T]) {
 }
 
 /// Fails to compile where what is declared has no room.
-const fn assert_few<const D: usize>(fields: Fields, sums: Outputs) {
+pub(super) const fn assert_few<const D: usize>(fields: Fields, sums: Outputs) {
     assert!(
         fields.width(D) <= MOST_READS && fields.width(1) <= MOST,
         "a law, rate or limit of points declares more numbers than `meshfree::term::MOST_READS`, or more than 32 fields"
@@ -365,162 +363,4 @@ const fn assert_few<const D: usize>(fields: Fields, sums: Outputs) {
         sums.width(D) <= MOST_SUMS && sums.width(1) <= MOST,
         "a law, rate or limit of points declares more sums than `meshfree::term::MOST_SUMS` numbers, or more than 32"
     );
-}
-
-impl<T: Real, const D: usize, A: PointRate<D>> Rate<T, D> for A {
-    fn reads(&self) -> Fields {
-        A::READS
-    }
-    fn sums(&self) -> Outputs {
-        A::SUMS
-    }
-    fn optional(&self) -> Fields {
-        A::OPTIONAL
-    }
-    fn growth(&self, at: &View<'_, T, D>, first: usize, present: &[T], growth: &mut [T]) {
-        if A::GROWTH {
-            rates::<T, T::Wide<false>, A, D>(self, at, first, present, growth, 1);
-        }
-    }
-    fn source(&self, at: &View<'_, T, D>, first: usize, source: &mut [T]) {
-        if !A::GROWTH {
-            let width = at.access.components::<D>();
-            rates::<T, T::Wide<false>, A, D>(self, at, first, &[], source, width);
-        }
-    }
-    #[cfg(any(test, feature = "devices"))]
-    fn record(&self, view: &View<'_, T, D>) -> Option<super::PointRecord> {
-        Some(super::recorded::rate(self, view))
-    }
-}
-
-/// Columns that are read from a slot on, with where their numbers stand, and sums.
-struct Given<'a, T: Real, const D: usize> {
-    columns: [(&'a [T], usize, usize); MOST],
-    count: usize,
-    there: Fields,
-    list: [(Output, usize); MOST],
-    sums_count: usize,
-}
-
-impl<'a, T: Real, const D: usize> Given<'a, T, D> {
-    fn new(at: &View<'a, T, D>, reads: Fields, sums: Outputs) -> Self {
-        let (list, sums_count) = places_of_sums::<D>(sums, sums);
-        let mut columns = [([].as_slice(), 1, 0); MOST];
-        let (mut count, mut there) = (0, Fields::NONE);
-        for field in reads.iter() {
-            let column = at.columns.raw(field);
-            if !column.is_empty() {
-                columns[count] = (column, field.components(D), reads.offset(field, D));
-                count += 1;
-                there = there.union(Fields::of(&[field]));
-            }
-        }
-        Self {
-            columns,
-            count,
-            there,
-            list,
-            sums_count,
-        }
-    }
-    /// The numbers of the row that starts with a slot.
-    #[inline(never)]
-    fn load<L: Lane>(
-        &self,
-        around: &Around<'_, T, D>,
-        slot: usize,
-        (numbers, sums): (&mut [L; MOST_READS], &mut [L; MOST_SUMS]),
-    ) {
-        for &(column, width, start) in &self.columns[..self.count] {
-            load(&column[slot * width..], width, &mut numbers[start..]);
-        }
-        load_sums(around.sums, &self.list[..self.sums_count], slot, sums);
-    }
-}
-
-/// A rate over particles from slot `first` on, row by row.
-fn rates<T: Real, L: Lane, A: PointRate<D>, const D: usize>(
-    rate: &A,
-    at: &View<'_, T, D>,
-    first: usize,
-    present: &[T],
-    values: &mut [T],
-    width: usize,
-) {
-    const { assert_few::<D>(A::READS, A::SUMS) }
-    let mut constants = [0.0; CONSTANTS];
-    if !PointRate::prepare(rate, &at.around, &mut constants) {
-        return;
-    }
-    let constants = constants.map(L::of);
-    let given = Given::new(at, A::READS, A::SUMS);
-    let (mut numbers, mut sums) = ([L::zero(); MOST_READS], [L::zero(); MOST_SUMS]);
-    let wall = AtWall::none();
-    for (n, values) in values.chunks_mut(L::WIDTH * width).enumerate() {
-        let start = n * L::WIDTH;
-        given.load(&at.around, first + start, (&mut numbers, &mut sums));
-        let mut before = [L::zero()];
-        if A::GROWTH {
-            load(&present[start..], 1, &mut before);
-        }
-        let mut own = [L::zero(); 9];
-        let point = Point::<L, D, OfRate<T, A, D>> {
-            numbers: &mut numbers,
-            sums: &sums,
-            there: &given.there,
-            access: &at.access,
-            limited: None,
-            change: None,
-            dt: L::of(at.around.dt),
-            constants,
-            displacement: [L::zero(); D],
-            wall: &wall,
-            around: &at.around,
-        };
-        rate.point(&point, before[0], &mut own[..width]);
-        for (e, values) in values.chunks_exact_mut(width).enumerate() {
-            for (k, value) in values.iter_mut().enumerate() {
-                *value += convert(own[k].extract(e));
-            }
-        }
-    }
-}
-
-impl<T: Real, const D: usize, A: PointLimit<D>> Limit<T, D> for A {
-    fn name(&self) -> &'static str {
-        A::NAME
-    }
-    fn reads(&self) -> Fields {
-        A::READS
-    }
-    fn sums(&self) -> Outputs {
-        A::SUMS
-    }
-    fn step(&self, at: &View<'_, T, D>, slot: usize) -> f64 {
-        const { assert_few::<D>(A::READS, A::SUMS) }
-        let given = Given::new(at, A::READS, A::SUMS);
-        let (mut numbers, mut sums) = ([0.0; MOST_READS], [0.0; MOST_SUMS]);
-        given.load(&at.around, slot, (&mut numbers, &mut sums));
-        PointLimit::step(
-            self,
-            &Point::<f64, D, OfLimit<T, A, D>> {
-                numbers: &mut numbers,
-                sums: &sums,
-                there: &given.there,
-                access: &at.access,
-                limited: None,
-                change: None,
-                dt: at.around.dt,
-                constants: [0.0; CONSTANTS],
-                displacement: [0.0; D],
-                wall: &AtWall::none(),
-                around: &at.around,
-            },
-        )
-    }
-    #[cfg(any(test, feature = "devices"))]
-    fn record(&self, view: &View<'_, T, D>) -> Option<super::PointRecord> {
-        Some(super::recorded::limit(self, view))
-    }
 }

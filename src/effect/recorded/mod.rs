@@ -225,7 +225,7 @@ pub(super) fn by_sum<T: Real, const D: usize>(rate: &BySum) -> PointRecord {
 }
 
 /// Everything that an effect does to single particles in a scheme of a density form, with the Wendland kernel at h = 1.3 dx, recorded for
-/// a material; what acts on a wall is recorded as there. Particles carry `more` beside what the effect itself names.
+/// a material; what acts on a wall is recorded as there. Particles have the fields `more` in addition to those that the effect names.
 ///
 /// ```
 /// use meshfree::effect::{Cavitation, DensityForm, point_records};
