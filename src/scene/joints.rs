@@ -187,7 +187,14 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 .cmp(&b.names)
                 .then(a.joint.name().cmp(b.joint.name()));
             names.then_with(|| {
-                let [a, b] = [a, b].map(|own| own.geometry.numbers());
+                let [a, b] = [a, b].map(|own| {
+                    let Joint {
+                        stiffness, damping, ..
+                    } = *own.joint;
+                    let mut all = own.geometry.numbers();
+                    all.extend([stiffness, damping, own.rest]);
+                    all
+                });
                 let mut pairs = a.iter().zip(&b).map(|(a, b)| a.total_cmp(b));
                 pairs
                     .find(|own| own.is_ne())

@@ -2,10 +2,10 @@
 //! What is left for impulses is in `joints`.
 
 use super::forces::Forces;
-use super::held::Rigid;
 use super::joint_rows::Frame;
 use super::joint_system::{Line, Mover, factored, matrix, solve, with};
 use super::joints::{Jointing, finite_motor};
+use super::rigid::Rigid;
 use super::run_state::State;
 use crate::coupling::{Joint, Motor};
 use crate::error::Result;
@@ -18,6 +18,7 @@ type V = Vector3<f64>;
 const STEP: f64 = 0.1;
 /// What limits such a step, in reports.
 pub(super) const LIMIT: &str = "springs and dampers of joints: 0.1/(sqrt(k/m) + c/m)";
+
 impl<T: Real, const D: usize> State<T, D> {
     /// Adds what springs, dampers and motors do at `time` \[s\] to the forces of an evaluation.
     pub(super) fn add_forces_of_joints(&mut self, time: f64) -> Result<()> {

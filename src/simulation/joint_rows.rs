@@ -265,7 +265,8 @@ mod tests {
             Joint::distance(at, other),
             Joint::spring(at, other, 1.0),
         ];
-        let start = moved(0.0);
+        let (start, step) = (moved(0.0), 1e-5);
+        let [before, after] = [moved(-step), moved(step)];
         for joint in joints {
             let own = Geometry::new(&joint, [&start[0], &start[1]], &[0.0; 3]);
             let rows = |by: f64| {
@@ -275,17 +276,14 @@ mod tests {
                 all.extend(own.coordinate(&joint.kind, frames));
                 all
             };
-            // The exact ones hold where g is zero, as the angle of a hinge whose axes have parted does not.
-            let (by, step) = (0.0, 1e-5);
-            let (low, high, here) = (rows(by - step), rows(by + step), moved(by));
-            let [before, after] = [moved(by - step), moved(by + step)];
+            // Rates are exact where constraints hold, as they do as built.
+            let (low, high) = (rows(-step), rows(step));
             let v = |side: usize| (after[side].centre - before[side].centre) / (2.0 * step);
             let w = |side: usize| {
                 let turned = after[side].turn * before[side].turn.inverse();
                 turned.scaled_axis() / (2.0 * step)
             };
-            let _ = here;
-            for (k, row) in rows(by).iter().enumerate() {
+            for (k, row) in rows(0.0).iter().enumerate() {
                 let found = (high[k].value - low[k].value) / (2.0 * step);
                 let rate = row.linear.dot(&(v(0) - v(1))) + row.angular[0].dot(&w(0))
                     - row.angular[1].dot(&w(1));

@@ -1,8 +1,8 @@
 //! The linear system of joints: bodies that move, rows of constraints between them, and its direct solution.
 //! Small and dense: multipliers follow exactly, so there is no tolerance that a run depends on.
 
-use super::held::Rigid;
 use super::joint_rows::{Frame, Row};
+use super::rigid::Rigid;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Vector3};
 
 type V = Vector3<f64>;

@@ -386,7 +386,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                     state.joints.all[lines[line].joint].described(),
                     line
                 );
-                let remedy = "leave it out, or take one that holds less: a ball or a distance for a second hinge on one axis, and                               nothing between bodies that are clamped";
+                let remedy = "leave it out, or take one that holds less: a ball or a distance for a second hinge on one axis, and \
+                              nothing between bodies that are clamped";
                 let problems = vec![Problem::Incompatible { what, remedy }];
                 Err(Error::Build(BuildError { problems }))
             }

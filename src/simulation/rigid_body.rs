@@ -1,13 +1,13 @@
 //! Readings of rigid bodies and joints: how each stands and moves, its inertia, and what acts on it.
 //! All follow from the state.
 
+use super::Simulation;
 use super::group::Group;
-use super::held::Rigid;
 use super::joint_rows::Frame;
 use super::joints::Jointing;
+use super::rigid::{Rigid, lowered};
 use super::spin::raised;
 use super::which::{Which, find};
-use super::{Simulation, held::lowered};
 use crate::error::Result;
 use crate::origin::global;
 use crate::particles::Output;

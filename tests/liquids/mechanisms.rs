@@ -59,7 +59,7 @@ fn a_hinged_flap_floats_upright() {
     );
     assert!(most > 0.08, "{most}");
     assert!(angle.abs() < 0.03, "{angle}");
-    assert_relative_eq!(held, lift, max_relative = 0.05);
+    assert_relative_eq!(held, lift, max_relative = 0.01);
     assert!(
         end.joint_work.abs() < 0.01 * flap,
         "{:e} of {flap:e}",

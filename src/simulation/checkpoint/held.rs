@@ -3,7 +3,8 @@
 
 use super::change::{Change, Changes};
 use crate::output::checkpoint::{Checkpoint, Read};
-use crate::simulation::held::{Clamp, Held, Rigid};
+use crate::simulation::held::{Clamp, Held};
+use crate::simulation::rigid::Rigid;
 use nalgebra::{Quaternion, UnitQuaternion};
 
 pub(super) fn put_held<const D: usize>(held: &Held<D>, name: &str, file: &mut Checkpoint) {

@@ -5,7 +5,7 @@ use crate::output::checkpoint::{Checkpoint, Read};
 use crate::simulation::joints::{Jointing, Joints};
 use nalgebra::Vector3;
 
-/// Numbers of a joint beside its impulse.
+/// Numbers of a joint, without its impulse and its multipliers.
 const NUMBERS: usize = 14;
 
 impl<const D: usize> Joints<D> {
