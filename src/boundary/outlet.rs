@@ -94,6 +94,8 @@ impl<const D: usize> Outlet<D> {
     /// the plane by as much. A given pressure is that of the whole buffer. Where the pressure falls along the flow, as in
     /// liquid that is accelerated, the inner face has it to the fall over four spacings.
     ///
+    /// Buffers of two outlets may not share liquid: a run in which they do ends with an error.
+    ///
     /// Energy and momentum that the buffer gives are in no column of the ledger. Liquid leaves; where it flows back for long
     /// the buffer empties, and with it the end becomes a free surface.
     ///

@@ -193,6 +193,11 @@ impl<T: Real, const D: usize> Group<T, D> {
         let cells = Cells::build(x, &inside, 0.5 * reach);
         let mut found = Vec::with_capacity(within.len());
         for &slot in &within {
+            let holds = |other: &Zone<'_, D>| other.beyond(&x[slot]) >= 0.0;
+            if outlets.iter().filter_map(Zone::of).filter(holds).count() > 1 {
+                let must_be = "a particle is in the buffers of two outlets, which may not overlap: move one, or make it less deep";
+                return Err(refused("state", f64::NAN, must_be));
+            }
             let at = x[slot].map(Real::to_f64);
             let place = OpenPlace {
                 position: global(&at, &self.particles.origin),
