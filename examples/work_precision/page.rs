@@ -94,9 +94,9 @@ impl Page {
             some => format!(" {some} problems failed, as their sections say."),
         };
         let text = format!(
-            "{HEAD}\n{RECOMMENDED}\n{}{}\n{}\nThe runs took {:.0} s. Of {all} finest runs the laws through the coarser ones foretold the \
-             error of {errors} within 25 % and refused that of {no_errors}; {held} were within intervals of 90 %. The price of \
-             the coarser ones foretold the time of {times} within 15 % and refused that of {no_times}.{failed}\n\n{CHOSEN}\n{}{}",
+            "{HEAD}\n{RECOMMENDED}\n{}{}\n{}\nThe runs took {:.0} s. Fits to the coarser runs predicted the error of the finest within 25 % in {errors} of \
+             {all} cases; {no_errors} fits were rejected, and {held} errors were within their intervals of 90 %. Times were predicted within 15 % in \
+             {times} cases, and {no_times} were not predicted.{failed}\n\n{CHOSEN}\n{}{}",
             self.recommended.markdown(),
             self.failures,
             grid(&self.pictures),

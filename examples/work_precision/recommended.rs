@@ -34,9 +34,9 @@ pub fn table() -> Table {
     Table::new([
         "problem",
         "advice",
-        "its time over the least for that error",
-        "pairs over the least",
-        "error foretold over found (90 %)",
+        "time over the cheapest",
+        "pairs over the cheapest",
+        "error predicted over measured (90 %)",
     ])
 }
 
@@ -69,7 +69,7 @@ pub fn add(table: &mut Table, key: &str, title: &str, report: &Report) {
             let [value, low, high] = [by_law.value, by_law.low, by_law.high].map(|x| x / measured);
             format!("{value:.2} ({low:.2} to {high:.2})")
         }
-        (Err(why), _) => format!("refused: {why}"),
+        (Err(why), _) => format!("rejected: {why}"),
     });
     let (seconds, pairs) = (row.seconds, row.work.pairs as f64);
     table.row([

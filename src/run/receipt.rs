@@ -1,4 +1,5 @@
-//! The receipt of a run: what was run, on what, what it was to cost and has cost, how good it is, and the hash of its bits.
+//! The receipt of a run, in JSON: scene and machine, predicted and actual cost, error indicators, ledger.
+//! It ends with a hash of the bits, by which two runs compare.
 
 use super::Summary;
 use crate::error::Error;
@@ -170,6 +171,7 @@ impl<T: Real, const D: usize> Receipt<'_, T, D> {
             ("bodies", json_object(bodies)),
             ("boundary_impulse_kg_m_s", numbers(&ledger.boundary_impulse)),
             ("law_impulse_kg_m_s", numbers(&ledger.law_impulse)),
+            ("joint_impulse_kg_m_s", numbers(&ledger.joint_impulse)),
         ])
     }
 }

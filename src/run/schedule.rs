@@ -224,7 +224,7 @@ enum Pending {
     End,
 }
 
-/// Where a run is when observers are asked for.
+/// Where a run is when observers are shown it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Moment {
     Begin,
@@ -281,7 +281,7 @@ impl Clock {
         }
     }
 
-    /// The next time \[s\] that is asked for.
+    /// The next time \[s\] of the schedule.
     pub fn next(&self) -> f64 {
         let times = self.rules.iter().map(|rule| match rule {
             Pending::Every(dt, next) => next * dt,

@@ -11,7 +11,7 @@ use std::time::Duration;
 pub enum End {
     /// Its time was over.
     Time {
-        /// The end that was asked for \[s\].
+        /// The end that the run was given \[s\].
         end: f64,
     },
     /// A criterion held.

@@ -245,7 +245,7 @@ mod tests {
         assert!(own.order.is_none() && (own.value - 3.0).abs() < own.uncertainty);
     }
 
-    /// All signs of a scatter that is small or large beside the change of 0.12.
+    /// All signs of a scatter, from much less than the change of 0.12 to half of it.
     #[test]
     fn nine_of_ten_intervals_hold_the_limit_under_scatter() {
         let (mut held, mut all) = (0, 0);

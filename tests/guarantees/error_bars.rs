@@ -1,5 +1,5 @@
-//! Error bars on what they did not see: the result of a spacing four times as fine is in nine of ten intervals.
-//! The rods of Lam, Shen & Gong (2002) and a slice of the tank of Vesenjak & Ren.
+//! Error bars on held-out results: that of a spacing four times as fine is in nine of ten intervals.
+//! The rods of Lam, Shen & Gong (2002), and a column of water that falls.
 
 use meshfree::material::Material;
 use meshfree::material::catalogue;

@@ -1,4 +1,4 @@
-//! A picture as one page of pixels: title above, axes or the directions of them, the bar of colours beside.
+//! A picture as one page of pixels: title above, axes or the directions of them, the bar of colours to the right.
 //! All frames of a film have the same size and the picture at the same place in it, whatever is in them.
 
 use super::camera::Camera;
@@ -176,7 +176,7 @@ impl Picture {
         );
     }
 
-    /// Where x, y and z are, from a point beside the picture.
+    /// Where x, y and z are, from a point to the left of the picture.
     fn directions(&self, page: &mut Page, camera: &Camera, [left, bottom]: [usize; 2]) {
         let long = 3.0 * ((HEIGHT + 4) * page.size) as f64;
         let from = [0.5 * left as f64, bottom as f64 - 0.5 * long];

@@ -275,14 +275,17 @@ impl Report {
         let [least, largest] = row.spread.map(json_number);
         format!(
             "    {{\"method\": {}, \"choices\": {{{}}}, \"spacing\": {}, \"status\": {}, \"why\": {}, \
-             \"seconds\": {}, \"spread\": [{least}, {largest}], {}, \"errors\": [{}]}}",
+             \"seconds\": {}, \"spread\": [{least}, {largest}], \"wall_seconds\": {}, {}, \"bits\": {}, \"errors\": [{}]}}",
             json_text(&row.method),
             choices.collect::<Vec<_>>().join(", "),
             json_number(row.spacing),
             json_text(how),
             json_text(why),
             json_number(row.seconds),
+            json_number(row.work.time.as_secs_f64()),
             counts.collect::<Vec<_>>().join(", "),
+            row.bits
+                .map_or("null".into(), |bits| json_text(&format!("{bits:016x}"))),
             errors.collect::<Vec<_>>().join(", ")
         )
     }

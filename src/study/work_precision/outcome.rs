@@ -10,13 +10,17 @@ use std::time::Duration;
 pub struct Outcome {
     pub(super) values: Vec<(String, Vec<f64>)>,
     pub(super) work: Work,
+    pub(super) bits: Option<u64>,
 }
 
 impl Outcome {
-    /// The work of a simulation so far, without values.
+    /// The work of a simulation so far and the hash of its bits, without values.
     #[must_use]
     pub fn of<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Self {
-        Self::from_work(simulation.work())
+        Self {
+            bits: Some(simulation.bits_hash()),
+            ..Self::from_work(simulation.work())
+        }
     }
 
     /// Work that was counted elsewhere, without values.
@@ -25,6 +29,7 @@ impl Outcome {
         Self {
             values: Vec::new(),
             work,
+            bits: None,
         }
     }
 

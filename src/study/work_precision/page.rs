@@ -1,5 +1,5 @@
 //! A page of studies for a browser: any column against any other, filters, laws, failures, and commands that repeat a run.
-//! One file that needs nothing beside it.
+//! A single file without dependencies.
 
 use super::report::Report;
 use crate::error::Result;

@@ -63,6 +63,7 @@ impl Measured {
             spread: self.spread,
             repeats: self.repeats,
             work: self.outcome.work,
+            bits: self.outcome.bits,
         }
     }
 }
@@ -84,8 +85,10 @@ pub struct Row {
     pub spread: [f64; 2],
     /// How often it ran.
     pub repeats: usize,
-    /// What was counted.
+    /// What was counted, and the time of steps on the wall.
     pub work: Work,
+    /// [`Simulation::bits_hash`](crate::simulation::Simulation::bits_hash) at the end, where the run was of a simulation.
+    pub bits: Option<u64>,
 }
 
 /// What a study found. Printed, it is a table and the fits of every quantity.
