@@ -5,6 +5,7 @@ use super::Simulation;
 use super::forces::Forces;
 use super::population::{BodyState, Particles};
 use super::rigid::Rigid;
+use super::spin::raised;
 use super::workspace::Workspace;
 use crate::boundary::{Boundary, Motion};
 use crate::collective::{Collective, over};
@@ -186,6 +187,29 @@ impl<const D: usize> Held<D> {
     pub fn driver(&self, body: usize) -> Option<usize> {
         let mut clamps = self.clamps.iter();
         clamps.position(|own| own.body == body && !own.is_free)
+    }
+
+    /// The momenta that the clamp of a rigid body, if one moves it, prescribes where the body is, at `time` \[s\].
+    pub fn driven_momenta<T: Real>(
+        &self,
+        rigid: usize,
+        particles: &Particles<T, D>,
+        time: f64,
+    ) -> Option<[Vector3<f64>; 2]> {
+        let rigid = &self.rigid[rigid];
+        let clamp = &self.clamps[self.driver(rigid.body)?];
+        let pose = clamp.motion.as_ref().map(|motion| motion.pose(time));
+        let masses = particles.columns.raw(Field::MASS);
+        let sums: [[f64; 3]; 2] = over(0..clamp.particles.len(), |k| {
+            let (id, rest) = &clamp.particles[k];
+            let v = pose.as_ref().map_or([0.0; D], |pose| pose.of(1, rest));
+            let mut slots = particles.slots_of(rigid.body, *id);
+            let mass = slots.next().map_or(0.0, |slot| masses[slot].to_f64());
+            let momentum = mass * raised(&v);
+            let place = rigid.turn * rigid.places[*id as usize];
+            [momentum.into(), place.cross(&momentum).into()]
+        });
+        Some(sums.map(Vector3::from))
     }
 
     /// Lets the clamp that moves a rigid body take an impulse and its moment on it, at its velocity and spin.

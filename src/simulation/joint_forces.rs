@@ -129,6 +129,7 @@ impl<T: Real, const D: usize> State<T, D> {
                 own.motion_with([p + 0.5 * dt * force, l + 0.5 * dt * moment])
             })
             .collect();
+        let motions = self.as_clamped(&bodies, &movers, self.evaluated, motions);
         let driven: Vec<bool> = movers.iter().map(|own| own.driven).collect();
         drop(movers);
         for (line, force, holds) in &acting {

@@ -207,21 +207,45 @@ impl<T: Real, const D: usize> State<T, D> {
         bodies.iter().map(of).collect()
     }
 
-    /// Gives bodies the impulses of some lines, and joints and clamps what these did, if it counts.
-    fn give(&mut self, bodies: &[[usize; 2]], lines: &[Line], impulses: &[f64], counts: bool) {
+    /// The same motions with those that clamps prescribe at `time` \[s\]. Work is booked with them: between kicks a clamped body has
+    /// the velocity of another time than that of its place, and what that makes of the work of a constraint does not cancel.
+    pub(super) fn as_clamped(
+        &self,
+        bodies: &[[usize; 2]],
+        movers: &[Mover<'_, D>],
+        time: f64,
+        mut motions: Vec<[V; 2]>,
+    ) -> Vec<[V; 2]> {
+        for ((&[group, number], mover), motion) in bodies.iter().zip(movers).zip(&mut motions) {
+            let group = &self.groups[group];
+            let momenta = group.held.driven_momenta(number, &group.particles, time);
+            if let Some(momenta) = momenta {
+                *motion = mover.motion_with(momenta);
+            }
+        }
+        motions
+    }
+
+    /// Gives bodies the impulses of some lines where they are at `time` \[s\], and joints and clamps what these did, if it counts.
+    fn give(
+        &mut self,
+        bodies: &[[usize; 2]],
+        lines: &[Line],
+        impulses: &[f64],
+        (time, counts): (f64, bool),
+    ) {
         let movers = self.movers(bodies);
         let given = with(lines, impulses, movers.len());
-        let before: Vec<_> = movers.iter().map(Mover::motion).collect();
+        let before = movers.iter().map(Mover::motion).collect();
+        let before = self.as_clamped(bodies, &movers, time, before);
         let momenta: Vec<_> = movers
             .iter()
             .zip(&given)
             .map(|(own, given)| own.pushed(*given))
             .collect();
-        let after: Vec<_> = movers
-            .iter()
-            .zip(&momenta)
-            .map(|(own, momenta)| own.motion_with(*momenta))
-            .collect();
+        let after = movers.iter().zip(&momenta);
+        let after = after.map(|(own, momenta)| own.motion_with(*momenta));
+        let after = self.as_clamped(bodies, &movers, time, after.collect());
         let driven: Vec<bool> = movers.iter().map(|own| own.driven).collect();
         let arms: Vec<V> = lines
             .iter()
@@ -284,7 +308,7 @@ impl<T: Real, const D: usize> State<T, D> {
                 }
             })?;
         let values = self.joints.coordinates(&bodies, &then);
-        self.give(&bodies, &lines, &impulses, true);
+        self.give(&bodies, &lines, &impulses, (begin, true));
         for line in values {
             let own = &mut self.joints.all[line.joint];
             own.value = own.unwound(line.row.value);
@@ -309,7 +333,7 @@ impl<T: Real, const D: usize> State<T, D> {
         let motions: Vec<_> = movers.iter().map(Mover::motion).collect();
         let missing = lines.iter().map(|line| line.drive - line.rate(&motions));
         let impulses = solve(&factor, missing.collect());
-        self.give(&bodies, &lines, &impulses, counts);
+        self.give(&bodies, &lines, &impulses, (time, counts));
     }
 
     /// Refuses to go on where joints could not be held.

@@ -341,6 +341,12 @@ fn open_boundaries_that_make_no_sense() {
         solid.outlet(plane().buffer(0.4, GivenPressure::of(1.0))),
         &["an outlet has a buffer", "take a scheme of liquids"],
     );
+    // Two buffers that share liquid.
+    let other = Outlet::plane([0.0; 2], [-1.0, 0.0]).buffer(0.7, GivenPressure::of(2.0));
+    let twice = out(plane().buffer(0.4, GivenPressure::of(1.0))).outlet(other);
+    let error = twice.build().and_then(|mut flow| flow.run_until(0.1));
+    let error = error.unwrap_err().to_string();
+    assert!(error.contains("buffers of two outlets"), "{error}");
     // What only shows during the run.
     let wrong = |outlet: Outlet<2>, part: &str| {
         let ran = out(outlet).build().and_then(|mut flow| flow.run_until(0.1));
