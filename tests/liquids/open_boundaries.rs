@@ -145,26 +145,28 @@ fn mean(scene: Scene<f64, 2>, length: f64, [from, to]: [f64; 2]) -> Mean {
     }
 }
 
-/// Velocity, pressure drop and the pressure at the end of a channel are Poiseuille's; `off` is how far the drop may be, over itself.
-fn develops(across: u32, length: f64, from: Filled, times: [f64; 2], off: f64) {
+/// Velocity, pressure drop and the pressure at the end of a channel are Poiseuille's. In a shorter one the profile still changes
+/// between the particles of the inlet and those of the liquid, and momentum takes its part of the drop.
+fn develops(across: u32) {
+    let (length, times) = (4.0, [4.0, 8.0]);
     let reserve = (1.2 * times[1] * f64::from(across * across)) as usize;
-    let scene = channel(across, length, (from, reserve)).outlet(open(across, length));
+    let scene = channel(across, length, (Filled::Parabola, reserve)).outlet(open(across, length));
     let found = mean(scene, length, times);
-    println!("{across} across, {length} m long, {times:?} s: {found:?}");
+    println!("{across} across: {found:?}");
     assert_relative_eq!(found.fastest, 1.5, max_relative = 0.01);
-    assert_relative_eq!(found.slope, 12.0 * VISCOSITY, max_relative = off);
+    assert_relative_eq!(found.slope, 12.0 * VISCOSITY, max_relative = 0.01);
     assert_relative_eq!(found.at_end, PRESSURE, max_relative = 0.01);
 }
 
 #[test]
 fn a_channel_with_a_pressure_at_its_end_flows_as_poiseuille_says() {
-    develops(20, 2.0, Filled::Parabola, [2.0, 4.0], 0.04);
+    develops(20);
 }
 
 #[test]
-#[ignore = "takes five minutes"]
+#[ignore = "takes three minutes"]
 fn a_channel_of_forty_particles_across_develops() {
-    develops(40, 3.0, Filled::Plug, [9.0, 12.0], 0.01);
+    develops(40);
 }
 
 /// The control: without a buffer the end is a free surface. Its pressure is zero whatever is wanted.
