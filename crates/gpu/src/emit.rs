@@ -321,7 +321,6 @@ pub fn emit(record: &Record, dialect: Dialect, input: &dyn Fn(usize) -> (String,
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Language;
 
     fn text(record: &Record) -> Text {
         let dialect = Dialect::wgsl(Precision::Double);
