@@ -44,7 +44,7 @@ fn strike(interaction: Interaction) -> f64 {
 #[test]
 fn a_contact_opens_and_does_not_pull() {
     Row {
-        case: "chattering rods, 50:200",
+        case: "rods in repeated contact, 50:200",
         criterion: "largest pull over ρ c v/2; control: bonded",
         value: strike(Interaction::Unilateral),
         control: strike(Interaction::Bonded),

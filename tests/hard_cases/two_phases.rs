@@ -212,7 +212,7 @@ fn a_bubble_of_air_rises_in_one_piece() {
     let [value, control] = [phases(0.02), one_phase()].map(bubble);
     Row {
         case: "rising bubble, 1000:1, 10 a radius, 2.5 √(R/g)",
-        criterion: "particles astray in the other; two phases, control: the liquid without",
+        criterion: "particles inside the other; two phases, control: the liquid without",
         value,
         control,
     }
