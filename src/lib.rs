@@ -226,6 +226,11 @@
 //! | [output in time](https://github.com/meshfree/meshfree/blob/main/docs/how_to_output.md) | observers by schedule, criteria that end a run, receipts |
 //! | [ParaView and films](https://github.com/meshfree/meshfree/blob/main/docs/how_to_paraview.md) | particle files and films, and how to look at them |
 //! | [stop and go on](https://github.com/meshfree/meshfree/blob/main/docs/how_to_restart.md) | checkpoints and restarts |
+//! | [paddles, gauges and sponges](https://github.com/meshfree/meshfree/blob/main/docs/how_to_waves.md) | wave makers from rows of time, gauges, absorbing layers |
+//! | [shapes from STL files](https://github.com/meshfree/meshfree/blob/main/docs/how_to_stl.md) | bodies and tanks from triangle meshes |
+//! | [loads and coupling](https://github.com/meshfree/meshfree/blob/main/docs/how_to_coupling.md) | loads, columns without copies, neighbours, forces for another code |
+//! | [troubleshooting](https://github.com/meshfree/meshfree/blob/main/docs/how_to_troubleshoot.md) | error messages and symptoms, with cause and remedy |
+//! | [units and other codes](https://github.com/meshfree/meshfree/blob/main/docs/how_to_units_and_other_codes.md) | SI, and the terms of LS-DYNA, DualSPHysics and PySPH |
 //! | [gallery](https://github.com/meshfree/meshfree/blob/main/docs/gallery.md) | a picture of each example |
 //! | [theory](https://github.com/meshfree/meshfree/blob/main/docs/theory.md) | what is solved |
 //! | [extending](https://github.com/meshfree/meshfree/blob/main/docs/extending.md) | a kernel, law, boundary, integrator or effect of your own |
@@ -313,6 +318,12 @@ mod pages {
     pub struct ParaView;
     #[doc = include_str!("../docs/how_to_restart.md")]
     pub struct Restart;
+    #[doc = include_str!("../docs/how_to_waves.md")]
+    pub struct Waves;
+    #[doc = include_str!("../docs/how_to_stl.md")]
+    pub struct Stl;
+    #[doc = include_str!("../docs/how_to_coupling.md")]
+    pub struct CouplingToOthers;
     #[doc = include_str!("../docs/extending.md")]
     pub struct Extending;
 }
