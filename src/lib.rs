@@ -166,7 +166,7 @@
 //! # Accuracy and cost
 //!
 //! What an error costs is measured on seventeen problems with known answers on the page [accuracy and cost](crate#pages), for each scheme that
-//! suits them, and on a problem of one's own by [`study::work_precision`]. In short:
+//! suits them, and on a problem of your own by [`study::work_precision`]. In short:
 //!
 //! - Errors fall with the power 0.8 to 1 of the spacing where fronts, contacts or free surfaces are, at first order in smooth flow
 //!   with an artificial viscosity, and at second in total-Lagrangian bending.
@@ -188,10 +188,10 @@
 //!
 //! | trait | example | what it asks for |
 //! |---|---|---|
-//! | [`Kernel`](kernel::Kernel) | [in `kernel`](kernel#a-kernel-of-ones-own) | shape, slope, normalisation |
-//! | [`EquationOfState`](material::eos::EquationOfState) | [in `eos`](material::eos#a-law-of-ones-own) | pressure and sound speed |
-//! | [`ViscosityLaw`](material::rheology::ViscosityLaw) | [in `rheology`](material::rheology#a-law-of-ones-own) | viscosity for a shear rate |
-//! | [`ArtificialViscosity`](term::viscosity::ArtificialViscosity) | [in `term`](term#a-viscosity-of-ones-own) | Π and the signal of a pair |
+//! | [`Kernel`](kernel::Kernel) | [in `kernel`](kernel#a-kernel-of-your-own) | shape, slope, normalisation |
+//! | [`EquationOfState`](material::eos::EquationOfState) | [in `eos`](material::eos#a-law-of-your-own) | pressure and sound speed |
+//! | [`ViscosityLaw`](material::rheology::ViscosityLaw) | [in `rheology`](material::rheology#a-law-of-your-own) | viscosity for a shear rate |
+//! | [`ArtificialViscosity`](term::viscosity::ArtificialViscosity) | [in `term`](term#a-viscosity-of-your-own) | Π and the signal of a pair |
 //! | [`Boundary`](boundary::Boundary) | [at the trait](boundary::Boundary) | images and their transforms |
 //! | [`Shape`](geometry::Shape) | [at the trait](geometry::Shape) | signed distance and a box around it |
 //! | [`Integrator`](integrator::Integrator) | [at the trait](integrator::Integrator) | one step, from a handful of operations |

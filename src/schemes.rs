@@ -98,7 +98,7 @@ pub fn impact_by_continuity()
         .density(DensityForm::Continuity)
 }
 
-/// Solids that bear shear and may flow: [`impact_by_continuity`] with all gradients corrected, those that compress, those
+/// Solids that carry shear and may flow: [`impact_by_continuity`] with all gradients corrected, those that compress, those
 /// that strain and those of the force ([`RenormalisedHypoelastic`]).
 ///
 /// A plate of ten rows swings with a period 3 % too long, where without the corrections it is 11 % too short; at h/dx 1.0 it
@@ -325,7 +325,7 @@ pub fn total_lagrangian() -> Structure<Inviscid> {
         .with(HourglassControl::default())
 }
 
-/// As [`total_lagrangian`], with the viscosity of Monaghan and Gingold, α = 1, β = 2, for shocks. It bears a load of its own,
+/// As [`total_lagrangian`], with the viscosity of Monaghan and Gingold, α = 1, β = 2, for shocks. It carries a load of its own,
 /// in proportion to the spacing: where shocks are weak, as in a Taylor bar ([solids](crate#pages)), α = 0.1 is nearer.
 #[must_use]
 pub fn total_lagrangian_impact() -> Structure<MonaghanGingold> {

@@ -43,7 +43,7 @@ use std::sync::Arc;
 /// [`Motion::resolution`] is how far the spline through every other row passes the rows in between at most, over half
 /// the range of the rows. A sine with 40 rows in a period has 0.0001, with 20 rows 0.0025, with 16 rows 0.007 and with 12
 /// rows 0.03. With 12 rows the greatest acceleration is 2.3 % high, with 8 rows 5.2 %.
-/// [`Scene::advise`](crate::scene::Scene::advise) warns from 0.01 on, and calls what is off by 0.1 or more
+/// [`Scene::advise`](crate::scene::Scene::advise) warns from 0.01 on, and calls an error of 0.1 or more
 /// impossible. The estimate needs eight rows.
 pub struct Recorded<const D: usize> {
     moved: Box<dyn Motion<D>>,

@@ -1,4 +1,4 @@
-//! Liquid and structure: the structure is a wall of the liquid that moves, and bears what the liquid feels.
+//! Liquid and structure: the structure is a wall of the liquid that moves, and takes the reaction of the liquid.
 //! After Antoci, Gallati & Sibilla 2007, with the wall pressure of Adami, Hu & Adams 2012.
 
 use super::{CoupledParticle, Coupling};

@@ -3,11 +3,11 @@
 //!
 //! | coupling | what the second body is to the first | use it for |
 //! |---|---|---|
-//! | [`LiquidStructure`] | a wall that moves, and bears what the liquid feels | liquid and structure; the default between them |
+//! | [`LiquidStructure`] | a wall that moves, and takes the reaction of the liquid | liquid and structure; the default between them |
 //! | [`ContactDensity`] | what presses, by kernel sums across the contact | contact of solids, sliding, self-contact |
 //! | [`Penalty`] | what presses, by springs between near particles | contact of thin bodies, of single layers |
 //! | [`Tied`] | what it is tied to, by springs between what is near as built | bodies of unlike schemes that never part |
-//! | a [`Coupling`] of one's own | a wall, or a pair force | |
+//! | a [`Coupling`] of your own | a wall, or a pair force | |
 //! | a [`Joint`] | what a rigid body is hinged to, slides along or is driven by | mechanisms of rigid bodies |
 //!
 //! A coupling acts in one of two ways, or in both:
@@ -187,7 +187,7 @@ fn link<T: Real, const D: usize>(stiffness: T, spacing: T) -> T {
 
 /// How two bodies act on each other.
 ///
-/// A penalty force, as one's own coupling:
+/// A penalty force, as your own coupling:
 ///
 /// ```
 /// use meshfree::coupling::{CoupledParticle, Coupling};
@@ -286,7 +286,7 @@ pub trait Coupling<T: Real, const D: usize>: Debug + Send + Sync {
     fn as_built(&self) -> bool {
         false
     }
-    /// The largest step \[s\] that a pair within reach bears.
+    /// The largest stable step \[s\] of a pair within reach.
     fn step(&self, _on: &CoupledParticle<T, D>, _from: &CoupledParticle<T, D>) -> f64 {
         f64::INFINITY
     }

@@ -11,7 +11,7 @@ use crate::term::TermDoc;
 /// F = −k (r − L) r/|r|,  k = M s^(D−2)/D
 ///
 /// with M \[Pa\] the harmonic mean of the ρc² of both bodies and s \[m\] their mean spacing. The reach takes the neighbours
-/// along the faces of a cube with it, whose springs stand askew and bear shear; two lattices that stand face to face
+/// along the faces of a cube with it, whose springs stand askew and carry shear; two lattices that stand face to face
 /// are then tied as stiffly as a spacing of material, so waves go through. There is no limit of tension. The forces are
 /// central: linear and angular momentum stay, and what is tied may turn.
 ///

@@ -79,7 +79,7 @@ impl<const D: usize> PointLaw<D> for KeptDivergence {
     }
 }
 
-/// p ← p − λ ρ c h ∇·v, but no suction beyond what the material bears.
+/// p ← p − λ ρ c h ∇·v, but no suction beyond what the material supports.
 impl<const D: usize> PointLaw<D> for AcousticDamping {
     const NAME: &'static str = "acoustic damping";
     const READS: Fields = Fields::of(&[

@@ -1,5 +1,5 @@
 //! Artificial pressure: a repulsion of near particles where a liquid is in tension, so that it does not clump.
-//! The cure of the tensile instability by Monaghan 2000, for liquids.
+//! The remedy of the tensile instability by Monaghan 2000, for liquids.
 
 use super::{Effect, Setting, StepProgram, not_negative};
 use crate::particles::{Field, Fields, Output, Outputs};

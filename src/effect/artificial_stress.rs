@@ -1,5 +1,5 @@
 //! Artificial stress: a repulsion along directions of tension, so that particles of a stretched solid do not clump.
-//! The cure of the tensile instability by Monaghan 2000 and Gray, Monaghan & Swift 2001.
+//! The remedy of the tensile instability by Monaghan 2000 and Gray, Monaghan & Swift 2001.
 
 use super::{Effect, Hypoelastic, Point, PointLaw, Reach, Setting, StepProgram, not_negative};
 use crate::error::Problem;
@@ -18,7 +18,7 @@ use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 /// spacing Δx, and f⁴ leaves little of it at two. The paper has σ/ρ² and masses, here are the volumes V and
 /// first moments s of the other forces of the scheme; for equal particles the two agree.
 ///
-/// A stretched lattice bears less than its stress by what R takes at its nearest neighbours: some ε times the tension,
+/// A stretched lattice carries less than its stress by what R takes at its nearest neighbours: some ε times the tension,
 /// so waves in a solid under tension σ are slowed by about ε σ/2E. Across a contact that may open nothing acts.
 ///
 /// | it adds | as |

@@ -25,7 +25,7 @@ use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 ///
 /// **Free surface**, by the first moment of the neighbourhood over that of the lattice, which is ½ at a flat surface: below
 /// 0.95 the part of δu along Σ V ∇W, out of or into the liquid, fades, and is gone at 0.75; below 0.6 the rest
-/// does, and drops and single rows are not moved. Rows below an even surface still are. **Torn liquid**, of no pressure, is left
+/// does, and drops and single rows are not moved. Rows below an even surface still are. **Cavitated liquid**, of no pressure, is left
 /// alone too ([`in_tension`](Self::in_tension)): with a cut-off nothing there would take a spreading back.
 ///
 /// δu follows the sound speed, so it is the same for every observer, and evens out over a distance √(a h c t). Sun et al. multiply by
@@ -50,7 +50,7 @@ use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 pub struct ConsistentShifting {
     /// Strength a; 0.1: less leaves the layers of the first lattice in violent flow, more loses impulse. Zero is none.
     pub strength: f64,
-    /// Whether particles without pressure are moved; not by default. Without a cut-off, in liquids that bear tension, say yes.
+    /// Whether particles without pressure are moved; not by default. Without a cut-off, in liquids that support tension, say yes.
     pub in_tension: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Damage of solids: it grows as the material's law of failure says, and at one a particle bears no shear and no tension.
+//! Damage of solids: it grows as the material's law of failure says, and at one a particle supports no shear and no tension.
 //! Mass is never deleted: what has failed is counted, and stands in the ledger.
 
 use super::plasticity::cold;

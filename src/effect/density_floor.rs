@@ -13,7 +13,7 @@ use crate::term::{Stage, TermDoc};
 ///
 /// In debris a particle whose neighbours all leave goes on expanding by continuity, though nothing is left that it could
 /// measure: its density falls without end, and its volume m/ρ outweighs all others in their gradients and forces. A
-/// particle at h/dx 1.2 that has nobody left fills about as much as its kernel, some five to ten times its volume at rest in
+/// particle at h/dx 1.2 without neighbours fills about as much as its kernel, some five to ten times its volume at rest in
 /// space; from there on density says nothing. Densities that were held are counted in
 /// [`limits`](crate::simulation::Simulation::limits) as `density floor`.
 ///

@@ -1,12 +1,12 @@
 //! Limits of the time step that an effect asks for.
-//! Each is a name and the largest step that a particle bears.
+//! Each is a name and the largest stable step of a particle.
 
 use super::View;
 use crate::particles::{Fields, Outputs};
 use crate::scalar::Real;
 use core::fmt::Debug;
 
-/// The largest step that an effect bears.
+/// The largest stable step of an effect.
 pub trait Limit<T: Real, const D: usize>: Debug + Send + Sync {
     /// Its name in reports, with the formula: `"conduction: h² ρ c/k"`.
     fn name(&self) -> &'static str;

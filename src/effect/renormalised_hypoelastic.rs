@@ -14,7 +14,7 @@ use crate::term::{In, Layout, Pair, Sums, Term, TermDoc, VelocityGradient, corre
 /// Strain follows from the velocity gradient that L corrects, so this force is the one whose power is Σ V S:∇v, and
 /// angular momentum is conserved with the linear one. [`Hypoelastic`] divides by one number a particle instead, the first
 /// moment at rest: right inside a body, where both are the same on a lattice, and wrong in the row at a free surface,
-/// where moments along and across the surface differ. That row bears half of the moment of a plate of ten rows, which
+/// where moments along and across the surface differ. That row carries half of the moment of a plate of ten rows, which
 /// bends a fifth too little by it, and bodies that stretch several times over carry a moment that has long ceased to be
 /// theirs. It takes D² numbers a particle more.
 ///

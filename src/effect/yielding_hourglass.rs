@@ -1,5 +1,5 @@
 //! Hourglass control that yields with the metal: its stiffness falls to the secant of the stress that is left.
-//! After the idea that a control must not bear what the solid does not (Ganzenmüller 2015); the measure is of this crate.
+//! After the idea that a control must not carry a load that the solid does not (Ganzenmüller 2015); the measure is of this crate.
 
 use super::hourglass_control::STIFFNESS;
 use super::radial_return::before;

@@ -27,7 +27,7 @@
 //! ([`StepControl::courant`](crate::simulation::StepControl), 0.55 by default) stays below half of the
 //! smallest of them, which covers the whole accepted range of h/dx and the damping that a viscosity adds.
 //!
-//! # A kernel of one's own
+//! # A kernel of your own
 //!
 //! ```
 //! use meshfree::{kernel::Kernel, scalar::Lane};

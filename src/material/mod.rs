@@ -22,7 +22,7 @@
 //! let (p, c) = copper.state(8930.0 * 1.0025, 0.0);
 //! assert!((p / 348e6 - 1.0).abs() < 0.01 && c > 3940.0);
 //!
-//! // Another law, or a material of one's own.
+//! // Another law, or a material of your own.
 //! let spalling = copper.with_eos(TensionCutOff::new(
 //!     MieGruneisen::new(8930.0, 3940.0, 1.49, 2.02), -1.2e9));
 //! assert_eq!(spalling.state(8000.0, 0.0).0, -1.2e9);

@@ -1,5 +1,5 @@
 //! Columns of particle data: one growable row of numbers for each field that a scene names.
-//! A field that nobody names is an empty column.
+//! A field that no part declares is an empty column.
 
 use super::field::{Field, Fields};
 use crate::scalar::Real;
@@ -61,7 +61,7 @@ impl<T: Real, const D: usize> Columns<T, D> {
         (self.fields.place(field)).map_or(&mut [], |place| &mut self.data[place])
     }
 
-    /// The column of a field that has one as it is stored, to be taken out for a while and put back.
+    /// The column of a field that has one as it is stored, to be taken out for a while and restored.
     pub(crate) fn column_mut(&mut self, field: Field) -> &mut Vec<T> {
         // The last column is of no field.
         let place = self.fields.place(field).unwrap_or(Fields::PLACES);

@@ -50,7 +50,7 @@
 //! | liquid and liquid | one liquid | do not meet, which has to be said |
 //! | liquid and solid | no: a liquid needs a scheme of liquids | pressure, and friction with [`Body::no_slip`] |
 //!
-//! Any two bodies act on each other as a [coupling](crate::coupling) says: contact, ties, or one's own
+//! Any two bodies act on each other as a [coupling](crate::coupling) says: contact, ties, or your own
 //! ([`Scene::couple`]), and a stiff group takes steps of its own ([`Scene::sub_cycle`]).
 //!
 //! Parts of a body are clamped by [`Scene::fix`] and [`Scene::clamp`], and a body moves as a rigid one by
@@ -73,7 +73,7 @@
 //! | [loads](crate::simulation::LoadPoint), [`set_field`](crate::simulation::Simulation::set_field), events | particles of [couplings](crate::coupling::CoupledParticle) |
 //! | [particles](crate::simulation::ParticleView) that are read, observers, files, pictures, reports, errors | columns in checkpoints, which hold the origin |
 //!
-//! Loads by place and [boundaries](crate::boundary::Boundary::seen_from) and [motions](crate::boundary::Motion::pose_from) of one's own are
+//! Loads by place and [boundaries](crate::boundary::Boundary::seen_from) and [motions](crate::boundary::Motion::pose_from) of your own are
 //! asked with the origin added, so that their values have its rounding. How far a scene in `f32` may reach is checked as it is built.
 
 pub mod advice;
@@ -225,7 +225,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
     ///
     /// All groups take the smallest step that any of them asks for; the factor of
     /// [`StepControl::courant`] is that of the scene's own scheme, and for another group at most what its
-    /// scheme bears.
+    /// scheme allows.
     ///
     /// ```
     /// use meshfree::prelude::*;

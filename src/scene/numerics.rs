@@ -80,7 +80,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
     /// elementary functions are [made of them](crate::scalar::Lane::exp). Rust leaves the last digits of `exp_m1` and `ln_1p` to
     /// the platform: [`Tait`](crate::material::eos::Tait) and [`Murnaghan`](crate::material::eos::Murnaghan) with an exponent that
     /// is no whole number call these, as does the regularised
-    /// [`HerschelBulkley`](crate::material::rheology::HerschelBulkley). So may laws, loads and motions of one's own.
+    /// [`HerschelBulkley`](crate::material::rheology::HerschelBulkley). So may laws, loads and motions of your own.
     #[must_use]
     pub fn instructions(mut self, set: InstructionSet) -> Self {
         self.instructions = set;

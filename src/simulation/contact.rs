@@ -48,7 +48,7 @@ pub(crate) struct Couple<T: Real, const D: usize> {
 pub(crate) struct Acting<T, const D: usize> {
     /// The force \[N\] on the first side.
     pub force: [f64; D],
-    /// The largest step \[s\] that it bears.
+    /// Its largest stable step \[s\].
     pub step: f64,
     /// The force \[N\] on particles of both sides, by their numbers in the body.
     pub forces: [Vec<(u32, [T; D])>; 2],

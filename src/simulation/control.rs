@@ -30,14 +30,14 @@ use std::ops::Range;
 ///
 /// A step may be longer than the one before by a factor [`growth`](Self::growth), and shorter by any.
 ///
-/// κ is what the integrator bears relative to a leapfrog
+/// κ is what the integrator allows relative to a leapfrog
 /// ([`stability`](crate::integrator::Integrator::stability)), and sᵢⱼ the signal that the viscosity in
 /// use adds to the sound speed of a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepControl {
     /// Factor C on h/(c + signal), where the signal is what the artificial viscosity in use adds;
     /// taken from the scheme by default (0.55). It must be below one, and below what the
-    /// [kernel](crate::kernel::Kernel::stable_step) bears.
+    /// [kernel](crate::kernel::Kernel::stable_step) allows.
     pub courant: f64,
     /// Factor C_a on √(h/|a|); 0.25 by default (Monaghan 1992), below one.
     pub force: f64,
@@ -179,7 +179,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// The vote of a group, but for pairs that approach each other.
     pub(super) fn vote_of(&self, group: usize, courant: f64) -> Result<Vote> {
-        // What a user asks of the first scheme may be more than another bears.
+        // What a user asks of the first scheme may be more than another allows.
         let own = if group == 0 && self.state.groups[0].exchanges.is_empty() {
             f64::INFINITY
         } else {

@@ -95,7 +95,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
     }
 
-    /// Whether nobody looks at it on its way through a drift.
+    /// Whether the group needs no evaluation in mid-drift.
     pub fn drifts_at_once(&self) -> bool {
         !self.scheme.acts_in_drift() && (!self.is_met || self.sub_cycle.is_some())
     }

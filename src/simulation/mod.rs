@@ -3,7 +3,7 @@
 //!
 //! # A step
 //!
-//! [`Simulation::step`] asks every particle for the largest step that it bears, takes the smallest, and
+//! [`Simulation::step`] asks every particle for its largest stable step, takes the smallest, and
 //! lets the integrator advance. Two criteria vote:
 //!
 #![doc = include_str!("../../docs/equations/time_step.html")]

@@ -18,7 +18,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub(crate) struct Neighborhood<T: Real, const D: usize> {
     pub blocks: Vec<Block>,
-    /// Whether particles of a block wear a mirrored velocity, where a liquid sticks to them: those of some walls, and their
+    /// Whether particles of a block take a mirrored velocity, where a liquid sticks to them: those of some walls, and their
     /// images.
     pub mirrored: Vec<bool>,
     pub interactions: Vec<Interaction>,

@@ -183,7 +183,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Takes the next step of the run if it ends by `end` \[s\], and otherwise shows the state at that time; returns by
     /// how much time \[s\] goes on.
     ///
-    /// What loops of one's own step with, as [`run_with`](Self::run_with) does:
+    /// What loops of your own step with, as [`run_with`](Self::run_with) does:
     ///
     /// ```
     /// use meshfree::prelude::*;

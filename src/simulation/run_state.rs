@@ -80,7 +80,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         core::mem::replace(&mut self.state, copy)
     }
 
-    /// Puts back what was kept. The time that was spent meanwhile stays spent.
+    /// Restores the saved state. The time that was spent meanwhile stays spent.
     pub(super) fn put_back(&mut self, mut kept: State<T, D>) {
         for (before, now) in kept.groups.iter_mut().zip(&self.state.groups) {
             before.work.phases = now.work.phases;

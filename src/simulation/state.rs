@@ -169,7 +169,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         });
     }
 
-    /// The first half of a drift, or all of it where nobody looks at the group in its middle.
+    /// The first half of a drift, or all of it where the group needs no evaluation in its middle.
     pub(super) fn begin_drift(&mut self, dt: f64) {
         if self.scheme.acts_in_drift() {
             self.predict_weights(0.5 * dt);

@@ -163,7 +163,7 @@ impl<T: Real, const D: usize> WallState<T, D> {
         core::array::from_fn(|d| now[d] - then[d])
     }
 
-    /// Whether its particles wear the mirrored velocity by which a liquid sticks to them, which differs from that of the
+    /// Whether its particles take the mirrored velocity by which a liquid sticks to them, which differs from that of the
     /// liquid twice as much as their own.
     pub fn is_mirrored(&self) -> bool {
         self.slip == Slip::None

@@ -3,7 +3,7 @@
 //!
 //! **Before a run** [`CostModel::predict`] rehearses it: [`Simulation::expected_work`] takes the first steps of the scene as it
 //! is built, counts and times them, and takes them back. So it needs no table of rates, which could not tell what loops
-//! that are compiled for these effects take where the scene fills a cache, or does not. List builds are foretold by speeds
+//! that are compiled for these effects take where the scene fills a cache, or does not. List builds are predicted from speeds
 //! and accelerations, since first steps may show none.
 //!
 //! **While it runs** the model corrects itself: the rest of the run is taken to be like what was watched,
@@ -17,7 +17,7 @@
 //! from time to time.
 //!
 //! `cargo bench --bench cost_model` holds the prediction against ten scenes, and `cargo run --release --example work_precision --
-//! --forecast` what first steps foretell against whole runs.
+//! --forecast` what first steps predict against whole runs.
 
 use crate::clock::Instant;
 use crate::error::{Error, Problem, Result};

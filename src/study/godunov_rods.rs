@@ -248,7 +248,7 @@ impl GodunovRods {
         self.limiter = limiter;
         self
     }
-    /// The tension \[Pa\] that a unilateral contact bears before it opens. Unless set, 10⁻⁴ of the
+    /// The tension \[Pa\] that a unilateral contact carries before it opens. Unless set, 10⁻⁴ of the
     /// largest ρc|u − u′| at a contact at time zero: rods of one material unload each other to
     /// stresses of either sign of 10⁻⁶ of that, and fronts in general come in over a few steps, so
     /// that the time of opening depends on this by less than its own resolution.

@@ -1,4 +1,4 @@
-//! Norms and features of profiles and histories: what "how far off is it" means.
+//! Norms and features of profiles and histories: the error of a run in numbers.
 //! Differences, plateau mean, rise time, overshoot, arrival, and the observed order of convergence.
 //!
 //! Of samples aᵢ against bᵢ with weights wᵢ (cell widths, masses or times between samples)

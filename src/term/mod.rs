@@ -45,7 +45,7 @@
 //!
 #![doc = include_str!("../../docs/equations/morris_monaghan.html")]
 //!
-//! # A viscosity of one's own
+//! # A viscosity of your own
 //!
 //! ```
 //! use meshfree::particles::{Field, Fields};

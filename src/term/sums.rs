@@ -190,7 +190,7 @@ impl<L: Lane, const D: usize, P: Layout> Sums<L, D, P> {
             L::zero()
         }
     }
-    /// Moves the kernel sum to the contact sum, and puts back what was taken.
+    /// Moves the kernel sum to the contact sum, and restores what was taken.
     #[inline(always)]
     pub(crate) fn divert_kernel_sum(&mut self, taken: L) {
         let across = self.take_kernel_sum();

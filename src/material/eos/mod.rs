@@ -20,7 +20,7 @@
 //! the range says so. Pressure and sound speed stay finite, and the sound speed positive, for any
 //! finite density and energy.
 //!
-//! # A law of one's own
+//! # A law of your own
 //!
 //! ```
 //! use meshfree::material::eos::{EosState, EquationOfState, Guards};

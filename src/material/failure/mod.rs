@@ -1,7 +1,7 @@
 //! Failure: how much nearer a step brings a solid to its end, the trait and one file for each law.
 //! It follows from stress, plastic strain and its rate, temperature and pressure.
 //!
-//! Damage D of a particle grows from zero as its material's law says, and at one the particle has failed: it bears no
+//! Damage D of a particle grows from zero as its material's law says, and at one the particle has failed: it supports no
 //! shear and no tension from then on, and its mass stays.
 //!
 //! | law | D grows | use it for |
@@ -20,7 +20,7 @@
 //! assert_eq!(copper.failure().map(|law| law.damage(&pulled)), Some(1.0));
 //! ```
 //!
-//! # A law of one's own
+//! # A law of your own
 //!
 //! ```
 //! use meshfree::material::{Material, catalogue, failure::{Failure, FailureState}};

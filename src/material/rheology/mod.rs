@@ -27,7 +27,7 @@
 //! assert!(rheology.viscosity(1e3) < 0.004);
 //! ```
 //!
-//! # A law of one's own
+//! # A law of your own
 //!
 //! ```
 //! use meshfree::material::{Material, catalogue, rheology::ViscosityLaw};

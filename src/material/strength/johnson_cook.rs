@@ -12,7 +12,7 @@ use crate::scalar::Lane;
 ///
 /// The rate ratio ε̇* is held at one from below: slower flow was not measured, and the logarithm has no floor. T* is
 /// held between zero and one, so a metal below T_r is no stronger than there, and one above its melting point T_m
-/// bears no shear.
+/// supports no shear.
 ///
 /// The material needs a [`PlasticHeating`](super::PlasticHeating), for temperature comes from plastic work.
 ///

@@ -27,7 +27,7 @@
 //! assert_eq!(yields, Some(382e6));
 //! ```
 //!
-//! # A law of one's own
+//! # A law of your own
 //!
 //! ```
 //! use meshfree::material::{Material, catalogue, strength::{PlasticState, Strength}};

@@ -13,7 +13,7 @@ use crate::scalar::Lane;
 ///
 /// It holds above some 10⁵ 1/s, where the rate no longer matters. A and B are those of the shear modulus too, which is
 /// kept constant here: at 10 GPa it is some ten per cent too low. Where the last factor would be negative the metal has
-/// molten, and bears no shear. With B the material needs a [`PlasticHeating`](super::PlasticHeating).
+/// molten, and supports no shear. With B the material needs a [`PlasticHeating`](super::PlasticHeating).
 ///
 /// ```
 /// use meshfree::material::strength::{PlasticState, SteinbergGuinan, Strength};

@@ -273,7 +273,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         }
     }
 
-    /// Factors of the step that integrator and kernel can bear, and what the integrator says of itself.
+    /// Factors of the step that integrator and kernel allow, and what the integrator says of itself.
     pub(super) fn check_factors(&self, problems: &mut Vec<Problem>) {
         let kernels = self.parts.iter().map(|part| part.scheme.kernel.stable_step);
         let bearable = kernels.fold(1.0, f64::min);

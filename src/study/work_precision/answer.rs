@@ -209,8 +209,8 @@ impl View<'_> {
         )
     }
 
-    /// Of every method the finest run, as the laws through its other runs foretell it: what answers are worth here.
-    /// Methods with fewer than four runs are not in it, for three are needed to foretell the fourth.
+    /// Of every method the finest run, as the laws through its other runs predict it: what answers are worth here.
+    /// Methods with fewer than four runs are not in it, for three are needed to predict the fourth.
     #[must_use]
     pub fn foretold(&self) -> Vec<Foretold> {
         let of = |method: &str| {

@@ -102,7 +102,7 @@ impl View<'_> {
         table
     }
 
-    /// The laws of every method: order, floor, order of the work, and how the finest run was foretold.
+    /// The laws of every method: order, floor, order of the work, and how the finest run was predicted.
     #[must_use]
     pub fn fits(&self) -> Table {
         let mut table = Table::new([

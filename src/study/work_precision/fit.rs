@@ -1,4 +1,4 @@
-//! The law error = floor + C xᵖ through measured errors, with intervals, and the refusal to say more than they bear.
+//! The law error = floor + C xᵖ through measured errors, with intervals, and the refusal to say more than they support.
 //! Intervals are of the profile likelihood.
 //!
 //! With logarithms yᵢ of n measured values, the best floor F ≥ 0, factor C > 0 and order p in \[0.1, 6\] make
@@ -81,7 +81,7 @@ impl Law {
     }
 }
 
-/// A law with floor through values, and what it bears.
+/// A law with floor through values, and what it supports.
 ///
 /// ```
 /// use meshfree::study::work_precision::PowerFit;

@@ -1,4 +1,4 @@
-//! Equation 22 of Lam, Shen & Gong (2002) with the sign that is printed: a control, not a cure.
+//! Equation 22 of Lam, Shen & Gong (2002) with the sign that is printed: a control, not a remedy.
 //! Its linear term pushes approaching particles together and feeds energy into the flow.
 
 use super::{ArtificialViscosity, Viscous, approach, between, coefficients};

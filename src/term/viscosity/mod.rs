@@ -16,7 +16,7 @@
 //! 0.3 % of the sound speed, and a law that grows with that ratio leaves the front ringing. A law with
 //! a fixed α does not. The page on [artificial viscosities](crate#pages) measures all of them on one front.
 //!
-//! In gases the signal velocity wears vortices down and heats gas that converges ahead of a shock, and Cullen and Dehnen's law leaves more
+//! In gases the signal velocity damps vortices and heats gas that converges ahead of a shock, and Cullen and Dehnen's law leaves more
 //! heat where cold gas starts in collision; on gradients from [inverted matrices](crate::term::MatrixPressureForce) the limited law does
 //! neither ([hard cases](crate#pages)).
 //!

@@ -1,4 +1,4 @@
-//! Laws that are known are found, intervals hold what they say, and what values do not bear is refused.
+//! Laws that are known are found, intervals hold what they say, and what values do not support is rejected.
 //! Scatter is made up by numbers that are the same in every run.
 
 use super::*;
