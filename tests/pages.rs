@@ -1,5 +1,5 @@
-//! Pages: every link of README and docs leads to a file and a heading that are there, and the book has every page.
-//! Reads files alone, so it costs nothing.
+//! Pages: every link of README and docs leads to a file and a heading that are there, the book has every page, and words to
+//! avoid are in none. Reads files alone, so it costs nothing.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -140,6 +140,127 @@ fn index_lines_are_whole_sentences() {
     }
     assert!(checked > 1000, "only {checked} items were found");
     assert!(broken.is_empty(), "{}", broken.join("\n"));
+}
+
+/// Words and phrases to avoid, and what to write.
+const AVOID: [(&str, &str); 43] = [
+    ("asleep", "at rest"),
+    ("astray", "what it did"),
+    ("bear", "support, carry or allow"),
+    ("bears", "supports, carries or allows"),
+    ("chattering", "in repeated contact"),
+    ("crowding", "concentration gradient"),
+    ("cure", "remedy"),
+    ("cured", "remedied"),
+    ("cures", "remedies"),
+    ("foretell", "predict"),
+    ("foretells", "predicts"),
+    ("foretold", "predicted"),
+    ("mend", "fix"),
+    ("mended", "fixed"),
+    ("mends", "fixes"),
+    ("moods", "scatter of timings"),
+    ("nobody", "the noun"),
+    ("outlook", "forecast"),
+    ("retract", "restore"),
+    ("stagger", "random offset"),
+    ("staggered rows", "lattice rows with random offset"),
+    ("stuff", "material"),
+    ("torn", "cavitated, or separated"),
+    ("unmended", "not fixed"),
+    ("wear", "take"),
+    ("wears", "takes"),
+    ("by turns", "alternately"),
+    ("distance of particles", "particle spacing"),
+    ("how far off", "error"),
+    ("lies against", "abuts"),
+    ("number that is none", "NaN"),
+    ("puts back", "restores"),
+    ("what is off", "the noun"),
+    ("one s own", "your own"),
+    // What only the history of a page or the work on it explains.
+    ("as this page had", "what holds"),
+    ("as was written here", "what holds"),
+    ("was asked for", "the value, or requested"),
+    ("were asked for", "the bound"),
+    ("asked of us", "what holds"),
+    ("of the project", "what holds"),
+    ("the coordinator", "nothing"),
+    ("the issue", "the subject"),
+    ("the owner", "nothing"),
+];
+
+/// Words of prose in lower case, with their lines: no blocks of code, spans of code or targets of links.
+fn words(text: &str) -> Vec<(usize, String)> {
+    let mut code = false;
+    let mut found = Vec::new();
+    for (number, line) in text.lines().enumerate() {
+        code ^= line.trim_start().starts_with("```");
+        if code {
+            continue;
+        }
+        let mut parts = line.split("](");
+        let mut plain = parts.next().unwrap_or_default().to_owned();
+        for part in parts {
+            plain.push(' ');
+            plain += part.split_once(')').map_or(part, |(_, rest)| rest);
+        }
+        for prose in plain.split('`').step_by(2) {
+            let own = prose.split(|c: char| !c.is_alphabetic());
+            let own = own.filter(|word| !word.is_empty());
+            found.extend(own.map(|word| (number + 1, word.to_lowercase())));
+        }
+    }
+    found
+}
+
+/// The words to avoid in a text, with their lines.
+fn to_avoid(text: &str) -> Vec<String> {
+    let words = words(text);
+    let mut found = Vec::new();
+    for (avoid, instead) in AVOID {
+        let parts: Vec<_> = avoid.split(' ').collect();
+        for own in words.windows(parts.len()) {
+            if own.iter().zip(&parts).all(|((_, word), part)| word == part) {
+                found.push(format!("line {}: \"{avoid}\": write {instead}", own[0].0));
+            }
+        }
+    }
+    found
+}
+
+/// What rustdoc shows of a source, in the lines of the source.
+fn documentation(source: &str) -> String {
+    let lines = source.lines().map(|line| {
+        let line = line.trim_start();
+        let inner = || line.strip_prefix("//!");
+        line.strip_prefix("///").or_else(inner).unwrap_or_default()
+    });
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn words_that_were_replaced_stay_away() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let more = ["CONTRIBUTING.md", "CHANGELOG.md"].map(|name| root.join(name));
+    let texts = pages().into_iter().chain(more).map(|path| {
+        let text = fs::read_to_string(&path).expect("a page");
+        (path, text)
+    });
+    let sources = sources().into_iter();
+    let texts = texts.chain(sources.map(|(path, text)| (path, documentation(&text))));
+    let mut found = Vec::new();
+    for (path, text) in texts {
+        let own = to_avoid(&text).into_iter();
+        found.extend(own.map(|said| format!("{}: {said}", path.display())));
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+    // Over the end of a line too, and neither in code nor in what links lead to.
+    assert_eq!(to_avoid("A block has no cure, as was\nasked for.").len(), 2);
+    let hidden = "`cure` [a remedy](cure.md)\n```\ncure\n```\n";
+    assert!(to_avoid(hidden).is_empty());
+    assert!(to_avoid(&documentation("// cure\nlet cure = 1;")).is_empty());
+    assert_eq!(to_avoid(&documentation("    /// Cure.")).len(), 1);
 }
 
 #[test]

@@ -50,7 +50,7 @@
 //!
 //! A mode of the body that swings by a whole number of halves in a step of the others resonates with the impulses
 //! (Biesiadecki & Skeel 1993, J. Comput. Phys. 109, 318), the more the larger the share of a coupling in its stiffness.
-//! Liquids give little of that, yet walls of acrylic around water rang where four, six and eight steps were asked for, and
+//! Liquids give little of that, yet walls of acrylic around water rang where four, six and eight steps were set, and
 //! not where five were ([sloshing](crate#pages)). Artificial viscosity in the body, α = 0.2, damps it up to eight steps; where
 //! `work of couplings` grows without cause, ask for fewer.
 

@@ -10,7 +10,7 @@ use crate::tensor::{Matrix, Square, inverse};
 /// Gradients and corrections, as far as the scheme carries them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CorrectedGradients {
-    /// What the sweep was asked for.
+    /// What the sweep has to sum.
     pub wanted: Fields,
     /// Whether kernels are the [weights](crate::term::Pair::weight_i), and their scale belongs to the correction.
     pub by_kernel: bool,

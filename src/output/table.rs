@@ -167,7 +167,7 @@ impl Table {
         text
     }
 
-    /// The alignment that was asked for, or else the one that suits the column's cells.
+    /// The requested alignment, or else the one that suits the column's cells.
     fn alignment(&self, column: usize) -> Align {
         let mut cells = self
             .rows

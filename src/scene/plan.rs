@@ -196,7 +196,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         group
     }
 
-    /// The schemes that the group obeys by turns, with the fields that a particle carries under each; none if it has one.
+    /// The schemes that the group obeys one after another, with the fields that a particle carries under each; none if it has one.
     fn exchanges(&self, fields_of: impl Fn(&Scheme<T, D>) -> Fields) -> Vec<Exchange<T, D>> {
         let of = |event, scheme: &Arc<Scheme<T, D>>| Exchange {
             event,

@@ -25,7 +25,7 @@ pub(crate) struct Group<T: Real, const D: usize> {
     pub neighborhood: Neighborhood<T, D>,
     pub work: Workspace<T, D>,
     pub scheme: Arc<Scheme<T, D>>,
-    /// The schemes that it obeys by turns, its first among them; none if that is all.
+    /// The schemes that it obeys one after another, its first among them; none if that is all.
     pub exchanges: Vec<Exchange<T, D>>,
     pub walls: Vec<WallState<T, D>>,
     pub boundaries: Vec<Arc<dyn Boundary<D>>>,

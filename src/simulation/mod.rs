@@ -359,7 +359,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Time \[s\].
     ///
-    /// After [`run_until`](Self::run_until) this is the end that was asked for.
+    /// After [`run_until`](Self::run_until) this is the requested end.
     #[must_use]
     pub fn time(&self) -> f64 {
         self.state.time

@@ -81,9 +81,9 @@ pub enum StudyError {
     /// A question about a place or a time that the solution does not cover.
     #[error("{quantity} {value} is outside the solution; ask within {from} to {to}")]
     OutOfRange {
-        /// What was asked for, with its unit.
+        /// The requested quantity, with its unit.
         quantity: &'static str,
-        /// The value that was asked for.
+        /// The requested value.
         value: f64,
         /// The smallest value that has an answer.
         from: f64,

@@ -125,12 +125,12 @@ impl<T: Real, const D: usize> Results<T, D> {
         core::array::from_fn(|d| self.get(output, d, slot))
     }
 
-    /// Adds to a vector sum of the particle in `slot`, where it was asked for.
+    /// Adds to a vector sum of the particle in `slot`, where it is requested.
     pub(crate) fn add(&mut self, output: Output, slot: usize, vector: [T; D]) {
         self.change(output, slot, |sum, d| *sum += vector[d]);
     }
 
-    /// Sets a vector sum of the particle in `slot`, where it was asked for.
+    /// Sets a vector sum of the particle in `slot`, where it is requested.
     pub(crate) fn set(&mut self, output: Output, slot: usize, vector: [T; D]) {
         self.change(output, slot, |sum, d| *sum = vector[d]);
     }
@@ -147,7 +147,7 @@ impl<T: Real, const D: usize> Results<T, D> {
         }
     }
 
-    /// Adds a value, times a weight if there are any, to a sum of every particle, where it was asked for; values stand slot
+    /// Adds a value, times a weight if there are any, to a sum of every particle, where it is requested; values stand slot
     /// by slot with all of their components.
     pub(crate) fn add_all(&mut self, output: Output, weights: Option<&[T]>, values: &[T]) {
         let Some(offset) = self.offset(output) else {

@@ -120,7 +120,7 @@ pub struct GodunovSolution {
 }
 
 impl GodunovSolution {
-    /// The gauges, in the order in which they were asked for.
+    /// The gauges, in the order of the request.
     #[must_use]
     pub fn gauges(&self) -> &[GaugeRecord] {
         &self.gauges
