@@ -225,7 +225,7 @@
 //! | [tutorials](https://github.com/meshfree/meshfree/blob/main/docs/tutorials.md) | four programs, from a rod to a liquid with a structure |
 //! | [output in time](https://github.com/meshfree/meshfree/blob/main/docs/how_to_output.md) | observers by schedule, criteria that end a run, receipts |
 //! | [ParaView and films](https://github.com/meshfree/meshfree/blob/main/docs/how_to_paraview.md) | particle files and films, and how to look at them |
-//! | [stop and go on](https://github.com/meshfree/meshfree/blob/main/docs/how_to_restart.md) | checkpoints and restarts |
+//! | [restart](https://github.com/meshfree/meshfree/blob/main/docs/how_to_restart.md) | checkpoints and restarts |
 //! | [paddles, gauges and sponges](https://github.com/meshfree/meshfree/blob/main/docs/how_to_waves.md) | wave makers from rows of time, gauges, absorbing layers |
 //! | [shapes from STL files](https://github.com/meshfree/meshfree/blob/main/docs/how_to_stl.md) | bodies and tanks from triangle meshes |
 //! | [loads and coupling](https://github.com/meshfree/meshfree/blob/main/docs/how_to_coupling.md) | loads, columns without copies, neighbours, forces for another code |
