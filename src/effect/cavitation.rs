@@ -1,5 +1,5 @@
 //! Liquid at its tension cut-off: densities that are held, with or without memory of the expansion.
-//! Both are of this crate; what else was tried is on the page [sloshing](crate#pages).
+//! Both are of this crate; the page on [sloshing](crate#pages) has their effect.
 
 use super::{Around, CONSTANTS, Effect, Point, PointLaw, Reach, Rung, Setting, StepProgram};
 use crate::error::Problem;
