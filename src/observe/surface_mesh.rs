@@ -205,7 +205,7 @@ fn marched(grid: &SampleGrid<3>, values: &[f64], level: f64) -> SurfaceMesh {
                 })
         };
         for (corners, right_handed) in TETRAHEDRA {
-            let ([a, b, c, d], count) = inside_first(corners, right_handed, &inside);
+            let ([a, b, c, d], count) = inside_first(corners, right_handed, inside);
             match count {
                 1 => mesh
                     .triangles
@@ -226,11 +226,7 @@ fn marched(grid: &SampleGrid<3>, values: &[f64], level: f64) -> SurfaceMesh {
 }
 
 /// The corners of a tetrahedron in a right-handed order in which those inside come first, and how many these are.
-fn inside_first(
-    corners: [usize; 4],
-    right_handed: bool,
-    inside: &[bool; 8],
-) -> ([usize; 4], usize) {
+fn inside_first(corners: [usize; 4], right_handed: bool, inside: [bool; 8]) -> ([usize; 4], usize) {
     let mut order = corners;
     let mut right = right_handed;
     let mut count = 0;
