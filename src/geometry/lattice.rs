@@ -159,7 +159,7 @@ fn has_inside<const D: usize>(
 }
 
 /// The points of the lattice in the shape's box, widened by `margin` \[m\], that `mark` wants of each row.
-fn lattice<const D: usize>(
+pub(super) fn lattice<const D: usize>(
     shape: &(impl Shape<D> + ?Sized),
     spacing: f64,
     origin: [f64; D],
@@ -231,7 +231,7 @@ fn lattice<const D: usize>(
     Ok(points)
 }
 
-fn argument((what, value, must_be): Flaw) -> Error {
+pub(super) fn argument((what, value, must_be): Flaw) -> Error {
     Error::Argument(Problem::Parameter {
         what: what.into(),
         value,

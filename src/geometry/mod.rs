@@ -13,7 +13,7 @@
 //! | [`intersection`](Shape::intersection), [`minus`](Shape::minus) | any | exact inside, a bound outside |
 //! | [`complement`](Shape::complement), [`moved`](Shape::moved) | any | as the shape |
 //!
-//! [`fill`] places particles in a shape, [`layers`] those of a wall around one;
+//! [`fill`] places particles in a shape on a lattice, [`pack`] so that they follow its surface, [`layers`] those of a wall around one;
 //! [`Body::fill`](crate::scene::Body::fill) makes a body in one step.
 //!
 //! ```
@@ -38,6 +38,7 @@ mod moved;
 mod open_cell;
 #[cfg(feature = "meshes")]
 mod overlap;
+mod pack;
 #[cfg(feature = "meshes")]
 mod rows;
 #[cfg(test)]
@@ -59,6 +60,8 @@ pub use lattice::{fill, layers};
 pub use mesh::Mesh;
 pub use moved::Moved;
 pub use open_cell::{OpenCell, OpenCellPart};
+pub use pack::pack;
+pub(crate) use pack::packed;
 
 /// The edge of a cube, square or line of some volume \[mᴰ\].
 pub(crate) fn edge<const D: usize>(volume: f64) -> f64 {

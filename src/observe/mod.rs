@@ -7,6 +7,7 @@
 //! | [`WaveGauge`] | height of a free surface along a line, and the length of it that liquid wets |
 //! | [`FlowPlane`] | mass beyond a plane, and its rate |
 //! | [`Simulation::sample`](crate::simulation::Simulation::sample) | any field, the crate's or an effect's, at any points or on a [`SampleGrid`] |
+//! | [`SurfaceMesh`] | the surface of a body as triangles, for rendering |
 //!
 //! Forces and impulses on whole walls are [`Simulation::wall_force`](crate::simulation::Simulation::wall_force)
 //! and [`wall_impulse`](crate::simulation::Simulation::wall_impulse); energy is in the
@@ -50,12 +51,14 @@ mod place;
 mod plane;
 mod probe;
 mod sample;
+mod surface_mesh;
 
 pub use gauge::WaveGauge;
 pub use grid::SampleGrid;
 pub use plane::FlowPlane;
 pub use probe::PressureProbe;
 pub use sample::Sample;
+pub use surface_mesh::SurfaceMesh;
 
 use crate::kernel::{Kernel, WendlandC2};
 

@@ -9,7 +9,7 @@ use crate::origin::global;
 use crate::parallel::{cut, for_each};
 use crate::particles::{Field, Shape};
 use crate::scalar::Real;
-use crate::simulation::Simulation;
+use crate::simulation::{ParticleView, Simulation};
 use crate::tensor::Symmetric;
 
 /// A field at points, as [`Simulation::sample`] reads it.
@@ -131,7 +131,17 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// # Errors
     /// If no body carries the field, or a point is not finite.
     pub fn sample(&self, field: Field, points: &[[f64; D]]) -> Result<Sample<D>> {
-        let (name, carriers) = self.carriers(field)?;
+        let (_, carriers) = self.carriers(field)?;
+        self.sample_particles(field, carriers, points)
+    }
+
+    /// As [`sample`](Self::sample), of some particles that carry the field.
+    pub(super) fn sample_particles<'a>(
+        &'a self,
+        field: Field,
+        carriers: impl Iterator<Item = ParticleView<'a, T, D>>,
+        points: &[[f64; D]],
+    ) -> Result<Sample<D>> {
         check_points(points)?;
         let components = field.components(D);
         let [low, high] = bounds(points);
@@ -230,7 +240,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             }
         });
         Ok(Sample {
-            name,
+            name: self.name_of(field),
             shape: field.shape(),
             components,
             values,

@@ -2,7 +2,9 @@
 //! Boxes and shapes are filled with a lattice; points may be the user's own.
 
 use crate::boundary::Slip;
-use crate::geometry::{FEWER, Flaw, MOST_PARTICLES, POSITIVE, SWAPPED, Shape, edge, filled};
+use crate::geometry::{
+    FEWER, Flaw, MOST_PARTICLES, POSITIVE, SWAPPED, Shape, edge, filled, packed,
+};
 use crate::material::Material;
 use crate::particles::Field;
 use crate::scalar::Real;
@@ -114,7 +116,40 @@ impl<T: Real, const D: usize> Body<T, D> {
         shape: &(impl Shape<D> + ?Sized),
         spacing: f64,
     ) -> Self {
-        let (points, shape) = match filled(shape, spacing, shape.bounds().0) {
+        let points = filled(shape, spacing, shape.bounds().0);
+        Self::or_flaw(name, material, points, spacing)
+    }
+
+    /// A shape, filled with particles that follow its surface, each with the volume `spacing`ᴰ \[mᴰ\]; see
+    /// [`pack`](crate::geometry::pack).
+    ///
+    /// ```
+    /// use meshfree::geometry::Ball;
+    /// use meshfree::material::catalogue;
+    /// use meshfree::scene::Body;
+    /// let disc = Ball::new([0.0; 2], 8e-3);
+    /// let disc: Body<f64, 2> = Body::packed("disc", catalogue::copper(), &disc, 1e-3);
+    /// assert_eq!(disc.points().len(), 201);
+    /// ```
+    #[must_use]
+    pub fn packed(
+        name: &str,
+        material: Material<T>,
+        shape: &(impl Shape<D> + ?Sized),
+        spacing: f64,
+    ) -> Self {
+        let points = packed(shape, spacing, shape.bounds().0);
+        Self::or_flaw(name, material, points, spacing)
+    }
+
+    /// Particles at points, or what is wrong with them.
+    fn or_flaw(
+        name: &str,
+        material: Material<T>,
+        points: core::result::Result<Vec<[f64; D]>, Flaw>,
+        spacing: f64,
+    ) -> Self {
+        let (points, shape) = match points {
             Ok(points) => (points, Ok(())),
             Err(flaw) => (Vec::new(), Err(flaw)),
         };

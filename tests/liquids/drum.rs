@@ -28,7 +28,7 @@ fn laminar() -> Scheme<f64, 2> {
 
 /// A closed domain that is sheared: forces of friction along the line between particles, which keep angular momentum, particles
 /// that stay evenly spread, densities that stay those of their places, and walls that pull as well as push.
-fn sheared() -> Scheme<f64, 2> {
+pub fn sheared() -> Scheme<f64, 2> {
     schemes::weakly_compressible()
         .h_over_dx(2.0)
         .density_diffusion(Antuono::default())

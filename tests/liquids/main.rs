@@ -8,6 +8,7 @@ mod tank;
 mod across_boundaries;
 mod advice;
 mod arbitrary_lagrangian;
+mod cylinders;
 mod dam_break;
 mod drops;
 mod drum;
