@@ -15,6 +15,7 @@ mod floating;
 mod gauges;
 mod gentle_flows;
 mod groups;
+mod heat;
 mod indicators;
 mod jet_on_step;
 mod lagrangian_liquid;
