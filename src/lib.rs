@@ -227,6 +227,7 @@
 //! | [ParaView and films](https://github.com/meshfree/meshfree/blob/main/docs/how_to_paraview.md) | particle files and films, and how to look at them |
 //! | [stop and go on](https://github.com/meshfree/meshfree/blob/main/docs/how_to_restart.md) | checkpoints and restarts |
 //! | [heat](https://github.com/meshfree/meshfree/blob/main/docs/how_to_heat.md) | conduction, convection and radiation |
+//! | [what enters and leaves](https://github.com/meshfree/meshfree/blob/main/docs/how_to_openings.md) | inlets, outlets, sources and drains |
 //! | [gallery](https://github.com/meshfree/meshfree/blob/main/docs/gallery.md) | a picture of each example |
 //! | [theory](https://github.com/meshfree/meshfree/blob/main/docs/theory.md) | what is solved |
 //! | [extending](https://github.com/meshfree/meshfree/blob/main/docs/extending.md) | a kernel, law, boundary, integrator or effect of your own |
@@ -316,6 +317,8 @@ mod pages {
     pub struct Restart;
     #[doc = include_str!("../docs/how_to_heat.md")]
     pub struct Heat;
+    #[doc = include_str!("../docs/how_to_openings.md")]
+    pub struct Openings;
     #[doc = include_str!("../docs/extending.md")]
     pub struct Extending;
 }

@@ -50,6 +50,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         self.check_names(&mut problems);
         self.check_contacts(&mut problems);
         self.check_outlets(&mut problems);
+        self.check_sources(&mut problems);
         let plans: Vec<Plan<'_, T, D>> = self.plans().collect();
         for plan in &plans {
             plan.check_scheme(&mut problems);
