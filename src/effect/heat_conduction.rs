@@ -2,7 +2,7 @@
 //! Cleary & Monaghan 1999 (J. Comput. Phys. 148, 227).
 
 use super::{
-    ByField, Effect, Evolved, LedgerColumn, Point, PointLaw, PointLimit, PointRate, Reach, Setting,
+    Effect, Evolved, LedgerColumn, Point, PointLaw, PointLimit, PointRate, Reach, Setting,
     StepProgram,
 };
 use crate::name;
@@ -95,7 +95,7 @@ impl<const D: usize> Effect<D> for HeatConduction {
         program.law(Stage::Rates, Conducted);
         program.heat(CONDUCTION);
         program.evolve(Evolved::kicked(TEMPERATURE).by(Warming).by(Loaded));
-        program.evolve(Evolved::kicked(CONDUCTED).by(ByField(CONDUCTION)));
+        program.evolve(Evolved::kicked(CONDUCTED).by(Booked));
         let h_over_dx = program.setting().h_over_dx;
         program.limit(Diffusion { h_over_dx });
         program.ledger(LedgerColumn {
@@ -175,6 +175,18 @@ impl<const D: usize> PointRate<D> for Warming {
     #[inline(always)]
     fn point<L: Lane, P: Reach>(&self, at: &Point<'_, L, D, P>, _: L, rate: &mut [L]) {
         rate[0] += at.get(CONDUCTION) / at.get(SPECIFIC_HEAT);
+    }
+}
+
+/// What the ledger has of it.
+#[derive(Clone, Copy, Debug)]
+struct Booked;
+
+impl<const D: usize> PointRate<D> for Booked {
+    const READS: Fields = Fields::of(&[CONDUCTION]);
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &Point<'_, L, D, P>, _: L, rate: &mut [L]) {
+        rate[0] += at.get(CONDUCTION);
     }
 }
 

@@ -4,8 +4,8 @@
 use super::heat_conduction::SPECIFIC_HEAT;
 use super::shifting::{length, share};
 use super::{
-    Around, ByField, CONSTANTS, Effect, Evolved, HeatConduction, LedgerColumn, Point, PointLaw,
-    PointLimit, PointRate, Reach, Setting, StepProgram, not_negative,
+    Around, CONSTANTS, Effect, Evolved, HeatConduction, LedgerColumn, Point, PointLaw, PointLimit,
+    PointRate, Reach, Setting, StepProgram, not_negative,
 };
 use crate::error::Problem;
 use crate::name;
@@ -171,7 +171,7 @@ impl<const D: usize> Effect<D> for SurfaceHeat {
         );
         program.heat(HEATING);
         program.contribute(TEMPERATURE, Warming);
-        program.evolve(Evolved::kicked(RECEIVED).by(ByField(HEATING)));
+        program.evolve(Evolved::kicked(RECEIVED).by(Booked));
         program.limit(Cooling);
         program.ledger(LedgerColumn {
             name: "heat through surfaces",
@@ -296,6 +296,18 @@ impl<const D: usize> PointRate<D> for Warming {
     #[inline(always)]
     fn point<L: Lane, P: Reach>(&self, at: &Point<'_, L, D, P>, _: L, rate: &mut [L]) {
         rate[0] += at.get(HEATING) / at.get(SPECIFIC_HEAT);
+    }
+}
+
+/// What the ledger has of it.
+#[derive(Clone, Copy, Debug)]
+struct Booked;
+
+impl<const D: usize> PointRate<D> for Booked {
+    const READS: Fields = Fields::of(&[HEATING]);
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, at: &Point<'_, L, D, P>, _: L, rate: &mut [L]) {
+        rate[0] += at.get(HEATING);
     }
 }
 
