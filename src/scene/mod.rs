@@ -90,12 +90,15 @@ mod held;
 mod joints;
 mod numerics;
 mod plan;
+mod resample;
 mod sources;
+mod state;
 
 pub use body::{Body, Start};
 pub use conversion::{Conversion, Distortion};
 #[cfg(feature = "checkpoint")]
 pub(crate) use fingerprint::Described;
+pub use state::ParticleState;
 
 use crate::boundary::{Boundary, Drain, Inlet, Outlet, Source, Wall};
 use crate::coupling::Coupling;
