@@ -231,6 +231,8 @@
 //! | [loads and coupling](https://github.com/meshfree/meshfree/blob/main/docs/how_to_coupling.md) | loads, columns without copies, neighbours, forces for another code |
 //! | [troubleshooting](https://github.com/meshfree/meshfree/blob/main/docs/how_to_troubleshoot.md) | error messages and symptoms, with cause and remedy |
 //! | [units and other codes](https://github.com/meshfree/meshfree/blob/main/docs/how_to_units_and_other_codes.md) | SI, and the terms of LS-DYNA, DualSPHysics and PySPH |
+//! | [heat](https://github.com/meshfree/meshfree/blob/main/docs/how_to_heat.md) | conduction, convection and radiation |
+//! | [what enters and leaves](https://github.com/meshfree/meshfree/blob/main/docs/how_to_openings.md) | inlets, outlets, sources and drains |
 //! | [gallery](https://github.com/meshfree/meshfree/blob/main/docs/gallery.md) | a picture of each example |
 //! | [theory](https://github.com/meshfree/meshfree/blob/main/docs/theory.md) | what is solved |
 //! | [extending](https://github.com/meshfree/meshfree/blob/main/docs/extending.md) | a kernel, law, boundary, integrator or effect of your own |
@@ -324,6 +326,10 @@ mod pages {
     pub struct Stl;
     #[doc = include_str!("../docs/how_to_coupling.md")]
     pub struct CouplingToOthers;
+    #[doc = include_str!("../docs/how_to_heat.md")]
+    pub struct Heat;
+    #[doc = include_str!("../docs/how_to_openings.md")]
+    pub struct Openings;
     #[doc = include_str!("../docs/extending.md")]
     pub struct Extending;
 }

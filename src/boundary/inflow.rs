@@ -2,9 +2,10 @@
 //! A column goes with the inflow before it; by every spacing its first particle becomes liquid and the rest steps back.
 
 use super::open::BEYOND;
-use super::{OpenBoundary, OpenPlace};
+use super::{Motion, OpenBoundary, OpenPlace, Pose, motion_from};
 use crate::error::{Error, Result};
 use crate::origin::local;
+use crate::tensor::Vector;
 use std::sync::Arc;
 
 /// Places and weights of Gauss's rule of two points on the unit interval, exact for cubics.
@@ -36,6 +37,9 @@ pub(crate) struct Inflow<const D: usize> {
     shifts: Vec<f64>,
     velocities: Vec<[f64; D]>,
     accelerations: Vec<[f64; D]>,
+    /// What carries the opening, in places that are counted from the origin, and where that is now.
+    motion: Option<Arc<dyn Motion<D>>>,
+    pose: Option<Pose<D>>,
 }
 
 /// A particle that becomes liquid.
@@ -74,7 +78,20 @@ impl<const D: usize> Inflow<D> {
             shifts: vec![0.0; columns],
             velocities: vec![[0.0; D]; columns],
             accelerations: vec![[0.0; D]; columns * layers],
+            motion: None,
+            pose: None,
         }
+    }
+
+    /// The same behind an opening that moves.
+    pub fn carried(self, motion: &Option<Arc<dyn Motion<D>>>, origin: &[f64; D]) -> Self {
+        let motion = motion.as_ref().map(|motion| motion_from(motion, origin));
+        Self { motion, ..self }
+    }
+
+    /// Whether the opening moves.
+    pub fn motion(&self) -> Option<&dyn Motion<D>> {
+        self.motion.as_deref()
     }
 
     fn velocity(&self, column: usize, time: f64) -> [f64; D] {
@@ -127,13 +144,33 @@ impl<const D: usize> Inflow<D> {
                 *own = a;
             }
         }
+        let Some(motion) = &self.motion else {
+            return;
+        };
+        let pose = motion.pose(time);
+        // a = A a₀ + 2 A′ v₀ + A″ x₀ + b″ of a particle at x₀ in the frame of the opening.
+        for (number, own) in self.accelerations.iter_mut().enumerate() {
+            let (column, layer) = (number % columns, number / columns);
+            let along = self.shifts[column] - layer as f64 * self.spacing;
+            let x = core::array::from_fn(|d| self.front[column][d] + along * self.inwards[d]);
+            let carried = Vector::from(pose.of(2, &x));
+            let turned = pose.linear[1] * Vector::from(self.velocities[column]) * 2.0;
+            *own = (pose.linear[0] * Vector::from(*own) + turned + carried).into();
+        }
+        self.pose = Some(match chord {
+            Some(ends) => pose.on_chord(ends.map(|end| motion.pose(end)), ends),
+            None => pose,
+        });
     }
 
     /// Where the particle of the buffer is that was at `rest` \[m\] there, and its velocity \[m/s\].
     pub fn place(&self, number: usize, rest: &[f64; D]) -> [[f64; D]; 2] {
         let column = number % self.front.len();
         let x = core::array::from_fn(|d| rest[d] + self.shifts[column] * self.inwards[d]);
-        [x, self.velocities[column]]
+        let v = &self.velocities[column];
+        self.pose
+            .as_ref()
+            .map_or([x, *v], |pose| pose.carries(&x, v))
     }
 
     /// Accelerations \[m/s²\] of its particles, by number.
@@ -187,12 +224,16 @@ impl<const D: usize> Inflow<D> {
         }
         self.gone.copy_from_slice(&self.shifts);
         self.time = time;
+        let pose = self.motion.as_ref().map(|motion| motion.pose(time));
         for column in 0..self.front.len() {
             while self.gone[column] >= self.spacing {
                 let (gone, front) = (self.gone[column], &self.front[column]);
+                let x = core::array::from_fn(|d| front[d] + gone * self.inwards[d]);
+                let v = &self.velocities[column];
+                let [x, velocity] = pose.as_ref().map_or([x, *v], |pose| pose.carries(&x, v));
                 enter(Entering {
-                    x: core::array::from_fn(|d| front[d] + gone * self.inwards[d]),
-                    velocity: self.velocities[column],
+                    x,
+                    velocity,
                     number: column,
                 })?;
                 self.gone[column] -= self.spacing;

@@ -40,6 +40,8 @@ pub struct Inlet<const D: usize> {
     pub(crate) reserve: usize,
     /// Velocities that differ by place or time; none if all of it has one.
     pub(crate) state: Option<Arc<dyn OpenBoundary<D>>>,
+    /// What carries the opening, if it moves.
+    motion: Option<Arc<dyn Motion<D>>>,
 }
 
 impl<const D: usize> fmt::Debug for Inlet<D> {
@@ -53,6 +55,9 @@ impl<const D: usize> fmt::Debug for Inlet<D> {
         // Checkpoints of inlets without one are as they were.
         if let Some(state) = &self.state {
             all.field("state", state);
+        }
+        if let Some(motion) = &self.motion {
+            all.field("motion", motion);
         }
         all.finish()
     }
@@ -77,6 +82,7 @@ impl<const D: usize> Inlet<D> {
             spacing,
             reserve,
             state: None,
+            motion: None,
         }
     }
 
@@ -107,6 +113,22 @@ impl<const D: usize> Inlet<D> {
         }
     }
 
+    /// Lets a rigid motion carry it, as that of the wall that it is in. Opening, velocity, and what a [boundary](OpenBoundary) is asked
+    /// for and gives, are those of the wall as built: liquid enters with this velocity relative to the opening.
+    ///
+    /// ```
+    /// use meshfree::boundary::{Inlet, Translation};
+    /// // A nozzle that points down and travels along x at 0.5 m/s.
+    /// let nozzle = (0..5).map(|k| [0.01 * (f64::from(k) + 0.5), 0.3]).collect();
+    /// let inlet = Inlet::new("water", nozzle, [0.0, -1.0], 0.01, 500)
+    ///     .motion(Translation::steady([0.5, 0.0]));
+    /// ```
+    #[must_use]
+    pub fn motion(mut self, motion: impl Motion<D> + 'static) -> Self {
+        self.motion = Some(Arc::new(motion));
+        self
+    }
+
     fn direction(&self) -> [f64; D] {
         let size = length(&Vector::from(self.velocity));
         self.velocity.map(|v| v / size)
@@ -119,7 +141,7 @@ impl<const D: usize> Inlet<D> {
         if self.state.is_some() {
             return buffer;
         }
-        buffer.motion(Uniform::new(self.velocity, self.spacing, 0))
+        buffer.motion(Uniform::new(self.velocity, self.spacing, 0).carried(&self.motion))
     }
 
     /// What moves a buffer of so many layers, where velocities differ by place or time, for a body of a group.
@@ -131,7 +153,8 @@ impl<const D: usize> Inlet<D> {
     ) -> Option<Inflow<D>> {
         let state = (self.state.clone()?, self.direction());
         let size = (self.spacing, layers);
-        Some(Inflow::new(state, &self.opening, size, fed, origin))
+        let inflow = Inflow::new(state, &self.opening, size, fed, origin);
+        Some(inflow.carried(&self.motion, origin))
     }
 
     /// A layer of the buffer as built.
@@ -150,6 +173,8 @@ impl<const D: usize> Inlet<D> {
             velocity: self.velocity,
             spacing: self.spacing,
             layers: 0,
+            motion: self.motion.clone(),
+            origin: *origin,
         }
     }
 
@@ -214,10 +239,11 @@ impl<const D: usize> Inlet<D> {
     }
 }
 
-/// Moves a buffer with the inflow, and back by one spacing for every layer handed over.
+/// Moves a buffer with the inflow, back by one spacing for every layer handed over, and then as the opening moves.
 pub(crate) struct Uniform<const D: usize> {
     velocity: [f64; D],
     back: [f64; D],
+    carried: Option<Arc<dyn Motion<D>>>,
 }
 
 impl<const D: usize> Uniform<D> {
@@ -227,7 +253,13 @@ impl<const D: usize> Uniform<D> {
         Self {
             velocity,
             back: step.map(|step| layers as f64 * step),
+            carried: None,
         }
+    }
+
+    fn carried(self, motion: &Option<Arc<dyn Motion<D>>>) -> Self {
+        let carried = motion.clone();
+        Self { carried, ..self }
     }
 }
 
@@ -236,11 +268,25 @@ impl<const D: usize> Motion<D> for Uniform<D> {
         "inflow".into()
     }
     fn pose(&self, time: f64) -> Pose<D> {
+        self.pose_from(&[0.0; D], time)
+    }
+    fn pose_from(&self, origin: &[f64; D], time: f64) -> Pose<D> {
         let shift = Vector::from_fn(|d, _| self.velocity[d] * time - self.back[d]);
-        Pose {
+        let pose = Pose {
             shift: [shift, Vector::from(self.velocity), Vector::zeros()],
             ..Pose::rest()
+        };
+        match &self.carried {
+            Some(carried) => pose.then(&carried.pose_from(origin, time)),
+            None => pose,
         }
+    }
+    fn span(&self) -> [f64; 2] {
+        let always = [f64::NEG_INFINITY, f64::INFINITY];
+        self.carried.as_ref().map_or(always, |own| own.span())
+    }
+    fn resolution(&self) -> Option<f64> {
+        self.carried.as_ref()?.resolution()
     }
 }
 
@@ -255,24 +301,33 @@ pub(crate) struct Emitter<const D: usize> {
     front: Vec<[f64; D]>,
     velocity: [f64; D],
     spacing: f64,
+    motion: Option<Arc<dyn Motion<D>>>,
+    /// The place \[m\] in the scene from which those of `front` count.
+    origin: [f64; D],
 }
 
 impl<const D: usize> Emitter<D> {
     /// How its buffer moves until the next layer is due.
     pub fn inflow(&self) -> Uniform<D> {
-        Uniform::new(self.velocity, self.spacing, self.layers)
+        Uniform::new(self.velocity, self.spacing, self.layers).carried(&self.motion)
     }
 
-    /// The layer that becomes liquid at `time` \[s\], with its velocity; `None` before it is due.
-    pub fn due(&mut self, time: f64) -> Option<(Vec<[f64; D]>, [f64; D])> {
+    /// Places and velocities of the layer that becomes liquid at `time` \[s\]; `None` before it is due.
+    pub fn due(&mut self, time: f64) -> Option<Vec<[[f64; D]; 2]>> {
         let speed = length(&Vector::from(self.velocity));
         let gone = speed * time - self.layers as f64 * self.spacing;
         if gone < self.spacing {
             return None;
         }
         let by = gone / speed;
-        let moved = |x: &[f64; D]| core::array::from_fn(|d| x[d] + by * self.velocity[d]);
         self.layers += 1;
-        Some((self.front.iter().map(moved).collect(), self.velocity))
+        let pose = self.motion.as_ref();
+        let pose = pose.map(|motion| motion.pose_from(&self.origin, time));
+        let state = |x: &[f64; D]| {
+            let x = core::array::from_fn(|d| x[d] + by * self.velocity[d]);
+            pose.as_ref()
+                .map_or([x, self.velocity], |pose| pose.carries(&x, &self.velocity))
+        };
+        Some(self.front.iter().map(state).collect())
     }
 }

@@ -38,6 +38,15 @@ impl<const D: usize> Pose<D> {
     pub fn of(&self, order: usize, x: &[f64; D]) -> [f64; D] {
         (self.linear[order] * Vector::from(*x) + self.shift[order]).into()
     }
+    /// Place \[m\] and velocity \[m/s\] of what is at `x` and moves with `v` in the frame that the pose carries.
+    pub(crate) fn carries(&self, x: &[f64; D], v: &[f64; D]) -> [[f64; D]; 2] {
+        let relative = self.linear[0] * Vector::from(*v);
+        let own = self.of(1, x);
+        [
+            self.of(0, x),
+            core::array::from_fn(|d| own[d] + relative[d]),
+        ]
+    }
     /// The same for places that are counted from `origin` o \[m\]: x − o = A (X − o) + b + A o − o.
     #[must_use]
     pub fn seen_from(mut self, origin: &[f64; D]) -> Self {

@@ -1,9 +1,10 @@
 //! Outlets: where particles leave the simulation, and what they must do to be taken out.
 //! What leaves is counted, with its mass and momentum. Before a plane may lie a buffer of given pressure or velocity.
 
-use super::OpenBoundary;
+use super::{Motion, OpenBoundary, motion_from};
 use crate::geometry::{POSITIVE, SWAPPED};
 use crate::origin::local;
+use crate::tensor::Vector;
 use core::fmt;
 use std::sync::Arc;
 
@@ -21,7 +22,7 @@ use std::sync::Arc;
 /// assert!(Outlet::faster_than(10.0).takes(&[0.0], &[-11.0]));
 /// ```
 #[derive(Clone)]
-pub struct Outlet<const D: usize>(Reason<D>, Option<Buffer<D>>);
+pub struct Outlet<const D: usize>(Reason<D>, Option<Buffer<D>>, Option<Arc<dyn Motion<D>>>);
 
 /// Liquid before a plane whose state is given.
 #[derive(Clone, Debug)]
@@ -39,11 +40,14 @@ impl<const D: usize> fmt::Debug for Outlet<D> {
         if let Some(buffer) = &self.1 {
             all.field(buffer);
         }
+        if let Some(motion) = &self.2 {
+            all.field(motion);
+        }
         all.finish()
     }
 }
 
-/// The same place and buffer; boundaries are the same if one is a clone of the other.
+/// The same place and buffer; boundaries and motions are the same if one is a clone of the other.
 impl<const D: usize> PartialEq for Outlet<D> {
     fn eq(&self, other: &Self) -> bool {
         let same = match (&self.1, &other.1) {
@@ -51,7 +55,12 @@ impl<const D: usize> PartialEq for Outlet<D> {
             (Some(a), Some(b)) => a.depth == b.depth && Arc::ptr_eq(&a.state, &b.state),
             _ => false,
         };
-        self.0 == other.0 && same
+        let carried = match (&self.2, &other.2) {
+            (None, None) => true,
+            (Some(a), Some(b)) => Arc::ptr_eq(a, b),
+            _ => false,
+        };
+        self.0 == other.0 && same && carried
     }
 }
 
@@ -66,19 +75,19 @@ impl<const D: usize> Outlet<D> {
     /// Beyond the plane through `point` \[m\]; `normal` points to where particles leave.
     #[must_use]
     pub fn plane(point: [f64; D], normal: [f64; D]) -> Self {
-        Self(Reason::Beyond { point, normal }, None)
+        Self(Reason::Beyond { point, normal }, None, None)
     }
 
     /// Outside of the box from `low` to `high` \[m\]: the box in which a simulation is active.
     #[must_use]
     pub fn outside_box(low: [f64; D], high: [f64; D]) -> Self {
-        Self(Reason::Outside { low, high }, None)
+        Self(Reason::Outside { low, high }, None, None)
     }
 
     /// Faster than `speed` \[m/s\]: particles that a run can do without, as LS-DYNA's MAXV.
     #[must_use]
     pub fn faster_than(speed: f64) -> Self {
-        Self(Reason::Faster { speed }, None)
+        Self(Reason::Faster { speed }, None, None)
     }
 
     /// Lets the liquid within `depth` \[m\] before a plane have the velocity or the pressure that a [boundary](OpenBoundary)
@@ -113,6 +122,39 @@ impl<const D: usize> Outlet<D> {
         self
     }
 
+    /// Lets a rigid motion carry a plane, with its [buffer](Self::buffer), as that of the wall that it is in. Point and normal are those as
+    /// built; what a boundary is asked for and gives is in the scene, where the plane is.
+    ///
+    /// ```
+    /// use meshfree::boundary::{Outlet, Translation};
+    /// let end = Outlet::plane([1.0, 0.0], [1.0, 0.0]).motion(Translation::steady([0.5, 0.0]));
+    /// ```
+    #[must_use]
+    pub fn motion(mut self, motion: impl Motion<D> + 'static) -> Self {
+        self.2 = Some(Arc::new(motion));
+        self
+    }
+
+    /// What carries it, if it moves.
+    pub(crate) fn carried(&self) -> Option<&dyn Motion<D>> {
+        self.2.as_deref()
+    }
+
+    /// The same at rest where it is at `time` \[s\].
+    pub(crate) fn at(&self, time: f64) -> Self {
+        let reason = match (&self.0, &self.2) {
+            (Reason::Beyond { point, normal }, Some(motion)) => {
+                let pose = motion.pose(time);
+                Reason::Beyond {
+                    point: pose.of(0, point),
+                    normal: (pose.linear[0] * Vector::from(*normal)).into(),
+                }
+            }
+            (reason, _) => reason.clone(),
+        };
+        Self(reason, self.1.clone(), None)
+    }
+
     /// The point \[m\] and the unit normal, outwards, of its plane, with the buffer before it; none if there is none.
     pub(crate) fn open(&self) -> Option<([f64; D], [f64; D], &Buffer<D>)> {
         let (Reason::Beyond { point, normal }, Some(buffer)) = (&self.0, &self.1) else {
@@ -122,7 +164,7 @@ impl<const D: usize> Outlet<D> {
         Some((*point, normal.map(|n| n / size), buffer))
     }
 
-    /// Whether a particle at `x` \[m\] with velocity `v` \[m/s\] leaves.
+    /// Whether a particle at `x` \[m\] with velocity `v` \[m/s\] leaves, with a plane where it is built.
     #[must_use]
     pub fn takes(&self, x: &[f64; D], v: &[f64; D]) -> bool {
         match &self.0 {
@@ -148,7 +190,8 @@ impl<const D: usize> Outlet<D> {
             },
             Reason::Faster { speed } => Reason::Faster { speed: *speed },
         };
-        Self(reason, self.1.clone())
+        let motion = self.2.as_ref().map(|motion| motion_from(motion, origin));
+        Self(reason, self.1.clone(), motion)
     }
 
     /// What is wrong with it, as `(what, value, what it must be)`.
@@ -164,6 +207,10 @@ impl<const D: usize> Outlet<D> {
                 problems.push(("depth of the buffer", *depth, must_be));
             }
             problems.extend(state.problems());
+        }
+        if self.2.is_some() && !matches!(self.0, Reason::Beyond { .. }) {
+            let must_be = "a motion carries a plane: take Outlet::plane";
+            problems.push(("motion", f64::NAN, must_be));
         }
         let own = match &self.0 {
             Reason::Beyond { point, normal } => {

@@ -55,6 +55,8 @@ macro_rules! for_each_effect {
                 $crate::effect::ProgrammedBurn::new("test", 4e3).lit_at_point([0.0], 0.0),
                 $crate::effect::ArtificialConduction::default(),
                 $crate::effect::ArtificialStress::default(),
+                $crate::effect::HeatConduction { conductivity: 400.0, specific_heat: 385.0, temperature: 300.0 },
+                $crate::effect::SurfaceHeat::convection(1e3, 400.0),
                 $crate::effect::HourglassFree::default()
             ]
             total_lagrangian [

@@ -72,6 +72,8 @@ pub struct StepProgram<T: Real, const D: usize> {
     /// Fields of energy over mass that is stored, and of what has been dissipated.
     pub(crate) stored: Vec<Field>,
     pub(crate) dissipated: Vec<Field>,
+    /// Fields of heat that laws of the rates give over mass and time.
+    pub(crate) heating: Vec<Field>,
     /// Whether all effects say what they store, and whether the pressure is that of the equation of state.
     pub(crate) books_energy: bool,
     pub(crate) presses: bool,
@@ -107,6 +109,7 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
             least_on_rigid: Vec::new(),
             stored: Vec::new(),
             dissipated: Vec::new(),
+            heating: Vec::new(),
             books_energy: true,
             presses: true,
             needed: Fields::NONE,
@@ -183,6 +186,12 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
     /// Says that a field holds energy over mass \[J/kg\] that was dissipated since the start, and is in the internal energy.
     pub fn dissipate(&mut self, field: Field) {
         self.dissipated.push(field);
+    }
+
+    /// Says that a field, which laws of [`Stage::Rates`] write, is heat over mass and time \[W/kg\]: it joins the internal energy,
+    /// where the scheme has one, as the heat of [loads](crate::simulation::Load::heating) does.
+    pub fn heat(&mut self, field: Field) {
+        self.heating.push(field);
     }
 
     /// Says that forces do not follow from the pressure of the equation of state, which then stores nothing.
@@ -358,6 +367,7 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
         self.documents.sort_by_cached_key(|own| format!("{own:?}"));
         self.stored.sort_by_key(|field| field.full_name());
         self.dissipated.sort_by_key(|field| field.full_name());
+        self.heating.sort_by_key(|field| field.full_name());
         self.step_factors.sort_by(f64::total_cmp);
     }
 
@@ -394,6 +404,7 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
         shuffle(&mut self.requirements, seed);
         shuffle(&mut self.stored, seed);
         shuffle(&mut self.dissipated, seed);
+        shuffle(&mut self.heating, seed);
         shuffle(&mut self.step_factors, seed);
         self.arrange();
     }

@@ -1,8 +1,9 @@
 //! What a scheme is, as far as its effects may ask: kernel, spacing, density form.
 //! Evaluated when the scene is built, so the order in which a builder was told does not matter.
 
+use super::surface_heat::area_factor;
 use super::{DensityForm, EnergyForm, Smoothing};
-use crate::kernel::lattice::{lattice_consistency_factor, lattice_unity};
+use crate::kernel::lattice::{gradients_at_surface, lattice_consistency_factor, lattice_unity};
 use crate::kernel::{Kernel, KernelFacts};
 
 /// What a scheme is, as far as its effects may ask.
@@ -26,6 +27,8 @@ pub struct Setting {
     pub lattice_unity: f64,
     /// hᴰ W at the spacing.
     pub kernel_at_spacing: f64,
+    /// The factor of areas by which a flat surface along the lattice is exact, for [`SurfaceHeat`](super::SurfaceHeat).
+    pub area_factor: f64,
 }
 
 impl Setting {
@@ -44,6 +47,7 @@ impl Setting {
             lattice_consistency_factor: lattice_consistency_factor(kernel, h_over_dx),
             lattice_unity: lattice_unity(kernel, h_over_dx),
             kernel_at_spacing: kernel.normalisation() * Kernel::<D>::shape(kernel, 1.0 / h_over_dx),
+            area_factor: area_factor(&gradients_at_surface(kernel, h_over_dx), h_over_dx),
         }
     }
 }

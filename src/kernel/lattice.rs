@@ -27,12 +27,38 @@ pub(crate) fn lattice_unity<K: Kernel<D>, const D: usize>(kernel: &K, h_over_dx:
 /// no kernel is stable with more.
 pub(crate) fn longest_step<K: Kernel<D>, const D: usize>(kernel: &K, h_over_dx: f64) -> f64 {
     const WAVES: u32 = 256;
-    let layers = (kernel.support() * h_over_dx).ceil();
-    if !(h_over_dx > 0.0 && (1.0..=MOST_LAYERS).contains(&layers)) {
+    if !has_layers(kernel, h_over_dx) {
         return f64::NAN;
     }
-    // −V F of all neighbours in a layer of the lattice, in units of the spacing.
-    let side = layers as i64;
+    let sums = slopes_of_layers(kernel, h_over_dx);
+    let wave_number = |n: u32| {
+        let k = core::f64::consts::PI * f64::from(n) / f64::from(WAVES);
+        let layers = sums.iter().enumerate().map(|(n, sum)| {
+            let x = (n + 1) as f64;
+            2.0 * sum * x * Lane::sin(k * x)
+        });
+        layers.sum::<f64>().abs()
+    };
+    let largest = (1..WAVES).map(wave_number).fold(0.0, f64::max);
+    2.0 / (h_over_dx * largest)
+}
+
+/// Σ V |∇W| of the layers that a row of a lattice lacks at a flat surface, in units of 1/dx: row by row from the surface on.
+pub(crate) fn gradients_at_surface<K: Kernel<D>, const D: usize>(
+    kernel: &K,
+    h_over_dx: f64,
+) -> Vec<f64> {
+    if !has_layers(kernel, h_over_dx) {
+        return Vec::new();
+    }
+    let slopes = slopes_of_layers(kernel, h_over_dx);
+    let beyond = |row: usize| (row..slopes.len()).map(|n| slopes[n] * (n + 1) as f64);
+    (0..slopes.len()).map(|row| beyond(row).sum()).collect()
+}
+
+/// −V F of all neighbours in each layer of a cubic lattice on one side, in units of the spacing.
+fn slopes_of_layers<K: Kernel<D>, const D: usize>(kernel: &K, h_over_dx: f64) -> Vec<f64> {
+    let side = (kernel.support() * h_over_dx).ceil() as i64;
     let across = (2 * side + 1).pow(D as u32 - 1);
     let norm = kernel.normalisation() / h_over_dx.powi(D as i32 + 2);
     let of_layer = |layer: i64| -> f64 {
@@ -44,17 +70,13 @@ pub(crate) fn longest_step<K: Kernel<D>, const D: usize>(kernel: &K, h_over_dx: 
         });
         norm * slopes.sum::<f64>()
     };
-    let sums: Vec<f64> = (1..=side).map(of_layer).collect();
-    let wave_number = |n: u32| {
-        let k = core::f64::consts::PI * f64::from(n) / f64::from(WAVES);
-        let layers = sums.iter().enumerate().map(|(n, sum)| {
-            let x = (n + 1) as f64;
-            2.0 * sum * x * Lane::sin(k * x)
-        });
-        layers.sum::<f64>().abs()
-    };
-    let largest = (1..WAVES).map(wave_number).fold(0.0, f64::max);
-    2.0 / (h_over_dx * largest)
+    (1..=side).map(of_layer).collect()
+}
+
+/// Whether a kernel reaches over a number of layers of a lattice that can be summed.
+fn has_layers<K: Kernel<D>, const D: usize>(kernel: &K, h_over_dx: f64) -> bool {
+    let layers = (kernel.support() * h_over_dx).ceil();
+    h_over_dx > 0.0 && (1.0..=MOST_LAYERS).contains(&layers)
 }
 
 /// Layers of a lattice that a kernel can reach over.

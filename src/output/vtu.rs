@@ -160,7 +160,7 @@ impl Vtu {
     }
 
     /// The whole file.
-    fn bytes(&self) -> Vec<u8> {
+    pub(crate) fn bytes(&self) -> Vec<u8> {
         let n = self.len();
         let connectivity = Array::new("connectivity", (0..n as i64).map(|i| [i]));
         let offsets = Array::new("offsets", (1..=n as i64).map(|i| [i]));

@@ -195,8 +195,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
         Ok(simulation)
     }
 
-    /// Where particles of each group are as built \[m\], by identity, if loads may ask. An inlet gives away the identities of
-    /// those that have left, so its body has none.
+    /// Where particles of each group are as built \[m\], by identity, if loads may ask. What enters takes the identities of
+    /// those that have left, so a body that is fed has none.
     fn places_as_built(&self, groups: &[Group<T, D>]) -> Vec<Vec<Option<[f64; D]>>> {
         if self.loads.is_empty() {
             return Vec::new();
@@ -204,7 +204,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         let of_group = |(part, group): (&Part<T, D>, &Group<T, D>)| {
             let mut places = vec![None; group.particles.ids.len()];
             for (body, state) in part.bodies.iter().zip(&group.particles.bodies) {
-                if self.inlets.iter().any(|inlet| inlet.body == body.name) {
+                if self.is_fed(&body.name) {
                     continue;
                 }
                 for (place, x) in places[state.ids.clone()].iter_mut().zip(&body.points) {
@@ -217,17 +217,19 @@ impl<T: Real, const D: usize> Scene<T, D> {
     }
 
     /// The place \[m\] from which columns of particles count: the middle of the box around all particles of bodies and walls
-    /// and the openings of inlets.
+    /// and the openings of inlets and points of sources.
     pub(super) fn origin(&self) -> [f64; D] {
         let bodies = self.bodies().flat_map(|body| &body.points);
         let walls = self.walls.iter().flat_map(|wall| &wall.points);
         let openings = self.inlets.iter().flat_map(|inlet| &inlet.opening);
-        middle(bodies.chain(walls).chain(openings))
+        let points = self.sources.iter().flat_map(|source| &source.points);
+        middle(bodies.chain(walls).chain(openings).chain(points))
     }
 
     /// The box around bodies and walls \[m\], where walls alone bound the scene.
     fn domain(&self) -> Option<[[f64; D]; 2]> {
-        if self.walls.is_empty() || !self.inlets.is_empty() || !self.boundaries.is_empty() {
+        let fed = !self.inlets.is_empty() || !self.sources.is_empty();
+        if self.walls.is_empty() || fed || !self.boundaries.is_empty() {
             return None;
         }
         let bodies = self.bodies().flat_map(|body| &body.points);

@@ -18,6 +18,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
             walls,
             outlets,
             inlets,
+            sources,
+            drains,
             boundaries,
             integrator,
             contacts,
@@ -98,6 +100,10 @@ impl<T: Real, const D: usize> Scene<T, D> {
         }
         if !joints.is_empty() {
             all.push(("joints", of_texts(sorted(joints))));
+        }
+        if !sources.is_empty() || !drains.is_empty() {
+            let text = debug((sources, drains));
+            all.push(("sources and drains", of_texts([text])));
         }
         // Files of scenes without events are as they were.
         if !events.is_empty() {

@@ -90,13 +90,17 @@ mod held;
 mod joints;
 mod numerics;
 mod plan;
+mod resample;
+mod sources;
+mod state;
 
 pub use body::{Body, Start};
 pub use conversion::{Conversion, Distortion};
 #[cfg(feature = "checkpoint")]
 pub(crate) use fingerprint::Described;
+pub use state::ParticleState;
 
-use crate::boundary::{Boundary, Inlet, Outlet, Wall};
+use crate::boundary::{Boundary, Drain, Inlet, Outlet, Source, Wall};
 use crate::coupling::Coupling;
 #[cfg(doc)]
 use crate::coupling::LiquidStructure;
@@ -134,6 +138,8 @@ pub struct Scene<T: Real, const D: usize> {
     walls: Vec<Wall<D>>,
     outlets: Vec<Outlet<D>>,
     inlets: Vec<Inlet<D>>,
+    sources: Vec<Source<D>>,
+    drains: Vec<Drain<D>>,
     boundaries: Vec<Arc<dyn Boundary<D>>>,
     integrator: Arc<dyn Integrator>,
     contacts: Vec<(String, String, Interaction)>,
@@ -186,6 +192,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
             walls: Vec::new(),
             outlets: Vec::new(),
             inlets: Vec::new(),
+            sources: Vec::new(),
+            drains: Vec::new(),
             boundaries: Vec::new(),
             integrator: Arc::new(KickDriftKick),
             contacts: Vec::new(),

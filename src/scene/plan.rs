@@ -187,6 +187,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             group.outlets = outlets.map(|own| own.seen_from(&origin)).collect();
         }
         group.emitters = emitters;
+        (group.sources, group.drains) = (self.sources(&origin), self.drains());
         for (wall, inflow) in inflows {
             group.walls[wall].inflow = Some(inflow);
         }
@@ -305,14 +306,9 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             .collect()
     }
 
-    /// Particles that a body can have: those that it starts with, and what inlets may add.
+    /// Particles that a body can have: those that it starts with, and what may enter.
     fn capacity(&self, body: &Body<T, D>) -> usize {
-        let inlets = self
-            .scene
-            .inlets
-            .iter()
-            .filter(|inlet| inlet.body == body.name);
-        body.points.len() + inlets.map(|inlet| inlet.reserve).sum::<usize>()
+        body.points.len() + self.scene.reserve_of(&body.name)
     }
 
     /// Puts a buffer behind every inlet, before the structures, and returns what hands its layers over, and what moves buffers

@@ -137,13 +137,20 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
     }
 
-    /// The laws of the rates, and the forces that they add to those of pairs.
+    /// The laws of the rates, and the forces and the heat that they add to those of pairs.
     fn add_forces_of_laws(&mut self, moment: Moment) {
         self.particles.columns.raw_mut(Field::FORCE).fill(T::zero());
         self.apply_laws(Stage::Rates, moment);
         if self.has_forces_of_laws() {
             let forces = self.particles.columns.raw(Field::FORCE);
             self.work.rates.add_all(Output::FORCE, None, forces);
+        }
+        if self.scheme.energy != EnergyForm::None {
+            let mass = self.particles.columns.raw(Field::MASS);
+            for field in &self.scheme.program.heating {
+                let heating = self.particles.columns.raw(*field);
+                self.work.rates.add_all(Output::POWER, Some(mass), heating);
+            }
         }
     }
 

@@ -6,6 +6,7 @@ use super::forces::Forces;
 use super::held::Held;
 use super::neighborhood::Neighborhood;
 use super::population::Particles;
+use super::sources::{DrainState, SourceState};
 use super::sub_cycle::SubCycle;
 use super::walls::WallState;
 use super::workspace::Workspace;
@@ -31,6 +32,8 @@ pub(crate) struct Group<T: Real, const D: usize> {
     pub boundaries: Vec<Arc<dyn Boundary<D>>>,
     pub outlets: Vec<Outlet<D>>,
     pub emitters: Vec<Emitter<D>>,
+    pub sources: Vec<SourceState<D>>,
+    pub drains: Vec<DrainState<D>>,
     /// What the loads give \[m/s²\].
     pub gravity: [f64; D],
     /// The same in the frame of the wall that carries the liquid.
@@ -82,6 +85,8 @@ impl<T: Real, const D: usize> Group<T, D> {
             boundaries,
             outlets: Vec::new(),
             emitters: Vec::new(),
+            sources: Vec::new(),
+            drains: Vec::new(),
             gravity: [0.0; D],
             body_force: [T::zero(); D],
             indices: Vec::new(),
@@ -255,18 +260,19 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
     }
 
-    /// Lets particles enter that are due at `time`; whether there were any.
+    /// Lets particles enter and leave that are due at `time`; whether there were any.
     ///
     /// # Errors
-    /// If a body's reserve is used up.
+    /// If a body's reserve is used up, or what enters finds no place.
     pub fn emit(&mut self, time: f64) -> Result<bool> {
-        let mut any = false;
+        let mut any = self.drain(time);
+        any |= self.feed(time)?;
         for emitter in &mut self.emitters {
-            while let Some((layer, velocity)) = emitter.due(time) {
+            while let Some(layer) = emitter.due(time) {
                 any = true;
-                for x in layer {
+                for state in layer {
                     self.particles
-                        .insert(&self.scheme, emitter.body, [x, velocity], None)?;
+                        .insert(&self.scheme, emitter.body, state, None)?;
                 }
                 let buffer = &mut self.walls[emitter.wall];
                 buffer.set_motion(emitter.inflow(), &self.particles.origin);
@@ -307,9 +313,8 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.particles
             .wrap(&self.boundaries, &self.scheme.program, time);
         let held = &self.held;
-        let removed = self
-            .particles
-            .remove(&self.outlets, |body| held.is_rigid(body));
+        let outlets: Vec<_> = self.outlets.iter().map(|own| own.at(time)).collect();
+        let removed = self.particles.remove(&outlets, |body| held.is_rigid(body));
         self.work.rates.permute(&removed);
         let sort = self.neighborhood.wants_sort();
         let reach = self.neighborhood.reach(&self.particles);

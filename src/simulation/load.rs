@@ -113,7 +113,8 @@ impl<const D: usize> Load<D> {
         }
     }
 
-    /// A heat source q \[W/kg\] of each particle. Bodies whose scheme carries no energy cannot be heated.
+    /// A heat source q \[W/kg\] of each particle: of its internal energy, and of its temperature under
+    /// [`HeatConduction`](crate::effect::HeatConduction). Bodies whose scheme carries neither cannot be heated.
     #[must_use]
     pub fn heating(law: impl Fn(&LoadPoint<'_, D>) -> f64 + Send + Sync + 'static) -> Self {
         Self {

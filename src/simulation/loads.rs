@@ -177,11 +177,17 @@ fn evaluate_load<'a, T: Real, const D: usize>(
     None
 }
 
-/// e ← e + dt q with the heat sources of the last evaluation, where energy changes by the work of pairs.
-pub(super) fn heat_by_loads<T: Real, const D: usize>(columns: &mut Columns<T, D>, dt: f64) {
+/// e ← e + dt q with the heat that laws and loads gave in the last evaluation, where energy changes by the work of pairs.
+pub(super) fn heat_by_sources<T: Real, const D: usize>(
+    columns: &mut Columns<T, D>,
+    of_laws: &[Field],
+    dt: f64,
+) {
     let dt = T::from_f64(dt);
-    let [energy, heating] = columns.many_mut([Field::ENERGY, Field::LOAD_HEATING]);
-    for (energy, heating) in energy.iter_mut().zip(heating) {
-        *energy += dt * *heating;
+    for field in of_laws.iter().chain([&Field::LOAD_HEATING]) {
+        let [energy, heating] = columns.many_mut([Field::ENERGY, *field]);
+        for (energy, heating) in energy.iter_mut().zip(heating) {
+            *energy += dt * *heating;
+        }
     }
 }

@@ -51,7 +51,7 @@
 //! | force and impulse on a wall | [`Simulation::wall_force`], [`Simulation::wall_impulse`] |
 //! | energy of a liquid, work on it, dissipation | [`Simulation::energy`] |
 //! | stored energy, as a function of the state, and the work that went into it | [`Simulation::stored_energy`] |
-//! | what left through outlets | [`Simulation::removed`] |
+//! | what entered, what left through outlets and drains | [`Simulation::entered`], [`Simulation::removed`] |
 //! | memory | [`Simulation::bytes`] |
 //! | all of these as counts that no machine changes | [`Simulation::work`], and [`Simulation::expected_work`] of what is to come |
 //! | whether the run is sound: bounds, limits, residuals, arrangement, steps, with a verdict | [`Simulation::keep_stability`], [`Simulation::stability`] |
@@ -188,6 +188,7 @@ mod settle;
 mod side;
 mod snapshot;
 mod soundness;
+mod sources;
 mod spin;
 mod stability;
 mod stages;
@@ -240,6 +241,7 @@ pub use population::Removed;
 pub(crate) use population::{BodyState, Particles};
 pub(crate) use rigid::Rigid;
 pub(crate) use side::{MetWall, Side};
+pub(crate) use sources::{DrainState, SourceState};
 pub(crate) use spin::Spins;
 pub(crate) use sub_cycle::SubCycle;
 pub(crate) use view::rounding;

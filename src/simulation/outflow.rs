@@ -139,13 +139,11 @@ impl<T: Real, const D: usize> Group<T, D> {
     /// # Errors
     /// Where a boundary has no state, or its pressure no density.
     pub(super) fn fill_buffers(&mut self, time: f64) -> Result<()> {
-        let outlets = core::mem::take(&mut self.outlets);
-        let filled = outlets.iter().filter_map(Zone::of).try_for_each(|zone| {
+        let outlets: Vec<_> = self.outlets.iter().map(|own| own.at(time)).collect();
+        outlets.iter().filter_map(Zone::of).try_for_each(|zone| {
             (0..self.particles.bodies.len())
                 .try_for_each(|body| self.fill((&zone, &outlets), body, time))
-        });
-        self.outlets = outlets;
-        filled
+        })
     }
 
     fn fill(
@@ -290,11 +288,12 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// Takes forces off the liquid in the buffers of outlets, which keeps its velocity until the next evaluation.
     pub(super) fn free_buffers(&mut self) {
-        let gravity = self.work.evaluated_gravity;
+        let (gravity, time) = (self.work.evaluated_gravity, self.work.evaluated_time);
+        let outlets: Vec<_> = self.outlets.iter().map(|own| own.at(time)).collect();
         let columns = &self.particles.columns;
         let (x, mass) = (columns.vectors(Field::POSITION), columns.raw(Field::MASS));
         let mut forces = Forces::of(&mut self.work, &mut self.sub_cycle, false);
-        for zone in self.outlets.iter().filter_map(Zone::of) {
+        for zone in outlets.iter().filter_map(Zone::of) {
             for body in &self.particles.bodies {
                 for slot in body.run().filter(|&slot| zone.beyond(&x[slot]) >= 0.0) {
                     forces.set(slot, core::array::from_fn(|d| -mass[slot] * gravity[d]));

@@ -55,8 +55,9 @@ pub(crate) struct Particles<T: Real, const D: usize> {
     /// Identity of the particle in each slot, and the slot of each particle.
     pub ids: Vec<u32>,
     pub slot_of: Vec<u32>,
-    /// What has left through outlets.
+    /// What has left through outlets and drains, and what has entered through inlets and sources.
     pub removed: Removed<D>,
+    pub entered: Removed<D>,
     /// How many particles' numbers the groups before it have.
     pub first_id: usize,
     /// The place \[m\] from which columns of places count.
@@ -87,6 +88,7 @@ impl<T: Real, const D: usize> Particles<T, D> {
             ids,
             slot_of,
             removed: Removed::default(),
+            entered: Removed::default(),
             first_id: 0,
             origin,
             moved: Moves::default(),
@@ -127,7 +129,7 @@ impl<T: Real, const D: usize> Particles<T, D> {
     }
 }
 
-/// What has left a simulation through its outlets.
+/// Particles that have left a simulation through outlets and drains, or [entered](super::Simulation::entered) it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Removed<const D: usize> {
     /// Particles.
@@ -301,29 +303,38 @@ impl<T: Real, const D: usize> Particles<T, D> {
         if outlets.is_empty() {
             return Vec::new();
         }
+        self.take_out(whole, |columns, slot| {
+            let [x, v] = [Field::POSITION, Field::VELOCITY]
+                .map(|field| columns.vectors(field)[slot].map(Real::to_f64));
+            outlets.iter().any(|own| own.takes(&x, &v))
+        })
+    }
+
+    /// Takes out the particles of which `leaves` holds, by their slots, as [`remove`](Self::remove) does.
+    #[must_use]
+    pub fn take_out(
+        &mut self,
+        whole: impl Fn(usize) -> bool,
+        leaves: impl Fn(&Columns<T, D>, usize) -> bool,
+    ) -> Vec<u32> {
         let mut order: Vec<u32> = (0..self.columns.slots() as u32).collect();
         let mut any = false;
         for k in 0..self.bodies.len() {
             let (slots, end) = (self.bodies[k].slots.clone(), self.bodies[k].end);
             let mut kept = slots.start;
             let mut left = Collective::new();
-            let state = |columns: &Columns<T, D>, slot: usize| {
-                [Field::POSITION, Field::VELOCITY]
-                    .map(|field| columns.vectors(field)[slot].map(Real::to_f64))
-            };
-            let leaves = |[x, v]: [[f64; D]; 2]| outlets.iter().any(|own| own.takes(&x, &v));
-            if whole(k) && !slots.clone().all(|slot| leaves(state(&self.columns, slot))) {
+            if whole(k) && !slots.clone().all(|slot| leaves(&self.columns, slot)) {
                 continue;
             }
             for slot in slots.clone() {
-                let [x, v] = state(&self.columns, slot);
-                if !leaves([x, v]) {
+                if !leaves(&self.columns, slot) {
                     order[kept] = slot as u32;
                     kept += 1;
                     continue;
                 }
                 any = true;
                 self.slot_of[self.ids[slot] as usize] = u32::MAX;
+                let v = self.columns.vectors(Field::VELOCITY)[slot].map(Real::to_f64);
                 let mass = self.columns.raw(Field::MASS)[slot].to_f64();
                 left.add((
                     v.map(|v| mass * v),
@@ -369,9 +380,9 @@ impl<T: Real, const D: usize> Particles<T, D> {
             .find(|&id| self.slot_of[id] == u32::MAX);
         let (Some(id), true) = (free, slots.end < end) else {
             return Err(Error::Argument(Problem::Parameter {
-                what: format!("reserve of the inlet of body `{}`", self.bodies[body].name),
+                what: format!("reserve of what enters body `{}`", self.bodies[body].name),
                 value: slots.len() as f64,
-                must_be: "all of it has entered and none has left: give the inlet a larger reserve, \
+                must_be: "all of it has entered and none has left: give the inlet or source a larger reserve, \
                           or put an outlet where the flow ends",
             }));
         };
@@ -387,6 +398,14 @@ impl<T: Real, const D: usize> Particles<T, D> {
         self.bodies[body].slots.end = slot + 1;
         self.ids[slot] = id as u32;
         self.slot_of[id] = slot as u32;
+        let mass = self.columns.raw(Field::MASS)[slot].to_f64();
+        let v = self.columns.vectors(Field::VELOCITY)[slot].map(Real::to_f64);
+        self.entered = self.entered.and(&Removed {
+            particles: 1,
+            mass,
+            momentum: v.map(|v| mass * v),
+            kinetic: kinetic(&self.columns, slot),
+        });
         Ok(())
     }
 

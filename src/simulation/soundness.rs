@@ -106,8 +106,16 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.check_clamps(end)?;
         for group in &self.state.groups {
             for inflow in group.walls.iter().filter_map(|wall| wall.inflow.as_ref()) {
-                inflow.check(end, &group.particles.bodies[inflow.body].name)?;
+                let body = &group.particles.bodies[inflow.body].name;
+                inflow.check(end, body)?;
+                if let Some(motion) = inflow.motion() {
+                    check_span(motion, end, || format!("inlet of body `{body}`"))?;
+                }
             }
+        }
+        let outlets = self.state.groups.iter().flat_map(|group| &group.outlets);
+        for motion in outlets.filter_map(|outlet| outlet.carried()) {
+            check_span(motion, end, || "an outlet".into())?;
         }
         let spacing = self.spacing();
         for wall in self.state.groups.iter().flat_map(|group| &group.walls) {

@@ -3,7 +3,7 @@
 
 use super::evolve::{POSITIONS, RATES, add_scaled, combine_positions, rates, state, update};
 use super::group::Group;
-use super::loads::heat_by_loads;
+use super::loads::heat_by_sources;
 use super::population::BodyState;
 use super::stages::Moment;
 use super::workspace::Saved;
@@ -66,7 +66,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
         if !self.scheme.sweeps_work() {
             self.heat_by_own_forces(dt);
-            heat_by_loads(&mut self.particles.columns, dt);
+            self.heat_by_sources(dt);
             return;
         }
         // Every evaluation serves two kicks, the second of which may take its work from the first.
@@ -78,7 +78,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             self.work.first_kick = Some([0.5 * dt, self.neighborhood.placed_time]);
         }
         self.heat(dt, Some(later.unwrap_or(0.0)));
-        heat_by_loads(&mut self.particles.columns, dt);
+        self.heat_by_sources(dt);
     }
 
     /// The mean velocities v + a dt/2 and accelerations of a kick of which this is `half` the time \[s\].
@@ -265,6 +265,11 @@ impl<T: Real, const D: usize> Group<T, D> {
                 *energy += dt * power(slot) / mass[slot];
             }
         });
+    }
+
+    fn heat_by_sources(&mut self, dt: f64) {
+        let of_laws = &self.scheme.program.heating;
+        heat_by_sources(&mut self.particles.columns, of_laws, dt);
     }
 
     fn carries_energy(&self) -> bool {

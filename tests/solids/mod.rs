@@ -34,4 +34,5 @@ mod rods;
 mod shear_in_gas;
 mod sheets;
 mod smoothing;
+mod states;
 mod total_lagrangian;

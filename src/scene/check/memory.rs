@@ -24,6 +24,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         let (mut particles, mut needed) = (0, 0.0);
         for part in &self.parts {
             let entering = self.inlets.iter().map(|inlet| inlet.reserve as f64);
+            let entering = entering.chain(self.sources.iter().map(|own| own.reserve as f64));
             let own: usize = part.bodies.iter().map(|body| body.points.len()).sum();
             particles += own;
             let walls = if part.scheme.meets_walls() { walls } else { 0 };

@@ -14,6 +14,7 @@ mod walls;
 
 use super::numerics::SKINS;
 use super::{Body, Part, Plan, Scene};
+use crate::effect::HeatConduction;
 use crate::error::Problem;
 use crate::neighbors::Cells;
 use crate::scalar::Real;
@@ -49,6 +50,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         self.check_names(&mut problems);
         self.check_contacts(&mut problems);
         self.check_outlets(&mut problems);
+        self.check_sources(&mut problems);
         let plans: Vec<Plan<'_, T, D>> = self.plans().collect();
         for plan in &plans {
             plan.check_scheme(&mut problems);
@@ -208,15 +210,16 @@ impl<T: Real, const D: usize> Scene<T, D> {
             problems.push(self.unknown_body(name));
         }
         for part in &self.parts {
-            let cold = load.heats() && part.scheme.energy == EnergyForm::None;
+            let warms = part.scheme.program.keeps(HeatConduction::TEMPERATURE);
+            let cold = load.heats() && part.scheme.energy == EnergyForm::None && !warms;
             let mut own = part.bodies.iter();
             if let Some(body) = own.find(|body| cold && load.acts_on(&body.name)) {
                 problems.push(Problem::Incompatible {
                     what: format!(
-                        "the load ({load}) heats body `{}`, and the scheme {} carries no energy",
+                        "the load ({load}) heats body `{}`, and the scheme {} carries no energy and no temperature",
                         body.name, part.scheme.name
                     ),
-                    remedy: "take an energy form that does, or limit the load with `Load::on` to a body that has one",
+                    remedy: "take an energy form that does, add effect::HeatConduction, or limit the load with `Load::on` to a body that has one",
                 });
             }
         }

@@ -12,6 +12,7 @@ use crate::scalar::Real;
 use crate::scheme::Scheme;
 use crate::simulation::group::Group;
 use crate::simulation::soundness::NEGATIVE_ENERGY;
+use crate::simulation::sources::{DrainState, SourceState};
 use crate::simulation::sub_cycle::SubCycle;
 use crate::simulation::walls::Structure;
 use crate::simulation::workspace::Workspace;
@@ -29,6 +30,8 @@ impl<T: Real, const D: usize> Group<T, D> {
             exchanges: _,
             outlets: _,
             emitters,
+            sources,
+            drains,
             gravity,
             body_force,
             indices: _,
@@ -84,6 +87,12 @@ impl<T: Real, const D: usize> Group<T, D> {
                 file.put_one(format!("{name}/wall{k}/gone_by"), inflow.time);
             }
         }
+        for (k, SourceState { entered, next, .. }) in sources.iter().enumerate() {
+            file.put(format!("{name}/source{k}"), 1, [*entered, *next]);
+        }
+        for (k, DrainState { due, time, .. }) in drains.iter().enumerate() {
+            file.put(format!("{name}/drain{k}"), 1, [*due, *time]);
+        }
         let evaluated_gravity = work.evaluated_gravity.map(Real::to_f64);
         file.put(format!("{name}/gravity"), 1, gravity);
         file.put(format!("{name}/evaluated_gravity"), 1, evaluated_gravity);
@@ -119,6 +128,15 @@ impl<T: Real, const D: usize> Group<T, D> {
                 inflow.gone = file.get_all(&format!("{name}/wall{k}/gone"), count)?;
                 inflow.time = file.get_one(&format!("{name}/wall{k}/gone_by"))?;
             }
+        }
+        for (k, own) in self.sources.iter_mut().enumerate() {
+            [own.entered, own.next] = file.get_array(&format!("{name}/source{k}"))?;
+            if own.next >= own.source.points.len() as u64 {
+                return Err(damaged("a source has no point whose turn it is"));
+            }
+        }
+        for (k, own) in self.drains.iter_mut().enumerate() {
+            [own.due, own.time] = file.get_array(&format!("{name}/drain{k}"))?;
         }
         take_particles(&mut self.particles, &scheme, (name, file), changes)?;
         for wall in &self.walls {

@@ -33,11 +33,12 @@ pub(crate) use change::{Changes, differences};
 const VERSION: &str = "6";
 
 /// Parts of a scene that are hashed only where there are any.
-pub(crate) const RARE: [&str; 4] = [
+pub(crate) const RARE: [&str; 5] = [
     "times at which steps end",
     "events",
     "joints",
     "schemes that come later",
+    "sources and drains",
 ];
 
 const FORMAT: &str = "meshfree checkpoint";

@@ -21,6 +21,7 @@ pub(super) fn put_particles<T: Real, const D: usize>(
         ids,
         slot_of,
         removed,
+        entered,
         first_id: _,
         // Of the simulation.
         origin: _,
@@ -46,16 +47,33 @@ pub(super) fn put_particles<T: Real, const D: usize>(
     file.put(format!("{name}/body_ends"), 1, ends);
     file.put(format!("{name}/ids"), 1, ids);
     file.put(format!("{name}/slot_of"), 1, slot_of);
+    put_passed(removed, &format!("{name}/removed"), file);
+    // Files of runs into which nothing has entered are as they were.
+    if entered.particles > 0 {
+        put_passed(entered, &format!("{name}/entered"), file);
+    }
+}
+
+fn put_passed<const D: usize>(passed: &Removed<D>, name: &str, file: &mut Checkpoint) {
     let Removed {
         particles,
         mass,
         momentum,
         kinetic,
-    } = removed;
-    file.put_one(format!("{name}/removed/particles"), *particles);
-    file.put_one(format!("{name}/removed/mass"), *mass);
-    file.put(format!("{name}/removed/momentum"), 1, momentum);
-    file.put_one(format!("{name}/removed/kinetic"), *kinetic);
+    } = passed;
+    file.put_one(format!("{name}/particles"), *particles);
+    file.put_one(format!("{name}/mass"), *mass);
+    file.put(format!("{name}/momentum"), 1, momentum);
+    file.put_one(format!("{name}/kinetic"), *kinetic);
+}
+
+fn take_passed<const D: usize>(name: &str, file: &Checkpoint) -> Read<Removed<D>> {
+    Ok(Removed {
+        particles: file.get_one(&format!("{name}/particles"))?,
+        mass: file.get_one(&format!("{name}/mass"))?,
+        momentum: file.get_array(&format!("{name}/momentum"))?,
+        kinetic: file.get_one(&format!("{name}/kinetic"))?,
+    })
 }
 
 pub(super) fn take_particles<T: Real, const D: usize>(
@@ -87,11 +105,11 @@ pub(super) fn take_particles<T: Real, const D: usize>(
         particles.bodies[k].slots.end = end;
     }
     particles.moved = Moves::default();
-    particles.removed = Removed {
-        particles: file.get_one(&format!("{name}/removed/particles"))?,
-        mass: file.get_one(&format!("{name}/removed/mass"))?,
-        momentum: file.get_array(&format!("{name}/removed/momentum"))?,
-        kinetic: file.get_one(&format!("{name}/removed/kinetic"))?,
+    particles.removed = take_passed(&format!("{name}/removed"), file)?;
+    particles.entered = if file.has(&format!("{name}/entered/particles")) {
+        take_passed(&format!("{name}/entered"), file)?
+    } else {
+        Removed::default()
     };
     Ok(())
 }

@@ -437,7 +437,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let own = |group: &Group<T, D>| {
             let flows = group.walls.iter().any(|wall| wall.inflow.is_some());
             let leaves = group.outlets.iter().any(|outlet| outlet.open().is_some());
-            group.emitters.is_empty() && group.held.is_empty() && !flows && !leaves
+            let enters = !group.emitters.is_empty() || !group.sources.is_empty() || flows;
+            !enters && group.held.is_empty() && !leaves
         };
         self.loads.is_empty() && self.state.groups.iter().all(own) && self.removed().particles == 0
     }

@@ -106,6 +106,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             Some("walls take part of the work")
         } else if self.loads.iter().any(|load| load.heats()) {
             Some("a load heats or cools")
+        } else if !group.scheme.program.heating.is_empty() {
+            Some("heat is conducted")
         } else {
             None
         }

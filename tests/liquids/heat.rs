@@ -1,0 +1,330 @@
+//! Heat: conduction, and convection and radiation at free surfaces, against exact solutions and lumped ones.
+//! Areas of surfaces against those of bodies; the ledger and the energy of a solid against what entered.
+
+use approx::assert_relative_eq;
+use meshfree::effect::{HeatConduction, STEFAN_BOLTZMANN, SurfaceHeat};
+use meshfree::geometry::Ball;
+use meshfree::prelude::*;
+
+const RHO: f64 = 1000.0;
+
+fn water<T: Real>() -> Material<T> {
+    catalogue::weakly_compressible_water(1.0)
+}
+
+fn conduction(conductivity: f64) -> HeatConduction {
+    HeatConduction {
+        conductivity,
+        specific_heat: 1.0,
+        temperature: 400.0,
+    }
+}
+
+fn area<const D: usize>(run: &Simulation<f64, D>) -> f64 {
+    let areas = run.all().filter_map(|own| own.scalar(SurfaceHeat::AREA));
+    areas.sum()
+}
+
+/// Mean temperature, and the largest distance from it.
+fn temperature<const D: usize>(run: &Simulation<f64, D>) -> [f64; 2] {
+    let all: Vec<f64> = run
+        .all()
+        .filter_map(|own| own.scalar(HeatConduction::TEMPERATURE))
+        .collect();
+    let mean = all.iter().sum::<f64>() / all.len() as f64;
+    let off = all.iter().map(|own| (own - mean).abs());
+    [mean, off.fold(0.0, f64::max)]
+}
+
+/// The scheme of a body that is heated and does not flow.
+macro_rules! still {
+    ($conductivity:expr, $surface:expr) => {
+        schemes::weakly_compressible()
+            .with(conduction($conductivity))
+            .with($surface)
+    };
+}
+
+fn built<const D: usize>(body: Body<f64, D>) -> Simulation<f64, D>
+where
+    WendlandC2: meshfree::kernel::Kernel<D>,
+{
+    let scheme = still!(1.0, SurfaceHeat::convection(1e-3, 300.0));
+    let mut run = Scene::new(scheme).body(body).build().expect("a body");
+    run.step_at_most(1e-9).expect("a step");
+    run
+}
+
+/// Σ A over the true area: flat ends exactly, and a few per cent where smoothing rounds edges.
+#[test]
+fn areas_of_bodies() {
+    let dx = 0.01;
+    let slab = built(Body::block("slab", water(), [0.0], [0.2], dx));
+    assert_relative_eq!(area(&slab), 2.0, max_relative = 1e-9);
+
+    let strip = still!(1.0, SurfaceHeat::convection(1e-3, 300.0));
+    let mut strip = Scene::new(strip)
+        .body(Body::block("strip", water(), [0.0; 2], [0.2, 0.1], dx))
+        .boundary(meshfree::boundary::Periodic::along(1, 0.0, 0.1))
+        .build()
+        .expect("a strip");
+    strip.step_at_most(1e-9).expect("a step");
+    assert_relative_eq!(area(&strip), 0.2, max_relative = 1e-9);
+
+    let n = 40.0;
+    let square = built(Body::block("square", water(), [0.0; 2], [n * dx; 2], dx));
+    let disc = Body::fill("disc", water(), &Ball::new([0.0; 2], 0.5 * n * dx), dx);
+    let disc = built(disc);
+    let size = std::f64::consts::PI * n * dx;
+    println!(
+        "square {} disc {}",
+        area(&square) / (4.0 * n * dx),
+        area(&disc) / size
+    );
+    assert_relative_eq!(area(&square), 4.0 * n * dx, max_relative = 0.03);
+    assert_relative_eq!(area(&disc), size, max_relative = 0.02);
+
+    let n = 20.0;
+    let cube = built(Body::block("cube", water(), [0.0; 3], [n * dx; 3], dx));
+    let ball = built(Body::fill(
+        "ball",
+        water(),
+        &Ball::new([0.0; 3], 0.5 * n * dx),
+        dx,
+    ));
+    let size = std::f64::consts::PI * (n * dx).powi(2);
+    println!(
+        "cube {} ball {}",
+        area(&cube) / (6.0 * (n * dx).powi(2)),
+        area(&ball) / size
+    );
+    assert_relative_eq!(area(&cube), 6.0 * (n * dx).powi(2), max_relative = 0.105);
+    assert_relative_eq!(area(&ball), size, max_relative = 0.03);
+}
+
+fn slab(conductivity: f64, surface: SurfaceHeat) -> Simulation<f64, 1> {
+    let body = Body::block("slab", water(), [0.0], [0.2], 0.01);
+    let scheme = still!(conductivity, surface);
+    Scene::new(scheme).body(body).build().expect("a slab")
+}
+
+/// dT/dt = −2 q(T)/(ρ c L) of the slab, by Runge & Kutta.
+fn lumped(q: impl Fn(f64) -> f64, until: f64) -> f64 {
+    let rate = |t: f64| -2.0 * q(t) / (RHO * 0.2);
+    let (mut t, dt) = (400.0, until / 1000.0);
+    for _ in 0..1000 {
+        let a = rate(t);
+        let b = rate(t + 0.5 * dt * a);
+        let c = rate(t + 0.5 * dt * b);
+        let d = rate(t + dt * c);
+        t += dt * (a + 2.0 * b + 2.0 * c + d) / 6.0;
+    }
+    t
+}
+
+/// What is left of T − T∞ after 1 s, over that of the lumped solution.
+fn left(conductivity: f64, h: f64) -> f64 {
+    let mut run = slab(conductivity, SurfaceHeat::convection(h, 300.0));
+    run.run_until(1.0).expect("a run");
+    let [mean, _] = temperature(&run);
+    (mean - 300.0) / (lumped(|t| h * (t - 300.0), 1.0) - 300.0)
+}
+
+/// With Bi = h L/(2 k) = 0.005 the mean temperature is the lumped one; with Bi = 5 the surface cools and the middle stays warm.
+#[test]
+fn a_block_cools_by_convection() {
+    let thin = left(1000.0, 50.0);
+    println!("left: {thin}");
+    assert_relative_eq!(thin, 1.0, max_relative = 0.01);
+    let thick = left(1.0, 50.0);
+    println!("left with a large Biot number: {thick}");
+    assert!(thick > 1.2, "{thick}");
+}
+
+#[test]
+fn a_block_cools_by_radiation() {
+    let mut run = slab(
+        1000.0,
+        SurfaceHeat::radiation(0.8, 100.0).and(SurfaceHeat::radiation(0.1, 300.0)),
+    );
+    run.run_until(4.0).expect("a run");
+    let grey = |e: f64, t: f64, to: f64| e * STEFAN_BOLTZMANN * (t.powi(4) - to.powi(4));
+    let exact = lumped(|t| grey(0.8, t, 100.0) + grey(0.1, t, 300.0), 4.0);
+    let [mean, _] = temperature(&run);
+    println!("{mean} K of {exact} K");
+    assert_relative_eq!(400.0 - mean, 400.0 - exact, max_relative = 0.01);
+    assert!(400.0 - exact > 20.0);
+}
+
+/// What warms bodies is what passed their surfaces and what loads gave; conduction gives nothing to all together.
+#[test]
+fn the_ledger_has_the_heat() {
+    let scheme = still!(
+        5.0,
+        SurfaceHeat::convection(50.0, 300.0).and(SurfaceHeat::radiation(1.0, 0.0))
+    );
+    let half = |name, low: f64| Body::block(name, water(), [low], [low + 0.1], 0.01);
+    let mut run = Scene::<f64, 1>::new(scheme)
+        .body(half("left", 0.0))
+        .body(half("right", 0.1))
+        .load(Load::heating(|_| 30.0).on("left"))
+        .build()
+        .expect("two halves");
+    run.run_until(0.5).expect("a run");
+    let ledger = run.ledger();
+    let of = |body: usize, name: &str| ledger.bodies[body].1.total(name).expect("a total");
+    let all = |name: &str| of(0, name) + of(1, name);
+    for (k, load) in [(0, 30.0 * 0.5 * RHO * 0.1), (1, 0.0)] {
+        let own: Vec<f64> = run
+            .body(k)
+            .expect("a body")
+            .filter_map(|own| own.scalar(HeatConduction::TEMPERATURE))
+            .collect();
+        let gained = (own.iter().sum::<f64>() - 400.0 * own.len() as f64) * RHO * 0.01;
+        let given = of(k, "heat through surfaces") + of(k, "heat conduction") + load;
+        assert_relative_eq!(gained, given, max_relative = 1e-9);
+    }
+    assert!(of(1, "heat conduction") > 1.0);
+    assert!(all("heat conduction").abs() < 1e-9 * of(1, "heat conduction"));
+}
+
+/// Two half spaces of one ρ c have T* = (T₁ √k₁ + T₂ √k₂)/(√k₁ + √k₂) where they meet.
+#[test]
+fn two_conductivities_meet_at_the_temperature_of_their_effusivities() {
+    let half = |name, low: f64, k: f64, t: f64| {
+        Body::block(name, water(), [low], [low + 0.5], 0.005)
+            .field(HeatConduction::CONDUCTIVITY, move |_| [k])
+            .field(HeatConduction::TEMPERATURE, move |_| [t])
+    };
+    let scheme = schemes::weakly_compressible().with(conduction(1.0));
+    let mut run = Scene::<f64, 1>::new(scheme)
+        .body(half("hot", 0.0, 40.0, 500.0))
+        .body(half("cold", 0.5, 10.0, 300.0))
+        .build()
+        .expect("two halves");
+    run.run_until(0.3).expect("a run");
+    let at = |name, from_joint: usize| {
+        let body = run.body(name).expect("a body");
+        let all: Vec<f64> = body
+            .filter_map(|own| own.scalar(HeatConduction::TEMPERATURE))
+            .collect();
+        let k = if name == "hot" {
+            all.len() - 1 - from_joint
+        } else {
+            from_joint
+        };
+        all[k]
+    };
+    // By flux: equal k dT/dx on both sides of the joint.
+    let (hot, cold) = (at("hot", 0), at("cold", 0));
+    let joint = (40.0 * hot + 10.0 * cold) / 50.0;
+    let (a, b) = (40.0_f64.sqrt(), 10.0_f64.sqrt());
+    let exact = (500.0 * a + 300.0 * b) / (a + b);
+    println!("{joint} K of {exact} K");
+    assert!((joint - exact).abs() < 1.0);
+}
+
+/// Heat that enters a solid with internal energy is in the energy of the body, to rounding.
+#[test]
+fn heat_joins_internal_energy() {
+    let copper = HeatConduction {
+        conductivity: 400.0,
+        specific_heat: 385.0,
+        temperature: 300.0,
+    };
+    let scheme = schemes::impact()
+        .with(copper)
+        .with(SurfaceHeat::convection(1e9, 400.0).of("copper"));
+    let mut run = Scene::<f64, 1>::new(scheme)
+        .body(Body::block("bar", catalogue::copper(), [0.0], [0.01], 2e-4))
+        .build()
+        .expect("a bar");
+    let before = run.ledger().whole.total_energy();
+    run.run_until(3e-6).expect("a run");
+    let after = run.ledger().whole;
+    let heat = after.total("heat through surfaces").expect("heat");
+    println!("{heat} J, {} J", after.total_energy() - before);
+    assert!(heat > 1e5);
+    assert_relative_eq!(after.total_energy() - before, heat, max_relative = 1e-10);
+    // What is heated expands.
+    assert!(after.kinetic > 1e-6 * heat);
+}
+
+/// In single precision, and resumed from a file on the way: the same bits.
+#[cfg(feature = "checkpoint")]
+#[test]
+fn heat_resumes_to_the_same_bits() {
+    let scene = || {
+        let scheme = still!(10.0, SurfaceHeat::convection(50.0, 300.0));
+        Scene::<f32, 2>::new(scheme).body(Body::block("block", water(), [0.0; 2], [0.1; 2], 0.01))
+    };
+    let bits = |run: &Simulation<f32, 2>| -> Vec<u64> {
+        let fields = [HeatConduction::TEMPERATURE, SurfaceHeat::RECEIVED];
+        let of = |field| run.all().filter_map(move |own| own.scalar(field));
+        fields.into_iter().flat_map(of).map(f64::to_bits).collect()
+    };
+    let file = std::env::temp_dir().join(format!("meshfree-{}-heat", std::process::id()));
+    let mut whole = scene().build().expect("a block");
+    whole.run_until(0.02).expect("a run");
+    whole.save(&file).expect("a file");
+    whole.run_until(0.04).expect("a run");
+    let mut resumed = scene().resume(&file).expect("a file");
+    resumed.run_until(0.04).expect("a run");
+    let _ = std::fs::remove_file(&file);
+    assert_eq!(bits(&whole), bits(&resumed));
+    assert!(temperature_f32(&whole) < 399.9);
+}
+
+#[cfg(feature = "checkpoint")]
+fn temperature_f32(run: &Simulation<f32, 2>) -> f64 {
+    let all = run
+        .all()
+        .filter_map(|own| own.scalar(HeatConduction::TEMPERATURE));
+    all.fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn wrong_heat_is_refused() {
+    let refused = |scheme: Scheme<f64, 1>, what: &str| {
+        let body = Body::block("slab", water(), [0.0], [0.2], 0.01);
+        let error = Scene::new(scheme).body(body).build().map(drop);
+        let error = error.expect_err(what).to_string();
+        assert!(error.contains(what), "{error}");
+    };
+    let convection = SurfaceHeat::convection(1.0, 300.0);
+    for (surface, what) in [
+        (
+            SurfaceHeat::convection(-1.0, 300.0),
+            "coefficient of convection",
+        ),
+        (
+            SurfaceHeat::convection(1.0, f64::NAN),
+            "temperature of the surroundings",
+        ),
+        (SurfaceHeat::radiation(1.5, 300.0), "emissivity"),
+        (convection.clone().of("steel"), "steel"),
+    ] {
+        refused(still!(1.0, surface).compose(), what);
+    }
+    let alone = schemes::weakly_compressible().with(convection).compose();
+    refused(alone, "temperature");
+    for (own, what) in [
+        (
+            HeatConduction {
+                specific_heat: 0.0,
+                ..conduction(1.0)
+            },
+            "specific heat",
+        ),
+        (conduction(f64::INFINITY), "conductivity"),
+        (
+            HeatConduction {
+                temperature: -1.0,
+                ..conduction(1.0)
+            },
+            "temperature",
+        ),
+    ] {
+        refused(schemes::weakly_compressible().with(own).compose(), what);
+    }
+}
