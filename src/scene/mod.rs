@@ -407,7 +407,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         mut self,
         acceleration: impl Fn(f64) -> [f64; D] + Send + Sync + 'static,
     ) -> Self {
-        self.accelerations.push(Box::new(acceleration));
+        self.accelerations.push(Arc::new(acceleration));
         self
     }
 

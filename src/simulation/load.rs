@@ -4,6 +4,7 @@
 use crate::particles::{Field, Fields};
 use crate::scalar::Real;
 use core::fmt;
+use std::sync::Arc;
 
 /// What a load may depend on: a particle at the time of an evaluation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,7 +39,7 @@ impl<const D: usize> LoadPoint<'_, D> {
 }
 
 /// A law of a load.
-type Law<R, const D: usize> = Box<dyn Fn(&LoadPoint<'_, D>) -> R + Send + Sync>;
+type Law<R, const D: usize> = Arc<dyn Fn(&LoadPoint<'_, D>) -> R + Send + Sync>;
 
 /// An acceleration or a heat source that acts on the particles of bodies: dv/dt = … + a(x, v, ρ, t), or
 /// de/dt = … + q(x, v, ρ, t).
@@ -89,6 +90,7 @@ type Law<R, const D: usize> = Box<dyn Fn(&LoadPoint<'_, D>) -> R + Send + Sync>;
 /// assert!((heat[4] - 10.0).abs() < 0.1 && heat[5].abs() < 0.1, "1 MW/kg for 10 µs, 2 mm on: {heat:?}");
 /// # Ok::<(), Error>(())
 /// ```
+#[derive(Clone)]
 pub struct Load<const D: usize> {
     kind: Kind<D>,
     /// The body on which it acts; on all without one.
@@ -96,6 +98,7 @@ pub struct Load<const D: usize> {
 }
 
 /// What a load gives.
+#[derive(Clone)]
 enum Kind<const D: usize> {
     Acceleration(Law<[f64; D], D>),
     Heating(Law<f64, D>),
@@ -108,7 +111,7 @@ impl<const D: usize> Load<D> {
         law: impl Fn(&LoadPoint<'_, D>) -> [f64; D] + Send + Sync + 'static,
     ) -> Self {
         Self {
-            kind: Kind::Acceleration(Box::new(law)),
+            kind: Kind::Acceleration(Arc::new(law)),
             body: None,
         }
     }
@@ -118,7 +121,7 @@ impl<const D: usize> Load<D> {
     #[must_use]
     pub fn heating(law: impl Fn(&LoadPoint<'_, D>) -> f64 + Send + Sync + 'static) -> Self {
         Self {
-            kind: Kind::Heating(Box::new(law)),
+            kind: Kind::Heating(Arc::new(law)),
             body: None,
         }
     }

@@ -261,11 +261,35 @@ use std::sync::Arc;
 use view::Reading;
 
 /// An acceleration \[m/s²\] that acts on all particles as a function of time \[s\].
-pub(crate) type UniformLoad<const D: usize> = Box<dyn Fn(f64) -> [f64; D] + Send + Sync>;
+pub(crate) type UniformLoad<const D: usize> = Arc<dyn Fn(f64) -> [f64; D] + Send + Sync>;
 
 /// A simulation in `D` dimensions with scalar `T`.
 ///
 /// See the [crate page](crate) for a first program.
+///
+/// A clone goes on by itself, to the same bits, from the state that the original had. Functions that the scene was given (loads,
+/// motions, events) are shared by both.
+///
+/// ```
+/// use meshfree::prelude::*;
+/// let water = catalogue::weakly_compressible_water(2.0);
+/// let mut tank = Scene::<f64, 2>::new(schemes::weakly_compressible())
+///     .body(Body::block("water", water, [0.0; 2], [0.2, 0.2], 0.02))
+///     .wall(Wall::around("tank", [0.0; 2], [0.4, 0.3], 0.02, 3, [[true, true], [true, false]]))
+///     .acceleration(|_| [0.0, -9.81])
+///     .build()?;
+/// tank.run_until(0.05)?;
+/// let mut struck = tank.clone();
+/// struck.set_velocities(|_, [u, v]| [u + 1.0, v]);
+/// struck.run_until(0.1)?;
+/// let mut copy = tank.clone();
+/// tank.run_until(0.1)?;
+/// copy.run_until(0.1)?;
+/// assert_eq!(tank.bits_hash(), copy.bits_hash());
+/// assert_ne!(tank.bits_hash(), struck.bits_hash());
+/// # Ok::<(), Error>(())
+/// ```
+#[derive(Clone)]
 pub struct Simulation<T: Real, const D: usize> {
     /// What steps change.
     state: State<T, D>,

@@ -10,7 +10,7 @@ use crate::scalar::Real;
 use core::mem;
 
 /// What readings are shown.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) enum Reading<T: Real, const D: usize> {
     /// The state after the last step.
     LastStep,
