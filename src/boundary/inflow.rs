@@ -84,8 +84,8 @@ impl<const D: usize> Inflow<D> {
     }
 
     /// The same behind an opening that moves.
-    pub fn carried(self, motion: &Option<Arc<dyn Motion<D>>>, origin: &[f64; D]) -> Self {
-        let motion = motion.as_ref().map(|motion| motion_from(motion, origin));
+    pub fn carried(self, motion: Option<&Arc<dyn Motion<D>>>, origin: &[f64; D]) -> Self {
+        let motion = motion.map(|motion| motion_from(motion, origin));
         Self { motion, ..self }
     }
 

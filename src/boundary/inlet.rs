@@ -141,7 +141,7 @@ impl<const D: usize> Inlet<D> {
         if self.state.is_some() {
             return buffer;
         }
-        buffer.motion(Uniform::new(self.velocity, self.spacing, 0).carried(&self.motion))
+        buffer.motion(Uniform::new(self.velocity, self.spacing, 0).carried(self.motion.as_ref()))
     }
 
     /// What moves a buffer of so many layers, where velocities differ by place or time, for a body of a group.
@@ -154,7 +154,7 @@ impl<const D: usize> Inlet<D> {
         let state = (self.state.clone()?, self.direction());
         let size = (self.spacing, layers);
         let inflow = Inflow::new(state, &self.opening, size, fed, origin);
-        Some(inflow.carried(&self.motion, origin))
+        Some(inflow.carried(self.motion.as_ref(), origin))
     }
 
     /// A layer of the buffer as built.
@@ -257,8 +257,8 @@ impl<const D: usize> Uniform<D> {
         }
     }
 
-    fn carried(self, motion: &Option<Arc<dyn Motion<D>>>) -> Self {
-        let carried = motion.clone();
+    fn carried(self, motion: Option<&Arc<dyn Motion<D>>>) -> Self {
+        let carried = motion.cloned();
         Self { carried, ..self }
     }
 }
@@ -309,7 +309,7 @@ pub(crate) struct Emitter<const D: usize> {
 impl<const D: usize> Emitter<D> {
     /// How its buffer moves until the next layer is due.
     pub fn inflow(&self) -> Uniform<D> {
-        Uniform::new(self.velocity, self.spacing, self.layers).carried(&self.motion)
+        Uniform::new(self.velocity, self.spacing, self.layers).carried(self.motion.as_ref())
     }
 
     /// Places and velocities of the layer that becomes liquid at `time` \[s\]; `None` before it is due.

@@ -187,20 +187,16 @@ fn linear<const D: usize>(near: &[(usize, Vector<f64, D>, f64)]) -> Vec<(usize, 
 /// Mean distance \[m\] of the particles of a state: by their volumes, or by the box around them.
 fn distance<const D: usize>(state: &ParticleState<D>) -> f64 {
     let count = state.len() as f64;
-    let volumes = state.values("mass").zip(state.values("density"));
-    let volume: f64 = match volumes {
-        Some((mass, density)) => mass.iter().zip(density).map(|(m, rho)| m / rho).sum(),
-        None => {
-            let side = |d: usize| {
-                let all = || state.points().iter().map(|x| x[d]);
-                let [low, high] = [
-                    all().fold(f64::INFINITY, f64::min),
-                    all().fold(f64::NEG_INFINITY, f64::max),
-                ];
-                high - low
-            };
-            (0..D).map(side).product()
-        }
+    let side = |d: usize| {
+        let all = || state.points().iter().map(|x| x[d]);
+        let [low, high] = [
+            all().fold(f64::INFINITY, f64::min),
+            all().fold(f64::NEG_INFINITY, f64::max),
+        ];
+        high - low
     };
+    let volumes = state.values("mass").zip(state.values("density"));
+    let sum = volumes.map(|(mass, density)| mass.iter().zip(density).map(|(m, rho)| m / rho).sum());
+    let volume: f64 = sum.unwrap_or_else(|| (0..D).map(side).product());
     crate::geometry::edge::<D>(volume / count)
 }
