@@ -254,6 +254,7 @@
 //! | [defaults](https://github.com/meshfree/meshfree/blob/main/docs/defaults.md) | reasons for the defaults |
 //! | [speed](https://github.com/meshfree/meshfree/blob/main/docs/speed.md) | speed, memory and time to compile |
 //! | [on a GPU](https://github.com/meshfree/meshfree/blob/main/docs/gpu.md) | what runs on a device, how, and what does not |
+//! | [on many processes](https://github.com/meshfree/meshfree/blob/main/docs/ranks.md) | ranks: what runs on many processes, how, and what it costs |
 //! | [compared with other codes](https://github.com/meshfree/meshfree/blob/main/docs/comparison.md) | what other codes have, and how fast they are |
 //! | [architecture](https://github.com/meshfree/meshfree/blob/main/docs/architecture.md) | layers, the data of a step, decisions |
 //! | [licences](https://github.com/meshfree/meshfree/blob/main/docs/licences.md) | licences, versions, sources of data |
@@ -296,6 +297,7 @@ pub mod output;
 mod parallel;
 pub mod particles;
 pub mod prelude;
+pub mod ranks;
 pub mod run;
 pub mod scalar;
 pub mod scene;

@@ -215,6 +215,14 @@ pub enum Error {
         /// What differs, and what to do.
         problem: CheckpointProblem,
     },
+    /// Another [rank](crate::ranks) has failed, or is elsewhere.
+    #[error("rank {rank} has failed, and with it the run on all ranks: {cause}")]
+    Rank {
+        /// The number of the rank.
+        rank: usize,
+        /// Its error, in words.
+        cause: String,
+    },
     /// An argument of a call after building makes no sense.
     #[error(transparent)]
     Argument(#[from] Problem),
@@ -316,13 +324,17 @@ mod tests {
                 cause: "no",
             },
             Error::Argument(Problem::EmptyScene),
+            Error::Rank {
+                rank: 2,
+                cause: "the disk is full".into(),
+            },
             Error::Observer {
                 observer: "the observer every 0.1 s".into(),
                 time: 1.0,
                 cause: "the disk is full".into(),
             },
         ];
-        let mut seen = [false; 14];
+        let mut seen = [false; 15];
         for error in &all {
             let variant = match error {
                 Error::Build(_) => 0,
@@ -339,10 +351,11 @@ mod tests {
                 Error::Function { .. } => 11,
                 Error::Joint { .. } => 12,
                 Error::Observer { .. } => 13,
+                Error::Rank { .. } => 14,
             };
             seen[variant] = true;
         }
-        assert_eq!(seen, [true; 14]);
+        assert_eq!(seen, [true; 15]);
         all
     }
 

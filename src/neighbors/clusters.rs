@@ -106,7 +106,7 @@ impl ChunkList {
 /// The neighbour lists of all clusters of a group.
 #[derive(Clone, Debug, Default)]
 pub struct ClusterLists {
-    chunks: Vec<ChunkList>,
+    pub(super) chunks: Vec<ChunkList>,
 }
 
 /// What the search needs to know.
@@ -203,6 +203,15 @@ impl ClusterLists {
 
     /// Finds the neighbours of every cluster.
     pub fn rebuild<T: Real, const D: usize>(&mut self, input: &SearchInput<'_, T, D>) {
+        self.rebuild_some(input, |chunks| 0..chunks);
+    }
+
+    /// Finds the neighbours of the clusters of some chunks, chosen by how many there are, and leaves the lists of all others.
+    pub(crate) fn rebuild_some<T: Real, const D: usize>(
+        &mut self,
+        input: &SearchInput<'_, T, D>,
+        choose: impl FnOnce(usize) -> Range<usize>,
+    ) {
         let instructions = input.instructions.or_detected();
         // Blocks at once: liquid by one thread and walls by another.
         let sources = collect(input.blocks.len(), |block| Source::of_block(input, block));
@@ -211,39 +220,43 @@ impl ClusterLists {
             .resize_with(clusters.div_ceil(CHUNK), ChunkList::default);
         // So few that threads share them evenly, and so many that scratch memory is not asked for with each.
         const AT_ONCE: usize = 4;
-        for_each(cut(&mut self.chunks, AT_ONCE), |piece, chunks| {
-            let mut scratch = Scratch::default();
-            for (n, chunk) in chunks.iter_mut().enumerate() {
-                let c = piece * AT_ONCE + n;
-                chunk.neighbors.clear();
-                chunk.segments.clear();
-                chunk.starts.clear();
-                for cluster in c * CHUNK..clusters.min((c + 1) * CHUNK) {
-                    chunk.starts.push(chunk.segments.len() as u32);
-                    let members = cluster * input.width..(cluster + 1) * input.width;
-                    let block = input
-                        .blocks
-                        .partition_point(|b| b.slots.end <= members.start);
-                    // Slots that no particle owns any more have no neighbours.
-                    let owned = input
-                        .blocks
-                        .get(block)
-                        .is_some_and(|b| b.slots.contains(&members.start));
-                    if owned {
-                        search(
-                            input,
-                            &sources,
-                            block,
-                            members,
-                            instructions,
-                            &mut scratch,
-                            chunk,
-                        );
+        let own = choose(self.chunks.len());
+        for_each(
+            cut(&mut self.chunks[own.clone()], AT_ONCE),
+            |piece, chunks| {
+                let mut scratch = Scratch::default();
+                for (n, chunk) in chunks.iter_mut().enumerate() {
+                    let c = own.start + piece * AT_ONCE + n;
+                    chunk.neighbors.clear();
+                    chunk.segments.clear();
+                    chunk.starts.clear();
+                    for cluster in c * CHUNK..clusters.min((c + 1) * CHUNK) {
+                        chunk.starts.push(chunk.segments.len() as u32);
+                        let members = cluster * input.width..(cluster + 1) * input.width;
+                        let block = input
+                            .blocks
+                            .partition_point(|b| b.slots.end <= members.start);
+                        // Slots that no particle owns any more have no neighbours.
+                        let owned = input
+                            .blocks
+                            .get(block)
+                            .is_some_and(|b| b.slots.contains(&members.start));
+                        if owned {
+                            search(
+                                input,
+                                &sources,
+                                block,
+                                members,
+                                instructions,
+                                &mut scratch,
+                                chunk,
+                            );
+                        }
                     }
+                    chunk.starts.push(chunk.segments.len() as u32);
                 }
-                chunk.starts.push(chunk.segments.len() as u32);
-            }
-        });
+            },
+        );
     }
 }
 

@@ -25,6 +25,7 @@
 mod cells;
 mod clusters;
 mod hilbert;
+mod message;
 mod sieve;
 
 pub use cells::{Cells, Grid};

@@ -190,6 +190,9 @@ impl<'r, T: Real, const D: usize> Run<'r, T, D> {
         let begin = (self.simulation.steps() > 0).then(|| self.simulation.time());
         let mut series = None;
         self.observe(schedule, move |now| {
+            if !now.is_first_rank() {
+                return Ok(());
+            }
             if series.is_none() {
                 series = Some(match begin {
                     Some(time) => Pvd::resume(&path, time)?,
@@ -296,7 +299,12 @@ impl<'r, T: Real, const D: usize> Run<'r, T, D> {
             first,
             outcome: outcome.as_ref(),
         };
-        let written = write_whole(&path, receipt.json().as_bytes());
+        let written = if self.simulation.is_first_rank() {
+            write_whole(&path, receipt.json().as_bytes())
+        } else {
+            Ok(())
+        };
+        let written = self.simulation.agree_on(written);
         outcome.and_then(|summary| written.map(|()| summary))
     }
 
@@ -304,6 +312,7 @@ impl<'r, T: Real, const D: usize> Run<'r, T, D> {
         let end = self.end;
         let (started, first) = (Instant::now(), self.simulation.work());
         let label = self.label.take();
+        let label = label.filter(|_| self.simulation.is_first_rank());
         let mut line = label.map(|label| Line::new(label, self.simulation, end));
         let mut moment = Moment::Begin;
         let reason = loop {
@@ -346,25 +355,33 @@ impl<'r, T: Real, const D: usize> Run<'r, T, D> {
         let now = &*self.simulation;
         for (observer, clock) in self.observers.iter_mut().zip(clocks) {
             if clock.strikes(now, moment, is_end) {
-                (observer.show)(now).map_err(|cause| Error::Observer {
+                let shown = (observer.show)(now).map_err(|cause| Error::Observer {
                     observer: format!("the observer {}", observer.schedule),
                     time: now.time(),
                     cause,
-                })?;
+                });
+                now.agree_on(shown)?;
             }
         }
         Ok(())
     }
 
-    /// The first criterion that holds, and why.
+    /// The first criterion that holds, and why; on ranks what the first of them finds, for their clocks differ.
     fn asked(&mut self) -> Result<Option<(String, String)>> {
+        if self.stops.is_empty() {
+            return Ok(None);
+        }
         let mut first = None;
+        let mut failed = Ok(());
         // All are asked, so that what each remembers has no gaps.
         for stop in &mut self.stops {
-            let why = stop.ask(self.simulation)?;
-            first = first.or_else(|| Some((stop.name.clone(), why?)));
+            match stop.ask(self.simulation) {
+                Ok(why) => first = first.or_else(|| Some((stop.name.clone(), why?))),
+                Err(error) => failed = failed.and(Err(error)),
+            }
         }
-        Ok(first)
+        self.simulation.agree_on(failed)?;
+        Ok(self.simulation.as_first_rank(first))
     }
 }
 

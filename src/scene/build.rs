@@ -6,12 +6,14 @@ use crate::once::once;
 use crate::origin::middle;
 #[cfg(feature = "checkpoint")]
 use crate::output::checkpoint::Checkpoint;
+use crate::ranks::Team;
 use crate::scalar::Real;
 #[cfg(feature = "checkpoint")]
 use crate::simulation::{Change, Changes, Difference, RARE, differences};
 use crate::simulation::{Group, Simulation};
 #[cfg(feature = "checkpoint")]
 use std::path::Path;
+use std::sync::Arc;
 
 /// A scene, and then the simulation that was made of it: one value, so that no type of its own has to come back.
 struct Building<T: Real, const D: usize> {
@@ -41,7 +43,10 @@ impl<T: Real, const D: usize> Building<T, D> {
 
     fn build(&mut self) -> Result<()> {
         once!(self => &mut Building, |own| -> Result<()> {
-            own.simulation = Some(own.scene().built()?);
+            let scene = own.scene();
+            let team = scene.team();
+            let built = scene.built(team.clone());
+            own.simulation = Some(agreed(team, built)?);
             Ok(())
         })
     }
@@ -49,15 +54,20 @@ impl<T: Real, const D: usize> Building<T, D> {
     #[cfg(feature = "checkpoint")]
     fn resume(&mut self, path: &Path, changes: &[Change]) -> Result<()> {
         once!(self => &mut Building, |own, path: &Path, changes: &[Change]| -> Result<()> {
-            let file = Checkpoint::read(path)?;
-            let changes = Changes::new(changes);
-            // Walls that are elsewhere would move the place from which columns count.
-            let origin = file.get_array("origin").ok();
-            let origin = origin.filter(|_| changes.has(Change::Walls));
-            let simulation = own.scene().lay_out(origin)?;
-            own.simulation = Some(simulation.resumed(path, &file, changes)?);
+            let scene = own.scene();
+            let team = scene.team();
+            let resumed = scene.resumed(path, Changes::new(changes), team.clone());
+            own.simulation = Some(agreed(team, resumed)?);
             Ok(())
         })
+    }
+}
+
+/// What comes of a scene, if it does on all ranks.
+fn agreed<V>(team: Option<Arc<Team>>, outcome: Result<V>) -> Result<V> {
+    match team {
+        None => outcome,
+        Some(team) => team.agree(None, outcome),
     }
 }
 
@@ -70,9 +80,9 @@ impl<T: Real, const D: usize> Scene<T, D> {
         Building::of(self).simulation(Building::build)
     }
 
-    fn built(self) -> Result<Simulation<T, D>> {
+    fn built(self, team: Option<Arc<Team>>) -> Result<Simulation<T, D>> {
         let fixed = self.control.fixed;
-        let mut simulation = self.lay_out(None)?;
+        let mut simulation = self.lay_out(None)?.on(team);
         simulation.hold_velocities();
         simulation.take_references();
         let problems = simulation.isolated();
@@ -150,6 +160,21 @@ impl<T: Real, const D: usize> Scene<T, D> {
         changes: &[Change],
     ) -> Result<Simulation<T, D>> {
         Building::of(self).simulation(|own| own.resume(path.as_ref(), changes))
+    }
+
+    #[cfg(feature = "checkpoint")]
+    fn resumed(
+        self,
+        path: &Path,
+        changes: Changes<'_>,
+        team: Option<Arc<Team>>,
+    ) -> Result<Simulation<T, D>> {
+        let file = Checkpoint::read(path)?;
+        // Walls that are elsewhere would move the place from which columns count.
+        let origin = file.get_array("origin").ok();
+        let origin = origin.filter(|_| changes.has(Change::Walls));
+        let simulation = self.lay_out(origin)?.on(team);
+        simulation.resumed(path, &file, changes)
     }
 
     /// All that is other in this scene than in the one that wrote a checkpoint, with both values.

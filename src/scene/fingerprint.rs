@@ -40,6 +40,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
             root: _,
             // What a machine has to give is not of the scene.
             memory: _,
+            // No bit depends on them.
+            ranks: _,
         } = self;
         let schemes = of_texts(parts.iter().map(|part| scheme_text(&part.scheme)));
         let mut bodies = Hash::new();

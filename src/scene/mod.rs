@@ -106,6 +106,7 @@ use crate::coupling::Coupling;
 use crate::coupling::LiquidStructure;
 use crate::integrator::{Integrator, KickDriftKick};
 use crate::particles::Fields;
+use crate::ranks::Ranks;
 use crate::scalar::Real;
 use crate::scheme::Scheme;
 use crate::simulation::{Event, Load, StepControl, UniformLoad};
@@ -158,6 +159,7 @@ pub struct Scene<T: Real, const D: usize> {
     instructions: InstructionSet,
     root: Root,
     memory: Option<u64>,
+    ranks: Option<Arc<dyn Ranks>>,
 }
 
 /// Two bodies, or a body twice, and how they act on each other.
@@ -212,6 +214,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             instructions: InstructionSet::detect(),
             root: Root::detect(),
             memory: None,
+            ranks: None,
         }
     }
 

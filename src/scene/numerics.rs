@@ -5,6 +5,7 @@ use super::Scene;
 use crate::integrator::Integrator;
 #[cfg(doc)]
 use crate::integrator::KickDriftKick;
+use crate::ranks::{Ranks, Team};
 use crate::scalar::Real;
 use crate::simulation::StepControl;
 use crate::sweep::{InstructionSet, Root};
@@ -114,5 +115,18 @@ impl<T: Real, const D: usize> Scene<T, D> {
     pub fn memory_limit(mut self, bytes: u64) -> Self {
         self.memory = Some(bytes);
         self
+    }
+
+    /// Runs the scene on [ranks](crate::ranks), which all build the same one and call the same methods of it: the sums over pairs
+    /// are divided among them, to the bits of one process.
+    #[must_use]
+    pub fn on_ranks(mut self, ranks: Arc<dyn Ranks>) -> Self {
+        self.ranks = Some(ranks);
+        self
+    }
+
+    /// The ranks that it is built on, all of which get an error of one.
+    pub(super) fn team(&self) -> Option<Arc<Team>> {
+        self.ranks.clone().map(|ranks| Arc::new(Team::new(ranks)))
     }
 }

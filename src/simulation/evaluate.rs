@@ -12,7 +12,7 @@ use crate::parallel::{GRAIN, cut, for_each};
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::scheme::{EnergyForm, Entries, Entry};
-use crate::sweep::{Pass, Records, Results, SweepInput};
+use crate::sweep::{PairSweep, Pass, Records, Results, SweepInput};
 use crate::term::Stage;
 use std::ops::Range;
 
@@ -284,7 +284,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         let start = Instant::now();
         sweep.pack(Pass::Rates, &input, &mut records);
         let packed = Instant::now();
-        sweep.run(Pass::Rates, &input, &records, &mut rates);
+        self.run_sweep((sweep, Pass::Rates), &input, &records, &mut rates);
         let pairs = self.neighborhood.pairs_of(input.targets);
         self.work.phases.packing += packed - start;
         self.work.phases.pairs += packed.elapsed();
@@ -313,7 +313,9 @@ impl<T: Real, const D: usize> Group<T, D> {
         let targets = first.slots.start..self.particles.columns.slots();
         let mut rows = core::mem::take(&mut self.work.coupling);
         self.work.spent.pairs += self.neighborhood.pairs_of(targets.clone());
-        self.sum_on_walls(targets, &mut rows);
+        self.sum_on_walls(targets, &mut rows, |sweep, input, records, rows| {
+            self.run_sweep((sweep, Pass::Rates), input, records, rows);
+        });
         self.work.coupling = rows;
     }
 
@@ -326,6 +328,8 @@ impl<T: Real, const D: usize> Group<T, D> {
             self.sum_on_walls(
                 self.particles.mobile..self.particles.columns.slots(),
                 &mut rows,
+                // A reading is made by every rank for itself.
+                |sweep, input, records, rows| sweep.run(Pass::Rates, input, records, rows),
             );
         }
         let force = |slot: usize| {
@@ -342,7 +346,12 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// The force of the liquid on wall particles with the rates at hand: the forces on the liquid with
     /// the opposite sign.
-    fn sum_on_walls(&self, targets: Range<usize>, rows: &mut Results<T, D>) {
+    fn sum_on_walls(
+        &self,
+        targets: Range<usize>,
+        rows: &mut Results<T, D>,
+        run: impl Fn(&dyn PairSweep<T, D>, &SweepInput<'_, T, D>, &Records<T>, &mut Results<T, D>),
+    ) {
         let input = SweepInput {
             targets,
             ..self.input()
@@ -351,12 +360,12 @@ impl<T: Real, const D: usize> Group<T, D> {
             return;
         };
         if self.work.records_of_rates {
-            rates.run(Pass::Rates, &input, &self.work.records, rows);
+            run(rates, &input, &self.work.records, rows);
         } else {
             // Another sweep has used the records since.
             let mut records = Records::default();
             rates.pack(Pass::Rates, &input, &mut records);
-            rates.run(Pass::Rates, &input, &records, rows);
+            run(rates, &input, &records, rows);
         }
     }
 
@@ -370,7 +379,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         let mut worked = core::mem::take(&mut self.work.worked);
         let start = Instant::now();
         sweep.renew_mean_velocity(&self.input(), &mut records);
-        sweep.run(Pass::Work, &self.input(), &records, &mut worked);
+        self.run_sweep((sweep, Pass::Work), &self.input(), &records, &mut worked);
         self.work.phases.work += start.elapsed();
         self.work.spent.pairs += self.neighborhood.pairs_of(self.input().targets);
         self.work.work_records = records;

@@ -1,6 +1,7 @@
 //! A group: the bodies that share a scheme, with their particles, neighbourhood and workspace.
 //! Physics happens in `stages`, by the laws of the scheme.
 
+use super::divided::Share;
 use super::exchange::Exchange;
 use super::forces::Forces;
 use super::held::Held;
@@ -26,6 +27,8 @@ pub(crate) struct Group<T: Real, const D: usize> {
     pub neighborhood: Neighborhood<T, D>,
     pub work: Workspace<T, D>,
     pub scheme: Arc<Scheme<T, D>>,
+    /// The part of this rank in it, on ranks.
+    pub share: Option<Share>,
     /// The schemes that it obeys one after another, its first among them; none if that is all.
     pub exchanges: Vec<Exchange<T, D>>,
     pub walls: Vec<WallState<T, D>>,
@@ -80,6 +83,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             neighborhood: Neighborhood::new(interactions, reach, skins),
             work: Workspace::default(),
             scheme,
+            share: None,
             exchanges: Vec::new(),
             walls,
             boundaries,
@@ -337,8 +341,12 @@ impl<T: Real, const D: usize> Group<T, D> {
     pub fn list(&mut self, time: f64, reach: f64) {
         let at = (time, reach);
         let (walls, boundaries) = (&self.walls, &self.boundaries);
+        let on = (self.instructions, self.share.as_ref());
         self.neighborhood
-            .list(&self.particles, walls, boundaries, at, self.instructions);
+            .list(&self.particles, walls, boundaries, at, on);
+        if let Some(share) = &mut self.share {
+            share.divide::<T>(&self.neighborhood.lists, self.particles.mobile);
+        }
     }
 
     /// What a sweep over all that moves by forces works on.

@@ -149,6 +149,7 @@ mod contact;
 mod control;
 mod cost;
 mod couplings;
+mod divided;
 mod energy;
 mod evaluate;
 mod event;
@@ -252,6 +253,7 @@ use crate::integrator::Integrator;
 use crate::once::once;
 #[cfg(feature = "checkpoint")]
 use crate::output::checkpoint::Hashes;
+use crate::ranks::Team;
 use crate::scalar::Real;
 #[cfg(feature = "checkpoint")]
 use crate::scene::Described;
@@ -321,6 +323,8 @@ pub struct Simulation<T: Real, const D: usize> {
     events: Vec<Event<T, D>>,
     /// Memory for the forces of a kick.
     pair_forces: PairForces<D>,
+    /// The ranks that it runs on, if it runs on ranks.
+    team: Option<Arc<Team>>,
 }
 
 impl<T: Real, const D: usize> core::fmt::Debug for Simulation<T, D> {
@@ -373,6 +377,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             failed: None,
             events: Vec::new(),
             pair_forces: PairForces::default(),
+            team: None,
         }
     }
 
@@ -416,8 +421,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             if own.state.rates_at_hand && own.aside.is_none() {
                 own.aside = Some(Box::new(own.keep()));
             }
-            own.evaluate_together()?;
-            own.vote().map(|_| ())
+            let evaluated = own.evaluate_together();
+            let voted = evaluated.and_then(|()| own.vote().map(|_| ()));
+            own.agree(voted)
         })
     }
 

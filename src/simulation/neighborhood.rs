@@ -1,6 +1,7 @@
 //! The neighbourhood of a group: lists of who is near, images behind boundaries, and how long both last.
 //! It is rebuilt from the positions that it remembers, so a checkpoint needs no lists.
 
+use super::divided::Share;
 use super::images::Chains;
 use super::population::Particles;
 use super::walls::WallState;
@@ -174,7 +175,7 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         walls: &[WallState<T, D>],
         boundaries: &[Arc<dyn Boundary<D>>],
         (time, reach): (f64, f64),
-        instructions: InstructionSet,
+        (instructions, share): (InstructionSet, Option<&Share>),
     ) {
         self.listed_reach = reach;
         self.listed.clear();
@@ -212,7 +213,7 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         if Arc::get_mut(&mut self.lists).is_none() {
             self.lists = Arc::default();
         }
-        Arc::make_mut(&mut self.lists).rebuild(&SearchInput {
+        let input = SearchInput {
             positions: &self.listed,
             listed: &listed,
             radii,
@@ -221,7 +222,12 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
             slots,
             skin: self.skin,
             instructions,
-        });
+        };
+        let lists = Arc::make_mut(&mut self.lists);
+        match share {
+            None => lists.rebuild(&input),
+            Some(share) => share.list(lists, &input),
+        }
     }
 
     /// Finds which images are needed. The images of each body and of each wall are blocks of their own, one a boundary.

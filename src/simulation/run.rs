@@ -42,8 +42,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     pub(super) fn step_to(&mut self, limit: f64) -> Result<f64> {
         once!(self => &mut Simulation, |own, limit: f64| -> Result<f64> {
-            let next = own.next_step()?;
-            own.take_step(next, limit)
+            let next = own.next_step();
+            let taken = next.and_then(|next| own.take_step(next, limit));
+            own.agree(taken)
         })
     }
 
@@ -201,7 +202,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// # Errors
     /// As [`run_until`](Self::run_until).
     pub fn step_until(&mut self, end: f64) -> Result<f64> {
-        once!(self => &mut Simulation, |own, end: f64| -> Result<f64> { own.go_to(end) })
+        once!(self => &mut Simulation, |own, end: f64| -> Result<f64> {
+            let gone = own.go_to(end);
+            own.agree(gone)
+        })
     }
 
     fn go_to(&mut self, end: f64) -> Result<f64> {

@@ -64,7 +64,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             let start = Instant::now();
             sweep.pack(Pass::Rates, &input, &mut records);
             let packed = Instant::now();
-            sweep.run(Pass::Rates, &input, &records, &mut sums);
+            self.run_sweep((sweep, Pass::Rates), &input, &records, &mut sums);
             let pairs = match among {
                 Some(runs) => runs
                     .iter()

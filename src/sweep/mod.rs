@@ -50,6 +50,7 @@
 //! [`Field::POSITION_RESIDUAL`]: crate::particles::Field::POSITION_RESIDUAL
 
 mod fused_kernel;
+mod message;
 #[cfg(feature = "devices")]
 mod pair_record;
 mod records;

@@ -24,6 +24,8 @@ impl<T: Real, const D: usize> Group<T, D> {
             neighborhood,
             work,
             scheme,
+            // Every rank has the whole state.
+            share: _,
             walls,
             boundaries: _,
             // By the events, which are kept.

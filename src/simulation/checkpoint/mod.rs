@@ -51,6 +51,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// It holds the state that the next step starts from, and the time that is [shown](crate::simulation#readings) where that
     /// is another.
     ///
+    /// On [ranks](crate::ranks) all call it, and the first one writes.
+    ///
     /// # Errors
     /// [`Error::File`] if the file cannot be written, and [`Error::Failed`] after a step that has failed: its state is
     /// none to go on from.
@@ -58,7 +60,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let path = path.as_ref();
         once!(self => &Simulation, |own, path: &Path| -> Result<()> {
             own.check_failure()?;
-            own.put().write(path)
+            // Every rank has the whole state.
+            let written = if own.is_first_rank() { own.put().write(path) } else { Ok(()) };
+            own.agree_on(written)
         })
     }
 
@@ -121,6 +125,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             shown: reading,
             failed: _,
             pair_forces: _,
+            team: _,
         } = self;
         // The next step starts from the state after the last one. While another is shown, no particles enter.
         let State {

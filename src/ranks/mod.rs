@@ -1,0 +1,86 @@
+//! Ranks: one scene on several processes, or on several machines, to the bits of one.
+//! The trait by which ranks reach each other, and ranks that are threads of one process; MPI is a crate of its own.
+//!
+//! Every rank builds the same scene with [`Scene::on_ranks`](crate::scene::Scene::on_ranks) and calls the same methods of its
+//! [`Simulation`](crate::simulation::Simulation) in the same order. The work that grows with the number of pairs is divided:
+//!
+//! | part of a step | on ranks |
+//! |---|---|
+//! | sums over pairs | each rank sums chunks of 64 clusters that are consecutive on the space-filling curve, cut by the entries of their lists; then all ranks get the sums of all |
+//! | search for neighbours | each rank lists the neighbours of its chunks; then all ranks get all lists |
+//! | laws, equations of state, kicks, drifts, votes, ledgers | on every rank, of all particles |
+//! | contact, joints, couplings between groups, loads, events, readings | on every rank |
+//!
+//! What a rank sums for a particle is what one process sums, in the same order, so bits depend on neither the number of ranks
+//! nor the threads of each, nor on how chunks are cut. Every rank holds the whole state after every step: any method that
+//! reads a simulation gives the same values on all of them and needs no message.
+//!
+//! Memory is not divided: every rank holds the whole scene.
+//!
+//! ```
+//! use meshfree::prelude::*;
+//! use meshfree::ranks;
+//! let scene = || {
+//!     let water = catalogue::weakly_compressible_water(20.0);
+//!     Scene::<f64, 2>::new(schemes::weakly_compressible())
+//!         .body(Body::block("water", water, [0.0; 2], [0.4, 0.4], 0.01))
+//!         .boundary(MirrorPlane::wall([0.0; 2], [0.0, -1.0]))
+//!         .acceleration(|_| [0.0, -9.81])
+//! };
+//! let mut one = scene().build()?;
+//! one.run_until(0.002)?;
+//! let fronts = ranks::in_threads(2, 1, |ranks| -> Result<f64, Error> {
+//!     let mut simulation = scene().on_ranks(ranks).build()?;
+//!     simulation.run_until(0.002)?;
+//!     Ok(simulation.all().map(|particle| particle.position()[0]).fold(0.0, f64::max))
+//! })?;
+//! let front = one.all().map(|particle| particle.position()[0]).fold(0.0, f64::max);
+//! for other in fronts {
+//!     assert_eq!(other?, front);
+//! }
+//! # Ok::<(), Error>(())
+//! ```
+//!
+//! # Files
+//!
+//! Every rank runs the same program, so what writes a file belongs under
+//! [`Simulation::is_first_rank`](crate::simulation::Simulation::is_first_rank). `Simulation::save` is called on all ranks: the
+//! first one writes an ordinary checkpoint, and all of them return its outcome. It resumes on any number of ranks, and without
+//! any, to the same bits.
+//!
+//! # Errors
+//!
+//! An error on one rank ends the call on all of them, at the latest at the end of the step: the rank itself returns its error,
+//! and the others [`Error::Rank`](crate::error::Error::Rank) with its number and text. Ranks whose times differ after a step, as
+//! those of different scenes, end with that error too.
+
+mod bytes;
+mod division;
+mod team;
+mod threads;
+
+pub(crate) use bytes::{Taken, put_number, put_numbers, put_words};
+pub(crate) use division::{Division, even};
+pub use team::Traffic;
+pub(crate) use team::{Stamp, Team, What};
+pub use threads::in_threads;
+
+use crate::error::Failure;
+
+/// How a rank reaches the others.
+///
+/// All ranks call [`gather`](Self::gather) in the same order, one call at a time, from any thread.
+pub trait Ranks: core::fmt::Debug + Send + Sync {
+    /// The number of this rank, below [`count`](Self::count).
+    fn rank(&self) -> usize;
+
+    /// How many ranks there are: one or more.
+    fn count(&self) -> usize;
+
+    /// Gives `own` to all ranks, and puts what each of them gives into `all`, one after another in the order of the ranks:
+    /// `counts[r]` bytes of rank `r`. All ranks know the counts.
+    ///
+    /// # Errors
+    /// If a rank cannot be reached any more. No rank calls it after that.
+    fn gather(&self, own: &[u8], counts: &[usize], all: &mut [u8]) -> Result<(), Failure>;
+}

@@ -1,0 +1,428 @@
+//! What ranks say to each other: parts of sums and lists, whether all is well, and where they are.
+//! Each gathering begins with a header of every rank, so an error or another program on one of them reaches all.
+
+use super::Ranks;
+use crate::clock::Instant;
+use crate::error::{Error, Failure};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+/// What a gathering is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum What {
+    /// The end of a call, with how it ended.
+    End,
+    /// The instructions of the loops over pairs.
+    Instructions,
+    /// Sums of a sweep.
+    Sums,
+    /// Lists of neighbours.
+    Lists,
+    /// What the first rank decides for all.
+    Decision,
+}
+
+/// A rank that has failed says so in the place of what the others gather.
+const FAILED: u64 = u64::MAX;
+
+/// Numbers of a header: what is gathered, and how many bytes of it.
+const HEADER: usize = 2;
+
+/// Where a simulation is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Stamp {
+    /// Steps taken.
+    pub steps: u64,
+    /// The time \[s\].
+    pub time: f64,
+    /// Particles.
+    pub particles: usize,
+    /// A number that follows from their velocities.
+    pub motion: u64,
+}
+
+/// Messages of a rank since its simulation was built, and the time that they took.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Traffic {
+    /// Times at which all ranks gathered.
+    pub gathered: u64,
+    /// Bytes that the rank gave.
+    pub sent: u64,
+    /// Bytes that it got.
+    pub received: u64,
+    /// Time of sending, receiving and waiting for others.
+    pub waited: Duration,
+}
+
+/// The ranks of a simulation, as one of them sees them.
+#[derive(Debug)]
+pub(crate) struct Team {
+    ranks: Arc<dyn Ranks>,
+    /// The first error of a rank, after which nothing is gathered.
+    broken: Mutex<Option<Broken>>,
+    buffers: Mutex<Buffers>,
+}
+
+/// What has gone wrong, on which rank.
+#[derive(Clone, Debug)]
+struct Broken {
+    rank: usize,
+    cause: String,
+    /// Whether this rank has told it.
+    told: bool,
+}
+
+/// That of a rank.
+fn broken(rank: usize, cause: impl Into<String>) -> Broken {
+    Broken {
+        rank,
+        cause: cause.into(),
+        told: false,
+    }
+}
+
+/// Memory for messages.
+#[derive(Debug, Default)]
+struct Buffers {
+    own: Vec<u8>,
+    counts: Vec<usize>,
+    headers: Vec<u8>,
+    all: Vec<u8>,
+    traffic: Traffic,
+}
+
+impl Buffers {
+    /// Gives what is in `own`, and gets `counts` bytes of each.
+    fn gather(&mut self, ranks: &dyn Ranks) -> Result<(), Failure> {
+        self.all.resize(self.counts.iter().sum(), 0);
+        self.count(self.own.len(), self.all.len());
+        ranks.gather(&self.own, &self.counts, &mut self.all)
+    }
+
+    fn count(&mut self, own: usize, all: usize) {
+        self.traffic.gathered += 1;
+        self.traffic.sent += own as u64;
+        self.traffic.received += (all - own) as u64;
+    }
+
+    /// Number `k` of the header of a rank.
+    fn header(&self, rank: usize, k: usize) -> u64 {
+        let at = 8 * (HEADER * rank + k);
+        let bytes = self
+            .headers
+            .get(at..at + 8)
+            .and_then(|own| own.try_into().ok());
+        bytes.map_or(FAILED, u64::from_ne_bytes)
+    }
+}
+
+impl Team {
+    pub fn new(ranks: Arc<dyn Ranks>) -> Self {
+        Self {
+            ranks,
+            broken: Mutex::default(),
+            buffers: Mutex::default(),
+        }
+    }
+
+    /// The number of this rank.
+    pub fn rank(&self) -> usize {
+        self.ranks.rank()
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.ranks.count()
+    }
+
+    /// Whether nothing is gathered any more.
+    pub fn is_broken(&self) -> bool {
+        self.broken().is_some()
+    }
+
+    /// What was said until now.
+    pub fn traffic(&self) -> Traffic {
+        self.buffers().traffic
+    }
+
+    fn buffers(&self) -> MutexGuard<'_, Buffers> {
+        self.buffers.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn broken(&self) -> MutexGuard<'_, Option<Broken>> {
+        self.broken.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Gathers what each rank puts, and shows it rank by rank. Where a rank has failed, or what it put is not what it must be,
+    /// nothing is shown any more, and [`agree`](Self::agree) returns the error.
+    pub fn gather(
+        &self,
+        what: What,
+        put: impl FnOnce(&mut Vec<u8>),
+        mut take: impl FnMut(usize, &[u8]) -> Option<()>,
+    ) {
+        if self.broken().is_some() {
+            return;
+        }
+        let start = Instant::now();
+        let mut buffers = self.buffers();
+        buffers.own.clear();
+        put(&mut buffers.own);
+        let gathered = self.gather_put(what as u64, &mut buffers);
+        let mut at = 0;
+        let taken = gathered.and_then(|()| {
+            for rank in 0..self.count() {
+                let own = &buffers.all[at..at + buffers.counts[rank]];
+                at += own.len();
+                if take(rank, own).is_none() {
+                    let cause = format!("its message ({what:?}) is not that of the same scene");
+                    return Err(broken(rank, cause));
+                }
+            }
+            Ok(())
+        });
+        buffers.traffic.waited += start.elapsed();
+        if let Err(own) = taken {
+            *self.broken() = Some(own);
+        }
+    }
+
+    /// Headers, and then what they announce.
+    fn gather_put(&self, what: u64, buffers: &mut Buffers) -> Result<(), Broken> {
+        let unreachable =
+            |why: Failure| broken(self.rank(), format!("it cannot reach the others: {why}"));
+        let count = self.count();
+        let own = [what, buffers.own.len() as u64];
+        let own: Vec<u8> = own.iter().flat_map(|number| number.to_ne_bytes()).collect();
+        buffers.headers.resize(own.len() * count, 0);
+        buffers.counts.clear();
+        buffers.counts.resize(count, own.len());
+        let Buffers {
+            counts, headers, ..
+        } = buffers;
+        let headed = self.ranks.gather(&own, counts, headers);
+        buffers.count(own.len(), own.len() * count);
+        headed.map_err(unreachable)?;
+        let failed = (0..count).find(|&rank| buffers.header(rank, 0) == FAILED);
+        let other = (0..count).find(|&rank| buffers.header(rank, 0) != buffers.header(0, 0));
+        if let (None, Some(rank)) = (failed, other) {
+            let cause = "it calls other methods than rank 0: all ranks must run the same program";
+            return Err(broken(rank, cause));
+        }
+        if failed.is_some() && what != FAILED {
+            buffers.own.clear();
+        }
+        for rank in 0..count {
+            let speaks = failed.is_none() || buffers.header(rank, 0) == FAILED;
+            buffers.counts[rank] = if speaks {
+                buffers.header(rank, 1) as usize
+            } else {
+                0
+            };
+        }
+        buffers.gather(&*self.ranks).map_err(unreachable)?;
+        let Some(rank) = failed else {
+            return Ok(());
+        };
+        let said = &buffers.all[..buffers.counts[rank]];
+        Err(broken(rank, String::from_utf8_lossy(said)))
+    }
+
+    /// Ends a call on all ranks: as it did on this one if it did so on all, and with an error if it failed on another, or if
+    /// others are elsewhere.
+    ///
+    /// # Errors
+    /// That of the call, or [`Error::Rank`].
+    pub fn agree<V>(&self, stamp: Option<Stamp>, outcome: Result<V, Error>) -> Result<V, Error> {
+        if self.broken().is_none() {
+            match (&outcome, stamp) {
+                (Ok(_), Some(stamp)) => self.compare(stamp),
+                (Ok(_), None) => self.gather(What::End, |_| {}, |_, _| Some(())),
+                (Err(error), _) => return self.fail(&error.to_string(), outcome),
+            }
+        }
+        match &*self.broken() {
+            None => outcome,
+            // Its own error says more.
+            Some(own) if own.told && outcome.is_err() => outcome,
+            Some(_) if matches!(outcome, Err(Error::Failed { .. })) => outcome,
+            Some(own) => Err(Error::Rank {
+                rank: own.rank,
+                cause: own.cause.clone(),
+            }),
+        }
+    }
+
+    /// Whether all ranks are where this one is.
+    fn compare(&self, stamp: Stamp) {
+        let numbers = |own: &Stamp| {
+            [
+                own.steps,
+                own.time.to_bits(),
+                own.particles as u64,
+                own.motion,
+            ]
+        };
+        let put = |to: &mut Vec<u8>| {
+            to.extend(
+                numbers(&stamp)
+                    .iter()
+                    .flat_map(|number| number.to_ne_bytes()),
+            );
+        };
+        let mut first = None;
+        let mut differs = None;
+        self.gather(What::End, put, |rank, own| {
+            let own: [u8; 32] = own.try_into().ok()?;
+            let first = first.get_or_insert(own);
+            if *first != own {
+                differs.get_or_insert(rank);
+            }
+            Some(())
+        });
+        if let Some(rank) = differs {
+            let cause = "after this step its time, its number of particles or their velocities are not those of rank 0: all ranks must \
+                         build the same scene, of the same functions, with one build of the program";
+            self.broken().get_or_insert(broken(rank, cause));
+        }
+    }
+
+    /// Tells the others. What has failed on all ranks alike is no failure of ranks.
+    fn fail<V>(&self, cause: &str, outcome: Result<V, Error>) -> Result<V, Error> {
+        let mut buffers = self.buffers();
+        buffers.own.clear();
+        buffers.own.extend_from_slice(cause.as_bytes());
+        let told = self.gather_put(FAILED, &mut buffers);
+        let all = (0..self.count()).all(|rank| buffers.header(rank, 0) == FAILED);
+        if let (Err(first), false) = (told, all) {
+            *self.broken() = Some(Broken {
+                told: true,
+                ..first
+            });
+        }
+        outcome
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::in_threads;
+    use super::*;
+    use crate::error::Problem;
+
+    const STAMP: Stamp = Stamp {
+        steps: 3,
+        time: 0.5,
+        particles: 7,
+        motion: 11,
+    };
+
+    fn on_ranks<V: Send>(program: impl Fn(&Team) -> V + Sync) -> Vec<V> {
+        in_threads(3, 1, |ranks| program(&Team::new(ranks))).expect("threads")
+    }
+
+    fn text<V>(outcome: Result<V, Error>) -> String {
+        outcome.map_or_else(|error| error.to_string(), |_| "well".into())
+    }
+
+    #[test]
+    fn parts_of_any_length_reach_all_in_order() {
+        let all = on_ranks(|team| {
+            let mut got = Vec::new();
+            for turn in 0..5 {
+                let own = vec![team.rank() as u8; turn * team.rank()];
+                let take = |rank: usize, own: &[u8]| {
+                    assert_eq!(own, vec![rank as u8; turn * rank]);
+                    got.push(rank);
+                    Some(())
+                };
+                team.gather(What::Sums, |to| to.extend(own), take);
+            }
+            assert_eq!(team.traffic().gathered, 10);
+            (got, text(team.agree(Some(STAMP), Ok(()))))
+        });
+        let expected: Vec<usize> = (0..15).map(|k| k % 3).collect();
+        assert!(
+            all.iter()
+                .all(|own| *own == (expected.clone(), "well".into()))
+        );
+    }
+
+    #[test]
+    fn an_error_of_one_reaches_all_wherever_they_are() {
+        let wrong = || Err::<(), _>(Error::Argument(Problem::EmptyScene));
+        let all = on_ranks(|team| {
+            if team.rank() == 1 {
+                return [text(team.agree(Some(STAMP), wrong())), String::new()];
+            }
+            // They are in the middle of a step, and go on to its end without waiting for anybody.
+            for _ in 0..4 {
+                team.gather(What::Sums, |to| to.push(1), |_, _| Some(()));
+            }
+            let first = text(team.agree(Some(STAMP), Ok(())));
+            [first, text(team.agree(Some(STAMP), Ok(())))]
+        });
+        let own = Problem::EmptyScene.to_string();
+        assert_eq!(all[1][0], own);
+        for rank in [0, 2] {
+            assert!(
+                all[rank]
+                    .iter()
+                    .all(|text| text.contains("rank 1") && text.contains(&own))
+            );
+        }
+        // One that all ranks have is theirs, and they may go on.
+        let all = on_ranks(|team| {
+            let first = text(team.agree(Some(STAMP), wrong()));
+            [first, text(team.agree(Some(STAMP), Ok(())))]
+        });
+        assert_eq!(all, vec![[own, "well".to_string()]; 3]);
+    }
+
+    #[test]
+    fn ranks_that_part_end_with_the_number_of_the_first_that_differs() {
+        let elsewhere = on_ranks(|team| {
+            let time = [0.5, 0.5, 0.25][team.rank()];
+            text(team.agree(Some(Stamp { time, ..STAMP }), Ok(())))
+        });
+        assert!(
+            elsewhere
+                .iter()
+                .all(|text| text.contains("rank 2") && text.contains("its time"))
+        );
+        let other = on_ranks(|team| {
+            let what = [What::Sums, What::Lists, What::Sums][team.rank()];
+            team.gather(what, |_| {}, |_, _| Some(()));
+            text(team.agree(None, Ok(())))
+        });
+        assert!(
+            other
+                .iter()
+                .all(|text| text.contains("rank 1") && text.contains("other methods"))
+        );
+        let short = on_ranks(|team| {
+            let put = |to: &mut Vec<u8>| to.resize(team.rank(), 0);
+            team.gather(What::Sums, put, |_, own| (own.len() < 2).then_some(()));
+            text(team.agree(None, Ok(())))
+        });
+        assert!(
+            short
+                .iter()
+                .all(|text| text.contains("rank 2") && text.contains("message"))
+        );
+    }
+
+    #[test]
+    fn a_rank_that_has_gone_ends_the_others() {
+        let all = on_ranks(|team| match team.rank() {
+            0 => String::new(),
+            _ => text(team.agree(Some(STAMP), Ok(()))),
+        });
+        assert!(
+            all[1..]
+                .iter()
+                .all(|text| text.contains("rank 0 has ended")),
+            "{all:?}"
+        );
+    }
+}

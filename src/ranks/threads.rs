@@ -1,0 +1,194 @@
+//! Ranks as threads of one process: each has a pool of threads of its own, and they meet in memory.
+//! So that what runs on a cluster is tested on one machine, without MPI.
+
+use super::Ranks;
+use crate::error::{Error, Failure, Problem};
+use crate::parallel::Pool;
+use std::panic::resume_unwind;
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, RwLock};
+
+/// Runs a program on so many ranks, each with so many threads, and returns what each rank returns.
+///
+/// A rank that ends before the others ends what they wait for with [`Error::Rank`]; nothing hangs.
+///
+/// See [`ranks`](crate::ranks) for an example.
+///
+/// # Errors
+/// [`Error::Argument`] if there is no rank or no thread, or if the system gives no threads.
+///
+/// # Panics
+/// If the program does on a rank, after all ranks have ended.
+pub fn in_threads<V: Send>(
+    count: usize,
+    threads: usize,
+    program: impl Fn(Arc<dyn Ranks>) -> V + Sync,
+) -> Result<Vec<V>, Error> {
+    for (what, value) in [("number of ranks", count), ("threads of a rank", threads)] {
+        if value == 0 {
+            return Err(Error::Argument(Problem::Parameter {
+                what: what.into(),
+                value: 0.0,
+                must_be: "must be one or more",
+            }));
+        }
+    }
+    let pools: Result<Vec<_>, String> = (0..count).map(|_| Pool::new(threads)).collect();
+    let Ok(pools) = pools else {
+        return Err(Error::Argument(Problem::Parameter {
+            what: "threads of a rank".into(),
+            value: threads as f64,
+            must_be: "must be as many as the system gives, and one without the feature `parallel`",
+        }));
+    };
+    let hall = Arc::new(Hall {
+        parts: (0..count).map(|_| RwLock::default()).collect(),
+        meeting: Mutex::default(),
+        met: Condvar::new(),
+    });
+    let program = &program;
+    let ended: Vec<_> = std::thread::scope(|scope| {
+        let begun: Vec<_> = pools
+            .iter()
+            .enumerate()
+            .map(|(rank, pool)| {
+                let hall = hall.clone();
+                scope.spawn(move || {
+                    let _end = End(rank, hall.clone());
+                    let own: Arc<dyn Ranks> = Arc::new(Thread { rank, hall });
+                    pool.install(|| program(own))
+                })
+            })
+            .collect();
+        begun.into_iter().map(|rank| rank.join()).collect()
+    });
+    let unwound = |panicked| resume_unwind(panicked);
+    Ok(ended
+        .into_iter()
+        .map(|own| own.unwrap_or_else(unwound))
+        .collect())
+}
+
+/// Where ranks meet.
+#[derive(Debug)]
+struct Hall {
+    /// What each rank gives.
+    parts: Vec<RwLock<Vec<u8>>>,
+    meeting: Mutex<Meeting>,
+    met: Condvar,
+}
+
+#[derive(Debug, Default)]
+struct Meeting {
+    arrived: usize,
+    /// Meetings that all have come to.
+    number: u64,
+    /// A rank that has ended.
+    gone: Option<usize>,
+}
+
+impl Hall {
+    fn meeting(&self) -> MutexGuard<'_, Meeting> {
+        self.meeting.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Waits until all ranks are here.
+    fn meet(&self) -> Result<(), Failure> {
+        let mut own = self.meeting();
+        let number = own.number;
+        own.arrived += 1;
+        if own.arrived == self.parts.len() {
+            own.arrived = 0;
+            own.number += 1;
+            self.met.notify_all();
+            return Ok(());
+        }
+        while own.number == number {
+            if let Some(rank) = own.gone {
+                return Err(format!("rank {rank} has ended").into());
+            }
+            own = self.met.wait(own).unwrap_or_else(PoisonError::into_inner);
+        }
+        Ok(())
+    }
+}
+
+/// Says that a rank has ended, also where it panics.
+struct End(usize, Arc<Hall>);
+
+impl Drop for End {
+    fn drop(&mut self) {
+        self.1.meeting().gone.get_or_insert(self.0);
+        self.1.met.notify_all();
+    }
+}
+
+#[derive(Debug)]
+struct Thread {
+    rank: usize,
+    hall: Arc<Hall>,
+}
+
+impl Ranks for Thread {
+    fn rank(&self) -> usize {
+        self.rank
+    }
+
+    fn count(&self) -> usize {
+        self.hall.parts.len()
+    }
+
+    fn gather(&self, own: &[u8], counts: &[usize], all: &mut [u8]) -> Result<(), Failure> {
+        {
+            let part = &self.hall.parts[self.rank];
+            let mut part = part.write().unwrap_or_else(PoisonError::into_inner);
+            part.clear();
+            part.extend_from_slice(own);
+        }
+        self.hall.meet()?;
+        let mut rest = all;
+        for (part, &count) in self.hall.parts.iter().zip(counts) {
+            let part = part.read().unwrap_or_else(PoisonError::into_inner);
+            let (to, behind) = rest.split_at_mut(count);
+            to.copy_from_slice(&part);
+            rest = behind;
+        }
+        // Nobody writes before all have read.
+        self.hall.meet()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_get_what_each_gives() {
+        let all = in_threads(3, 1, |ranks| {
+            let own = vec![ranks.rank() as u8; ranks.rank() + 1];
+            (0..100).fold(Vec::new(), |_, _| {
+                let mut all = vec![9; 6];
+                ranks
+                    .gather(&own, &[1, 2, 3], &mut all)
+                    .expect("three ranks");
+                all
+            })
+        })
+        .expect("threads");
+        assert_eq!(all, vec![vec![0, 1, 1, 2, 2, 2]; 3]);
+    }
+
+    #[test]
+    fn a_rank_that_ends_ends_the_wait_of_others() {
+        let all = in_threads(3, 1, |ranks| {
+            if ranks.rank() == 1 {
+                return String::new();
+            }
+            let failed = ranks.gather(&[1], &[1; 3], &mut [0; 3]);
+            failed.map_or_else(|why| why.to_string(), |()| "met".into())
+        })
+        .expect("threads");
+        assert_eq!(all, ["rank 1 has ended", "", "rank 1 has ended"]);
+        assert!(in_threads(0, 1, |_| ()).is_err());
+        assert!(in_threads(1, 0, |_| ()).is_err());
+    }
+}

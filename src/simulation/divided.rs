@@ -1,0 +1,260 @@
+//! The part of a rank in a group: the chunks whose sums and lists it makes, before all ranks get those of all.
+//! Without ranks the sweep and the search run as they are.
+
+use super::Simulation;
+use super::group::Group;
+use crate::collective::over;
+use crate::error::{Error, Result};
+use crate::neighbors::{CHUNK, ClusterLists, SearchInput};
+use crate::particles::Field;
+use crate::ranks::{Division, Stamp, Taken, Team, Traffic, What, even};
+use crate::scalar::{Real, width};
+use crate::sweep::{InstructionSet, PairSweep, Pass, Records, Results, Root, SweepInput};
+use std::ops::Range;
+use std::sync::Arc;
+
+/// The sum of the last digits of all velocities: of other motions it is another.
+fn motion_of<T: Real, const D: usize>(group: &Group<T, D>) -> u64 {
+    let velocities = group.particles.columns.vectors(Field::VELOCITY);
+    over(0..velocities.len(), |slot| {
+        let digits = |v: T| {
+            let bits = v.to_f64().to_bits();
+            // Few enough that no sum of them is too large.
+            (bits ^ bits >> 32) & 0xffff
+        };
+        velocities[slot].into_iter().map(digits).sum::<u64>()
+    })
+}
+
+/// What a rank has of a group beside others.
+#[derive(Clone, Debug)]
+pub(crate) struct Share {
+    pub team: Arc<Team>,
+    division: Division,
+}
+
+impl Share {
+    pub fn new(team: Arc<Team>) -> Self {
+        Self {
+            team,
+            division: Division::default(),
+        }
+    }
+
+    /// Cuts the chunks of new lists, of which particles that move by forces fill the first `mobile` slots.
+    pub fn divide<T: Real>(&mut self, lists: &ClusterLists, mobile: usize) {
+        let mobile = mobile.div_ceil(CHUNK * width::<T>());
+        self.division = Division::new(lists.chunks(), mobile, self.team.count());
+    }
+
+    /// Makes the lists of own chunks, and gets those of the others.
+    pub fn list<T: Real, const D: usize>(
+        &self,
+        lists: &mut ClusterLists,
+        input: &SearchInput<'_, T, D>,
+    ) {
+        let (rank, ranks) = (self.team.rank(), self.team.count());
+        lists.rebuild_some(input, |chunks| even(chunks, rank, ranks));
+        let chunks = lists.chunks().len();
+        let mut own = Vec::new();
+        lists.put(even(chunks, rank, ranks), &mut own);
+        let take = |other: usize, from: &[u8]| {
+            if other == rank {
+                return Some(());
+            }
+            let mut from = Taken(from);
+            lists.take(even(chunks, other, ranks), &mut from)?;
+            from.0.is_empty().then_some(())
+        };
+        self.team
+            .gather(What::Lists, |to| to.append(&mut own), take);
+        if self.team.is_broken() {
+            // What is under way goes on to where the error is told.
+            lists.rebuild(input);
+        }
+    }
+
+    /// The chunks of a rank among those of a sweep.
+    fn chunks_of<T: Real>(&self, rank: usize, targets: &Range<usize>) -> [Range<usize>; 2] {
+        let slots = CHUNK * width::<T>();
+        let wanted = targets.start / slots..targets.end.div_ceil(slots);
+        self.division.of(rank).map(|own| {
+            let start = own.start.max(wanted.start);
+            start..own.end.min(wanted.end).max(start)
+        })
+    }
+
+    /// Makes the sums of own chunks, and gets those of the others.
+    fn sum<T: Real, const D: usize>(
+        &self,
+        (sweep, pass): (&dyn PairSweep<T, D>, Pass),
+        input: &SweepInput<'_, T, D>,
+        records: &Records<T>,
+        rows: &mut Results<T, D>,
+    ) {
+        let slots = CHUNK * width::<T>();
+        let (targets, end) = (input.targets.clone(), input.targets.end);
+        let whole = core::slice::from_ref(&targets);
+        let mut runs = Vec::new();
+        for own in self.chunks_of::<T>(self.team.rank(), &targets) {
+            let own = own.start * slots..own.end * slots;
+            let both = input
+                .among
+                .unwrap_or(whole)
+                .iter()
+                .map(|run| run.start.max(own.start)..run.end.min(own.end));
+            runs.extend(both.filter(|run| !run.is_empty()));
+        }
+        let narrowed = SweepInput {
+            among: Some(&runs),
+            targets: targets.clone(),
+            ..*input
+        };
+        sweep.run(pass, &narrowed, records, rows);
+        let mut own = Vec::new();
+        for chunks in self.chunks_of::<T>(self.team.rank(), &targets) {
+            rows.put(chunks, end, &mut own);
+        }
+        let take = |other: usize, from: &[u8]| {
+            if other == self.team.rank() {
+                return Some(());
+            }
+            let mut from = Taken(from);
+            for chunks in self.chunks_of::<T>(other, &targets) {
+                rows.take(chunks, end, &mut from)?;
+            }
+            from.0.is_empty().then_some(())
+        };
+        self.team.gather(What::Sums, |to| to.append(&mut own), take);
+    }
+}
+
+impl<T: Real, const D: usize> Simulation<T, D> {
+    /// The same on these ranks, whose loops run on what all of their machines have.
+    pub(crate) fn on(mut self, team: Option<Arc<Team>>) -> Self {
+        for group in &mut self.state.groups {
+            if let Some(team) = &team {
+                group.share(team);
+            }
+        }
+        self.team = team;
+        self
+    }
+
+    /// Ends a call on all ranks alike, if there are any.
+    pub(super) fn agree<V>(&mut self, outcome: Result<V>) -> Result<V> {
+        let agreed = self.agree_on(outcome);
+        match agreed {
+            Err(Error::Rank { .. }) => self.keep_failure(agreed),
+            agreed => agreed,
+        }
+    }
+
+    /// The same of what leaves the simulation as it is.
+    pub(crate) fn agree_on<V>(&self, outcome: Result<V>) -> Result<V> {
+        let Some(team) = &self.team else {
+            return outcome;
+        };
+        let stamp = Stamp {
+            steps: self.state.steps,
+            time: self.state.time,
+            particles: self.particles(),
+            motion: self.state.groups.iter().map(motion_of).sum(),
+        };
+        team.agree(Some(stamp), outcome)
+    }
+
+    /// What the first rank says, for what all decide by a clock.
+    pub(crate) fn as_first_rank(&self, own: Option<(String, String)>) -> Option<(String, String)> {
+        let Some(team) = &self.team else {
+            return own;
+        };
+        let mut said = None;
+        let put = |to: &mut Vec<u8>| {
+            if let Some((name, why)) = own.filter(|_| team.rank() == 0) {
+                to.extend(format!("{name}\0{why}").into_bytes());
+            }
+        };
+        team.gather(What::Decision, put, |rank, text| {
+            if rank == 0 {
+                let text = String::from_utf8_lossy(text).into_owned();
+                said = text
+                    .split_once('\0')
+                    .map(|(name, why)| (name.into(), why.into()));
+            }
+            Some(())
+        });
+        said
+    }
+
+    /// The number of this rank and of how many, on [ranks](crate::ranks).
+    ///
+    /// ```
+    /// use meshfree::prelude::*;
+    /// let simulation = Scene::<f64, 1>::new(schemes::impact())
+    ///     .body(Body::block("rod", catalogue::copper(), [0.0], [0.01], 2e-4))
+    ///     .build()?;
+    /// assert_eq!(simulation.rank(), None);
+    /// assert!(simulation.is_first_rank());
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[must_use]
+    pub fn rank(&self) -> Option<(usize, usize)> {
+        let team = self.team.as_ref()?;
+        Some((team.rank(), team.count()))
+    }
+
+    /// Whether this is the first rank, or the only process: the one that prints, and writes files.
+    #[must_use]
+    pub fn is_first_rank(&self) -> bool {
+        self.team.as_ref().is_none_or(|team| team.rank() == 0)
+    }
+
+    /// What this rank and the others said to each other until now, on [ranks](crate::ranks).
+    #[must_use]
+    pub fn traffic(&self) -> Option<Traffic> {
+        self.team.as_ref().map(|team| team.traffic())
+    }
+}
+
+impl<T: Real, const D: usize> Group<T, D> {
+    /// Runs a sweep, or the part of this rank and then gets the sums of the others.
+    pub(super) fn run_sweep(
+        &self,
+        (sweep, pass): (&dyn PairSweep<T, D>, Pass),
+        input: &SweepInput<'_, T, D>,
+        records: &Records<T>,
+        rows: &mut Results<T, D>,
+    ) {
+        match &self.share {
+            None => sweep.run(pass, input, records, rows),
+            Some(share) => share.sum((sweep, pass), input, records, rows),
+        }
+    }
+
+    /// Makes it a group of these ranks.
+    fn share(&mut self, team: &Arc<Team>) {
+        self.share = Some(Share::new(team.clone()));
+        let sets = [
+            InstructionSet::Baseline,
+            InstructionSet::Avx2,
+            InstructionSet::Avx512,
+        ];
+        let roots = [Root::Divider, Root::Products];
+        let set = sets.iter().position(|own| *own == self.instructions);
+        let root = roots.iter().position(|own| *own == self.root);
+        let own = [set, root].map(|own| own.unwrap_or(0) as u8);
+        let mut all = own;
+        team.gather(
+            What::Instructions,
+            |to| to.extend(own),
+            |_, other| {
+                let other: [u8; 2] = other.try_into().ok()?;
+                all = core::array::from_fn(|k| all[k].min(other[k]));
+                Some(())
+            },
+        );
+        self.instructions = sets[usize::from(all[0])];
+        self.root = roots[usize::from(all[1])];
+    }
+}
