@@ -2,7 +2,7 @@
 //! One choice gives both: a mixed pair loses energy in silence (Bonet & Lok 1999).
 
 use crate::particles::{Field, Fields};
-use crate::scalar::{Lane, Real};
+use crate::scalar::Lane;
 use core::fmt;
 use core::str::FromStr;
 
@@ -115,7 +115,7 @@ impl DensityForm {
 
     /// Weight B of a particle in pair sums.
     #[inline]
-    pub(crate) fn weight<T: Real>(self, mass: T, density: T, rest_density: T) -> T {
+    pub(crate) fn weight<L: Lane>(self, mass: L, density: L, rest_density: L) -> L {
         match self {
             Self::Summation | Self::Normalised | Self::ContinuityByMass | Self::Lam => mass,
             Self::NumberDensity | Self::Deformation => mass / rest_density,
@@ -137,7 +137,7 @@ impl DensityForm {
 
     /// Pressure coefficient X.
     #[inline]
-    pub(crate) fn coefficient<T: Real>(self, p: T, density: T, rest: T, moment: T) -> T {
+    pub(crate) fn coefficient<L: Lane>(self, p: L, density: L, rest: L, moment: L) -> L {
         match self {
             Self::Summation | Self::Normalised | Self::ContinuityByMass | Self::Lam => {
                 p / (density * density)

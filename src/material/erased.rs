@@ -67,6 +67,13 @@ pub trait EosObject<T: Real>: sealed::Sealed + Debug + Send + Sync + 'static {
         pressure: &mut [T],
         sound_speed: &mut [T],
     ) -> GuardCounts;
+    /// The law with its cut-off, recorded for a device: pressure \[Pa\] and sound speed \[m/s\] of a density \[kg/m³\] and an energy
+    /// \[J/kg\], and one where each of the guards acts, in the order of [`GuardCounts`].
+    ///
+    /// # Errors
+    /// If the law does what cannot be recorded.
+    #[cfg(feature = "devices")]
+    fn record(&self) -> Result<crate::scalar::Record, crate::scalar::Unrecordable>;
 }
 
 mod sealed {
@@ -175,6 +182,17 @@ impl<T: Real, E: EquationOfState> EosObject<T> for Erased<E> {
             rows::<T, T::Wide<false>, E>(self, 0..blocks, density, energy, pressure, sound_speed);
         counts += rows::<T, T, E>(self, blocks..count, density, energy, pressure, sound_speed);
         counts
+    }
+    #[cfg(feature = "devices")]
+    fn record(&self) -> Result<crate::scalar::Record, crate::scalar::Unrecordable> {
+        use crate::scalar::{Record, Traced};
+        Record::of(2, |given| {
+            let state = self.cut_state(given[0], given[1]);
+            let guards = state.guards;
+            let acts = |mask| Lane::select(mask, Traced::of(1.0), Traced::of(0.0));
+            let acted = [guards.compression, guards.expansion, guards.cut_off].map(acts);
+            [&[state.pressure, state.sound_speed][..], &acted].concat()
+        })
     }
 }
 

@@ -258,7 +258,7 @@ impl<T: Real, const D: usize> Scheme<T, D> {
     }
 
     /// The sums of the sweep of a stage.
-    pub(super) fn sums(&self, stage: Stage) -> Outputs {
+    pub(crate) fn sums(&self, stage: Stage) -> Outputs {
         self.sweep(stage)
             .map_or(Outputs::NONE, |sweep| sweep.outputs())
     }

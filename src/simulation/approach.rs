@@ -16,11 +16,11 @@ use std::ops::Range;
 
 /// Distance in spacings that a pair has at least, as far as its step is concerned: spray and gas behind a shock have
 /// pairs that are nearer, which kernels do not resolve and which would stop the run.
-const NEAREST: f64 = 0.5;
+pub(super) const NEAREST: f64 = 0.5;
 
 /// Closing speed over sound speed from which a weakly compressible liquid is none. Joukowsky's hammer ρ c u then
 /// asks for a compression u/c of one, where such a liquid is meant for a hundredth (Monaghan 1994).
-const FASTEST: f64 = 1.0;
+pub(super) const FASTEST: f64 = 1.0;
 
 /// Particles of a liquid that close faster than its sound.
 #[derive(Clone, Copy, Debug, PartialEq)]

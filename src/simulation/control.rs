@@ -15,7 +15,7 @@ use crate::collective::{Join, Least, over_pieces};
 use crate::error::{Error, LAW_PRESSURE, LAW_SOUND_SPEED, Result};
 use crate::parallel::{GRAIN, runs};
 use crate::particles::{Field, Output};
-use crate::scalar::Real;
+use crate::scalar::{Lane, Real};
 use crate::tensor::{Vector, length};
 use std::ops::Range;
 
@@ -76,6 +76,25 @@ impl Default for StepControl {
     }
 }
 
+impl StepControl {
+    /// The steps \[s\] by sound, forces and viscosity of a particle: of its smoothing length \[m\], sound speed with the signal of
+    /// viscosity \[m/s\], acceleration \[m/s²\], density \[kg/m³\] and, where there is any, dynamic viscosity \[Pa s\].
+    #[inline(always)]
+    pub(super) fn limits<L: Lane>(
+        &self,
+        h: L,
+        speed: L,
+        acceleration: L,
+        (density, viscosity): (L, Option<L>),
+    ) -> [L; 3] {
+        let by_viscosity = viscosity.map_or(L::of(f64::INFINITY), |mu| {
+            L::of(self.viscous) * h * h * density / mu
+        });
+        let by_force = L::of(self.force) * (h / acceleration).sqrt();
+        [L::of(self.courant) * h / speed, by_force, by_viscosity]
+    }
+}
+
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// The largest step that may be taken from the present state, and what sets it.
     ///
@@ -83,19 +102,23 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// [`Error::NotFinite`] if a particle's state is no longer finite, or its density not positive, and
     /// [`Error::SoundSpeedTooLow`] where a liquid meets faster than its sound.
     pub fn vote(&self) -> Result<Vote> {
-        let vote = self.vote_with(self.control.courant)?;
+        Ok(self.grown(self.vote_with(self.control.courant)?))
+    }
+
+    /// A vote, or the step before times the most by which it may grow.
+    pub(super) fn grown(&self, vote: Vote) -> Vote {
         let most = self
             .state
             .step_before
             .map(|step| self.control.growth * step);
-        Ok(match most.filter(|most| *most < vote.step) {
+        match most.filter(|most| *most < vote.step) {
             Some(step) => Vote {
                 step,
                 criterion: Criterion::Growth,
                 ..vote
             },
             None => vote,
-        })
+        }
     }
 
     /// The step, or a shorter one that ends where the scene asks for an end: of two equal ones if that is farther than one.
@@ -329,21 +352,23 @@ fn vote<T: Real, const D: usize>(
     let limits = |slot: usize| {
         let h = h.get(slot).map_or(uniform, |h| h.to_f64());
         let signal = work.rates.get(Output::SIGNAL, 0, slot).to_f64();
-        let acoustic = control.courant * h / (c[slot].to_f64() + signal);
         let force: Vector<T, D> = work.rates.vector(Output::FORCE, slot).into();
         let a = length(&(force / mass[slot] + gravity)).to_f64();
-        let by_force = control.force * (h / a.max(f64::MIN_POSITIVE)).sqrt();
         let speed = velocity[slot].iter().fold(0.0, |s, v| s + v.to_f64().abs());
         let density = rho[slot].to_f64();
         // Without sound, as in dust, other criteria limit the step.
         let speeds = c[slot].to_f64() + signal + a + speed;
-        if !(speeds.is_finite() && !acoustic.is_nan() && density > 0.0) {
+        let mu = viscosity.get(slot).map(|mu| mu.to_f64());
+        let limits = control.limits(
+            h,
+            c[slot].to_f64() + signal,
+            a.max(f64::MIN_POSITIVE),
+            (density, mu),
+        );
+        if !(speeds.is_finite() && !limits[0].is_nan() && density > 0.0) {
             return [-1.0; 3];
         }
-        let by_viscosity = viscosity.get(slot).map_or(f64::INFINITY, |mu| {
-            control.viscous * h * h * density / mu.to_f64()
-        });
-        [acoustic, by_force, by_viscosity]
+        limits
     };
     let shortest =
         |slot: usize| Least(limits(slot).into_iter().fold(f64::INFINITY, f64::min), slot);

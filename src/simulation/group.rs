@@ -209,9 +209,7 @@ impl<T: Real, const D: usize> Group<T, D> {
     pub fn refresh(&mut self, time: f64, chord: Option<[f64; 2]>) {
         let start = Instant::now();
         self.place_walls(time, chord);
-        let listed_time = self.neighborhood.listed_time;
-        let container = self.walls.iter().find(|wall| wall.container_frame);
-        let shift = container.map_or([0.0; D], |wall| wall.carried([listed_time, time]));
+        let shift = self.carried_since_listed(time);
         if self.neighborhood.lists.chunks().is_empty() {
             self.rebuild(time);
         } else if !self.scheme.density.keeps_neighbors()
@@ -231,13 +229,20 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.work.phases.lists += start.elapsed();
     }
 
+    /// How far a container that takes its liquid with it has gone since the lists were built \[m\].
+    pub(super) fn carried_since_listed(&self, time: f64) -> [f64; D] {
+        let listed_time = self.neighborhood.listed_time;
+        let container = self.walls.iter().find(|wall| wall.container_frame);
+        container.map_or([0.0; D], |wall| wall.carried([listed_time, time]))
+    }
+
     /// Whether nothing happens at places: there are no images, and no outlets, which take particles where lists are made.
     pub fn is_open(&self) -> bool {
         self.boundaries.is_empty() && self.outlets.is_empty()
     }
 
     /// Brings walls that move to their places, and gives all walls their own velocity.
-    fn place_walls(&mut self, time: f64, chord: Option<[f64; 2]>) {
+    pub(super) fn place_walls(&mut self, time: f64, chord: Option<[f64; 2]>) {
         self.body_force = self.gravity.map(T::from_f64);
         let listed = self.neighborhood.rebuilds > 0;
         for wall in &mut self.walls {

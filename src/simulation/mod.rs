@@ -149,6 +149,8 @@ mod contact;
 mod control;
 mod cost;
 mod couplings;
+#[cfg(feature = "devices")]
+pub mod device;
 mod divided;
 mod energy;
 mod evaluate;

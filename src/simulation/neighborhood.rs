@@ -139,6 +139,25 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         let grown = largest(0..h.len().min(self.listed_h.len()), |slot| {
             (h[slot] - self.listed_h[slot]).to_f64()
         });
+        let left = self.left(boundaries, grown, (shift, time));
+        if 2.0 * farthest <= left || !open {
+            return 2.0 * farthest > left;
+        }
+        // What moves together stays together: no pair's distance changes by more than the corners of all displacements are apart.
+        let corners = over(0..positions.len(), |slot| {
+            Corners::<D>::at(core::array::from_fn(|d| moved_by(slot, d)))
+        });
+        let apart2: f64 = corners.extent().iter().map(|apart| apart.powi(2)).sum();
+        apart2.sqrt() > left
+    }
+
+    /// What is left of the skin \[m\] where lengths have grown by `grown` \[m\] at most.
+    pub(super) fn left(
+        &self,
+        boundaries: &[Arc<dyn Boundary<D>>],
+        grown: f64,
+        (shift, time): ([f64; D], f64),
+    ) -> f64 {
         // A moving boundary carries images towards particles that rest, and a boundary at rest reflects
         // what a container does.
         let moved = shift.iter().any(|&s| s != 0.0);
@@ -155,16 +174,7 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
                 })
             })
             .sum();
-        let left = self.skin - carried - self.support * grown;
-        if 2.0 * farthest <= left || !open {
-            return 2.0 * farthest > left;
-        }
-        // What moves together stays together: no pair's distance changes by more than the corners of all displacements are apart.
-        let corners = over(0..positions.len(), |slot| {
-            Corners::<D>::at(core::array::from_fn(|d| moved_by(slot, d)))
-        });
-        let apart2: f64 = corners.extent().iter().map(|apart| apart.powi(2)).sum();
-        apart2.sqrt() > left
+        self.skin - carried - self.support * grown
     }
 
     /// Lists neighbours at the present positions, with images within `reach` \[m\]; it remembers where particles are, as

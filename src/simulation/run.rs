@@ -85,7 +85,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     /// The same, of errors that say that the state or what acts on it is broken.
-    fn keep_broken<R>(&mut self, outcome: Result<R>) -> Result<R> {
+    pub(super) fn keep_broken<R>(&mut self, outcome: Result<R>) -> Result<R> {
         match outcome {
             Err(
                 error @ (Error::NotFinite { .. }
@@ -104,9 +104,15 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             self.evaluate_together()?;
         }
         self.begin_stores(changed);
-        let mut vote = self.vote()?;
-        if let Some(fixed) = self.control.fixed {
-            let limit = self.largest_fixed_step()?;
+        let vote = self.vote()?;
+        let fixed = self.control.fixed;
+        let limit = fixed.map(|_| self.largest_fixed_step()).transpose()?;
+        self.next_by(vote, limit)
+    }
+
+    /// The next step by a vote; a fixed one is held against a limit.
+    pub(super) fn next_by(&mut self, mut vote: Vote, limit: Option<Vote>) -> Result<Vote> {
+        if let (Some(fixed), Some(limit)) = (self.control.fixed, limit) {
             // A limit that varies by rounding is not a violation.
             if fixed > limit.step * (1.0 + 1e-6) {
                 return Err(Error::Argument(Problem::StepAboveLimit {
@@ -151,6 +157,20 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         } else {
             next
         };
+        self.open_step(vote, next)?;
+        let stepped = crate::parallel::inside(|| self.step_together(vote.step));
+        self.keep_failure(stepped)?;
+        self.close_step(vote, next);
+        let sound = self.check_state();
+        self.keep_broken(sound)?;
+        let looked = self.look_at_stores();
+        self.keep_failure(looked)?;
+        self.watch_step();
+        Ok(())
+    }
+
+    /// Looks at what a step, which may be cut from the next one, begins with.
+    pub(super) fn open_step(&mut self, vote: Vote, next: Vote) -> Result<()> {
         self.state.last_vote = Some(vote);
         // A step that time does not feel would be taken for ever.
         if self.state.time + vote.step <= self.state.time {
@@ -160,8 +180,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let motions = self.check_motions(vote.step);
         self.keep_failure(motions)?;
         self.state.impulses.time = self.state.time;
-        let stepped = crate::parallel::inside(|| self.step_together(vote.step));
-        self.keep_failure(stepped)?;
+        Ok(())
+    }
+
+    /// Counts a step that was taken.
+    pub(super) fn close_step(&mut self, vote: Vote, next: Vote) {
         self.state.time += vote.step;
         self.state.steps += 1;
         // A step that the scene has shortened says nothing of what the state asks for.
@@ -173,12 +196,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             Some(own) => own.1 += 1,
             None => self.state.votes.push((name, 1)),
         }
-        let sound = self.check_state();
-        self.keep_broken(sound)?;
-        let looked = self.look_at_stores();
-        self.keep_failure(looked)?;
-        self.watch_step();
-        Ok(())
     }
 
     /// Takes the next step of the run if it ends by `end` \[s\], and otherwise shows the state at that time; returns by

@@ -3,7 +3,6 @@
 
 use super::group::Group;
 use super::settle::{Outcome, Settling, join, run_pieces};
-use crate::boundary::WallSurface;
 use crate::clock::Instant;
 use crate::effect::{Around, Chunk, Law, MOST_LAWS, Slices};
 use crate::parallel::GRAIN;
@@ -222,23 +221,8 @@ impl<T: Real, const D: usize> Group<T, D> {
             let run = wall.slots.start..wall.end;
             let (own, behind) = rest.split(run.len());
             rest = behind;
-            let surface = WallSurface::new(
-                (&self.particles.ids, wall.slots.start),
-                (&wall.rest, &wall.normals),
-                (
-                    wall.motion.as_ref().map(|motion| motion.pose(time)),
-                    wall.slip,
-                ),
-                match (&wall.structure, &wall.inflow) {
-                    (Some(structure), _) => Some(structure.accelerations.as_slice()),
-                    (None, Some(inflow)) => Some(inflow.accelerations()),
-                    (None, None) => None,
-                },
-                (wall.structure.as_ref()).map_or(&[], |structure| &structure.spins.gradients),
-            )
-            .that_flows(
-                self.emitters.iter().any(|own| own.wall == number) || wall.inflow.is_some(),
-            );
+            let flows = self.emitters.iter().any(|own| own.wall == number) || wall.inflow.is_some();
+            let surface = wall.surface(&self.particles.ids, time, flows);
             let around = Around {
                 sums: &self.work.sums,
                 material: &body.material,

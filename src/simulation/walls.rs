@@ -4,7 +4,7 @@
 use super::population::Particles;
 use super::spin::Spins;
 use super::workspace::Workspace;
-use crate::boundary::{Boundary, Inflow, Motion, Pose, Slip, motion_from};
+use crate::boundary::{Boundary, Inflow, Motion, Pose, Slip, WallSurface, motion_from};
 use crate::coupling::{CoupledParticle, Coupling};
 use crate::particles::Field;
 use crate::scalar::Real;
@@ -75,6 +75,26 @@ impl<T: Real, const D: usize> WallState<T, D> {
     pub fn set_motion(&mut self, motion: impl Motion<D> + 'static, origin: &[f64; D]) {
         let motion: Arc<dyn Motion<D>> = Arc::new(motion);
         self.motion = Some(motion_from(&motion, origin));
+    }
+
+    /// What a wall law sees of it at `time` \[s\], by the identities of the particles in all slots; `flows` if it is the buffer of an
+    /// inlet.
+    pub fn surface<'a>(&'a self, ids: &'a [u32], time: f64, flows: bool) -> WallSurface<'a, T, D> {
+        let accelerations = match (&self.structure, &self.inflow) {
+            (Some(structure), _) => Some(structure.accelerations.as_slice()),
+            (None, Some(inflow)) => Some(inflow.accelerations()),
+            (None, None) => None,
+        };
+        let pose = self.motion.as_ref().map(|motion| motion.pose(time));
+        let gradients = self.structure.as_ref();
+        WallSurface::new(
+            (ids, self.slots.start),
+            (&self.rest, &self.normals),
+            (pose, self.slip),
+            accelerations,
+            gradients.map_or(&[], |structure| &structure.spins.gradients),
+        )
+        .that_flows(flows)
     }
 
     /// Gives its particles, which rest, the velocity of its surface.

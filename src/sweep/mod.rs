@@ -69,7 +69,7 @@ pub use pair_record::PairRecord;
 pub use records::Records;
 pub use records::Transform;
 pub(crate) use records::{Image, add_compensated, two_sum};
-#[cfg(feature = "checkpoint")]
+#[cfg(any(feature = "checkpoint", feature = "devices"))]
 pub(crate) use results::Reaction;
 #[doc(hidden)]
 pub use results::Results;

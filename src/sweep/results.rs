@@ -208,7 +208,7 @@ impl<T: Real, const D: usize> Results<T, D> {
     }
 
     /// The sums that were [`stored`](Self::stored), with the forces between blocks.
-    #[cfg(any(test, feature = "checkpoint"))]
+    #[cfg(any(test, feature = "checkpoint", feature = "devices"))]
     pub(crate) fn of_stored(
         outputs: Outputs,
         (data, first): (Vec<T>, usize),
@@ -221,6 +221,22 @@ impl<T: Real, const D: usize> Results<T, D> {
             ..Self::default()
         };
         rows.lay_out(outputs);
+        rows
+    }
+
+    /// The sums of some slots from the first on, whose numbers stand slot by slot, with the forces between blocks.
+    #[cfg(feature = "devices")]
+    pub(crate) fn of_rows(outputs: Outputs, numbers: &[T], reactions: Vec<Reaction<D>>) -> Self {
+        let width = outputs.width(D);
+        let slots = numbers.len() / width.max(1);
+        let data = vec![T::zero(); width * slots.next_multiple_of(Self::WIDTH)];
+        let mut rows = Self::of_stored(outputs, (data, 0), reactions);
+        for slot in 0..slots {
+            for k in 0..width {
+                let at = rows.at(slot, k);
+                rows.data[at] = numbers[slot * width + k];
+            }
+        }
         rows
     }
 

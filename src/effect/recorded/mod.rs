@@ -35,6 +35,8 @@ pub struct PointRecord {
     pub sums: Outputs,
     /// Whether it computes in `f64` where particles are stored in `f32`.
     pub double: bool,
+    /// Whether it is the growth g \[1/s\] of a rate g Y + s.
+    pub growth: bool,
     /// The numbers of the body.
     pub constants: [f64; CONSTANTS],
     /// Whether it acts on the body at all.
@@ -86,6 +88,7 @@ fn of<const D: usize>(
         writes,
         sums,
         double,
+        growth: false,
         constants,
         acts,
     }
@@ -148,7 +151,7 @@ pub(super) fn rate<T: Real, A: PointRate<D>, const D: usize>(
     let acts = PointRate::prepare(rate, &view.around, &mut all);
     let carried = view.columns.fields();
     let there = carried.minus(carried.minus(A::READS));
-    of::<D>(
+    let own = of::<D>(
         &view.access.name(),
         (A::READS, Fields::NONE, A::SUMS),
         false,
@@ -176,7 +179,11 @@ pub(super) fn rate<T: Real, A: PointRate<D>, const D: usize>(
             own
         },
         (all, acts),
-    )
+    );
+    PointRecord {
+        growth: A::GROWTH,
+        ..own
+    }
 }
 
 /// Records a limit.
@@ -297,6 +304,7 @@ where
         writes: Fields::NONE,
         sums: Outputs::NONE,
         double: false,
+        growth: false,
         constants: [0.0; CONSTANTS],
         acts: true,
     };

@@ -8,7 +8,7 @@ use crate::simulation::Simulation;
 use crate::simulation::stability::Seen;
 
 /// Steps from one look to the next.
-const EVERY: u64 = 32;
+pub(in crate::simulation) const EVERY: u64 = 32;
 /// Share of the energy supplied at which a run stops.
 const STOPS: f64 = 0.5;
 

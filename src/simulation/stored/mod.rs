@@ -5,6 +5,8 @@ mod account;
 mod measured;
 mod parts;
 
+#[cfg(feature = "devices")]
+pub(super) use account::EVERY;
 pub(super) use account::Stores;
 
 use super::Simulation;

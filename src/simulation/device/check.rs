@@ -1,0 +1,141 @@
+//! What of a simulation does not run on a device, by its name and with a remedy.
+//! Nothing is left out in silence.
+
+use crate::effect::{DensityForm, Smoothing, Update};
+use crate::error::Problem;
+use crate::scalar::Real;
+use crate::simulation::Simulation;
+use crate::sweep::Interaction;
+use crate::term::Stage;
+
+/// What is to be done about most.
+const ON_HOST: &str = "run the scene on the host (Simulation::run_until), or leave that part out";
+
+impl<T: Real, const D: usize> Simulation<T, D> {
+    /// The parts of the scene that do not run on a device.
+    pub(super) fn not_on_device(&self) -> Vec<Problem> {
+        let mut parts = Vec::new();
+        let mut part = |is_there: bool, what: &dyn Fn() -> String| {
+            if is_there {
+                parts.push(what());
+            }
+        };
+        let state = &self.state;
+        let group = &state.groups[0];
+        let (scheme, program) = (&group.scheme, &group.scheme.program);
+        part(state.groups.len() > 1, &|| {
+            let schemes = state.groups.iter().map(|own| own.scheme.name());
+            let schemes: Vec<_> = schemes.collect();
+            format!("bodies of several schemes ({})", schemes.join(", "))
+        });
+        for couple in &state.couples {
+            part(true, &|| {
+                format!("the coupling `{}`", couple.coupling.name())
+            });
+        }
+        part(!state.joints.is_empty(), &|| "joints".into());
+        for group in &state.groups {
+            for clamp in &group.held.clamps {
+                let body = &group.particles.bodies[clamp.body].name;
+                part(true, &|| format!("the clamp of body `{body}`"));
+            }
+            for rigid in &group.held.rigid {
+                let body = &group.particles.bodies[rigid.body].name;
+                part(true, &|| format!("the rigid body `{body}`"));
+            }
+            part(group.sub_cycle.is_some(), &|| {
+                "a group that sub-cycles".into()
+            });
+        }
+        part(!group.exchanges.is_empty(), &|| {
+            "schemes that follow each other by events".into()
+        });
+        for emitter in &group.emitters {
+            let wall = &group.walls[emitter.wall].name;
+            part(true, &|| format!("the inlet `{wall}`"));
+        }
+        for wall in group.walls.iter().filter(|wall| wall.inflow.is_some()) {
+            part(true, &|| format!("the inlet `{}`", wall.name));
+        }
+        for _ in &group.outlets {
+            part(true, &|| "an outlet".into());
+        }
+        for load in &self.loads {
+            part(true, &|| format!("the load ({load})"));
+        }
+        for boundary in &group.boundaries {
+            let mut images = (0..boundary.images()).map(|k| boundary.transform(k, 0.0));
+            let turns = boundary.moves() || images.any(|own| own.turns());
+            part(turns, &|| {
+                let name = boundary.name();
+                format!("the boundary `{name}`, whose images are not shifted alone,")
+            });
+        }
+        for event in &self.events {
+            part(true, &|| format!("the event `{}`", event.name));
+        }
+        let opens = group
+            .neighborhood
+            .interactions
+            .contains(&Interaction::Unilateral);
+        part(opens, &|| "a contact of bodies that opens".into());
+        part(scheme.sweeps_work(), &|| {
+            "internal energy by the work of kicks, which takes a sweep of its own (EnergyForm::Compatible)".into()
+        });
+        for body in &group.particles.bodies {
+            part(body.material.is_gas(), &|| {
+                format!("the gas `{}`", body.name)
+            });
+        }
+        part(scheme.density == DensityForm::Lam, &|| {
+            "density by Lam et al. (DensityForm::Lam)".into()
+        });
+        part(scheme.smoothing != Smoothing::Fixed, &|| {
+            format!("smoothing lengths that vary ({:?})", scheme.smoothing)
+        });
+        part(!program.laws[Stage::Rates.number()].is_empty(), &|| {
+            let laws = program.laws[Stage::Rates.number()].iter();
+            let names: Vec<_> = laws.map(|law| format!("`{}`", law.name())).collect();
+            format!("laws of the rates ({})", names.join(", "))
+        });
+        for law in program
+            .laws
+            .iter()
+            .flatten()
+            .filter(|law| law.repeats().is_some())
+        {
+            part(true, &|| {
+                format!("the law `{}`, which repeats its sweep", law.name())
+            });
+        }
+        for own in program
+            .evolved
+            .iter()
+            .filter(|own| own.update == Update::Rotated)
+        {
+            let name = program.name_of(own.field);
+            part(true, &|| {
+                format!("the field `{name}`, which turns with the material")
+            });
+        }
+        part(self.integrator.slots() > 0, &|| {
+            format!(
+                "the integrator {}, which keeps states",
+                self.integrator.name()
+            )
+        });
+        part(state.work.is_some(), &|| {
+            "the energy ledger (Simulation::keep_energy)".into()
+        });
+        part(state.watch.is_some(), &|| {
+            "a run that is watched (Simulation::keep_stability)".into()
+        });
+        parts
+            .into_iter()
+            .map(|what| Problem::Incompatible {
+                what: format!("{what} does not run on a device"),
+                remedy: ON_HOST,
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,152 @@
+//! Evolved fields as records: their rates, how they change, and what rounding loses of them.
+//! The text is that of the host's updates, for one particle.
+
+use super::laws::{Acting, around};
+use super::program::{Action, Given, Kind, Made, PointStep};
+use super::record::{DT, Recorder, Sums, add};
+use crate::effect::{Evolved, Update, View, When};
+use crate::particles::Field;
+use crate::scalar::{Lane, Real, Traced};
+use crate::term::Stage;
+
+/// eˣ − 1 as the host has it.
+fn expm1<L: Lane>(x: L) -> L {
+    let term = |n: f64| L::of(1.0 / n);
+    let series =
+        x * (L::one() + x * (term(2.0) + x * (term(6.0) + x * (term(24.0) + x * term(120.0)))));
+    L::select(x.abs().gt(L::of(0.01)), x.exp() - L::one(), series)
+}
+
+impl<T: Real, const D: usize> Recorder<'_, T, D> {
+    pub(super) fn evolve(&mut self, when: When) -> Vec<Action> {
+        let scheme = self.group.scheme.clone();
+        let mut all = Vec::new();
+        for own in &scheme.program.evolved {
+            if own.when != when || own.field == Field::ENERGY {
+                continue;
+            }
+            for body in 0..self.group.particles.bodies.len() {
+                all.extend(self.update(own, body));
+            }
+        }
+        all
+    }
+
+    /// A field of a body over a step as its declaration says.
+    fn update(&mut self, own: &Evolved<T, D>, body: usize) -> Option<Action> {
+        let scheme = self.group.scheme.clone();
+        let name = format!("the field `{}`", scheme.program.name_of(own.field));
+        let sums = match own.when {
+            When::Kick => Sums {
+                of_rates: true,
+                there: scheme.sums(Stage::Rates),
+            },
+            When::Drift => Sums {
+                of_rates: false,
+                there: scheme.sums(Stage::Continuity),
+            },
+        };
+        let acting = Acting {
+            time: 0.0,
+            dt: 1.0,
+            gravity: self.group.gravity,
+            in_drift: own.when == When::Drift,
+        };
+        let around = around(self.group, body, acting);
+        let view = View::new(&self.group.particles.columns, around);
+        let width = own.field.components(D);
+        let mut given: Vec<_> = (0..width).map(|k| Given::Field(own.field, k)).collect();
+        let residual = own.residual.filter(|field| self.has(*field));
+        if let Some(field) = residual {
+            given.extend((0..width).map(|k| Given::Field(field, k)));
+        }
+        given.push(DT);
+        let (step_at, mut rates) = (given.len() - 1, Vec::new());
+        for rate in &own.rates {
+            let Some(part) = rate.record(&view.of_rate(&**rate, own.field)) else {
+                let what = format!(
+                    "a rate of {name} does not run on a device: it loops over columns itself"
+                );
+                self.refuse(what, "write it as a PointRate");
+                return None;
+            };
+            if !part.acts {
+                continue;
+            }
+            let record = match part.record {
+                Ok(record) => record,
+                Err(error) => {
+                    self.keep(&format!("a rate of {name}"), Err(error));
+                    return None;
+                }
+            };
+            let first = given.len();
+            for field in part.fields.iter() {
+                given.extend((0..field.components(D)).map(|k| {
+                    if self.has(field) {
+                        Given::Field(field, k)
+                    } else {
+                        Given::Constant(0.0)
+                    }
+                }));
+            }
+            for sum in part.sums.iter() {
+                given.extend((0..sum.components(D)).map(|k| sums.given(sum, k)));
+            }
+            given.extend(part.constants.map(Given::Constant));
+            given.extend([DT, Given::Field(own.field, 0)]);
+            rates.push((record, first..given.len(), part.growth));
+        }
+        let mut made: Vec<_> = (0..width).map(|k| Made::Field(own.field, k)).collect();
+        if let Some(field) = residual {
+            made.extend((0..width).map(|k| Made::Field(field, k)));
+        }
+        let held = &self.group.particles.bodies[body];
+        let (run, live) = (held.run(), held.slots.clone());
+        if matches!(own.update, Update::Within { .. }) {
+            made.push(self.count(Kind::Limit(scheme.program.name_of(own.field)), live));
+        }
+        let h = around.smoothing_length;
+        let step = PointStep::new(&name, &run, (given, made), |x| {
+            let dt = x[step_at];
+            let mut growth = Traced::of(0.0);
+            let mut sources = vec![Traced::of(0.0); width];
+            for (record, at, is_growth) in &rates {
+                let found = record.follow(&x[at.clone()]);
+                if *is_growth {
+                    growth += found[0];
+                } else {
+                    sources
+                        .iter_mut()
+                        .zip(found)
+                        .for_each(|(sum, own)| *sum += own);
+                }
+            }
+            let (mut results, mut lost) = (Vec::new(), Vec::new());
+            for k in 0..width {
+                let y = x[k];
+                let change = match own.update {
+                    Update::Increment => dt * (y * growth + sources[k]),
+                    Update::Exponential => y * expm1(growth * dt) + dt * sources[k],
+                    Update::Within { smallest, largest } => {
+                        let next = y * (growth * dt / Traced::of(D as f64)).exp();
+                        let held = next.max(Traced::of(smallest * h));
+                        let held = held.min(Traced::of(largest * h));
+                        let moved = held.lt(next) | next.lt(held);
+                        results.push(held);
+                        lost.push(Lane::select(moved, Traced::of(1.0), Traced::of(0.0)));
+                        continue;
+                    }
+                    // Refused by name before.
+                    Update::Rotated => Traced::of(0.0),
+                };
+                let (next, rest) = add(y, residual.map(|_| x[width + k]), change);
+                results.push(next);
+                lost.extend(rest);
+            }
+            results.extend(lost);
+            results
+        });
+        self.keep(&name, step)
+    }
+}

@@ -1,0 +1,135 @@
+//! A simulation whose steps run on a device: its step program recorded, and its state handed out and taken back.
+//! A device evaluates, kicks and drifts; time, votes, ledger, walls that move and neighbour lists stay here.
+//!
+//! [`Simulation::offload`] makes an [`Offloaded`] of a simulation, or says which of its parts do not run on a device. The package
+//! [`meshfree-gpu`](crate#pages) drives it; a program that only runs scenes needs nothing of this module.
+
+mod check;
+mod clock;
+mod evolved;
+mod laws;
+mod motion;
+mod program;
+mod record;
+mod state;
+mod vote;
+
+pub use clock::{Advance, Moment};
+pub use program::{Action, Counted, Given, Made, PointStep, Program, SweepStep};
+pub use state::Moved;
+pub use vote::{Approaching, Found};
+
+use super::Simulation;
+use super::control::StepControl;
+use super::run_state::State;
+use super::vote::Vote;
+use crate::error::{BuildError, Error, Result};
+use crate::integrator::Integrator;
+use crate::scalar::Real;
+use laws::Timed;
+use record::Recorder;
+use std::sync::Arc;
+
+/// A simulation whose steps run on a device.
+///
+/// ```
+/// use meshfree::prelude::*;
+/// let water = catalogue::weakly_compressible_water(2.0);
+/// let tank = Scene::<f64, 2>::new(schemes::weakly_compressible())
+///     .body(Body::block("water", water, [0.0; 2], [0.3, 0.2], 0.02))
+///     .wall(Wall::around("tank", [0.0; 2], [0.3, 0.3], 0.02, 3, [[true, true], [true, false]]))
+///     .build()?;
+/// let tank = tank.offload()?;
+/// assert!(!tank.program().evaluation.is_empty());
+/// # Ok::<(), Error>(())
+/// ```
+pub struct Offloaded<T: Real, const D: usize> {
+    simulation: Simulation<T, D>,
+    program: Arc<Program>,
+    timed: Vec<Timed>,
+    /// What the last vote asks for.
+    last_vote: Option<Vote>,
+    /// The least and the largest component of velocities, as the last vote found them.
+    range: Vec<f64>,
+    /// The step under way, and the one that it is cut from.
+    under_way: Option<[Vote; 2]>,
+    /// The state after the last step while a copy steps for a reading, and its vote.
+    last_step: Option<(State<T, D>, Option<Vote>)>,
+}
+
+impl<T: Real, const D: usize> core::fmt::Debug for Offloaded<T, D> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_tuple("Offloaded").field(&self.simulation).finish()
+    }
+}
+
+impl<T: Real, const D: usize> Simulation<T, D> {
+    /// Lets steps run on a device, from the state after the last step on. Rates that are not at hand are evaluated here.
+    ///
+    /// # Errors
+    /// [`Error::Build`] with all parts of the scene that do not run there, each with what to do about it, and [`Error::Failed`] after a
+    /// step that has failed.
+    pub fn offload(mut self) -> Result<Offloaded<T, D>> {
+        self.check_failure()?;
+        self.return_to_last_step();
+        let mut problems = self.not_on_device();
+        let mut own = Offloaded {
+            simulation: self,
+            program: Arc::default(),
+            timed: Vec::new(),
+            last_vote: None,
+            range: vec![0.0; 2 * D],
+            under_way: None,
+            last_step: None,
+        };
+        if problems.is_empty() {
+            let control: StepControl = own.control_of_vote();
+            let mut recorder = Recorder::new(&own.simulation.state.groups[0]);
+            recorder.all(&control);
+            let Recorder {
+                program,
+                timed,
+                problems: found,
+                ..
+            } = recorder;
+            (own.program, own.timed) = (Arc::new(program), timed);
+            problems = found;
+        }
+        if problems.is_empty() {
+            // Of a state that was changed from outside.
+            let changed = !own.simulation.state.rates_at_hand;
+            if changed {
+                own.simulation.evaluate_together()?;
+            }
+            own.simulation.begin_stores(changed);
+            return Ok(own);
+        }
+        Err(Error::Build(BuildError { problems }))
+    }
+}
+
+impl<T: Real, const D: usize> Offloaded<T, D> {
+    /// The step program.
+    #[must_use]
+    pub fn program(&self) -> Arc<Program> {
+        self.program.clone()
+    }
+
+    /// The order of the operations of a step.
+    #[must_use]
+    pub fn integrator(&self) -> Arc<dyn Integrator> {
+        self.simulation.integrator.clone()
+    }
+
+    /// The simulation as it was last taken back.
+    #[must_use]
+    pub fn simulation(&self) -> &Simulation<T, D> {
+        &self.simulation
+    }
+
+    /// The same, which steps on the host again.
+    #[must_use]
+    pub fn into_simulation(self) -> Simulation<T, D> {
+        self.simulation
+    }
+}

@@ -1,0 +1,211 @@
+//! Kicks, drifts, predictions and displacements as records.
+//! They are the driver's own, and the same for all schemes.
+
+use super::program::{Action, Given, Made};
+use super::record::{DT, HALF, Recorder, add, carried, evaluated};
+use crate::effect::When;
+use crate::particles::{Field, Output};
+use crate::scalar::{Lane, Real, Traced};
+use crate::scheme::EnergyForm;
+use crate::term::Stage;
+
+impl<T: Real, const D: usize> Recorder<'_, T, D> {
+    pub(super) fn kick(&mut self) -> Vec<Action> {
+        let summed = self.group.scheme.sums(Stage::Rates).contains(Output::FORCE);
+        let mut given = vec![DT, Given::Field(Field::MASS, 0)];
+        for d in 0..D {
+            given.push(Given::Field(Field::VELOCITY, d));
+            given.push(if summed {
+                Given::Rate(Output::FORCE, d)
+            } else {
+                Given::Constant(0.0)
+            });
+            given.push(evaluated::<D>(d));
+        }
+        let made = (0..D).map(|d| Made::Field(Field::VELOCITY, d)).collect();
+        self.on_each("kick", self.bodies(), (given, made), |x| {
+            let own = |d: usize| {
+                let [v, force, gravity] = [0, 1, 2].map(|k| x[2 + 3 * d + k]);
+                v + x[0] * (force / x[1] + gravity)
+            };
+            (0..D).map(own).collect()
+        })
+    }
+
+    /// e ← e + dt P/m by the power of the rates.
+    fn heat(&mut self) -> Vec<Action> {
+        let given = vec![
+            Given::Field(Field::ENERGY, 0),
+            Given::Field(Field::MASS, 0),
+            Given::Rate(Output::POWER, 0),
+            DT,
+        ];
+        let made = vec![Made::Field(Field::ENERGY, 0)];
+        self.on_each("energy", self.bodies(), (given, made), |x| {
+            vec![x[0] + x[3] * x[2] / x[1]]
+        })
+    }
+
+    /// The velocities with which the rates were summed, where the work of a kick follows from them without a sweep.
+    pub(super) fn keep_velocities(&mut self) -> Vec<Action> {
+        if self.group.scheme.energy != EnergyForm::Compatible {
+            return Vec::new();
+        }
+        let given = (0..D).map(|d| Given::Field(Field::VELOCITY, d)).collect();
+        let made = (0..D).map(|d| Made::Field(Field::MEAN_VELOCITY, d));
+        let made = made.collect();
+        self.on_each("summed velocities", self.bodies(), (given, made), |x| {
+            x.to_vec()
+        })
+    }
+
+    /// Energy in a kick: by the power of the rates, or e ← e + dt (P − Fᵢ·(v̄ᵢ − uᵢ))/m with its mean velocities v̄ and those u of
+    /// the rates.
+    pub(super) fn heat_in_kick(&mut self) -> Vec<Action> {
+        if self.group.scheme.energy != EnergyForm::Compatible {
+            return self.heat();
+        }
+        let mut given = vec![
+            Given::Field(Field::ENERGY, 0),
+            Given::Field(Field::MASS, 0),
+            Given::Rate(Output::POWER, 0),
+            DT,
+            HALF,
+        ];
+        for d in 0..D {
+            given.push(Given::Field(Field::VELOCITY, d));
+            given.push(Given::Field(Field::MEAN_VELOCITY, d));
+            given.push(Given::Rate(Output::FORCE, d));
+            given.push(evaluated::<D>(d));
+        }
+        let made = vec![Made::Field(Field::ENERGY, 0)];
+        self.on_each("work", self.bodies(), (given, made), |x| {
+            let [energy, mass, power, dt, half] = [x[0], x[1], x[2], x[3], x[4]];
+            let mut spent = Traced::of(0.0);
+            for own in x[5..].chunks_exact(4) {
+                let since = own[0] + half * (own[2] / mass + own[3]) - own[1];
+                spent += own[2] * since;
+            }
+            vec![energy + dt * (power - spent) / mass]
+        })
+    }
+
+    /// Places, with what rounding loses of them where that is kept.
+    fn places(&self) -> (Vec<Given>, Vec<Made>) {
+        let fields = [Field::POSITION, Field::POSITION_RESIDUAL];
+        let fields = fields.into_iter().filter(|field| self.has(*field));
+        let all: Vec<_> = fields
+            .flat_map(|field| (0..D).map(move |d| (field, d)))
+            .collect();
+        (
+            all.iter()
+                .map(|&(field, d)| Given::Field(field, d))
+                .collect(),
+            all.iter()
+                .map(|&(field, d)| Made::Field(field, d))
+                .collect(),
+        )
+    }
+
+    pub(super) fn moves(&mut self, dt: Given) -> Vec<Action> {
+        if !self.group.scheme.program.moves {
+            return Vec::new();
+        }
+        let (mut given, made) = self.places();
+        let (lost, first) = (given.len() > D, given.len());
+        given.push(dt);
+        given.extend((0..D).map(|d| Given::Field(Field::VELOCITY, d)));
+        self.on_each("drift", self.bodies(), (given, made), |x| {
+            displaced::<D>(x, lost, |d| x[first] * x[first + 1 + d])
+        })
+    }
+
+    /// By velocities over the first of the shared numbers, and then by accelerations times the second.
+    pub(super) fn shift(&mut self) -> Vec<Action> {
+        let mut all = self.moves(DT);
+        if all.is_empty() {
+            return all;
+        }
+        let (mut given, made) = self.places();
+        let (lost, first) = (given.len() > D, given.len());
+        given.extend([HALF, Given::Field(Field::MASS, 0)]);
+        given.extend((0..D).map(|d| Given::Rate(Output::FORCE, d)));
+        given.extend((0..D).map(evaluated::<D>));
+        all.extend(self.on_each("shift", self.bodies(), (given, made), |x| {
+            let own = &x[first..];
+            displaced::<D>(x, lost, |d| own[0] * (own[2 + d] / own[1] + own[2 + D + d]))
+        }));
+        all
+    }
+
+    /// How far particles have moved since lists were built, but for what a container takes with it.
+    pub(super) fn moved(&mut self) -> Vec<Action> {
+        // Lists of the reference configuration stay.
+        if self.group.scheme.density.keeps_neighbors() {
+            return Vec::new();
+        }
+        let mut given: Vec<_> = (0..D).map(|d| Given::Field(Field::POSITION, d)).collect();
+        given.extend((0..D).map(Given::Listed));
+        given.extend((0..D).map(carried::<D>));
+        let made = (0..=D).map(Made::Column).collect();
+        self.on_each("displacement", self.everywhere(), (given, made), |x| {
+            let by: Vec<_> = (0..D).map(|d| x[d] - x[D + d] - x[2 * D + d]).collect();
+            let zero = Traced::of(0.0);
+            let square = by.iter().fold(zero, |sum, own| sum + *own * *own);
+            [&[square], &by[..]].concat()
+        })
+    }
+
+    pub(super) fn predictions(&mut self) {
+        let saved: Vec<Field> = self
+            .group
+            .kicked()
+            .filter(|field| self.has(*field))
+            .collect();
+        let all: Vec<_> = saved
+            .iter()
+            .flat_map(|&field| (0..field.components(D)).map(move |k| (field, k)))
+            .collect();
+        let given = all
+            .iter()
+            .map(|&(field, k)| Given::Field(field, k))
+            .collect();
+        let made = all
+            .iter()
+            .map(|&(field, k)| Made::Saved(field, k))
+            .collect();
+        let same = |x: &[Traced]| x.to_vec();
+        let mut predict = self.on_each("saved state", self.bodies(), (given, made), same);
+        predict.extend(self.kick());
+        predict.extend(self.evolve(When::Kick));
+        if self.group.scheme.energy != EnergyForm::None {
+            predict.extend(self.heat());
+        }
+        let given = all
+            .iter()
+            .map(|&(field, k)| Given::Saved(field, k))
+            .collect();
+        let made = all
+            .iter()
+            .map(|&(field, k)| Made::Field(field, k))
+            .collect();
+        self.program.restore = self.on_each("restored state", self.bodies(), (given, made), same);
+        (self.program.predict, self.program.saved) = (predict, saved);
+    }
+}
+
+/// Places and their losses after a displacement.
+fn displaced<const D: usize>(
+    x: &[Traced],
+    lost: bool,
+    by: impl Fn(usize) -> Traced,
+) -> Vec<Traced> {
+    let (mut places, mut losses) = (Vec::new(), Vec::new());
+    for d in 0..D {
+        let (place, loss) = add(x[d], lost.then(|| x[D + d]), by(d));
+        places.push(place);
+        losses.extend(loss);
+    }
+    places.extend(losses);
+    places
+}

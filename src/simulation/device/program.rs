@@ -1,0 +1,188 @@
+//! The recorded step program of a simulation: sums over pairs, and what happens to single particles between them.
+//! It holds no particle; a device makes kernels of it once.
+
+use crate::particles::{Field, Output};
+use crate::scalar::{Record, Traced, Unrecordable};
+use crate::sweep::PairRecord;
+use std::ops::Range;
+
+/// A number that a [`PointStep`] is given of a particle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Given {
+    /// A component of a field.
+    Field(Field, usize),
+    /// The same as it was before a prediction.
+    Saved(Field, usize),
+    /// A component of the place for which lists were built.
+    Listed(usize),
+    /// A component of a sum of the last evaluation of the rates.
+    Rate(Output, usize),
+    /// A component of a sum of the last other sweep.
+    Sum(Output, usize),
+    /// What a wall law sees at a particle of a wall, by its place in [`Offloaded::walls`](super::Offloaded::walls).
+    Wall(usize),
+    /// A number that all particles share, by its place in [`Offloaded::shared`](super::Offloaded::shared).
+    Shared(usize),
+    /// A constant.
+    Constant(f64),
+}
+
+/// Where a result of a [`PointStep`] goes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Made {
+    /// A component of a field.
+    Field(Field, usize),
+    /// What a prediction takes back.
+    Saved(Field, usize),
+    /// It is added to a [count](Program::counts).
+    Count(usize),
+    /// A column of its own, which nothing but a sum over particles reads.
+    Column(usize),
+    /// Nowhere.
+    Nothing,
+}
+
+/// What happens to single particles, recorded.
+#[derive(Clone, Debug)]
+pub struct PointStep {
+    /// Its name.
+    pub name: String,
+    /// The slots that it acts on.
+    pub slots: Range<usize>,
+    /// What it does.
+    pub record: Record,
+    /// Its inputs.
+    pub given: Vec<Given>,
+    /// Where its results go, as many as there are.
+    pub made: Vec<Made>,
+}
+
+impl PointStep {
+    /// What a text does to some numbers.
+    pub(super) fn new(
+        name: impl Into<String>,
+        slots: &Range<usize>,
+        (given, made): (Vec<Given>, Vec<Made>),
+        text: impl FnOnce(&[Traced]) -> Vec<Traced>,
+    ) -> Result<Self, Unrecordable> {
+        Ok(Self {
+            name: name.into(),
+            slots: slots.clone(),
+            record: Record::of(given.len(), text)?,
+            given,
+            made,
+        })
+    }
+}
+
+/// Sums over the pairs of some particles.
+#[derive(Clone, Debug)]
+pub struct SweepStep {
+    /// The stage that it belongs to.
+    pub name: &'static str,
+    /// One pair.
+    pub pair: PairRecord,
+    /// The slots whose sums are wanted.
+    pub slots: Range<usize>,
+    /// Whether its sums are the rates, which stay until the next evaluation and whose forces between blocks are booked.
+    pub of_rates: bool,
+}
+
+/// An entry of a step.
+#[derive(Clone, Debug)]
+pub enum Action {
+    /// Walls go to their places, and images and neighbour lists are brought up to date.
+    Lists,
+    /// Sums over pairs.
+    Sweep(Box<SweepStep>),
+    /// What happens to single particles.
+    Points(PointStep),
+}
+
+/// A number of particles and steps that is counted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Counted {
+    pub(super) kind: Kind,
+    /// The slots over which it is summed.
+    pub slots: Range<usize>,
+}
+
+/// What is counted.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Kind {
+    /// A limit that a law or an update has applied, by its name.
+    Limit(&'static str),
+    /// A guard of an equation of state, by its place in `GuardCounts`.
+    Guard(usize),
+}
+
+/// The step program, recorded. Actions run in their order.
+///
+/// | list | when | [`Offloaded::shared`](super::Offloaded::shared) |
+/// |---|---|---|
+/// | [`evaluation`](Self::evaluation) | all rates are evaluated | of `evaluation` |
+/// | [`kick`](Self::kick) | velocities change | of `kick` |
+/// | [`drift_begins`](Self::drift_begins), then [`drift_middle`](Self::drift_middle) and [`drift_ends`](Self::drift_ends) | places change | of `drift` |
+/// | [`shift`](Self::shift) | places change by velocity and acceleration | of `shift` |
+/// | [`predict`](Self::predict) | what a kick changes is saved, and predicted | of `kick` |
+/// | [`restore`](Self::restore) | it is taken back | any |
+/// | [`vote`](Self::vote), [`approach`](Self::approach) | before a step | of `vote` |
+/// | [`moved`](Self::moved) | where lists may be outdated | of the evaluation or drift |
+#[derive(Clone, Debug, Default)]
+pub struct Program {
+    /// An evaluation.
+    pub evaluation: Vec<Action>,
+    /// A kick.
+    pub kick: Vec<Action>,
+    /// The first half of a drift; all of it if there is no [middle](Self::drift_middle).
+    pub drift_begins: Vec<Action>,
+    /// The middle of a drift.
+    pub drift_middle: Vec<Action>,
+    /// The second half of a drift.
+    pub drift_ends: Vec<Action>,
+    /// A drift by velocity, and by acceleration.
+    pub shift: Vec<Action>,
+    /// A prediction.
+    pub predict: Vec<Action>,
+    /// The end of it.
+    pub restore: Vec<Action>,
+    /// Of every particle the step \[s\] that it bears, negative where its state is broken, the number of its criterion, the square of
+    /// its speed and its velocity.
+    pub vote: Vec<Action>,
+    /// Where pairs may close too fast: the sweep that tells by how much, and of every particle the step \[s\] that it bears and
+    /// minus the closing speed over the mean sound speed.
+    pub approach: Vec<Action>,
+    /// Of every particle the square of its displacement \[m²\] since lists were built, and the displacement \[m\].
+    pub moved: Vec<Action>,
+    /// What is counted.
+    pub counts: Vec<Counted>,
+    /// The fields that a prediction saves.
+    pub saved: Vec<Field>,
+}
+
+impl Program {
+    /// How many columns of their own its actions make in `d` dimensions.
+    #[must_use]
+    pub const fn columns(d: usize) -> usize {
+        3 + d
+    }
+
+    /// All actions.
+    pub fn actions(&self) -> impl Iterator<Item = &Action> {
+        [
+            &self.evaluation,
+            &self.kick,
+            &self.drift_begins,
+            &self.drift_middle,
+            &self.drift_ends,
+            &self.shift,
+            &self.predict,
+            &self.restore,
+            &self.vote,
+            &self.approach,
+            &self.moved,
+        ]
+        .into_iter()
+        .flatten()
+    }
+}
