@@ -60,6 +60,15 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         for _ in &group.outlets {
             part(true, &|| "an outlet".into());
         }
+        for own in &group.sources {
+            part(true, &|| {
+                format!("the source of `{}`", group.particles.bodies[own.body].name)
+            });
+        }
+        for _ in &group.drains {
+            part(true, &|| "a drain".into());
+        }
+        part(group.share.is_some(), &|| "a scene on ranks".into());
         for load in &self.loads {
             part(true, &|| format!("the load ({load})"));
         }
