@@ -1,11 +1,7 @@
 //! How the chunks of a group are cut among ranks.
 //! The cut follows from the lists alone, and no bit depends on it.
 
-use crate::neighbors::ChunkList;
 use std::ops::Range;
-
-/// What a cluster costs beside the entries of its list, in entries.
-const CLUSTER: usize = 8;
 
 /// Runs of consecutive chunks, one a rank, of those with particles that move by forces and of all others: a sweep is over one or
 /// the other.
@@ -16,15 +12,11 @@ pub(crate) struct Division {
 }
 
 impl Division {
-    /// Cuts chunks into as many runs as there are ranks, of which the first `mobile` ones move by forces.
-    pub fn new(lists: &[ChunkList], mobile: usize, ranks: usize) -> Self {
-        let costs: Vec<usize> = lists
-            .iter()
-            .map(|list| list.neighbors.len() + CLUSTER * list.starts.len())
-            .collect();
+    /// Cuts chunks of these costs into as many runs as there are ranks; the first `mobile` ones move by forces.
+    pub fn new(costs: &[usize], mobile: usize, ranks: usize) -> Self {
         let middle = mobile.min(costs.len());
         Self {
-            bounds: [0..middle, middle..costs.len()].map(|part| cut(&costs, part, ranks)),
+            bounds: [0..middle, middle..costs.len()].map(|part| cut(costs, part, ranks)),
         }
     }
 
@@ -63,21 +55,12 @@ fn cut(costs: &[usize], part: Range<usize>, ranks: usize) -> Vec<usize> {
 mod tests {
     use super::*;
 
-    fn lists(costs: &[usize]) -> Vec<ChunkList> {
-        let of = |&cost: &usize| ChunkList {
-            neighbors: vec![0; cost],
-            ..ChunkList::default()
-        };
-        costs.iter().map(of).collect()
-    }
-
     #[test]
     fn every_chunk_has_one_rank_and_ranks_cost_alike() {
         let costs: Vec<usize> = (0..200).map(|k| 500 + 400 * (k % 7) + 9 * k).collect();
         let largest = costs.iter().copied().max().unwrap_or(0);
-        let lists = lists(&costs);
         for ranks in 1..=9 {
-            let division = Division::new(&lists, 170, ranks);
+            let division = Division::new(&costs, 170, ranks);
             for (part, chunks) in [0..170, 170..200].into_iter().enumerate() {
                 let mut next = chunks.start;
                 let mean = costs[chunks.clone()].iter().sum::<usize>() / ranks;
@@ -95,8 +78,7 @@ mod tests {
 
     #[test]
     fn more_ranks_than_chunks_leave_some_without() {
-        let lists = lists(&[5, 5, 5]);
-        let division = Division::new(&lists, 2, 4);
+        let division = Division::new(&[5, 5, 5], 2, 4);
         let all: Vec<_> = (0..4)
             .flat_map(|rank| division.of(rank))
             .flatten()

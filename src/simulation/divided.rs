@@ -5,13 +5,16 @@ use super::Simulation;
 use super::group::Group;
 use crate::collective::over;
 use crate::error::{Error, Result};
-use crate::neighbors::{CHUNK, ClusterLists, SearchInput};
+use crate::neighbors::{CHUNK, ChunkList, ClusterLists, SearchInput};
 use crate::particles::Field;
 use crate::ranks::{Division, Stamp, Taken, Team, Traffic, What, even};
 use crate::scalar::{Real, width};
 use crate::sweep::{InstructionSet, PairSweep, Pass, Records, Results, Root, SweepInput};
 use std::ops::Range;
 use std::sync::Arc;
+
+/// What a cluster costs beside the entries of its list, in entries.
+const CLUSTER: usize = 8;
 
 /// The sum of the last digits of all velocities: of other motions it is another.
 fn motion_of<T: Real, const D: usize>(group: &Group<T, D>) -> u64 {
@@ -44,7 +47,9 @@ impl Share {
     /// Cuts the chunks of new lists, of which particles that move by forces fill the first `mobile` slots.
     pub fn divide<T: Real>(&mut self, lists: &ClusterLists, mobile: usize) {
         let mobile = mobile.div_ceil(CHUNK * width::<T>());
-        self.division = Division::new(lists.chunks(), mobile, self.team.count());
+        let cost = |list: &ChunkList| list.neighbors.len() + CLUSTER * list.starts.len();
+        let costs: Vec<usize> = lists.chunks().iter().map(cost).collect();
+        self.division = Division::new(&costs, mobile, self.team.count());
     }
 
     /// Makes the lists of own chunks, and gets those of the others.

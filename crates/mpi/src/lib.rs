@@ -1,0 +1,171 @@
+//! Scenes of [meshfree](::meshfree) on many processes, and on many machines, by MPI: to the bits of one process.
+//!
+//! A program starts MPI with [`World::init`] and gives [`World::ranks`] to its scene; all else stays as it is. It is started with
+//! `mpirun -n 4 program`, and every process runs all of it. What is divided, and what is not, is in [`meshfree::ranks`].
+//!
+//! ```no_run
+//! use meshfree::prelude::*;
+//! use meshfree_mpi::World;
+//! let world = World::init()?;
+//! let water = catalogue::weakly_compressible_water(20.0);
+//! let mut simulation = Scene::<f64, 2>::new(schemes::weakly_compressible())
+//!     .body(Body::block("water", water, [0.0; 2], [0.4, 0.4], 0.01))
+//!     .boundary(MirrorPlane::wall([0.0; 2], [0.0, -1.0]))
+//!     .acceleration(|_| [0.0, -9.81])
+//!     .on_ranks(world.ranks())
+//!     .build()?;
+//! simulation.run_until(0.1)?;
+//! if simulation.is_first_rank() {
+//!     println!("{} steps", simulation.steps());
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! To compile it takes a C compiler, `pkg-config` and an MPI: on Debian `apt-get install mpich libmpich-dev`.
+
+use ferrompi::{Communicator, ThreadLevel};
+use meshfree::error::Failure;
+use meshfree::ranks::Ranks;
+use std::sync::Arc;
+use thiserror::Error;
+
+/// Why there is no MPI to run on.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// MPI has said so.
+    #[error("MPI does not start: {0}")]
+    Start(ferrompi::Error),
+    /// It may be called by one thread alone.
+    #[error(
+        "this MPI gives the thread level {0:?}, and MPI_THREAD_SERIALIZED is needed: loops run on a pool of threads, any of which \
+         may call it; take an MPI that was built with threads"
+    )]
+    Threads(ThreadLevel),
+}
+
+/// MPI, from its start to its end, where it is dropped. A process has one at a time.
+///
+/// Where a process panics MPI ends all others too.
+pub struct World {
+    mpi: ferrompi::Mpi,
+    ranks: Arc<Processes>,
+}
+
+impl World {
+    /// Starts MPI.
+    ///
+    /// # Errors
+    /// If MPI does not start, or may not be called by any thread.
+    pub fn init() -> Result<Self, Error> {
+        let mpi = ferrompi::Mpi::init_thread(ThreadLevel::Serialized).map_err(Error::Start)?;
+        if mpi.thread_level() < ThreadLevel::Serialized {
+            return Err(Error::Threads(mpi.thread_level()));
+        }
+        let ranks = Arc::new(Processes {
+            world: mpi.world(),
+            most: MOST,
+        });
+        Ok(Self { mpi, ranks })
+    }
+
+    /// The processes, for [`Scene::on_ranks`](meshfree::scene::Scene::on_ranks).
+    #[must_use]
+    pub fn ranks(&self) -> Arc<dyn Ranks> {
+        self.ranks.clone()
+    }
+}
+
+impl core::fmt::Debug for World {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("World")
+            .field("rank", &self.ranks.rank())
+            .field("count", &self.ranks.count())
+            .finish_non_exhaustive()
+    }
+}
+
+impl Drop for World {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            // The others may wait for this process, and MPI would wait for them.
+            self.mpi.world().abort(1);
+        }
+    }
+}
+
+/// Bytes of all processes together that MPI takes at once: it counts them in 32 bits.
+const MOST: usize = i32::MAX as usize;
+
+/// The processes of `MPI_COMM_WORLD`.
+struct Processes {
+    world: Communicator,
+    /// Bytes of all that are gathered at once.
+    most: usize,
+}
+
+impl core::fmt::Debug for Processes {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "rank {} of {} by MPI", self.rank(), self.count())
+    }
+}
+
+impl Ranks for Processes {
+    fn rank(&self) -> usize {
+        self.world.rank() as usize
+    }
+
+    fn count(&self) -> usize {
+        self.world.size() as usize
+    }
+
+    fn gather(&self, own: &[u8], counts: &[usize], all: &mut [u8]) -> Result<(), Failure> {
+        if all.len() <= self.most {
+            return self.gather_at_once(own, counts, all);
+        }
+        // In pieces that all processes know.
+        let piece = (self.most / counts.len()).max(1);
+        let largest = counts.iter().copied().max().unwrap_or(0);
+        let mut buffer = Vec::new();
+        for begin in (0..largest).step_by(piece) {
+            let run = |count: usize| begin.min(count)..(begin + piece).min(count);
+            let lengths: Vec<usize> = counts.iter().map(|&count| run(count).len()).collect();
+            buffer.resize(lengths.iter().sum(), 0);
+            self.gather_at_once(&own[run(own.len())], &lengths, &mut buffer)?;
+            let (mut at, mut first) = (0, 0);
+            for (&count, length) in counts.iter().zip(lengths) {
+                let to = first + run(count).start;
+                all[to..to + length].copy_from_slice(&buffer[at..at + length]);
+                at += length;
+                first += count;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Processes {
+    fn gather_at_once(&self, own: &[u8], counts: &[usize], all: &mut [u8]) -> Result<(), Failure> {
+        let lengths: Vec<i32> = counts.iter().map(|&count| count as i32).collect();
+        let mut end = 0;
+        let begins: Vec<i32> = lengths
+            .iter()
+            .map(|length| {
+                end += length;
+                end - length
+            })
+            .collect();
+        self.world.allgatherv(own, all, &lengths, &begins)?;
+        Ok(())
+    }
+}
+
+/// The processes of a world that gather at most so many bytes at once, for the test of messages longer than MPI takes.
+#[doc(hidden)]
+#[must_use]
+pub fn in_pieces(world: &World, most: usize) -> Arc<dyn Ranks> {
+    Arc::new(Processes {
+        world: world.mpi.world(),
+        most,
+    })
+}
