@@ -1,4 +1,4 @@
-//! Scenes of [meshfree](::meshfree) on many processes, and on many machines, by MPI: to the bits of one process.
+//! Scenes of [meshfree] on many processes, and on many machines, by MPI: to the bits of one process.
 //!
 //! A program starts MPI with [`World::init`] and gives [`World::ranks`] to its scene; all else stays as it is. It is started with
 //! `mpirun -n 4 program`, and every process runs all of it. What is divided, and what is not, is in [`meshfree::ranks`].

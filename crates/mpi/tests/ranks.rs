@@ -21,7 +21,7 @@ const TESTS: [(&str, Test); 5] = [
     ("dam_break", |world| {
         Ok(format!(
             "{:016x}",
-            moved(dam_break().on_ranks(world.ranks()), 220)?
+            moved(dam_break().on_ranks(world.ranks()), 300)?
         ))
     }),
     ("periodic_gas", |world| {
@@ -197,7 +197,7 @@ fn on_processes(test: &str, ranks: usize, write: bool) -> Result<String, String>
 fn check(test: &str) -> Result<(), String> {
     let error = |why: Box<dyn Error>| why.to_string();
     let expected = match test {
-        "dam_break" => format!("{:016x}", moved(dam_break(), 220).map_err(error)?),
+        "dam_break" => format!("{:016x}", moved(dam_break(), 300).map_err(error)?),
         "periodic_gas" => format!("{:016x}", moved(gas(), 20).map_err(error)?),
         "restart" => {
             on_processes(test, 3, true)?;
