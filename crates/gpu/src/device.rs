@@ -4,6 +4,8 @@
 use crate::kernel::{Frame, THREADS};
 use crate::{Error, Part, Precision};
 use pollster::block_on;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{Backends, BufferUsages, Features};
 
@@ -51,13 +53,37 @@ impl Adapter {
 /// }
 /// # Ok::<(), Error>(())
 /// ```
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Device {
     inner: wgpu::Device,
     queue: wgpu::Queue,
     adapter: Adapter,
     threads: u32,
     most_groups: u32,
+    traffic: Arc<[AtomicU64; 4]>,
+}
+
+/// What has gone over the bus, and what the device was told to do.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Traffic {
+    /// Kernels that were launched.
+    pub launches: u64,
+    /// Bytes to the device.
+    pub sent: u64,
+    /// Bytes from the device.
+    pub received: u64,
+    /// How often the host has waited for these.
+    pub waits: u64,
+}
+
+/// The slots that a kernel runs for, and numbers that it is told.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Extent {
+    pub count: usize,
+    pub first: usize,
+    pub length: usize,
+    pub stride: usize,
+    pub target: usize,
 }
 
 fn adapters() -> Vec<wgpu::Adapter> {
@@ -127,6 +153,7 @@ impl Device {
             adapter,
             threads: THREADS,
             most_groups,
+            traffic: Arc::default(),
         })
     }
 
@@ -152,6 +179,23 @@ impl Device {
         }
         self.threads = threads;
         Ok(self)
+    }
+
+    /// What has gone over the bus since it was opened, by all that was loaded on it.
+    #[must_use]
+    pub fn traffic(&self) -> Traffic {
+        let [launches, sent, received, waits] =
+            [0, 1, 2, 3].map(|k| self.traffic[k].load(Ordering::Relaxed));
+        Traffic {
+            launches,
+            sent,
+            received,
+            waits,
+        }
+    }
+
+    fn count(&self, what: usize, by: u64) {
+        self.traffic[what].fetch_add(by, Ordering::Relaxed);
     }
 
     /// Refuses a precision that the adapter does not have.
@@ -280,14 +324,42 @@ impl Device {
 
     /// Writes bytes to the start of what has room for them.
     pub(crate) fn write(&self, buffer: &wgpu::Buffer, bytes: &[u8]) {
-        self.queue.write_buffer(buffer, 0, bytes);
+        self.write_at(buffer, 0, bytes);
+    }
+
+    /// Writes bytes to a place of what has room for them.
+    pub(crate) fn write_at(&self, buffer: &wgpu::Buffer, at: usize, bytes: &[u8]) {
+        self.count(1, bytes.len() as u64);
+        self.queue.write_buffer(buffer, at as u64, bytes);
     }
 
     /// Binds buffers to a kernel that runs for some particles.
     pub(crate) fn bind(&self, kernel: &Kernel, buffers: &[&wgpu::Buffer], count: usize) -> Bound {
-        let groups = (count as u32).div_ceil(kernel.threads).max(1);
+        let extent = Extent {
+            count,
+            ..Extent::default()
+        };
+        self.bind_over(kernel, buffers, extent)
+    }
+
+    /// The same, for particles from one on.
+    pub(crate) fn bind_over(
+        &self,
+        kernel: &Kernel,
+        buffers: &[&wgpu::Buffer],
+        extent: Extent,
+    ) -> Bound {
+        let groups = (extent.count as u32).div_ceil(kernel.threads).max(1);
         let across = groups.min(self.most_groups);
-        let scene = [count as u32, across * kernel.threads, 0, 0];
+        let Extent {
+            count,
+            first,
+            length,
+            stride,
+            target,
+        } = extent;
+        let row = (across * kernel.threads) as usize;
+        let scene = [count, row, 0, first, length, stride, target, 0].map(|own| own as u32);
         let scene = self.inner.create_buffer_init(&BufferInitDescriptor {
             label: None,
             contents: &scene.map(u32::to_ne_bytes).concat(),
@@ -315,6 +387,7 @@ impl Device {
 
     /// Runs kernels one after another: each sees what those before it have written.
     pub(crate) fn launch(&self, kernels: &[&Bound]) {
+        self.count(0, kernels.len() as u64);
         let mut encoder = self
             .inner
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
@@ -334,6 +407,8 @@ impl Device {
             return Ok(Vec::new());
         }
         let size = (bytes as u64).next_multiple_of(8);
+        self.count(2, size);
+        self.count(3, 1);
         let back = self.inner.create_buffer(&wgpu::BufferDescriptor {
             label: None,
             size,

@@ -109,6 +109,21 @@ impl Dialect {
         }
     }
 
+    /// A number through its bits, which a driver that reorders sums cannot see through: `scene.zero` is not known to it.
+    #[must_use]
+    pub(crate) fn opaque(self, value: &str) -> String {
+        match (self.language, self.precision) {
+            (Language::Wgsl, Precision::Single) => {
+                format!("bitcast<f32>(bitcast<u32>({value}) ^ scene.zero)")
+            }
+            (Language::Wgsl, Precision::Double) => {
+                format!("bitcast<f64>(bitcast<u64>({value}) ^ u64(scene.zero))")
+            }
+            // CUDA C computes sums as they are written.
+            (Language::Cuda, _) => value.into(),
+        }
+    }
+
     /// One of two numbers.
     #[must_use]
     pub fn select(self, mask: &str, yes: &str, no: &str) -> String {

@@ -50,6 +50,24 @@ fn needed(record: &Record) -> Vec<bool> {
     needed
 }
 
+/// Which sums and differences a difference takes apart again, as two-sums do for what rounding loses: drivers may not cancel them.
+fn kept_apart(operations: &[Operation]) -> Vec<bool> {
+    use Operation as O;
+    let mut all = vec![false; operations.len()];
+    for operation in operations {
+        let O::Binary(Binary::Subtract, x, y) = *operation else {
+            continue;
+        };
+        if let O::Binary(Binary::Add, a, b) = operations[x.place()] {
+            all[x.place()] |= a == y || b == y;
+        }
+        if let O::Binary(Binary::Subtract, a, _) = operations[y.place()] {
+            all[y.place()] |= a == x;
+        }
+    }
+    all
+}
+
 /// What an operation becomes.
 enum Made {
     /// An expression that stands where it is used: an input, a constant, or another place.
@@ -261,7 +279,7 @@ impl Names {
 #[must_use]
 pub fn emit(record: &Record, dialect: Dialect, input: &dyn Fn(usize) -> (String, bool)) -> Text {
     let operations = record.operations();
-    let needed = needed(record);
+    let (needed, kept_apart) = (needed(record), kept_apart(operations));
     let mut names = Names {
         dialect,
         of: vec![String::new(); operations.len()],
@@ -295,6 +313,7 @@ pub fn emit(record: &Record, dialect: Dialect, input: &dyn Fn(usize) -> (String,
                 names.of[at] = made;
                 continue;
             }
+            Made::Number(made) if kept_apart[at] => (false, dialect.opaque(&made)),
             Made::Number(made) => (false, made),
             Made::Mask(made) => (true, made),
         };

@@ -17,9 +17,12 @@ impl core::fmt::Display for Part {
 }
 
 /// Why something does not run on a device.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
+    /// What a scene, or a step of it, is refused for: also by name each of its parts that does not run on a device.
+    #[error(transparent)]
+    Simulation(#[from] meshfree::error::Error),
     /// There is no adapter.
     #[error(
         "no adapter for Vulkan was found; install the driver of the card, or the software driver (Debian: `mesa-vulkan-drivers libvulkan1`)"
@@ -74,6 +77,25 @@ pub enum Error {
         part: Part,
         /// What it says.
         message: String,
+    },
+    /// The driver rounds sums of `f32` otherwise than they are written, so places would lose what their rounding leaves.
+    #[error(
+        "the driver of `{adapter}` reorders sums, so places in f32 would drift by what rounding leaves of them; run the scene in f64, or on \
+         another adapter"
+    )]
+    Reordered {
+        /// Its name.
+        adapter: String,
+    },
+    /// A text cannot be recorded.
+    #[error(
+        "the {part} cannot be recorded: {what}; write it with the arithmetic of lanes and `Lane::select`"
+    )]
+    Recorded {
+        /// Whose.
+        part: Part,
+        /// What it does.
+        what: &'static str,
     },
     /// What a kernel is given has another size than it asks for.
     #[error("{what}: {found} were given, and {wanted} are needed")]

@@ -37,7 +37,7 @@ impl Array {
     }
 }
 
-/// A kernel without its body, which runs for every `i` below `scene.count`.
+/// A kernel without its body, which runs for every `i` from `scene.first` on, `scene.count` of them.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame<'a> {
     pub dialect: Dialect,
@@ -84,12 +84,13 @@ impl Frame<'_> {
                     String::new()
                 };
                 format!(
-                    "struct Scene {{ count: u32, row: u32, zero: u32, spare: u32, }}
+                    "struct Scene {{ count: u32, row: u32, zero: u32, first: u32, length: u32, stride: u32, target_at: u32, spare: u32, }}
 @group(0) @binding(0) var<uniform> scene: Scene;
 {}{functions}@compute @workgroup_size({threads})
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {{
-let i = id.y * scene.row + id.x;
-if (i >= scene.count) {{ return; }}
+let n = id.y * scene.row + id.x;
+if (n >= scene.count) {{ return; }}
+let i = n + scene.first;
 {}{}{body}}}
 ",
                     arrays.collect::<String>(),
@@ -119,10 +120,11 @@ if (i >= scene.count) {{ return; }}
                     }
                 };
                 format!(
-                    "struct Scene {{ unsigned count, row, zero, spare; }};
+                    "struct Scene {{ unsigned count, row, zero, first, length, stride, target_at, spare; }};
 extern \"C\" __global__ void {name}(const Scene scene{}) {{
-const unsigned i = blockIdx.x * blockDim.x + threadIdx.x;
-if (i >= scene.count) return;
+const unsigned n = blockIdx.x * blockDim.x + threadIdx.x;
+if (n >= scene.count) return;
+const unsigned i = n + scene.first;
 {}{}{body}}}
 ",
                     arrays.collect::<String>(),

@@ -1,8 +1,26 @@
-//! Schemes of [meshfree](::meshfree) on a GPU, from the one text in which their parts are written.
+//! Schemes and scenes of [meshfree] on a GPU, from the one text in which their parts are written.
+//!
+//! [`Device::load`] takes a simulation and gives a [`Run`], which steps on the device. Weakly compressible liquids and total-Lagrangian
+//! solids do; what a scene has that does not run there is an [`Error`] that names it, and nothing falls back to the host.
+//!
+//! ```no_run
+//! use meshfree::prelude::*;
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let water = catalogue::weakly_compressible_water(2.0);
+//! let tank = Scene::<f64, 2>::new(schemes::weakly_compressible())
+//!     .body(Body::block("water", water, [0.0; 2], [0.3, 0.2], 0.02))
+//!     .wall(Wall::around("tank", [0.0; 2], [0.6, 0.6], 0.02, 3, [[true, true], [true, false]]))
+//!     .acceleration(|_| [0.0, -9.81]);
+//! let mut run = meshfree_gpu::Device::open()?.load(tank.build()?)?;
+//! run.run_until(0.5)?;
+//! let simulation = run.into_simulation()?;
+//! # Ok(())
+//! # }
+//! ```
 //!
 //! A part in the arithmetic of lanes is [recorded](meshfree::scalar::Record), and [`emit`](emit()) writes the record in the language of a
 //! device. [`Device`] runs such text by Vulkan: [`PointKernel`] for what happens to single particles, [`PairKernel`] for sums over
-//! neighbours. What cannot run there is an [`Error`] that names it; nothing falls back to the host.
+//! neighbours.
 //!
 //! ```
 //! use meshfree::scalar::Record;
@@ -15,20 +33,27 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod compiled;
 mod device;
 mod dialect;
 mod elementary;
 mod emit;
 mod error;
+mod fuse;
 mod kernel;
 mod pairs;
 mod points;
+mod reduce;
 mod resident;
+mod run;
+mod stepping;
+mod transfer;
 
-pub use device::{Adapter, Device};
+pub use device::{Adapter, Device, Traffic};
 pub use dialect::{Dialect, Language, Precision};
 pub use emit::{Text, emit};
 pub use error::{Error, Part};
 pub use pairs::{PairKernel, PairLists, Shared};
 pub use points::PointKernel;
 pub use resident::{Given, Launch, Resident};
+pub use run::Run;

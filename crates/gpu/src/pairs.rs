@@ -6,7 +6,7 @@ use crate::kernel::{Array, Frame, THREADS, pack, pack_indices, unpack};
 use crate::{Device, Dialect, Error, Part, Precision, emit};
 use core::cell::RefCell;
 use meshfree::neighbors::{Block, ChunkList};
-use meshfree::particles::{Fields, Outputs};
+use meshfree::particles::{Fields, Output, Outputs};
 use meshfree::sweep::PairRecord;
 use std::collections::BTreeSet;
 
@@ -34,12 +34,12 @@ pub struct Shared {
 #[derive(Clone, Debug, Default)]
 pub struct PairLists {
     /// Where the segments of each cluster start, and its block; then the end of the last.
-    clusters: Vec<u32>,
+    pub(crate) clusters: Vec<u32>,
     /// Start, end and block of each segment.
-    segments: Vec<u32>,
-    list: Vec<u32>,
+    pub(crate) segments: Vec<u32>,
+    pub(crate) list: Vec<u32>,
     /// One where the particles of a block move by forces.
-    mobile: Vec<f64>,
+    pub(crate) mobile: Vec<f64>,
     width: usize,
 }
 
@@ -82,6 +82,40 @@ impl PairLists {
     }
 }
 
+/// A sweep whose buffers are those of a run: the six of a [`PairKernel`], and with a number of blocks the forces between them.
+pub(crate) fn sweep_of_run(
+    device: &Device,
+    name: &str,
+    pair: &PairRecord,
+    shape: (usize, usize),
+    precision: Precision,
+    blocks: Option<usize>,
+) -> Result<Kernel, Error> {
+    let dialect = Dialect::wgsl(precision);
+    let part = Part {
+        kind: "sweep",
+        name: name.into(),
+    };
+    let mut buffers = BUFFERS.to_vec();
+    buffers.extend(blocks.map(|_| Array::numbers("reactions").written()));
+    let frame = Frame {
+        dialect,
+        name: "sweep",
+        buffers: &buffers,
+    };
+    device.kernel(&part, &frame, &body(pair, shape, dialect, blocks))
+}
+
+/// The numbers of [`BUFFERS`] that all pairs of a sweep share.
+pub(crate) fn settings(support: f64, shared: &Shared, mobile: &[f64]) -> Vec<f64> {
+    let reach = support * shared.smoothing_length;
+    let mut all = vec![reach * reach, shared.smoothing_length];
+    all.push(shared.lattice_consistency_factor);
+    all.extend(&shared.body_force);
+    all.extend(mobile);
+    all
+}
+
 /// The sums over the pairs of a sweep, compiled for a device.
 #[derive(Debug)]
 pub struct PairKernel {
@@ -95,7 +129,18 @@ pub struct PairKernel {
     pub(crate) precision: Precision,
 }
 
-fn body(pair: &PairRecord, dimensions: usize, width: usize, dialect: Dialect) -> String {
+/// The text of a sweep. With a number of `blocks` it also writes the force of each of them that is not the particle's own, a column for
+/// each component.
+fn body(
+    pair: &PairRecord,
+    (dimensions, width): (usize, usize),
+    dialect: Dialect,
+    blocks_apart: Option<usize>,
+) -> String {
+    let force = pair.writes.offset(Output::FORCE, dimensions);
+    let has_force = pair.writes.contains(Output::FORCE);
+    let apart = blocks_apart.filter(|_| has_force);
+    let is_force = |k: usize| apart.is_some() && (force..force + dimensions).contains(&k);
     let (stride, sums) = (pair.reads.width(dimensions), pair.writes.width(dimensions));
     let x = pair.reads.offset(pair.listed, dimensions);
     let used = RefCell::new(BTreeSet::new());
@@ -137,8 +182,17 @@ fn body(pair: &PairRecord, dimensions: usize, width: usize, dialect: Dialect) ->
     for k in 0..sums {
         add(&dialect.variable(&format!("s{k}"), &dialect.constant(0.0)));
     }
+    if let Some(blocks) = apart {
+        add(&dialect.index("own_block", "clusters[cluster + 1u]"));
+        add(&dialect.each("k", "0u", &format!("{}u", blocks * dimensions)));
+        let zero = dialect.constant(0.0);
+        add(&format!("reactions[k * scene.stride + i] = {zero};\n}}\n"));
+    }
     add(&dialect.index("last_segment", "clusters[cluster + 2u]"));
     add(&dialect.each("segment", "clusters[cluster]", "last_segment"));
+    for k in (0..sums).filter(|&k| is_force(k)) {
+        add(&dialect.variable(&format!("f{k}"), &dialect.constant(0.0)));
+    }
     add(&(dialect.declare(false, "mobile_j", &mobile("segments[segment * 3u + 2u]")) + "\n"));
     add(&dialect.index("end", "segments[segment * 3u + 1u]"));
     add(&dialect.each("entry", "segments[segment * 3u]", "end"));
@@ -158,15 +212,28 @@ fn body(pair: &PairRecord, dimensions: usize, width: usize, dialect: Dialect) ->
     }
     add(&text.within);
     for (k, value) in text.results.iter().enumerate() {
+        let own = format!("{}{k}", if is_force(k) { "f" } else { "s" });
         let sum = if pair.maxima[k] {
-            let own = format!("s{k}");
             dialect.select(&format!("{value} > {own}"), value, &own)
         } else {
-            format!("s{k} + {value}")
+            format!("{own} + {value}")
         };
-        add(&format!("s{k} = {sum};\n"));
+        add(&format!("{own} = {sum};\n"));
     }
-    add("}\n}\n");
+    add("}\n");
+    for k in (0..sums).filter(|&k| is_force(k)) {
+        add(&format!("s{k} = s{k} + f{k};\n"));
+    }
+    if apart.is_some() {
+        add(&dialect.index("block", "segments[segment * 3u + 2u]"));
+        add("if (block != own_block) {\n");
+        for d in 0..dimensions {
+            let at = format!("reactions[(block * {dimensions}u + {d}u) * scene.stride + i]");
+            add(&format!("{at} = {at} + f{};\n", force + d));
+        }
+        add("}\n");
+    }
+    add("}\n");
     for k in 0..sums {
         add(&format!("rows[i * {sums}u + {k}u] = s{k};\n"));
     }
@@ -196,7 +263,7 @@ impl PairKernel {
             name: "sweep",
             buffers: &BUFFERS,
         };
-        let body = body(pair, dimensions, width, dialect);
+        let body = body(pair, (dimensions, width), dialect, None);
         Ok(Self {
             kernel: device.kernel(&part, &frame, &body)?,
             reads: pair.reads,
@@ -221,7 +288,8 @@ impl PairKernel {
             name: "sweep",
             buffers: &BUFFERS,
         };
-        frame.source(&body(pair, dimensions, width, dialect), THREADS)
+        let body = body(pair, (dimensions, width), dialect, None);
+        frame.source(&body, THREADS)
     }
 
     /// The sums of the first `count` particles, side by side for each. `records` has the fields that the sweep
@@ -279,11 +347,7 @@ impl PairKernel {
         if records.len() < wanted {
             size("numbers of records", records.len(), wanted)?;
         }
-        let reach = self.support * shared.smoothing_length;
-        let mut all = vec![reach * reach, shared.smoothing_length];
-        all.push(shared.lattice_consistency_factor);
-        all.extend(&shared.body_force);
-        all.extend(&lists.mobile);
+        let all = settings(self.support, shared, &lists.mobile);
         let numbers = |all: &[f64]| pack(all.iter().copied(), self.precision);
         let records = device.upload("the records of particles", &numbers(records))?;
         let shared = device.upload("what pairs share", &numbers(&all))?;

@@ -1,0 +1,174 @@
+//! What an integrator does to the state on the device: its operations as launches.
+//! Lists are looked at where the step program has them.
+
+use crate::Error;
+use crate::compiled::{Compiled, Piece};
+use crate::run::Run;
+use meshfree::error::Error as HostError;
+use meshfree::integrator::System;
+use meshfree::scalar::Real;
+use meshfree::simulation::device::{Moment, Moved};
+
+impl<T: Real, const D: usize> Run<T, D> {
+    /// Runs the pieces of a list at a moment.
+    fn act(
+        &mut self,
+        pieces: impl Fn(&Compiled) -> &[Piece],
+        moment: &Moment,
+    ) -> Result<(), Error> {
+        self.share(moment);
+        let own: Vec<Piece> = pieces(&self.compiled).to_vec();
+        for part in own.split_inclusive(|piece| matches!(piece, Piece::Lists)) {
+            let kernels = self.compiled.of(part);
+            if !kernels.is_empty() {
+                self.device.launch(&kernels);
+            }
+            if let Some(Piece::Lists) = part.last() {
+                self.bring_lists(moment)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Walls go to their places, and lists are built anew if particles have used up their skin.
+    fn bring_lists(&mut self, moment: &Moment) -> Result<(), Error> {
+        for slots in self.host.place_walls(moment) {
+            self.send_wall(&slots);
+            self.send_walls(moment.time);
+        }
+        self.send_settings();
+        if self.compiled.lists.moved.is_empty() {
+            return Ok(());
+        }
+        let mut all = self.compiled.of(&self.compiled.lists.moved);
+        all.extend(&self.compiled.of_moved);
+        self.device.launch(&all);
+        let found = self.read(&self.memory.moves, self.compiled.moved.outputs)?;
+        let moved = Moved {
+            farthest2: found[0],
+            range: [found[1..=D].to_vec(), found[1 + D..=2 * D].to_vec()],
+        };
+        if self.host.is_outdated(&moved, moment.time) {
+            self.is_taken = false;
+            self.take()?;
+            self.host.rebuild(moment.time);
+            self.send(moment.time)?;
+            self.is_taken = false;
+            self.share(moment);
+        }
+        Ok(())
+    }
+}
+
+/// What an integrator does to the state on the device.
+pub(crate) struct Stepping<'a, T: Real, const D: usize> {
+    pub(crate) run: &'a mut Run<T, D>,
+    /// The first error of the device, after which nothing is done.
+    pub(crate) lost: Option<Error>,
+}
+
+impl<T: Real, const D: usize> Stepping<'_, T, D> {
+    fn act(&mut self, pieces: impl Fn(&Compiled) -> &[Piece], moment: &Moment) {
+        if self.lost.is_none() {
+            self.lost = self.run.act(pieces, moment).err();
+        }
+    }
+
+    /// An error in the place of one of the device.
+    fn outcome(&self) -> Result<(), HostError> {
+        match &self.lost {
+            None => Ok(()),
+            Some(error) => Err(HostError::Failed {
+                cause: error.to_string(),
+            }),
+        }
+    }
+}
+
+impl<T: Real, const D: usize> System for Stepping<'_, T, D> {
+    fn evaluate(&mut self, offset: f64) -> Result<(), HostError> {
+        self.outcome()?;
+        if self.run.kicked != 0.0 {
+            // Kicks by forces that the next evaluation writes over.
+            let run = &mut *self.run;
+            run.device
+                .launch(&run.compiled.of_vote.iter().collect::<Vec<_>>());
+            let first = run.compiled.vote.outputs;
+            let count = first + run.sizes.bodies.len() * run.compiled.forces.outputs;
+            match run.read(&run.memory.votes, count) {
+                Ok(found) => {
+                    let forces = run.forces_of(&found[first..]);
+                    run.book(forces);
+                }
+                Err(error) => self.lost = Some(error),
+            }
+        }
+        let moment = self.run.host.begin_evaluation(offset)?;
+        self.act(|own| &own.lists.evaluation, &moment);
+        self.run.forces = None;
+        self.outcome()
+    }
+
+    fn kick(&mut self, dt: f64) {
+        let moment = self.run.host.begin_kick(dt);
+        match &self.run.forces {
+            Some(forces) => self.run.host.book(dt, forces),
+            None => self.run.kicked += dt,
+        }
+        self.act(|own| &own.lists.kick, &moment);
+    }
+
+    fn drift(&mut self, dt: f64, offset: f64) -> Result<(), HostError> {
+        let moment = self.run.host.begin_drift(dt, offset)?;
+        self.act(|own| &own.lists.drift_begins, &moment);
+        if !self.run.compiled.lists.drift_middle.is_empty() {
+            self.act(|own| &own.lists.drift_middle, &moment);
+            self.act(|own| &own.lists.drift_ends, &moment);
+        }
+        self.outcome()
+    }
+
+    fn shift(&mut self, dv: f64, da: f64) {
+        let moment = self.run.host.begin_shift(dv, da);
+        self.act(|own| &own.lists.shift, &moment);
+    }
+
+    fn predict(&mut self, dt: f64) {
+        let moment = self.run.host.begin_kick(dt);
+        self.act(|own| &own.lists.predict, &moment);
+        self.run.is_predicted = true;
+    }
+
+    fn restore(&mut self) {
+        let moment = self.run.host.begin_kick(0.0);
+        self.act(|own| &own.lists.restore, &moment);
+        self.run.is_predicted = false;
+    }
+
+    // Integrators that keep states are refused when a simulation is loaded.
+    fn save(&mut self, _slot: usize) {
+        self.refuse_states();
+    }
+    fn load(&mut self, _slot: usize) {
+        self.refuse_states();
+    }
+    fn combine(&mut self, _slot: usize, _a: f64, _b: f64, _dt: f64) {
+        self.refuse_states();
+    }
+    fn accumulate(&mut self, _slot: usize, _dt: f64) {
+        self.refuse_states();
+    }
+
+    fn has_rates(&self) -> bool {
+        self.run.host.has_rates()
+    }
+}
+
+impl<T: Real, const D: usize> Stepping<'_, T, D> {
+    fn refuse_states(&mut self) {
+        self.lost.get_or_insert(Error::Absent {
+            what: "kept state",
+            name: "an integrator that says it keeps none",
+        });
+    }
+}

@@ -1,0 +1,222 @@
+//! Steps of a run on the device: the same bits in any work groups, readings, checkpoints, errors of a run, and what crosses the bus.
+//! A dam break in the plane.
+
+use super::common::device;
+use super::{Fill, build, differences, load, on_device, on_host, tank, water};
+use meshfree::prelude::*;
+use meshfree_gpu::Error as GpuError;
+
+#[test]
+fn bits_are_the_same_twice_and_in_any_work_groups() {
+    let Some(mut device) = device("bits of a scene") else {
+        return;
+    };
+    let scene = || water::<f64, 2>(Fill::Dam, false);
+    let first = on_device(&device, scene(), 40).bits_hash();
+    let mut single = None;
+    for threads in [64, 128, 256] {
+        device = device
+            .with_threads(threads)
+            .unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(
+            on_device(&device, scene(), 40).bits_hash(),
+            first,
+            "{threads}"
+        );
+        let own = on_device(&device, water::<f32, 2>(Fill::Dam, false), 40).bits_hash();
+        assert_eq!(*single.get_or_insert(own), own, "{threads} in f32");
+    }
+    assert_ne!(on_device(&device, scene(), 41).bits_hash(), first);
+}
+
+#[test]
+fn a_reading_changes_no_bit_and_is_that_of_the_host() {
+    let Some(device) = device("readings") else {
+        return;
+    };
+    let scene = || water::<f64, 2>(Fill::Dam, false);
+    let [mut plain, mut read] = [load(&device, scene()), load(&device, scene())];
+    let mut host = build(scene());
+    let end = 0.02;
+    let mut shown = 0;
+    for part in [0.3, 0.5] {
+        read.run_with(part * end, |now| shown = now.steps())
+            .unwrap();
+        host.run_until(part * end).unwrap();
+        assert_eq!(read.time(), part * end);
+        let now = read.simulation().unwrap();
+        assert_eq!(now.time(), host.time());
+        let own = differences(now, &host);
+        assert!(own[0] < 1e-13 && own[1] < 1e-12 && own[2] < 1e-9, "{own:?}");
+    }
+    assert!(shown > 0);
+    for run in [&mut plain, &mut read] {
+        run.run_until(end).unwrap();
+    }
+    let [plain, read] = [plain, read].map(|run| run.into_simulation().unwrap());
+    assert_eq!(plain.bits_hash(), read.bits_hash());
+    assert_eq!(plain.ledger(), read.ledger());
+    // A run goes on from what a reading has left, on the host too.
+    host.run_until(end).unwrap();
+    let mut back = read;
+    for own in [&mut host, &mut back] {
+        own.run_until(1.2 * end).unwrap();
+    }
+    let own = differences(&back, &host);
+    assert!(own[0] < 1e-13 && own[1] < 1e-12 && own[2] < 1e-9, "{own:?}");
+    assert_eq!(back.steps(), host.steps());
+}
+
+#[test]
+fn a_checkpoint_of_one_side_resumes_on_the_other() {
+    let Some(device) = device("checkpoints") else {
+        return;
+    };
+    let scene = || water::<f64, 2>(Fill::Dam, false);
+    let file = std::env::temp_dir().join(format!("meshfree-gpu-{}", std::process::id()));
+    let host = on_host(scene(), 60);
+    let most = differences(&on_host(water::<f64, 2>(Fill::Dam, true), 60), &host);
+    on_device(&device, scene(), 30).save(&file).unwrap();
+    let mut resumed = scene().resume(&file).unwrap();
+    for _ in 0..30 {
+        resumed.step().unwrap();
+    }
+    let own = differences(&resumed, &host);
+    println!("from the device to the host: {own:?}, host {most:?}");
+    assert!((0..3).all(|k| own[k] <= 20.0 * most[k]));
+    on_host(scene(), 30).save(&file).unwrap();
+    let mut run = device.load(scene().resume(&file).unwrap()).unwrap();
+    for _ in 0..30 {
+        run.step().unwrap();
+    }
+    let found = run.into_simulation().unwrap();
+    let own = differences(&found, &host);
+    println!("from the host to the device: {own:?}, host {most:?}");
+    assert!((0..3).all(|k| own[k] <= 20.0 * most[k]));
+    let impulses = [&found, &resumed, &host].map(|own| own.wall_impulse("tank").unwrap()[1]);
+    for own in impulses {
+        assert!((own / impulses[2] - 1.0).abs() < 1e-11, "{impulses:?}");
+    }
+    let _ = std::fs::remove_file(file);
+}
+
+#[test]
+fn what_crosses_the_bus_is_counted() {
+    let Some(device) = device("traffic") else {
+        return;
+    };
+    let mut run = load(&device, thrown(0.05));
+    run.step().unwrap();
+    // Steps between two list builds, and one with a build.
+    let (mut quiet, mut built) = (Vec::new(), 0);
+    for _ in 0..30 {
+        let builds = run.simulation().unwrap().list_builds();
+        let before = device.traffic();
+        run.step().unwrap();
+        let after = device.traffic();
+        let own = [
+            after.launches - before.launches,
+            after.sent - before.sent,
+            after.received - before.received,
+            after.waits - before.waits,
+        ];
+        if run.simulation().unwrap().list_builds() == builds {
+            quiet.push(own);
+        } else {
+            built = built.max(own[1]);
+        }
+    }
+    println!(
+        "launches, bytes sent and received, waits: {:?}; {built} bytes sent for lists",
+        quiet[0]
+    );
+    assert!(quiet.iter().all(|own| *own == quiet[0]), "{quiet:?}");
+    let [launches, sent, received, waits] = quiet[0];
+    assert!(
+        launches <= 36 && waits == 3,
+        "{launches} launches, {waits} waits"
+    );
+    // None of it grows with the number of particles.
+    assert!(
+        sent <= 1000 && received <= 250,
+        "{sent} and {received} bytes"
+    );
+    assert!(built > 100_000);
+}
+
+/// Water that is thrown at a wall, at a share of its speed of sound.
+fn thrown(mach: f64) -> Scene<f64, 2> {
+    let sound = 10.0 * (2.0 * super::G * 0.3f64).sqrt();
+    tank(Fill::Dam, schemes::weakly_compressible(), |body, wall| {
+        (body.velocity([mach * sound, 0.0]), wall)
+    })
+}
+
+#[test]
+fn what_is_faster_than_its_sound_ends_a_run_as_on_the_host() {
+    let Some(device) = device("pairs that approach") else {
+        return;
+    };
+    let words = |error: &dyn core::fmt::Display| {
+        let text = error.to_string();
+        text.split(' ')
+            .take(7)
+            .map(String::from)
+            .collect::<Vec<_>>()
+    };
+    let mut ended = 0;
+    for mach in [0.4, 0.6, 0.8] {
+        let mut host = build(thrown(mach));
+        let mut run = load(&device, thrown(mach));
+        for _ in 0..40 {
+            let (a, b) = match (run.step(), host.step()) {
+                (Ok(a), Ok(b)) => (a, b),
+                (Err(a), Err(b)) => {
+                    println!("{a}\n{b}");
+                    assert!(matches!(
+                        a,
+                        GpuError::Simulation(Error::SoundSpeedTooLow { .. })
+                    ));
+                    assert_eq!(words(&a), words(&b));
+                    // What has failed goes no further.
+                    let after = run.step().expect_err("a run that has failed");
+                    assert!(
+                        matches!(after, GpuError::Simulation(Error::Failed { .. })),
+                        "{after}"
+                    );
+                    ended += 1;
+                    break;
+                }
+                (a, b) => panic!("{a:?} on the device, {b:?} on the host"),
+            };
+            assert!((a / b - 1.0).abs() < 1e-9, "{a} {b}");
+            let own = run.simulation().unwrap().last_vote().unwrap();
+            let vote = host.last_vote().unwrap();
+            assert_eq!(
+                (own.criterion, own.particle),
+                (vote.criterion, vote.particle)
+            );
+        }
+    }
+    assert!(ended > 0);
+}
+
+#[test]
+fn a_state_that_breaks_is_named_as_on_the_host() {
+    let Some(device) = device("a state that breaks") else {
+        return;
+    };
+    // Gravity that is no number from some time on, and one that is too large to be squared.
+    let scene = |most: f64| {
+        let scene = water::<f64, 2>(Fill::Dam, false);
+        scene.acceleration(move |t| [if t > 0.002 { most } else { 0.0 }, 0.0])
+    };
+    for most in [f64::NAN, 1e100] {
+        let host = build(scene(most)).run_until(0.1).expect_err("no number");
+        let mut run = load(&device, scene(most));
+        let found = run.run_until(0.1).expect_err("no number");
+        println!("{host}\n{found}");
+        let kind = |text: String| text.split(' ').next().map(String::from);
+        assert_eq!(kind(found.to_string()), kind(host.to_string()));
+    }
+}
