@@ -125,7 +125,7 @@ impl<const D: usize> Effect<D> for HeatConduction {
 #[derive(Clone, Copy, Debug)]
 pub struct HeatFlow {
     /// First moment s of the lattice, without which heat spreads 1 to 3 % too fast.
-    moment: f64,
+    pub moment: f64,
 }
 
 impl<const D: usize> Term<D> for HeatFlow {

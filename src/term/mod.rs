@@ -295,6 +295,8 @@ macro_rules! for_each_term {
             $crate::effect::WithinPhase($crate::term::Fourtakas::default()),
             $crate::effect::ColourGradient,
             $crate::effect::InterfaceCurvature,
+            $crate::effect::HeatFlow { moment: 1.0 },
+            $crate::effect::VolumeGradient,
             $crate::effect::HourglassFree::default(),
             $crate::effect::VelocityMismatch,
             $crate::effect::ReferenceMoment,
