@@ -1,7 +1,7 @@
 //! What a scheme is, as far as its effects may ask: kernel, spacing, density form.
 //! Evaluated when the scene is built, so the order in which a builder was told does not matter.
 
-use super::surface_heat::area_factor;
+use super::surface_area::area_factor;
 use super::{DensityForm, EnergyForm, Smoothing};
 use crate::kernel::lattice::{gradients_at_surface, lattice_consistency_factor, lattice_unity};
 use crate::kernel::{Kernel, KernelFacts};

@@ -1,17 +1,17 @@
 //! Heat through free surfaces: convection and radiation, over the area that each particle has of the surface.
-//! The area by the gradient of a smoothed volume: Brackbill, Kothe & Zemach 1992 (J. Comput. Phys. 100, 335).
+//! Newton's law of cooling and the law of Stefan and Boltzmann.
 
 use super::heat_conduction::SPECIFIC_HEAT;
-use super::shifting::{length, share};
+use super::surface_area::{GRADIENT, VolumeGradient, area_of_surface};
 use super::{
     Around, CONSTANTS, Effect, Evolved, HeatConduction, LedgerColumn, Point, PointLaw, PointLimit,
     PointRate, Reach, Setting, StepProgram, not_negative,
 };
 use crate::error::Problem;
 use crate::name;
-use crate::particles::{Field, Fields, Output, Outputs};
+use crate::particles::{Field, Fields, Outputs};
 use crate::scalar::{Lane, Real};
-use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
+use crate::term::{In, Stage, TermDoc, stage};
 
 /// Stefan–Boltzmann constant σ \[W/(m² K⁴)\], exact in the SI (CODATA 2018).
 pub const STEFAN_BOLTZMANN: f64 = 5.670374419e-8;
@@ -139,19 +139,6 @@ const TEMPERATURE: Field = HeatConduction::TEMPERATURE;
 const HEATING: Field = Field::scalar(name!("heating_through_surface", "W/kg"));
 /// Rate \[1/s\] at which a particle alone would come to T∞.
 const COOLING: Field = Field::scalar(name!("cooling_rate", "1/s"));
-/// Σⱼ Vⱼ ∇W.
-const GRADIENT: Output = Output::vector(name!("gradient of the volume", "1/m"));
-/// |G| h at and below which a particle is within a body, and from which on it counts in full. Disorder makes about 0.05; the first
-/// row at a flat surface has 0.3 to 0.65.
-const SURFACE: [f64; 2] = [0.05, 0.15];
-
-/// N, by which a flat surface along the lattice has its area. Row k has Gₖ = Σ of the layers that it lacks.
-pub(super) fn area_factor(gradients: &[f64], h_over_dx: f64) -> f64 {
-    let rows = gradients.iter();
-    let counted = rows.map(|&own| own * share(SURFACE, own * h_over_dx));
-    1.0 / counted.sum::<f64>()
-}
-
 impl<const D: usize> Effect<D> for SurfaceHeat {
     type Terms = (In<stage::Rates, VolumeGradient>,);
     const BOOKS_ENERGY: bool = true;
@@ -217,30 +204,6 @@ impl<const D: usize> Effect<D> for SurfaceHeat {
     }
 }
 
-/// Gᵢ = Σⱼ Vⱼ ∇W, for [`SurfaceHeat`].
-#[derive(Clone, Copy, Debug)]
-pub struct VolumeGradient;
-
-impl<const D: usize> Term<D> for VolumeGradient {
-    const NAME: &'static str = "meshfree::volume_gradient";
-    const READS: Fields = Fields::of(&[Field::MASS, Field::DENSITY]);
-    const WRITES: Outputs = Outputs::of(&[GRADIENT]);
-    #[inline(always)]
-    fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>) {
-        let factor = pair.j(Field::MASS) / pair.j(Field::DENSITY) * pair.f_i;
-        for d in 0..D {
-            sums.add_product_at(GRADIENT, d, factor, pair.r[d]);
-        }
-    }
-    fn document(&self) -> TermDoc {
-        TermDoc {
-            name: "gradient of the smoothed volume".into(),
-            equation: "Gᵢ = Σⱼ Vⱼ ∇W",
-            source: "Brackbill, Kothe & Zemach 1992",
-        }
-    }
-}
-
 /// Writes areas and what passes through them.
 #[derive(Clone, Debug)]
 struct Exchanged {
@@ -270,11 +233,8 @@ impl<const D: usize> PointLaw<D> for Exchanged {
     }
     #[inline(always)]
     fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
-        let size = length(&at.sum_vector(GRADIENT));
-        let counted = share(SURFACE, size * at.smoothing_length());
         let mass = at.get(Field::MASS);
-        let volume = mass / at.get(Field::DENSITY);
-        let area = L::of(self.factor) * volume * counted * size;
+        let area = area_of_surface(at, self.factor);
         let temperature = at.get(TEMPERATURE);
         let cube = temperature * temperature * temperature;
         let convected = at.constant(1) - at.constant(0) * temperature;
