@@ -240,7 +240,7 @@ pub(crate) use joint_rows::{Frame, Geometry};
 pub(crate) use joints::Jointing;
 pub(crate) use loads::{ACCELERATION, is_square_finite};
 pub(crate) use pair_list::PairList;
-pub use population::Removed;
+pub use population::Passed;
 pub(crate) use population::{BodyState, Particles};
 pub(crate) use rigid::Rigid;
 pub(crate) use side::{MetWall, Side};

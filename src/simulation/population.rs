@@ -56,8 +56,8 @@ pub(crate) struct Particles<T: Real, const D: usize> {
     pub ids: Vec<u32>,
     pub slot_of: Vec<u32>,
     /// What has left through outlets and drains, and what has entered through inlets and sources.
-    pub removed: Removed<D>,
-    pub entered: Removed<D>,
+    pub removed: Passed<D>,
+    pub entered: Passed<D>,
     /// How many particles' numbers the groups before it have.
     pub first_id: usize,
     /// The place \[m\] from which columns of places count.
@@ -87,8 +87,8 @@ impl<T: Real, const D: usize> Particles<T, D> {
             mobile,
             ids,
             slot_of,
-            removed: Removed::default(),
-            entered: Removed::default(),
+            removed: Passed::default(),
+            entered: Passed::default(),
             first_id: 0,
             origin,
             moved: Moves::default(),
@@ -131,7 +131,7 @@ impl<T: Real, const D: usize> Particles<T, D> {
 
 /// Particles that have left a simulation through outlets and drains, or [entered](super::Simulation::entered) it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Removed<const D: usize> {
+pub struct Passed<const D: usize> {
     /// Particles.
     pub particles: u64,
     /// Mass \[kg\].
@@ -142,7 +142,7 @@ pub struct Removed<const D: usize> {
     pub kinetic: f64,
 }
 
-impl<const D: usize> Default for Removed<D> {
+impl<const D: usize> Default for Passed<D> {
     fn default() -> Self {
         Self {
             particles: 0,
@@ -153,7 +153,7 @@ impl<const D: usize> Default for Removed<D> {
     }
 }
 
-impl<const D: usize> Removed<D> {
+impl<const D: usize> Passed<D> {
     /// With what has left another group.
     pub(super) fn and(self, other: &Self) -> Self {
         Self {
@@ -343,7 +343,7 @@ impl<T: Real, const D: usize> Particles<T, D> {
                 ));
             }
             let (momentum, [mass, kinetic], particles) = left.value();
-            self.removed = self.removed.and(&Removed {
+            self.removed = self.removed.and(&Passed {
                 particles,
                 mass,
                 momentum,
@@ -400,7 +400,7 @@ impl<T: Real, const D: usize> Particles<T, D> {
         self.slot_of[id] = slot as u32;
         let mass = self.columns.raw(Field::MASS)[slot].to_f64();
         let v = self.columns.vectors(Field::VELOCITY)[slot].map(Real::to_f64);
-        self.entered = self.entered.and(&Removed {
+        self.entered = self.entered.and(&Passed {
             particles: 1,
             mass,
             momentum: v.map(|v| mass * v),

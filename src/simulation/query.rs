@@ -3,7 +3,7 @@
 
 use super::Simulation;
 use super::group::Group;
-use super::population::{BodyState, Removed};
+use super::population::{BodyState, Passed};
 use super::side::Side;
 use super::walls::WallState;
 use super::which::{Which, find};
@@ -368,13 +368,13 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// What has left through outlets.
     #[must_use]
-    pub fn removed(&self) -> Removed<D> {
+    pub fn removed(&self) -> Passed<D> {
         let removed = self
             .state
             .groups
             .iter()
             .map(|group| &group.particles.removed);
-        removed.fold(Removed::default(), |sum, other| sum.and(other))
+        removed.fold(Passed::default(), |sum, other| sum.and(other))
     }
 
     /// Smoothing length \[m\] as built, of the first group of liquids or, without one, of the first body.

@@ -3,7 +3,7 @@
 
 use super::Simulation;
 use super::group::Group;
-use super::population::Removed;
+use super::population::Passed;
 use crate::boundary::{Drain, Source};
 use crate::error::{Error, Result};
 use crate::particles::Field;
@@ -191,9 +191,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// kinetic energy that it brought: the mass of bodies is that at the start and this, less what was
     /// [removed](Self::removed).
     #[must_use]
-    pub fn entered(&self) -> Removed<D> {
+    pub fn entered(&self) -> Passed<D> {
         let groups = self.state.groups.iter();
         let entered = groups.map(|group| &group.particles.entered);
-        entered.fold(Removed::default(), |sum, other| sum.and(other))
+        entered.fold(Passed::default(), |sum, other| sum.and(other))
     }
 }

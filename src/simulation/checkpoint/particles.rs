@@ -5,7 +5,7 @@ use super::change::{Change, Changes};
 use crate::output::checkpoint::{Checkpoint, Read, damaged};
 use crate::scalar::Real;
 use crate::scheme::Scheme;
-use crate::simulation::population::{BodyState, Moves, Particles, Removed};
+use crate::simulation::population::{BodyState, Moves, Particles, Passed};
 use std::ops::Range;
 
 pub(super) fn put_particles<T: Real, const D: usize>(
@@ -54,8 +54,8 @@ pub(super) fn put_particles<T: Real, const D: usize>(
     }
 }
 
-fn put_passed<const D: usize>(passed: &Removed<D>, name: &str, file: &mut Checkpoint) {
-    let Removed {
+fn put_passed<const D: usize>(passed: &Passed<D>, name: &str, file: &mut Checkpoint) {
+    let Passed {
         particles,
         mass,
         momentum,
@@ -67,8 +67,8 @@ fn put_passed<const D: usize>(passed: &Removed<D>, name: &str, file: &mut Checkp
     file.put_one(format!("{name}/kinetic"), *kinetic);
 }
 
-fn take_passed<const D: usize>(name: &str, file: &Checkpoint) -> Read<Removed<D>> {
-    Ok(Removed {
+fn take_passed<const D: usize>(name: &str, file: &Checkpoint) -> Read<Passed<D>> {
+    Ok(Passed {
         particles: file.get_one(&format!("{name}/particles"))?,
         mass: file.get_one(&format!("{name}/mass"))?,
         momentum: file.get_array(&format!("{name}/momentum"))?,
@@ -109,7 +109,7 @@ pub(super) fn take_particles<T: Real, const D: usize>(
     particles.entered = if file.has(&format!("{name}/entered/particles")) {
         take_passed(&format!("{name}/entered"), file)?
     } else {
-        Removed::default()
+        Passed::default()
     };
     Ok(())
 }
