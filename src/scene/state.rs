@@ -194,7 +194,7 @@ impl<const D: usize> ParticleState<D> {
             let tag = tag.split('>').next().unwrap_or_default();
             let components = attribute(tag, "NumberOfComponents")?;
             let values = numbers(data, attribute(tag, "offset")?, text(tag, "type")?)?;
-            if values.len() != count * components || components == 0 {
+            if components == 0 || Some(values.len()) != count.checked_mul(components) {
                 return Err(wrong("an array has not the numbers that it says"));
             }
             let name = unescaped(text(tag, "Name")?);

@@ -1,4 +1,4 @@
-//! Files that are cut, altered or nonsense: checkpoints, tables, records of motion and meshes are read, or refused.
+//! Files that are cut, altered or nonsense: checkpoints, tables, states, records of motion and meshes are read, or refused.
 //! An altered checkpoint is never resumed from.
 
 use super::guard;
@@ -101,6 +101,53 @@ pub fn record(seed: u64) -> &'static str {
 fn records_of_motion_move_or_are_refused() {
     let words = guard::all("records of motion", 0, 20_000, record);
     assert!(guard::share(&words, "moves") > 1000 && guard::share(&words, "refused") > 1000);
+}
+
+/// A body that starts from an altered file of another run.
+pub fn state(seed: u64) -> &'static str {
+    use meshfree::prelude::*;
+    use meshfree::scene::ParticleState;
+    let mut n = Numbers::of(seed);
+    let water = || catalogue::weakly_compressible_water(2.0);
+    let block = || Body::<f64, 2>::block("water", water(), [0.0; 2], [0.06, 0.04], 0.01);
+    let scene = Scene::<f64, 2>::new(schemes::weakly_compressible()).body(block());
+    let run = scene.build().expect("water");
+    let path = std::env::temp_dir().join(format!("meshfree-{}-state", std::process::id()));
+    let table = n.below(2) == 0;
+    if table {
+        let whole = ParticleState::of(&run);
+        whole.write_csv(&path).expect("a table");
+    } else {
+        run.vtu().write(&path).expect("a file");
+    }
+    let bytes = alter(&mut n, &std::fs::read(&path).expect("bytes"));
+    std::fs::write(&path, bytes).expect("a file");
+    let state = if table {
+        ParticleState::<2>::read_csv(&path)
+    } else {
+        ParticleState::read_vtu(&path)
+    };
+    let started = state.and_then(|state| {
+        let body = Body::<f64, 2>::of_state("water", water(), &state, 0.01)?;
+        block().started_from(&state)?;
+        Scene::new(schemes::weakly_compressible())
+            .body(body)
+            .build()
+            .map(drop)
+    });
+    match started {
+        Ok(()) => "starts",
+        Err(error) => {
+            assert!(!error.to_string().is_empty());
+            "refused"
+        }
+    }
+}
+
+#[test]
+fn states_of_files_start_a_body_or_are_refused() {
+    let words = guard::all("states", 0, 2_000, state);
+    assert!(guard::share(&words, "starts") > 100 && guard::share(&words, "refused") > 100);
 }
 
 #[cfg(feature = "meshes")]
