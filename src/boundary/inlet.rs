@@ -113,8 +113,8 @@ impl<const D: usize> Inlet<D> {
         }
     }
 
-    /// Lets a rigid motion carry it, as that of the wall that it is in. Opening, velocity, and what a [boundary](OpenBoundary) is asked
-    /// for and gives, are those of the wall as built: liquid enters with this velocity relative to the opening.
+    /// Lets a rigid motion carry it, as that of the wall that it is in. Opening, velocity, and places and values of a
+    /// [boundary](OpenBoundary), are those of the wall as built: liquid enters with this velocity relative to the opening.
     ///
     /// ```
     /// use meshfree::boundary::{Inlet, Translation};

@@ -123,7 +123,7 @@ impl<const D: usize> Outlet<D> {
     }
 
     /// Lets a rigid motion carry a plane, with its [buffer](Self::buffer), as that of the wall that it is in. Point and normal are those as
-    /// built; what a boundary is asked for and gives is in the scene, where the plane is.
+    /// built; a [boundary](OpenBoundary) gives values in the frame of the scene, where the plane is.
     ///
     /// ```
     /// use meshfree::boundary::{Outlet, Translation};

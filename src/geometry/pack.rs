@@ -37,7 +37,7 @@ const PIECE: usize = 64;
 ///
 /// Δx = −0.2 h² ∇C with h of 1.5 spacings, until they rest (after Colagrossi, Bouscasse, Antuono & Marrone 2012,
 /// who fill the outside with particles that are mirrored; here it is an integral over cells of half the spacing, as
-/// Yu, Zhu, Haidn & Hu 2023 take it over levels). Where the lattice of [`fill`](super::fill) fits the shape, as in a box of
+/// Yu, Zhu, Zhang, Haidn & Hu 2023 take it over levels). Where the lattice of [`fill`](super::fill) fits the shape, as in a box of
 /// whole spacings, points stay on it.
 ///
 /// The points of the surface's two sides are packed each by itself: the liquid around a disc is

@@ -92,8 +92,8 @@ impl<T: Real> Simulation<T, 3> {
     ///
     /// At ½ it is the face of a body that is flat there, half a spacing outside of its last particles. Sheets and
     /// drops of few particles do not reach ½ and are left out; a single particle has about 0.12 in its place, so 0.1
-    /// shows them, and lies 0.3 smoothing lengths farther out on a flat face. `grid` \[m\] is the distance of points at which the filling
-    /// is read: the spacing of the particles resolves it, half of it shows smoother drops at eight times the price.
+    /// shows them, and lies 0.7 smoothing lengths farther out on a flat face. `grid` \[m\] is the distance of points at which the
+    /// filling is read: the spacing of the particles resolves it, half of it shows smoother drops at eight times the price.
     ///
     /// Cells of the grid are cut into six tetrahedra each, along which the filling is taken as linear (Doi & Koide
     /// 1991), so there are no ambiguous cases, and the surface is closed. It ends at planes of symmetry and periods, and is

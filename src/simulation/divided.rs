@@ -13,7 +13,7 @@ use crate::sweep::{InstructionSet, PairSweep, Pass, Records, Results, Root, Swee
 use std::ops::Range;
 use std::sync::Arc;
 
-/// What a cluster costs beside the entries of its list, in entries.
+/// The cost of a cluster without the entries of its list, in entries.
 const CLUSTER: usize = 8;
 
 /// The sum of the last digits of all velocities: of other motions it is another.
@@ -29,7 +29,7 @@ fn motion_of<T: Real, const D: usize>(group: &Group<T, D>) -> u64 {
     })
 }
 
-/// What a rank has of a group beside others.
+/// The part of a rank in a group.
 #[derive(Clone, Debug)]
 pub(crate) struct Share {
     pub team: Arc<Team>,

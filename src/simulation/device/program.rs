@@ -146,10 +146,10 @@ pub struct Program {
     pub predict: Vec<Action>,
     /// The end of it.
     pub restore: Vec<Action>,
-    /// Of every particle the step \[s\] that it bears, negative where its state is broken, the number of its criterion, the square of
+    /// Of every particle its largest stable step \[s\], negative where its state is broken, the number of its criterion, the square of
     /// its speed and its velocity.
     pub vote: Vec<Action>,
-    /// Where pairs may close too fast: the sweep that tells by how much, and of every particle the step \[s\] that it bears and
+    /// Where pairs may close too fast: the sweep that tells by how much, and of every particle its largest stable step \[s\] and
     /// minus the closing speed over the mean sound speed.
     pub approach: Vec<Action>,
     /// Of every particle the square of its displacement \[m²\] since lists were built, and the displacement \[m\].
