@@ -132,15 +132,18 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// If no body carries the field, or a point is not finite.
     pub fn sample(&self, field: Field, points: &[[f64; D]]) -> Result<Sample<D>> {
         let (_, carriers) = self.carriers(field)?;
-        self.sample_particles(field, carriers, points)
+        let hidden = |point: &[f64; D], least| self.boundaries_before(point, least);
+        self.sample_particles(field, carriers, points, hidden)
     }
 
-    /// As [`sample`](Self::sample), of some particles that carry the field.
+    /// As [`sample`](Self::sample), of some particles that carry the field. A point, within a distance \[m\], sees no images of
+    /// the boundaries that are hidden from it, a bit for each.
     pub(super) fn sample_particles<'a>(
         &'a self,
         field: Field,
         carriers: impl Iterator<Item = ParticleView<'a, T, D>>,
         points: &[[f64; D]],
+        hidden: impl Fn(&[f64; D], f64) -> u64 + Sync,
     ) -> Result<Sample<D>> {
         check_points(points)?;
         let components = field.components(D);
@@ -210,7 +213,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let sums = sums.chunks_exact_mut(components);
             let points = &points[piece * POINTS..];
             for ((sums, filling), point) in sums.zip(filling).zip(points) {
-                let behind = self.boundaries_before(point, 1e-6 * reach);
+                let behind = hidden(point, 1e-6 * reach);
                 let [from, to] = [-reach, reach].map(|r| point.map(|x| x + r));
                 cells.for_each_run(from, to, |run| {
                     for source in run.iter().map(|&k| k as usize) {

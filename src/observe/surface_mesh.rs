@@ -2,13 +2,16 @@
 //! Marching tetrahedra over the filling of its particles, so that it is closed and its triangles meet edge to edge.
 
 use super::SampleGrid;
+use crate::boundary::Boundary;
 use crate::error::{Error, Problem, Result};
+use crate::origin::local;
 use crate::output::write_whole;
 use crate::particles::Field;
 use crate::scalar::Real;
 use crate::simulation::{Simulation, Which};
 use std::collections::HashMap;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Triangles that enclose a body, as [`Simulation::surface`] finds them.
 ///
@@ -96,8 +99,8 @@ impl<T: Real> Simulation<T, 3> {
     /// filling is read: the spacing of the particles resolves it, half of it shows smoother drops at eight times the price.
     ///
     /// Cells of the grid are cut into six tetrahedra each, along which the filling is taken as linear (Doi & Koide
-    /// 1991), so there are no ambiguous cases, and the surface is closed. It ends at planes of symmetry and periods, and is
-    /// closed there too.
+    /// 1991), so there are no ambiguous cases, and the surface is closed. At planes of symmetry and at the ends of periods it is
+    /// closed by a face, which is off by less than `grid`.
     ///
     /// ```
     /// use meshfree::geometry::Ball;
@@ -156,7 +159,18 @@ impl<T: Real> Simulation<T, 3> {
         let counts = steps.map(|steps| steps as usize + 1);
         let high = core::array::from_fn(|d| low[d] + steps[d] * grid);
         let points = SampleGrid::between(low, high, counts)?;
-        let filling = self.sample_particles(Field::POSITION, particles, &points.points())?;
+        // Beyond the end of a period the body is not its images.
+        let hidden = |point: &[f64; 3], least: f64| {
+            let x = local(point, &self.origin());
+            let left = |own: &Arc<dyn Boundary<3>>| own.wrap(&x, self.time()).is_some();
+            if self.boundaries().iter().any(left) {
+                u64::MAX
+            } else {
+                self.boundaries_before(point, least)
+            }
+        };
+        let at = points.points();
+        let filling = self.sample_particles(Field::POSITION, particles, &at, hidden)?;
         Ok(marched(&points, filling.filling(), level))
     }
 }
@@ -352,6 +366,39 @@ mod tests {
         let there = mesh(64.0);
         assert_eq!(here.triangles(), there.triangles());
         assert_relative_eq!(here.volume(), there.volume(), max_relative = 1e-9);
+    }
+
+    /// Images complete the filling before planes and ends of periods, and are no part of the body: its volume is that of a piece of a
+    /// long bar, whose edges are rounded alike.
+    #[test]
+    fn planes_and_periods_close_a_surface() {
+        use crate::prelude::*;
+        let grid = 0.0025;
+        let scene = |length: f64| {
+            let water = catalogue::weakly_compressible_water(2.0);
+            let body = Body::block("water", water, [0.0; 3], [length, 0.06, 0.06], 0.01);
+            Scene::<f64, 3>::new(schemes::weakly_compressible()).body(body)
+        };
+        let mesh = |scene: Scene<f64, 3>| {
+            let simulation = scene.build().unwrap();
+            simulation.surface("water", grid, 0.5).unwrap()
+        };
+        let [long, longer, free] = [0.2, 0.3, 0.1].map(|length| mesh(scene(length)).volume());
+        let piece = longer - long;
+        let planes = [(0.0, -1.0), (0.1, 1.0)]
+            .into_iter()
+            .fold(scene(0.1), |scene, (x, out)| {
+                scene.boundary(MirrorPlane::symmetry([x, 0.0, 0.0], [out, 0.0, 0.0]))
+            });
+        let period = scene(0.1).boundary(Periodic::along(0, 0.0, 0.1));
+        for mesh in [planes, period].map(mesh) {
+            assert_eq!(open_edges(&mesh), 0);
+            for x in mesh.vertices() {
+                assert!((-grid..=0.1 + grid).contains(&x[0]), "{x:?}");
+            }
+            assert_relative_eq!(mesh.volume(), piece, max_relative = 2.0 * grid / 0.1);
+            assert!(mesh.volume() > 1.02 * free, "ends of their own are rounded");
+        }
     }
 
     #[test]
