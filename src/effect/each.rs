@@ -34,6 +34,7 @@ macro_rules! for_each_effect {
                 $crate::effect::TwoPhase::default(),
                 $crate::effect::SurfaceTension::between("oil", "water", 0.03),
                 $crate::effect::Sponge::beyond([0.0], [1.0], 1.0, 1.0),
+                $crate::effect::AbsorbingLayer::beyond([0.0], [1.0], 1.0),
                 $crate::effect::ExtrapolatedPressure::default(),
                 $crate::effect::HydrostaticWalls::default(),
                 $crate::effect::RiemannWalls::default()

@@ -33,7 +33,7 @@ pub enum Update {
         /// Largest length in the same units.
         largest: f64,
     },
-    /// Y ← R (Y + dt s) Rᵀ for a symmetric tensor, with R the rotation by the spin ½ (∇v − ∇vᵀ) over dt: the
+    /// Y ← R (Y + dt (g Y + s)) Rᵀ for a symmetric tensor, with R the rotation by the spin ½ (∇v − ∇vᵀ) over dt: the
     /// Jaumann rate, integrated so that a rigid rotation is exact (Hughes & Winget 1980). The spin is that of
     /// [`View::velocity_gradient`].
     Rotated,

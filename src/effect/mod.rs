@@ -25,6 +25,7 @@
 
 #[cfg(test)]
 mod absent;
+mod absorbing_layer;
 mod access;
 mod acoustic_damping;
 mod arbitrary_lagrangian;
@@ -94,6 +95,7 @@ mod volume_consistency;
 mod walls;
 mod yielding_hourglass;
 
+pub use absorbing_layer::AbsorbingLayer;
 pub use access::Summed;
 pub use acoustic_damping::AcousticDamping;
 pub use arbitrary_lagrangian::ArbitraryLagrangian;

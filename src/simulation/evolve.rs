@@ -40,6 +40,7 @@ pub(super) fn rates<T: Real, const D: usize>(
     let rates = &mut rates[..values.len()];
     parts(own, view, first, values, growths, rates);
     if own.update == Update::Rotated {
+        add_growth(values, growths, rates);
         for (n, rates) in rates.chunks_exact_mut(width).enumerate() {
             let tensor = Symmetric::from_slice(&values[n * width..]);
             let turn = tensor.spun(&view.spin(first + n));
@@ -74,6 +75,14 @@ fn parts<T: Real, const D: usize>(
         let view = view.of_rate(&**rate, own.field);
         rate.growth(&view, first, values, growths);
         rate.source(&view, first, sources);
+    }
+}
+
+/// s + g Y for tensors, of one growth each.
+fn add_growth<T: Real>(values: &[T], growths: &[T], sources: &mut [T]) {
+    let width = values.len() / growths.len();
+    for (k, source) in sources.iter_mut().enumerate() {
+        *source += values[k] * growths[k / width];
     }
 }
 
@@ -131,6 +140,7 @@ pub(super) fn update<T: Real, const D: usize>(
                 }
             }
             Update::Rotated => {
+                add_growth(values, growths, sources);
                 for (n, values) in values.chunks_exact_mut(width).enumerate() {
                     let source = Symmetric::from_slice(&sources[n * width..]);
                     let moved = Symmetric::from_slice(values).plus(dt, &source);

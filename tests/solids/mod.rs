@@ -1,6 +1,7 @@
 //! Solids and gases against exact solutions: rods that strike, waves, shock tubes, and what is conserved.
 //! Cases of several bodies and schemes among them: contact, loads, events, conversion.
 
+mod absorbing_layer;
 mod advice;
 mod at_walls;
 mod bad_solids;
