@@ -1,15 +1,19 @@
-//! Loads: accelerations and heat sources that depend on place, velocity, density, body and time.
+//! Loads: accelerations and heat sources that depend on place, velocity, density, other fields, body and time.
 //! What pushes or heats a particle whatever its neighbours are: wells, drag, rotating frames, lasers, decay.
 
-use crate::particles::{Field, Fields};
+use crate::particles::{Columns, Field, Fields};
 use crate::scalar::Real;
 use core::fmt;
+use core::fmt::Debug;
 use std::sync::Arc;
 
 /// What a load may depend on: a particle at the time of an evaluation.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct LoadPoint<'a, const D: usize> {
+    /// The number of the particle in its body, in the order in which the scene placed them, as
+    /// [`Column::numbers`](super::Column::numbers) has it: what another code keeps of a particle goes by it.
+    pub particle: usize,
     /// Position x \[m\] in the scene, in `f64`.
     pub position: [f64; D],
     /// Where the particle was in the scene as built \[m\], which stays with the material; nothing for bodies that an
@@ -24,6 +28,27 @@ pub struct LoadPoint<'a, const D: usize> {
     /// The name of the body.
     pub body: &'a str,
     pub(super) happened: &'a [(String, Option<f64>)],
+    pub(super) fields: &'a dyn Seen,
+    pub(super) slot: usize,
+}
+
+/// Fields of particles that a load reads, whatever the scalar.
+pub(super) trait Seen: Debug {
+    /// Component `k` of a field of the particle in a slot.
+    fn number(&self, field: Field, slot: usize, k: usize) -> Option<f64>;
+}
+
+/// The columns that a load names.
+#[derive(Debug)]
+pub(super) struct Named<'a, T, const D: usize>(pub &'a Columns<T, D>, pub Fields);
+
+impl<T: Real, const D: usize> Seen for Named<'_, T, D> {
+    fn number(&self, field: Field, slot: usize, k: usize) -> Option<f64> {
+        let column = self.1.contains(field).then(|| self.0.raw(field))?;
+        column
+            .get(slot * field.components(D) + k)
+            .map(|x| x.to_f64())
+    }
 }
 
 impl<const D: usize> LoadPoint<'_, D> {
@@ -35,6 +60,16 @@ impl<const D: usize> LoadPoint<'_, D> {
     pub fn since(&self, event: &str) -> Option<f64> {
         let own = self.happened.iter().find(|(name, _)| name == event)?;
         own.1.map(|at| self.time - at)
+    }
+    /// A scalar field that the load [reads](Load::reading), as it is at this evaluation; nothing if it does not.
+    #[must_use]
+    pub fn scalar(&self, field: Field) -> Option<f64> {
+        self.component(field, 0)
+    }
+    /// Component `k` of a vector, tensor or matrix, in the order of [`Simulation::column`](super::Simulation::column).
+    #[must_use]
+    pub fn component(&self, field: Field, k: usize) -> Option<f64> {
+        (k < field.components(D)).then(|| self.fields.number(field, self.slot, k))?
     }
 }
 
@@ -90,9 +125,30 @@ type Law<R, const D: usize> = Arc<dyn Fn(&LoadPoint<'_, D>) -> R + Send + Sync>;
 /// assert!((heat[4] - 10.0).abs() < 0.1 && heat[5].abs() < 0.1, "1 MW/kg for 10 µs, 2 mm on: {heat:?}");
 /// # Ok::<(), Error>(())
 /// ```
+///
+/// Other fields it names beforehand.
+///
+/// ```
+/// use meshfree::effect::HeatConduction;
+/// use meshfree::prelude::*;
+/// // Current heats a wire by more, the hotter it is: 1 MW/kg at 300 K, and 0.4 % more for each kelvin.
+/// let conduction = HeatConduction { conductivity: 400.0, specific_heat: 385.0, temperature: 300.0 };
+/// let current = Load::heating(|at| {
+///     let kelvin = at.scalar(HeatConduction::TEMPERATURE).unwrap_or(300.0);
+///     1e6 * (1.0 + 0.004 * (kelvin - 300.0))
+/// });
+/// let mut wire = Scene::<f64, 1>::new(schemes::impact_by_continuity().with(conduction))
+///     .body(Body::block("wire", catalogue::copper(), [0.0], [0.01], 2e-4))
+///     .load(current.reading(&[HeatConduction::TEMPERATURE]))
+///     .build()?;
+/// wire.run_until(1e-6)?;
+/// # Ok::<(), Error>(())
+/// ```
 #[derive(Clone)]
 pub struct Load<const D: usize> {
     kind: Kind<D>,
+    /// What it reads beside what every load sees.
+    reads: Fields,
     /// The body on which it acts; on all without one.
     body: Option<String>,
 }
@@ -112,6 +168,7 @@ impl<const D: usize> Load<D> {
     ) -> Self {
         Self {
             kind: Kind::Acceleration(Arc::new(law)),
+            reads: Fields::NONE,
             body: None,
         }
     }
@@ -122,6 +179,7 @@ impl<const D: usize> Load<D> {
     pub fn heating(law: impl Fn(&LoadPoint<'_, D>) -> f64 + Send + Sync + 'static) -> Self {
         Self {
             kind: Kind::Heating(Arc::new(law)),
+            reads: Fields::NONE,
             body: None,
         }
     }
@@ -133,6 +191,18 @@ impl<const D: usize> Load<D> {
             body: Some(body.into()),
             ..self
         }
+    }
+
+    /// Names fields that it reads, for [`LoadPoint::scalar`] and [`LoadPoint::component`]. The schemes of its bodies must have them.
+    #[must_use]
+    pub fn reading(self, fields: &[Field]) -> Self {
+        let reads = self.reads.union(Fields::of(fields));
+        Self { reads, ..self }
+    }
+
+    /// What it reads beside what every load sees.
+    pub(crate) fn reads(&self) -> Fields {
+        self.reads
     }
 
     /// The name of the body that it was limited to.

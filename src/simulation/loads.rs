@@ -3,7 +3,7 @@
 
 use super::Simulation;
 use super::event::Happened;
-use super::load::{Load, LoadPoint};
+use super::load::{Load, LoadPoint, Named};
 use super::population::Particles;
 use crate::collective::{Collective, over_pieces};
 use crate::error::{Error, Result};
@@ -145,20 +145,25 @@ fn evaluate_load<'a, T: Real, const D: usize>(
         columns.vectors(Field::VELOCITY),
         columns.raw(Field::DENSITY),
     );
+    let fields = Named(columns, load.reads());
     let bodies = particles.bodies.iter();
     for body in bodies.filter(|body| load.acts_on(&body.name) && !body.slots.is_empty()) {
         let run = body.run();
         let live = body.slots.len() * width;
         let (own, repeats) = values[run.start * width..run.end * width].split_at_mut(live);
         let add = |(slot, sum): (usize, &mut [T])| {
+            let identity = particles.ids[slot] as usize;
             let at = LoadPoint {
+                particle: identity - body.ids.start,
                 position: particles.position(slot),
-                as_built: built.get(particles.ids[slot] as usize).copied().flatten(),
+                as_built: built.get(identity).copied().flatten(),
                 velocity: velocities[slot].map(Real::to_f64),
                 density: densities[slot].to_f64(),
                 time,
                 body: &body.name,
                 happened,
+                fields: &fields,
+                slot,
             };
             load.add(&at, sum).map(|value| (slot, value))
         };

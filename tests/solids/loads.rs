@@ -3,6 +3,7 @@
 
 use approx::assert_relative_eq;
 use meshfree::boundary::Periodic;
+use meshfree::effect::HeatConduction;
 use meshfree::error::{Error, Problem};
 use meshfree::integrator::{DriftKickDrift, Integrator, KickDriftKick, RungeKutta4};
 use meshfree::material::eos::{IdealGas, Linear};
@@ -334,5 +335,45 @@ fn loads_on_what_is_not_there_or_cannot_be_heated_are_refused() {
     assert!(
         problem.to_string().contains("carries no energy"),
         "{problem}"
+    );
+}
+
+/// A rod in a bath of 400 K that takes up k (400 K − T) per second, in every other particle, by what another code keeps by number.
+#[test]
+fn loads_see_the_fields_that_they_name_and_the_number_of_the_particle() {
+    const TEMPERATURE: meshfree::particles::Field = HeatConduction::TEMPERATURE;
+    let (specific_heat, k) = (385.0, 2e6);
+    let insulated = HeatConduction {
+        conductivity: 0.0,
+        specific_heat,
+        temperature: 300.0,
+    };
+    let rod = Body::block("a", catalogue::copper(), [0.0], [0.01], 2e-4);
+    let scheme = schemes::impact_by_continuity().with(insulated);
+    let kept: Vec<f64> = (0..50).map(|n| f64::from(n % 2)).collect();
+    let bath = Load::heating(move |at| {
+        let own = at.scalar(TEMPERATURE).expect("a field that is named");
+        assert!(at.scalar(HeatConduction::CONDUCTIVITY).is_none());
+        kept[at.particle] * k * specific_heat * (400.0 - own)
+    });
+    let mut run = Scene::<f64, 1>::new(scheme)
+        .body(rod.clone())
+        .load(bath.reading(&[TEMPERATURE]))
+        .build()
+        .unwrap();
+    run.run_until(1e-6).unwrap();
+    let exact = 400.0 - 100.0 * (-k * run.time()).exp();
+    for (number, own) in run.column("a", TEMPERATURE).unwrap().iter() {
+        let right = if number % 2 == 1 { exact } else { 300.0 };
+        assert_relative_eq!(own[0], right, max_relative = 1e-3);
+    }
+    let problems = Scene::<f64, 1>::new(schemes::impact())
+        .body(rod)
+        .load(Load::acceleration(|_| [0.0]).reading(&[TEMPERATURE]))
+        .problems();
+    let text = problems[0].to_string();
+    assert!(
+        text.contains("reads temperature of body `a`") && text.contains("Load::on"),
+        "{text}"
     );
 }

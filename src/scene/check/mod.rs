@@ -213,6 +213,18 @@ impl<T: Real, const D: usize> Scene<T, D> {
             let warms = part.scheme.program.keeps(HeatConduction::TEMPERATURE);
             let cold = load.heats() && part.scheme.energy == EnergyForm::None && !warms;
             let mut own = part.bodies.iter();
+            let there = part.scheme.fields();
+            let lacks = load.reads().iter().find(|field| !there.contains(*field));
+            let mut acted_on = part.bodies.iter().filter(|body| load.acts_on(&body.name));
+            if let (Some(field), Some(body)) = (lacks, acted_on.next()) {
+                problems.push(Problem::Incompatible {
+                    what: format!(
+                        "the load ({load}) reads {} of body `{}`, which the scheme {} does not have",
+                        part.scheme.program.name_of(field), body.name, part.scheme.name
+                    ),
+                    remedy: "add the effect that has the field, or limit the load with `Load::on` to a body that has it",
+                });
+            }
             if let Some(body) = own.find(|body| cold && load.acts_on(&body.name)) {
                 problems.push(Problem::Incompatible {
                     what: format!(
