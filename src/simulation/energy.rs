@@ -25,7 +25,9 @@ pub struct EnergyLedger {
     pub law_work: f64,
     /// Work of [joints](crate::coupling::Joint) of rigid bodies on these since the start: of motors, less what dampers took and springs store.
     pub joint_work: f64,
-    /// Kinetic energy that left through outlets.
+    /// Kinetic energy that [entered](Simulation::entered) through inlets and sources since the scene was built.
+    pub entered: f64,
+    /// Kinetic energy that [left](Simulation::removed) through outlets and drains since then.
     pub left: f64,
     /// What viscosities, diffusion, shifting and the steps have taken: the work done less the gain in
     /// energy. Physical and numerical dissipation are not told apart.
@@ -35,6 +37,7 @@ pub struct EnergyLedger {
 /// The running sums behind an [`EnergyLedger`].
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Work {
+    /// Energies at the start, with the kinetic energy that had left by then, less what had entered \[J\].
     pub start: f64,
     pub load: f64,
     pub wall: f64,
@@ -50,8 +53,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.on_both(&|own| {
             own.state.stores.forget(own.state.groups.len());
             let (kinetic, compression) = own.stored();
+            let passed = own.removed().kinetic - own.entered().kinetic;
             own.state.work = Some(Work {
-                start: kinetic + compression,
+                start: kinetic + compression + passed,
                 laws: own.work_of_laws(None),
                 joints: own.state.joints.work(),
                 ..Work::default()
@@ -64,10 +68,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub fn energy(&self) -> Option<EnergyLedger> {
         let work = self.state.work?;
         let (kinetic, compression) = self.stored();
-        let left = self.removed().kinetic;
+        let (entered, left) = (self.entered().kinetic, self.removed().kinetic);
         let laws = self.work_of_laws(None) - work.laws;
         let joints = self.state.joints.work() - work.joints;
-        let supplied = work.start + work.load + work.wall + laws + joints;
+        let supplied = work.start + work.load + work.wall + laws + joints + entered;
         Some(EnergyLedger {
             kinetic,
             compression,
@@ -75,6 +79,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             wall_work: work.wall,
             law_work: laws,
             joint_work: joints,
+            entered,
             left,
             dissipated: supplied - kinetic - compression - left,
         })

@@ -72,6 +72,30 @@ fn mass_closes_and_follows_the_rates() {
     assert_eq!(run.entered().particles, 8, "3.2 kg/m");
 }
 
+/// A jet in free flight takes nothing, and a ledger that is kept from later on shows what came since.
+#[test]
+fn the_energy_that_enters_is_booked() {
+    let jet = (0..3).map(|k| [1.0, DX * f64::from(k)]).collect();
+    let mut run = Scene::new(schemes::weakly_compressible())
+        .body(Body::block("water", water(), [0.0; 2], [0.1; 2], DX))
+        .source(Source::new("water", jet, 40.0, 100).velocity([2.0, 0.0]))
+        .build()
+        .expect("a jet");
+    run.keep_energy();
+    run.run_until(0.05).expect("a run");
+    let mut later = run.clone();
+    later.keep_energy();
+    let first = run.energy().expect("a ledger");
+    assert!(first.entered > 1.0 && first.entered == run.entered().kinetic);
+    assert_abs_diff_eq!(first.dissipated, 0.0, epsilon = 0.02 * first.entered);
+    for run in [&mut run, &mut later] {
+        run.run_until(0.1).expect("a run");
+    }
+    let (whole, later) = (run.energy().expect("one"), later.energy().expect("one"));
+    let since = whole.dissipated - first.dissipated;
+    assert_abs_diff_eq!(later.dissipated, since, epsilon = 1e-12 * whole.entered);
+}
+
 /// The same particles enter and leave at the same times wherever the scene is.
 #[test]
 fn place_changes_nothing() {
