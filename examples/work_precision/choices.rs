@@ -159,8 +159,6 @@ pub fn table() -> Table {
         "choice",
         "problem",
         "error",
-        "pairs",
-        "time",
         "pairs for the same error",
         "time for the same error",
     ])
@@ -175,19 +173,12 @@ pub fn add(table: &mut Table, key: &str, title: &str, report: &Report) {
         }
         let [without, with] = [*without, *with].map(|name| pilots(report, &view, name));
         let error = mean(&without, &with, |row| view.error(row));
-        let counted = |of: fn(&Row) -> f64| mean(&without, &with, |row| Some(of(row)));
-        let [pairs, time] = [
-            counted(|row| row.work.pairs as f64),
-            counted(|row| row.seconds),
-        ];
         let same = |column| same_error(&view, &without, &with, column);
         let cell = |ratio: Option<f64>| ratio.map_or("–".to_string(), |r| significant(r, 2));
         table.row([
             (*choice).to_string(),
             title.to_string(),
             cell(error),
-            cell(pairs),
-            cell(time),
             cell(same(Column::Pairs)),
             cell(same(Column::Seconds)),
         ]);
