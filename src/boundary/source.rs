@@ -127,7 +127,7 @@ impl<const D: usize> Source<D> {
             problems.push(("velocity", bad, "it must be finite, in m/s"));
         }
         if self.reserve as f64 > MOST_PARTICLES {
-            let must_be = "memory for it is kept from the start: it must stay below 4e9 particles";
+            let must_be = "memory is reserved for all of them: it must be below 4e9 particles";
             problems.push(("reserve", self.reserve as f64, must_be));
         }
         problems

@@ -104,7 +104,8 @@ impl<const D: usize> Wall<D> {
             return refused(("size", bad, must_be));
         }
         if layers == 0 {
-            let must_be = "it must be at least one, and as many as the kernel reaches: a count, and no length";
+            let must_be = "it must be at least one, and as many as the kernel reaches: a number of layers, not a \
+            length";
             return refused(("number of layers", 0.0, must_be));
         }
         let most = 2.0 * MOST_PARTICLES;

@@ -147,8 +147,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             advise_on_wall(&body.name, flow, wall, false, advice);
         } else if !any && !self.walls.is_empty() {
             advice.lacks(
-                "whether walls give way: give Known::wall, its modulus, density and thickness"
-                    .into(),
+                "whether walls move: give Known::wall, its modulus, density and thickness".into(),
             );
         }
     }
@@ -172,7 +171,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             ),
             Some(gas) => (gas / heavy.0, heavy.1.to_owned(), false),
             None => {
-                return advice.lacks("gas beside the liquid: give Known::gas_density".into());
+                return advice.lacks("gas next to the liquid: give Known::gas_density".into());
             }
         };
         let line = GAS.line(&of, ratio, Some(present));

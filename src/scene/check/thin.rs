@@ -37,7 +37,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
                             body.spacing,
                             body.points.len()
                         ),
-                        remedy: "take a spacing of at most half of its thickness; what is to bend wants five particles across",
+                        remedy: "take a spacing of at most half of its thickness; a body that bends needs five \
+                        particles across",
                     });
                 }
             }
