@@ -143,7 +143,7 @@ fn index_lines_are_whole_sentences() {
 }
 
 /// Words and phrases to avoid, and what to write.
-const AVOID: [(&str, &str); 48] = [
+const AVOID: [(&str, &str); 64] = [
     ("asleep", "at rest"),
     ("astray", "what it did"),
     ("bear", "support, carry or allow"),
@@ -183,6 +183,22 @@ const AVOID: [(&str, &str); 48] = [
     ("puts back", "restores"),
     ("what is off", "the noun"),
     ("one s own", "your own"),
+    ("from nowhere", "that the time integration creates"),
+    ("give way", "move"),
+    ("gives way", "moves"),
+    ("has to be said", "the scene has to say"),
+    ("held against", "compared with"),
+    ("how steep", "rise"),
+    ("in vain", "the noun"),
+    ("looks through", "reaches through"),
+    ("middling", "moderate"),
+    ("otherwise than", "differently from"),
+    ("tells of", "reports"),
+    ("that is none", "the condition"),
+    ("turn round", "reverse"),
+    ("turned round", "reversed"),
+    ("unless told", "by default"),
+    ("wants", "needs"),
     // What only the history of a page or the work on it explains.
     ("as this page had", "what holds"),
     ("as was written here", "what holds"),

@@ -67,7 +67,7 @@ pub enum Error {
     StoredEnergy {
         /// The bodies that share the energy, or the coupling.
         part: String,
-        /// Energy from nowhere \[J\].
+        /// Energy created by the time integration \[J\].
         gain: f64,
         /// The largest energy supplied so far \[J\].
         supplied: f64,

@@ -46,7 +46,7 @@ pub enum Problem {
         /// Where \[m\].
         position: Vec<f64>,
     },
-    /// A wall that the kernel looks through.
+    /// A wall that is thinner than the kernel reaches.
     #[error(
         "wall `{wall}` is thinner than the kernel reaches ({reach} m): liquid would interact through it, and its \
          pressure would be too low; give it {layers} layers of particles"

@@ -158,7 +158,7 @@ fn has_inside<const D: usize>(
     }
 }
 
-/// The points of the lattice in the shape's box, widened by `margin` \[m\], that `mark` wants of each row.
+/// The points of the lattice in the shape's box, widened by `margin` \[m\], that `mark` takes of each row.
 pub(super) fn lattice<const D: usize>(
     shape: &(impl Shape<D> + ?Sized),
     spacing: f64,

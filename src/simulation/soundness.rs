@@ -98,7 +98,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             .collect()
     }
 
-    /// Refuses a step of `dt` \[s\] at whose end a boundary, a wall, an inlet or a clamp is nowhere, or in which a wall moves otherwise than its
+    /// Refuses a step of `dt` \[s\] at whose end a boundary, a wall, an inlet or a clamp is nowhere, or in which a wall moves differently from its
     /// own velocity, as one that jumps does.
     pub(super) fn check_motions(&self, dt: f64) -> Result<()> {
         let (time, end) = (self.state.time, self.state.time + dt);

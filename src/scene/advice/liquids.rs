@@ -1,4 +1,4 @@
-//! Advice on liquids: sound, gravity, surface tension, cavitation, gas, and walls that give way.
+//! Advice on liquids: sound, gravity, surface tension, cavitation, gas, and walls that move.
 //! Speeds are what bodies start with, what walls have, and √(a L) of uniform accelerations.
 
 use super::bands::{
@@ -125,7 +125,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         advice.add(FROUDE.line(of, froude.max(weight), Some(present)));
     }
 
-    /// Walls that give way: structures of the scene, or the wall that is known.
+    /// Walls that move: structures of the scene, or the wall that is known.
     fn advise_on_walls(&self, body: &Body<T, D>, flow: &Flow, known: &Known, advice: &mut Advice) {
         let solids = self.parts.iter().filter(|part| !part.scheme.meets_walls());
         let mut any = false;

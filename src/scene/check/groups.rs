@@ -1,5 +1,5 @@
 //! What can be wrong between groups: bodies of different schemes that nothing couples, couplings and sub-cycling.
-//! A liquid meets structures; all else is coupled by what the scene says, or has to be said not to meet.
+//! A liquid meets structures; all else is coupled by the scene, or the scene says that it does not meet.
 
 use super::TOO_CLOSE;
 use super::doubled::nearest_pair;

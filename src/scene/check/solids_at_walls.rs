@@ -1,4 +1,4 @@
-//! What can be wrong where solids meet walls of particles: contact that is not named, and what is said of walls in vain.
+//! What can be wrong where solids meet walls of particles: contact that is not named, and couplings that walls cannot have.
 //! A liquid meets all walls by the wall law of its scheme.
 
 use crate::error::Problem;

@@ -1,4 +1,4 @@
-//! Total-Lagrangian bodies that are one particle thick: no gradient across them can be told, and they bend like a cloth.
+//! Total-Lagrangian bodies that are one particle thick: there is no gradient across them, and they bend like a cloth.
 //! What images continue is not looked at.
 
 use crate::error::Problem;
