@@ -203,7 +203,7 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
         .columns(2)
         .save(options.file("rings.svg"))?;
 
-    let last = history.last().ok_or("no time was asked for")?;
+    let last = history.last().ok_or("no time was given")?;
     let end = rings.ledger().whole;
     let contact = end.total("work of couplings").unwrap_or(0.0);
     let report = format!(
