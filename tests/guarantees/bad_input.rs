@@ -897,7 +897,7 @@ fn names_that_are_empty_and_bodies_against_themselves() {
     );
     incompatible(
         &problem(good().between("rod", "rod", Interaction::None)),
-        "`rod` does to itself",
+        "body `rod` with itself",
         "name two bodies",
     );
 }

@@ -311,7 +311,7 @@ fn motions_that_are_no_numbers() {
     );
     names(
         pool().wall(tank().motion(Translation::new(nan, later, later))),
-        &["`tank` moves"],
+        &["displacement of wall `tank`"],
     );
 }
 
