@@ -22,7 +22,7 @@ const EXAMPLE: Example = Example {
     about: "A spinning square patch of liquid under its own tension, with a verdict on its stability.",
     schemes: &["weakly compressible"],
     own: &[Own {
-        name: "--cure",
+        name: "--remedy",
         value: "NAME",
         help: "none, shifting, even (the default: shifting, artificial pressure and pairing control)",
     }],
@@ -36,9 +36,9 @@ pub(crate) fn main() -> ExitCode {
     common::main(&EXAMPLE, perform::<f64>, None)
 }
 
-/// One composition, whose cures act with strengths that may be zero.
-fn scheme<T: Real>(cure: &str) -> Result<Scheme<T, 2>, Failure> {
-    let (shifting, share, strength) = match cure {
+/// One composition, whose remedies act with strengths that may be zero.
+fn scheme<T: Real>(remedy: &str) -> Result<Scheme<T, 2>, Failure> {
+    let (shifting, share, strength) = match remedy {
         "none" => (0.0, 0.0, 0.0),
         "shifting" => (2.0, 0.0, 0.0),
         "even" => {
@@ -50,7 +50,7 @@ fn scheme<T: Real>(cure: &str) -> Result<Scheme<T, 2>, Failure> {
         }
         other => {
             return Err(format!(
-                "--cure: `{other}` is not accepted; it takes none, shifting or even"
+                "--remedy: `{other}` is not accepted; it takes none, shifting or even"
             )
             .into());
         }
@@ -80,7 +80,7 @@ fn pressure([x, y]: [f64; 2]) -> f64 {
 }
 
 fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
-    let cure = options.text("--cure").unwrap_or("even");
+    let remedy = options.text("--remedy").unwrap_or("even");
     let spacing = options.spacing_or(0.01, 0.02);
     let until = options.until_or(4.0, 4.0);
     let spin = |[x, y]: [f64; 2], start| Start {
@@ -90,7 +90,7 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
     };
     let water = catalogue::water_at(SoundSpeed::Chosen(SOUND));
     let body = Body::block("patch", water, [-0.5; 2], [0.5; 2], spacing).start(spin);
-    let mut patch = Scene::new(scheme::<T>(cure)?).body(body).build()?;
+    let mut patch = Scene::new(scheme::<T>(remedy)?).body(body).build()?;
     patch.keep_stability(Thresholds {
         nearest: 0.5,
         every: 50,
@@ -151,7 +151,7 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
             Ok(())
         })
         .go()?;
-    let mut figure = Figure::new().title(&format!("spinning square patch, cure: {cure}"));
+    let mut figure = Figure::new().title(&format!("spinning square patch, remedy: {remedy}"));
     for panel in panels {
         figure = figure.panel(panel);
     }
@@ -162,7 +162,7 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
                 Axis::linear("nearest pair / spacing", "1").from(0.0),
             )
             .series(Series::line(
-                cure,
+                remedy,
                 history.iter().map(|row| (row[0], row[1])),
             )),
         )
@@ -170,7 +170,7 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
         .save(options.file("patch.svg"))?;
     let (first, last) = (history[0], history[history.len() - 1]);
     let report = format!(
-        "Spinning square patch of unit side at 1/s, spacing {spacing} m, cure {cure}\n{summary}\n\
+        "Spinning square patch of unit side at 1/s, spacing {spacing} m, remedy {remedy}\n{summary}\n\
          angular momentum {:+.4}, kinetic energy {:+.4} of that at the start\n{}",
         last[3] / first[3] - 1.0,
         last[4] / first[4] - 1.0,

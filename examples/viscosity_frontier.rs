@@ -242,7 +242,7 @@ const TEXT: &str = include_str!("viscosity_frontier.md");
 /// The command line.
 #[derive(Parser)]
 #[command(
-    about = "How steep a front each artificial viscosity allows, and how far it rings: copper rods at 20 m/s."
+    about = "Rise and overshoot of an impact front by each artificial viscosity: copper rods at 20 m/s."
 )]
 struct Line {
     /// Coarse and few, to see that it runs

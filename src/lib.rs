@@ -183,8 +183,8 @@
 //!
 //! # Extending
 //!
-//! Eight traits are meant to be implemented in a crate of your own. Each has an example that compiles, and the page on [extending](crate#pages) has
-//! them one after another:
+//! Eight traits are meant to be implemented in a crate of your own. Each has an example that compiles; the page on [extending](crate#pages) has a
+//! whole effect and a force on single particles:
 //!
 //! | trait | example | what it asks for |
 //! |---|---|---|
@@ -195,7 +195,7 @@
 //! | [`Boundary`](boundary::Boundary) | [at the trait](boundary::Boundary) | images and their transforms |
 //! | [`Shape`](geometry::Shape) | [at the trait](geometry::Shape) | signed distance and a box around it |
 //! | [`Integrator`](integrator::Integrator) | [at the trait](integrator::Integrator) | one step, from a handful of operations |
-//! | [`Effect`](effect::Effect) | [in `effect`](effect) | pair terms by stage, fields of its own, laws, limits, ledger |
+//! | [`Effect`](effect::Effect) | on the page [extending](crate#pages) | pair terms by stage, fields of its own, laws, limits, ledger |
 //!
 //! The first four run inside the loop over pairs or over particles. Their methods are generic over a
 //! [`Lane`](scalar::Lane), so one text serves a single number and a row of them, and what you write is

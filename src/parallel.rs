@@ -56,7 +56,7 @@ pub(crate) struct Cut<'a, V> {
 // SAFETY: threads get pieces of the slice that do not overlap, as if it had been split among them.
 unsafe impl<V: Send> Sync for Cut<'_, V> {}
 
-/// A slice in pieces of `size` entries (one, if that is none), and of fewer at its end.
+/// A slice in pieces of `size` entries (one, if `size` is zero), and of fewer at its end.
 pub(crate) fn cut<V>(data: &mut [V], size: usize) -> Cut<'_, V> {
     Cut {
         data: data.as_mut_ptr(),

@@ -159,7 +159,7 @@ pub fn lam2002() -> SchemeBuilder<CubicSpline, MonaghanGingold> {
 /// | waves, from crest to crest | `.renormalised()` and α = 0.005 | on 40 particles a wavelength crests keep their height within 0.4 % a period, where they lose 6 %; a sweep more |
 /// | viscous flow without a surface | `.with_kernel(WendlandC4).h_over_dx(2.2)` | half the error of velocities in less time |
 ///
-/// **Slow viscous flow under pressure** comes out too slow where p ≫ μ |∇v| + ρ v²: the pressure force hardens the lattice of
+/// **Slow viscous flow under pressure** is too slow where p ≫ μ |∇v| + ρ v²: the pressure force hardens the lattice of
 /// particles against shear, vortices of Re 10 under 300 μ U k have 0.57 of their speed. With
 /// [`PressureDifference`](crate::effect::PressureDifference) and [`ConsistentShifting`](crate::effect::ConsistentShifting) they have 1.02 of it
 /// under any pressure. [`Scene::advise`](crate::scene::Scene::advise) names the condition, and [hard cases](crate#pages) has numbers. A sound speed of ten times the flow is too low where viscosity makes the

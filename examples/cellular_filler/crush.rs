@@ -35,10 +35,10 @@ Our choice, which the paper does not state:
 - rigid plates above and below, which touch structure and water; all starts at rest, and the speed of the upper one grows
   as half a cosine while sound runs through the block six times (a strain of 0.9 % for one cell of c = 1.5 mm);
 - contact without friction by springs between particles (images in planes of symmetry included);
-- artificial viscosity: alpha 0.2 in the polymer, none in the water beside its density diffusion;
+- artificial viscosity: alpha 0.2 in the polymer, none in the water apart from its density diffusion;
 - no outlet: water that has left flies on;
 - water sticks to structure and plates;
-- Mie-Grueneisen constants of water C0 1480 m/s, S 1.92, Gamma 0.1; it bears no tension;
+- Mie-Grueneisen constants of water C0 1480 m/s, S 1.92, Gamma 0.1; it supports no tension;
 - one cell (the paper: sixteen), and a spacing of 0.25 mm of structure and water (the paper: elements of 0.1 mm and
   particles 0.112 mm apart).";
 

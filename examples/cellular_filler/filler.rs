@@ -41,7 +41,7 @@ pub const CHOICES: &str = "\
 Vesenjak & Ren (2007): holes of 3 mm, walls of 1.5, 1.0 and 0.5 mm, strain rate 1000 1/s, water.
 Our choice, which the paper does not state: cells in a block one deep between planes of symmetry, open at
 one end and symmetric at the other, plates above and below; walls move in an affine crush, whose rate grows
-from zero while sound runs through the block six times (a sudden start tears the water); viscosities 1e-3
+from zero while sound runs through the block six times (a sudden start cavitates the water); viscosities 1e-3
 to 1 Pa s; spacing of particles 0.25 mm (0.112 mm in the paper); Mie-Grueneisen constants of water C0 1480 m/s,
 S 1.92, Gamma 0.1.";
 

@@ -49,19 +49,16 @@ const SHARED: [Own; 14] = [
     own(
         "--expansion-memory",
         "",
-        "remembers how far cavitated liquid has expanded (it forgets)",
+        "remembers how far cavitated liquid has expanded (off)",
     ),
-    own(
-        "--riemann-walls",
-        "",
-        "lets walls meet liquid as in a Riemann problem",
-    ),
+    own("--riemann-walls", "", "walls by one-sided Riemann problems"),
     own(
         "--jitter",
         "S",
-        "how far off the lattice particles start, over dx (0; spheric2: 0.2, with lattice rows offset)",
+        "random displacement of particles from the lattice at the start, over dx (0; spheric2: 0.2, with lattice \
+         rows offset)",
     ),
-    own("--seed", "N", "another draw of the jitter (1)"),
+    own("--seed", "N", "seed of the random displacement (1)"),
     own(
         "--frames",
         "N",

@@ -28,7 +28,7 @@ each choice gains.",
     own: &violent::options_and(own(
         "--gate",
         "M/S",
-        "pulls the gate up at this speed, in a plane (it vanishes at once)",
+        "pulls the gate up at this speed, in a plane (default: it vanishes at once)",
     )),
 };
 

@@ -36,7 +36,7 @@ const EXAMPLE: Example = Example {
         Own {
             name: "--spacing",
             value: "MM",
-            help: "distance of particles; 0.25 in a plane, 0.5 in space",
+            help: "particle spacing; 0.25 in a plane, 0.5 in space",
         },
         Own {
             name: "--time",

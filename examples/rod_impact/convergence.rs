@@ -153,42 +153,35 @@ fn page(table: &str, slopes: &[String; 2], difference: f64) -> String {
 `cargo run --release --example rod_impact -- --convergence` makes this page and its plot.
 
 Copper, 10 mm at 20 m/s, onto 40 mm of copper at rest (case 1 and figure 1 of Lam, Shen & Gong 2002).
-The error is the L1 norm of the stress at 7.7 µs over the whole chain, as a part of the pulse (353.17 MPa
-times 20 mm). Profiles are taken as linear between particles. The exact solution is the Godunov
-reference with the same equation of state, converged far below the errors here. The last two columns
-compare with linear waves instead, which are themselves off by {difference:.2} %: pressure and wave
-speed grow with compression (S = 1.49), and no refinement of the particles removes that.
+The error is the L1 norm of the stress at 7.7 µs over the whole chain, relative to the pulse (353.17 MPa
+times 20 mm), with profiles linear between particles. The reference is the converged Godunov solution with
+the same equation of state. The last two columns compare with linear waves, which are themselves off by
+{difference:.2} %: pressure and wave speed grow with compression (S = 1.49).
 
 {table}
-Observed order (least squares, 95 %): impact {impact}, lam2002 {lam}. A jump that is
-spread over a fixed number of particles costs an L1 error of first order, whatever the order of the
-method in smooth flow; fronts that widen as they travel cost more. lam2002 levels off: what is left is the
-wrong speed of its waves, which no refinement removes.
+Observed order (least squares, 95 %): impact {impact}, lam2002 {lam}. A jump spread over a fixed number of
+particles has an L1 error of first order, whatever the order of the method in smooth flow; fronts that widen
+have more. lam2002 levels off at the wrong speed of its waves, which no refinement removes.
 
 ![L1 error against spacing](rods_convergence.svg)
 
 ## Why lam2002 is worse
 
-- **Wave speed.** On a lattice the uncorrected pair of density and pressure carries waves at s times the
-  speed of sound, with s the first moment of the kernel's gradient: 1.0205 for the cubic spline at
-  h/dx 1.2. The plateaus do not show it; arrivals do, at every spacing. `impact` divides by s, particle by
-  particle, and arrives in time.
-- **Viscosity.** The plain form of Monaghan & Gingold damps whatever is compressed, fronts and smooth
-  flow alike. At 5 mm the front takes 0.24 µs from 10 to 90 %, with `impact` 0.09 µs, and it widens as it
-  goes. The limited form sees only what linear reconstruction does not explain.
-- **Joints.** Density by summation smears a joint over the kernel. Measured from its own smoothed value
-  it is free of stress at rest, but a wave that crosses it meets a layer of the wrong stiffness.
-- **No contact.** The paper has no contact law; its rods are bonded, and carry tension where real
-  ones part. It shows after the first passage of the wave: a copper rod that a wall has stopped is held
-  by it and set under tension.
+- **Wave speed.** On a lattice its waves run at s times the speed of sound, with s the first moment of the
+  kernel's gradient: 1.0205 for the cubic spline at h/dx 1.2. `impact` divides by s, particle by particle.
+- **Viscosity.** The plain form of Monaghan & Gingold damps fronts and smooth flow alike. At 5 mm the front
+  takes 0.24 µs from 10 to 90 % and widens; with the limited form of `impact` it takes 0.09 µs.
+- **Joints.** Density by summation smears a joint over the kernel: a wave that crosses it meets a layer of
+  the wrong stiffness.
+- **No contact.** The paper's rods are bonded, and carry tension where real ones part: a copper rod that a
+  wall has stopped is held by it.
 
 ## The 74 %
 
 The paper says that a PMMA pad of twice the striker's length lowers the largest stress by 74 %. Its own
-equations give 70 %: the impedances of table 2 make the first plateau behind any pad 104.6 of 351.8 MPa,
-a reduction of 70.3 % (69.9 % with the nonlinear equation of state, which `impact` gives too). From 24.3 µs
-on the echo from the target's far end raises it to 135 MPa. 74 % is not what the equations say, and no
-scheme here aims at it.
+equations give 70.3 %: by the impedances of table 2 the first plateau behind any pad is 104.6 of 351.8 MPa
+(69.9 % with the nonlinear equation of state, as `impact` has it). From 24.3 µs on the echo from the
+target's far end raises it to 135 MPa.
 ",
         difference = 100.0 * difference,
         impact = slopes[0],

@@ -1,4 +1,4 @@
-//! Two rubber rings that collide in plane strain, whole or in pieces as the cure of the tensile instability has it.
+//! Two rubber rings that collide in plane strain, whole or in pieces by the remedy of the tensile instability.
 //! `cargo run --release --example rubber_rings -- --help` lists the options.
 
 #[path = "../common/mod.rs"]
@@ -23,7 +23,7 @@ const EXAMPLE: Example = Example {
     about: "Two rubber rings, 3 and 4 cm in radius, that collide at 0.059 of the speed of sound each.",
     schemes: &["impact by continuity"],
     own: &[Own {
-        name: "--cure",
+        name: "--remedy",
         value: "NAME",
         help: "corrected (the default: hourglass-free with corrected gradients), hourglass-free, artificial-stress, none, \
                total-lagrangian",
@@ -46,9 +46,9 @@ fn bulk_modulus() -> f64 {
     YOUNG / (3.0 * (1.0 - 2.0 * POISSON))
 }
 
-fn scheme<T: Real>(cure: &str) -> Result<Scheme<T, 2>, Failure> {
+fn scheme<T: Real>(remedy: &str) -> Result<Scheme<T, 2>, Failure> {
     let solid = schemes::impact_by_continuity().with(Hypoelastic);
-    match cure {
+    match remedy {
         "none" => Ok(solid.compose()),
         "artificial-stress" => Ok(solid.with(ArtificialStress::default()).compose()),
         "hourglass-free" => Ok(solid.with(HourglassFree::default()).compose()),
@@ -63,7 +63,7 @@ fn scheme<T: Real>(cure: &str) -> Result<Scheme<T, 2>, Failure> {
             .compose()),
         "total-lagrangian" => Ok(schemes::total_lagrangian().with(NeoHookean).compose()),
         other => Err(format!(
-            "--cure: `{other}` is not accepted; it takes corrected, hourglass-free, artificial-stress, none or total-lagrangian"
+            "--remedy: `{other}` is not accepted; it takes corrected, hourglass-free, artificial-stress, none or total-lagrangian"
         )
         .into()),
     }
@@ -99,7 +99,7 @@ fn picture<T: Real>(now: &Simulation<T, 2>, spacing: f64) -> Panel {
 }
 
 fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
-    let cure = options.text("--cure").unwrap_or("corrected");
+    let remedy = options.text("--remedy").unwrap_or("corrected");
     let spacing = options.spacing_or(1e-3, 2e-3);
     let until = options.until_or(0.03, 0.02);
     let speed = MACH * (bulk_modulus() / RHO).sqrt();
@@ -108,14 +108,14 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
         ring("left", -apart, speed, spacing),
         ring("right", apart, -speed, spacing),
     ];
-    let scene = Scene::new(scheme::<T>(cure)?).body(left);
+    let scene = Scene::new(scheme::<T>(remedy)?).body(left);
     let contact = ContactDensity::new();
-    let scene = match cure {
+    let scene = match remedy {
         // Kernels of the bodies as built do not see each other.
         "total-lagrangian" => scene.body(right).couple("left", "right", contact),
         // A correction that knows one side makes a contact by kernels too stiff.
         "corrected" => scene
-            .group(scheme(cure)?, [right])
+            .group(scheme(remedy)?, [right])
             .couple("left", "right", contact),
         _ => scene.body(right),
     };
@@ -187,7 +187,7 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
     let mechanical = history
         .iter()
         .map(|row| (1e3 * row[0], (row[2] + row[4] + row[5]) / start.kinetic));
-    let mut figure = Figure::new().title(&format!("rubber rings, cure: {cure}"));
+    let mut figure = Figure::new().title(&format!("rubber rings, remedy: {remedy}"));
     for panel in panels {
         figure = figure.panel(panel);
     }
@@ -203,11 +203,11 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
         .columns(2)
         .save(options.file("rings.svg"))?;
 
-    let last = history.last().ok_or("no time was asked for")?;
+    let last = history.last().ok_or("no time was given")?;
     let end = rings.ledger().whole;
     let contact = end.total("work of couplings").unwrap_or(0.0);
     let report = format!(
-        "Rubber rings at {:.2} m/s each, spacing {spacing} m, cure {cure}\n{summary}\n\
+        "Rubber rings at {:.2} m/s each, spacing {spacing} m, remedy {remedy}\n{summary}\n\
          most pieces of the two rings         {}\n\
          speed of the left ring at the end    {:+.3} of that before, away from the other\n\
          kinetic energy at the end            {:.3} of that before\n\

@@ -46,7 +46,7 @@ const EXAMPLE: Example = Example {
         Own {
             name: "--spacing",
             value: "MM",
-            help: "distance of particles; a sixteenth of the diameter, with --quick an eighth",
+            help: "particle spacing; a sixteenth of the diameter, with --quick an eighth",
         },
         Own {
             name: "--formulation",
@@ -54,7 +54,7 @@ const EXAMPLE: Example = Example {
             help: "updated (the default), total",
         },
         Own {
-            name: "--cure",
+            name: "--remedy",
             value: "NAME",
             help: "of updated: hourglass-free (the default), none; total takes none",
         },
@@ -96,7 +96,7 @@ fn material(name: &str) -> Result<Material<f64>, Failure> {
 
 fn scheme(
     formulation: &str,
-    cure: &str,
+    remedy: &str,
     [alpha, smoothing]: [f64; 2],
 ) -> Result<Scheme<f64, 3>, Failure> {
     let updated = || {
@@ -107,7 +107,7 @@ fn scheme(
             .h_over_dx(smoothing)
             .with(Plasticity)
     };
-    match (formulation, cure) {
+    match (formulation, remedy) {
         ("updated", "none") => Ok(updated().compose()),
         ("updated", "hourglass-free") => Ok(updated().with(HourglassFree::default()).compose()),
         ("total", "none") => Ok(schemes::total_lagrangian_impact()
@@ -118,7 +118,7 @@ fn scheme(
             .with(FiniteStrainPlasticity)
             .compose()),
         _ => Err(format!(
-            "--formulation: `{formulation}` with --cure `{cure}` is not accepted; they take updated or total, and none \
+            "--formulation: `{formulation}` with --remedy `{remedy}` is not accepted; they take updated or total, and none \
              or hourglass-free"
         )
         .into()),
@@ -192,11 +192,11 @@ fn perform(options: &Options) -> Result<(), Failure> {
         speed: options.number("--speed", 227.0)?,
     };
     let formulation = options.text("--formulation").unwrap_or("updated");
-    let (usual, cure) = match formulation {
+    let (usual, remedy) = match formulation {
         "total" => (0.1, "none"),
         _ => (0.5, "hourglass-free"),
     };
-    let cure = options.text("--cure").unwrap_or(cure);
+    let remedy = options.text("--remedy").unwrap_or(remedy);
     let alpha = options.number("--viscosity", usual)?;
     let smoothing = options.number("--smoothing", 2.0)?;
     let usual = 1e3 * bar.diameter / options.pick(16.0, 8.0);
@@ -214,7 +214,7 @@ fn perform(options: &Options) -> Result<(), Failure> {
             );
         }
     };
-    let mut simulation = Scene::<f64, 3>::new(scheme(formulation, cure, [alpha, smoothing])?)
+    let mut simulation = Scene::<f64, 3>::new(scheme(formulation, remedy, [alpha, smoothing])?)
         .body(quarter(bar, metal, spacing))
         .boundary(wall)
         .boundary(MirrorPlane::symmetry([0.0; 3], [-1.0, 0.0, 0.0]))
@@ -302,7 +302,7 @@ fn perform(options: &Options) -> Result<(), Failure> {
 
     let last = simulation.ledger().whole;
     let mut report = format!(
-        "Taylor bar of {name}, {:.2} x {:.2} mm at {} m/s, spacing {:.3} mm, formulation {formulation}, cure {cure}, wall {facing}, \
+        "Taylor bar of {name}, {:.2} x {:.2} mm at {} m/s, spacing {:.3} mm, formulation {formulation}, remedy {remedy}, wall {facing}, \
          viscosity {alpha}, smoothing {smoothing}\n\
          {summary}\n\
          length at the end         {:.3} mm ({:.4} of the first)\n\

@@ -44,7 +44,7 @@ pub fn table(quick: bool) -> Result<Table, Failure> {
         "particles",
         "watched [%]",
         "rest [s]",
-        "time, foretold over measured",
+        "time, predicted over measured",
         "steps",
         "pairs",
         "memory",

@@ -54,7 +54,7 @@ const PROBLEMS: &[(&str, Make)] = &[
 /// The command line.
 #[derive(Parser)]
 #[command(
-    about = "What an error costs: all problems, and the pages of them, into docs/ and out/work_precision."
+    about = "Error and cost of all problems; writes their pages to docs/ and out/work_precision."
 )]
 struct Line {
     /// Three coarse spacings of each problem, into out/work_precision

@@ -23,7 +23,7 @@ pub struct Page {
     recommended: Table,
     /// Problems that failed.
     failed: usize,
-    /// Finest runs that others could foretell; errors within a quarter, times within 15 %, the same refused, and errors within
+    /// Finest runs that the coarser ones could predict; errors within a quarter, times within 15 %, the same refused, and errors within
     /// their intervals.
     foretold: [usize; 6],
     /// Time of all runs \[s\].
@@ -69,7 +69,7 @@ impl Page {
             .push(format!("![{}](accuracy_{}.svg)", text.title, text.key));
     }
 
-    /// How the finest runs were foretold.
+    /// How the finest runs were predicted.
     fn count(&mut self, view: &View<'_>) {
         for own in view.foretold() {
             self.foretold[0] += 1;
@@ -121,8 +121,13 @@ fn narrow(page: &str) -> String {
     let mut text = String::with_capacity(page.len());
     for line in page.lines() {
         if line.starts_with('|') {
-            let words: Vec<_> = line.split_whitespace().collect();
-            text += &words.join(" ");
+            let words = line.split_whitespace();
+            let words = words.map(|word| match word.trim_start_matches('-') {
+                "" if word.len() > 1 => "---",
+                ":" => "---:",
+                _ => word,
+            });
+            text += &words.collect::<Vec<_>>().join(" ");
         } else {
             text += line;
         }

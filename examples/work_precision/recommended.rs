@@ -1,6 +1,5 @@
-//! What the page recommends for each problem, against what was measured: its cost beside the cheapest way to its error, and its
-//! error beside what its law says of it.
-//! The first is of the finest run of the method that is nearer than the coarser ones by a tenth, the second of the finest, which the law is not of.
+//! What the page recommends for each problem: its cost relative to the cheapest method with the same error, and its error relative to the fit.
+//! The cost is of the finest run that lowers the error by a tenth, the error of the finest run, which the fit leaves out.
 
 use super::{implosion, liquids};
 use meshfree::output::table::{Table, significant};
@@ -34,8 +33,7 @@ pub fn table() -> Table {
     Table::new([
         "problem",
         "advice",
-        "time over the cheapest",
-        "pairs over the cheapest",
+        "time and pairs over the cheapest",
         "error predicted over measured (90 %)",
     ])
 }
@@ -83,11 +81,8 @@ pub fn add(table: &mut Table, key: &str, title: &str, report: &Report) {
             significant(pairs, 2),
         ),
         format!(
-            "{:.2}",
-            over_least(report, &view, error, seconds, Column::Seconds)
-        ),
-        format!(
-            "{:.2}",
+            "{:.2}, {:.2}",
+            over_least(report, &view, error, seconds, Column::Seconds),
             over_least(report, &view, error, pairs, Column::Pairs)
         ),
         law,

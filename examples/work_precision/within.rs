@@ -57,9 +57,9 @@ pub fn table(seconds: f64) -> Result<Table, Failure> {
         "method",
         "spacing [m]",
         "finest run over it",
-        "time, foretold [s]",
+        "time, predicted [s]",
         "took [s]",
-        "error, foretold",
+        "error, predicted",
         "found",
     ]);
     let quick = seconds < 10.0;

@@ -66,7 +66,7 @@ impl<const D: usize> fmt::Debug for Inlet<D> {
 impl<const D: usize> Inlet<D> {
     /// Lets particles of `body` enter at `velocity` \[m/s\] through an `opening`, given as the points
     /// \[m\] of its plane that have a particle each, `spacing` \[m\] apart, which is that of the body.
-    /// `reserve` particles can enter, less those that left: memory for them is kept from the start.
+    /// `reserve` particles can enter, less those that left: memory for them is reserved when the scene is built.
     #[must_use]
     pub fn new(
         body: &str,
@@ -225,7 +225,7 @@ impl<const D: usize> Inlet<D> {
             problems.push(("spacing", self.spacing, POSITIVE));
         }
         if self.reserve as f64 > MOST_PARTICLES {
-            let must_be = "memory for it is kept from the start: it must stay below 4e9 particles";
+            let must_be = "memory is reserved for all of them: it must be below 4e9 particles";
             problems.push(("reserve", self.reserve as f64, must_be));
         }
         let Some(state) = &self.state else {

@@ -158,7 +158,7 @@ impl<const D: usize> Boundary<D> for LeesEdwards {
             problems.push((
                 "axis of the gradient",
                 self.gradient.axis() as f64,
-                "must be another than that of the flow",
+                "must differ from that of the flow",
             ));
         }
         if !self.shear_rate.is_finite() {

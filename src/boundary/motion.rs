@@ -211,8 +211,7 @@ impl<const D: usize> Translation<D> {
             let row = k + 1;
             let wrong = |a: &f64| !a.is_finite() || a.abs() >= MOST;
             if let Some(bad) = acceleration.into_iter().find(wrong) {
-                let must_be =
-                    "it must be a finite number in m/s², below 1e100: mend the row, or take it out";
+                let must_be = "it must be a finite number in m/s², below 1e100: correct the row, or leave it out";
                 return refuse(format!("acceleration in row {row}"), bad, must_be);
             }
             if !time.is_finite() || pieces.last().is_some_and(|last| time <= last.time) {
@@ -235,7 +234,7 @@ impl<const D: usize> Translation<D> {
             let slope = pieces.last().map(|last| last.slope);
             let mut numbers = piece.state.iter().chain(&slope).flatten();
             if let Some(&bad) = numbers.find(|x| !x.is_finite() || x.abs() >= MOST * MOST) {
-                let must_be = "it must be a finite number: are times in seconds, and not too near to each other?";
+                let must_be = "it must be finite: check that times are in seconds and not too close to each other";
                 return refuse(format!("integral up to row {row}"), bad, must_be);
             }
             pieces.push(piece);

@@ -107,7 +107,8 @@ impl<const D: usize> Recorded<D> {
         check(what, rows)?;
         let [free, at_rest] = [Ends::Free, Ends::AtRest].map(|ends| Spline::new(rows, ends));
         if !(free.is_finite() && at_rest.is_finite()) {
-            let must_be = "it must have a finite spline: are times in seconds, and not too near to each other?";
+            let must_be = "its spline must be finite: check that times are in seconds and not too close to each \
+            other";
             return refuse(what, "number of rows", rows.len() as f64, must_be);
         }
         let mut hash = Hash::new();
@@ -227,7 +228,7 @@ fn check<const W: usize>(what: &str, rows: &[(f64, [f64; W])]) -> Result<()> {
     }
     if let Some((k, ratio)) = jump(rows) {
         let must_be = "it must be below 10: between this row and the one before it the motion jumps; give rows in \
-                       between, correct the row, or let angles go on beyond a full turn";
+        between, correct the row, or let angles continue beyond a full turn";
         let of = format!("speed up to row {} over that of the rows around it", k + 1);
         return refuse(what, &of, ratio, must_be);
     }

@@ -80,7 +80,7 @@ pub struct Source<const D: usize> {
 
 impl<const D: usize> Source<D> {
     /// Lets particles of `body` appear at `points` \[m\] at `rate` \[kg/s\], per metre in two dimensions and per square metre in one.
-    /// `reserve` particles can enter, less those that left: memory for them is kept from the start.
+    /// `reserve` particles can enter, less those that left: memory for them is reserved when the scene is built.
     #[must_use]
     pub fn new(body: &str, points: Vec<[f64; D]>, rate: f64, reserve: usize) -> Self {
         Self {
@@ -127,7 +127,7 @@ impl<const D: usize> Source<D> {
             problems.push(("velocity", bad, "it must be finite, in m/s"));
         }
         if self.reserve as f64 > MOST_PARTICLES {
-            let must_be = "memory for it is kept from the start: it must stay below 4e9 particles";
+            let must_be = "memory is reserved for all of them: it must be below 4e9 particles";
             problems.push(("reserve", self.reserve as f64, must_be));
         }
         problems

@@ -71,7 +71,8 @@ impl TimeSeries {
         let columns: Vec<(f64, [f64; 1])> = rows.iter().map(|&(t, x)| (t, [x])).collect();
         let spline = Spline::new(&columns, Ends::Free);
         if !spline.is_finite() {
-            let must_be = "it must have a finite spline: are times in seconds, and not too near to each other?";
+            let must_be = "its spline must be finite: check that times are in seconds and not too close to each \
+            other";
             return refuse("number of rows".into(), rows.len() as f64, must_be);
         }
         let mut hash = Hash::new();

@@ -51,7 +51,7 @@ pub struct Wall<const D: usize> {
     pub(crate) sliding: [f64; D],
     pub(crate) container_frame: bool,
     pub(crate) shape: Result<(), Flaw>,
-    /// What liquid may fill, if the wall was told.
+    /// What liquid may fill, if the wall has it.
     pub(crate) fluid_side: Option<Arc<dyn Shape<D>>>,
 }
 
@@ -104,7 +104,8 @@ impl<const D: usize> Wall<D> {
             return refused(("size", bad, must_be));
         }
         if layers == 0 {
-            let must_be = "it must be at least one, and as many as the kernel reaches: a count, and no length";
+            let must_be = "it must be at least one, and as many as the kernel reaches: a number of layers, not a \
+            length";
             return refused(("number of layers", 0.0, must_be));
         }
         let most = 2.0 * MOST_PARTICLES;
@@ -209,7 +210,7 @@ impl<const D: usize> Wall<D> {
         self
     }
 
-    /// Lets its surface run at `velocity` \[m/s\] beside its motion, while its particles keep their
+    /// Lets its surface run at `velocity` \[m/s\] in addition to its motion, while its particles keep their
     /// place: a lid or a belt without end, along which the velocity must lie. It drags what
     /// [sticks](Self::no_slip) to it.
     #[must_use]

@@ -233,7 +233,7 @@ fn link<T: Real, const D: usize>(stiffness: T, spacing: T) -> T {
 /// # Ok::<(), Error>(())
 /// ```
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` is no coupling in {D} dimensions",
+    message = "`{Self}` is not a coupling in {D} dimensions",
     note = "implement `Coupling<{T}, {D}>`: what it is, and how particles of the two bodies act on each other"
 )]
 pub trait Coupling<T: Real, const D: usize>: Debug + Send + Sync {

@@ -112,8 +112,8 @@ impl<const D: usize> Effect<D> for Damage {
                 let flows = scene.written.contains(Plasticity::STRAIN);
                 (law.uses_plastic_strain() && !flows).then(|| Problem::Incompatible {
                     what: format!(
-                        "the failure of body `{body}`, of {}, follows from plastic strain ({}), and nothing flows under \
-                         the scheme",
+                        "the failure of body `{body}`, of {}, follows from plastic strain ({}), and the scheme \
+                         has no plastic flow",
                         material.name,
                         law.name()
                     ),
@@ -133,8 +133,8 @@ impl<const D: usize> Effect<D> for Damage {
                 let least = material.eos().pressure_cut_off()?;
                 (least > fails).then(|| Problem::Incompatible {
                     what: format!(
-                        "body `{body}`, of {}, fails at a pressure of {fails} Pa, which its cut-off at {least} Pa keeps \
-                         it from",
+                        "body `{body}`, of {}, fails at a pressure of {fails} Pa, which its cut-off at {least} Pa \
+                         prevents",
                         material.name
                     ),
                     remedy: "leave out the cut-off (Material::with_pressure_cut_off), or lower it",

@@ -21,7 +21,7 @@ use core::fmt::Debug;
 pub trait Effect<const D: usize>: Clone + Debug + Send + Sync + 'static {
     /// Its pair terms: a tuple of up to four [`In`](crate::term::In), `()` for none.
     type Terms: StagedTerms<D>;
-    /// Gradients that its laws read, beside what its terms read: [`Field::VELOCITY_GRADIENT`] and its like.
+    /// Gradients that its laws read, in addition to what its terms read: [`Field::VELOCITY_GRADIENT`] and its like.
     ///
     /// [`Field::VELOCITY_GRADIENT`]: crate::particles::Field::VELOCITY_GRADIENT
     const NEEDS: Fields = Fields::NONE;
@@ -37,7 +37,7 @@ pub trait Effect<const D: usize>: Clone + Debug + Send + Sync + 'static {
     fn smoothing(&self) -> Option<Smoothing> {
         None
     }
-    /// Says what it does beside its terms.
+    /// Says what it does in addition to its terms.
     fn register<T: Real>(&self, _program: &mut StepProgram<T, D>) {}
     /// What is wrong with its parameters, as `(field, value, what it must be)`.
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {

@@ -16,7 +16,7 @@ use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 /// with the volumes V \[m³ in space\], the pressure p \[Pa\], the first moment s of the lattice and the share λ.
 ///
 /// **Why.** The pair form −Σ Vᵢ Vⱼ (pᵢ + pⱼ) ∇W pushes particles of a uniform pressure p₀ towards an even arrangement, by
-/// −2 p₀ Vᵢ Σ Vⱼ ∇W. In slow flow this force is no longer small beside the viscous one: the lattice resists shear like a solid, in
+/// −2 p₀ Vᵢ Σ Vⱼ ∇W. In slow flow this force is no longer small compared with the viscous one: the lattice resists shear like a solid, in
 /// proportion to p₀. Differences leave it out.
 ///
 /// **It needs shifting**, which then keeps particles even in its place: [`ConsistentShifting`](super::ConsistentShifting), whose

@@ -199,7 +199,7 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
         self.presses = false;
     }
 
-    /// Says what the effect is beside its terms, for people.
+    /// Says in words what the effect does in addition to its terms.
     pub fn document(&mut self, document: TermDoc) {
         self.documents.push(document);
     }

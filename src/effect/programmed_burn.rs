@@ -175,7 +175,7 @@ impl<const D: usize> Effect<D> for ProgrammedBurn {
                 } else {
                     let cold = there().find(|body| !body.1.eos().uses_energy())?;
                     (
-                        format!("`{}` is to burn, and its equation of state knows no energy", cold.0),
+                        format!("`{}` is to burn, and its equation of state does not use energy", cold.0),
                         "take the products of the explosive (eos::Jwl)",
                     )
                 };

@@ -15,7 +15,7 @@ use crate::term::{Stage, TermDoc};
 /// d \[m\] beyond the plane, the thickness L \[m\] of the layer and the rate R \[1/s\] at its far side and behind it.
 ///
 /// A flume ends in such a layer, with a wall behind it. A wave that passes it to the wall and back keeps exp(−∫ r dx/c_g) of its
-/// amplitude with the group velocity c_g \[m/s\], which is exp(−R L/(3 c_g)) and wants R large; a rate that grows within a small part of
+/// amplitude with the group velocity c_g \[m/s\], which is exp(−R L/(3 c_g)) and needs a large R; a rate that grows within a small part of
 /// a wave reflects. L of one wave length λ and R of its frequency ω reflect 3 % of waves in water of depth d at 2π d/λ = 1.5
 /// (`tests/liquids`), L = λ/2 14 %: long waves need long layers. Sponges damp mean flows too: give a current as the velocity.
 ///

@@ -27,8 +27,8 @@ pub(super) fn yields_beyond_tension<T: Real>(scene: &SceneFacts<'_, T>) -> Optio
         let stress = law.yield_stress(&state);
         (stress > tension).then(|| Problem::Incompatible {
             what: format!(
-                "body `{body}`, of {}, yields at {stress} Pa and bears a tension of {tension} Pa alone, by its cut-off or its \
-                 spall strength: it parts before it flows",
+                "body `{body}`, of {}, yields at {stress} Pa and supports a tension of only {tension} Pa, by its \
+                 cut-off or its spall strength: it separates before it yields",
                 material.name
             ),
             remedy: "set the cut-off (Material::with_pressure_cut_off) or the spall strength beyond the yield stress, or take a \

@@ -111,7 +111,7 @@ pub(super) fn require_solid<T: Real, const D: usize>(program: &mut StepProgram<T
         locked.map(|(body, ratio)| Problem::Parameter {
             what: format!("Poisson ratio of body `{body}`, by its bulk and shear moduli"),
             value: ratio,
-            must_be: "it must be above -1 and below 0.495: at a half volumes lock, and no step is short enough",
+            must_be: "it must be above -1 and below 0.495: at 0.5 volumes lock, and no step is short enough",
         })
     });
 }

@@ -67,7 +67,7 @@ impl Default for TwoPhase {
 const PHASE: Field = Field::scalar(name!("phase", "kg/m³"));
 
 impl TwoPhase {
-    /// Density at rest of the liquid that a particle belongs to \[kg/m³\], by which liquids are told apart.
+    /// Density at rest of the liquid that a particle belongs to \[kg/m³\], by which liquids are distinguished.
     pub const PHASE: Field = PHASE;
 }
 

@@ -166,7 +166,7 @@ impl<const D: usize> PointLaw<D> for HydrostaticWalls {
 /// spreads: a row thrown at a floor leaves it with 0.39 of its speed without this, 0.12 with it
 /// (`tests/liquids/riemann_walls.rs`). u is the mean over the kernel along the wall's normal, so a wall must know the
 /// container that it faces: one [around](crate::boundary::Wall::around) a box does, others are
-/// [told](crate::boundary::Wall::fluid_side), and a scene with one that is not is refused. It costs D sums a wall
+/// [set](crate::boundary::Wall::fluid_side), and a scene with one that is not is refused. It costs D sums a wall
 /// particle.
 ///
 /// ```

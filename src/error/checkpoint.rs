@@ -8,7 +8,7 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum CheckpointProblem {
     /// The file is not what was written.
-    #[error("it is cut short or altered ({detail}): take an older checkpoint, or start anew")]
+    #[error("it is truncated or altered ({detail}): take an older checkpoint, or start again")]
     Damaged {
         /// Where it shows.
         detail: String,
@@ -38,8 +38,8 @@ pub enum CheckpointProblem {
     },
     /// It is of another scene.
     #[error(
-        "it was written by another scene, which differs in {}{}: resume with the scene that wrote it, or name what \
-         may be another by `Scene::resume_with`",
+        "it was written by another scene, which differs in {}{}: resume with the scene that wrote it, or name the \
+         parts that may differ in `Scene::resume_with`",
         parts.join(", "), in_brackets(.values)
     )]
     Scene {
@@ -50,8 +50,8 @@ pub enum CheckpointProblem {
     },
     /// The machine cannot run the loops that it was written by.
     #[error(
-        "its pair loops ran on {found}, which this machine or this build lacks, and other instructions round otherwise: resume on \
-         a machine that has it, or run on `InstructionSet::Baseline` from the start"
+        "its pair loops ran on {found}, which this machine or this build lacks, and other instructions round \
+         differently: resume on a machine that has it, or run on `InstructionSet::Baseline` from the start"
     )]
     Instructions {
         /// The instruction set of the file.

@@ -17,13 +17,14 @@ pub(crate) const LAW_SOUND_SPEED: &str = "sound speed by the law of the material
 /// Why a number is none: what no step has changed is as the scene gives it.
 fn cause(quantity: &str, step: u64) -> &'static str {
     if [LAW_PRESSURE, LAW_SOUND_SPEED].contains(&quantity) {
-        "density and energy are numbers there, of which the law makes none: it must give finite ones for all that a run \
-         comes to"
+        "density and energy are finite there, and the law of the material gives no finite value: it must give one \
+         for every state that a run reaches"
     } else if step == 0 {
-        "the scene starts so: look at what is given to that particle, its neighbours, its material, and what acts on it"
+        "the value is wrong from the start: check what the scene gives to that particle, its neighbours, its \
+         material and its loads"
     } else {
-        "the run has lost stability; try a smaller step factor, more artificial viscosity, or a finer spacing. What was \
-         written before stays readable"
+        "the run has become unstable: try a smaller step factor, more artificial viscosity, or a finer spacing. \
+         Files written so far stay readable"
     }
 }
 
@@ -57,15 +58,16 @@ pub enum Error {
     },
     /// More energy is stored than went in.
     #[error(
-        "`{part}` stores {gain} J more than the work that went into it, above {limit} of the {supplied} J supplied so far, at \
-         t = {time} s, step {step}, most of it at particle {particle} of body `{body}` at {position:?} m: the integration in \
-         time gains energy from nowhere; take a smaller step factor, steps that repeat no pattern, or some damping \
-         (a viscosity, AcousticDamping). Simulation::limit_stored_energy moves the limit"
+        "`{part}` stores {gain} J more than the work that went into it, above {limit} of the {supplied} J \
+         supplied so far, at t = {time} s, step {step}, most of it at particle {particle} of body `{body}` at \
+         {position:?} m: the time integration creates energy; take a smaller step factor, steps without a \
+         repeated pattern, or some damping (a viscosity, AcousticDamping). Simulation::limit_stored_energy sets \
+         the limit"
     )]
     StoredEnergy {
         /// The bodies that share the energy, or the coupling.
         part: String,
-        /// Energy from nowhere \[J\].
+        /// Energy created by the time integration \[J\].
         gain: f64,
         /// The largest energy supplied so far \[J\].
         supplied: f64,
@@ -84,9 +86,9 @@ pub enum Error {
     },
     /// A load gave no number to go on with.
     #[error(
-        "the load ({load}) gave {value} to particle {particle} of body `{body}` at {position:?} m, t = {time} s: its \
-         function must give finite numbers of the scalar wherever a particle comes, in m/s², whose squares are finite too, \
-         or in W/kg"
+        "the load ({load}) gave {value} to particle {particle} of body `{body}` at {position:?} m, t = {time} s: \
+         its function must give finite numbers wherever a particle can be, in m/s² with squares that are finite \
+         in the scalar type, or in W/kg"
     )]
     Load {
         /// What it is, and on which body.
@@ -116,9 +118,9 @@ pub enum Error {
     },
     /// A liquid meets something faster than its sound runs.
     #[error(
-        "particle {particle} of body `{body}` meets what is before it at {speed} m/s, and its sound runs at \
-         {sound_speed} m/s, at {position:?} m, t = {time} s: the (artificial) sound speed is too low, and the liquid \
-         would go through what it meets; take at least {wanted} m/s, ten times the fastest flow",
+        "particle {particle} of body `{body}` closes on a neighbour at {speed} m/s, with a sound speed of \
+         {sound_speed} m/s, at {position:?} m, t = {time} s: the (artificial) sound speed is too low, and the \
+         liquid would pass through the neighbour; take at least {wanted} m/s, ten times the fastest flow",
         wanted = 10.0 * .speed
     )]
     SoundSpeedTooLow {
@@ -137,9 +139,9 @@ pub enum Error {
     },
     /// A wall does not move as a wall can.
     #[error(
-        "between t = {time} s and t = {end} s wall `{wall}` moves by {distance} m beside what its velocity gives, more \
-         than half a spacing, and would pass the liquid: displacement and velocity of its motion must be finite \
-         numbers, the one the rate of the other, without jumps"
+        "between t = {time} s and t = {end} s the displacement of wall `{wall}` differs by {distance} m from the \
+         integral of its velocity, more than half a spacing, and the wall would pass the liquid: displacement and \
+         velocity of its motion must be finite and without jumps, and the velocity the rate of the displacement"
     )]
     WallJump {
         /// The wall.
@@ -165,7 +167,7 @@ pub enum Error {
         cause: &'static str,
     },
     /// The simulation has failed before.
-    #[error("the simulation has failed and takes no further step; what happened first: {cause}")]
+    #[error("the simulation has failed and takes no further step; the first error was: {cause}")]
     Failed {
         /// The first error, in words.
         cause: String,
@@ -173,7 +175,7 @@ pub enum Error {
     /// The time step collapsed.
     #[error(
         "the time step fell to {step} s at t = {time} s (criterion: {criterion}, particle {particle} of body \
-         `{body}`): something is about to break there; look at that particle, or set a smallest step"
+         `{body}`): the solution is about to fail there; check that particle, or set a smallest step"
     )]
     StepCollapsed {
         /// The step \[s\].

@@ -46,10 +46,10 @@ pub enum Problem {
         /// Where \[m\].
         position: Vec<f64>,
     },
-    /// A wall that the kernel looks through.
+    /// A wall that is thinner than the kernel reaches.
     #[error(
-        "wall `{wall}` is thinner than the kernel reaches ({reach} m): liquid behind it would be felt, and its \
-         pressure is too low; give it {layers} layers of particles"
+        "wall `{wall}` is thinner than the kernel reaches ({reach} m): liquid would interact through it, and its \
+         pressure would be too low; give it {layers} layers of particles"
     )]
     ThinWall {
         /// The wall.
@@ -86,10 +86,10 @@ pub enum Problem {
     },
     /// A body that nothing is said of to a wall of particles.
     #[error(
-        "body `{body}` of the scheme {scheme} meets wall `{wall}`, which is made of particles, by contact only, and the scene does \
-         not say which: write `.couple(\"{body}\", \"{wall}\", ContactDensity::new())`, with `.friction(mu)` behind `new()` where \
-         it rubs (Penalty in place of ContactDensity for a body that is less than two particles thick), or \
-         `.between(\"{body}\", \"{wall}\", Interaction::None)` if they never meet"
+        "body `{body}` of the scheme {scheme} can reach wall `{wall}`, which is made of particles, and the scene \
+         names no contact between them: write `.couple(\"{body}\", \"{wall}\", ContactDensity::new())`, with \
+         `.friction(mu)` after `new()` for friction (Penalty in place of ContactDensity for a body that is less \
+         than two particles thick), or `.between(\"{body}\", \"{wall}\", Interaction::None)` if they never meet"
     )]
     ContactNotNamed {
         /// The body.
@@ -101,9 +101,9 @@ pub enum Problem {
     },
     /// A particle that a density relative to rest cannot measure.
     #[error(
-        "particle {particle} of body `{body}` at {position:?} m has no neighbour that the kernel reaches ({reach} m), \
-         and the density form measures compression by neighbours: is the spacing that of the points? Take the \
-         particle out, or a density form by summation"
+        "particle {particle} of body `{body}` at {position:?} m has no neighbour within the kernel's reach \
+         ({reach} m), and the density form needs neighbours: check that the spacing is that of the points, remove \
+         the particle, or take a density form by summation"
     )]
     Isolated {
         /// The body.
@@ -117,8 +117,8 @@ pub enum Problem {
     },
     /// More particles than the memory holds.
     #[error(
-        "{particles} particles take about {needed} bytes, {each} each, and there are {available}: take fewer \
-         particles, `f32`, or another machine; a limit of one's own is set by Scene::memory_limit"
+        "{particles} particles take about {needed} bytes, {each} each, and {available} are available: take fewer \
+         particles, `f32`, or another machine; Scene::memory_limit sets another limit"
     )]
     Memory {
         /// Particles of bodies and walls.

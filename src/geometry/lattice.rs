@@ -9,7 +9,7 @@ use crate::parallel::{GRAIN, collect};
 pub(crate) const MOST_PARTICLES: f64 = 4e9;
 /// What to do about too many.
 pub(crate) const FEWER: &str =
-    "it must fit into memory and stay below 4e9: is the spacing in metres?";
+    "it must fit into memory and be below 4e9: check that the spacing is in metres";
 /// What a length must be.
 pub(crate) const POSITIVE: &str = "it must be finite and positive, in metres";
 /// What the extent of a box from its low to its high corner must be.
@@ -158,7 +158,7 @@ fn has_inside<const D: usize>(
     }
 }
 
-/// The points of the lattice in the shape's box, widened by `margin` \[m\], that `mark` wants of each row.
+/// The points of the lattice in the shape's box, widened by `margin` \[m\], that `mark` takes of each row.
 pub(super) fn lattice<const D: usize>(
     shape: &(impl Shape<D> + ?Sized),
     spacing: f64,

@@ -153,7 +153,8 @@ impl Mesh {
         if let Some((count, a, b)) = count(|up, down| up != down) {
             return Err(unusable(
                 format!(
-                    "the triangles of the mesh face differently at {count} edges, as that from {a:?} to {b:?} m"
+                    "the triangles of the mesh have inconsistent orientations at {count} edges, as that from \
+                     {a:?} to {b:?} m"
                 ),
                 REPAIR,
             ));

@@ -421,7 +421,7 @@ fn wrong_input_is_refused_by_name() {
     assert!(refused(fill(&ball, 0.1, [nan; 3])).0.contains("origin"));
     let (what, value, must_be) = refused(fill(&ball, 1e-6, [0.0; 3]));
     assert_eq!(what, "number of lattice points");
-    assert!(value > 7.9e18 && must_be.contains("is the spacing in metres?"));
+    assert!(value > 7.9e18 && must_be.contains("check that the spacing is in metres"));
     // Shapes that are apart have nothing in common, which is no error.
     let apart = ball.intersection(Ball::new([9.0; 3], 1.0));
     assert!(fill(&apart, 0.1, [0.0; 3]).unwrap().is_empty());

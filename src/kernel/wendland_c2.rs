@@ -13,7 +13,7 @@ use crate::scalar::Lane;
 /// has one of its own.
 ///
 /// Use it for liquids and for fluid with structure (113 neighbours in 3D at h/dx = 1.5). A density
-/// summed over a lattice comes out 0.35 % high at h/dx = 1.5 in 3D; in a stiff liquid use the
+/// summed over a lattice is 0.35 % too high at h/dx = 1.5 in 3D; in a stiff liquid use the
 /// continuity equation or calibrated masses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct WendlandC2;

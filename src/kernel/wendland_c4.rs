@@ -11,7 +11,7 @@ use crate::scalar::Lane;
 /// Source: Wendland (1995), Dehnen & Aly (2012).
 ///
 /// Use it for gases and for convergence studies. It is narrow for its support (standard deviation
-/// 0.453 h in 3D against 0.548 h of the cubic spline), so it wants a larger h/dx: 1.8, that is 196
+/// 0.453 h in 3D against 0.548 h of the cubic spline), so it needs a larger h/dx: 1.8, that is 196
 /// neighbours in 3D.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct WendlandC4;

@@ -25,7 +25,7 @@ pub enum SoundSpeed {
     #[default]
     Physical,
     /// c₀ = speed/mach. More than Mach 0.1 is a problem, because the density then changes by more
-    /// than 1 %; who wants that says so with [`Chosen`](Self::Chosen).
+    /// than 1 %; ask for it with [`Chosen`](Self::Chosen).
     Artificial {
         /// Mach number \[1\] of the flow at that speed, at most 0.1.
         mach: f64,
@@ -145,13 +145,13 @@ impl Liquid {
     }
 
     /// Acoustic steps dt = C h/c₀ that a second of flow takes with that choice, for a spacing \[m\]
-    /// and h/dx, with the step factor C = 0.55 that the schemes have unless told otherwise.
+    /// and h/dx, with the step factor C = 0.55 that the schemes have by default.
     #[must_use]
     pub fn steps_per_second(&self, choice: SoundSpeed, spacing: f64, h_over_dx: f64) -> f64 {
         choice.of(self.sound_speed) / (STEP_FACTOR * h_over_dx * spacing)
     }
 
-    /// The price of the choice beside that of the physical sound speed, in two lines to print: steps
+    /// The price of the choice compared with that of the physical sound speed, in two lines to print: steps
     /// for a second of flow, and what becomes of impact pressures.
     #[must_use]
     pub fn price(&self, choice: SoundSpeed, spacing: f64, h_over_dx: f64) -> String {

@@ -34,7 +34,7 @@ pub struct Progress {
     bar: ProgressBar,
     #[cfg(feature = "progress")]
     shown: Option<Instant>,
-    /// The time left as it was last told, and when that was.
+    /// The last estimate of the time left, and when it was made.
     #[cfg(feature = "progress")]
     told: Option<(Duration, Instant)>,
 }
@@ -95,7 +95,7 @@ impl Progress {
         false
     }
 
-    /// Says what time is left from now, by a [cost model](crate::study::cost_model) for instance; until it is told again the line
+    /// Says what time is left from now, by a [cost model](crate::study::cost_model) for instance; until the next estimate the line
     /// counts down from it. Without it the line takes the rest to be as fast as all before.
     ///
     /// ```

@@ -10,7 +10,7 @@ pub(crate) struct Values(Vec<(String, String)>);
 /// Between a name and its value in a file.
 const BETWEEN: char = '\u{1f}';
 
-/// A longer value is told by its begin.
+/// A longer value is shown by its beginning.
 const LONGEST: usize = 120;
 
 impl Values {

@@ -237,7 +237,7 @@ fn deformation<T: Real, const D: usize>(
         .into()),
         (_, Some(_)) => Err(Problem::Incompatible {
             what: format!(
-                "body `{body}` is a sheet in plane stress, whose thickness nothing would carry over"
+                "body `{body}` is a sheet in plane stress, whose thickness would be lost"
             ),
             remedy: "convert bodies in plane strain or in space",
         }

@@ -22,7 +22,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
     ///
     /// The schemes may differ in their effects and in their viscosity, and in nothing else: kernel, h/dx, density and energy form,
     /// smoothing and walls are the same, and none that follows may leave out a field that the one before integrates.
-    /// Fields that the new one carries beside begin as at a start; others are forgotten. An effect without pair terms needs no
+    /// Fields that only the new one has begin as at a start; others are forgotten. An effect without pair terms needs no
     /// exchange: [`During`](crate::effect::During).
     ///
     /// ```

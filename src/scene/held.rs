@@ -103,13 +103,13 @@ impl<T: Real, const D: usize> Scene<T, D> {
     ///
     /// A step kicks momenta and turns the body freely in between, by rotations about its principal axes
     /// (Dullweber, Leimkuhler & McLachlan 1997, J. Chem. Phys. 107, 5840): momentum and angular momentum stay to rounding,
-    /// and energy is bounded. It wants an integrator that kicks and drifts.
+    /// and energy is bounded. It needs an integrator that kicks and drifts.
     ///
     /// Its material gives it mass, and stiffness where it touches others by [couplings](crate::coupling): the sound
     /// speed may be chosen low, ten times the greatest speed, which makes steps longer and contacts softer. To liquids it is
     /// a wall. It goes through [periods](crate::boundary::Periodic), meets [walls of particles](Scene::wall) by contact, and
     /// leaves by an [outlet](Scene::outlet) when all of it has passed. Other boundaries, as planes, are refused: their
-    /// images turn, or move otherwise than it.
+    /// images rotate, or move differently from it.
     ///
     /// ```
     /// use meshfree::prelude::*;

@@ -123,7 +123,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 if !self.rigid.contains(body) {
                     problems.push(Problem::Incompatible {
                         what: format!("body `{body}` of {whose} is not rigid"),
-                        remedy: "make it rigid (Scene::rigid); what deforms is held by Scene::couple with Tied",
+                        remedy: "make it rigid (Scene::rigid); a deformable body is held by Scene::couple with \
+                        Tied",
                     });
                 }
                 let bodies = &self.parts[group].bodies;

@@ -46,8 +46,8 @@
 //!
 //! | bodies | in one group | in two groups |
 //! |---|---|---|
-//! | solid and solid | contact, or bonded | do not meet, which has to be said |
-//! | liquid and liquid | one liquid | do not meet, which has to be said |
+//! | solid and solid | contact, or bonded | do not meet, which the scene has to say |
+//! | liquid and liquid | one liquid | do not meet, which the scene has to say |
 //! | liquid and solid | no: a liquid needs a scheme of liquids | pressure, and friction with [`Body::no_slip`] |
 //!
 //! Any two bodies act on each other as a [coupling](crate::coupling) says: contact, ties, or your own
@@ -343,7 +343,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
 
     /// Says how two bodies act on each other. Where nothing is said a liquid meets a solid of another
     /// [group](Scene::group) by [`LiquidStructure`], bodies of one group meet by their kernels
-    /// ([`between`](Self::between)), and all others do not meet, which has to be said. The kernels of two bodies of one
+    /// ([`between`](Self::between)), and all others do not meet, which the scene has to say. The kernels of two bodies of one
     /// group do not meet where a coupling acts, unless `between` says that they do. The second may be a
     /// [wall of particles](Self::wall), of which the first, a solid, is not seen otherwise.
     ///
@@ -389,7 +389,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
 
     /// Lets the group of a body take `count` equal steps in each step of the others. What couplings do to it comes in
     /// [impulses](crate::coupling#sub-cycling) at the kicks of the others, also with one step. It gains where a solid's sound
-    /// is much faster than that of the liquid around it, and wants an integrator that kicks and drifts.
+    /// is much faster than that of the liquid around it, and needs an integrator that kicks and drifts.
     ///
     /// The steps of the others are at most `count` times the stable step of the group: where that sets them,
     /// [`Simulation::last_vote`](crate::simulation::Simulation::last_vote) names a particle of the group. An integrator whose step

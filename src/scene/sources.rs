@@ -74,7 +74,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 let flows = |part: &&Part<T, D>| !part.scheme.density.keeps_neighbors();
                 if self.parts.iter().filter(flows).count() > 1 {
                     problems.push(Problem::Incompatible {
-                        what: "a drain takes of bodies of several schemes, each of which would give all of it".into(),
+                        what: "a drain takes particles from bodies of several schemes, and each would lose the \
+                        whole rate".into(),
                         remedy: "limit it to a body by Drain::on",
                     });
                 }
@@ -87,7 +88,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 Some(part) if part.scheme.density.keeps_neighbors() => {
                     problems.push(Problem::Incompatible {
                         what: format!(
-                            "a drain takes of body `{name}`, which keeps its neighbours under the scheme {}",
+                            "a drain takes particles from body `{name}`, which keeps its neighbours under the \
+                             scheme {}",
                             part.scheme.name
                         ),
                         remedy: "take a scheme of liquids, or limit the drain to another body by Drain::on",

@@ -195,7 +195,7 @@ impl<const D: usize> ParticleState<D> {
             let components = attribute(tag, "NumberOfComponents")?;
             let values = numbers(data, attribute(tag, "offset")?, text(tag, "type")?)?;
             if components == 0 || Some(values.len()) != count.checked_mul(components) {
-                return Err(wrong("an array has not the numbers that it says"));
+                return Err(wrong("an array is shorter than it states"));
             }
             let name = unescaped(text(tag, "Name")?);
             if name == "Points" {
@@ -212,7 +212,7 @@ impl<const D: usize> ParticleState<D> {
             }
         }
         if points.len() != count {
-            return Err(wrong("it has no places of particles"));
+            return Err(wrong("it has no positions of particles"));
         }
         Ok(Self { points, quantities })
     }

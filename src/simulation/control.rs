@@ -144,7 +144,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
     }
 
-    /// What a fixed step is held against: the factor of the scheme, or a larger requested one. A smaller
+    /// What a fixed step is compared with: the factor of the scheme, or a larger requested one. A smaller
     /// one makes no step unstable.
     pub(crate) fn largest_fixed_step(&self) -> Result<Vote> {
         let own = self.state.groups[0].scheme.step_factor;

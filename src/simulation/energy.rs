@@ -30,7 +30,7 @@ pub struct EnergyLedger {
     /// Kinetic energy that [left](Simulation::removed) through outlets and drains since then.
     pub left: f64,
     /// What viscosities, diffusion, shifting and the steps have taken: the work done less the gain in
-    /// energy. Physical and numerical dissipation are not told apart.
+    /// energy. Physical and numerical dissipation are not distinguished.
     pub dissipated: f64,
 }
 

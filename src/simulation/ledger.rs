@@ -414,7 +414,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             [true, _] => Ok(self.force_of_blocks(|felt, by| (felt, by) == (on, from))),
             [false, true] => self.force_between(from, on).map(|force| force.map(|f| -f)),
             [false, false] => Err(Error::Argument(Problem::Incompatible {
-                what: "a force between two walls or boundaries is asked for, which do not feel each other".into(),
+                what: "walls and boundaries exert no forces on each other".into(),
                 remedy: "name a body on one side, as in force_between(\"water\", \"tank\")",
             })),
         }

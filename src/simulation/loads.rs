@@ -24,7 +24,7 @@ struct Wrong<'a, const D: usize> {
 
 /// What an acceleration of all particles must be.
 pub(crate) const ACCELERATION: &str =
-    "it must be a finite number whose square is one of the scalar too, in m/s²";
+    "it must be finite, and its square finite in the scalar type, in m/s²";
 
 /// Whether the square of a number is finite in the scalar.
 pub(crate) fn is_square_finite<T: Real>(value: f64) -> bool {

@@ -16,7 +16,7 @@
 //! limit in every step, and a step that falls below a millionth of the first ends the run with
 //! [`Error::StepCollapsed`]. After every step, the last included, all of the state is looked at: a number that is not
 //! finite is an [`Error::NotFinite`]. In every 32nd step stored energy is compared with the work done on it
-//! ([`StoredEnergy`]), and a run that gains half of its energy from nowhere ends with [`Error::StoredEnergy`]. A simulation
+//! ([`StoredEnergy`]), and a run that creates half of its energy by the time integration ends with [`Error::StoredEnergy`]. A simulation
 //! that has failed takes no further step ([`Error::Failed`]).
 //!
 //! # Readings

@@ -110,7 +110,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.next_by(vote, limit)
     }
 
-    /// The next step by a vote; a fixed one is held against a limit.
+    /// The next step by a vote; a fixed one is compared with a limit.
     pub(super) fn next_by(&mut self, mut vote: Vote, limit: Option<Vote>) -> Result<Vote> {
         if let (Some(fixed), Some(limit)) = (self.control.fixed, limit) {
             // A limit that varies by rounding is not a violation.
@@ -256,7 +256,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// the state of the run.
     ///
     /// # Errors
-    /// [`Error::NotFinite`] when the run has broken, [`Error::StoredEnergy`] when it gains energy from nowhere,
+    /// [`Error::NotFinite`] when the run has broken, [`Error::StoredEnergy`] when the time integration creates energy,
     /// [`Error::Load`] when a load has, [`Error::Function`] when a function of time has, [`Error::StepCollapsed`] when the
     /// step has become tiny, [`Error::SoundSpeedTooLow`] when a liquid meets something faster than its sound, [`Error::WallJump`]
     /// when a wall leaves its velocity, [`Error::Failed`] after any of these, and [`Error::Argument`] if a fixed step

@@ -98,7 +98,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             .collect()
     }
 
-    /// Refuses a step of `dt` \[s\] at whose end a boundary, a wall, an inlet or a clamp is nowhere, or in which a wall moves otherwise than its
+    /// Refuses a step of `dt` \[s\] at whose end a boundary, a wall, an inlet or a clamp is nowhere, or in which a wall moves differently from its
     /// own velocity, as one that jumps does.
     pub(super) fn check_motions(&self, dt: f64) -> Result<()> {
         let (time, end) = (self.state.time, self.state.time + dt);
@@ -220,7 +220,7 @@ fn no_motion(of: String, value: f64, time: f64) -> Error {
         what: format!("motion of {of}"),
         value,
         time,
-        must_be: "place, velocity and acceleration must be finite numbers: look for gaps in its table",
+        must_be: "place, velocity and acceleration must be finite: check its table for gaps",
     }
 }
 
@@ -281,9 +281,9 @@ fn surfaces_in_tension<T: Real, const D: usize>(
                 particles.ids[slot] as usize - body.ids.start,
                 particles.position(slot),
             ),
-            remedy: "a sum over neighbours lacks half of them at a surface, which suits a gas and puts a solid or liquid in tension: take a \
-                     scheme whose density is relative to rest (schemes::impact) or by continuity (schemes::weakly_compressible), or \
-                     close the surface by a period or a plane of symmetry",
+            remedy: "at a surface the sum lacks half of its neighbours, which puts a solid or liquid in tension: \
+            take a scheme whose density is relative to rest (schemes::impact) or by continuity \
+            (schemes::weakly_compressible), or close the surface by a period or a plane of symmetry",
         })
     })
 }

@@ -1,5 +1,5 @@
 //! A free beam that bends: the shape and the period of its first swing, by Euler and by Timoshenko.
-//! What structures of particles are held against, with the shear and the rotation that a thick beam has.
+//! What structures of particles are compared with, with the shear and the rotation that a thick beam has.
 //!
 //! Of length L, height H and unit width \[m\], density ρ \[kg/m³\], Young's modulus E \[Pa\] and Poisson's ratio ν, in plane strain, with
 //! k the first root of cosh(kL) cos(kL) = 1 and s the share that leaves both ends free of moment and shear,

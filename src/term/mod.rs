@@ -216,7 +216,7 @@ pub trait Term<const D: usize>: Clone + Debug + Send + Sync + 'static {
     /// the order of a list of effects changes no bit. A scheme that has two terms of one name in a sweep is refused. A
     /// term that restricts another, as [`WithinPhase`](crate::effect::WithinPhase), has the name of that.
     const NAME: &'static str;
-    /// Fields of i and j that the term reads, beside the position.
+    /// Fields of i and j that the term reads, in addition to the position.
     const READS: Fields;
     /// Sums that the term adds to. A term that sets `radial`, `shear` or `force` names
     /// [`Output::FORCE`](crate::particles::Output::FORCE).

@@ -101,7 +101,11 @@ fn a_spacing_that_is_not_positive() {
 fn a_spacing_in_the_wrong_unit() {
     let rod = Body::block("rod", catalogue::copper(), [0.0], [1.0], 1e-12);
     let found = problem(Scene::<f64, 1>::new(schemes::impact()).body(rod));
-    is_parameter(&found, "number of particles", "is the spacing in metres?");
+    is_parameter(
+        &found,
+        "number of particles",
+        "check that the spacing is in metres",
+    );
 }
 
 #[test]
@@ -494,14 +498,14 @@ fn walls_around_what_is_no_box() {
         is_parameter(
             &found,
             "number of particles of wall `tank`",
-            "is the spacing in metres?",
+            "check that the spacing is in metres",
         );
     }
     let found = tank([0.0; 2], [0.1; 2], 0.01, 0);
     is_parameter(
         &found,
         "number of layers of wall `tank`",
-        "a count, and no length",
+        "a number of layers, not a length",
     );
 }
 
@@ -536,7 +540,7 @@ fn inlets_that_make_no_sense() {
     is_parameter(
         &with(inlet(1.0, 0.01, usize::MAX)),
         "reserve",
-        "must stay below 4e9",
+        "must be below 4e9",
     );
     for bad in [f64::NAN, f64::INFINITY] {
         let inlet = Inlet::new("water", opening(bad), [1.0, 0.0], 0.01, 100);
@@ -867,7 +871,7 @@ fn particles_without_neighbours() {
         assert!(
             found
                 .to_string()
-                .contains("is the spacing that of the points?"),
+                .contains("check that the spacing is that of the points"),
             "{found}"
         );
     };
@@ -893,7 +897,7 @@ fn names_that_are_empty_and_bodies_against_themselves() {
     );
     incompatible(
         &problem(good().between("rod", "rod", Interaction::None)),
-        "`rod` does to itself",
+        "body `rod` with itself",
         "name two bodies",
     );
 }
@@ -1281,7 +1285,10 @@ fn a_viscosity_of_infinite_signal() {
             .contains("signal of the artificial viscosity of particle"),
         "{error}"
     );
-    assert!(error.to_string().contains("the scene starts so"), "{error}");
+    assert!(
+        error.to_string().contains("wrong from the start"),
+        "{error}"
+    );
     // Nor does a step that time does not feel run for ever.
     let error = with(1e300).unwrap().run_until(1e-6).unwrap_err();
     assert!(matches!(error, Error::StepCollapsed { .. }), "{error}");

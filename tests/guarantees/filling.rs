@@ -31,7 +31,10 @@ fn a_scene_reports_what_a_body_could_not_be_filled_with() {
         "{spacing}"
     );
     let many = problems(&disc, 1e-9);
-    assert!(many.contains("is the spacing in metres?"), "{many}");
+    assert!(
+        many.contains("check that the spacing is in metres"),
+        "{many}"
+    );
     let none = problems(&Ball::new([0.05; 2], 0.04), 0.2);
     assert!(none.contains("`drop` has no particles"), "{none}");
 }

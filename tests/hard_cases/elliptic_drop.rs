@@ -79,5 +79,5 @@ fn an_elliptic_drop_keeps_its_axes_and_its_particles_apart() {
         control,
     };
     row("error of the product of the axes", area, plain_area).at_most(0.02);
-    row("nearest of 0.1 %", apart, plain_apart).at_least(0.5);
+    row("closest 0.1 %", apart, plain_apart).at_least(0.5);
 }

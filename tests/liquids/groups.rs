@@ -575,7 +575,7 @@ fn groups_that_nothing_couples_are_refused() {
         .body(body("a", 0.0))
         .group(schemes::impact(), [body("b", 0.1)])
         .between("a", "b", Interaction::Bonded);
-    assert!(reasons(bonded).contains("parts from it"));
+    assert!(reasons(bonded).contains("separates from it"));
     let coarse = Body::block("b", soft(), [0.1], [0.5], 0.02);
     let coarse = Scene::new(liquid())
         .body(body("a", 0.0))

@@ -138,7 +138,7 @@ fn a_body_behind_a_plane_is_refused() {
         .body(drops())
         .boundary(turned_round);
     let complaint = scene.build().unwrap_err().to_string();
-    assert!(complaint.contains("`drops`") && complaint.contains("turn the normal round"));
+    assert!(complaint.contains("`drops`") && complaint.contains("reverse the normal"));
 }
 
 /// Planes that nothing comes near.

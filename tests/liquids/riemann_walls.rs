@@ -129,7 +129,7 @@ fn walls_that_know_no_room_are_refused_by_name() {
     let refused = scene.wall(Wall::of("floor", points, DX)).build();
     let text = refused.map(|_| ()).unwrap_err().to_string();
     assert!(
-        text.contains("wall `floor` does not know the container")
+        text.contains("wall `floor` has no container of the liquid")
             && text.contains("Wall::fluid_side"),
         "{text}"
     );

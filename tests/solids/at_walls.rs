@@ -466,7 +466,7 @@ fn contact_with_walls_is_named() {
     );
     one(
         scene().between("block", "floor", Interaction::Bonded),
-        "name their contact by Scene::couple",
+        "name their contact with Scene::couple",
     );
     one(
         scene().couple("block", "roof", Penalty::new()),

@@ -226,7 +226,7 @@ fn what_is_no_closed_surface_is_refused() {
     assert!(refusal(&fin).contains("not manifold"), "{}", refusal(&fin));
     let mut turned = surface.clone();
     turned.1[0].swap(0, 1);
-    assert!(refusal(&turned).contains("face differently"));
+    assert!(refusal(&turned).contains("inconsistent orientations"));
     let mut far = surface.clone();
     far.0[0][2] = f64::NAN;
     assert!(refusal(&far).contains("corner of the mesh"));

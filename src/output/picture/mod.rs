@@ -31,7 +31,7 @@
 //! ```
 //!
 //! [`Picture::save`] writes title and bar as text around the picture, in one SVG file that browsers
-//! show; [`Picture::save_png`] writes the picture alone, as programs that make films want it. Both
+//! show; [`Picture::save_png`] writes the picture alone, as programs that make films need it. Both
 //! are the same to the bit for the same particles, and need the feature `pictures`; [`Picture::pixels`] does not. For the frames of a film fix what they have in
 //! common: [`Picture::bounds`] and the range of the axis.
 //!
@@ -132,7 +132,7 @@ impl Picture {
     /// Where the camera stands, seen from the middle of the picture, in degrees: azimuth from the x
     /// axis towards the y axis, elevation from there towards the z axis, which points up.
     ///
-    /// Unless told it is (−60, 20), from the front, the right and above, and (−90, 90), with x to the
+    /// By default it is (−60, 20), from the front, the right and above, and (−90, 90), with x to the
     /// right and y up, where all is in the plane.
     ///
     /// ```

@@ -94,7 +94,7 @@ impl Figure {
         self
     }
 
-    /// Width and height of a panel with its labels, in pixels; 400 by 290 unless told.
+    /// Width and height of a panel with its labels, in pixels; 400 by 290 by default.
     ///
     /// ```
     /// # use meshfree::output::svg::Figure;

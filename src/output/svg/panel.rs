@@ -1,5 +1,5 @@
 //! Panels: a pair of axes and what is drawn between them.
-//! Ranges, ticks and the place of the legend follow from the data unless told.
+//! Ranges, ticks and the place of the legend follow from the data by default.
 
 use super::axis::Axis;
 use super::legend::Legend;

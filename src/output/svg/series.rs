@@ -153,7 +153,7 @@ impl Series {
         self
     }
 
-    /// The width of the line in pixels; 1.6 unless told.
+    /// The width of the line in pixels; 1.6 by default.
     ///
     /// ```
     /// # use meshfree::output::svg::Series;

@@ -96,18 +96,20 @@ scales! {
     VISCOUS "sound speed above that of viscous pressure", "p_v/(rho c2)":
         Skip "viscous pressure compresses the liquid by less than 1 %", below 0.01;
         Optional "viscous pressure compresses the liquid by 1 to 3 %, and forces are low by some per cent", below 0.03;
-        => Impossible "viscous pressure compresses the liquid, and forces come out far too low";
+        => Impossible "viscous pressure compresses the liquid, and forces are far too low";
     UNDER_PRESSURE "pressure by differences", "p/(mu U/L + rho U2)":
         Skip "pressure is of the order of the stresses of the flow", below 3.0;
-        Optional "pressure hardens the lattice of particles against shear: slow viscous flow comes out slower by 10 to 20 %", below 30.0;
-        => Recommend "pressure hardens the lattice of particles against shear: slow viscous flow comes out at about half of its speed";
+        Optional "pressure hardens the lattice of particles against shear: slow viscous flow is slower by 10 to \
+        20 %", below 30.0;
+        => Recommend "pressure hardens the lattice of particles against shear: slow viscous flow has about half \
+        of its speed";
     CROSSINGS "physical sound speed", "t c/L":
         Require "waves cross few times and decide what happens", below 100.0;
         Optional "waves cross often: what matters is whether the pressure of impacts does", below 1e4;
         => Skip "sound has long settled; an incompressible method would be cheaper";
     SHOCK "energy and shock viscosity", "u/c":
         Skip "the shock is weak", below 0.1;
-        Optional "a shock of middling strength heats a little", below 0.3;
+        Optional "a shock of moderate strength heats a little", below 0.3;
         => Require "a strong shock heats and has to be captured";
     NONLINEAR "nonlinear equation of state", "S u/c":
         Skip "linear in the range of the shock", below 1e-2;
@@ -137,12 +139,13 @@ scales! {
         Optional "the rate changes the yield stress a little", below 0.1;
         => Require "the rate hardens by this share";
     ASYMMETRY "sign of pressure in the yield stress", "Y(p)/Y(-p) - 1":
-        Skip "it yields alike in tension and compression", below 0.05;
+        Skip "it yields equally in tension and compression", below 0.05;
         Optional "it yields a little later in compression", below 0.1;
         => Require "it yields later in compression by this share";
     OPENS "contact that opens", "t c/(2 L)":
         Skip "the run ends before release", below 1.0;
-        => Require "release waves bring tension to the contact, which has to open; look at the cures of tension too";
+        => Require "release waves bring tension to the contact, which has to open; consider the remedies for \
+        tension too";
     REYNOLDS "viscosity", "U L/nu":
         Require "viscous forces are felt throughout", below 1e3;
         Optional "viscosity is felt near walls", below 1e4;
@@ -166,20 +169,21 @@ scales! {
         Optional "it is felt in drops and thin films", below 1e3;
         => Skip "loads outweigh it";
     DEFLECTION "two-way coupling", "0.014 (rho U2/E)(L/t)3":
-        Skip "the wall gives way so little that the liquid does not feel it", below 1e-3;
-        Optional "one way is enough for the forces of the liquid; two ways for stress and swinging of the wall", below 1e-2;
-        => Require "the wall gives way, and the flow with it";
+        Skip "the wall moves too little to affect the liquid", below 1e-3;
+        Optional "one-way coupling is enough for the forces of the liquid; stress and vibration of the wall need \
+        two-way coupling", below 1e-2;
+        => Require "the wall moves, and changes the flow";
     ADDED_MASS "two-way coupling, added mass", "rho L/(rho_s t)":
-        Skip "the liquid is light beside the wall", below 0.1;
+        Skip "the liquid is light compared with the wall", below 0.1;
         Recommend "the liquid is about as heavy as the wall", below 1.0;
         => Require "the liquid moves with the wall as an added mass: couple both ways, and sub-cycle the wall";
     CAVITATION "cavitation", "(p - p_v)/(rho U2/2)":
-        Require "the liquid boils: cut its tension off", below 0.0;
+        Require "the liquid cavitates: cut its tension off", below 0.0;
         Optional "suction reaches the vapour pressure where flow is fastest", below 1.0;
         => Skip "suction does not reach the vapour pressure";
     GAS "gas beside the liquid", "rho_2/rho_1":
         Skip "the gas is light", below 1e-2;
-        => Require "the gas is as heavy as to be felt";
+        => Require "the gas is heavy enough to matter";
     BENDING "spacing across what bends in space", "thickness/dx in 3D":
         Optional "first frequencies of bending are low by 13 % at four particles, 7 % at six", below 7.5;
         => Skip "first frequencies of bending are low by less than 5 %";

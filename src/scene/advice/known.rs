@@ -25,7 +25,7 @@ pub struct Known {
     pub sound_speed: Option<f64>,
     /// Surface tension σ \[N/m\].
     pub surface_tension: Option<f64>,
-    /// Density \[kg/m³\] of a gas beside the liquid that the scene leaves out.
+    /// Density \[kg/m³\] of a gas next to the liquid that the scene leaves out.
     pub gas_density: Option<f64>,
     /// Whether liquid can close in pockets of that gas.
     pub trapped_gas: Option<bool>,

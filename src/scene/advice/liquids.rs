@@ -1,4 +1,4 @@
-//! Advice on liquids: sound, gravity, surface tension, cavitation, gas, and walls that give way.
+//! Advice on liquids: sound, gravity, surface tension, cavitation, gas, and walls that move.
 //! Speeds are what bodies start with, what walls have, and √(a L) of uniform accelerations.
 
 use super::bands::{
@@ -125,7 +125,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         advice.add(FROUDE.line(of, froude.max(weight), Some(present)));
     }
 
-    /// Walls that give way: structures of the scene, or the wall that is known.
+    /// Walls that move: structures of the scene, or the wall that is known.
     fn advise_on_walls(&self, body: &Body<T, D>, flow: &Flow, known: &Known, advice: &mut Advice) {
         let solids = self.parts.iter().filter(|part| !part.scheme.meets_walls());
         let mut any = false;
@@ -147,8 +147,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             advise_on_wall(&body.name, flow, wall, false, advice);
         } else if !any && !self.walls.is_empty() {
             advice.lacks(
-                "whether walls give way: give Known::wall, its modulus, density and thickness"
-                    .into(),
+                "whether walls move: give Known::wall, its modulus, density and thickness".into(),
             );
         }
     }
@@ -172,7 +171,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             ),
             Some(gas) => (gas / heavy.0, heavy.1.to_owned(), false),
             None => {
-                return advice.lacks("gas beside the liquid: give Known::gas_density".into());
+                return advice.lacks("gas next to the liquid: give Known::gas_density".into());
             }
         };
         let line = GAS.line(&of, ratio, Some(present));

@@ -48,7 +48,7 @@
 //! | two-way coupling | 0.014 (ρ U²/E)(L/t)³ | < 10⁻³ | ≥ 10⁻² |
 //! | two-way coupling, added mass | ρ L/(ρₛ t) | < 0.1 | ≥ 1, where the wall bends by 10⁻² or more |
 //! | cavitation | (p − p_v)/(ρ U²/2) | ≥ 1 | < 0 |
-//! | gas beside the liquid | ρ₂/ρ₁ | < 0.01 without pockets | ≥ 0.01 |
+//! | gas next to the liquid | ρ₂/ρ₁ | < 0.01 without pockets | ≥ 0.01 |
 //! | spacing across a wall, gap or film | thickness/dx | ≥ 5 | impossible < 4 |
 //! | spacing across what bends in three dimensions | thickness/dx | ≥ 7.5 | never: it costs accuracy |
 //! | rows of a [recorded motion](crate::boundary::Recorded) | how far the spline through every other row s₂ passes the rows, over the amplitude A | < 0.01 | impossible ≥ 0.1 |
@@ -119,7 +119,7 @@ pub struct Line {
     pub band: String,
     /// Why.
     pub reason: String,
-    /// Whether the scene has the effect, where that can be told.
+    /// Whether the scene has the effect, where that is known.
     pub present: Option<bool>,
 }
 
@@ -151,7 +151,7 @@ impl Line {
 pub struct Advice {
     /// The lines, what concerns liquids first.
     pub lines: Vec<Line>,
-    /// Numbers that could not be told, and what would have to be known.
+    /// Numbers that could not be computed, and what would have to be known.
     pub unknown: Vec<String>,
 }
 

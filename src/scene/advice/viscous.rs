@@ -161,7 +161,9 @@ impl<T: Real, const D: usize> Scene<T, D> {
         advice.add(if line.need == Need::Skip {
             line
         } else {
-            line.because("PressureDifference with ConsistentShifting does away with it where no free surface is near")
+            line.because(
+                "PressureDifference with ConsistentShifting removes it away from free surfaces",
+            )
         });
     }
 }

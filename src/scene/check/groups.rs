@@ -1,5 +1,5 @@
 //! What can be wrong between groups: bodies of different schemes that nothing couples, couplings and sub-cycling.
-//! A liquid meets structures; all else is coupled by what the scene says, or has to be said not to meet.
+//! A liquid meets structures; all else is coupled by the scene, or the scene says that it does not meet.
 
 use super::TOO_CLOSE;
 use super::doubled::nearest_pair;
@@ -42,7 +42,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         let remedy = match said {
             Some(Interaction::None) => return,
             Some(Interaction::Bonded) if coupled => {
-                "leave it out: a liquid presses on a structure and parts from it; to take the coupling away, \
+                "leave it out: a liquid presses on a structure and separates from it; to take the coupling away, \
                  say Interaction::None between the two"
             }
             _ if coupled => return,
@@ -97,14 +97,14 @@ impl<T: Real, const D: usize> Scene<T, D> {
             if first == second && own.exclusion.to_bits() == 0 && !coupling.as_built() {
                 incompatible(
                     "names one body twice",
-                    "give the distance as built from which on a body meets itself, by Scene::couple_self",
+                    "give the initial distance from which on a body can meet itself, with Scene::couple_self",
                 );
                 continue;
             }
             if first == second && liquid {
                 incompatible(
                     "is of a liquid with itself",
-                    "leave it out: the kernels of a liquid meet wherever it does",
+                    "leave it out: the kernels of a liquid already act wherever it meets itself",
                 );
                 continue;
             }
@@ -133,7 +133,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 });
             } else if reach == 0.0 && !coupling.is_wall() {
                 incompatible(
-                    "neither is a wall nor reaches",
+                    "makes no wall and has no reach",
                     "give it a reach (Coupling::reach), or say Interaction::None between the two",
                 );
             }
@@ -229,7 +229,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             if self.parts.len() == 1 {
                 incompatible(
                     format!("body `{body}` is of the only group"),
-                    "leave Scene::sub_cycle out: there is nothing to step more often than",
+                    "leave Scene::sub_cycle out: there is no other group with longer steps",
                 );
             }
             if !self.integrator.kicks() || !self.integrator.drifts() {

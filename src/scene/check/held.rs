@@ -39,7 +39,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             if held == 0 {
                 incompatible(
                     format!("a clamp of body `{}` holds none of its particles", own.body),
-                    "choose a region that holds some: it is asked for places as built, in metres",
+                    "choose a region that contains some: it gets initial positions, in metres",
                 );
             }
             if self.rigid.contains(&own.body) && held != all {
@@ -74,7 +74,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
             if let Some(boundary) = self.boundaries.iter().find(|own| !shifts(&***own)) {
                 incompatible(
                     format!(
-                        "body `{body}` is rigid in a scene with the boundary {}, whose images turn or move otherwise than it",
+                        "body `{body}` is rigid in a scene with the boundary {}, whose images rotate or move, and \
+                         not with the body",
                         boundary.name()
                     ),
                     "bound the scene by walls of particles (Scene::wall), which it meets by a contact that Scene::couple \
@@ -93,8 +94,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 problems.push(Problem::Parameter {
                     what: format!("first time of the motion of {whose} ({})", motion.name()),
                     value: first,
-                    must_be: "a run starts at t = 0, where it has no place: give it rows from there on, or let it rest \
-                              there by Recorded::at_rest_beyond",
+                    must_be: "a run starts at t = 0, before its first row: give rows from t = 0 on, or let it \
+                    rest there by Recorded::at_rest_beyond",
                 });
             }
         }

@@ -63,7 +63,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 let off = by.rotation * by.rotation.transpose() - Matrix::<f64, D>::identity();
                 let most = off.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
                 if most > ROTATION {
-                    let must_be = "R Rᵀ must be one to rounding: images of another size push and are not pushed back";
+                    let must_be = "R Rᵀ must be the identity to rounding: images of another size exert forces \
+                    without reaction";
                     problems.push(parameter(
                         &what("R Rᵀ − 1 of the rotation R"),
                         most,
@@ -73,8 +74,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 }
                 if by.rotation == Matrix::<f64, D>::identity() && by.shift.iter().all(|s| *s == 0.0)
                 {
-                    let must_be =
-                        "it must not be zero: the image would stand on its particle, and act twice";
+                    let must_be = "it must not be zero: the image would coincide with its particle";
                     problems.push(parameter(&what("shift"), 0.0, must_be));
                     break;
                 }
@@ -89,12 +89,13 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 if let Some(x) = self.imaged_twice(first.as_ref(), second.as_ref()) {
                     problems.push(Problem::Incompatible {
                         what: format!(
-                            "the {} and the {} lie on the same side of the particle at {x:?} m, and both show it its images \
-                             there",
+                            "the {} and the {} lie on the same side of the particle at {x:?} m, and both make \
+                             images of it there",
                             first.name(),
                             second.name()
                         ),
-                        remedy: "give each plane or period once, and take away what lies behind another: two images act twice",
+                        remedy: "give each plane or period once, and remove what lies behind another: its image \
+                        would act twice",
                     });
                 }
             }

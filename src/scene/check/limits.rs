@@ -69,15 +69,14 @@ pub(super) fn check_starts<T: Real, const D: usize>(body: &Body<T, D>) -> Option
         return Some(("position", farthest, must_be));
     }
     if !T::from_f64(farthest * farthest).to_f64().is_finite() {
-        let must_be = "its square must be a finite number of the scalar: is it in metres?";
+        let must_be = "its square must be finite in the scalar type: check that it is in metres";
         return Some(("position", farthest, must_be));
     }
     // The kernel's gradient over a distance has this unit.
     let steepest = T::from_f64(body.spacing.powi(-(D as i32) - 2)).to_f64();
     let volume = T::from_f64(body.spacing.powi(D as i32)).to_f64();
     if !(steepest.is_normal() && volume.is_normal()) {
-        let must_be =
-            "its volume and the gradients over it must be numbers of the scalar: is it in metres?";
+        let must_be = "its volume and the gradients over it must be finite in the scalar type: check that it is in metres";
         return Some(("spacing", body.spacing, must_be));
     }
     let material = &body.material;
@@ -92,8 +91,8 @@ pub(super) fn check_starts<T: Real, const D: usize>(body: &Body<T, D>) -> Option
         }
         let speed = start.velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
         if !is_gas && speed > FASTEST * sound_at_rest {
-            let must_be = "it must be at most a hundred times the sound speed of the material at rest, beyond which no law of a \
-                           solid or liquid holds: is it in m/s?";
+            let must_be = "it must be at most a hundred times the sound speed of the material at rest, beyond \
+            which no law of a solid or liquid holds: check that it is in m/s";
             return Some(("velocity", speed, must_be));
         }
         if start.energy > LIGHT * LIGHT {
@@ -106,8 +105,8 @@ pub(super) fn check_starts<T: Real, const D: usize>(body: &Body<T, D>) -> Option
             return Some(("energy", start.energy, must_be));
         }
         if !is_gas && !(rest / DENSITIES..=rest * DENSITIES).contains(&start.density) {
-            let must_be = "it must be between a quarter of the material's and four times that, in kg/m³: give \
-                           another material, or leave the density to it";
+            let must_be = "it must be between a quarter of the material's and four times that, in kg/m³: take \
+            another material, or leave the density out";
             return Some(("density", start.density, must_be));
         }
         if !mass.is_normal() {
@@ -166,7 +165,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
                         "the outlets take every particle of body `{}` at the start",
                         body.name
                     ),
-                    remedy: "turn the normal round: it points to where particles leave; or move the outlet",
+                    remedy: "reverse the normal, which points to where particles leave, or move the outlet",
                 });
             }
         }
@@ -179,13 +178,13 @@ impl<T: Real, const D: usize> Scene<T, D> {
         if let Some((kind, _)) = bodies.chain(walls).find(|(_, name)| name.trim().is_empty()) {
             problems.push(Problem::Incompatible {
                 what: format!("a {kind} has an empty name"),
-                remedy: "give it one: errors, contacts and tables know it by its name",
+                remedy: "give it one: errors, contacts and tables use it",
             });
         }
         for (first, second, _) in &self.contacts {
             if first == second {
                 problems.push(Problem::Incompatible {
-                    what: format!("what body `{first}` does to itself is given"),
+                    what: format!("an interaction of body `{first}` with itself is given"),
                     remedy: "name two bodies: a body is always bonded to itself",
                 });
             }
@@ -281,7 +280,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         if control.courant.is_finite() && control.courant >= bearable {
             problems.push(Problem::Incompatible {
                 what: format!(
-                    "the step factor (courant) is {}, and integrator and kernel bear less than {bearable}",
+                    "the step factor (courant) is {}, and integrator and kernel are stable below {bearable}",
                     control.courant
                 ),
                 remedy: "take the 0.55 of the schemes, or less for noisy flow",
@@ -292,7 +291,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 "force factor of the step",
                 control.force,
                 1.0,
-                "it must be positive and below 1: with 1 a particle goes half a smoothing length from rest",
+                "it must be positive and below 1: with 1 a particle moves half a smoothing length from rest",
             ),
             (
                 "viscous factor of the step",
@@ -304,7 +303,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 "approach factor of the step",
                 control.approach,
                 1.0,
-                "it must be positive and below 1, or pairs go through each other",
+                "it must be positive and below 1, or particles pass through each other",
             ),
         ] {
             if value.is_nan() || value <= 0.0 || value >= limit {
@@ -313,7 +312,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         }
         if control.growth.is_nan() || control.growth <= 1.0 {
             let must_be =
-                "it must be above 1, or steps that were short once stay so; infinite for no limit";
+                "it must be above 1, or the step never grows again; infinite for no limit";
             problems.push(parameter(
                 "growth factor of the step",
                 control.growth,

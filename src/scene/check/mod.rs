@@ -161,7 +161,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
                             body.name,
                             boundary.name()
                         ),
-                        remedy: "move one of them, or turn the normal round: it points out of the material",
+                        remedy: "move one of them, or reverse the normal: it points out of the material",
                     });
                 }
             }
@@ -196,7 +196,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
                         "body `{}` starts hydrostatic under {own:?} m/s², and the acceleration of the scene at t = 0 is {given:?} m/s²",
                         body.name
                     ),
-                    remedy: "give both the same: pressure grows along it",
+                    remedy: "give both the same value",
                 });
             }
         }

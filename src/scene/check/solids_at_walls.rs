@@ -1,4 +1,4 @@
-//! What can be wrong where solids meet walls of particles: contact that is not named, and what is said of walls in vain.
+//! What can be wrong where solids meet walls of particles: contact that is not named, and couplings that walls cannot have.
 //! A liquid meets all walls by the wall law of its scheme.
 
 use crate::error::Problem;
@@ -25,14 +25,14 @@ impl<T: Real, const D: usize> Scene<T, D> {
             }
         }
         for (first, second, interaction) in &self.contacts {
-            let what = format!("what `{first}` and `{second}` do to each other is given");
+            let what = format!("the interaction of `{first}` and `{second}` is given");
             self.check_wall_of_pair(first, second, &what, problems);
             let walls = [first, second].map(|name| self.wall_number(name).is_some());
             if walls.contains(&true) && *interaction != Interaction::None {
                 problems.push(Problem::Incompatible {
                     what: format!("{what} as {interaction:?}, and one is a wall of particles"),
-                    remedy: "name their contact by Scene::couple; of a wall Scene::between says only that it is not met \
-                             (Interaction::None)",
+                    remedy: "name their contact with Scene::couple; for a wall Scene::between takes only \
+                    Interaction::None",
                 });
             }
         }
@@ -53,7 +53,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             }
             if self.wall_number(second).is_some() && own.coupling.is_wall() {
                 incompatible(
-                    "makes a wall of a liquid of what is a wall of all liquids",
+                    "makes a wall of a wall of particles, which already is one for all liquids",
                     "leave it out, or take a contact (ContactDensity, Penalty)",
                 );
             }
@@ -91,7 +91,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         if is_wall(first) && is_wall(second) {
             problems.push(Problem::Incompatible {
                 what: format!("{what}, and both are walls of particles"),
-                remedy: "leave it out: walls move as they are told",
+                remedy: "leave it out: walls move as prescribed",
             });
         } else if (is_wall(first) && is_liquid(second)) || (is_liquid(first) && is_wall(second)) {
             problems.push(Problem::Incompatible {

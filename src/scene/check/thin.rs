@@ -1,4 +1,4 @@
-//! Total-Lagrangian bodies that are one particle thick: no gradient across them can be told, and they bend like a cloth.
+//! Total-Lagrangian bodies that are one particle thick: there is no gradient across them, and they bend like a cloth.
 //! What images continue is not looked at.
 
 use crate::error::Problem;
@@ -37,7 +37,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
                             body.spacing,
                             body.points.len()
                         ),
-                        remedy: "take a spacing of at most half of its thickness; what is to bend wants five particles across",
+                        remedy: "take a spacing of at most half of its thickness; a body that bends needs five \
+                        particles across",
                     });
                 }
             }

@@ -73,8 +73,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
             if !scheme.meets_walls() || !scheme.density.is_integrated() {
                 problems.push(Problem::Incompatible {
                     what: format!(
-                        "an outlet has a buffer of given density, and the scheme {} is none of a liquid whose density \
-                         evolves",
+                        "an outlet has a buffer of given density, and the scheme {} does not integrate the \
+                         density of a liquid",
                         scheme.name
                     ),
                     remedy: "take a scheme of liquids (schemes::weakly_compressible), or an outlet without a buffer",
@@ -91,8 +91,8 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 problems.push(Problem::Parameter {
                     what: "depth of the buffer of an outlet".into(),
                     value: buffer.depth,
-                    must_be: "it must be as much as the kernel reaches, its support times h, or the liquid inside feels the \
-                              end: make it deeper",
+                    must_be: "it must be as much as the kernel reaches, its support times h, or the end acts on \
+                    the liquid inside: make it deeper",
                 });
             }
         }
@@ -110,7 +110,8 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             {
                 problems.push(Problem::Incompatible {
                     what: format!(
-                        "the wall law of the scheme {} needs normals, and wall `{}` does not know the container that it faces",
+                        "the wall law of the scheme {} needs normals, and wall `{}` has no container of the \
+                         liquid",
                         self.scheme.name, wall.name
                     ),
                     remedy: "give it the container of the liquid, Wall::fluid_side, or take ExtrapolatedPressure",
@@ -171,7 +172,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                 parameter(
                     "motion at t = 0",
                     f64::NAN,
-                    "position, velocity and acceleration must be finite: look for gaps in its table",
+                    "position, velocity and acceleration must be finite: check its table for gaps",
                 );
             }
             if wall.points.is_empty() {

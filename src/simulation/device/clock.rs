@@ -208,7 +208,7 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
     /// Looks at stored energy.
     ///
     /// # Errors
-    /// [`Error::StoredEnergy`] where it has come from nowhere.
+    /// [`Error::StoredEnergy`] where the time integration creates energy.
     pub fn look_at_energy(&mut self) -> Result<()> {
         let looked = self.simulation.look_at_stores();
         self.simulation.keep_failure(looked)

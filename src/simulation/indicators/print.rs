@@ -16,7 +16,7 @@ impl fmt::Display for Indicators {
         let time = significant(*time, 4);
         writeln!(
             f,
-            "indicators at {time} s, {particles} particles looked at, {inside} of them away from free surfaces"
+            "indicators at {time} s, {particles} particles sampled, {inside} of them away from free surfaces"
         )?;
         let line = |f: &mut fmt::Formatter<'_>, what: &str, own: &Spread| {
             let [median, worst] = [own.median, own.worst.value].map(|value| significant(value, 2));
@@ -35,7 +35,7 @@ impl fmt::Display for Indicators {
         for (what, own) in [
             ("unity defect", &self.unity),
             ("gradient defect", &self.gradient),
-            ("left of it by the scheme", &self.left),
+            ("after the correction", &self.left),
             ("disorder", &self.disorder),
             ("density by sum, and carried", &self.density),
             ("spacing over front", &self.fronts),
@@ -49,8 +49,8 @@ impl fmt::Display for Indicators {
             line(f, "particles across", own)?;
         }
         match self.limit() {
-            Some(limit) => write!(f, "limited most by {limit}"),
-            None => write!(f, "limited by nothing that was measured"),
+            Some(limit) => write!(f, "largest error by {limit}"),
+            None => write!(f, "no source of error was found"),
         }
     }
 }

@@ -82,7 +82,7 @@ pub enum LimitedBy {
 impl fmt::Display for LimitedBy {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(match self {
-            Self::Smoothing => "spacing: what is smoothed",
+            Self::Smoothing => "spacing: smoothing",
             Self::Sums => "floor: sums over neighbours",
             Self::Disorder => "floor: disorder",
             Self::Drift => "drift of density",

@@ -1,4 +1,4 @@
-//! Whether a run has stayed sound: bounds, limits, residuals, arrangement, steps and noise, held against thresholds.
+//! Whether a run is stable: bounds, limits, residuals, arrangement, steps and noise, compared with thresholds.
 //! Kept on request, since a look at every particle in every step is not free; off, it costs one question a step.
 
 mod arrangement;
@@ -19,7 +19,7 @@ use crate::once::once;
 use crate::scalar::Real;
 
 impl<T: Real, const D: usize> Simulation<T, D> {
-    /// Starts to watch the run from the present state on: [`stability`](Self::stability) then tells of all of it, with
+    /// Starts to watch the run from the present state on: [`stability`](Self::stability) then reports all of it, with
     /// what first left the thresholds, where and when. Off by default. Observing changes no bit of the run.
     ///
     /// Densities, smoothing lengths and the step are looked at after every step, and the arrangement of the particles every

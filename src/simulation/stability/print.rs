@@ -87,7 +87,7 @@ impl fmt::Display for StabilityReport {
         writeln!(
             f,
             "  {:<26} {quantile} spacings; within half of one: {close} %",
-            "nearest of 0.1 %"
+            "closest 0.1 %"
         )?;
         if let Some(now) = self.arrangement {
             let [mean, uneven, sparse] = [1.0 - now.mean, now.anisotropy, 100.0 * now.sparse];
@@ -124,7 +124,7 @@ impl fmt::Display for StabilityReport {
         writeln!(
             f,
             "  {:<26} {} %",
-            "price of watching",
+            "cost of watching",
             significant(100.0 * self.price, 2)
         )?;
         if let Some(cause) = &self.verdict.failed {

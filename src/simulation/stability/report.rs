@@ -97,7 +97,7 @@ pub struct StabilityReport {
     pub limited: f64,
     /// Residual of momentum over Σ m |v| or what has acted from outside, the larger; where that is known.
     pub momentum: Option<f64>,
-    /// Energy gained from nowhere, over the energy: of the [energy ledger](Simulation::keep_energy), or of a closed scene.
+    /// Energy created by the time integration, over the energy: of the [energy ledger](Simulation::keep_energy), or of a closed scene.
     pub energy_gain: Option<f64>,
     /// Change of the energy of a closed scene whose bodies carry internal energy.
     pub energy_closure: Option<f64>,

@@ -16,7 +16,7 @@ pub struct Thresholds {
     /// Largest residual of momentum over Σ m |v|; 10⁻¹⁰, or a thousand roundings of the scalar. Forces that are no pair
     /// forces (renormalised gradients) need more.
     pub momentum: f64,
-    /// Largest gain of energy from nowhere over the energy; 10⁻³.
+    /// Largest share of the energy that the time integration may create; 10⁻³.
     pub energy_gain: f64,
     /// Largest change of the energy of a closed scene whose bodies carry internal energy, over it; 1 %. 10⁻¹⁰ can be asked of
     /// compatible energy.

@@ -32,7 +32,7 @@ pub(in super::super) struct Seen<const D: usize> {
     pub position: [f64; D],
 }
 
-/// What is held against thresholds while the run goes on.
+/// What is compared with thresholds during the run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in super::super) enum Measure {
     Thin,

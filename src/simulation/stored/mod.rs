@@ -1,5 +1,5 @@
-//! Stored energy, which is a function of the state, held against the work that went into it.
-//! Internal energy is integrated to balance the work of forces, so it alone is silent about energy from nowhere.
+//! Stored energy, which is a function of the state, compared with the work that went into it.
+//! Internal energy is integrated to balance the work of forces, so it cannot show energy that the time integration creates.
 
 mod account;
 mod measured;

@@ -18,7 +18,7 @@ pub enum Basis {
     Measured,
 }
 
-/// How to run, what it costs, and what comes out. Intervals hold with 90 % if the laws hold.
+/// How to run, what it costs, and the result. Intervals hold with 90 % if the laws hold.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recipe {
     /// The method.

@@ -111,7 +111,7 @@ impl View<'_> {
             "floor [%]",
             "scatter [%]",
             "pairs ~ dx^-q, q",
-            "finest foretold: error, time (over measured)",
+            "finest predicted: error, time (over measured)",
         ]);
         let foretold = self.foretold();
         for method in self.report.methods() {

@@ -5,7 +5,7 @@
 //! [`sweep`](WorkPrecision::sweep)s or named one by one; the function reads them and builds the scene, so anything that a
 //! scene can be is something that a study can sweep. What it returns is an [`Outcome`]: values of the quantities of
 //! interest, and the work that it was. Time is that of steps
-//! unless another [`Clock`] is chosen; the same runs are also told in pairs, steps, list builds and
+//! unless another [`Clock`] is chosen; the same runs are also reported in pairs, steps, list builds and
 //! bytes, which no machine changes ([`Work`](crate::simulation::Work)). A run that fails is a row too.
 //!
 //! ```
@@ -181,28 +181,28 @@ impl<'a> WorkPrecision<'a> {
     }
 
     /// How often a run is repeated, for the median of its time, as long as all its repeats together take less than
-    /// [`repeat_up_to`](Self::repeat_up_to); 3 unless told.
+    /// [`repeat_up_to`](Self::repeat_up_to); 3 by default.
     #[must_use]
     pub fn repeats(mut self, times: usize) -> Self {
         self.repeats = times.max(1);
         self
     }
 
-    /// The time that repeats of one run may take; a second unless told.
+    /// The time that repeats of one run may take; a second by default.
     #[must_use]
     pub fn repeat_up_to(mut self, time: Duration) -> Self {
         self.repeat_up_to = time;
         self
     }
 
-    /// The time after which no further run is begun; runs that were not are rows that say so. None unless told.
+    /// The time after which no further run is begun; later runs are rows that say so. None by default.
     #[must_use]
     pub fn budget(mut self, time: Duration) -> Self {
         self.budget = Some(time);
         self
     }
 
-    /// What the time of a run is; that of its steps on the wall unless told.
+    /// What the time of a run is; by default the wall-clock time of its steps.
     #[must_use]
     pub fn clock(mut self, clock: Clock) -> Self {
         self.clock = clock;
@@ -307,7 +307,7 @@ impl<'a> WorkPrecision<'a> {
     /// Runs all methods on all spacings, coarse to fine.
     ///
     /// # Errors
-    /// If the study has no quantity, no spacing, or one that is none. A run that fails is a row of the report.
+    /// If the study has no quantity, no spacing, or one that is not positive and finite. A run that fails is a row of the report.
     pub fn run(mut self) -> Result<Report> {
         let mut methods = self.all_methods();
         if let Some((method, spacing)) = &self.point {

@@ -1,9 +1,9 @@
-//! Quantities of interest: what a study measures of every run, and what it is held against.
+//! Quantities of interest: what a study measures in every run, and what it is compared with.
 //! A quantity is one number, or samples at the same places or times in every run.
 
 use crate::study::norms::Norms;
 
-/// What a quantity is held against.
+/// What a quantity is compared with.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reference {
     /// The run has measured its own error, against an exact or a manufactured solution: the value is the error.
@@ -42,7 +42,7 @@ impl Norm {
 }
 
 /// A quantity of interest. Its error is the norm of its difference from the reference over a scale: the norm of the
-/// reference unless told, and 1 for [`Reference::Measured`].
+/// reference by default, and 1 for [`Reference::Measured`].
 ///
 /// ```
 /// use meshfree::study::work_precision::{Norm, Quantity};
@@ -86,19 +86,19 @@ impl Quantity {
         Self::new(name, Reference::Exact(values.into_iter().collect()))
     }
 
-    /// One that is held against the finest run of its method.
+    /// One that is compared with the finest run of its method.
     #[must_use]
     pub fn finest(name: &str) -> Self {
         Self::new(name, Reference::Finest)
     }
 
-    /// One that is held against the limit of its method.
+    /// One that is compared with the limit of its method.
     #[must_use]
     pub fn richardson(name: &str) -> Self {
         Self::new(name, Reference::Richardson)
     }
 
-    /// The norm of samples; L2 unless told.
+    /// The norm of samples; L2 by default.
     #[must_use]
     pub fn norm(mut self, norm: Norm) -> Self {
         self.norm = norm;

@@ -76,12 +76,12 @@ pub struct Viscous<L> {
     note = "implement `ArtificialViscosity<{D}>`: the fields it reads and `pair`, which returns Π and a signal speed"
 )]
 pub trait ArtificialViscosity<const D: usize>: Clone + Debug + Send + Sync + 'static {
-    /// Fields it reads beside position, velocity, mass, density and sound speed.
+    /// Fields it reads in addition to position, velocity, mass, density and sound speed.
     const READS: Fields;
     /// Fields that it or its switch reads. The scheme makes those of them that are gradients, as
     /// [`Field::VELOCITY_GRADIENT`], before the forces.
     const NEEDS: Fields = Self::READS;
-    /// Sums that it adds to beside the force and the signal, for its switch.
+    /// Sums that it adds to in addition to the force and the signal, for its switch.
     const WRITES: Outputs = Outputs::NONE;
     /// Π and the signal speed of a pair.
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>) -> Viscous<L>;
