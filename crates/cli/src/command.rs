@@ -4,7 +4,7 @@
 use crate::build::{faults_of, scene, schemes};
 use crate::fault::{Fault, Faults, Source};
 use crate::format::SceneFile;
-use crate::outputs::{self, Sensors};
+use crate::outputs::{self, CHECKPOINT, Sensors};
 use core::fmt;
 use meshfree::prelude::Scheme;
 use meshfree::run::Failure;
@@ -45,6 +45,8 @@ pub enum Task {
     Check,
     /// Runs, and writes into a folder if not into that of the file.
     Run(Option<PathBuf>),
+    /// Goes on from the checkpoint in that folder.
+    Resume(Option<PathBuf>),
 }
 
 /// Does what is asked with the scene of a file; returns what there is to print.
@@ -88,31 +90,32 @@ fn with<const D: usize>(
 ) -> Result<String, Stopped> {
     let printed = scheme.to_string();
     let scene = scene(source, file, scheme)?;
-    let advice = scene.advise(file.run.until, &Known::default());
-    let built = scene.build();
+    let advice = scene.advise(file.run.until, &Known::from(&file.known));
+    let stem = source.path().file_stem().unwrap_or_default();
+    let folder = |given: &Option<PathBuf>| {
+        let own = || file.output.folder.as_ref().map(PathBuf::from);
+        let given = given.clone().or_else(own);
+        given.unwrap_or_else(|| Path::new("out").join(stem))
+    };
+    let built = match task {
+        Task::Check | Task::Run(_) => scene.build(),
+        Task::Resume(given) => scene.resume(folder(given).join(CHECKPOINT)),
+    };
     let mut simulation = built.map_err(|error| faults_of(source, &error))?;
     let sensors = Sensors::of(source, file, &mut simulation)?;
-    let stem = source
-        .path()
-        .file_stem()
-        .map(|own| own.to_string_lossy().into_owned());
-    let title = file.title.clone().or(stem).unwrap_or_default();
     match task {
         Task::Check => {
             let work = simulation.expected_work(file.run.until);
             let work = work.map_err(|error| faults_of(source, &error))?;
+            // Advice names what it lacks as the library does.
+            let advice = advice.to_string().replace("Known::", "known.");
             Ok(format!("{printed}\n{advice}\n{}", price(&work)))
         }
-        Task::Run(folder) => {
-            let own = || {
-                let usual = || Path::new("out").join(source.path().file_stem().unwrap_or_default());
-                file.output
-                    .folder
-                    .as_ref()
-                    .map_or_else(usual, PathBuf::from)
-            };
-            let folder = folder.clone().unwrap_or_else(own);
-            let ran = outputs::run(&title, file, &mut simulation, &sensors, &folder);
+        Task::Run(given) | Task::Resume(given) => {
+            let folder = folder(given);
+            let stem = stem.to_string_lossy();
+            let title = file.title.as_deref().unwrap_or(&stem);
+            let ran = outputs::run(title, file, &mut simulation, &sensors, &folder);
             let summary = ran.map_err(Stopped::Run)?;
             Ok(format!(
                 "{title}: {summary}\nwritten to {}",
@@ -125,7 +128,7 @@ fn with<const D: usize>(
 /// What a run will take.
 fn price(work: &Work) -> String {
     format!(
-        "{} particles, about {} steps of {:.2} ms, {:.0} MB, {:.1} s",
+        "{} particles, about {} steps of {:.2} ms, {:.1} MB, {:.1} s",
         work.particles,
         work.steps,
         1e3 * work.time.as_secs_f64() / work.steps.max(1) as f64,

@@ -117,7 +117,9 @@ impl Source {
             let span = error.span().filter(|span| !span.is_empty());
             let field = span.as_ref().map(|span| self.field_at(span.start));
             let line = span.map(|span| self.line_at(span.start));
-            let fault = Fault::new(field.unwrap_or_default(), error.message());
+            let field = field.unwrap_or_default();
+            let text = in_words(error.message(), &field);
+            let fault = Fault::new(field, text);
             Faults {
                 file: self.path.clone(),
                 list: vec![(line, fault)],
@@ -149,7 +151,8 @@ impl Source {
     pub fn key_named(&self, field: &str, text: &str) -> Option<String> {
         let root = DeTable::parse(&self.text).ok()?;
         let table = find(root.get_ref(), field)?.get_ref().as_table()?;
-        let start = text.split(" is ").next().unwrap_or_default();
+        let ends = [" is ", ": ", "; "].iter().filter_map(|end| text.find(end));
+        let start = &text[..ends.min().unwrap_or(text.len())];
         // Names of bodies and walls are no keys, and coefficients have Greek letters.
         let prose: String = start.split('`').step_by(2).collect();
         let [alpha, beta, delta] = [('α', "alpha"), ('β', "beta"), ('δ', "delta")];
@@ -213,6 +216,27 @@ impl Source {
         });
         field.unwrap_or_default()
     }
+}
+
+/// A message of the reader without names of types.
+fn in_words(message: &str, field: &str) -> String {
+    if message.contains("expected newtype variant") {
+        return format!("is a name alone: write a table `[{field}.NAME]`, with options or without");
+    }
+    let types = [
+        ("f64", "a number"),
+        ("u8", "a whole number that is not negative"),
+        ("u64", "a whole number that is not negative"),
+        ("usize", "a whole number that is not negative"),
+    ];
+    let ending = |(of, words): &(&str, &str)| {
+        let start = message.strip_suffix(of)?.strip_suffix("expected ")?;
+        Some(format!("{start}expected {words}"))
+    };
+    types
+        .iter()
+        .find_map(ending)
+        .unwrap_or_else(|| message.to_owned())
 }
 
 /// A key of a table, and its value.

@@ -25,6 +25,9 @@ enum Command {
         /// The folder that is written to, in place of that of the file.
         #[arg(long)]
         out: Option<PathBuf>,
+        /// Goes on from the checkpoint in that folder, to the bits of a run in one go.
+        #[arg(long)]
+        resume: bool,
         /// Checks alone, as `check` does.
         #[arg(long)]
         dry_run: bool,
@@ -47,6 +50,12 @@ fn main() -> ExitCode {
             dry_run: true,
             ..
         } => (scene, Task::Check),
+        Command::Run {
+            scene,
+            out,
+            resume: true,
+            ..
+        } => (scene, Task::Resume(out)),
         Command::Run { scene, out, .. } => (scene, Task::Run(out)),
     };
     let done = Source::read(&scene).map_err(Stopped::Scene);

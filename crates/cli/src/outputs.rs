@@ -11,11 +11,13 @@ use meshfree::particles::Field;
 use meshfree::run::{Failure, Run, Schedule, Stop, Summary};
 use meshfree::scene::ParticleState;
 use meshfree::simulation::Simulation;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// Histories that no schedule is given for are written at so many times, and sensors are read at so many.
 const USUAL: [usize; 2] = [101, 501];
+/// The file from which a run goes on.
+pub const CHECKPOINT: &str = "checkpoint.safetensors";
 /// The letters of axes, in names of columns.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
@@ -188,6 +190,7 @@ fn check_run<const D: usize>(file: &SceneFile, now: &mut Simulation<f64, D>) -> 
         ("output.paraview", &output.paraview),
         ("output.history", &output.history),
         ("output.probes", &output.probes),
+        ("output.checkpoint", &output.checkpoint),
     ];
     // A run that is over as it begins checks what it is given.
     for (field, own) in schedules {
@@ -209,6 +212,15 @@ fn check_run<const D: usize>(file: &SceneFile, now: &mut Simulation<f64, D>) -> 
         faults.push(Fault::new("run.wall_clock", text));
     }
     faults
+}
+
+/// The place of a table: a run that goes on leaves those of the run before, and takes the next number.
+fn free(folder: &Path, name: &str, is_resumed: bool) -> PathBuf {
+    let numbers = (2..).map(|k| format!("{name}_{k}.csv"));
+    let names = core::iter::once(format!("{name}.csv")).chain(numbers);
+    let mut paths = names.map(|own| folder.join(own));
+    let first = paths.find(|path| !(is_resumed && path.exists()));
+    first.unwrap_or_else(|| folder.join(name))
 }
 
 /// Runs to the end, and writes into `folder`.
@@ -238,15 +250,13 @@ pub fn run<const D: usize>(
     let comment = format!(
         "kg{unit}, J{unit}, kg m/s{unit}, N{unit}; mass, momentum and energies of all bodies"
     );
-    let path = folder.join("history.csv");
-    let mut history = CsvWriter::create_with_comment(path, &comment, &columns)?;
+    let is_resumed = simulation.steps() > 0;
+    let path = |name| free(folder, name, is_resumed);
+    let mut history = CsvWriter::create_with_comment(path("history"), &comment, &columns)?;
     let mut readings = if sensors.is_empty() {
         None
     } else {
-        Some(CsvWriter::create(
-            folder.join("probes.csv"),
-            &sensors.columns,
-        )?)
+        Some(CsvWriter::create(path("probes"), &sensors.columns)?)
     };
     let output = &file.output;
     let mut run = Run::new(simulation, file.run.until)
@@ -268,6 +278,12 @@ pub fn run<const D: usize>(
     }
     if let Some(own) = &output.paraview {
         run = run.paraview(schedule(Some(own), 1), folder.join("particles.pvd"));
+    }
+    // Last of all, so that what belongs to that time is written.
+    if let Some(own) = &output.checkpoint {
+        run = run.observe(schedule(Some(own), 2), |now| {
+            Ok(now.save(folder.join(CHECKPOINT))?)
+        });
     }
     for (_, stop) in stops(file) {
         run = run.stop(stop);

@@ -248,5 +248,13 @@ fn fault_of(source: &Source, problem: &Problem) -> Fault {
                 .find_map(|table| source.key_named(table, &text))
         }),
     };
+    let text = match problem {
+        // The library says it in Rust.
+        Problem::ContactNotNamed { body, wall, .. } => format!(
+            "body `{body}` meets wall `{wall}`, and the file does not say how: add `[[between]]` of the two with the \
+             interaction \"contact\", and its `friction` where it rubs, or \"none\" if they never meet"
+        ),
+        _ => text,
+    };
     Fault::new(field.unwrap_or_default(), text)
 }

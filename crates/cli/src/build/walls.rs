@@ -79,9 +79,18 @@ impl<const D: usize> Builder<'_, D> {
             let points = fill(&shape, dx, shape.bounds().0).map_err(Fault::of(&at))?;
             Wall::of(name, points, dx).fluid_side(shape.complement())
         };
+        let until = self.file.run.until;
         let mut motion: Option<Composed<D>> = None;
         for (n, next) in own.motion.iter().enumerate() {
-            let next = self.motion(next, &format!("{field}.motion[{n}]"))?;
+            let at = format!("{field}.motion[{n}]");
+            let next = self.motion(next, &at)?;
+            let [first, last] = boundary::Motion::span(&next);
+            if first > 0.0 || last < until {
+                let text = format!(
+                    "goes from {first} s to {last} s, and the run from 0 s to {until} s: give more rows, or `at_rest_beyond`"
+                );
+                return Err(Fault::new(at, text));
+            }
             motion = Some(match motion {
                 None if own.motion.len() == 1 => {
                     wall = wall.motion(next);

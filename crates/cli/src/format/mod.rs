@@ -2,6 +2,7 @@
 //! Names are those of the library; lengths are in metres, times in seconds, all else in SI units.
 
 mod bodies;
+mod known;
 mod material;
 mod outputs;
 mod scheme;
@@ -10,6 +11,7 @@ mod table;
 mod walls;
 
 pub use bodies::{Body, Corners, Jitter};
+pub use known::Known;
 pub use material::{Elastic, Gas, LiquidLaw, Material, MieGruneisenLaw, Shock, Strength};
 pub use outputs::{Axis, Gauge, Output, Point, Probe, Quantity, Run, Schedule, Window};
 pub use scheme::{GasScheme, ImpactScheme, LiquidScheme, Scheme, SolidScheme, SpongeLayer, Steps};
@@ -61,6 +63,9 @@ pub struct SceneFile {
     /// Accelerations of all particles by time, in m/s²: straight lines between rows, zero beyond them.
     #[serde(default)]
     pub acceleration: Vec<Table>,
+    /// What advice asks for beside the scene.
+    #[serde(default)]
+    pub known: Known,
     /// When the run ends.
     pub run: Run,
     /// What is written.

@@ -41,6 +41,8 @@ pub struct Output {
     pub history: Option<Schedule>,
     /// When `probe`, `gauge` and `point` are written to `probes.csv`; at 501 times if not given.
     pub probes: Option<Schedule>,
+    /// When `checkpoint.safetensors` is written, from which `run --resume` goes on; not at all if not given.
+    pub checkpoint: Option<Schedule>,
 }
 
 /// Times: those of each key together.

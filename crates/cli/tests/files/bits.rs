@@ -9,6 +9,7 @@ use meshfree::prelude::*;
 use meshfree::scene::ParticleState;
 use meshfree::term::viscosity::MonaghanGingold;
 use meshfree_cli::command::Task;
+use std::path::Path;
 
 /// The last state of a scene file.
 fn of_file(text: &str, name: &str) -> String {
@@ -112,4 +113,33 @@ fn composite_rods_have_the_bits_of_rust() {
         .body(rod("target", "copper", 0.015, 0.055))
         .between("striker", "pad", Interaction::Bonded);
     assert_eq!(of_file(&rods, "rods"), of_rust(scene, 8e-6, "rods_rust"));
+}
+
+#[test]
+fn a_resumed_run_has_the_bits_of_one_run() {
+    let rods = text("composite_rods.toml");
+    let output = "checkpoint = { at = [4e-6] }\nhistory = { every = 1e-6 }";
+    let until = |until: &str| {
+        altered(
+            &rods,
+            &[
+                ("until = 26e-6", until),
+                ("history = { every = 1e-6 }", output),
+            ],
+        )
+    };
+    let whole = of_file(&until("until = 8e-6"), "resumed_whole");
+    let half = of_file(&until("until = 5e-6"), "resumed");
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("files/resumed");
+    perform(
+        &source(&until("until = 8e-6")),
+        &Task::Resume(Some(folder.clone())),
+    )
+    .expect("a run");
+    let read = |name: &str| std::fs::read_to_string(folder.join(name)).expect("columns");
+    assert_eq!(read("particles.csv"), whole);
+    assert_ne!(half, whole);
+    // From 5 to 8 µs, beside the table of the run before.
+    let rows = |name| Csv::read(folder.join(name)).expect("a table").rows.len();
+    assert_eq!([rows("history.csv"), rows("history_2.csv")], [6, 4]);
 }

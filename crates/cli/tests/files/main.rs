@@ -3,6 +3,7 @@
 
 mod bits;
 mod faults;
+mod physics;
 mod program;
 mod schema;
 
