@@ -1,4 +1,5 @@
 //! Bodies of the library, and what holds parts of them.
+//! A body that is wrong leaves the others to be looked at.
 
 use super::{Builder, Part, only_one, vector};
 use crate::fault::Fault;

@@ -1,4 +1,5 @@
 //! Materials of the library: of the catalogue, or by numbers.
+//! Those of a file go before those of the catalogue.
 
 use super::{Builder, Part, only_one};
 use crate::fault::Fault;

@@ -1,4 +1,5 @@
 //! Shapes of the library from those of a file.
+//! Each part of a combined shape is checked at its own field.
 
 use super::{Builder, Part, in_space, only_in_space, vector};
 use crate::fault::Fault;

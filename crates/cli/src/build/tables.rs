@@ -1,4 +1,5 @@
 //! Rows of tables, from the scene file or from CSV files beside it.
+//! A row that has another width than its use is refused by its number.
 
 use super::{Builder, Part};
 use crate::fault::Fault;

@@ -1,4 +1,5 @@
 //! Walls of particles with their motions, planes, periods and outlets.
+//! A motion must last as long as the run.
 
 use super::{Builder, Part, in_space, only_in_space, only_one, sound, vector};
 use crate::fault::Fault;

@@ -1,4 +1,5 @@
 //! Bodies: a material in a place, with the state it starts from.
+//! Of the keys that say where a body is, a file gives one.
 
 use super::Shape;
 use schemars::JsonSchema;

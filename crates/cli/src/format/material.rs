@@ -1,4 +1,5 @@
 //! Materials by numbers.
+//! What is wrong with numbers the library says, at the field of the material.
 
 use schemars::JsonSchema;
 use serde::Deserialize;

@@ -1,4 +1,5 @@
 //! When a run ends, and what it writes.
+//! Schedules and criteria are those of `meshfree::run`.
 
 use schemars::JsonSchema;
 use serde::Deserialize;

@@ -1,4 +1,5 @@
 //! Schemes of the library that are compiled in, with their options.
+//! Options that are not given have the values of the library, or those of its example.
 
 use schemars::JsonSchema;
 use serde::Deserialize;

@@ -1,4 +1,5 @@
 //! Shapes, which fill bodies and walls.
+//! Shapes are combined by union, intersection and difference.
 
 use schemars::JsonSchema;
 use serde::Deserialize;

@@ -1,4 +1,5 @@
 //! Tables of time and values, in the scene file or in a CSV file beside it.
+//! A table has as many values a row as its use needs.
 
 use schemars::JsonSchema;
 use serde::Deserialize;

@@ -1,4 +1,5 @@
 //! Walls, planes, periods, outlets, motions, and what bodies do to each other.
+//! Motions are given by tables, for a file holds no functions.
 
 use super::outputs::Axis;
 use super::{Shape, Table};
@@ -133,7 +134,7 @@ pub enum Outlet {
     },
 }
 
-/// What two bodies do to each other, by `interaction` within a liquid, solid or gas, and by `friction` for contact with walls.
+/// What two bodies do to each other, or a body and a wall of particles.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Between {
