@@ -227,6 +227,7 @@
 //! | [ParaView and films](https://github.com/meshfree/meshfree/blob/main/docs/how_to_paraview.md) | particle files and films, and how to look at them |
 //! | [restart](https://github.com/meshfree/meshfree/blob/main/docs/how_to_restart.md) | checkpoints and restarts |
 //! | [paddles, gauges and sponges](https://github.com/meshfree/meshfree/blob/main/docs/how_to_waves.md) | wave makers from rows of time, gauges, absorbing layers |
+//! | [scenes from files](https://github.com/meshfree/meshfree/blob/main/docs/how_to_scene_files.md) | scenes in TOML, run by the program `meshfree` without Rust |
 //! | [shapes from STL files](https://github.com/meshfree/meshfree/blob/main/docs/how_to_stl.md) | bodies and tanks from triangle meshes |
 //! | [loads and coupling](https://github.com/meshfree/meshfree/blob/main/docs/how_to_coupling.md) | loads, columns without copies, neighbours, forces for another code |
 //! | [troubleshooting](https://github.com/meshfree/meshfree/blob/main/docs/how_to_troubleshoot.md) | error messages and symptoms, with cause and remedy |
