@@ -3,7 +3,6 @@
 
 use super::Offloaded;
 use super::laws::{Acting, record_law};
-use super::vote::place_of_timed;
 use crate::effect::Smoothing;
 use crate::error::{Error, Result};
 use crate::scalar::Real;
@@ -144,9 +143,10 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         all.extend(group.work.evaluated_gravity.map(Real::to_f64));
         all.extend(&self.range);
         all.extend(group.carried_since_listed(moment.time));
-        all.extend(self.since_lengths);
-        for (k, own) in self.timed.iter().enumerate() {
-            debug_assert_eq!(all.len(), place_of_timed::<D>(k));
+        if matches!(group.scheme.smoothing, Smoothing::Consistent(_)) {
+            all.extend(self.since_lengths);
+        }
+        for own in &self.timed {
             let law = &group.scheme.program.laws[own.stage.number()][own.law];
             let acting = Acting {
                 time: moment.time,

@@ -3,7 +3,7 @@
 
 use super::lengths::{change, limited, open};
 use super::program::{Action, Given, Kind, Made, PointStep};
-use super::record::{DT, Recorder, Sums, add, common, gravity};
+use super::record::{DT, Recorder, Sums, add, gravity};
 use crate::effect::{Around, Law, PointRecord};
 use crate::particles::Field;
 use crate::scalar::{Lane, Real, Traced};
@@ -111,7 +111,7 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
             return None;
         }
         // One of acting, and the constants, where they depend on time.
-        let first = common::<D>() + 5 * self.timed.len();
+        let first = self.place_of_timed();
         if is_timed {
             self.timed.push(Timed {
                 stage,

@@ -4,7 +4,7 @@
 use super::images::image_record;
 use super::laws::{Gate, Of, Timed};
 use super::program::{Action, Counted, Given, Kind, Made, PointStep, Program, SweepStep};
-use crate::effect::DensityForm;
+use crate::effect::{DensityForm, Smoothing};
 use crate::error::Problem;
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real, Record, Traced, Unrecordable};
@@ -37,13 +37,13 @@ pub(super) const fn least_length<const D: usize>() -> Given {
 pub(super) const fn carried<const D: usize>(d: usize) -> Given {
     Given::Shared(3 + 4 * D + d)
 }
-/// The time since smoothing lengths were found, its inverse, and whether there is any.
+/// The time since smoothing lengths were found, its inverse, and whether there is any, where lengths follow the density.
 pub(super) const fn since_lengths<const D: usize>(k: usize) -> Given {
     Given::Shared(3 + 5 * D + k)
 }
-/// How many there are before the numbers of laws.
-pub(super) const fn common<const D: usize>() -> usize {
-    6 + 5 * D
+/// How many there are in any scene.
+const fn common<const D: usize>() -> usize {
+    3 + 5 * D
 }
 /// The recorder of a group.
 pub(super) struct Recorder<'a, T: Real, const D: usize> {
@@ -93,6 +93,12 @@ impl<'a, T: Real, const D: usize> Recorder<'a, T, D> {
             problems: Vec::new(),
             in_drift: false,
         }
+    }
+
+    /// Where the numbers of the next law start among the shared ones.
+    pub(super) fn place_of_timed(&self) -> usize {
+        let follows = matches!(self.group.scheme.smoothing, Smoothing::Consistent(_));
+        common::<D>() + 3 * usize::from(follows) + 5 * self.timed.len()
     }
 
     fn there(&self) -> Fields {

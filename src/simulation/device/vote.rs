@@ -3,7 +3,7 @@
 
 use super::Offloaded;
 use super::program::{Action, Given, Made, PointStep, SweepStep};
-use super::record::{Recorder, common, evaluated, least_length, range};
+use super::record::{Recorder, evaluated, least_length, range};
 use crate::effect::{Around, View};
 use crate::error::{Error, Result};
 use crate::name;
@@ -419,9 +419,4 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         control.courant *= simulation.integrator.stability();
         control
     }
-}
-
-/// Where the numbers of a law that depends on time start among the shared ones.
-pub(super) const fn place_of_timed<const D: usize>(k: usize) -> usize {
-    common::<D>() + 5 * k
 }

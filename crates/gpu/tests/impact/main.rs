@@ -111,13 +111,7 @@ fn bars_that_flow_and_fail_are_those_of_the_host() {
         own.with(Plasticity).with(Damage)
     };
     let double = |fused| bar::<f64, 2>(fused, scheme());
-    in_both(
-        &device,
-        "Bar",
-        double,
-        || bar::<f32, 2>(false, scheme()),
-        100,
-    );
+    in_double(&device, "Bar", double, 100);
     let end = on_device(&device, double(false), 100);
     for name in ["plastic work", "failed mass"] {
         assert!(end.ledger().whole.total(name) > Some(0.0), "{name}");
