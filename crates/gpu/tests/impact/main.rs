@@ -112,6 +112,9 @@ fn bars_that_flow_and_fail_are_those_of_the_host() {
     };
     let double = |fused| bar::<f64, 2>(fused, scheme());
     in_double(&device, "Bar", double, 100);
+    // In space, with corrected gradients.
+    let in_space = |fused| bar::<f64, 3>(fused, schemes::updated_lagrangian().with(Plasticity));
+    in_double(&device, "Bar", in_space, 40);
     let end = on_device(&device, double(false), 100);
     for name in ["plastic work", "failed mass"] {
         assert!(end.ledger().whole.total(name) > Some(0.0), "{name}");
