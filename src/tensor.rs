@@ -226,24 +226,8 @@ impl<T: Real> Symmetric<T> {
     /// R S Rᵀ with a rotation or reflection of the first `D` axes.
     #[must_use]
     pub fn rotated<const D: usize>(&self, rotation: &Matrix<T, D>) -> Self {
-        let turn = |r: usize, c: usize| {
-            if r < D && c < D {
-                rotation[(r, c)]
-            } else if r == c {
-                T::one()
-            } else {
-                T::zero()
-            }
-        };
-        Self(PLACES.map(|(r, c)| {
-            let mut sum = T::zero();
-            for a in 0..3 {
-                for b in 0..3 {
-                    sum += turn(r, a) * self.at(a, b) * turn(c, b);
-                }
-            }
-            sum
-        }))
+        let rows = |r: usize| core::array::from_fn(|c| rotation[(r, c)]);
+        Square::<T, D>(core::array::from_fn(rows)).turned(self)
     }
     /// W S − S W with a spin W of the first `D` axes: the rate at which a rotation turns it.
     #[must_use]

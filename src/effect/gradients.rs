@@ -103,7 +103,7 @@ pub(super) fn correction<T: Real, const D: usize>(
 }
 
 /// The sums of a corrected velocity gradient.
-pub(super) const GRADIENT_SUMS: [Output; 2] = [Output::VELOCITY_GRADIENT, Output::MOMENT_MATRIX];
+pub(crate) const GRADIENT_SUMS: [Output; 2] = [Output::VELOCITY_GRADIENT, Output::MOMENT_MATRIX];
 
 /// ∇v of a particle \[1/s\] from the [sums](GRADIENT_SUMS) of its sweep.
 pub(super) fn velocity_gradient<T: Real, const D: usize>(
@@ -119,4 +119,4 @@ fn gradient_of<T: Real, const D: usize>(gradients: Summed<'_, T, D>, n: usize) -
 }
 
 /// Smallest pivot of a moment matrix that is inverted, relative to its largest entry.
-pub(super) const SINGULAR: f64 = 1e-3;
+pub(crate) const SINGULAR: f64 = 1e-3;

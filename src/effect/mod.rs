@@ -49,7 +49,7 @@ mod eulerian;
 mod evolved;
 mod finite_strain_plasticity;
 mod forms;
-mod gradients;
+pub(crate) mod gradients;
 mod heat_conduction;
 mod hourglass_control;
 mod hourglass_free;

@@ -150,10 +150,14 @@ impl<T: Real, const D: usize> Scheme<T, D> {
     pub fn pair_records(
         &self,
     ) -> Result<Vec<(Stage, crate::sweep::PairRecord)>, crate::scalar::Unrecordable> {
+        use crate::sweep::Pass;
         let all = Stage::ALL.iter();
-        all.filter_map(|&stage| Some((stage, self.sweep(stage)?.record())))
-            .map(|(stage, record)| Ok((stage, record?)))
-            .collect()
+        all.filter_map(|&stage| {
+            let sweep = self.sweep(stage)?;
+            Some((stage, sweep.record(Pass::Rates, false)))
+        })
+        .map(|(stage, record)| Ok((stage, record?)))
+        .collect()
     }
 
     /// The sweep of a stage, if any term names the stage.

@@ -17,7 +17,7 @@ use crate::term::Stage;
 use std::ops::Range;
 
 /// Largest share by which a smoothing length is predicted to change.
-const MOST_PREDICTED: f64 = 0.2;
+pub(super) const MOST_PREDICTED: f64 = 0.2;
 
 impl<T: Real, const D: usize> Group<T, D> {
     /// Weights of pair sums by a density form.

@@ -65,13 +65,17 @@ pub trait PairSweep<T: Real, const D: usize>: Debug + Send + Sync {
     fn document(&self) -> Vec<TermDoc>;
     /// What each of its terms reads and writes.
     fn uses(&self) -> Vec<TermUse>;
-    /// One pair of it, recorded for a device.
+    /// One pair of a pass, recorded for a device; with what it does across contacts that may open, where there are any.
     ///
     /// # Errors
     ///
     /// If a term, or the kernel, does what cannot be recorded.
     #[cfg(feature = "devices")]
-    fn record(&self) -> Result<super::PairRecord, crate::scalar::Unrecordable>;
+    fn record(
+        &self,
+        pass: Pass,
+        contacts: bool,
+    ) -> Result<super::PairRecord, crate::scalar::Unrecordable>;
     /// Packs what a pass reads. `records` keeps its memory between calls.
     fn pack(&self, pass: Pass, input: &SweepInput<'_, T, D>, records: &mut Records<T>);
     /// Renews the mean velocities in records packed for [`Pass::Work`].
@@ -123,8 +127,17 @@ impl<T: Real, const D: usize, K: Kernel<D>, P: Terms<D>, const MODE: u8> PairSwe
     }
 
     #[cfg(feature = "devices")]
-    fn record(&self) -> Result<super::PairRecord, crate::scalar::Unrecordable> {
-        super::pair_record::record::<T, K, P, D, MODE>(&self.kernel, &self.terms)
+    fn record(
+        &self,
+        pass: Pass,
+        contacts: bool,
+    ) -> Result<super::PairRecord, crate::scalar::Unrecordable> {
+        use super::pair_record::record;
+        let (kernel, terms) = (&self.kernel, &self.terms);
+        if const { sweeps_work::<P, D>() } && pass == Pass::Work {
+            return record::<T, K, _, D, MODE>(kernel, Working::of(terms), contacts);
+        }
+        record::<T, K, P, D, MODE>(kernel, terms, contacts)
     }
 
     fn pack(&self, pass: Pass, input: &SweepInput<'_, T, D>, records: &mut Records<T>) {

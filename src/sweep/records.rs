@@ -169,7 +169,7 @@ impl<T: Real> Records<T> {
     }
 
     /// Records of `stride` numbers as they were [stored](Self::data).
-    #[cfg(feature = "checkpoint")]
+    #[cfg(any(feature = "checkpoint", feature = "devices"))]
     pub(crate) fn of_stored(data: Vec<T>, stride: usize) -> Self {
         Self { data, stride }
     }

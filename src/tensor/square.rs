@@ -123,6 +123,29 @@ impl<L: Lane, const D: usize> Square<L, D> {
         }
         turn
     }
+    /// R S Rᵀ with this rotation or reflection R of the first `D` axes.
+    #[must_use]
+    #[inline(always)]
+    pub fn turned(&self, tensor: &Symmetric<L>) -> Symmetric<L> {
+        let turn = |r: usize, c: usize| {
+            if r < D && c < D {
+                self.0[r][c]
+            } else if r == c {
+                L::one()
+            } else {
+                L::zero()
+            }
+        };
+        let mut turned = [L::zero(); 6];
+        for (sum, (r, c)) in turned.iter_mut().zip(super::PLACES) {
+            for a in 0..3 {
+                for b in 0..3 {
+                    *sum += turn(r, a) * tensor.at(a, b) * turn(c, b);
+                }
+            }
+        }
+        Symmetric::new(turned)
+    }
     /// The sum of the diagonal.
     #[must_use]
     #[inline(always)]

@@ -1,56 +1,13 @@
-//! The step program of a simulation as kernels, with the memory that they work on.
+//! The kernels of a step program with the memory that they work on.
 //! Kernels are made once; they are bound anew when lists have another size.
 
-use crate::device::{Bound, Device, Extent, Kernel};
-use crate::fuse::{Around, Layout, by_run};
-use crate::kernel::{Array, Frame, pack_indices};
-use crate::pairs::sweep_of_run;
+use crate::compile::{Compiler, Kind, Lists, Own, Piece, Repeat, Sizes};
+use crate::device::{Bound, Device, Extent};
+use crate::kernel::pack_indices;
 use crate::reduce::{Find, Reduction};
-use crate::{Dialect, Error, PairLists, Part, Precision};
-use meshfree::particles::{Field, Fields, Outputs, Shape};
-use meshfree::simulation::device::{Action, PointStep, Program, SweepStep};
-use std::ops::Range;
-
-/// A piece of a list of the program.
-#[derive(Clone, Copy, Debug)]
-pub enum Piece {
-    /// Walls, images and lists.
-    Lists,
-    /// A kernel, by its number.
-    Kernel(usize),
-}
-
-/// What a kernel is bound to.
-#[derive(Clone, Copy, Debug)]
-enum Kind {
-    Points,
-    Pack,
-    PackImages,
-    Sweep { of_rates: bool, of_approach: bool },
-}
-
-#[derive(Debug)]
-struct Own {
-    kernel: Kernel,
-    kind: Kind,
-    slots: Range<usize>,
-}
-
-/// The lists of a program, piece by piece.
-#[derive(Debug, Default)]
-pub struct Lists {
-    pub evaluation: Vec<Piece>,
-    pub kick: Vec<Piece>,
-    pub drift_begins: Vec<Piece>,
-    pub drift_middle: Vec<Piece>,
-    pub drift_ends: Vec<Piece>,
-    pub shift: Vec<Piece>,
-    pub predict: Vec<Piece>,
-    pub restore: Vec<Piece>,
-    pub vote: Vec<Piece>,
-    pub approach: Vec<Piece>,
-    pub moved: Vec<Piece>,
-}
+use crate::{Error, PairLists, Precision};
+use meshfree::particles::Fields;
+use meshfree::simulation::device::Program;
 
 /// The memory of a run on the device.
 #[derive(Debug)]
@@ -62,6 +19,8 @@ pub struct Memory {
     pub walls: wgpu::Buffer,
     pub columns: wgpu::Buffer,
     pub records: wgpu::Buffer,
+    /// Records that are kept for the work of kicks.
+    pub kept: wgpu::Buffer,
     pub settings: wgpu::Buffer,
     pub approach: wgpu::Buffer,
     pub reactions: wgpu::Buffer,
@@ -73,27 +32,11 @@ pub struct Memory {
     clusters: wgpu::Buffer,
     segments: wgpu::Buffer,
     list: wgpu::Buffer,
-    /// Of which slot each image is, and its shift.
+    /// Of which slot each image is and by which transform, and all transforms.
     images: wgpu::Buffer,
-    shifts: wgpu::Buffer,
+    pub transforms: wgpu::Buffer,
     /// How many images the records have room for.
     imaged: usize,
-}
-
-/// The sizes that do not change in a run.
-#[derive(Clone, Debug)]
-pub struct Sizes {
-    pub layout: Layout,
-    pub rates: Outputs,
-    /// Bodies and walls, and the slots of each body without repeats.
-    pub blocks: usize,
-    pub bodies: Vec<Range<usize>>,
-    pub cluster: usize,
-    /// Whether there are images.
-    pub has_images: bool,
-    /// Numbers that all particles share, and of each pair.
-    pub shared: usize,
-    pub settings: usize,
 }
 
 /// Kernels of a program, and what they are bound to.
@@ -102,6 +45,10 @@ pub struct Compiled {
     kernels: Vec<Own>,
     bound: Vec<Bound>,
     pub lists: Lists,
+    pub repeats: Vec<Repeat>,
+    /// Whether any particle has not settled.
+    pub open: Reduction,
+    pub of_open: Vec<Bound>,
     pub vote: Reduction,
     pub moved: Reduction,
     pub approach: Reduction,
@@ -111,185 +58,9 @@ pub struct Compiled {
     pub of_approach: Vec<Bound>,
     pub support: f64,
     widths: [usize; 2],
+    /// What records that are kept have.
+    pub kept: Fields,
     precision: Precision,
-}
-
-const PACK: [Array; 2] = [Array::numbers("state"), Array::numbers("records").written()];
-
-fn pack(
-    reads: Fields,
-    layout: &Layout,
-    dialect: Dialect,
-    device: &Device,
-) -> Result<Kernel, Error> {
-    let (d, mut at, mut body) = (layout.dimensions, 0, String::new());
-    let stride = reads.width(d);
-    for field in reads.iter() {
-        for k in 0..field.components(d) {
-            let from = layout.field(field, k);
-            body += &format!("records[i * {stride}u + {at}u] = state[{from}u + i];\n");
-            at += 1;
-        }
-    }
-    let frame = Frame {
-        dialect,
-        name: "pack",
-        buffers: &PACK,
-    };
-    let part = Part {
-        kind: "records",
-        name: "fields".into(),
-    };
-    device.kernel(&part, &frame, &body)
-}
-
-const PACK_IMAGES: [Array; 4] = [
-    Array::numbers("state"),
-    Array::indices("images"),
-    Array::numbers("shifts"),
-    Array::numbers("records").written(),
-];
-
-/// Records of images, which are shifted; what rounding loses of their places goes where that is kept.
-fn pack_images(
-    reads: Fields,
-    layout: &Layout,
-    dialect: Dialect,
-    device: &Device,
-) -> Result<Kernel, Error> {
-    let (d, mut at) = (layout.dimensions, 0);
-    let stride = reads.width(d);
-    let mut body = dialect.index("source", "images[n]");
-    for field in reads.iter() {
-        for k in 0..field.components(d) {
-            let from = format!("state[{}u + source]", layout.field(field, k));
-            let to = format!("records[i * {stride}u + {at}u]");
-            at += 1;
-            if field.shape() == Shape::Point {
-                let [x, by, sum, part] = ["x", "by", "sum", "part"].map(|own| {
-                    let name = field.name();
-                    format!("{own}_{name}_{k}")
-                });
-                let shift = format!("shifts[{k}u * scene.count + n]");
-                for (name, value) in [
-                    (&x, from),
-                    (&by, shift),
-                    (&sum, dialect.opaque(&format!("{x} + {by}"))),
-                    (&part, dialect.opaque(&format!("{sum} - {x}"))),
-                ] {
-                    body += &(dialect.declare(false, name, &value) + "\n");
-                }
-                body += &format!("{to} = {sum};\n");
-            } else if field == Field::POSITION_RESIDUAL {
-                let [x, by, sum, part] = ["x", "by", "sum", "part"].map(|own| {
-                    let name = Field::POSITION.name();
-                    format!("{own}_{name}_{k}")
-                });
-                body += &format!("{to} = {from} + (({x} - ({sum} - {part})) + ({by} - {part}));\n");
-            } else {
-                body += &format!("{to} = {from};\n");
-            }
-        }
-    }
-    let frame = Frame {
-        dialect,
-        name: "pack_images",
-        buffers: &PACK_IMAGES,
-    };
-    let part = Part {
-        kind: "records",
-        name: "images".into(),
-    };
-    device.kernel(&part, &frame, &body)
-}
-
-/// Makes kernels of the lists of a program.
-struct Compiler<'a> {
-    device: &'a Device,
-    sizes: &'a Sizes,
-    precision: Precision,
-    kernels: Vec<Own>,
-    support: f64,
-    widths: [usize; 2],
-}
-
-impl Compiler<'_> {
-    fn own(&mut self, kernel: Kernel, kind: Kind, slots: Range<usize>) -> Piece {
-        self.kernels.push(Own {
-            kernel,
-            kind,
-            slots,
-        });
-        Piece::Kernel(self.kernels.len() - 1)
-    }
-
-    fn points(
-        &mut self,
-        steps: &mut Vec<&PointStep>,
-        sums: Outputs,
-        pieces: &mut Vec<Piece>,
-    ) -> Result<(), Error> {
-        let layout = &self.sizes.layout;
-        for (slots, own) in by_run(steps) {
-            let around = Around {
-                layout,
-                rates: self.sizes.rates,
-                sums,
-                dialect: Dialect::wgsl(self.precision),
-            };
-            let kernel = around.kernel(self.device, &own)?;
-            pieces.push(self.own(kernel, Kind::Points, slots));
-        }
-        steps.clear();
-        Ok(())
-    }
-
-    fn sweep(&mut self, sweep: &SweepStep, of_approach: bool) -> Result<Vec<Piece>, Error> {
-        let (device, sizes, precision) = (self.device, self.sizes, self.precision);
-        let (layout, pair) = (&sizes.layout, &sweep.pair);
-        let d = layout.dimensions;
-        let dialect = Dialect::wgsl(precision);
-        let packing = pack(pair.reads, layout, dialect, device)?;
-        let blocks = sweep.of_rates.then_some(sizes.blocks);
-        let shape = (d, sizes.cluster);
-        let kernel = sweep_of_run(device, sweep.name, pair, shape, precision, blocks)?;
-        self.support = pair.support;
-        let widths = [pair.reads.width(d), pair.writes.width(d)];
-        self.widths = [0, 1].map(|k| self.widths[k].max(widths[k]));
-        let kind = Kind::Sweep {
-            of_rates: sweep.of_rates,
-            of_approach,
-        };
-        let mut pieces = vec![self.own(packing, Kind::Pack, 0..layout.slots)];
-        if sizes.has_images {
-            let packing = pack_images(pair.reads, layout, dialect, device)?;
-            pieces.push(self.own(packing, Kind::PackImages, 0..0));
-        }
-        pieces.push(self.own(kernel, kind, sweep.slots.clone()));
-        Ok(pieces)
-    }
-
-    fn list(&mut self, actions: &[Action], of_approach: bool) -> Result<Vec<Piece>, Error> {
-        let (mut pieces, mut steps, mut sums) = (Vec::new(), Vec::new(), Outputs::NONE);
-        for action in actions {
-            match action {
-                Action::Points(step) => steps.push(step),
-                Action::Lists => {
-                    self.points(&mut steps, sums, &mut pieces)?;
-                    pieces.push(Piece::Lists);
-                }
-                Action::Sweep(sweep) => {
-                    self.points(&mut steps, sums, &mut pieces)?;
-                    pieces.extend(self.sweep(sweep, of_approach)?);
-                    if !sweep.of_rates {
-                        sums = sweep.pair.writes;
-                    }
-                }
-            }
-        }
-        self.points(&mut steps, sums, &mut pieces)?;
-        Ok(pieces)
-    }
 }
 
 impl Compiled {
@@ -300,14 +71,7 @@ impl Compiled {
         precision: Precision,
     ) -> Result<Self, Error> {
         device.can(precision)?;
-        let mut own = Compiler {
-            device,
-            sizes,
-            precision,
-            kernels: Vec::new(),
-            support: 0.0,
-            widths: [1, 1],
-        };
+        let mut own = Compiler::new(device, sizes, precision);
         let lists = Lists {
             evaluation: own.list(&program.evaluation, false)?,
             kick: own.list(&program.kick, false)?,
@@ -327,10 +91,14 @@ impl Compiled {
             least.chain((first..first + d).map(Find::Most))
         };
         let find = |finds: Vec<Find>| Reduction::new(device, &finds, precision);
-        let votes = [Find::LeastAt(0, 1), Find::Most(2)];
+        let votes = [Find::LeastAt(0, 1), Find::Most(2), Find::Least(3 + d)];
+        let moves = [Find::Most(0), Find::Most(1 + d)];
         Ok(Self {
             vote: find(votes.into_iter().chain(ranges(3)).collect())?,
-            moved: find([Find::Most(0)].into_iter().chain(ranges(1)).collect())?,
+            moved: find(moves.into_iter().chain(ranges(1)).collect())?,
+            open: find(vec![Find::Most(Program::columns(d) + 1)])?,
+            of_open: Vec::new(),
+            repeats: own.repeats,
             approach: find(vec![Find::LeastAt(0, 0), Find::LeastAt(1, 1)])?,
             forces: find((0..sizes.blocks * d).map(Find::Sum).collect())?,
             of_vote: Vec::new(),
@@ -341,6 +109,7 @@ impl Compiled {
             lists,
             support: own.support,
             widths: own.widths,
+            kept: own.kept,
             precision,
         })
     }
@@ -351,9 +120,17 @@ impl Compiled {
         let layout = &sizes.layout;
         let (d, slots) = (layout.dimensions, layout.slots);
         let numbers = |what, count: usize| device.room(what, count * precision.bytes());
-        let all = [&self.vote, &self.moved, &self.approach, &self.forces];
+        let all = [
+            &self.vote,
+            &self.moved,
+            &self.approach,
+            &self.forces,
+            &self.open,
+        ];
         let between = all.map(|own| own.between(slots)).into_iter().max();
         let between = || numbers("what levels of sums pass on", between.unwrap_or(1));
+        let repeated = Program::REPEATED * usize::from(!self.repeats.is_empty());
+        let columns = Program::columns(d) + repeated;
         let walls = (2 * d + d * d) * (slots - layout.mobile);
         let none = || device.room("the lists of neighbours", 0);
         let votes = self.vote.outputs + sizes.bodies.len() * self.forces.outputs;
@@ -363,8 +140,9 @@ impl Compiled {
             sums: numbers("the sums", self.widths[1] * slots)?,
             shared: numbers("what particles share", sizes.shared)?,
             walls: numbers("what is known of walls", walls)?,
-            columns: numbers("what is voted on", Program::columns(d) * slots)?,
+            columns: numbers("what is voted on", columns * slots)?,
             records: numbers("the records of particles", self.widths[0] * slots)?,
+            kept: numbers("the records of particles", self.kept.width(d) * slots)?,
             settings: numbers("what pairs share", sizes.settings)?,
             approach: numbers("what pairs share", sizes.settings)?,
             reactions: numbers("forces between blocks", sizes.blocks * d * slots)?,
@@ -376,7 +154,7 @@ impl Compiled {
             segments: none()?,
             list: none()?,
             images: none()?,
-            shifts: none()?,
+            transforms: none()?,
             imaged: 0,
         })
     }
@@ -387,29 +165,37 @@ impl Compiled {
         device: &Device,
         memory: &mut Memory,
         sizes: &Sizes,
-        (lists, images, shifts): (&PairLists, &[u32], &[u8]),
+        (lists, images, transforms): (&PairLists, &[u32], &[u8]),
     ) -> Result<(), Error> {
         let indices = |all: &[u32]| device.upload("the lists of neighbours", &pack_indices(all));
         memory.clusters = indices(&lists.clusters)?;
         memory.segments = indices(&lists.segments)?;
         memory.list = indices(&lists.list)?;
         memory.images = indices(images)?;
-        memory.shifts = device.upload("the images of particles", shifts)?;
-        if images.len() > memory.imaged {
-            memory.imaged = images.len() + images.len() / 8;
-            let count = self.widths[0] * (sizes.layout.slots + memory.imaged);
-            let bytes = count * self.precision.bytes();
-            memory.records = device.room("the records of particles", bytes)?;
+        memory.transforms = device.upload("the images of particles", transforms)?;
+        let (count, slots) = (images.len() / 2, sizes.layout.slots);
+        if count > memory.imaged {
+            memory.imaged = count + count / 8;
+            let room = |width: usize| {
+                let bytes = width * (slots + memory.imaged) * self.precision.bytes();
+                device.room("the records of particles", bytes)
+            };
+            memory.records = room(self.widths[0])?;
+            memory.kept = room(self.kept.width(sizes.layout.dimensions))?;
         }
         let m = &*memory;
-        let slots = sizes.layout.slots;
+        let records = |kept| if kept { &m.kept } else { &m.records };
         let bind = |own: &Own| {
             let buffers = match own.kind {
+                Kind::Settle => vec![&m.columns],
                 Kind::Points => vec![&m.state, &m.rates, &m.sums, &m.shared, &m.walls, &m.columns],
-                Kind::Pack => vec![&m.state, &m.records],
-                Kind::PackImages => vec![&m.state, &m.images, &m.shifts, &m.records],
+                Kind::Pack { kept } => vec![&m.state, records(kept)],
+                Kind::PackImages { kept } => {
+                    vec![&m.state, &m.images, &m.transforms, records(kept)]
+                }
                 Kind::Sweep {
                     of_rates,
+                    of_kept,
                     of_approach,
                 } => {
                     let settings = if of_approach {
@@ -417,14 +203,15 @@ impl Compiled {
                     } else {
                         &m.settings
                     };
-                    let mut all = vec![&m.records, settings, &m.clusters, &m.segments, &m.list];
+                    let records = records(of_kept);
+                    let mut all = vec![records, settings, &m.clusters, &m.segments, &m.list];
                     all.push(if of_rates { &m.rates } else { &m.sums });
                     all.extend(of_rates.then_some(&m.reactions));
                     all
                 }
             };
             let slots_of = match own.kind {
-                Kind::PackImages => slots..slots + images.len(),
+                Kind::PackImages { .. } => slots..slots + count,
                 _ => own.slots.clone(),
             };
             let extent = Extent {
@@ -443,6 +230,9 @@ impl Compiled {
         };
         self.of_vote = over(&self.vote, slots, &m.votes);
         self.of_moved = over(&self.moved, slots, &m.moves);
+        if !self.repeats.is_empty() {
+            self.of_open = over(&self.open, sizes.layout.mobile, &m.moves);
+        }
         self.of_approach = over(&self.approach, sizes.layout.mobile, &m.meetings);
         for (k, body) in sizes.bodies.iter().enumerate() {
             let target = self.vote.outputs + k * self.forces.outputs;
@@ -461,7 +251,7 @@ impl Compiled {
     pub fn of(&self, pieces: &[Piece]) -> Vec<&Bound> {
         let bound = pieces.iter().filter_map(|piece| match piece {
             Piece::Kernel(k) => Some(&self.bound[*k]),
-            Piece::Lists => None,
+            Piece::Lists | Piece::Repeat(_) => None,
         });
         bound.collect()
     }

@@ -278,6 +278,16 @@ impl Names {
 /// ```
 #[must_use]
 pub fn emit(record: &Record, dialect: Dialect, input: &dyn Fn(usize) -> (String, bool)) -> Text {
+    emit_as('t', record, dialect, input)
+}
+
+/// The same with names that start with a letter.
+pub(crate) fn emit_as(
+    letter: char,
+    record: &Record,
+    dialect: Dialect,
+    input: &dyn Fn(usize) -> (String, bool),
+) -> Text {
     let operations = record.operations();
     let (needed, kept_apart) = (needed(record), kept_apart(operations));
     let mut names = Names {
@@ -320,7 +330,7 @@ pub fn emit(record: &Record, dialect: Dialect, input: &dyn Fn(usize) -> (String,
         names.of[at] = if let Some(name) = known.get(&made) {
             name.clone()
         } else {
-            let name = format!("t{at}");
+            let name = format!("{letter}{at}");
             let (to, count) = if varies[at] {
                 (&mut text.within, 1)
             } else {

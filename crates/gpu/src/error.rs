@@ -107,13 +107,13 @@ pub enum Error {
         /// How many are needed.
         wanted: usize,
     },
-    /// An update asks for what the sweep that its particles are there for does not have.
-    #[error("the sweep has no {what} `{name}`; add a term that has it")]
-    Absent {
-        /// `field` or `sum`.
-        what: &'static str,
+    /// An integrator that [says](meshfree::integrator::Integrator::slots) that it keeps no states asks for one.
+    #[error(
+        "the integrator {name} asks for a state that it does not say it keeps; give Integrator::slots their number, and run it on the host"
+    )]
+    KeptState {
         /// Its name.
-        name: &'static str,
+        name: String,
     },
     /// The device was lost, or gave no answer.
     #[error("the device was lost: {message}; resume from the last checkpoint")]

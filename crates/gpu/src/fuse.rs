@@ -51,12 +51,16 @@ impl Layout {
         let before = self.fields.width(self.dimensions) + self.width_of_saved(&self.saved);
         (before + k) * self.slots
     }
+    /// Where lists were built for: places, and smoothing lengths where they vary.
     pub fn listed(&self, d: usize) -> usize {
         self.count(self.counts + d)
     }
+    pub fn varies(&self) -> bool {
+        self.fields.contains(Field::SMOOTHING_LENGTH)
+    }
     /// Numbers of all columns.
     pub fn numbers(&self) -> usize {
-        self.listed(self.dimensions)
+        self.listed(self.dimensions + usize::from(self.varies()))
     }
 }
 
@@ -88,6 +92,7 @@ impl Around<'_> {
             Given::Field(field, k) => Place::State(layout.field(field, k)),
             Given::Saved(field, k) => Place::State(layout.saved(field, k)),
             Given::Listed(k) => Place::State(layout.listed(k)),
+            Given::Column(k) => Place::Column(k),
             Given::Rate(sum, k) => Place::Rate(self.rates.offset(sum, d) + k),
             Given::Sum(sum, k) => Place::Sum(self.sums.offset(sum, d) + k),
             Given::Wall(k) => Place::Wall(k),

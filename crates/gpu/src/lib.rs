@@ -1,7 +1,7 @@
 //! Schemes and scenes of [meshfree] on a GPU, from the one text in which their parts are written.
 //!
-//! [`Device::load`] takes a simulation and gives a [`Run`], which steps on the device. Weakly compressible liquids and total-Lagrangian
-//! solids do; what a scene has that does not run there is an [`Error`] that names it, and nothing falls back to the host.
+//! [`Device::load`] takes a simulation and gives a [`Run`], which steps on the device. Liquids, solids and gases do; what a scene has
+//! that does not run there is an [`Error`] that names it, and nothing falls back to the host.
 //!
 //! ```no_run
 //! use meshfree::prelude::*;
@@ -33,6 +33,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod compile;
 mod compiled;
 mod device;
 mod dialect;
@@ -44,7 +45,6 @@ mod kernel;
 mod pairs;
 mod points;
 mod reduce;
-mod resident;
 mod run;
 mod stepping;
 mod transfer;
@@ -55,5 +55,4 @@ pub use emit::{Text, emit};
 pub use error::{Error, Part};
 pub use pairs::{PairKernel, PairLists, Shared};
 pub use points::PointKernel;
-pub use resident::{Given, Launch, Resident};
 pub use run::Run;

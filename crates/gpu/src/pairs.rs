@@ -1,12 +1,13 @@
 //! Sums over neighbours, from the record of one pair: one thread a particle, along the list of its cluster.
 //! Lists are those of the host, cluster by cluster; what depends on i alone stands before the loop.
 
-use crate::device::{Bound, Kernel};
+use crate::device::Kernel;
+use crate::emit::{Text, emit_as};
 use crate::kernel::{Array, Frame, THREADS, pack, pack_indices, unpack};
-use crate::{Device, Dialect, Error, Part, Precision, emit};
+use crate::{Device, Dialect, Error, Part, Precision};
 use core::cell::RefCell;
 use meshfree::neighbors::{Block, ChunkList};
-use meshfree::particles::{Fields, Output, Outputs};
+use meshfree::particles::Output;
 use meshfree::sweep::PairRecord;
 use std::collections::BTreeSet;
 
@@ -82,14 +83,14 @@ impl PairLists {
     }
 }
 
-/// A sweep whose buffers are those of a run: the six of a [`PairKernel`], and with a number of blocks the forces between them.
+/// A sweep whose buffers are those of a run: the six of a [`PairKernel`], and the forces between blocks if it `reacts`.
 pub(crate) fn sweep_of_run(
     device: &Device,
     name: &str,
     pair: &PairRecord,
     shape: (usize, usize),
     precision: Precision,
-    blocks: Option<usize>,
+    (blocks, reacts): (usize, bool),
 ) -> Result<Kernel, Error> {
     let dialect = Dialect::wgsl(precision);
     let part = Part {
@@ -97,22 +98,22 @@ pub(crate) fn sweep_of_run(
         name: name.into(),
     };
     let mut buffers = BUFFERS.to_vec();
-    buffers.extend(blocks.map(|_| Array::numbers("reactions").written()));
+    buffers.extend(reacts.then_some(Array::numbers("reactions").written()));
     let frame = Frame {
         dialect,
         name: "sweep",
         buffers: &buffers,
     };
-    device.kernel(&part, &frame, &body(pair, shape, dialect, blocks))
+    device.kernel(&part, &frame, &body(pair, shape, dialect, (blocks, reacts)))
 }
 
 /// The numbers of [`BUFFERS`] that all pairs of a sweep share.
-pub(crate) fn settings(support: f64, shared: &Shared, mobile: &[f64]) -> Vec<f64> {
+pub(crate) fn settings(support: f64, shared: &Shared, of_blocks: &[f64]) -> Vec<f64> {
     let reach = support * shared.smoothing_length;
     let mut all = vec![reach * reach, shared.smoothing_length];
     all.push(shared.lattice_consistency_factor);
     all.extend(&shared.body_force);
-    all.extend(mobile);
+    all.extend(of_blocks);
     all
 }
 
@@ -120,42 +121,44 @@ pub(crate) fn settings(support: f64, shared: &Shared, mobile: &[f64]) -> Vec<f64
 #[derive(Debug)]
 pub struct PairKernel {
     kernel: Kernel,
-    pub(crate) reads: Fields,
-    pub(crate) writes: Outputs,
-    pub(crate) stride: usize,
-    pub(crate) sums: usize,
+    stride: usize,
+    sums: usize,
     support: f64,
-    pub(crate) dimensions: usize,
-    pub(crate) precision: Precision,
+    dimensions: usize,
+    precision: Precision,
 }
 
-/// The text of a sweep. With a number of `blocks` it also writes the force of each of them that is not the particle's own, a column for
-/// each component.
+/// The text of a sweep over particles of some blocks. If it `reacts` it also writes the force of each block that is not the particle's
+/// own, a column for each component.
 fn body(
     pair: &PairRecord,
     (dimensions, width): (usize, usize),
     dialect: Dialect,
-    blocks_apart: Option<usize>,
+    (all_blocks, reacts): (usize, bool),
 ) -> String {
     let force = pair.writes.offset(Output::FORCE, dimensions);
     let has_force = pair.writes.contains(Output::FORCE);
-    let apart = blocks_apart.filter(|_| has_force);
+    let apart = (reacts && has_force).then_some(all_blocks);
     let is_force = |k: usize| apart.is_some() && (force..force + dimensions).contains(&k);
     let (stride, sums) = (pair.reads.width(dimensions), pair.writes.width(dimensions));
     let x = pair.reads.offset(pair.listed, dimensions);
     let used = RefCell::new(BTreeSet::new());
-    let text = emit(&pair.record, dialect, &|k| {
-        if k < 2 * stride {
-            used.borrow_mut().insert(k);
-        }
-        match k.checked_sub(2 * stride) {
-            None if k < stride => (format!("i{k}"), false),
-            None => (format!("j{}", k - stride), true),
-            Some(0) => ("mobile_i".into(), false),
-            Some(1) => ("mobile_j".into(), true),
-            Some(n) => (format!("settings[{}u]", n - 1), false),
-        }
-    });
+    let emit = |letter, record| {
+        emit_as(letter, record, dialect, &|k| {
+            if k < 2 * stride {
+                used.borrow_mut().insert(k);
+            }
+            match k.checked_sub(2 * stride) {
+                None if k < stride => (format!("i{k}"), false),
+                None => (format!("j{}", k - stride), true),
+                Some(0) => ("mobile_i".into(), false),
+                Some(1) => ("mobile_j".into(), true),
+                Some(n) => (format!("settings[{}u]", n - 1), false),
+            }
+        })
+    };
+    let text = emit('t', &pair.record);
+    let across = pair.across.as_ref().map(|record| emit('u', record));
     let mut used = used.into_inner();
     if pair.uniform {
         used.extend((0..dimensions).flat_map(|d| [x + d, stride + x + d]));
@@ -179,6 +182,9 @@ fn body(
     let mobile = |at: &str| format!("settings[{blocks}u + {at}]");
     add(&(dialect.declare(false, "mobile_i", &mobile("clusters[cluster + 1u]")) + "\n"));
     add(&text.before);
+    if let Some(across) = &across {
+        add(&across.before);
+    }
     for k in 0..sums {
         add(&dialect.variable(&format!("s{k}"), &dialect.constant(0.0)));
     }
@@ -194,6 +200,13 @@ fn body(
         add(&dialect.variable(&format!("f{k}"), &dialect.constant(0.0)));
     }
     add(&(dialect.declare(false, "mobile_j", &mobile("segments[segment * 3u + 2u]")) + "\n"));
+    if across.is_some() {
+        // The table of contacts stands behind that of blocks, and has a row for each block.
+        let row = format!("{blocks}u + (clusters[cluster + 1u] + 1u) * {all_blocks}u");
+        let at = format!("settings[{row} + segments[segment * 3u + 2u]]");
+        let half = dialect.constant(0.5);
+        add(&(dialect.declare(true, "opens", &format!("{at} > {half}")) + "\n"));
+    }
     add(&dialect.index("end", "segments[segment * 3u + 1u]"));
     add(&dialect.each("entry", "segments[segment * 3u]", "end"));
     add(&dialect.index("j", "list[entry]"));
@@ -210,15 +223,26 @@ fn body(
             add(&load("j", k - stride));
         }
     }
-    add(&text.within);
-    for (k, value) in text.results.iter().enumerate() {
-        let own = format!("{}{k}", if is_force(k) { "f" } else { "s" });
-        let sum = if pair.maxima[k] {
-            dialect.select(&format!("{value} > {own}"), value, &own)
-        } else {
-            format!("{own} + {value}")
-        };
-        add(&format!("{own} = {sum};\n"));
+    let sum_up = |text: &Text| {
+        let mut own = text.within.clone();
+        for (k, value) in text.results.iter().enumerate() {
+            let to = format!("{}{k}", if is_force(k) { "f" } else { "s" });
+            let sum = if pair.maxima[k] {
+                dialect.select(&format!("{value} > {to}"), value, &to)
+            } else {
+                format!("{to} + {value}")
+            };
+            own += &format!("{to} = {sum};\n");
+        }
+        own
+    };
+    match &across {
+        Some(across) => add(&format!(
+            "if (opens) {{\n{}}} else {{\n{}}}\n",
+            sum_up(across),
+            sum_up(&text)
+        )),
+        None => add(&sum_up(&text)),
     }
     add("}\n");
     for k in (0..sums).filter(|&k| is_force(k)) {
@@ -263,11 +287,9 @@ impl PairKernel {
             name: "sweep",
             buffers: &BUFFERS,
         };
-        let body = body(pair, (dimensions, width), dialect, None);
+        let body = body(pair, (dimensions, width), dialect, (0, false));
         Ok(Self {
             kernel: device.kernel(&part, &frame, &body)?,
-            reads: pair.reads,
-            writes: pair.writes,
             stride: pair.reads.width(dimensions),
             sums: pair.writes.width(dimensions),
             support: pair.support,
@@ -288,7 +310,7 @@ impl PairKernel {
             name: "sweep",
             buffers: &BUFFERS,
         };
-        let body = body(pair, (dimensions, width), dialect, None);
+        let body = body(pair, (dimensions, width), dialect, (0, false));
         frame.source(&body, THREADS)
     }
 
@@ -306,20 +328,6 @@ impl PairKernel {
         lists: &PairLists,
         shared: &Shared,
     ) -> Result<Vec<f64>, Error> {
-        let (_, rows, launch) = self.bind(device, (records, count), lists, shared)?;
-        device.launch(&[&launch]);
-        let bytes = count * self.sums * self.precision.bytes();
-        Ok(unpack(&device.download(&rows, bytes)?, self.precision))
-    }
-
-    /// Records and sums on the device, and the sweep between them.
-    pub(crate) fn bind(
-        &self,
-        device: &Device,
-        (records, count): (&[f64], usize),
-        lists: &PairLists,
-        shared: &Shared,
-    ) -> Result<(wgpu::Buffer, wgpu::Buffer, Bound), Error> {
         let size = |what, found: usize, wanted: usize| {
             if found == wanted {
                 Ok(())
@@ -358,7 +366,7 @@ impl PairKernel {
         let bytes = count * self.sums * self.precision.bytes();
         let rows = device.room("the sums", bytes)?;
         let buffers = [&records, &shared, &clusters, &segments, &list, &rows];
-        let launch = device.bind(&self.kernel, &buffers, count);
-        Ok((records, rows, launch))
+        device.launch(&[&device.bind(&self.kernel, &buffers, count)]);
+        Ok(unpack(&device.download(&rows, bytes)?, self.precision))
     }
 }

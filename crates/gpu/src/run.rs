@@ -1,7 +1,8 @@
 //! A simulation whose steps run on a device: the operations of its integrator as launches, and what the host reads between them.
 //! Lists, walls that move, votes and the ledger are the host's; everything that is done once a particle or pair is the device's.
 
-use crate::compiled::{Compiled, Memory, Sizes};
+use crate::compile::Sizes;
+use crate::compiled::{Compiled, Memory};
 use crate::fuse::Layout;
 use crate::kernel::{pack, unpack};
 use crate::stepping::Stepping;
@@ -137,9 +138,8 @@ impl<T: Real, const D: usize> Run<T, D> {
             blocks: blocks.len(),
             bodies: bodies.map(|block| block.slots.clone()).collect(),
             cluster: host.cluster(),
-            has_images: blocks.iter().any(|block| block.slots.start >= slots),
             shared: host.shared(&host.begin_vote()).len(),
-            settings: 3 + D + blocks.len(),
+            settings: 3 + D + blocks.len() * (1 + blocks.len()),
         };
         let compiled = Compiled::new(&device, &program, &sizes, precision)?;
         let memory = compiled.room(&device, &sizes)?;
@@ -367,7 +367,8 @@ impl<T: Real, const D: usize> Run<T, D> {
             slot: vote[1] as usize,
             criterion: vote[2] as usize,
             speed2: vote[3],
-            range: [vote[4..4 + D].to_vec(), vote[4 + D..4 + 2 * D].to_vec()],
+            length: vote[4],
+            range: [vote[5..5 + D].to_vec(), vote[5 + D..5 + 2 * D].to_vec()],
         };
         if found.step < 0.0 {
             self.take()?;

@@ -2,7 +2,8 @@
 //! Lists are looked at where the step program has them.
 
 use crate::Error;
-use crate::compiled::{Compiled, Piece};
+use crate::compile::Piece;
+use crate::compiled::Compiled;
 use crate::run::Run;
 use meshfree::error::Error as HostError;
 use meshfree::integrator::System;
@@ -17,28 +18,63 @@ impl<T: Real, const D: usize> Run<T, D> {
         moment: &Moment,
     ) -> Result<(), Error> {
         self.share(moment);
-        let own: Vec<Piece> = pieces(&self.compiled).to_vec();
-        for part in own.split_inclusive(|piece| matches!(piece, Piece::Lists)) {
+        let own = pieces(&self.compiled).to_vec();
+        self.act_on(&own, moment).map(|_| ())
+    }
+
+    /// The same; whether lists were built anew.
+    fn act_on(&mut self, pieces: &[Piece], moment: &Moment) -> Result<bool, Error> {
+        let mut rebuilt = false;
+        for part in pieces.split_inclusive(|piece| !matches!(piece, Piece::Kernel(_))) {
             let kernels = self.compiled.of(part);
             if !kernels.is_empty() {
                 self.device.launch(&kernels);
             }
-            if let Some(Piece::Lists) = part.last() {
-                self.bring_lists(moment)?;
+            match part.last() {
+                Some(Piece::Lists) => rebuilt |= self.bring_lists(moment)?,
+                Some(Piece::Repeat(k)) => self.repeat(*k, moment)?,
+                _ => {}
             }
         }
-        Ok(())
+        Ok(rebuilt)
     }
 
-    /// Walls go to their places, and lists are built anew if particles have used up their skin.
-    fn bring_lists(&mut self, moment: &Moment) -> Result<(), Error> {
-        for slots in self.host.place_walls(moment) {
+    /// Repeats what particles need to settle. The host reads one number each time.
+    fn repeat(&mut self, number: usize, moment: &Moment) -> Result<(), Error> {
+        let own = &self.compiled.repeats[number];
+        let (times, begin, end) = (own.times, own.begin.clone(), own.end.clone());
+        // Lists are the first of what is repeated: where they were built anew particles have other places.
+        let is_lists = |piece: &Piece| matches!(piece, Piece::Lists);
+        let after = own.pieces.iter().position(is_lists).map_or(0, |at| at + 1);
+        let [lists, pieces] = [&own.pieces[..after], &own.pieces[after..]].map(<[_]>::to_vec);
+        self.act_on(&begin, moment)?;
+        for _ in 0..times {
+            if self.act_on(&lists, moment)? {
+                self.act_on(&begin, moment)?;
+            }
+            self.act_on(&pieces, moment)?;
+            let all: Vec<_> = self.compiled.of_open.iter().collect();
+            self.device.launch(&all);
+            if self.read(&self.memory.moves, 1)?[0] == 0.0 {
+                break;
+            }
+        }
+        self.act_on(&end, moment).map(|_| ())
+    }
+
+    /// Walls go to their places, and lists are built anew if particles have used up their skin; whether they were.
+    fn bring_lists(&mut self, moment: &Moment) -> Result<bool, Error> {
+        let (walls, images) = self.host.place_walls(moment);
+        for slots in walls {
             self.send_wall(&slots);
             self.send_walls(moment.time);
         }
+        if images {
+            self.send_transforms();
+        }
         self.send_settings();
         if self.compiled.lists.moved.is_empty() {
-            return Ok(());
+            return Ok(false);
         }
         let mut all = self.compiled.of(&self.compiled.lists.moved);
         all.extend(&self.compiled.of_moved);
@@ -46,9 +82,11 @@ impl<T: Real, const D: usize> Run<T, D> {
         let found = self.read(&self.memory.moves, self.compiled.moved.outputs)?;
         let moved = Moved {
             farthest2: found[0],
-            range: [found[1..=D].to_vec(), found[1 + D..=2 * D].to_vec()],
+            grown: found[1],
+            range: [found[2..2 + D].to_vec(), found[2 + D..].to_vec()],
         };
-        if self.host.is_outdated(&moved, moment.time) {
+        let is_outdated = self.host.is_outdated(&moved, moment.time);
+        if is_outdated {
             self.is_taken = false;
             self.take()?;
             self.host.rebuild(moment.time);
@@ -56,7 +94,7 @@ impl<T: Real, const D: usize> Run<T, D> {
             self.is_taken = false;
             self.share(moment);
         }
-        Ok(())
+        Ok(is_outdated)
     }
 }
 
@@ -166,9 +204,7 @@ impl<T: Real, const D: usize> System for Stepping<'_, T, D> {
 
 impl<T: Real, const D: usize> Stepping<'_, T, D> {
     fn refuse_states(&mut self) {
-        self.lost.get_or_insert(Error::Absent {
-            what: "kept state",
-            name: "an integrator that says it keeps none",
-        });
+        let name = self.run.host.integrator().name();
+        self.lost.get_or_insert(Error::KeptState { name });
     }
 }

@@ -43,6 +43,9 @@ impl<T: Real, const D: usize> Run<T, D> {
         for d in 0..D {
             put(layout.listed(d), d, D, &listed);
         }
+        if layout.varies() {
+            put(layout.listed(D), 0, 1, self.host.listed_lengths());
+        }
         self.device
             .write(&self.memory.state, &self.numbers(all.into_iter()));
         let (_, rates) = self.host.rates();
@@ -51,8 +54,8 @@ impl<T: Real, const D: usize> Run<T, D> {
         self.counted.fill(0);
         self.send_walls(time);
         let lists = PairLists::new(self.host.lists(), self.host.blocks(), self.sizes.cluster);
-        let (images, shifts) = self.host.images();
-        let shifts = self.numbers(shifts.into_iter());
+        let images = self.host.images();
+        let transforms = self.numbers(self.host.transforms().into_iter());
         self.body_force = [f64::NAN; D];
         self.send_settings();
         let (compiled, memory) = (&mut self.compiled, &mut self.memory);
@@ -60,10 +63,57 @@ impl<T: Real, const D: usize> Run<T, D> {
             &self.device,
             memory,
             &self.sizes,
-            (&lists, &images, &shifts),
+            (&lists, &images, &transforms),
         )?;
+        self.send_kept();
         self.is_voted = false;
         Ok(())
+    }
+
+    /// Sends where images are now.
+    pub(crate) fn send_transforms(&self) {
+        let transforms = self.numbers(self.host.transforms().into_iter());
+        self.device.write(&self.memory.transforms, &transforms);
+    }
+
+    /// Numbers a record that the host keeps, and whether that of the device also says if a particle is active in contacts, and where.
+    fn kept(&self) -> (usize, Option<usize>) {
+        let (fields, active) = (self.compiled.kept, Field::CONTACT_ACTIVITY);
+        let at = fields.contains(active).then(|| fields.offset(active, D));
+        (fields.width(D) - usize::from(at.is_some()), at)
+    }
+
+    /// Sends records that are kept.
+    fn send_kept(&self) {
+        let (stride, active) = self.kept();
+        let (kept, count) = (self.host.kept_records(), self.host.columns().slots());
+        let activity = self.host.columns().raw(Field::CONTACT_ACTIVITY);
+        let images = self.host.images();
+        let mut all = Vec::new();
+        for (n, record) in kept.chunks_exact(stride.max(1)).enumerate() {
+            let first = all.len();
+            all.extend(record.iter().map(|own| own.to_f64()));
+            if let Some(at) = active {
+                let source = n.checked_sub(count).map(|n| images[2 * n] as usize);
+                all.insert(first + at, activity[source.unwrap_or(n)].to_f64());
+            }
+        }
+        let all = self.numbers(all.into_iter());
+        self.device.write(&self.memory.kept, &all);
+    }
+
+    /// Takes records that are kept back.
+    fn take_kept(&self) -> Result<(Vec<T>, usize), Error> {
+        let (stride, active) = self.kept();
+        if stride == 0 {
+            return Ok((Vec::new(), 0));
+        }
+        let width = self.compiled.kept.width(D);
+        let count = self.sizes.layout.slots + self.host.images().len() / 2;
+        let all = self.read(&self.memory.kept, width * count)?;
+        let own = all.iter().enumerate();
+        let own = own.filter(|(k, _)| Some(k % width) != active);
+        Ok((own.map(|(_, x)| T::from_f64(*x)).collect(), stride))
     }
 
     pub(crate) fn send_walls(&self, time: f64) {
@@ -90,11 +140,14 @@ impl<T: Real, const D: usize> Run<T, D> {
             .iter()
             .map(|block| f64::from(u8::from(!block.wall)));
         let mobile: Vec<_> = mobile.collect();
+        let contacts = self.host.contacts().into_iter();
+        let contacts: Vec<f64> = contacts.map(|own| f64::from(u8::from(own))).collect();
         for (to, table) in [
-            (&self.memory.settings, &mobile),
-            (&self.memory.approach, &self.host.seen()),
+            (&self.memory.settings, mobile),
+            (&self.memory.approach, self.host.seen()),
         ] {
-            let all = settings(self.compiled.support, &shared, table);
+            let table = [&table[..], &contacts].concat();
+            let all = settings(self.compiled.support, &shared, &table);
             self.device.write(to, &self.numbers(all.into_iter()));
         }
     }
@@ -135,7 +188,8 @@ impl<T: Real, const D: usize> Run<T, D> {
         let rates = self.read(&self.memory.rates, count)?;
         let rates: Vec<T> = rates.into_iter().map(T::from_f64).collect();
         let forces = self.forces.clone().unwrap_or_default();
-        self.host.take_rates(&rates, &forces);
+        let kept = self.take_kept()?;
+        self.host.take_rates(&rates, &forces, kept);
         self.is_taken = true;
         Ok(())
     }

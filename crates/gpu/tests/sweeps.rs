@@ -5,19 +5,16 @@ mod common;
 
 use common::{Random, device};
 use meshfree::kernel::WendlandC2;
-use meshfree::material::eos::{EquationOfState, Linear};
 use meshfree::neighbors::{Block, ClusterLists, Radii, SearchInput};
-use meshfree::particles::{Columns, Field, Output};
-use meshfree::scalar::{Lane, Real, Record, Traced};
+use meshfree::particles::{Columns, Field};
+use meshfree::scalar::{Lane, Real};
 use meshfree::sweep::{
     FusedKernel, InstructionSet, Interaction, PairRecord, PairSweep, Pass, Records, Results, Root,
     SweepInput,
 };
 use meshfree::term::viscosity::MonaghanGingold;
 use meshfree::term::{Compression, Fourtakas, PressureForce, Viscosity};
-use meshfree_gpu::{
-    Device, Dialect, Error, Given, Language, PairKernel, PairLists, Precision, Resident, Shared,
-};
+use meshfree_gpu::{Device, Dialect, Error, Language, PairKernel, PairLists, Precision, Shared};
 
 const H: f64 = 1.5;
 const SIDES: [usize; 3] = [9, 9, 8];
@@ -47,6 +44,11 @@ fn sweep() -> Sweep {
         Fourtakas::default(),
     );
     FusedKernel::new(WendlandC2, terms)
+}
+
+fn pair<T: Real>() -> PairRecord {
+    let own = PairSweep::<T, 3>::record(&sweep(), Pass::Rates, false);
+    own.expect("terms in lanes")
 }
 
 /// 5184 particles far from their lattice, of which the last eighth is a wall.
@@ -200,7 +202,7 @@ fn differences(found: &[f64], expected: &[f64], width: usize) -> Vec<f64> {
 
 fn check<T: Real>(device: &Device, precision: Precision, most: f64) -> Vec<f64> {
     let scene = Scene::<T>::new();
-    let pair = PairSweep::<T, 3>::record(&sweep()).expect("terms in lanes");
+    let pair = pair::<T>();
     let found = scene.on_device(device, &pair, precision);
     let width = pair.writes.width(3);
     let own = differences(&found, &scene.on_host(&pair), width);
@@ -232,7 +234,7 @@ fn a_sweep_has_the_same_bits_twice_and_in_any_work_groups() {
         return;
     };
     let scene = Scene::<f64>::new();
-    let pair = PairSweep::<f64, 3>::record(&sweep()).expect("terms in lanes");
+    let pair = pair::<f64>();
     let first = scene.on_device(&device, &pair, Precision::Double);
     let mut device = device;
     for threads in [64, 128, 256] {
@@ -254,7 +256,7 @@ fn what_does_not_fit_is_an_error() {
         return;
     };
     let scene = Scene::<f64>::new();
-    let pair = PairSweep::<f64, 3>::record(&sweep()).expect("terms in lanes");
+    let pair = pair::<f64>();
     let kernel = PairKernel::new(&device, "liquid", &pair, (3, 8), Precision::Double);
     let kernel = kernel.unwrap_or_else(|error| panic!("{error}"));
     let (records, slots) = (scene.records(&pair), scene.columns.slots());
@@ -310,153 +312,10 @@ fn what_does_not_fit_is_an_error() {
     assert!(device.with_threads(0).is_err());
 }
 
-/// What happens to single particles in a step: a record, what it is given, and where its results go.
-struct Update(Record, Vec<Given>, Vec<(Field, usize)>);
-
-/// The time step \[s\].
-const DT: f64 = 1e-3;
-/// The mass of a particle \[kg\].
-const MASS: f64 = 1000.0;
-
-/// The equation of state, and density, velocity and place after a step of the semi-implicit Euler method.
-fn updates() -> [Update; 2] {
-    let law = Linear::new(1000.0, 30.0);
-    let state = Record::of(1, |given| {
-        let found = law.state(given[0], Traced::of(0.0));
-        let weight = Traced::of(MASS) / given[0];
-        vec![found.pressure, found.pressure, found.sound_speed, weight]
-    });
-    let [density, pressure] = [Field::DENSITY, Field::PRESSURE].map(|field| (field, 0));
-    let coefficient = (Field::PRESSURE_COEFFICIENT, 0);
-    let speed = (Field::SOUND_SPEED, 0);
-    let to = vec![pressure, coefficient, speed, (Field::WEIGHT, 0)];
-    let state = Update(state.expect("lanes"), vec![Given::Field(density.0, 0)], to);
-    let step = Record::of(12, |given| {
-        let dt = Traced::of(DT);
-        let (place, rest) = given.split_at(3);
-        let (velocity, rest) = rest.split_at(3);
-        let (density, force) = (rest[0], &rest[1..4]);
-        let growth = density * rest[4] + rest[5];
-        let mut next = vec![growth.mul_add(dt, density)];
-        let mut places = Vec::new();
-        for d in 0..3 {
-            let acceleration = force[d] / Traced::of(MASS) + Traced::of(GRAVITY[d]);
-            let velocity = acceleration.mul_add(dt, velocity[d]);
-            next.push(velocity);
-            places.push(velocity.mul_add(dt, place[d]));
-        }
-        next.extend(places);
-        next
-    });
-    let three = |field| (0..3).map(move |k| (field, k));
-    let fields = three(Field::POSITION).chain(three(Field::VELOCITY));
-    let mut given: Vec<_> = fields
-        .chain([density])
-        .map(|(f, k)| Given::Field(f, k))
-        .collect();
-    given.extend((0..3).map(|k| Given::Sum(Output::FORCE, k)));
-    given.extend([Output::COMPRESSION, Output::DENSITY_DIFFUSION].map(|sum| Given::Sum(sum, 0)));
-    let to = [density]
-        .into_iter()
-        .chain(three(Field::VELOCITY))
-        .chain(three(Field::POSITION));
-    [state, Update(step.expect("lanes"), given, to.collect())]
-}
-
-impl Scene<f64> {
-    /// An update of all particles on the host.
-    fn apply(&mut self, update: &Update, pair: &PairRecord, sums: &[f64]) {
-        let width = pair.writes.width(3);
-        for slot in 0..self.columns.slots() {
-            let given = update.1.iter().map(|own| match *own {
-                Given::Field(field, k) => self.columns.raw(field)[slot * field.components(3) + k],
-                Given::Sum(sum, k) => sums[slot * width + pair.writes.offset(sum, 3) + k],
-            });
-            let results = update.0.follow(&given.collect::<Vec<_>>());
-            for (value, (field, k)) in results.into_iter().zip(&update.2) {
-                self.columns.raw_mut(*field)[slot * field.components(3) + k] = value;
-            }
-        }
-    }
-}
-
-#[test]
-fn whole_steps_stay_on_the_device() {
-    let Some(device) = device("whole steps of a liquid") else {
-        return;
-    };
-    let mut scene = Scene::<f64>::new();
-    let pair = PairSweep::<f64, 3>::record(&sweep()).expect("terms in lanes");
-    let [state, step] = updates();
-    let kernel = PairKernel::new(&device, "liquid", &pair, (3, 8), Precision::Double);
-    let kernel = kernel.unwrap_or_else(|error| panic!("{error}"));
-    let before = scene.records(&pair);
-    let given = (before.as_slice(), scene.columns.slots());
-    let resident = Resident::new(&device, &kernel, given, &scene.lists(), &shared());
-    let resident = resident.unwrap_or_else(|error| panic!("{error}"));
-    let [of_state, of_step] = [("state", &state), ("step", &step)].map(|(name, own)| {
-        let launch = resident.update(name, &own.0, &own.1, &own.2);
-        launch.unwrap_or_else(|error| panic!("{error}"))
-    });
-    let steps = 20;
-    resident.run(&[&of_state, resident.sweep(), &of_step], steps);
-    let found = resident.records().expect("a device that answers");
-    for _ in 0..steps {
-        scene.apply(&state, &pair, &[]);
-        let sums = scene.on_host(&pair);
-        scene.apply(&step, &pair, &sums);
-    }
-    let expected = scene.records(&pair);
-    let stride = pair.reads.width(3);
-    for field in [
-        Field::POSITION,
-        Field::VELOCITY,
-        Field::DENSITY,
-        Field::PRESSURE,
-    ] {
-        let (mut apart, mut change) = (0.0f64, 0.0f64);
-        for own in (0..expected.len()).step_by(stride) {
-            for k in 0..field.components(3) {
-                let at = own + pair.reads.offset(field, 3) + k;
-                apart = apart.max((found[at] - expected[at]).abs());
-                change = change.max((before[at] - expected[at]).abs());
-            }
-        }
-        println!("{}: {apart:.1e} of a change of {change:.1e}", field.name());
-        assert!(
-            change > 0.0 && apart <= 1e-11 * change,
-            "{}: {apart:e} {change:e}",
-            field.name()
-        );
-    }
-    let absent = resident.update(
-        "step",
-        &state.0,
-        &[Given::Field(Field::SMOOTHING_LENGTH, 0)],
-        &state.2,
-    );
-    assert!(
-        matches!(absent, Err(Error::Absent { what: "field", .. })),
-        "{absent:?}"
-    );
-    let few = resident.update("step", &step.0, &step.1[1..], &step.2);
-    assert!(
-        matches!(
-            few,
-            Err(Error::Size {
-                found: 11,
-                wanted: 12,
-                ..
-            })
-        ),
-        "{few:?}"
-    );
-}
-
 /// The second language is written by the same walk; a compiler for it is not part of the tests.
 #[test]
 fn the_same_record_is_written_in_cuda() {
-    let pair = PairSweep::<f64, 3>::record(&sweep()).expect("terms in lanes");
+    let pair = pair::<f64>();
     let [wgsl, cuda] = [Language::Wgsl, Language::Cuda].map(|language| {
         let precision = Precision::Double;
         PairKernel::source(

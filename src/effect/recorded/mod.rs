@@ -20,7 +20,8 @@ use crate::term::{MOST_READS, MOST_SUMS};
 ///
 /// It is given, in this order, the numbers of the fields that it reads or writes, those of its sums, [`CONSTANTS`] numbers of the body, the
 /// step \[s\], the present value of a rate, and what a law of walls sees of its wall ([`AtWall`]). It results in the numbers of
-/// the fields that it writes, of [`Field::POSITION`] the displacement, and one where it has limited; in the rate; or in the limit.
+/// the fields that it writes, of [`Field::POSITION`] the displacement, one where it has limited, and its change if it
+/// [repeats](super::Law::repeats); in the rate; or in the limit.
 #[derive(Debug)]
 pub struct PointRecord {
     /// Its name; of a rate, that of its field.
@@ -124,6 +125,7 @@ pub(super) fn law<T: Real, A: PointLaw<D>, const D: usize>(
             law.point(&mut point);
             let displacement = point.displacement;
             let limited = point.limited.unwrap_or_else(|| Mask::all_of(false));
+            let change = point.change;
             let written = law.written().iter().flat_map(|field| {
                 let start = fields.offset(field, D);
                 start..start + field.components(D)
@@ -136,6 +138,7 @@ pub(super) fn law<T: Real, A: PointLaw<D>, const D: usize>(
             };
             let mut results: Vec<_> = written.map(own).collect();
             results.push(Lane::select(limited, Traced::of(1.0), Traced::of(0.0)));
+            results.extend(change);
             results
         },
         (all, acts),

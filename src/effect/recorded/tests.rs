@@ -199,7 +199,8 @@ fn check<T: Real, const D: usize>(program: &StepProgram<T, D>, fields: Fields) -
                     }
                 }
             }
-            limited += u64::from(slot < live && results[results.len() - 1] > T::zero());
+            let limits = found.next().is_some_and(|own| *own > T::zero());
+            limited += u64::from(slot < live && limits);
         }
         assert_eq!(limited, tally.limited, "{law:?}");
         followed += 1;

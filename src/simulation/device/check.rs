@@ -1,11 +1,10 @@
 //! What of a simulation does not run on a device, by its name and with a remedy.
 //! Nothing is left out in silence.
 
-use crate::effect::{DensityForm, Smoothing, Update};
+use crate::effect::DensityForm;
 use crate::error::Problem;
 use crate::scalar::Real;
 use crate::simulation::Simulation;
-use crate::sweep::Interaction;
 use crate::term::Stage;
 
 /// What is to be done about most.
@@ -72,61 +71,17 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         for load in &self.loads {
             part(true, &|| format!("the load ({load})"));
         }
-        for boundary in &group.boundaries {
-            let mut images = (0..boundary.images()).map(|k| boundary.transform(k, 0.0));
-            let turns = boundary.moves() || images.any(|own| own.turns());
-            part(turns, &|| {
-                let name = boundary.name();
-                format!("the boundary `{name}`, whose images are not shifted alone,")
-            });
-        }
         for event in &self.events {
             part(true, &|| format!("the event `{}`", event.name));
         }
-        let opens = group
-            .neighborhood
-            .interactions
-            .contains(&Interaction::Unilateral);
-        part(opens, &|| "a contact of bodies that opens".into());
-        part(scheme.sweeps_work(), &|| {
-            "internal energy by the work of kicks, which takes a sweep of its own (EnergyForm::Compatible)".into()
-        });
-        for body in &group.particles.bodies {
-            part(body.material.is_gas(), &|| {
-                format!("the gas `{}`", body.name)
-            });
-        }
         part(scheme.density == DensityForm::Lam, &|| {
             "density by Lam et al. (DensityForm::Lam)".into()
-        });
-        part(scheme.smoothing != Smoothing::Fixed, &|| {
-            format!("smoothing lengths that vary ({:?})", scheme.smoothing)
         });
         part(!program.laws[Stage::Rates.number()].is_empty(), &|| {
             let laws = program.laws[Stage::Rates.number()].iter();
             let names: Vec<_> = laws.map(|law| format!("`{}`", law.name())).collect();
             format!("laws of the rates ({})", names.join(", "))
         });
-        for law in program
-            .laws
-            .iter()
-            .flatten()
-            .filter(|law| law.repeats().is_some())
-        {
-            part(true, &|| {
-                format!("the law `{}`, which repeats its sweep", law.name())
-            });
-        }
-        for own in program
-            .evolved
-            .iter()
-            .filter(|own| own.update == Update::Rotated)
-        {
-            let name = program.name_of(own.field);
-            part(true, &|| {
-                format!("the field `{name}`, which turns with the material")
-            });
-        }
         part(self.integrator.slots() > 0, &|| {
             format!(
                 "the integrator {}, which keeps states",

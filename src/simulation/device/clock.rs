@@ -3,7 +3,7 @@
 
 use super::Offloaded;
 use super::laws::{Acting, record_law};
-use super::vote::place_of_timed;
+use crate::effect::Smoothing;
 use crate::error::{Error, Result};
 use crate::scalar::Real;
 use crate::simulation::run::check_end;
@@ -80,6 +80,18 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         group.gravity = gravity;
         group.work.evaluated_gravity = gravity.map(T::from_f64);
         group.work.evaluated_time = time;
+        if matches!(group.scheme.smoothing, Smoothing::Consistent(_)) {
+            let since = time - group.work.lengths_time;
+            let known = since.is_finite() && since != 0.0;
+            let [since, inverse] = if known {
+                [since, since.recip()]
+            } else {
+                [0.0; 2]
+            };
+            let any = group.work.lengths_time != time;
+            self.since_lengths = [since, inverse, f64::from(u8::from(any))];
+            group.work.lengths_time = time;
+        }
         Ok(Moment::over(time, elapsed))
     }
 
@@ -131,8 +143,10 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         all.extend(group.work.evaluated_gravity.map(Real::to_f64));
         all.extend(&self.range);
         all.extend(group.carried_since_listed(moment.time));
-        for (k, own) in self.timed.iter().enumerate() {
-            debug_assert_eq!(all.len(), place_of_timed::<D>(k));
+        if matches!(group.scheme.smoothing, Smoothing::Consistent(_)) {
+            all.extend(self.since_lengths);
+        }
+        for own in &self.timed {
             let law = &group.scheme.program.laws[own.stage.number()][own.law];
             let acting = Acting {
                 time: moment.time,

@@ -1,12 +1,15 @@
 //! Evolved fields as records: their rates, how they change, and what rounding loses of them.
 //! The text is that of the host's updates, for one particle.
 
+use super::images::square;
 use super::laws::{Acting, around};
 use super::program::{Action, Given, Kind, Made, PointStep};
 use super::record::{DT, Recorder, Sums, add};
+use crate::effect::gradients::{GRADIENT_SUMS, SINGULAR};
 use crate::effect::{Evolved, Update, View, When};
 use crate::particles::Field;
 use crate::scalar::{Lane, Real, Traced};
+use crate::tensor::{Square, Symmetric};
 use crate::term::Stage;
 
 /// eˣ − 1 as the host has it.
@@ -15,6 +18,17 @@ fn expm1<L: Lane>(x: L) -> L {
     let series =
         x * (L::one() + x * (term(2.0) + x * (term(6.0) + x * (term(24.0) + x * term(120.0)))));
     L::select(x.abs().gt(L::of(0.01)), x.exp() - L::one(), series)
+}
+
+/// ½ (∇v − ∇vᵀ) from the velocity gradient, or from its sum and that of the moments that correct it.
+fn spin<const D: usize>(numbers: &[Traced]) -> Square<Traced, D> {
+    let (gradient, moments) = numbers.split_at(D * D);
+    let mut gradient = square::<D>(gradient);
+    if !moments.is_empty() {
+        gradient = gradient.times(&square(moments).inverse(SINGULAR).0);
+    }
+    let apart = gradient.plus(Traced::of(-1.0), &gradient.transposed());
+    apart.scaled(Traced::of(0.5))
 }
 
 impl<T: Real, const D: usize> Recorder<'_, T, D> {
@@ -107,6 +121,18 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
             made.push(self.count(Kind::Limit(scheme.program.name_of(own.field)), live));
         }
         let h = around.smoothing_length;
+        let turning = given.len();
+        if own.update == Update::Rotated {
+            let [gradient, moments] = GRADIENT_SUMS;
+            if sums.there.contains(gradient) {
+                let both =
+                    [gradient, moments].map(|sum| (0..D * D).map(move |k| sums.given(sum, k)));
+                given.extend(both.into_iter().flatten());
+            } else {
+                let all = (0..D * D).map(|k| Given::Field(Field::VELOCITY_GRADIENT, k));
+                given.extend(all);
+            }
+        }
         let step = PointStep::new(&name, &run, (given, made), |x| {
             let dt = x[step_at];
             let mut growth = Traced::of(0.0);
@@ -121,6 +147,13 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
                         .zip(found)
                         .for_each(|(sum, own)| *sum += own);
                 }
+            }
+            if own.update == Update::Rotated {
+                let spin = spin::<D>(&x[turning..]);
+                let of = |numbers: &[Traced]| Symmetric::new(core::array::from_fn(|k| numbers[k]));
+                let moved = of(&x[..width]).plus(dt, &of(&sources));
+                let turn = Square::rotation(&spin.scaled(dt));
+                return turn.turned(&moved).components().to_vec();
             }
             let (mut results, mut lost) = (Vec::new(), Vec::new());
             for k in 0..width {
@@ -137,8 +170,8 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
                         lost.push(Lane::select(moved, Traced::of(1.0), Traced::of(0.0)));
                         continue;
                     }
-                    // Refused by name before.
-                    Update::Rotated => Traced::of(0.0),
+                    // Turned as a whole before.
+                    Update::Rotated => continue,
                 };
                 let (next, rest) = add(y, residual.map(|_| x[width + k]), change);
                 results.push(next);

@@ -1,8 +1,9 @@
 //! Laws of effects as records, on each body and wall, with what their constants are when these depend on time.
 //! A law whose text depends on time otherwise is refused.
 
+use super::lengths::{change, limited, open};
 use super::program::{Action, Given, Kind, Made, PointStep};
-use super::record::{DT, Recorder, Sums, add, common, gravity};
+use super::record::{DT, Recorder, Sums, add, gravity};
 use crate::effect::{Around, Law, PointRecord};
 use crate::particles::Field;
 use crate::scalar::{Lane, Real, Traced};
@@ -25,6 +26,15 @@ pub(super) enum Of {
     Wall(usize),
 }
 
+/// Where laws act.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Gate {
+    /// On all particles.
+    None,
+    /// On particles that have not settled, whose changes and limits are noted in columns.
+    Open,
+}
+
 /// When something acts.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Acting<const D: usize> {
@@ -38,16 +48,16 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
     pub(super) fn laws_of_bodies(&mut self, stage: Stage, sums: Sums) -> Vec<Action> {
         let bodies = 0..self.group.particles.bodies.len();
         bodies
-            .flat_map(|body| self.laws(stage, Of::Body(body), sums))
+            .flat_map(|body| self.laws(stage, Of::Body(body), sums, Gate::None))
             .collect()
     }
 
-    pub(super) fn laws(&mut self, stage: Stage, part: Of, sums: Sums) -> Vec<Action> {
+    pub(super) fn laws(&mut self, stage: Stage, part: Of, sums: Sums, gate: Gate) -> Vec<Action> {
         let scheme = self.group.scheme.clone();
         let laws = &scheme.program.laws[stage.number()];
         let mut all = Vec::new();
         for (number, law) in laws.iter().enumerate() {
-            all.extend(self.law((stage, number), &**law, part, sums));
+            all.extend(self.law((stage, number), &**law, (part, gate), sums));
         }
         all
     }
@@ -56,7 +66,7 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
         &mut self,
         (stage, number): (Stage, usize),
         law: &dyn Law<T, D>,
-        part: Of,
+        (part, gate): (Of, Gate),
         sums: Sums,
     ) -> Option<Action> {
         let in_drift = self.in_drift;
@@ -101,7 +111,7 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
             return None;
         }
         // One of acting, and the constants, where they depend on time.
-        let first = common::<D>() + 5 * self.timed.len();
+        let first = self.place_of_timed();
         if is_timed {
             self.timed.push(Timed {
                 stage,
@@ -163,7 +173,13 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
                 (wall.slots.start..wall.end, wall.slots.clone())
             }
         };
-        made.push(self.count(Kind::Limit(law.name()), live));
+        let changes = law.repeats().is_some();
+        let change_at = made.len() + 1;
+        made.push(match gate {
+            Gate::None => self.count(Kind::Limit(law.name()), live),
+            Gate::Open => Made::Column(limited::<D>(number)),
+        });
+        made.extend(changes.then_some(Made::Column(change::<D>())));
         let fall = given.len();
         if let Of::Wall(_) = part {
             given.extend((0..D).map(gravity));
@@ -180,10 +196,14 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
             }
         }
         let before = given.len();
-        if is_timed {
-            given.push(Given::Shared(first));
+        let is_open = Some(Given::Column(open::<D>())).filter(|_| gate == Gate::Open);
+        given.extend(is_timed.then_some(Given::Shared(first)));
+        given.extend(is_open);
+        let old = given.len();
+        if old > before {
             given.extend(made.iter().map(|own| match *own {
                 Made::Field(field, k) => Given::Field(field, k),
+                Made::Column(k) => Given::Column(k),
                 _ => Given::Constant(0.0),
             }));
         }
@@ -206,9 +226,12 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
                 }
                 results.extend(residuals);
             }
-            if is_timed {
-                let acts = x[before].gt(Traced::of(0.5));
-                let old = &x[before + 1..];
+            if changes && gate == Gate::Open {
+                results[change_at] = results[change_at].max(x[old + change_at]);
+            }
+            for own in &x[before..old] {
+                let acts = own.gt(Traced::of(0.5));
+                let old = &x[old..];
                 for (new, old) in results.iter_mut().zip(old) {
                     *new = Lane::select(acts, *new, *old);
                 }

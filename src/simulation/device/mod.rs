@@ -7,7 +7,9 @@
 mod check;
 mod clock;
 mod evolved;
+mod images;
 mod laws;
+mod lengths;
 mod motion;
 mod program;
 mod record;
@@ -15,7 +17,9 @@ mod state;
 mod vote;
 
 pub use clock::{Advance, Moment};
-pub use program::{Action, Counted, Given, Made, PointStep, Program, SweepStep};
+pub use program::{
+    Action, Counted, Given, KeepStep, Made, PointStep, Program, RepeatStep, SweepStep,
+};
 pub use state::Moved;
 pub use vote::{Approaching, Found};
 
@@ -49,8 +53,10 @@ pub struct Offloaded<T: Real, const D: usize> {
     timed: Vec<Timed>,
     /// What the last vote asks for.
     last_vote: Option<Vote>,
-    /// The least and the largest component of velocities, as the last vote found them.
+    /// The least and the largest component of velocities, as the last vote found them, and the least smoothing length.
     range: Vec<f64>,
+    /// The time \[s\] since smoothing lengths were found, its inverse, both zero where they never were, and one if there is any.
+    since_lengths: [f64; 3],
     /// The step under way, and the one that it is cut from.
     under_way: Option<[Vote; 2]>,
     /// The state after the last step while a copy steps for a reading, and its vote.
@@ -78,7 +84,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             program: Arc::default(),
             timed: Vec::new(),
             last_vote: None,
-            range: vec![0.0; 2 * D],
+            range: vec![0.0; 2 * D + 1],
+            since_lengths: [0.0; 3],
             under_way: None,
             last_step: None,
         };

@@ -1,12 +1,13 @@
 //! Kicks, drifts, predictions and displacements as records.
 //! They are the driver's own, and the same for all schemes.
 
-use super::program::{Action, Given, Made};
+use super::program::{Action, Given, KeepStep, Made, SweepStep};
 use super::record::{DT, HALF, Recorder, add, carried, evaluated};
 use crate::effect::When;
-use crate::particles::{Field, Output};
+use crate::particles::{Field, Fields, Output};
 use crate::scalar::{Lane, Real, Traced};
 use crate::scheme::EnergyForm;
+use crate::sweep::Pass;
 use crate::term::Stage;
 
 impl<T: Real, const D: usize> Recorder<'_, T, D> {
@@ -32,12 +33,12 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
         })
     }
 
-    /// e ← e + dt P/m by the power of the rates.
-    fn heat(&mut self) -> Vec<Action> {
+    /// e ← e + dt P/m.
+    fn heat(&mut self, power: Given) -> Vec<Action> {
         let given = vec![
             Given::Field(Field::ENERGY, 0),
             Given::Field(Field::MASS, 0),
-            Given::Rate(Output::POWER, 0),
+            power,
             DT,
         ];
         let made = vec![Made::Field(Field::ENERGY, 0)];
@@ -46,10 +47,18 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
         })
     }
 
-    /// The velocities with which the rates were summed, where the work of a kick follows from them without a sweep.
-    pub(super) fn keep_velocities(&mut self) -> Vec<Action> {
-        if self.group.scheme.energy != EnergyForm::Compatible {
+    /// What the work of a kick needs of an evaluation: the velocities with which the rates were summed, or all that its sweep read.
+    pub(super) fn keep_rates(&mut self) -> Vec<Action> {
+        let scheme = self.group.scheme.clone();
+        if scheme.energy != EnergyForm::Compatible {
             return Vec::new();
+        }
+        if scheme.sweeps_work() {
+            let Some(Action::Sweep(work)) = self.pass(Stage::Rates, Pass::Work, &self.bodies())
+            else {
+                return Vec::new();
+            };
+            return self.keep_records(&work, work.pair.reads);
         }
         let given = (0..D).map(|d| Given::Field(Field::VELOCITY, d)).collect();
         let made = (0..D).map(|d| Made::Field(Field::MEAN_VELOCITY, d));
@@ -59,11 +68,52 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
         })
     }
 
-    /// Energy in a kick: by the power of the rates, or e ← e + dt (P − Fᵢ·(v̄ᵢ − uᵢ))/m with its mean velocities v̄ and those u of
-    /// the rates.
+    fn keep_records(&self, work: &SweepStep, fields: Fields) -> Vec<Action> {
+        let image = self.image(fields);
+        let keep = |image| KeepStep {
+            reads: work.pair.reads,
+            fields,
+            image,
+        };
+        // What cannot be recorded is refused with the sweep.
+        let all = image.into_iter().map(keep);
+        all.map(|keep| Action::Keep(Box::new(keep))).collect()
+    }
+
+    /// The work of pair forces in a kick, with its mean velocities v̄ = v + a dt/2, by a sweep: e ← e + dt P/m.
+    fn heat_by_sweep(&mut self) -> Vec<Action> {
+        let Some(Action::Sweep(work)) = self.pass(Stage::Rates, Pass::Work, &self.bodies()) else {
+            return Vec::new();
+        };
+        let mut given = vec![HALF, Given::Field(Field::MASS, 0)];
+        for d in 0..D {
+            given.extend([Given::Field(Field::VELOCITY, d), evaluated::<D>(d)]);
+            given.push(Given::Rate(Output::FORCE, d));
+        }
+        let means = [Field::MEAN_VELOCITY, Field::MEAN_ACCELERATION];
+        let made = means.map(|field| (0..D).map(move |d| Made::Field(field, d)));
+        let made = made.into_iter().flatten().collect();
+        let mut all = self.on_each("mean velocities", self.bodies(), (given, made), |x| {
+            let acceleration = x[2..].chunks_exact(3).map(|own| own[2] / x[1] + own[1]);
+            let acceleration: Vec<_> = acceleration.collect();
+            let mean = x[2..].chunks_exact(3).zip(&acceleration);
+            let mean: Vec<_> = mean.map(|(own, a)| own[0] + x[0] * *a).collect();
+            [mean, acceleration].concat()
+        });
+        all.extend(self.keep_records(&work, Fields::of(&means)));
+        all.push(Action::Sweep(work));
+        all.extend(self.heat(Given::Sum(Output::POWER, 0)));
+        all
+    }
+
+    /// Energy in a kick: by the power of the rates, by a sweep of its own, or e ← e + dt (P − Fᵢ·(v̄ᵢ − uᵢ))/m with its mean
+    /// velocities v̄ and those u of the rates.
     pub(super) fn heat_in_kick(&mut self) -> Vec<Action> {
         if self.group.scheme.energy != EnergyForm::Compatible {
-            return self.heat();
+            return self.heat(Given::Rate(Output::POWER, 0));
+        }
+        if self.group.scheme.sweeps_work() {
+            return self.heat_by_sweep();
         }
         let mut given = vec![
             Given::Field(Field::ENERGY, 0),
@@ -147,12 +197,18 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
         let mut given: Vec<_> = (0..D).map(|d| Given::Field(Field::POSITION, d)).collect();
         given.extend((0..D).map(Given::Listed));
         given.extend((0..D).map(carried::<D>));
-        let made = (0..=D).map(Made::Column).collect();
+        let length = self.or(Field::SMOOTHING_LENGTH, 0.0);
+        let listed = match length {
+            Given::Constant(_) => length,
+            _ => Given::Listed(D),
+        };
+        given.extend([length, listed]);
+        let made = (0..2 + D).map(Made::Column).collect();
         self.on_each("displacement", self.everywhere(), (given, made), |x| {
             let by: Vec<_> = (0..D).map(|d| x[d] - x[D + d] - x[2 * D + d]).collect();
             let zero = Traced::of(0.0);
             let square = by.iter().fold(zero, |sum, own| sum + *own * *own);
-            [&[square], &by[..]].concat()
+            [&[square], &by[..], &[x[3 * D] - x[3 * D + 1]]].concat()
         })
     }
 
@@ -179,7 +235,7 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
         predict.extend(self.kick());
         predict.extend(self.evolve(When::Kick));
         if self.group.scheme.energy != EnergyForm::None {
-            predict.extend(self.heat());
+            predict.extend(self.heat(Given::Rate(Output::POWER, 0)));
         }
         let given = all
             .iter()

@@ -1,7 +1,7 @@
 //! The recorded step program of a simulation: sums over pairs, and what happens to single particles between them.
 //! It holds no particle; a device makes kernels of it once.
 
-use crate::particles::{Field, Output};
+use crate::particles::{Field, Fields, Output};
 use crate::scalar::{Record, Traced, Unrecordable};
 use crate::sweep::PairRecord;
 use std::ops::Range;
@@ -13,8 +13,10 @@ pub enum Given {
     Field(Field, usize),
     /// The same as it was before a prediction.
     Saved(Field, usize),
-    /// A component of the place for which lists were built.
+    /// A component of the place for which lists were built; behind the last of them the smoothing length where that varies.
     Listed(usize),
+    /// A column of its own, as an earlier step has made it.
+    Column(usize),
     /// A component of a sum of the last evaluation of the rates.
     Rate(Output, usize),
     /// A component of a sum of the last other sweep.
@@ -36,7 +38,7 @@ pub enum Made {
     Saved(Field, usize),
     /// It is added to a [count](Program::counts).
     Count(usize),
-    /// A column of its own, which nothing but a sum over particles reads.
+    /// A column of its own.
     Column(usize),
     /// Nowhere.
     Nothing,
@@ -82,10 +84,49 @@ pub struct SweepStep {
     pub name: &'static str,
     /// One pair.
     pub pair: PairRecord,
+    /// Where there are boundaries: what an image shows of its source, from that and a [transform](super::Offloaded::transforms).
+    pub image: Option<Record>,
     /// The slots whose sums are wanted.
     pub slots: Range<usize>,
     /// Whether its sums are the rates, which stay until the next evaluation and whose forces between blocks are booked.
     pub of_rates: bool,
+    /// Whether it reads [records that are kept](Action::Keep), and not those of the present state.
+    pub of_kept: bool,
+}
+
+/// Records that stay from an evaluation to the kicks by its forces, whose work is summed over them.
+#[derive(Clone, Debug)]
+pub struct KeepStep {
+    /// What a record has.
+    pub reads: Fields,
+    /// What of it is brought up to date.
+    pub fields: Fields,
+    /// That of an image, as in [`SweepStep::image`], from `fields` alone.
+    pub image: Option<Record>,
+}
+
+/// Actions that are repeated on particles that have not settled, as a smoothing length and the density that it gives are.
+///
+/// Particles settle [`piece`](Self::piece) at a time, as on the host: a column has how much each has changed, and the next a one while
+/// any of its piece has changed by the tolerance or more.
+#[derive(Clone, Debug)]
+pub struct RepeatStep {
+    /// Most repetitions.
+    pub times: usize,
+    /// The change at which particles have settled.
+    pub tolerance: f64,
+    /// The column of changes.
+    pub changes: usize,
+    /// Particles that settle together.
+    pub piece: usize,
+    /// Runs of slots, each of which pieces start with.
+    pub runs: Vec<Range<usize>>,
+    /// What opens all particles: at first, and where lists were built anew.
+    pub begin: Vec<Action>,
+    /// What is repeated.
+    pub actions: Vec<Action>,
+    /// What follows.
+    pub end: Vec<Action>,
 }
 
 /// An entry of a step.
@@ -95,6 +136,10 @@ pub enum Action {
     Lists,
     /// Sums over pairs.
     Sweep(Box<SweepStep>),
+    /// Records are kept, or what changes in them is renewed.
+    Keep(Box<KeepStep>),
+    /// Actions are repeated until particles have settled.
+    Repeat(Box<RepeatStep>),
     /// What happens to single particles.
     Points(PointStep),
 }
@@ -147,12 +192,13 @@ pub struct Program {
     /// The end of it.
     pub restore: Vec<Action>,
     /// Of every particle its largest stable step \[s\], negative where its state is broken, the number of its criterion, the square of
-    /// its speed and its velocity.
+    /// its speed, its velocity and its smoothing length.
     pub vote: Vec<Action>,
     /// Where pairs may close too fast: the sweep that tells by how much, and of every particle its largest stable step \[s\] and
     /// minus the closing speed over the mean sound speed.
     pub approach: Vec<Action>,
-    /// Of every particle the square of its displacement \[m²\] since lists were built, and the displacement \[m\].
+    /// Of every particle the square of its displacement \[m²\] since lists were built, the displacement \[m\], and by how much its
+    /// smoothing length has grown \[m\].
     pub moved: Vec<Action>,
     /// What is counted.
     pub counts: Vec<Counted>,
@@ -161,11 +207,15 @@ pub struct Program {
 }
 
 impl Program {
-    /// How many columns of their own its actions make in `d` dimensions.
+    /// How many columns of their own its actions make in `d` dimensions, but for what is [repeated](RepeatStep), which has
+    /// [`REPEATED`](Self::REPEATED) more.
     #[must_use]
     pub const fn columns(d: usize) -> usize {
-        3 + d
+        4 + d
     }
+
+    /// Columns of what is repeated.
+    pub const REPEATED: usize = 2 + super::lengths::MOST_REPEATED;
 
     /// All actions.
     pub fn actions(&self) -> impl Iterator<Item = &Action> {

@@ -1,16 +1,17 @@
 //! The entries of a step as records: laws, updates, equations of state, kicks and drifts as the driver does them.
 //! What depends on time is a shared number; what does so otherwise is refused.
 
-use super::laws::{Of, Timed};
+use super::images::image_record;
+use super::laws::{Gate, Of, Timed};
 use super::program::{Action, Counted, Given, Kind, Made, PointStep, Program, SweepStep};
-use crate::effect::DensityForm;
+use crate::effect::{DensityForm, Smoothing};
 use crate::error::Problem;
 use crate::particles::{Field, Fields, Output, Outputs};
-use crate::scalar::{Lane, Real, Traced, Unrecordable};
+use crate::scalar::{Lane, Real, Record, Traced, Unrecordable};
 use crate::scheme::Entry;
 use crate::simulation::Group;
 use crate::simulation::control::StepControl;
-use crate::sweep::two_sum;
+use crate::sweep::{Pass, two_sum};
 use crate::term::Stage;
 use std::ops::Range;
 
@@ -28,13 +29,21 @@ pub(super) const fn evaluated<const D: usize>(d: usize) -> Given {
 pub(super) const fn range<const D: usize>(k: usize) -> Given {
     Given::Shared(2 + 2 * D + k)
 }
+/// The least smoothing length.
+pub(super) const fn least_length<const D: usize>() -> Given {
+    Given::Shared(2 + 4 * D)
+}
 /// How far a container has gone since lists were built.
 pub(super) const fn carried<const D: usize>(d: usize) -> Given {
-    Given::Shared(2 + 4 * D + d)
+    Given::Shared(3 + 4 * D + d)
 }
-/// How many there are before the numbers of laws.
-pub(super) const fn common<const D: usize>() -> usize {
-    2 + 5 * D
+/// The time since smoothing lengths were found, its inverse, and whether there is any, where lengths follow the density.
+pub(super) const fn since_lengths<const D: usize>(k: usize) -> Given {
+    Given::Shared(3 + 5 * D + k)
+}
+/// How many there are in any scene.
+const fn common<const D: usize>() -> usize {
+    3 + 5 * D
 }
 /// The recorder of a group.
 pub(super) struct Recorder<'a, T: Real, const D: usize> {
@@ -84,6 +93,12 @@ impl<'a, T: Real, const D: usize> Recorder<'a, T, D> {
             problems: Vec::new(),
             in_drift: false,
         }
+    }
+
+    /// Where the numbers of the next law start among the shared ones.
+    pub(super) fn place_of_timed(&self) -> usize {
+        let follows = matches!(self.group.scheme.smoothing, Smoothing::Consistent(_));
+        common::<D>() + 3 * usize::from(follows) + 5 * self.timed.len()
     }
 
     fn there(&self) -> Fields {
@@ -172,7 +187,7 @@ impl<'a, T: Real, const D: usize> Recorder<'a, T, D> {
         self.votes(control);
     }
 
-    fn entry(&mut self, entry: Entry) -> Vec<Action> {
+    pub(super) fn entry(&mut self, entry: Entry) -> Vec<Action> {
         let scheme = self.group.scheme.clone();
         let of = |stage: Stage| Sums {
             of_rates: stage == Stage::Rates,
@@ -190,7 +205,7 @@ impl<'a, T: Real, const D: usize> Recorder<'a, T, D> {
             Entry::Sweep(stage) => {
                 let mut all = self.sweep(stage, self.bodies());
                 if stage == Stage::Rates {
-                    all.extend(self.keep_velocities());
+                    all.extend(self.keep_rates());
                 }
                 all
             }
@@ -201,10 +216,16 @@ impl<'a, T: Real, const D: usize> Recorder<'a, T, D> {
                 }
                 let mut all = self.sweep(Stage::Walls, self.walls());
                 for wall in 0..self.group.walls.len() {
-                    all.extend(self.laws(Stage::Walls, Of::Wall(wall), of(Stage::Walls)));
+                    all.extend(self.laws(
+                        Stage::Walls,
+                        Of::Wall(wall),
+                        of(Stage::Walls),
+                        Gate::None,
+                    ));
                 }
                 all
             }
+            Entry::Stage(stage) if self.repeats(stage).is_some() => self.repeated(stage),
             Entry::Stage(stage) => {
                 let mut all = self.sweep(stage, self.bodies());
                 all.extend(self.laws_of_bodies(stage, of(stage)));
@@ -214,25 +235,38 @@ impl<'a, T: Real, const D: usize> Recorder<'a, T, D> {
             Entry::Velocity => self.kick(),
             Entry::Energy => self.heat_in_kick(),
             Entry::Evolve(when) => self.evolve(when),
+            Entry::PredictLengths => self.predict_lengths(),
+            Entry::LengthRates => self.length_rates(),
             // Refused by name before.
-            Entry::PredictLengths | Entry::LengthRates | Entry::ForcesOfLaws => Vec::new(),
+            Entry::ForcesOfLaws => Vec::new(),
         }
     }
 
-    fn sweep(&mut self, stage: Stage, runs: Vec<Range<usize>>) -> Vec<Action> {
-        let Some(sweep) = self.group.scheme.sweep(stage) else {
-            return Vec::new();
-        };
-        let (Some(first), Some(last)) = (runs.first(), runs.last()) else {
-            return Vec::new();
-        };
-        match sweep.record() {
-            Ok(pair) => vec![Action::Sweep(Box::new(SweepStep {
+    pub(super) fn sweep(&mut self, stage: Stage, runs: Vec<Range<usize>>) -> Vec<Action> {
+        self.pass(stage, Pass::Rates, &runs).into_iter().collect()
+    }
+
+    /// A pass of the sweep of a stage over some runs of slots.
+    pub(super) fn pass(
+        &mut self,
+        stage: Stage,
+        pass: Pass,
+        runs: &[Range<usize>],
+    ) -> Option<Action> {
+        let scheme = self.group.scheme.clone();
+        let sweep = scheme.sweep(stage)?;
+        let (first, last) = (runs.first()?, runs.last()?);
+        let recorded = sweep.record(pass, self.group.has_contacts());
+        let recorded = recorded.and_then(|pair| Ok((self.image(pair.reads)?, pair)));
+        match recorded {
+            Ok((image, pair)) => Some(Action::Sweep(Box::new(SweepStep {
                 name: stage.name(),
                 pair,
+                image,
                 slots: first.start..last.end,
-                of_rates: stage == Stage::Rates,
-            }))],
+                of_rates: stage == Stage::Rates && pass == Pass::Rates,
+                of_kept: pass == Pass::Work,
+            }))),
             Err(error) => {
                 let terms: Vec<_> = sweep.document().into_iter().map(|term| term.name).collect();
                 let what = format!(
@@ -245,9 +279,15 @@ impl<'a, T: Real, const D: usize> Recorder<'a, T, D> {
                     what,
                     "write its terms with the arithmetic of lanes and `Lane::select`",
                 );
-                Vec::new()
+                None
             }
         }
+    }
+
+    /// The record of an image, where there are any.
+    pub(super) fn image(&self, reads: Fields) -> Result<Option<Record>, Unrecordable> {
+        let is_open = self.group.boundaries.is_empty();
+        (!is_open).then(|| image_record::<D>(reads)).transpose()
     }
 
     /// Walls at rest that liquid sticks to have their own velocity again.

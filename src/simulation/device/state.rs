@@ -7,7 +7,7 @@ use crate::neighbors::{Block, ChunkList};
 use crate::particles::{Columns, Field, Outputs};
 use crate::scalar::{Real, width};
 use crate::scheme::EnergyForm;
-use crate::sweep::{Image, Reaction, Results};
+use crate::sweep::{Interaction, Reaction, Records, Results};
 use crate::term::Stage;
 use std::ops::Range;
 
@@ -18,6 +18,8 @@ pub struct Moved {
     pub farthest2: f64,
     /// The least and the largest component of displacements along each axis \[m\].
     pub range: [Vec<f64>; 2],
+    /// By how much a smoothing length has grown at most \[m\].
+    pub grown: f64,
 }
 
 impl<T: Real, const D: usize> Offloaded<T, D> {
@@ -73,13 +75,28 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         all
     }
 
-    /// Takes the rates back, as [`rates`](Self::rates) gives them, with the forces between blocks.
-    pub fn take_rates(&mut self, numbers: &[T], forces: &[([usize; 2], [f64; D])]) {
+    /// The records of particles and images that are kept for the work of kicks, as [`KeepStep::reads`](super::KeepStep) says but for
+    /// whether particles are active in contacts; empty where no sweep sums that work.
+    #[must_use]
+    pub fn kept_records(&self) -> &[T] {
+        self.simulation.state.groups[0].work.work_records.data()
+    }
+
+    /// Takes the rates back, as [`rates`](Self::rates) gives them, with the forces between blocks and the records that are kept, `stride`
+    /// numbers each.
+    pub fn take_rates(
+        &mut self,
+        numbers: &[T],
+        forces: &[([usize; 2], [f64; D])],
+        (records, stride): (Vec<T>, usize),
+    ) {
         let group = &mut self.simulation.state.groups[0];
         let outputs = group.scheme.sums(Stage::Rates);
         group.work.rates = Results::of_rows(outputs, numbers, reactions(forces));
         // Nothing but pairs adds to the rates of what runs on a device.
-        if group.scheme.energy == EnergyForm::Compatible {
+        if group.scheme.sweeps_work() {
+            group.work.work_records = Records::of_stored(records, stride);
+        } else if group.scheme.energy == EnergyForm::Compatible {
             group.work.worked.copy(&group.work.rates);
         }
         group.work.records_of_rates = false;
@@ -126,12 +143,14 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         }
     }
 
-    /// Moves walls to where they are at a moment; the slots of those that move, whose columns the device needs anew.
-    pub fn place_walls(&mut self, moment: &Moment) -> Vec<Range<usize>> {
+    /// Moves walls and boundaries to where they are at a moment; the slots of walls that move, whose columns the device needs anew, and
+    /// whether it needs [transforms](Self::transforms) anew.
+    pub fn place_walls(&mut self, moment: &Moment) -> (Vec<Range<usize>>, bool) {
         let group = &mut self.simulation.state.groups[0];
         group.place_walls(moment.time, moment.chord);
         let moving = group.walls.iter().filter(|wall| wall.motion.is_some());
-        moving.map(|wall| wall.slots.start..wall.end).collect()
+        let slots = moving.map(|wall| wall.slots.start..wall.end).collect();
+        (slots, self.place_boundaries(moment.time))
     }
 
     /// What wall laws see at the particles of walls at a time \[s\]: accelerations \[m/s²\], normals, and velocity gradients \[1/s\] row
@@ -191,22 +210,6 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         &self.simulation.state.groups[0].neighborhood.blocks
     }
 
-    /// The images of particles that lists have behind all slots: of which slot each is, and by how much it is shifted \[m\].
-    #[must_use]
-    pub fn images(&self) -> (Vec<u32>, Vec<f64>) {
-        let neighborhood = &self.simulation.state.groups[0].neighborhood;
-        let transforms = &neighborhood.chains.transforms;
-        let images = &neighborhood.images;
-        let shift = |d: usize| {
-            let of = move |own: &Image| transforms[own.transform as usize].shift[d].to_f64();
-            images.iter().map(of)
-        };
-        (
-            images.iter().map(|own| own.source).collect(),
-            (0..D).flat_map(shift).collect(),
-        )
-    }
-
     /// The share of a closing speed that counts where a particle meets one of each block: half where that mirrors its velocity.
     #[must_use]
     pub fn seen(&self) -> Vec<f64> {
@@ -217,11 +220,28 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         group.neighborhood.mirrored.iter().map(share).collect()
     }
 
+    /// Whether a contact that may open is between blocks `a` and `b`, at `a * blocks + b`.
+    #[must_use]
+    pub fn contacts(&self) -> Vec<bool> {
+        let interactions = &self.simulation.state.groups[0].neighborhood.interactions;
+        let opens = interactions
+            .iter()
+            .map(|own| *own == Interaction::Unilateral);
+        opens.collect()
+    }
+
     /// The places for which lists were built \[m\], from the origin of the columns.
     #[must_use]
     pub fn listed(&self) -> &[[T; D]] {
         let slots = self.columns().slots();
         &self.simulation.state.groups[0].neighborhood.listed[..slots]
+    }
+
+    /// The smoothing lengths for which lists were built \[m\]; empty where one serves all.
+    #[must_use]
+    pub fn listed_lengths(&self) -> &[T] {
+        let all = &self.simulation.state.groups[0].neighborhood.listed_h;
+        &all[..all.len().min(self.columns().slots())]
     }
 
     /// Whether lists are outdated at a time \[s\]; else they serve once more.
@@ -237,7 +257,7 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         let shift = group.carried_since_listed(time);
         let left = group
             .neighborhood
-            .left(&group.boundaries, 0.0, (shift, time));
+            .left(&group.boundaries, moved.grown, (shift, time));
         let farthest = moved.farthest2.sqrt();
         if 2.0 * farthest <= left || !group.is_open() {
             return 2.0 * farthest > left;

@@ -3,7 +3,7 @@
 
 use super::Offloaded;
 use super::program::{Action, Given, Made, PointStep, SweepStep};
-use super::record::{Recorder, common, evaluated, range};
+use super::record::{Recorder, evaluated, least_length, range};
 use crate::effect::{Around, View};
 use crate::error::{Error, Result};
 use crate::name;
@@ -36,6 +36,8 @@ pub struct Found {
     pub speed2: f64,
     /// The least and the largest component of velocities along each axis \[m/s\].
     pub range: [Vec<f64>; 2],
+    /// The least smoothing length \[m\].
+    pub length: f64,
 }
 
 /// What pairs that approach each other ask for.
@@ -57,15 +59,22 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
             }
         }
         for run in self.walls() {
-            let given = (0..D).map(|d| Given::Field(Field::VELOCITY, d)).collect();
-            let made = (0..3 + D).map(Made::Column).collect();
+            let velocity = (0..D).map(|d| Given::Field(Field::VELOCITY, d));
+            let given = velocity.chain([self.length()]).collect();
+            let made = (0..4 + D).map(Made::Column).collect();
             let step = PointStep::new("vote of walls", &run, (given, made), |x| {
                 let none = [Traced::of(f64::INFINITY), Traced::of(0.0)];
-                [&none[..], &[square(x)], x].concat()
+                [&none[..], &[square(&x[..D])], x].concat()
             });
             self.program.vote.extend(step.map(Action::Points));
         }
         self.approach(control);
+    }
+
+    /// The smoothing length.
+    fn length(&self) -> Given {
+        let uniform = self.group.neighborhood.smoothing_length;
+        self.or(Field::SMOOTHING_LENGTH, uniform)
     }
 
     fn vote_of(
@@ -89,13 +98,13 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
             let components = 0..field.components(D);
             components.map(move |k| Given::Field(field, k))
         };
-        let h = group.neighborhood.smoothing_length;
         let viscous = there.contains(Field::DYNAMIC_VISCOSITY);
         let mut given = vec![
             Given::Field(Field::SOUND_SPEED, 0),
             rate(Output::SIGNAL, 0),
             Given::Field(Field::DENSITY, 0),
             Given::Field(Field::MASS, 0),
+            self.length(),
         ];
         given.extend(viscous.then_some(Given::Field(Field::DYNAMIC_VISCOSITY, 0)));
         let first = given.len();
@@ -144,9 +153,8 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
         } else {
             f64::MAX
         };
-        let made = (0..3 + D).map(Made::Column).collect();
+        let made = (0..4 + D).map(Made::Column).collect();
         let asked = Asked {
-            h,
             viscous,
             first,
             count,
@@ -167,8 +175,12 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
     /// What pairs ask for that approach each other, as the host has it.
     fn approach(&mut self, control: &StepControl) {
         let scheme = &self.group.scheme;
-        let reads = Fields::of(&[Field::POSITION, Field::VELOCITY, Field::SOUND_SPEED]);
-        let nearest = self.group.neighborhood.smoothing_length * NEAREST / scheme.h_over_dx;
+        let mut reads = Fields::of(&[Field::POSITION, Field::VELOCITY, Field::SOUND_SPEED]);
+        let length = self.length();
+        if let Given::Field(field, _) = length {
+            reads = reads.union(Fields::of(&[field]));
+        }
+        let of_spacing = NEAREST / scheme.h_over_dx;
         let stride = reads.width(D);
         let [x, v, c] = [Field::POSITION, Field::VELOCITY, Field::SOUND_SPEED]
             .map(|field| reads.offset(field, D));
@@ -183,9 +195,14 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
                 across += r * (i[v + d] - j[v + d]);
             }
             let towards = (-across).positive_part() * seen;
-            let distance = r2.sqrt().max(Traced::of(nearest * 1e-6));
+            let h = match length {
+                Given::Constant(h) => Traced::of(h),
+                _ => i[reads.offset(Field::SMOOTHING_LENGTH, D)],
+            };
+            let nearest = h * Traced::of(of_spacing);
+            let distance = r2.sqrt().max(nearest * Traced::of(1e-6));
             let closing = towards / distance;
-            let rate = closing / distance.max(Traced::of(nearest));
+            let rate = closing / distance.max(nearest);
             let mach = closing / (i[c] + j[c]);
             // In the order of storage.
             let mut both = vec![rate; 2];
@@ -196,7 +213,7 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
             (Some(first), Some(last)) => first.start..last.end,
             _ => return,
         };
-        if let Ok(record) = pair {
+        if let (Ok(record), Ok(image)) = (pair, self.image(reads)) {
             self.program
                 .approach
                 .push(Action::Sweep(Box::new(SweepStep {
@@ -209,23 +226,28 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
                         support: scheme.kernel.support,
                         uniform: false,
                         record,
+                        across: None,
                     },
+                    image,
                     slots,
                     of_rates: false,
+                    of_kept: false,
                 })));
         }
         let mut given = vec![Given::Sum(CLOSING, 0), Given::Sum(MACH, 0)];
         given.extend((0..D).map(|d| Given::Field(Field::VELOCITY, d)));
         given.extend((0..2 * D).map(range::<D>));
+        given.extend([length, least_length::<D>()]);
         let made = (0..2).map(Made::Column).collect::<Vec<_>>();
-        let apart = scheme.kernel.support * self.group.neighborhood.smoothing_length;
+        let half = 0.5 * scheme.kernel.support;
         let share = control.approach;
         for run in self.bodies() {
             let step = PointStep::new("approach", &run, (given.clone(), made.clone()), |x| {
-                let (v, low, high) = (&x[2..2 + D], &x[2 + D..2 + 2 * D], &x[2 + 2 * D..]);
+                let (v, low, high) = (&x[2..2 + D], &x[2 + D..2 + 2 * D], &x[2 + 2 * D..2 + 3 * D]);
+                let apart = Traced::of(half) * (x[2 + 3 * D] + x[3 + 3 * D]);
                 let farthest = |d: usize| (v[d] - low[d]).max(high[d] - v[d]);
                 let farthest: Vec<_> = (0..D).map(farthest).collect();
-                let unseen = square(&farthest).sqrt() / Traced::of(apart);
+                let unseen = square(&farthest).sqrt() / apart;
                 let rate = x[0].max(unseen).max(Traced::of(SLOWEST));
                 vec![Traced::of(share) / rate, -(x[1] + x[1])]
             });
@@ -234,10 +256,9 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
     }
 }
 
-/// What a vote is given, and in which order: speeds, density, mass and viscosity; from `first` on force, gravity, velocity and place;
+/// What a vote is given, and in which order: speeds, density, mass, smoothing length and viscosity; from `first` on force, gravity, velocity and place;
 /// up to `count` what must be numbers; behind that what limits of effects read.
 struct Asked {
-    h: f64,
     viscous: bool,
     first: usize,
     count: usize,
@@ -252,9 +273,9 @@ impl Asked {
         let own = |d: usize| x[first + d] / x[3] + x[first + D + d];
         let own: Vec<_> = (0..D).map(own).collect();
         let acceleration = square(&own).sqrt().max(Traced::of(SLOWEST));
-        let viscosity = self.viscous.then(|| x[4]);
+        let viscosity = self.viscous.then(|| x[5]);
         let speed = x[0] + x[1];
-        let by = control.limits(Traced::of(self.h), speed, acceleration, (x[2], viscosity));
+        let by = control.limits(x[4], speed, acceleration, (x[2], viscosity));
         let (mut step, mut kind) = (by[0], zero);
         let mut all: Vec<Traced> = by[1..].to_vec();
         let mut sound = x[2].gt(zero);
@@ -275,7 +296,7 @@ impl Asked {
         let velocity = &x[first + 2 * D..first + 3 * D];
         let sound = sound & is_number(&acceleration);
         let step = Lane::select(sound, step, Traced::of(-1.0));
-        [&[step, kind, square(velocity)], velocity].concat()
+        [&[step, kind, square(velocity)], velocity, &[x[4]]].concat()
     }
 }
 
@@ -305,8 +326,9 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
             return Err(self.fail(error).into());
         }
         let mut vote = self.vote_at(found.step, self.criterion(found.criterion), found.slot);
-        if self.may_meet(found, vote.step) {
-            self.range = found.range.concat();
+        let (shifted, range) = self.range_with_images(&found.range);
+        self.range = [range, vec![found.length]].concat();
+        if self.may_meet((found, shifted), vote.step) {
             let own = approaching(self)?;
             if self.meets_walls() && own.mach.0 > FASTEST {
                 let error = self.too_fast(own.mach);
@@ -350,15 +372,15 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
     }
 
     /// Whether a pair may close by more than its share in a step \[s\].
-    fn may_meet(&self, found: &Found, limit: f64) -> bool {
+    fn may_meet(&self, (found, shifted): (&Found, f64), limit: f64) -> bool {
         let group = &self.simulation.state.groups[0];
-        let h = group.neighborhood.smoothing_length;
-        let bearable = self.simulation.control.approach * NEAREST * h / group.scheme.h_over_dx;
+        let bearable =
+            self.simulation.control.approach * NEAREST * found.length / group.scheme.h_over_dx;
         let harmless = |speed: f64| speed == 0.0 || speed * limit <= bearable;
-        if harmless(2.0 * found.speed2.sqrt()) {
+        if harmless(2.0 * found.speed2.sqrt() + shifted) {
             return false;
         }
-        let [low, high] = &found.range;
+        let (low, high) = self.range[..2 * D].split_at(D);
         let spread: f64 = low.iter().zip(high).map(|(a, b)| (b - a).powi(2)).sum();
         !harmless(spread.sqrt())
     }
@@ -397,9 +419,4 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         control.courant *= simulation.integrator.stability();
         control
     }
-}
-
-/// Where the numbers of a law that depends on time start among the shared ones.
-pub(super) const fn place_of_timed<const D: usize>(k: usize) -> usize {
-    common::<D>() + 5 * k
 }

@@ -19,7 +19,7 @@ use core::marker::PhantomData;
 use meetings::{Meeting, Meetings, block_of};
 #[cfg(feature = "devices")]
 pub(super) use pairs::apply;
-use shown::Shown;
+pub(super) use shown::Shown;
 use std::ops::Range;
 
 /// Ways of running: bits of [`SmoothingMode`].

@@ -20,7 +20,7 @@ enum Compression {
 }
 
 /// The fields of a record that a contact hides the tension of; a list, so that the loop sees only those.
-pub(super) struct Shown {
+pub(in crate::sweep) struct Shown {
     fields: [Compression; MOST_READS],
     count: usize,
 }

@@ -5,16 +5,17 @@ mod agreement;
 #[path = "../common/mod.rs"]
 #[allow(dead_code)]
 mod common;
+#[path = "../common/compare.rs"]
+mod compare;
 mod refused;
 mod steps;
 
+use compare::on;
 use meshfree::effect::{Laminar, NeoHookean, Shifting};
 use meshfree::kernel::{Kernel, WendlandC2};
 use meshfree::material::eos::Linear;
 use meshfree::prelude::*;
-use meshfree::scalar::{InstructionSet, Real};
 use meshfree::term::LaminarViscosity;
-use meshfree_gpu::{Device, Run};
 
 /// Gravity \[m/s²\].
 const G: f64 = 9.81;
@@ -127,66 +128,4 @@ pub(crate) fn plate<T: Real>(fused: bool) -> Scene<T, 2> {
     let body = Body::block("plate", rubber, [0.0; 2], [length, height], 0.005).start(bend);
     let scheme = schemes::total_lagrangian().with(NeoHookean);
     on(Scene::new(scheme).body(body), fused)
-}
-
-fn on<T: Real, const D: usize>(scene: Scene<T, D>, fused: bool) -> Scene<T, D> {
-    scene.instructions(if fused {
-        InstructionSet::detect()
-    } else {
-        InstructionSet::Baseline
-    })
-}
-
-/// The simulation of a scene.
-pub(crate) fn build<T: Real, const D: usize>(scene: Scene<T, D>) -> Simulation<T, D> {
-    scene.build().unwrap_or_else(|error| panic!("{error}"))
-}
-
-/// A run on the device.
-pub(crate) fn load<T: Real, const D: usize>(device: &Device, scene: Scene<T, D>) -> Run<T, D> {
-    let run = device.load(build(scene));
-    run.unwrap_or_else(|error| panic!("{error}"))
-}
-
-/// After some steps on the host.
-pub(crate) fn on_host<T: Real, const D: usize>(
-    scene: Scene<T, D>,
-    steps: usize,
-) -> Simulation<T, D> {
-    let mut host = build(scene);
-    for _ in 0..steps {
-        host.step().unwrap_or_else(|error| panic!("{error}"));
-    }
-    host
-}
-
-/// After some steps on the device.
-pub(crate) fn on_device<T: Real, const D: usize>(
-    device: &Device,
-    scene: Scene<T, D>,
-    steps: usize,
-) -> Simulation<T, D> {
-    let mut run = load(device, scene);
-    for _ in 0..steps {
-        run.step().unwrap_or_else(|error| panic!("{error}"));
-    }
-    run.into_simulation()
-        .unwrap_or_else(|error| panic!("{error}"))
-}
-
-/// The largest differences of places, velocities and densities of two runs of a scene.
-pub(crate) fn differences<T: Real, U: Real, const D: usize>(
-    one: &Simulation<T, D>,
-    other: &Simulation<U, D>,
-) -> [f64; 3] {
-    assert_eq!(one.particles(), other.particles());
-    let mut all = [0.0f64; 3];
-    for (a, b) in one.all().zip(other.all()) {
-        for d in 0..D {
-            all[0] = all[0].max((a.position()[d] - b.position()[d]).abs());
-            all[1] = all[1].max((a.velocity()[d] - b.velocity()[d]).abs());
-        }
-        all[2] = all[2].max((a.density() - b.density()).abs());
-    }
-    all
 }

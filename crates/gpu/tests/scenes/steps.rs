@@ -2,7 +2,8 @@
 //! A dam break in the plane.
 
 use super::common::device;
-use super::{Fill, build, differences, load, on_device, on_host, tank, water};
+use super::compare::{build, differences, load, on_device, on_host};
+use super::{Fill, tank, water};
 use meshfree::prelude::*;
 use meshfree_gpu::Error as GpuError;
 
