@@ -10,7 +10,7 @@ use std::ops::Range;
 use std::time::Duration;
 
 /// Slots that settle together: whole clusters of either scalar, and few enough to tell a front from what is around it.
-const PIECE: usize = 64;
+pub(super) const PIECE: usize = 64;
 
 /// Slots of a body that settle together.
 #[derive(Clone, Copy, Debug)]
