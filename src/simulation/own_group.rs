@@ -48,7 +48,12 @@ impl<T: Real, const D: usize> Group<T, D> {
         });
         let walls = walls.collect();
         let neighborhood = part.neighborhood(&self.neighborhood, slots);
-        let work = part.work(&self.work, (slots, own.mobile), self.particles.mobile);
+        let chunks = self.neighborhood.lists.chunks().len();
+        let work = part.work(
+            &self.work,
+            (slots, chunks),
+            [own.mobile, self.particles.mobile],
+        );
         self.all = Some(Box::new(All {
             part,
             particles: core::mem::replace(&mut self.particles, own),
@@ -303,8 +308,8 @@ impl Part {
     fn work<T: Real, const D: usize>(
         &self,
         all: &Workspace<T, D>,
-        (slots, own_mobile): (usize, usize),
-        mobile: usize,
+        (slots, chunks): (usize, usize),
+        [own_mobile, mobile]: [usize; 2],
     ) -> Workspace<T, D> {
         let first = self.runs[0].start.min(mobile);
         let run = first..first + own_mobile;
@@ -322,8 +327,8 @@ impl Part {
             records: records(&all.records, all.records_of_rates),
             work_records: records(&all.work_records, true),
             records_of_rates: all.records_of_rates,
-            rates: all.rates.of_run(&run, &self.chunks),
-            worked: all.worked.of_run(&run, &self.chunks),
+            rates: all.rates.of_run(&run, (&self.chunks, chunks)),
+            worked: all.worked.of_run(&run, (&self.chunks, chunks)),
             evaluated_time: all.evaluated_time,
             evaluated_gravity: all.evaluated_gravity,
             first_kick: all.first_kick,

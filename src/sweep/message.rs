@@ -70,15 +70,24 @@ impl<T: Real, const D: usize> Results<T, D> {
         slots.start / Self::WIDTH * cluster..slots.end.div_ceil(Self::WIDTH) * cluster
     }
 
-    /// The sums of a run of slots, and the forces on its chunks and others.
-    pub(crate) fn of_run(&self, slots: &Range<usize>, chunks: &[Range<usize>]) -> Self {
+    /// The sums of a run of slots, and the forces on its chunks and others, among so many chunks.
+    pub(crate) fn of_run(
+        &self,
+        slots: &Range<usize>,
+        (chunks, count): (&[Range<usize>], usize),
+    ) -> Self {
         let mut own = Self::default();
         own.lay_out(self.outputs);
         let rows = self.data.get(self.rows_of(slots));
         own.data = rows.unwrap_or_default().to_vec();
-        for run in chunks {
-            let reactions = self.reactions.get(run.clone()).unwrap_or_default();
-            own.reactions.extend_from_slice(reactions);
+        if self.reactions.len() == count {
+            for run in chunks {
+                own.reactions
+                    .extend_from_slice(&self.reactions[run.clone()]);
+            }
+        } else if chunks.iter().any(|run| run.contains(&0)) {
+            // A checkpoint does not tell chunks: their sums are those of all, so the first rank has them.
+            own.reactions.push(self.reactions().copied().collect());
         }
         own
     }
