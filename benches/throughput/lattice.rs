@@ -81,6 +81,7 @@ impl<T: Real> Lattice<T> {
     pub fn input(&self) -> SweepInput<'_, T, 3> {
         SweepInput {
             columns: &self.columns,
+            ghosts: None,
             images: &[],
             transforms: &[],
             lists: &self.lists,

@@ -1,6 +1,8 @@
 //! A sum whose bits depend on neither the order of its terms nor their grouping: a fixed-point number that holds every `f64`.
 //! The small superaccumulator of R. M. Neal, arXiv 1505.05571 (2015), after U. Kulisch & W. L. Miranker (1981).
 
+use crate::ranks::{Taken, put_number};
+
 /// Digits from the smallest subnormal number up to 2^1102.
 const DIGITS: usize = 68;
 /// Additions after which carries are passed on: digits of so many terms fit an `i64`.
@@ -71,6 +73,35 @@ impl ExactSum {
         self.pending = 1;
     }
 
+    /// Adds it to a message.
+    pub fn put(&self, to: &mut Vec<u8>) {
+        let mut own = self.clone();
+        own.carry();
+        let first = own.digits.iter().position(|&digit| digit != 0);
+        let last = own.digits.iter().rposition(|&digit| digit != 0);
+        let (first, last) = (first.unwrap_or(0), last.map_or(0, |last| last + 1));
+        put_number((first as u64) << 32 | last as u64, to);
+        put_number(own.beyond.to_bits(), to);
+        for digit in &own.digits[first..last] {
+            put_number(*digit as u64, to);
+        }
+    }
+
+    /// Adds the one that a message begins with.
+    pub fn take(&mut self, from: &mut Taken<'_>) -> Option<()> {
+        let (ends, beyond) = (from.number()?, from.number()?);
+        let (first, last) = ((ends >> 32) as usize, ends as u32 as usize);
+        let mut other = Self {
+            beyond: f64::from_bits(beyond),
+            ..Self::ZERO
+        };
+        for digit in other.digits.get_mut(first..last)? {
+            *digit = from.number()? as i64;
+        }
+        self.join(&other);
+        Some(())
+    }
+
     /// The nearest `f64`, the even one of two; NaN and infinite terms count as in any sum of `f64`.
     pub fn value(&self) -> f64 {
         if self.beyond.is_nan() {
@@ -114,6 +145,32 @@ impl ExactSum {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_sum_of_messages_is_the_sum_of_all() {
+        let all = numbers(500);
+        let mut joined = ExactSum::ZERO;
+        for part in all.chunks(130) {
+            let (mut own, mut message) = (ExactSum::ZERO, Vec::new());
+            for x in part {
+                own.add(*x);
+            }
+            own.put(&mut message);
+            let mut from = Taken(&message);
+            assert_eq!(joined.take(&mut from), Some(()));
+            assert!(from.0.is_empty());
+            assert_eq!(joined.take(&mut Taken(&message[..8])), None);
+        }
+        assert_eq!(joined.value().to_bits(), sum(&all).to_bits());
+        let mut message = Vec::new();
+        ExactSum::ZERO.put(&mut message);
+        assert_eq!(message.len(), 16);
+        let (mut beyond, mut message) = (ExactSum::ZERO, Vec::new());
+        beyond.add(f64::NEG_INFINITY);
+        beyond.put(&mut message);
+        assert_eq!(joined.take(&mut Taken(&message)), Some(()));
+        assert_eq!(joined.value(), f64::NEG_INFINITY);
+    }
 
     fn sum(terms: &[f64]) -> f64 {
         let mut sum = ExactSum::ZERO;

@@ -234,6 +234,16 @@ impl<P: Part> Collective<P> {
         P::join(&mut self.0, &other.0);
     }
 
+    /// What it consists of, as messages between ranks have it.
+    pub fn parts(&self) -> &P::Whole {
+        &self.0
+    }
+
+    /// That of such parts.
+    pub fn of_parts(parts: P::Whole) -> Self {
+        Self(parts)
+    }
+
     /// The result.
     pub fn value(&self) -> P {
         P::of(&self.0)

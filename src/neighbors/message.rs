@@ -12,6 +12,25 @@ const ORDERS: [Order; 3] = [Order::Apart, Order::Later, Order::Earlier];
 const NUMBERS: usize = 4;
 
 impl ClusterLists {
+    /// The lists of some chunks, whose neighbours get other numbers.
+    pub(crate) fn of_chunks(
+        &self,
+        chunks: impl Iterator<Item = usize>,
+        number: impl Fn(u32) -> u32,
+    ) -> Self {
+        let of = |chunk: usize| {
+            let list = &self.chunks[chunk];
+            ChunkList {
+                neighbors: list.neighbors.iter().map(|&j| number(j)).collect(),
+                segments: list.segments.clone(),
+                starts: list.starts.clone(),
+            }
+        };
+        Self {
+            chunks: chunks.map(of).collect(),
+        }
+    }
+
     /// Adds the lists of some chunks to a message.
     pub(crate) fn put(&self, chunks: Range<usize>, to: &mut Vec<u8>) {
         for list in &self.chunks[chunks] {

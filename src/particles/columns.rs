@@ -3,6 +3,7 @@
 
 use super::field::{Field, Fields};
 use crate::scalar::Real;
+use std::ops::Range;
 
 /// The particles of a group, one column a field.
 ///
@@ -128,6 +129,26 @@ impl<T: Real, const D: usize> Columns<T, D> {
             let width = field.components(D);
             self.raw_mut(field)[slot * width..(slot + 1) * width].fill(T::zero());
         }
+    }
+
+    /// The same fields of some runs of slots, one run after another.
+    pub(crate) fn of_runs(&self, runs: &[Range<usize>]) -> Self {
+        let slots = runs.iter().map(Range::len).sum();
+        let mut some = Self {
+            data: vec![Vec::new(); Fields::PLACES + 1],
+            fields: self.fields,
+            slots,
+        };
+        for field in self.fields.iter() {
+            let width = field.components(D);
+            let column = self.raw(field);
+            let own = some.column_mut(field);
+            own.reserve_exact(width * slots);
+            for run in runs {
+                own.extend_from_slice(&column[width * run.start..width * run.end]);
+            }
+        }
+        some
     }
 
     /// Rearranges the slots: slot k becomes what slot `order[k]` was.

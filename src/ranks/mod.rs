@@ -2,18 +2,23 @@
 //! The trait by which ranks reach each other, and ranks that are threads of one process; MPI is a crate of its own.
 //!
 //! Every rank builds the same scene with [`Scene::on_ranks`](crate::scene::Scene::on_ranks) and calls the same methods of its
-//! [`Simulation`](crate::simulation::Simulation) in the same order. The work that grows with the number of pairs is divided:
+//! [`Simulation`](crate::simulation::Simulation) in the same order. Each rank has a run of chunks of 64 clusters that are consecutive on
+//! the space-filling curve, cut by the entries of their lists. In
+//! [`run_until`](crate::simulation::Simulation::run_until) and [`Run`](crate::run::Run) it steps the particles of these:
 //!
 //! | part of a step | on ranks |
 //! |---|---|
-//! | sums over pairs | each rank sums chunks of 64 clusters that are consecutive on the space-filling curve, cut by the entries of their lists; then all ranks get the sums of all |
-//! | search for neighbours | each rank lists the neighbours of its chunks; then all ranks get all lists |
-//! | laws, equations of state, kicks, drifts, votes, ledgers | on every rank, of all particles |
-//! | contact, joints, couplings between groups, loads, events, readings | on every rank |
+//! | sums over pairs, laws, equations of state, kicks, drifts | each rank has its own particles, and before each sweep gets the packed records of others that its lists name |
+//! | votes on the step, validity of lists, impulses | each rank finds them for its own particles; then all ranks join them |
+//! | search for neighbours | each rank lists the neighbours of its chunks; then all ranks get all lists and all particles |
+//!
+//! Scenes of which a step looks at more than neighbours (couplings, contact, joints, rigid bodies, clamps, loads by particle, events,
+//! inlets and outlets), and calls that show every step, have another form of it: each rank sums over the pairs of its chunks, then all get
+//! the sums of all, and all else is done on every rank of all particles.
 //!
 //! What a rank sums for a particle is what one process sums, in the same order, so bits depend on neither the number of ranks
-//! nor the threads of each, nor on how chunks are cut. Every rank holds the whole state after every step: any method that
-//! reads a simulation gives the same values on all of them and needs no message.
+//! nor the threads of each, nor on how chunks are cut, nor on the form of a step. Every rank holds the whole state when a call returns:
+//! any method that reads a simulation gives the same values on all of them and needs no message.
 //!
 //! Memory is not divided: every rank holds the whole scene.
 //!
@@ -56,6 +61,7 @@
 
 mod bytes;
 mod division;
+mod joined;
 mod team;
 mod threads;
 
@@ -69,7 +75,8 @@ use crate::error::Failure;
 
 /// How a rank reaches the others.
 ///
-/// All ranks call [`gather`](Self::gather) in the same order, one call at a time, from any thread.
+/// All ranks call [`gather`](Self::gather) and [`exchange`](Self::exchange) in the same order, one call at a time, from any
+/// thread.
 pub trait Ranks: core::fmt::Debug + Send + Sync {
     /// The number of this rank, below [`count`](Self::count).
     fn rank(&self) -> usize;
@@ -83,4 +90,18 @@ pub trait Ranks: core::fmt::Debug + Send + Sync {
     /// # Errors
     /// If a rank cannot be reached any more. No rank calls it after that.
     fn gather(&self, own: &[u8], counts: &[usize], all: &mut [u8]) -> Result<(), Failure>;
+
+    /// Gives each rank what is meant for it: `own` has `to[r]` bytes for rank `r`, one after another in the order of the ranks, and
+    /// `all` gets `from[r]` bytes of rank `r` in that order. A rank knows its own counts alone; most of them are zero, and nothing
+    /// needs to travel for these.
+    ///
+    /// # Errors
+    /// If a rank cannot be reached any more. No rank calls it after that.
+    fn exchange(
+        &self,
+        own: &[u8],
+        to: &[usize],
+        all: &mut [u8],
+        from: &[usize],
+    ) -> Result<(), Failure>;
 }

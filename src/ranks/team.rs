@@ -20,6 +20,12 @@ pub(crate) enum What {
     Lists,
     /// What the first rank decides for all.
     Decision,
+    /// Numbers that are joined.
+    Numbers,
+    /// Particles of all ranks.
+    State,
+    /// Particles near those of another rank.
+    Ghosts,
 }
 
 /// A rank that has failed says so in the place of what the others gather.
@@ -46,6 +52,8 @@ pub(crate) struct Stamp {
 pub struct Traffic {
     /// Times at which all ranks gathered.
     pub gathered: u64,
+    /// Times at which ranks exchanged particles with those near them.
+    pub exchanged: u64,
     /// Bytes that the rank gave.
     pub sent: u64,
     /// Bytes that it got.
@@ -187,10 +195,18 @@ impl Team {
         }
     }
 
+    fn unreachable(&self, why: &Failure) -> Broken {
+        broken(self.rank(), format!("it cannot reach the others: {why}"))
+    }
+
     /// Headers, and then what they announce.
     fn gather_put(&self, what: u64, buffers: &mut Buffers) -> Result<(), Broken> {
-        let unreachable =
-            |why: Failure| broken(self.rank(), format!("it cannot reach the others: {why}"));
+        let failed = self.gather_headers(what, buffers)?;
+        self.gather_announced(failed, buffers)
+    }
+
+    /// The headers; the first rank that has failed, if one has.
+    fn gather_headers(&self, what: u64, buffers: &mut Buffers) -> Result<Option<usize>, Broken> {
         let count = self.count();
         let own = [what, buffers.own.len() as u64];
         let own: Vec<u8> = own.iter().flat_map(|number| number.to_ne_bytes()).collect();
@@ -202,7 +218,7 @@ impl Team {
         } = buffers;
         let headed = self.ranks.gather(&own, counts, headers);
         buffers.count(own.len(), own.len() * count);
-        headed.map_err(unreachable)?;
+        headed.map_err(|why| self.unreachable(&why))?;
         let failed = (0..count).find(|&rank| buffers.header(rank, 0) == FAILED);
         let other = (0..count).find(|&rank| buffers.header(rank, 0) != buffers.header(0, 0));
         if let (None, Some(rank)) = (failed, other) {
@@ -220,12 +236,51 @@ impl Team {
                 0
             };
         }
-        buffers.gather(&*self.ranks).map_err(unreachable)?;
+        Ok(failed)
+    }
+
+    /// What headers have announced.
+    fn gather_announced(&self, failed: Option<usize>, buffers: &mut Buffers) -> Result<(), Broken> {
+        buffers
+            .gather(&*self.ranks)
+            .map_err(|why| self.unreachable(&why))?;
         let Some(rank) = failed else {
             return Ok(());
         };
         let said = &buffers.all[..buffers.counts[rank]];
         Err(broken(rank, String::from_utf8_lossy(said)))
+    }
+
+    /// Gives each rank what is meant for it, as [`Ranks::exchange`] does, and whether it came: where a rank has failed it does not.
+    pub fn exchange(
+        &self,
+        (own, to): (&[u8], &[usize]),
+        (all, from): (&mut [u8], &[usize]),
+    ) -> bool {
+        if self.broken().is_some() {
+            return false;
+        }
+        let mut buffers = self.buffers();
+        let start = Instant::now();
+        buffers.own.clear();
+        // A rank that has failed says so here, or the others would wait for its letter.
+        let headed = self.gather_headers(What::Ghosts as u64, &mut buffers);
+        let come = headed.and_then(|failed| {
+            if failed.is_some() {
+                return self.gather_announced(failed, &mut buffers);
+            }
+            buffers.traffic.exchanged += 1;
+            buffers.traffic.sent += own.len() as u64;
+            buffers.traffic.received += all.len() as u64;
+            let come = self.ranks.exchange(own, to, all, from);
+            come.map_err(|why| self.unreachable(&why))
+        });
+        buffers.traffic.waited += start.elapsed();
+        let Err(own) = come else {
+            return true;
+        };
+        *self.broken() = Some(own);
+        false
     }
 
     /// Ends a call on all ranks: as it did on this one if it did so on all, and with an error if it failed on another, or if

@@ -42,6 +42,7 @@ pub fn in_threads<V: Send>(
     };
     let hall = Arc::new(Hall {
         parts: (0..count).map(|_| RwLock::default()).collect(),
+        letters: (0..count).map(|_| RwLock::default()).collect(),
         meeting: Mutex::default(),
         met: Condvar::new(),
     });
@@ -73,6 +74,8 @@ pub fn in_threads<V: Send>(
 struct Hall {
     /// What each rank gives.
     parts: Vec<RwLock<Vec<u8>>>,
+    /// What each has for each of the others, one after another, and how many bytes of it.
+    letters: Vec<RwLock<(Vec<u8>, Vec<usize>)>>,
     meeting: Mutex<Meeting>,
     met: Condvar,
 }
@@ -155,6 +158,34 @@ impl Ranks for Thread {
         // Nobody writes before all have read.
         self.hall.meet()
     }
+
+    fn exchange(
+        &self,
+        own: &[u8],
+        to: &[usize],
+        all: &mut [u8],
+        from: &[usize],
+    ) -> Result<(), Failure> {
+        {
+            let letters = &self.hall.letters[self.rank];
+            let mut letters = letters.write().unwrap_or_else(PoisonError::into_inner);
+            letters.0.clear();
+            letters.0.extend_from_slice(own);
+            letters.1.clear();
+            letters.1.extend_from_slice(to);
+        }
+        self.hall.meet()?;
+        let mut rest = all;
+        for (letters, &count) in self.hall.letters.iter().zip(from) {
+            let letters = letters.read().unwrap_or_else(PoisonError::into_inner);
+            let (bytes, lengths) = &*letters;
+            let start: usize = lengths[..self.rank].iter().sum();
+            let (to, behind) = rest.split_at_mut(count);
+            to.copy_from_slice(&bytes[start..start + lengths[self.rank]]);
+            rest = behind;
+        }
+        self.hall.meet()
+    }
 }
 
 #[cfg(test)]
@@ -175,6 +206,34 @@ mod tests {
         })
         .expect("threads");
         assert_eq!(all, vec![vec![0, 1, 1, 2, 2, 2]; 3]);
+    }
+
+    #[test]
+    fn each_gets_what_is_meant_for_it() {
+        let all = in_threads(3, 1, |ranks| {
+            // Rank r has r + 1 times the digits r and q for rank q, and nothing for itself.
+            let rank = ranks.rank();
+            let to: Vec<usize> = (0..3)
+                .map(|q| if q == rank { 0 } else { 2 * (rank + 1) })
+                .collect();
+            let from: Vec<usize> = (0..3)
+                .map(|q| if q == rank { 0 } else { 2 * (q + 1) })
+                .collect();
+            let own: Vec<u8> = (0..3)
+                .flat_map(|q| [rank as u8, q as u8].repeat(to[q] / 2))
+                .collect();
+            let mut all = vec![9; from.iter().sum()];
+            for _ in 0..50 {
+                ranks
+                    .exchange(&own, &to, &mut all, &from)
+                    .expect("three ranks");
+            }
+            all
+        })
+        .expect("threads");
+        assert_eq!(all[0], [1, 0, 1, 0, 2, 0, 2, 0, 2, 0]);
+        assert_eq!(all[1], [0, 1, 2, 1, 2, 1, 2, 1]);
+        assert_eq!(all[2], [0, 2, 1, 2, 1, 2]);
     }
 
     #[test]

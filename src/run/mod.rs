@@ -308,7 +308,13 @@ impl<'r, T: Real, const D: usize> Run<'r, T, D> {
         outcome.and_then(|summary| written.map(|()| summary))
     }
 
-    fn drive(&mut self, mut clocks: Vec<Clock>) -> Result<Summary> {
+    fn drive(&mut self, clocks: Vec<Clock>) -> Result<Summary> {
+        let summary = self.drive_on(clocks);
+        self.simulation.end_parts();
+        summary
+    }
+
+    fn drive_on(&mut self, mut clocks: Vec<Clock>) -> Result<Summary> {
         let end = self.end;
         let (started, first) = (Instant::now(), self.simulation.work());
         let label = self.label.take();
@@ -332,6 +338,10 @@ impl<'r, T: Real, const D: usize> Run<'r, T, D> {
             }
             let next = clocks.iter().map(Clock::next).fold(end, f64::min);
             let steps = self.simulation.steps();
+            // Criteria look at all particles after every step.
+            if self.stops.is_empty() {
+                self.simulation.begin_parts()?;
+            }
             self.simulation.step_until(next)?;
             moment = if self.simulation.steps() > steps {
                 Moment::Step
@@ -342,6 +352,7 @@ impl<'r, T: Real, const D: usize> Run<'r, T, D> {
                 line.update(self.simulation);
             }
         };
+        self.simulation.bring_together();
         Ok(Summary::of(
             self.simulation,
             &first,
@@ -353,8 +364,14 @@ impl<'r, T: Real, const D: usize> Run<'r, T, D> {
     /// Shows this moment to those who wait for it.
     fn show(&mut self, clocks: &mut [Clock], moment: Moment, is_end: bool) -> Result<()> {
         let now = &*self.simulation;
-        for (observer, clock) in self.observers.iter_mut().zip(clocks) {
-            if clock.strikes(now, moment, is_end) {
+        let strike = |clock: &mut Clock| clock.strikes(now, moment, is_end);
+        let struck: Vec<bool> = clocks.iter_mut().map(strike).collect();
+        if struck.contains(&true) {
+            self.simulation.bring_together();
+        }
+        let now = &*self.simulation;
+        for (observer, is_due) in self.observers.iter_mut().zip(struck) {
+            if is_due {
                 let shown = (observer.show)(now).map_err(|cause| Error::Observer {
                     observer: format!("the observer {}", observer.schedule),
                     time: now.time(),

@@ -265,6 +265,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Takes all groups that do not sub-cycle through a step of `dt` \[s\], and the others with them.
     pub(super) fn step_together(&mut self, dt: f64) -> Result<()> {
         let integrator = self.integrator.clone();
+        self.keep_own();
         self.state.due += dt;
         self.state.turn_joints(None);
         self.together(dt, |own| integrator.step(own, dt))?;

@@ -1,16 +1,18 @@
 //! What moves towards each other limits the step: no pair may close by more than a share of its distance.
 //! Pairs are looked at only where the spread of velocities says that they could.
 
+use super::group::Group;
 use super::neighborhood::Neighborhood;
 use super::population::Particles;
 use super::vote::{Criterion, NO_VOTE, ROUNDED, Vote};
 use crate::collective::{Collective, Corners, Join, Least, largest, over, over_pieces};
 use crate::neighbors::CHUNK;
 use crate::parallel::runs;
-use crate::particles::Field;
+use crate::particles::{Field, Fields};
+use crate::ranks::Team;
 use crate::scalar::{Lane, Mask, OnRows, Real};
 use crate::scheme::Scheme;
-use crate::sweep::{InstructionSet, Interaction};
+use crate::sweep::{Ghosts, Image, InstructionSet, Interaction, Records};
 use crate::tensor::length;
 use std::ops::Range;
 
@@ -65,8 +67,18 @@ impl Join for Approach {
     }
 }
 
+/// The other ranks, and the particles of these that lists name.
+#[derive(Clone, Copy)]
+pub(super) struct Near<'a, T> {
+    pub team: &'a Team,
+    pub ghosts: &'a dyn Ghosts<T>,
+    /// Images of particles of this rank.
+    pub images: &'a [Image],
+}
+
 /// The largest step in which no pair closes by more than `share` of its distance, if it is shorter than
-/// `limit` \[s\], and the fastest meeting of a liquid with what is faster than its sound.
+/// `limit` \[s\], and the fastest meeting of a liquid with what is faster than its sound; none where no pair can come near in that
+/// time. On ranks all look, or none does.
 ///
 /// Pairs that are not listed yet are at least a support apart, and close at most by the spread of velocities.
 pub(super) fn approach<T: Real, const D: usize>(
@@ -75,13 +87,22 @@ pub(super) fn approach<T: Real, const D: usize>(
     scheme: &Scheme<T, D>,
     instructions: InstructionSet,
     (share, limit): (f64, f64),
-) -> Approach {
+    near: Option<Near<'_, T>>,
+) -> Option<Approach> {
     let lengths = particles.columns.raw(Field::SMOOTHING_LENGTH);
     let least_h = if lengths.is_empty() {
         neighborhood.smoothing_length
     } else {
         over(0..lengths.len(), |slot| Least(lengths[slot].to_f64(), slot)).0
     };
+    let (mut least_h, mut fastest) = (least_h, fastest(particles, neighborhood));
+    if let Some(Near { team, .. }) = near {
+        let own = [least_h, fastest].map(f64::to_bits);
+        team.numbers(own, |[h, speed]| {
+            least_h = least_h.min(f64::from_bits(h));
+            fastest = fastest.max(f64::from_bits(speed));
+        });
+    }
     let bearable = share * NEAREST * least_h / scheme.h_over_dx;
     let harmless = |speed: f64| speed == 0.0 || speed * limit <= bearable;
     let shifted = neighborhood
@@ -89,14 +110,25 @@ pub(super) fn approach<T: Real, const D: usize>(
         .transforms
         .iter()
         .fold(0.0_f64, |most, by| most.max(length(&by.velocity).to_f64()));
-    if harmless(2.0 * fastest(particles, neighborhood) + shifted) {
-        return NOTHING;
+    if harmless(2.0 * fastest + shifted) {
+        return None;
     }
-    let range = velocities(particles, neighborhood);
+    let range = velocities(particles, neighborhood, near);
     let spread: f64 = range.extent().iter().map(|v| v.powi(2)).sum();
     if harmless(spread.sqrt()) {
-        return NOTHING;
+        return None;
     }
+    let reads = Fields::of(&[Field::POSITION, Field::VELOCITY, Field::SOUND_SPEED]);
+    let mut records = Records::default();
+    if let Some(Near { ghosts, .. }) = near {
+        let images = (
+            &neighborhood.images[..],
+            &neighborhood.chains.transforms[..],
+        );
+        records.pack(reads, &particles.columns, Some(ghosts), images);
+    }
+    let places = [Field::POSITION, Field::VELOCITY, Field::SOUND_SPEED];
+    let offsets = places.map(|field| reads.offset(field, D));
     let chunks = neighborhood.lists.chunks();
     let in_chunk = |chunk: usize, _| {
         instructions.run(InChunk {
@@ -108,9 +140,10 @@ pub(super) fn approach<T: Real, const D: usize>(
             limit,
             least_h,
             range: range.0,
+            records: (records.data(), reads.width(D), offsets),
         })
     };
-    over_pieces(runs(0..chunks.len(), 1), in_chunk)
+    Some(over_pieces(runs(0..chunks.len(), 1), in_chunk))
 }
 
 /// Slots of bodies and walls, which stand before images.
@@ -141,6 +174,7 @@ fn fastest<T: Real, const D: usize>(
 fn velocities<T: Real, const D: usize>(
     particles: &Particles<T, D>,
     neighborhood: &Neighborhood<T, D>,
+    near: Option<Near<'_, T>>,
 ) -> Corners<D> {
     let velocities = particles.columns.vectors(Field::VELOCITY);
     let mut all = Collective::new();
@@ -149,13 +183,16 @@ fn velocities<T: Real, const D: usize>(
             Corners::at(velocities[slot].map(Real::to_f64))
         });
     }
-    let images = &neighborhood.images;
+    // Of images of all particles each rank has those of its own.
+    let images = near.map_or(&neighborhood.images[..], |near| near.images);
     all.add_range(0..images.len(), |k| {
         let by = &neighborhood.chains.transforms[images[k].transform as usize];
         let v = by.velocity_of(&velocities[images[k].source as usize]);
         Corners::at(v.map(Real::to_f64))
     });
-    all.value()
+    near.map_or(all.value(), |Near { team, .. }| {
+        Group::<T, D>::all_corners(team, all.value())
+    })
 }
 
 /// What the approach of pairs asks for in one chunk, among the particles that move by forces.
@@ -170,6 +207,8 @@ struct InChunk<'a, T: Real, const D: usize> {
     least_h: f64,
     /// The least and the largest component of velocities.
     range: [[f64; D]; 2],
+    /// Records of all that lists name on ranks, numbers of each, and where its place, velocity and sound speed stand.
+    records: (&'a [T], usize, [usize; 3]),
 }
 
 impl<T: Real, const D: usize> OnRows<T> for InChunk<'_, T, D> {
@@ -186,6 +225,7 @@ impl<T: Real, const D: usize> OnRows<T> for InChunk<'_, T, D> {
             limit,
             least_h,
             range,
+            records: (records, stride, [place, motion, speed]),
         } = self;
         let width = L::WIDTH;
         let (positions, velocities) = (
@@ -237,8 +277,14 @@ impl<T: Real, const D: usize> OnRows<T> for InChunk<'_, T, D> {
                     1.0
                 });
                 for entry in entries {
-                    let (xj, vj) = (entry.place(positions), entry.velocity(velocities));
-                    let cj = sound[entry.slot];
+                    let (xj, vj, cj) = if records.is_empty() {
+                        let (x, v) = (entry.place(positions), entry.velocity(velocities));
+                        (x, v, sound[entry.slot])
+                    } else {
+                        let own = &records[stride * entry.number..][..stride];
+                        let vector = |at: usize| core::array::from_fn(|d| own[at + d]);
+                        (vector(place), vector(motion), own[speed])
+                    };
                     let (mut r2, mut across) = (zero, zero);
                     for d in 0..D {
                         let r = x[d] - L::splat(xj[d]);

@@ -2,7 +2,8 @@
 //! Reductions have a fixed order, so the step is the same on any number of threads.
 
 use super::Simulation;
-use super::approach::approach;
+use super::approach::{Near, approach};
+use super::by_parts::told_by_all;
 use super::group::Group;
 use super::limits::{broken_effect, vote_of_effects};
 use super::population::Particles;
@@ -221,6 +222,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         };
         let views = group.views(now);
         let vote = vote_of_effects(&group.scheme.program, views, vote);
+        if group.all.is_some() {
+            let vote = group.shortest(vote);
+            return if vote.step < 0.0 {
+                Err(told_by_all())
+            } else {
+                Ok(vote)
+            };
+        }
         if vote.step < 0.0 {
             return Err(self.broken(group, vote.particle));
         }
@@ -238,7 +247,22 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             &group.scheme,
             group.instructions,
             (self.control.approach, limit.step),
+            group.apart().map(|(team, part)| Near {
+                team,
+                ghosts: &*part.halo,
+                images: &part.of_own,
+            }),
         );
+        if let (Some((team, _)), Some(own)) = (group.apart(), approach) {
+            if team.any(own.meeting.is_some()) {
+                return Err(told_by_all());
+            }
+            let vote = group.shortest(own.vote);
+            return Ok(if vote.step >= limit.step { limit } else { vote });
+        }
+        let Some(approach) = approach else {
+            return Ok(limit);
+        };
         if let Some(meeting) = approach.meeting {
             let body = &group.particles.bodies[group.particles.body_of(meeting.slot)];
             return Err(Error::SoundSpeedTooLow {

@@ -3,6 +3,8 @@
 
 use super::Simulation;
 use super::group::Group;
+use super::neighborhood::Neighborhood;
+use super::part::Part;
 use crate::collective::over;
 use crate::error::{Error, Result};
 use crate::neighbors::{CHUNK, ChunkList, ClusterLists, SearchInput};
@@ -34,6 +36,8 @@ fn motion_of<T: Real, const D: usize>(group: &Group<T, D>) -> u64 {
 pub(crate) struct Share {
     pub team: Arc<Team>,
     division: Division,
+    /// What this rank has between these list builds, from its first request on.
+    part: Option<Arc<Part>>,
 }
 
 impl Share {
@@ -41,6 +45,7 @@ impl Share {
         Self {
             team,
             division: Division::default(),
+            part: None,
         }
     }
 
@@ -50,6 +55,26 @@ impl Share {
         let cost = |list: &ChunkList| list.neighbors.len() + CLUSTER * list.starts.len();
         let costs: Vec<usize> = lists.chunks().iter().map(cost).collect();
         self.division = Division::new(&costs, mobile, self.team.count());
+        self.part = None;
+    }
+
+    /// The chunks of all ranks.
+    pub fn division(&self) -> &Division {
+        &self.division
+    }
+
+    /// Whether these lists were cut.
+    pub fn is_divided(&self, lists: &ClusterLists) -> bool {
+        let [mobile, others] = self.division.of(self.team.count() - 1);
+        mobile.end.max(others.end) == lists.chunks().len()
+    }
+
+    /// What this rank has of a group whose lists were cut. All ranks ask for it at once.
+    pub fn part<T: Real, const D: usize>(&mut self, group: &Neighborhood<T, D>) -> Arc<Part> {
+        let (team, division) = (&self.team, &self.division);
+        let part = &mut self.part;
+        part.get_or_insert_with(|| Arc::new(Part::of(team, division, group)))
+            .clone()
     }
 
     /// Makes the lists of own chunks, and gets those of the others.
@@ -160,11 +185,19 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let Some(team) = &self.team else {
             return outcome;
         };
+        let parted = self.is_parted();
         let stamp = Stamp {
             steps: self.state.steps,
             time: self.state.time,
-            particles: self.particles(),
-            motion: self.state.groups.iter().map(motion_of).sum(),
+            particles: if parted { 0 } else { self.particles() },
+            motion: if parted {
+                // Particles are elsewhere; loads are functions of the program.
+                let all = self.state.groups.iter().flat_map(|group| group.gravity);
+                let digits = |a: f64| (a.to_bits() ^ a.to_bits() >> 32) & 0xffff_ffff;
+                all.map(digits).sum()
+            } else {
+                self.state.groups.iter().map(motion_of).sum()
+            },
         };
         team.agree(Some(stamp), outcome)
     }
@@ -231,7 +264,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         records: &Records<T>,
         rows: &mut Results<T, D>,
     ) {
-        match &self.share {
+        match self.share.as_ref().filter(|_| self.all.is_none()) {
             None => sweep.run(pass, input, records, rows),
             Some(share) => share.sum((sweep, pass), input, records, rows),
         }

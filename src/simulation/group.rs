@@ -6,6 +6,7 @@ use super::exchange::Exchange;
 use super::forces::Forces;
 use super::held::Held;
 use super::neighborhood::Neighborhood;
+use super::own_group::All;
 use super::population::Particles;
 use super::sources::{DrainState, SourceState};
 use super::sub_cycle::SubCycle;
@@ -18,7 +19,7 @@ use crate::material::eos::GuardCounts;
 use crate::particles::Field;
 use crate::scalar::Real;
 use crate::scheme::Scheme;
-use crate::sweep::{InstructionSet, Interaction, Root, SweepInput};
+use crate::sweep::{Ghosts, InstructionSet, Interaction, Root, SweepInput};
 use std::sync::Arc;
 
 #[derive(Clone, Debug)]
@@ -29,6 +30,8 @@ pub(crate) struct Group<T: Real, const D: usize> {
     pub scheme: Arc<Scheme<T, D>>,
     /// The part of this rank in it, on ranks.
     pub share: Option<Share>,
+    /// The group of all particles, while the rank has its own alone.
+    pub all: Option<Box<All<T, D>>>,
     /// The schemes that it obeys one after another, its first among them; none if that is all.
     pub exchanges: Vec<Exchange<T, D>>,
     pub walls: Vec<WallState<T, D>>,
@@ -84,6 +87,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             work: Workspace::default(),
             scheme,
             share: None,
+            all: None,
             exchanges: Vec::new(),
             walls,
             boundaries,
@@ -216,10 +220,11 @@ impl<T: Real, const D: usize> Group<T, D> {
             && self.neighborhood.outdated(
                 &self.particles,
                 &self.boundaries,
-                self.is_open(),
+                (self.is_open(), self.apart().map(|own| &**own.0)),
                 (shift, time),
             )
         {
+            self.bring_together();
             self.neighborhood.choose_skin();
             self.rebuild(time);
         } else if self.boundaries.iter().any(|b| b.moves()) {
@@ -361,6 +366,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             among: None,
             body_force: self.body_force,
             columns: &self.particles.columns,
+            ghosts: self.apart().map(|(_, part)| &*part.halo as &dyn Ghosts<T>),
             images: &self.neighborhood.images,
             transforms: &self.neighborhood.chains.transforms,
             lists: &self.neighborhood.lists,

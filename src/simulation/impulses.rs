@@ -1,7 +1,9 @@
 //! Impulses between blocks since the start, and the forces that give them, summed block by block.
 //! They keep their memory from one kick to the next.
 
-use crate::collective::Collective;
+use crate::collective::{Collective, ExactSum};
+use crate::ranks::{Taken, Team, What, put_number};
+use std::collections::BTreeMap;
 
 /// Momentum that blocks have given each other \[kg m/s\]: bodies first, then boundaries. Behind them, body by body, what forces of
 /// laws have given, and their work \[J\].
@@ -67,5 +69,36 @@ impl<const D: usize> PairForces<D> {
             self.places[pair] = self.sums.len();
         }
         self.sums[self.places[pair] - 1].1.add(force);
+    }
+
+    /// The sums of all ranks, each of which has those of its particles.
+    pub fn join(&mut self, team: &Team) {
+        let put = |to: &mut Vec<u8>| {
+            for (pair, sum) in &self.sums {
+                put_number(*pair as u64, to);
+                sum.parts().iter().for_each(|own| own.put(to));
+            }
+        };
+        let mut all: BTreeMap<u64, [ExactSum; D]> = BTreeMap::new();
+        team.gather(What::Numbers, put, |_, from| {
+            let mut from = Taken(from);
+            while !from.0.is_empty() {
+                let pair = from.number()?;
+                let sums = all.entry(pair);
+                let sums = sums.or_insert_with(|| core::array::from_fn(|_| ExactSum::ZERO));
+                for sum in sums {
+                    sum.take(&mut from)?;
+                }
+            }
+            Some(())
+        });
+        if team.is_broken() {
+            return;
+        }
+        self.places.fill(0);
+        self.sums.clear();
+        for (pair, sums) in all {
+            self.sums.push((pair as usize, Collective::of_parts(sums)));
+        }
     }
 }

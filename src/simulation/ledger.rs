@@ -172,6 +172,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         for (on, from, force) in self.reactions(alone) {
             forces.add(on * blocks + from, force);
         }
+        if let Some(team) = self.team.as_ref().filter(|_| self.is_parted()) {
+            forces.join(team);
+        }
         impulses.add_sums(forces, dt);
         for (on, force, power) in self.given_by_laws(alone, half) {
             for (k, own) in force.into_iter().chain([power]).enumerate() {

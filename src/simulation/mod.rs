@@ -142,6 +142,7 @@
 
 mod advance;
 mod approach;
+mod by_parts;
 #[cfg(feature = "checkpoint")]
 mod checkpoint;
 mod column;
@@ -177,8 +178,10 @@ mod neighborhood;
 mod observed;
 mod outflow;
 mod outlook;
+mod own_group;
 mod own_work;
 mod pair_list;
+mod part;
 mod phases;
 mod population;
 mod query;
@@ -327,6 +330,8 @@ pub struct Simulation<T: Real, const D: usize> {
     pair_forces: PairForces<D>,
     /// The ranks that it runs on, if it runs on ranks.
     team: Option<Arc<Team>>,
+    /// Whether ranks may step their own particles alone.
+    steps_parts: bool,
 }
 
 impl<T: Real, const D: usize> core::fmt::Debug for Simulation<T, D> {
@@ -380,6 +385,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             events: Vec::new(),
             pair_forces: PairForces::default(),
             team: None,
+            steps_parts: false,
         }
     }
 

@@ -13,6 +13,8 @@ use crate::sweep::Transform;
 /// An entry of a neighbour list: a particle, or an image of one.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Entry<'a, T, const D: usize> {
+    /// Its number in the lists.
+    pub number: usize,
     /// The slot of the particle.
     pub slot: usize,
     /// What makes the image.
@@ -50,10 +52,12 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         let slots = self.listed.len() - self.images.len();
         let entry = move |&j: &u32| match (j as usize).checked_sub(slots) {
             None => Entry {
+                number: j as usize,
                 slot: j as usize,
                 image: None,
             },
             Some(image) => Entry {
+                number: j as usize,
                 slot: self.images[image].source as usize,
                 image: Some(&self.chains.transforms[self.images[image].transform as usize]),
             },

@@ -2,6 +2,7 @@
 //! It is rebuilt from the positions that it remembers, so a checkpoint needs no lists.
 
 use super::divided::Share;
+use super::group::Group;
 use super::images::Chains;
 use super::population::Particles;
 use super::walls::WallState;
@@ -9,6 +10,7 @@ use crate::boundary::Boundary;
 use crate::collective::{Corners, largest, over};
 use crate::neighbors::{Block, ClusterLists, Radii, SearchInput};
 use crate::particles::Field;
+use crate::ranks::Team;
 use crate::scalar::{Real, width};
 use crate::sweep::{Image, InstructionSet, Interaction};
 use crate::tensor::{Vector, length};
@@ -123,7 +125,7 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         &self,
         particles: &Particles<T, D>,
         boundaries: &[Arc<dyn Boundary<D>>],
-        open: bool,
+        (open, team): (bool, Option<&Team>),
         (shift, time): ([f64; D], f64),
     ) -> bool {
         let positions = particles.columns.vectors(Field::POSITION);
@@ -134,11 +136,13 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         let farthest = largest(0..positions.len(), |slot| {
             (0..D).map(|d| moved_by(slot, d).powi(2)).sum::<f64>()
         });
-        let farthest = farthest.sqrt();
         let h = particles.columns.raw(Field::SMOOTHING_LENGTH);
         let grown = largest(0..h.len().min(self.listed_h.len()), |slot| {
             (h[slot] - self.listed_h[slot]).to_f64()
         });
+        let [farthest, grown] =
+            team.map_or([farthest, grown], |team| team.largest([farthest, grown]));
+        let farthest = farthest.sqrt();
         let left = self.left(boundaries, grown, (shift, time));
         if 2.0 * farthest <= left || !open {
             return 2.0 * farthest > left;
@@ -147,6 +151,7 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         let corners = over(0..positions.len(), |slot| {
             Corners::<D>::at(core::array::from_fn(|d| moved_by(slot, d)))
         });
+        let corners = team.map_or(corners, |team| Group::<T, D>::all_corners(team, corners));
         let apart2: f64 = corners.extent().iter().map(|apart| apart.powi(2)).sum();
         apart2.sqrt() > left
     }

@@ -104,9 +104,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             self.evaluate_together()?;
         }
         self.begin_stores(changed);
-        let vote = self.vote()?;
+        let vote = self.found(Self::vote)?;
         let fixed = self.control.fixed;
-        let limit = fixed.map(|_| self.largest_fixed_step()).transpose()?;
+        let limit = fixed
+            .map(|_| self.found(Self::largest_fixed_step))
+            .transpose()?;
         self.next_by(vote, limit)
     }
 
@@ -262,7 +264,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// when a wall leaves its velocity, [`Error::Failed`] after any of these, and [`Error::Argument`] if a fixed step
     /// exceeds the stability limit.
     pub fn run_until(&mut self, end: f64) -> Result<()> {
-        self.run_with(end, |_| {})
+        check_end(end)?;
+        self.check_failure()?;
+        let mut outcome = self.begin_parts();
+        while outcome.is_ok() && end - self.state.time > rounding(end) {
+            outcome = self.step_until(end).map(|_| ());
+        }
+        self.end_parts();
+        outcome
     }
 
     /// Steps until `end` \[s\] and shows the simulation to `observe` after every step, and at the end if that is between

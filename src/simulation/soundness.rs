@@ -34,7 +34,15 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         for group in &mut self.state.groups {
             group.count(NEGATIVE_ENERGY, negative_energies(&group.particles));
         }
-        for group in &self.state.groups {
+        if self.is_parted() {
+            let mut groups = self.state.groups.iter();
+            let is_unsound =
+                groups.any(|group| unsound(&group.particles, &group.scheme.program).is_some());
+            if self.team.as_ref().is_some_and(|team| team.any(is_unsound)) {
+                self.bring_together();
+            }
+        }
+        for group in self.state.groups.iter().filter(|group| group.all.is_none()) {
             if let Some(slot) = unsound(&group.particles, &group.scheme.program) {
                 // A particle whose law gives no pressure spoils its neighbours as well, and is the one to name.
                 let density = group.particles.columns.raw(Field::DENSITY);

@@ -128,7 +128,8 @@ impl<T: Real, const D: usize> Group<T, D> {
             });
             self.work.spent.sweeps[stage.number()] += start.elapsed();
             self.run_laws(stage, laws, moment, Some((&mut settling, tolerance)));
-            if !settling.find_open(&self.particles.bodies) {
+            let is_open = settling.find_open(&self.particles.bodies);
+            if !self.apart().map_or(is_open, |(team, _)| team.any(is_open)) {
                 break;
             }
         }

@@ -146,7 +146,9 @@ impl<T: Real, const D: usize> Group<T, D> {
                 })
             })
         };
-        over_pieces(runs(0..mass.len(), GRAIN), follows).then_some(after)
+        let follow = over_pieces(runs(0..mass.len(), GRAIN), follows);
+        let parts = self.apart().map(|(team, _)| !team.any(!follow));
+        parts.unwrap_or(follow).then_some(after)
     }
 
     /// v ← v + dt a.

@@ -28,6 +28,8 @@ pub(crate) fn rounding(time: f64) -> f64 {
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// Shows the state at `time` \[s\], which is before the end of the next step.
     pub(super) fn show(&mut self, time: f64, next: Vote) -> Result<()> {
+        // What is shown is a state of all particles, and so is that from which steps go on.
+        self.end_parts();
         let (start, before) = (Instant::now(), self.phases());
         let last = self.keep();
         let stepped = self.advance(next, time - self.state.time);

@@ -1,7 +1,7 @@
 //! A kernel and a tuple of terms as one sweep, for each way the loop can run.
 //! Behind [`PairSweep`] it is an object that is called a handful of times a step.
 
-use super::records::{Image, Records, Transform};
+use super::records::{Ghosts, Image, Records, Transform};
 use super::results::{Reaction, Results};
 use super::task::{BEYOND, Composed, Task, reads, room_for_both};
 use super::work::Working;
@@ -29,7 +29,9 @@ pub enum Pass {
 pub struct SweepInput<'a, T, const D: usize> {
     /// Particle data.
     pub columns: &'a Columns<T, D>,
-    /// Images of particles behind boundaries.
+    /// Particles that other processes have, if there are any.
+    pub ghosts: Option<&'a dyn Ghosts<T>>,
+    /// Images of particles behind boundaries, whose sources are slots, or ghosts behind them.
     pub images: &'a [Image],
     /// The transforms that make them.
     pub transforms: &'a [Transform<T, D>],
@@ -80,6 +82,8 @@ pub trait PairSweep<T: Real, const D: usize>: Debug + Send + Sync {
     fn pack(&self, pass: Pass, input: &SweepInput<'_, T, D>, records: &mut Records<T>);
     /// Renews the mean velocities in records packed for [`Pass::Work`].
     fn renew_mean_velocity(&self, input: &SweepInput<'_, T, D>, records: &mut Records<T>);
+    /// Makes the records of images of a pass anew, from those of the particles.
+    fn show_images(&self, pass: Pass, input: &SweepInput<'_, T, D>, records: &mut Records<T>);
     /// Runs the loop over packed records. `rows` keeps its memory between calls.
     fn run(
         &self,
@@ -142,14 +146,23 @@ impl<T: Real, const D: usize, K: Kernel<D>, P: Terms<D>, const MODE: u8> PairSwe
 
     fn pack(&self, pass: Pass, input: &SweepInput<'_, T, D>, records: &mut Records<T>) {
         let layout = Self::layout::<T, D>(pass);
-        records.pack(layout, input.columns, input.images, input.transforms);
+        let images = (input.images, input.transforms);
+        records.pack(layout, input.columns, input.ghosts, images);
     }
 
     fn renew_mean_velocity(&self, input: &SweepInput<'_, T, D>, records: &mut Records<T>) {
         let layout = Self::layout::<T, D>(Pass::Work);
         for field in [Field::MEAN_VELOCITY, Field::MEAN_ACCELERATION] {
-            records.renew(field, layout, input.columns, input.images, input.transforms);
+            let images = (input.images, input.transforms);
+            records.renew(field, layout, input.columns, input.ghosts, images);
         }
+    }
+
+    fn show_images(&self, pass: Pass, input: &SweepInput<'_, T, D>, records: &mut Records<T>) {
+        let layout = Self::layout::<T, D>(pass);
+        let ghosts = input.ghosts.map_or(0, |ghosts| ghosts.count());
+        let slots = input.columns.slots() + ghosts;
+        records.show(layout, slots, input.images, input.transforms);
     }
 
     fn run(

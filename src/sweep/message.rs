@@ -61,3 +61,85 @@ impl<T: Real, const D: usize> Results<T, D> {
         Some(())
     }
 }
+
+/// Sums over all particles that move by forces, of which a rank has those of a run of whole chunks.
+impl<T: Real, const D: usize> Results<T, D> {
+    /// Where the numbers of a run of slots stand.
+    fn rows_of(&self, slots: &Range<usize>) -> Range<usize> {
+        let cluster = self.outputs.width(D) * Self::WIDTH;
+        slots.start / Self::WIDTH * cluster..slots.end.div_ceil(Self::WIDTH) * cluster
+    }
+
+    /// The sums of a run of slots, and the forces on its chunks and others, among so many chunks.
+    pub(crate) fn of_run(
+        &self,
+        slots: &Range<usize>,
+        (chunks, count): (&[Range<usize>], usize),
+    ) -> Self {
+        let mut own = Self::default();
+        own.lay_out(self.outputs);
+        let rows = self.data.get(self.rows_of(slots));
+        own.data = rows.unwrap_or_default().to_vec();
+        if self.reactions.len() == count {
+            for run in chunks {
+                own.reactions
+                    .extend_from_slice(&self.reactions[run.clone()]);
+            }
+        } else if chunks.iter().any(|run| run.contains(&0)) {
+            // A checkpoint does not tell chunks: their sums are those of all, so the first rank has them.
+            own.reactions.push(self.reactions().copied().collect());
+        }
+        own
+    }
+
+    /// Gets ready for the sums of so many slots and chunks that ranks have.
+    pub(crate) fn expect(&mut self, own: &Self, slots: usize, chunks: usize) {
+        self.lay_out(own.outputs);
+        self.first = 0;
+        self.data.clear();
+        self.data.resize(self.rows_of(&(0..slots)).end, T::zero());
+        self.reactions.resize_with(chunks, Vec::new);
+        self.reactions.iter_mut().for_each(Vec::clear);
+    }
+
+    /// Adds all sums of so many slots and chunks to a message.
+    pub(crate) fn put_all(&self, slots: usize, chunks: usize, to: &mut Vec<u8>) {
+        put_numbers(
+            self.data.get(self.rows_of(&(0..slots))).unwrap_or_default(),
+            to,
+        );
+        for chunk in 0..chunks {
+            let own = self.reactions.get(chunk).map_or(&[][..], Vec::as_slice);
+            put_number(own.len() as u64, to);
+            for Reaction { on, from, force } in own {
+                put_number(u64::from(*on) << 32 | u64::from(*from), to);
+                put_numbers(force, to);
+            }
+        }
+    }
+
+    /// Takes the sums of a run of slots and the forces on some chunks, which a rank had as all of its own.
+    pub(crate) fn take_run(
+        &mut self,
+        slots: &Range<usize>,
+        chunks: &[Range<usize>],
+        from: &mut Taken<'_>,
+    ) -> Option<()> {
+        let rows = self.rows_of(slots);
+        from.numbers(self.data.get_mut(rows)?)?;
+        for own in chunks.iter().cloned().flatten() {
+            let own = self.reactions.get_mut(own)?;
+            for _ in 0..from.number()? {
+                let blocks = from.number()?;
+                let mut force = [0.0; D];
+                from.numbers(&mut force)?;
+                own.push(Reaction {
+                    on: (blocks >> 32) as u32,
+                    from: blocks as u32,
+                    force,
+                });
+            }
+        }
+        Some(())
+    }
+}

@@ -65,9 +65,9 @@ mod work;
 pub use fused_kernel::{FusedKernel, PairSweep, Pass, SweepInput};
 #[cfg(feature = "devices")]
 pub use pair_record::PairRecord;
-#[doc(hidden)]
-pub use records::Records;
 pub use records::Transform;
+#[doc(hidden)]
+pub use records::{Ghosts, Records};
 pub(crate) use records::{Image, add_compensated, two_sum};
 #[cfg(any(feature = "checkpoint", feature = "devices"))]
 pub(crate) use results::Reaction;

@@ -148,6 +148,14 @@ pub struct Image {
     pub transform: u32,
 }
 
+/// Particles that another process has: their records stand between those of slots and those of images.
+pub trait Ghosts<T>: core::fmt::Debug + Send + Sync {
+    /// How many there are.
+    fn count(&self) -> usize;
+    /// Gives others `stride` numbers a slot of what they have as ghosts, and gets as many of each ghost.
+    fn fill(&self, own: &[T], stride: usize, ghosts: &mut [T]);
+}
+
 /// The packed records of a sweep.
 #[derive(Clone, Debug, Default)]
 pub struct Records<T> {
@@ -162,14 +170,17 @@ impl<T: Real> Records<T> {
         &self.data
     }
 
+    /// All records, to be written.
+    pub(crate) fn data_mut(&mut self) -> &mut [T] {
+        &mut self.data
+    }
+
     /// Numbers a record.
-    #[cfg(feature = "checkpoint")]
     pub(crate) fn stride(&self) -> usize {
         self.stride
     }
 
     /// Records of `stride` numbers as they were [stored](Self::data).
-    #[cfg(any(feature = "checkpoint", feature = "devices"))]
     pub(crate) fn of_stored(data: Vec<T>, stride: usize) -> Self {
         Self { data, stride }
     }
@@ -180,23 +191,24 @@ impl<T: Real> Records<T> {
         self.data.capacity() * size_of::<T>()
     }
 
-    /// Packs `reads` of all slots and images. Reuses memory; grows only when particles were added.
+    /// Packs `reads` of all slots, of ghosts behind them, and of images. Reuses memory; grows only when particles were added.
     pub fn pack<const D: usize>(
         &mut self,
         reads: Fields,
         columns: &Columns<T, D>,
-        images: &[Image],
-        transforms: &[Transform<T, D>],
+        ghosts: Option<&dyn Ghosts<T>>,
+        (images, transforms): (&[Image], &[Transform<T, D>]),
     ) {
         let (stride, slots) = (reads.width(D), columns.slots());
+        let count = ghosts.map_or(0, |ghosts| ghosts.count());
         self.stride = stride;
-        let length = stride * (slots + images.len());
+        let length = stride * (slots + count + images.len());
         if length > self.data.capacity() {
             // Growth by itself takes twice the memory, which is more than a few images are worth; all is packed anew anyhow.
             self.data = Vec::with_capacity(length + length / 32);
         }
         self.data.resize(length, T::zero());
-        let (own, mirrored) = self.data.split_at_mut(stride * slots);
+        let (own, others) = self.data.split_at_mut(stride * slots);
         for_each(cut(own, GRAIN * stride), |chunk, records| {
             let first = chunk * GRAIN;
             let count = records.len() / stride.max(1);
@@ -223,6 +235,23 @@ impl<T: Real> Records<T> {
                 offset += width;
             }
         });
+        if let Some(ghosts) = ghosts {
+            ghosts.fill(own, stride, &mut others[..stride * count]);
+        }
+        self.show(reads, slots + count, images, transforms);
+    }
+
+    /// Makes the records of images, which stand behind so many others.
+    pub(crate) fn show<const D: usize>(
+        &mut self,
+        reads: Fields,
+        slots: usize,
+        images: &[Image],
+        transforms: &[Transform<T, D>],
+    ) {
+        let stride = self.stride;
+        self.data.resize(stride * (slots + images.len()), T::zero());
+        let (own, mirrored) = self.data.split_at_mut(stride * slots);
         let own: &[T] = own;
         for_each(cut(mirrored, GRAIN * stride), |chunk, records| {
             let records = records.chunks_exact_mut(stride.max(1));
@@ -248,13 +277,23 @@ impl<T: Real> Records<T> {
         field: Field,
         reads: Fields,
         columns: &Columns<T, D>,
-        images: &[Image],
-        transforms: &[Transform<T, D>],
+        ghosts: Option<&dyn Ghosts<T>>,
+        (images, transforms): (&[Image], &[Transform<T, D>]),
     ) {
         let (offset, slots) = (reads.offset(field, D), columns.slots());
         let values = columns.vectors(field);
-        let (own, mirrored) = self.data.split_at_mut(self.stride * slots);
+        let count = ghosts.map_or(0, |ghosts| ghosts.count());
         let stride = self.stride;
+        let (own, mirrored) = self.data.split_at_mut(stride * (slots + count));
+        let (own, others) = own.split_at_mut(stride * slots);
+        let mut near = vec![T::zero(); D * count];
+        if let Some(ghosts) = ghosts {
+            ghosts.fill(values.as_flattened(), D, &mut near);
+        }
+        let near = near.as_chunks::<D>().0;
+        for (record, value) in others.chunks_exact_mut(stride.max(1)).zip(near) {
+            record[offset..offset + D].copy_from_slice(value);
+        }
         for_each(cut(own, GRAIN * stride), |chunk, records| {
             let records = records.chunks_exact_mut(stride);
             for (record, value) in records.zip(&values[chunk * GRAIN..]) {
@@ -263,7 +302,9 @@ impl<T: Real> Records<T> {
         });
         for (record, image) in mirrored.chunks_mut(self.stride).zip(images) {
             let by = &transforms[image.transform as usize];
-            let mut value = by.rotation * Vector::from(values[image.source as usize]);
+            let source = image.source as usize;
+            let of = values.get(source).unwrap_or_else(|| &near[source - slots]);
+            let mut value = by.rotation * Vector::from(*of);
             if field.shape() == Shape::Velocity {
                 value += by.velocity;
             }

@@ -106,6 +106,7 @@ fn a_free_force_counts_in_force_power_and_work() {
     });
     let input = SweepInput {
         columns: &columns,
+        ghosts: None,
         images: &[],
         transforms: &[],
         lists: &lists,
@@ -287,6 +288,7 @@ fn across(stress: [f64; 6], interaction: Interaction) -> [f64; 2] {
     });
     let input = SweepInput {
         columns: &columns,
+        ghosts: None,
         images: &[],
         transforms: &[],
         lists: &lists,

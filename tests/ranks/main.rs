@@ -7,6 +7,7 @@ mod bits;
 mod common;
 
 mod errors;
+mod parts;
 #[cfg(feature = "checkpoint")]
 mod restart;
 mod scenes;

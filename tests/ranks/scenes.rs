@@ -12,9 +12,9 @@ use meshfree::scene::Start;
 use meshfree::term::CentralViscosity;
 use std::f64::consts::PI;
 
-const DX: f64 = 0.01;
+pub(super) const DX: f64 = 0.01;
 
-fn down<const D: usize>(_time: f64) -> [f64; D] {
+pub(super) fn down<const D: usize>(_time: f64) -> [f64; D] {
     core::array::from_fn(|d| if d + 1 == D { -9.81 } else { 0.0 })
 }
 

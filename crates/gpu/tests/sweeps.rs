@@ -120,6 +120,7 @@ impl<T: Real> Scene<T> {
         let slots = self.columns.slots();
         let input = SweepInput {
             columns: &self.columns,
+            ghosts: None,
             images: &[],
             transforms: &[],
             lists: &self.lists,

@@ -142,6 +142,32 @@ impl Ranks for Processes {
         }
         Ok(())
     }
+
+    fn exchange(
+        &self,
+        own: &[u8],
+        to: &[usize],
+        all: &mut [u8],
+        from: &[usize],
+    ) -> Result<(), Failure> {
+        let (sent, sent_from) = lengths_and_begins(to)?;
+        let (got, got_from) = lengths_and_begins(from)?;
+        self.world
+            .alltoallv(own, &sent, &sent_from, all, &got, &got_from)?;
+        Ok(())
+    }
+}
+
+/// Counts of bytes as MPI takes them, and where those of each process begin.
+fn lengths_and_begins(counts: &[usize]) -> Result<(Vec<i32>, Vec<i32>), Failure> {
+    let mut end = 0_usize;
+    let mut begins = Vec::with_capacity(counts.len());
+    for count in counts {
+        begins.push(i32::try_from(end)?);
+        end += count;
+    }
+    i32::try_from(end)?;
+    Ok((counts.iter().map(|&count| count as i32).collect(), begins))
 }
 
 impl Processes {

@@ -17,7 +17,7 @@ type Outcome = Result<String, Box<dyn Error>>;
 type Test = fn(&World) -> Outcome;
 
 /// What is run on processes, by name.
-const TESTS: [(&str, Test); 5] = [
+const TESTS: [(&str, Test); 7] = [
     ("dam_break", |world| {
         Ok(format!(
             "{:016x}",
@@ -28,6 +28,18 @@ const TESTS: [(&str, Test); 5] = [
         Ok(format!(
             "{:016x}",
             moved(gas().on_ranks(world.ranks()), 20)?
+        ))
+    }),
+    ("dam_in_parts", |world| {
+        Ok(format!(
+            "{:016x}",
+            run_in_parts(dam_break().on_ranks(world.ranks()), 300.0)?
+        ))
+    }),
+    ("gas_in_parts", |world| {
+        Ok(format!(
+            "{:016x}",
+            run_in_parts(gas().on_ranks(world.ranks()), 60.0)?
         ))
     }),
     ("restart", |world| restart(world.ranks())),
@@ -75,6 +87,18 @@ fn moved(scene: Scene<f64, 2>, steps: usize) -> Result<u64, Box<dyn Error>> {
         simulation.step()?;
     }
     assert!(simulation.list_builds() >= 5);
+    Ok(simulation.bits_hash())
+}
+
+/// A hash of the state after about so many steps, and readings on the way, of ranks that step their own particles.
+fn run_in_parts(scene: Scene<f64, 2>, steps: f64) -> Result<u64, Box<dyn Error>> {
+    let mut simulation = scene.build()?;
+    let end = steps * simulation.step()?;
+    for share in [0.2, 0.201, 0.7, 1.0] {
+        simulation.run_until(share * end)?;
+    }
+    assert!(simulation.list_builds() >= 5);
+    assert!(simulation.traffic().is_none_or(|own| own.exchanged > 100));
     Ok(simulation.bits_hash())
 }
 
@@ -148,6 +172,23 @@ fn long_messages(world: &World) -> Outcome {
             .gather(&own, &counts, &mut got)
             .map_err(|why| why.to_string())?;
         assert_eq!(got, all);
+        // Rank r has r + 1 bytes for each of the others.
+        let (rank, count) = (ranks.rank(), ranks.count());
+        let to: Vec<usize> = (0..count)
+            .map(|other| usize::from(other != rank) * (rank + 1))
+            .collect();
+        let from: Vec<usize> = (0..count)
+            .map(|other| usize::from(other != rank) * (other + 1))
+            .collect();
+        let meant = |from: usize, to: usize| vec![(10 * from + to) as u8; from + 1];
+        let others = || (0..count).filter(|other| *other != rank);
+        let own: Vec<u8> = others().flat_map(|other| meant(rank, other)).collect();
+        let mut come = vec![0; from.iter().sum()];
+        ranks
+            .exchange(&own, &to, &mut come, &from)
+            .map_err(|why| why.to_string())?;
+        let expected: Vec<u8> = others().flat_map(|other| meant(other, rank)).collect();
+        assert_eq!(come, expected);
     }
     Ok("gathered".into())
 }
@@ -199,6 +240,8 @@ fn check(test: &str) -> Result<(), String> {
     let expected = match test {
         "dam_break" => format!("{:016x}", moved(dam_break(), 300).map_err(error)?),
         "periodic_gas" => format!("{:016x}", moved(gas(), 20).map_err(error)?),
+        "dam_in_parts" => format!("{:016x}", run_in_parts(dam_break(), 300.0).map_err(error)?),
+        "gas_in_parts" => format!("{:016x}", run_in_parts(gas(), 60.0).map_err(error)?),
         "restart" => {
             on_processes(test, 3, true)?;
             format!(

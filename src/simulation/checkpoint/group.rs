@@ -24,8 +24,9 @@ impl<T: Real, const D: usize> Group<T, D> {
             neighborhood,
             work,
             scheme,
-            // Every rank has the whole state.
+            // Every rank has the whole state between calls.
             share: _,
+            all: _,
             walls,
             boundaries: _,
             // By the events, which are kept.

@@ -126,6 +126,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             failed: _,
             pair_forces: _,
             team: _,
+            steps_parts: _,
         } = self;
         // The next step starts from the state after the last one. While another is shown, no particles enter.
         let State {

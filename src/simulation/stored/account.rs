@@ -182,6 +182,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         if !self.state.steps.is_multiple_of(EVERY) || !self.stands() {
             return Ok(());
         }
+        if self.state.stores.accounts.iter().any(Option::is_some) {
+            self.bring_together();
+        }
         for k in 0..self.state.stores.accounts.len() {
             let Some(mut account) = self.state.stores.accounts[k] else {
                 continue;

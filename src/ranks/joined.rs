@@ -1,0 +1,80 @@
+//! Numbers that ranks join: the largest of each, and whether something is so on any of them.
+//! What is joined depends on neither the order of ranks nor how particles are cut among them.
+
+use super::{Taken, Team, What, put_number};
+
+impl Team {
+    /// Shows the numbers of each rank, of which all have as many; those of this one alone where a rank has failed.
+    pub fn numbers<const N: usize>(&self, own: [u64; N], mut each: impl FnMut([u64; N])) {
+        let put = |to: &mut Vec<u8>| own.iter().for_each(|own| put_number(*own, to));
+        let mut any = false;
+        self.gather(What::Numbers, put, |_, from| {
+            let (mut from, mut numbers) = (Taken(from), [0; N]);
+            for number in &mut numbers {
+                *number = from.number()?;
+            }
+            any = true;
+            each(numbers);
+            from.0.is_empty().then_some(())
+        });
+        if !any {
+            each(own);
+        }
+    }
+
+    /// The largest of each number over all ranks, which are not negative.
+    pub fn largest<const N: usize>(&self, own: [f64; N]) -> [f64; N] {
+        let mut most = [0.0_f64; N];
+        self.numbers(own.map(f64::to_bits), |own| {
+            for (most, own) in most.iter_mut().zip(own) {
+                *most = most.max(f64::from_bits(own));
+            }
+        });
+        most
+    }
+
+    /// Whether it is so on any rank.
+    pub fn any(&self, own: bool) -> bool {
+        let mut any = false;
+        self.numbers([u64::from(own)], |[own]| any |= own == 1);
+        any
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::in_threads;
+    use super::*;
+    use crate::error::{Error, Problem};
+
+    #[test]
+    fn all_know_the_largest_and_whether_it_is_so_on_any() {
+        let all = in_threads(3, 1, |ranks| {
+            let team = Team::new(ranks);
+            let rank = team.rank();
+            let most = team.largest([rank as f64, 1.0 / (1.0 + rank as f64)]);
+            (most, team.any(rank == 1), team.any(false))
+        });
+        assert_eq!(all.expect("threads"), [([2.0, 1.0], true, false); 3]);
+    }
+
+    #[test]
+    fn letters_reach_those_for_whom_they_are_and_errors_reach_all() {
+        let all = in_threads(3, 1, |ranks| {
+            let team = Team::new(ranks);
+            let rank = team.rank();
+            let (mut come, each) = ([9; 3], [1; 3]);
+            let own: Vec<u8> = (0..3).map(|other| (10 * rank + other) as u8).collect();
+            let came = team.exchange((&own, &each), (&mut come, &each));
+            // One fails while the others wait for its letter.
+            if rank == 1 {
+                let wrong = Err::<(), _>(Error::Argument(Problem::EmptyScene));
+                return (came, come, team.agree(None, wrong).is_err());
+            }
+            let failed = !team.exchange((&own, &each), (&mut [0; 3], &each));
+            (came, come, failed && team.agree(None, Ok(())).is_err())
+        });
+        let expected = [[0, 10, 20], [1, 11, 21], [2, 12, 22]].map(|come| (true, come, true));
+        assert_eq!(all.expect("threads"), expected);
+    }
+}

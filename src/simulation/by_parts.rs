@@ -1,0 +1,188 @@
+//! Runs on ranks of which each steps its own particles: which scenes do, when all particles are brought together, and what ranks join.
+//! Whatever is seen from outside is seen of all particles.
+
+use super::Simulation;
+use super::group::Group;
+use super::part::Part;
+use super::settle::PIECE;
+use super::vote::{Criterion, NO_VOTE, Vote};
+use crate::collective::{Corners, Join};
+use crate::error::{Error, Result};
+use crate::once::once;
+use crate::ranks::Team;
+use crate::scalar::Real;
+use std::sync::Arc;
+
+impl<T: Real, const D: usize> Simulation<T, D> {
+    /// Lets ranks step their own particles from now on, where the scene allows it.
+    ///
+    /// # Errors
+    /// If ranks are not at the same state, which their particles would not tell later.
+    pub(crate) fn begin_parts(&mut self) -> Result<()> {
+        if self.steps_parts || self.team.is_none() {
+            return Ok(());
+        }
+        self.agree(Ok(()))?;
+        self.steps_parts = true;
+        Ok(())
+    }
+
+    /// Brings all particles together, and keeps them so.
+    pub(crate) fn end_parts(&mut self) {
+        self.steps_parts = false;
+        self.bring_together();
+    }
+
+    /// Whether ranks have their own particles alone.
+    pub(super) fn is_parted(&self) -> bool {
+        self.state.groups.iter().any(|group| group.all.is_some())
+    }
+
+    /// Leaves each rank its own particles before a step, where nothing in the scene looks at others than neighbours.
+    pub(super) fn keep_own(&mut self) {
+        if !self.steps_parts || !self.may_part() {
+            return;
+        }
+        for group in &mut self.state.groups {
+            group.keep_own();
+        }
+    }
+
+    /// Brings all particles together again.
+    pub(crate) fn bring_together(&mut self) {
+        if !self.is_parted() {
+            return;
+        }
+        once!(self => &mut Simulation, |own| -> () {
+            for group in &mut own.state.groups {
+                group.bring_together();
+            }
+        });
+    }
+
+    /// Whether a step of this scene needs a particle, its neighbours, and what is joined over all. Not so of couplings, joints, rigid
+    /// bodies, clamps, structures, loads, events, inlets and outlets, sub-cycles, forces of laws, contacts, and books of energy and
+    /// stability.
+    fn may_part(&self) -> bool {
+        let state = &self.state;
+        state.couples.is_empty()
+            && state.joints.is_empty()
+            && state.work.is_none()
+            && state.watch.is_none()
+            && self.events.is_empty()
+            && self.loads.is_empty()
+            && self.team.as_ref().is_some_and(|team| !team.is_broken())
+            && state.groups.iter().all(Group::may_part)
+    }
+
+    /// A vote of ranks; one of all particles together where these find what they tell as an error.
+    pub(super) fn found(&mut self, vote: impl Fn(&Self) -> Result<Vote>) -> Result<Vote> {
+        match vote(self) {
+            Err(_) if self.is_parted() => {
+                self.bring_together();
+                vote(self)
+            }
+            found => found,
+        }
+    }
+}
+
+/// What stands for the error that all particles together tell.
+pub(super) fn told_by_all() -> Error {
+    Error::Failed {
+        cause: "a particle of a rank".into(),
+    }
+}
+
+impl<T: Real, const D: usize> Group<T, D> {
+    fn may_part(&self) -> bool {
+        let walls = &self.walls;
+        let settles = self.scheme.program.laws.iter().flatten();
+        let settles = settles.into_iter().any(|law| law.repeats().is_some());
+        let bodies = &self.particles.bodies;
+        self.exchanges.is_empty()
+            && self.outlets.is_empty()
+            && self.emitters.is_empty()
+            && self.sources.is_empty()
+            && self.drains.is_empty()
+            && self.sub_cycle.is_none()
+            && self.held.is_empty()
+            && !self.is_met
+            && !self.has_contacts()
+            && !self.has_forces_of_laws()
+            && walls
+                .iter()
+                .all(|wall| wall.structure.is_none() && wall.inflow.is_none())
+            // What settles together is cut from the first slot of a body on.
+            && (!settles || bodies.iter().all(|body| body.slots.start % PIECE == 0))
+            && (self.share.as_ref()).is_some_and(|share| share.is_divided(&self.neighborhood.lists))
+    }
+
+    /// The ranks, if this one has its own particles alone.
+    pub(super) fn apart(&self) -> Option<(&Arc<Team>, &Part)> {
+        let (all, share) = (self.all.as_ref()?, self.share.as_ref()?);
+        Some((&share.team, &all.part))
+    }
+
+    /// The shortest of the steps that ranks ask for, whose particle is its number in the whole simulation.
+    pub(super) fn shortest(&self, own: Vote) -> Vote {
+        let Some((team, part)) = self.apart() else {
+            return own;
+        };
+        let limits = &self.scheme.program.limits;
+        let (mut slot, mut id) = (usize::MAX, usize::MAX);
+        if let Some(own_id) = self.particles.ids.get(own.particle) {
+            slot = part.slot_in_group(own.particle);
+            id = self.particles.first_id + *own_id as usize;
+        }
+        let kinds = [
+            Criterion::Acoustic,
+            Criterion::Force,
+            Criterion::Viscous,
+            Criterion::Approach,
+        ];
+        let kind = match own.criterion {
+            Criterion::Effect(name) => {
+                let at = limits.iter().position(|limit| limit.name() == name);
+                kinds.len() + at.unwrap_or(0)
+            }
+            own => kinds.iter().position(|kind| *kind == own).unwrap_or(0),
+        };
+        let (mut shortest, mut found) = (NO_VOTE, usize::MAX);
+        let own = [own.step.to_bits(), slot as u64, kind as u64, id as u64];
+        team.numbers(own, |[step, slot, kind, id]| {
+            let kind = kind as usize;
+            let criterion = kinds.get(kind).copied().unwrap_or_else(|| {
+                Criterion::Effect(limits.get(kind - kinds.len()).map_or("", |own| own.name()))
+            });
+            let other = Vote {
+                step: f64::from_bits(step),
+                criterion,
+                particle: slot as usize,
+            };
+            let first = shortest.and(other);
+            if first == other && first != shortest {
+                found = id as usize;
+            }
+            shortest = first;
+        });
+        Vote {
+            particle: found,
+            ..shortest
+        }
+    }
+
+    /// The corners of all vectors of which ranks have the corners.
+    pub(super) fn all_corners(team: &Team, own: Corners<D>) -> Corners<D> {
+        let mut all = Corners::NONE;
+        let [low, high] = own.0;
+        for d in 0..D {
+            team.numbers([low[d].to_bits(), high[d].to_bits()], |[low, high]| {
+                let Corners([least, most]) = &mut all;
+                least[d] = least[d].min(f64::from_bits(low));
+                most[d] = most[d].max(f64::from_bits(high));
+            });
+        }
+        all
+    }
+}

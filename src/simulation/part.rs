@@ -1,0 +1,262 @@
+//! What a rank has of a group between two list builds: the particles of its chunks, and ghosts that their lists name.
+//! It follows from the lists alone. Ghosts are records that their ranks send before each sweep.
+
+use super::neighborhood::Neighborhood;
+use crate::neighbors::{Block, CHUNK, ClusterLists};
+use crate::ranks::{Division, Taken, Team, put_numbers, put_words};
+use crate::scalar::{Real, width};
+use crate::sweep::{Ghosts, Image};
+use std::ops::Range;
+use std::sync::Arc;
+
+/// Slots of a chunk.
+pub(super) fn chunk_slots<T: Real>() -> usize {
+    CHUNK * width::<T>()
+}
+
+/// The slots of a rank, of so many: of particles that move by forces, and of all others.
+pub(super) fn runs_of<T: Real>(
+    division: &Division,
+    rank: usize,
+    slots: usize,
+) -> [Range<usize>; 2] {
+    let size = chunk_slots::<T>();
+    let own = division.of(rank);
+    own.map(|chunks| (chunks.start * size).min(slots)..(chunks.end * size).min(slots))
+}
+
+/// The part of a rank in a group. Its own particles stand in the first slots, in their order; ghosts have the next numbers of its
+/// lists, and images those behind.
+#[derive(Clone, Debug)]
+pub(crate) struct Part {
+    /// Its own slots among those of the group.
+    pub runs: [Range<usize>; 2],
+    pub chunks: [Range<usize>; 2],
+    /// Slots of ghosts in the group.
+    pub ghosts: Vec<u32>,
+    /// Images that its lists name, by their numbers in the group, and what they are here.
+    pub images: Vec<u32>,
+    pub shown: Vec<Image>,
+    /// All images of its own particles in the group.
+    pub of_own: Vec<Image>,
+    pub lists: Arc<ClusterLists>,
+    pub halo: Arc<Halo>,
+}
+
+impl Part {
+    /// The part of this rank by the lists of the group, which all ranks ask for at once.
+    pub fn of<T: Real, const D: usize>(
+        team: &Arc<Team>,
+        division: &Division,
+        group: &Neighborhood<T, D>,
+    ) -> Self {
+        let slots = group.listed.len() - group.images.len();
+        let (rank, ranks) = (team.rank(), team.count());
+        let (runs, chunks) = (runs_of::<T>(division, rank, slots), division.of(rank));
+        let mut is_named = vec![false; group.listed.len()];
+        for chunk in chunks.iter().cloned().flatten() {
+            for &j in &group.lists.chunks()[chunk].neighbors {
+                is_named[j as usize] = true;
+            }
+        }
+        let images = (0..group.images.len() as u32).filter(|k| is_named[slots + *k as usize]);
+        let images: Vec<u32> = images.collect();
+        for &k in &images {
+            is_named[group.images[k as usize].source as usize] = true;
+        }
+        let mut numbers = vec![u32::MAX; group.listed.len()];
+        for (number, slot) in runs.iter().cloned().flatten().enumerate() {
+            (numbers[slot], is_named[slot]) = (number as u32, false);
+        }
+        let is_own = |own: &&Image| numbers[own.source as usize] != u32::MAX;
+        let of_own = group.images.iter().filter(is_own).map(|own| Image {
+            source: numbers[own.source as usize],
+            ..*own
+        });
+        let of_own = of_own.collect();
+        let mut number = runs.iter().map(Range::len).sum::<usize>() as u32;
+        let (mut ghosts, mut from) = (Vec::new(), vec![0; ranks]);
+        for (other, count) in from.iter_mut().enumerate() {
+            for slot in runs_of::<T>(division, other, slots).into_iter().flatten() {
+                if is_named[slot] {
+                    ghosts.push(slot as u32);
+                    numbers[slot] = number;
+                    number += 1;
+                    *count += 1;
+                }
+            }
+        }
+        let shown = images.iter().map(|&k| {
+            let own = group.images[k as usize];
+            Image {
+                source: numbers[own.source as usize],
+                ..own
+            }
+        });
+        let shown = shown.collect();
+        for &k in &images {
+            numbers[slots + k as usize] = number;
+            number += 1;
+        }
+        let all = chunks.iter().cloned().flatten();
+        let lists = group.lists.of_chunks(all, |j| numbers[j as usize]);
+        let halo = Halo::new(team, (&ghosts, from), |slot| numbers[slot as usize]);
+        Self {
+            runs,
+            chunks,
+            ghosts,
+            images,
+            shown,
+            of_own,
+            lists: Arc::new(lists),
+            halo: Arc::new(halo),
+        }
+    }
+
+    /// How many of its own stand before a slot of the group: the slot here of one of its own.
+    pub fn at(&self, slot: usize) -> usize {
+        let before = |run: &Range<usize>| slot.clamp(run.start, run.end) - run.start;
+        self.runs.iter().map(before).sum()
+    }
+
+    /// Its own of a run of slots.
+    pub fn within(&self, slots: &Range<usize>) -> Range<usize> {
+        self.at(slots.start)..self.at(slots.end)
+    }
+
+    /// How many are its own.
+    pub fn count(&self) -> usize {
+        self.runs.iter().map(Range::len).sum()
+    }
+
+    /// The slot in the group of one of its own.
+    pub fn slot_in_group(&self, slot: usize) -> usize {
+        let first = self.runs[0].len();
+        match slot.checked_sub(first) {
+            None => self.runs[0].start + slot,
+            Some(behind) => self.runs[1].start + behind,
+        }
+    }
+
+    /// What it has of a block of a group with so many slots.
+    pub fn block(&self, block: &Block, slots: usize) -> Block {
+        let own = if block.slots.start < slots {
+            self.within(&block.slots)
+        } else {
+            let first = self.count() + self.ghosts.len();
+            let before = |slot: usize| {
+                self.images
+                    .partition_point(|&k| (k as usize) < slot - slots)
+            };
+            first + before(block.slots.start)..first + before(block.slots.end)
+        };
+        Block {
+            slots: own,
+            ..block.clone()
+        }
+    }
+
+    /// What its lists name, by their numbers in a group with so many slots, in the order of its own numbers.
+    pub fn named(&self, slots: usize) -> impl Iterator<Item = usize> {
+        let ghosts = self.ghosts.iter().map(|&slot| slot as usize);
+        let images = self.images.iter().map(move |&k| slots + k as usize);
+        self.runs
+            .iter()
+            .cloned()
+            .flatten()
+            .chain(ghosts)
+            .chain(images)
+    }
+
+    /// Its own numbers of a column of the group; none of a column that is not there.
+    pub fn of_column<T: Real>(&self, column: &[T], slots: usize) -> Vec<T> {
+        let width = column.len().checked_div(slots).unwrap_or(0);
+        let mut own = Vec::with_capacity(width * self.count());
+        for run in &self.runs {
+            own.extend_from_slice(&column[width * run.start..width * run.end]);
+        }
+        own
+    }
+}
+
+/// Who needs which particles of this rank, and how many of each it needs itself.
+#[derive(Debug)]
+pub(crate) struct Halo {
+    team: Arc<Team>,
+    /// Own slots that others need, rank by rank, and how many of these each needs.
+    sends: Vec<u32>,
+    to: Vec<usize>,
+    from: Vec<usize>,
+}
+
+impl Halo {
+    /// Asks the others for ghosts, rank by rank and so many of each, by their slots in the group.
+    fn new(
+        team: &Arc<Team>,
+        (ghosts, from): (&[u32], Vec<usize>),
+        number: impl Fn(u32) -> u32,
+    ) -> Self {
+        let ranks = team.count();
+        let (mut asked, mut counts) = (Vec::new(), vec![0; 8 * ranks]);
+        put_counts(&from, &mut asked);
+        let each = vec![8; ranks];
+        let told = team.exchange((&asked, &each), (&mut counts, &each));
+        let to: Vec<usize> = counts.chunks_exact(8).map(count_of).collect();
+        asked.clear();
+        put_words(ghosts, &mut asked);
+        let bytes = |counts: &[usize]| -> Vec<usize> { counts.iter().map(|n| 4 * n).collect() };
+        let mut wanted = vec![
+            0;
+            if told {
+                4 * to.iter().sum::<usize>()
+            } else {
+                0
+            }
+        ];
+        let told = told && team.exchange((&asked, &bytes(&from)), (&mut wanted, &bytes(&to)));
+        let mut sends = Vec::new();
+        if told {
+            let _ = Taken(&wanted).words(wanted.len() / 4, &mut sends);
+        }
+        for slot in &mut sends {
+            *slot = number(*slot);
+        }
+        Self {
+            team: team.clone(),
+            sends,
+            to,
+            from,
+        }
+    }
+}
+
+fn put_counts(counts: &[usize], to: &mut Vec<u8>) {
+    for count in counts {
+        crate::ranks::put_number(*count as u64, to);
+    }
+}
+
+fn count_of(bytes: &[u8]) -> usize {
+    Taken(bytes).number().unwrap_or(0) as usize
+}
+
+impl<T: Real> Ghosts<T> for Halo {
+    fn count(&self) -> usize {
+        self.from.iter().sum()
+    }
+
+    fn fill(&self, own: &[T], stride: usize, ghosts: &mut [T]) {
+        let size = stride * size_of::<T>();
+        let mut letters = Vec::with_capacity(size * self.sends.len());
+        for &slot in &self.sends {
+            let first = slot as usize * stride;
+            put_numbers(&own[first..first + stride], &mut letters);
+        }
+        let bytes = |counts: &[usize]| -> Vec<usize> { counts.iter().map(|n| size * n).collect() };
+        let mut come = vec![0; size_of_val(ghosts)];
+        let (to, from) = (bytes(&self.to), bytes(&self.from));
+        if self.team.exchange((&letters, &to), (&mut come, &from)) {
+            let _ = Taken(&come).numbers(ghosts);
+        }
+    }
+}
