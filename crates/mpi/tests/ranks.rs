@@ -17,7 +17,7 @@ type Outcome = Result<String, Box<dyn Error>>;
 type Test = fn(&World) -> Outcome;
 
 /// What is run on processes, by name.
-const TESTS: [(&str, Test); 7] = [
+const TESTS: [(&str, Test); 6] = [
     ("dam_break", |world| {
         Ok(format!(
             "{:016x}",
@@ -34,12 +34,6 @@ const TESTS: [(&str, Test); 7] = [
         Ok(format!(
             "{:016x}",
             run_in_parts(dam_break().on_ranks(world.ranks()), 300.0)?
-        ))
-    }),
-    ("gas_in_parts", |world| {
-        Ok(format!(
-            "{:016x}",
-            run_in_parts(gas().on_ranks(world.ranks()), 60.0)?
         ))
     }),
     ("restart", |world| restart(world.ranks())),
@@ -241,7 +235,6 @@ fn check(test: &str) -> Result<(), String> {
         "dam_break" => format!("{:016x}", moved(dam_break(), 300).map_err(error)?),
         "periodic_gas" => format!("{:016x}", moved(gas(), 20).map_err(error)?),
         "dam_in_parts" => format!("{:016x}", run_in_parts(dam_break(), 300.0).map_err(error)?),
-        "gas_in_parts" => format!("{:016x}", run_in_parts(gas(), 60.0).map_err(error)?),
         "restart" => {
             on_processes(test, 3, true)?;
             format!(
