@@ -50,4 +50,7 @@ impl<const D: usize, W: Term<D>> Effect<D> for DensityDiffusion<W> {
         });
         }
     }
+    fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
+        self.0.problems()
+    }
 }

@@ -95,6 +95,8 @@ mod volume_consistency;
 mod walls;
 mod yielding_hourglass;
 
+use crate::term::not_negative;
+
 pub use absorbing_layer::AbsorbingLayer;
 pub use access::Summed;
 pub use acoustic_damping::AcousticDamping;
@@ -159,12 +161,3 @@ pub use walls::{
     ExtrapolatedPressure, HydrostaticWalls, NoWalls, RiemannWalls, VelocityBeforeWall,
 };
 pub use yielding_hourglass::YieldingHourglass;
-
-/// The parameters that are negative or not finite.
-fn not_negative(parameters: &[(&'static str, f64)]) -> Vec<(&'static str, f64, &'static str)> {
-    parameters
-        .iter()
-        .filter(|(_, value)| !(value.is_finite() && *value >= 0.0))
-        .map(|&(name, value)| (name, value, "it must be finite and not negative"))
-        .collect()
-}

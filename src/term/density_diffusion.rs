@@ -1,12 +1,14 @@
 //! Density diffusion of weakly compressible liquids: what removes the noise of their pressure.
 //! Molteni & Colagrossi 2009; Antuono et al. 2010; Fourtakas et al. 2019; Zhang, Hu & Adams 2017.
 
-use super::{Layout, Pair, Sums, Term, TermDoc};
+use super::{Layout, Pair, Sums, Term, TermDoc, not_negative};
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Lane;
 
 /// The δ that all forms take by default (Antuono et al. 2010; Fourtakas et al. 2019).
 const STANDARD_DELTA: f64 = 0.1;
+/// What errors call it.
+const DELTA: &str = "delta of the density diffusion";
 
 const READS: Fields = Fields::of(&[Field::WEIGHT, Field::DENSITY, Field::SOUND_SPEED]);
 const WRITES: Outputs = Outputs::of(&[Output::DENSITY_DIFFUSION]);
@@ -57,6 +59,9 @@ impl<const D: usize> Term<D> for Molteni {
             equation: "dρᵢ/dt += δ h c Σⱼ Vⱼ 2 (ρⱼ − ρᵢ) rⱼᵢ·∇W/r²",
             source: "Molteni & Colagrossi 2009",
         }
+    }
+    fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
+        not_negative(&[(DELTA, self.delta)])
     }
 }
 
@@ -122,6 +127,9 @@ impl<const D: usize> Term<D> for Fourtakas {
             source: "Fourtakas et al. 2019, eqs. 12-14",
         }
     }
+    fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
+        not_negative(&[(DELTA, self.delta)])
+    }
 }
 
 /// Diffusion of what differs from a linear field: δ-SPH.
@@ -166,6 +174,9 @@ impl<const D: usize> Term<D> for Antuono {
             equation: "dρᵢ/dt += δ h c Σⱼ Vⱼ [2 (ρⱼ − ρᵢ) − (∇ρᵢ + ∇ρⱼ)·rⱼᵢ] rⱼᵢ·∇W/r²",
             source: "Antuono et al. 2010, eq. 9",
         }
+    }
+    fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
+        not_negative(&[(DELTA, self.delta)])
     }
 }
 

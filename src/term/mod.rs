@@ -233,6 +233,22 @@ pub trait Term<const D: usize>: Clone + Debug + Send + Sync + 'static {
     fn pair<L: Lane, P: Layout>(&self, pair: &Pair<'_, L, D, P>, sums: &mut Sums<L, D, P>);
     /// What the term is, for people.
     fn document(&self) -> TermDoc;
+    /// What is wrong with its parameters, as `(field, value, what it must be)`. [`DensityDiffusion`](crate::effect::DensityDiffusion)
+    /// asks its term; an effect that is its own term says it as [`Effect::problems`](crate::effect::Effect::problems).
+    fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
+        Vec::new()
+    }
+}
+
+/// The parameters that are negative or not finite.
+pub(crate) fn not_negative(
+    parameters: &[(&'static str, f64)],
+) -> Vec<(&'static str, f64, &'static str)> {
+    parameters
+        .iter()
+        .filter(|(_, value)| !(value.is_finite() && *value >= 0.0))
+        .map(|&(name, value)| (name, value, "it must be finite and not negative"))
+        .collect()
 }
 
 /// Calls a macro with one term of each kind, as expressions separated by commas, after whatever else it is

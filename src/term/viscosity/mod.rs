@@ -49,7 +49,7 @@ pub use riemann::Riemann;
 pub use signal_velocity::SignalVelocity;
 pub use switch::{Surroundings, Switch, SwitchObject};
 
-use super::{Layout, Pair, Sums, Term, TermDoc};
+use super::{Layout, Pair, Sums, Term, TermDoc, not_negative};
 use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::Lane;
 use core::fmt::Debug;
@@ -218,13 +218,4 @@ fn between_own<L: Lane, const D: usize, P: Layout>(
 /// What is wrong with a fixed pair of coefficients.
 fn coefficients(alpha: f64, beta: f64) -> Vec<(&'static str, f64, &'static str)> {
     not_negative(&[("alpha", alpha), ("beta", beta)])
-}
-
-/// The parameters that are negative or not finite.
-fn not_negative(parameters: &[(&'static str, f64)]) -> Vec<(&'static str, f64, &'static str)> {
-    parameters
-        .iter()
-        .filter(|(_, value)| !(value.is_finite() && *value >= 0.0))
-        .map(|&(name, value)| (name, value, "must be finite and not negative"))
-        .collect()
 }

@@ -25,13 +25,6 @@ where
             Some(right::<D, _>(layer, &format!("{field}.sponge"))?)
         }
     };
-    if let Some(delta) = own
-        .delta
-        .filter(|delta| !(delta.is_finite() && *delta >= 0.0))
-    {
-        let text = format!("is {delta}: it must be finite and not negative");
-        return Err(Fault::new(format!("{field}.delta"), text));
-    }
     let damping = own.acoustic_damping.filter(|strength| *strength != 0.0);
     let damping = damping.map(|strength| {
         let damping = AcousticDamping { strength };
