@@ -1,7 +1,7 @@
 //! Absorbing layers: zones in which velocity and stress fade together, so that sound leaves instead of coming back.
 //! The matched layer of Berenger 1994 (J. Comput. Phys. 114, 185) at normal incidence, in Lagrangian form.
 
-use super::plane::Plane;
+use super::plane::Layer;
 use super::{
     Effect, Evolved, Hypoelastic, Point, PointLaw, PointLimit, PointRate, Reach, Rung, Setting,
     StepProgram, TotalLagrangian,
@@ -29,8 +29,8 @@ use crate::term::{Stage, TermDoc};
 /// | 10 spacings | 0.6 % | 4 % | 0.1 to 0.7 % |
 /// | 20 spacings | | 1 % | 0.2 to 0.3 % |
 ///
-/// At an angle θ to the normal up to (1 − cos θ)/(1 + cos θ) comes back. [`Sponge`](super::Sponge) damps velocities alone, for waves
-/// of a free surface.
+/// Of waves at an angle to the normal more comes back: of 20 spacings in a liquid, through a layer of one wavelength, 6 % at 30°, 9 % at
+/// 45° and 10 % at 60°. [`Sponge`](super::Sponge) damps velocities alone, for waves of a free surface.
 ///
 /// | the layer lies in | stress that fades | made by |
 /// |---|---|---|
@@ -38,8 +38,8 @@ use crate::term::{Stage, TermDoc};
 /// | a solid with [`Hypoelastic`] stress | pressure, and S to zero | [`with_deviatoric_stress`](Self::with_deviatoric_stress) |
 /// | a [total-Lagrangian](TotalLagrangian) solid | the first Piola–Kirchhoff stress | [`with_piola_stress`](Self::with_piola_stress) |
 ///
-/// Hydrostatic pressure and other stresses at the start stay. A steady load moves the layer slowly, as a damper: it holds nothing
-/// for longer than L/(10 c). The step is at most 0.25 L/(10.4 c), less than that of sound in layers below twenty spacings.
+/// Hydrostatic pressure and other stresses at the start stay. A steady load later moves the layer, which acts as a damper with a time of
+/// L/(10 c). The step is at most 0.25 L/(10.4 c), less than that of sound in layers below twenty spacings.
 /// Impulse and work of F are [`Ledger::law_impulse`](crate::simulation::Ledger::law_impulse) and `work of laws`. What the stress of the layer takes
 /// becomes internal energy where the scheme has one; of stored energy nothing is said.
 ///
@@ -63,15 +63,8 @@ use crate::term::{Stage, TermDoc};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct AbsorbingLayer {
-    zones: Vec<Zone>,
+    layers: Vec<Layer>,
     fades: Fades,
-}
-
-/// A layer.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Zone {
-    plane: Plane,
-    thickness: f64,
 }
 
 /// Which stress fades with velocity.
@@ -100,12 +93,8 @@ impl AbsorbingLayer {
     /// `thickness` \[m\] behind the plane, at a free surface or a wall.
     #[must_use]
     pub fn beyond<const D: usize>(place: [f64; D], normal: [f64; D], thickness: f64) -> Self {
-        let zone = Zone {
-            plane: Plane::new(place, normal),
-            thickness,
-        };
         Self {
-            zones: vec![zone],
+            layers: vec![Layer::new(place, normal, thickness)],
             fades: Fades::Pressure,
         }
     }
@@ -131,27 +120,20 @@ impl AbsorbingLayer {
     /// Adds another layer, as at the other end. Where layers overlap their rates add; the stress is that of the first.
     #[must_use]
     pub fn and(mut self, other: Self) -> Self {
-        self.zones.extend(other.zones);
+        self.layers.extend(other.layers);
         self
-    }
-
-    /// r \[1/s\] at a place that counts from an origin.
-    #[inline(always)]
-    fn rate<L: Lane, const D: usize>(&self, x: &[L; D], origin: &[f64; D], sound: L) -> L {
-        let mut over_sound = L::zero();
-        for own in &self.zones {
-            let share = own.plane.beyond(x, origin) * L::of(1.0 / own.thickness);
-            let share = share.positive_part().min(L::one());
-            over_sound += share * share * L::of(STRENGTH / own.thickness);
-        }
-        over_sound * sound
     }
 
     /// r \[1/s\] of a particle.
     #[inline(always)]
-    fn rate_at<L: Lane, P: Reach, const D: usize>(&self, at: &Point<'_, L, D, P>) -> L {
+    fn rate<L: Lane, P: Reach, const D: usize>(&self, at: &Point<'_, L, D, P>) -> L {
         let x = at.vector(Field::POSITION);
-        self.rate(&x, &at.around.origin, at.get(Field::SOUND_SPEED))
+        let mut over_sound = L::zero();
+        for own in &self.layers {
+            let ramp = own.ramp(&x, &at.around.origin);
+            over_sound += ramp * L::of(STRENGTH / own.thickness);
+        }
+        over_sound * at.get(Field::SOUND_SPEED)
     }
 }
 
@@ -174,7 +156,7 @@ impl<const D: usize> Effect<D> for AbsorbingLayer {
         if self.fades == Fades::DeviatoricStress {
             program.contribute(STRESS, FadingStress(self.clone()));
         }
-        for own in &self.zones {
+        for own in &self.layers {
             program.document(TermDoc {
                 name: format!("absorbing layer of {} m", own.thickness),
                 equation: "m dv/dt = … − m r v, σ = σ* − q, dq/dt = r (σ − σ₀), r = 10.4 c/L min(max(d/L, 0), 1)²",
@@ -198,15 +180,8 @@ impl<const D: usize> Effect<D> for AbsorbingLayer {
         });
     }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
-        let mut problems = Vec::new();
-        for own in &self.zones {
-            problems.extend(own.plane.problem(D));
-            if !(own.thickness.is_finite() && own.thickness > 0.0) {
-                let must_be = "it must be finite and positive, in metres";
-                problems.push(("thickness of an absorbing layer", own.thickness, must_be));
-            }
-        }
-        problems
+        let of = |own: &Layer| own.problems(D, "thickness of an absorbing layer");
+        self.layers.iter().flat_map(of).collect()
     }
 }
 
@@ -224,7 +199,7 @@ impl<const D: usize> PointLaw<D> for AbsorbingLayer {
     #[inline(always)]
     fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
         let v = at.vector(Field::VELOCITY);
-        let damping = at.get(Field::MASS) * self.rate_at(at);
+        let damping = at.get(Field::MASS) * self.rate(at);
         for d in 0..D {
             at.add_at(Field::FORCE, d, -(damping * v[d]));
         }
@@ -285,7 +260,7 @@ impl<const D: usize> PointRate<D> for FadingPressure {
     ]);
     #[inline(always)]
     fn point<L: Lane, P: Reach>(&self, at: &Point<'_, L, D, P>, _: L, rate: &mut [L]) {
-        rate[0] += self.0.rate_at(at) * (at.get(Field::PRESSURE) - at.get(AT_START));
+        rate[0] += self.0.rate(at) * (at.get(Field::PRESSURE) - at.get(AT_START));
     }
 }
 
@@ -297,7 +272,7 @@ impl<const D: usize> PointRate<D> for FadingPiola {
     const READS: Fields = Fields::of(&[Field::POSITION, Field::SOUND_SPEED, PIOLA, PIOLA_AT_START]);
     #[inline(always)]
     fn point<L: Lane, P: Reach>(&self, at: &Point<'_, L, D, P>, _: L, rate: &mut [L]) {
-        let fading = self.0.rate_at(at);
+        let fading = self.0.rate(at);
         for (k, rate) in rate.iter_mut().enumerate() {
             *rate += fading * (at.get_at(PIOLA, k) - at.get_at(PIOLA_AT_START, k));
         }
@@ -313,7 +288,7 @@ impl<const D: usize> PointRate<D> for FadingStress {
     const GROWTH: bool = true;
     #[inline(always)]
     fn point<L: Lane, P: Reach>(&self, at: &Point<'_, L, D, P>, _: L, rate: &mut [L]) {
-        rate[0] -= self.0.rate_at(at);
+        rate[0] -= self.0.rate(at);
     }
 }
 
@@ -323,6 +298,6 @@ impl<const D: usize> PointLimit<D> for AbsorbingLayer {
     #[inline(always)]
     fn step<L: Lane, P: Reach>(&self, at: &Point<'_, L, D, P>) -> L {
         // Infinite where nothing is damped.
-        L::of(0.25) / self.rate_at(at)
+        L::of(0.25) / self.rate(at)
     }
 }

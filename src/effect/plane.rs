@@ -1,4 +1,4 @@
-//! A plane that an effect names by a place and a normal, whatever the dimension of the scene.
+//! A layer behind a plane that an effect names by a place and a normal, whatever the dimension of the scene.
 //! How far particles are beyond it is lane text.
 
 use crate::scalar::Lane;
@@ -16,6 +16,42 @@ pub(super) struct Plane {
 /// Coordinates, and zero beyond them.
 pub(super) fn padded<const D: usize>(x: [f64; D]) -> [f64; 3] {
     core::array::from_fn(|d| x.get(d).copied().unwrap_or(0.0))
+}
+
+/// A layer of some thickness \[m\] behind a plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Layer {
+    plane: Plane,
+    pub thickness: f64,
+}
+
+impl Layer {
+    pub fn new<const D: usize>(place: [f64; D], normal: [f64; D], thickness: f64) -> Self {
+        let plane = Plane::new(place, normal);
+        Self { plane, thickness }
+    }
+
+    /// min(max(d/L, 0), 1)² of the distance d beyond the plane and the thickness L.
+    #[inline(always)]
+    pub fn ramp<L: Lane, const D: usize>(&self, x: &[L; D], origin: &[f64; D]) -> L {
+        let share = self.plane.beyond(x, origin) * L::of(1.0 / self.thickness);
+        let share = share.positive_part().min(L::one());
+        share * share
+    }
+
+    /// What is wrong with it in a scene of `dimensions`; errors call its thickness `what`.
+    pub fn problems(
+        &self,
+        dimensions: usize,
+        what: &'static str,
+    ) -> Vec<(&'static str, f64, &'static str)> {
+        let mut problems: Vec<_> = self.plane.problem(dimensions).into_iter().collect();
+        if !(self.thickness.is_finite() && self.thickness > 0.0) {
+            let must_be = "it must be finite and positive, in metres";
+            problems.push((what, self.thickness, must_be));
+        }
+        problems
+    }
 }
 
 impl Plane {

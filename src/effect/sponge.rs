@@ -1,7 +1,7 @@
 //! Sponge layers: zones in which waves fade, as velocities relax towards those of still or streaming liquid.
 //! Larsen & Dancy 1983 (Coastal Engineering 7, 341); the quadratic ramp of Altomare et al. 2017 (Coastal Engineering 127, 37).
 
-use super::plane::{Plane, padded};
+use super::plane::{Layer, padded};
 use super::{Effect, Point, PointLaw, PointLimit, Reach, Setting, StepProgram};
 use crate::particles::{Field, Fields};
 use crate::scalar::{Lane, Real};
@@ -46,8 +46,7 @@ pub struct Sponge {
 /// A layer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Zone {
-    plane: Plane,
-    thickness: f64,
+    layer: Layer,
     rate: f64,
     velocity: [f64; 3],
 }
@@ -63,8 +62,7 @@ impl Sponge {
         rate: f64,
     ) -> Self {
         let zone = Zone {
-            plane: Plane::new(place, normal),
-            thickness,
+            layer: Layer::new(place, normal, thickness),
             rate,
             velocity: [0.0; 3],
         };
@@ -92,9 +90,7 @@ impl Zone {
     /// r \[1/s\] at a place that counts from an origin.
     #[inline(always)]
     fn rate<L: Lane, const D: usize>(&self, x: &[L; D], origin: &[f64; D]) -> L {
-        let share = self.plane.beyond(x, origin) * L::of(1.0 / self.thickness);
-        let share = share.positive_part().min(L::one());
-        share * share * L::of(self.rate)
+        self.layer.ramp(x, origin) * L::of(self.rate)
     }
 }
 
@@ -106,7 +102,7 @@ impl<const D: usize> Effect<D> for Sponge {
         program.limit(self.clone());
         for own in &self.zones {
             program.document(TermDoc {
-                name: format!("sponge, {} m to {} 1/s", own.thickness, own.rate),
+                name: format!("sponge, {} m to {} 1/s", own.layer.thickness, own.rate),
                 equation: "m dv/dt = … + m r (u − v), r = R min(max(d/L, 0), 1)²",
                 source: "Larsen & Dancy 1983; Altomare et al. 2017",
             });
@@ -115,11 +111,7 @@ impl<const D: usize> Effect<D> for Sponge {
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         let mut problems = Vec::new();
         for own in &self.zones {
-            problems.extend(own.plane.problem(D));
-            if !(own.thickness.is_finite() && own.thickness > 0.0) {
-                let must_be = "it must be finite and positive, in metres";
-                problems.push(("thickness of a sponge", own.thickness, must_be));
-            }
+            problems.extend(own.layer.problems(D, "thickness of a sponge"));
             if !(own.rate.is_finite() && own.rate >= 0.0) {
                 let must_be = "it must be finite and not negative, in 1/s";
                 problems.push(("rate of a sponge", own.rate, must_be));

@@ -7,6 +7,7 @@ use meshfree::material::SoundSpeed;
 use meshfree::material::eos::{IdealGas, Linear};
 use meshfree::prelude::*;
 use meshfree::scene::Start;
+use std::f64::consts::TAU;
 
 const RHO: f64 = 1000.0;
 /// Sound speed of liquid and gas \[m/s\], and of longitudinal waves in the solid.
@@ -101,6 +102,49 @@ fn pulses_leave_liquid_gas_and_solids() {
         .with(layer);
     let own = returned(elastic, soft(), (solid_speed(), 0.0), LAYER);
     assert!(own < 0.02, "total Lagrangian {own}");
+}
+
+/// What comes back of a packet of waves of 0.4 m that reaches a layer of 0.4 m at an angle to its normal, in a plane with a period along
+/// the layer.
+fn returned_at(degrees: f64) -> f64 {
+    let (dx, length, layer) = (0.02, 3.0, 0.4);
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    let [kx, across] = [TAU / 0.4 * cos, TAU / 0.4 * sin];
+    let height = if across > 0.0 { TAU / across } else { 0.2 };
+    let height = (height / dx).round() * dx;
+    let ky = if across > 0.0 { TAU / height } else { 0.0 };
+    let towards = [kx, ky].map(|k| k / kx.hypot(ky));
+    let sent = 5e-4 * C;
+    let start = move |[x, y]: [f64; 2], own: Start<2>| {
+        let packet = (-((x - 0.5 * length) / 0.45).powi(2)).exp();
+        let v = sent * packet * (kx * x + ky * y).sin();
+        Start {
+            velocity: towards.map(|n| n * v),
+            density: own.density * (1.0 + v / C),
+            ..own
+        }
+    };
+    let water = catalogue::water_at(SoundSpeed::Chosen(C));
+    let body = Body::block("water", water, [0.0; 2], [length + layer, height], dx);
+    let end = AbsorbingLayer::beyond([length, 0.0], [1.0, 0.0], layer);
+    let mut run = Scene::<f64, 2>::new(schemes::weakly_compressible().with(end))
+        .body(body.start(start))
+        .boundary(Periodic::along(1, 0.0, height))
+        .build()
+        .expect("waves");
+    run.run_until(length / (C * towards[0])).expect("waves");
+    let inside = run.all().filter(|p| (0.4..2.7).contains(&p.position()[0]));
+    let speeds = inside.map(|p| p.velocity()[0].hypot(p.velocity()[1]));
+    speeds.fold(0.0, f64::max) / sent
+}
+
+/// A layer that begins at once would give back (1 − cos θ)/(1 + cos θ): Berenger 1994.
+#[test]
+fn oblique_waves_leave_better_than_through_a_layer_that_begins_at_once() {
+    assert!(returned_at(0.0) < 0.02);
+    let own = returned_at(45.0);
+    let cos = 0.5_f64.sqrt();
+    assert!(own < (1.0 - cos) / (1.0 + cos) && own > 0.02, "{own}");
 }
 
 /// A column of water on a wall, with a layer at its foot, for 40 times that of sound through it.
