@@ -8,6 +8,30 @@ use crate::ranks::{Taken, put_number, put_numbers};
 use crate::scalar::Real;
 use std::ops::Range;
 
+/// Adds the forces of a chunk between blocks to a message.
+fn put_reactions<const D: usize>(own: &[Reaction<D>], to: &mut Vec<u8>) {
+    put_number(own.len() as u64, to);
+    for Reaction { on, from, force } in own {
+        put_number(u64::from(*on) << 32 | u64::from(*from), to);
+        put_numbers(force, to);
+    }
+}
+
+/// Adds those that a message begins with.
+fn take_reactions<const D: usize>(own: &mut Vec<Reaction<D>>, from: &mut Taken<'_>) -> Option<()> {
+    for _ in 0..from.number()? {
+        let blocks = from.number()?;
+        let mut force = [0.0; D];
+        from.numbers(&mut force)?;
+        own.push(Reaction {
+            on: (blocks >> 32) as u32,
+            from: blocks as u32,
+            force,
+        });
+    }
+    Some(())
+}
+
 impl<T: Real, const D: usize> Results<T, D> {
     /// The numbers of some chunks, of sums over slots that end at `end`.
     fn numbers_of(&self, chunks: &Range<usize>, end: usize) -> Range<usize> {
@@ -25,11 +49,7 @@ impl<T: Real, const D: usize> Results<T, D> {
             return;
         }
         for own in self.reactions.get(chunks).unwrap_or_default() {
-            put_number(own.len() as u64, to);
-            for Reaction { on, from, force } in own {
-                put_number(u64::from(*on) << 32 | u64::from(*from), to);
-                put_numbers(force, to);
-            }
+            put_reactions(own, to);
         }
     }
 
@@ -47,16 +67,7 @@ impl<T: Real, const D: usize> Results<T, D> {
         }
         for own in self.reactions.get_mut(chunks).unwrap_or_default() {
             own.clear();
-            for _ in 0..from.number()? {
-                let blocks = from.number()?;
-                let mut force = [0.0; D];
-                from.numbers(&mut force)?;
-                own.push(Reaction {
-                    on: (blocks >> 32) as u32,
-                    from: blocks as u32,
-                    force,
-                });
-            }
+            take_reactions(own, from)?;
         }
         Some(())
     }
@@ -110,11 +121,7 @@ impl<T: Real, const D: usize> Results<T, D> {
         );
         for chunk in 0..chunks {
             let own = self.reactions.get(chunk).map_or(&[][..], Vec::as_slice);
-            put_number(own.len() as u64, to);
-            for Reaction { on, from, force } in own {
-                put_number(u64::from(*on) << 32 | u64::from(*from), to);
-                put_numbers(force, to);
-            }
+            put_reactions(own, to);
         }
     }
 
@@ -129,16 +136,7 @@ impl<T: Real, const D: usize> Results<T, D> {
         from.numbers(self.data.get_mut(rows)?)?;
         for own in chunks.iter().cloned().flatten() {
             let own = self.reactions.get_mut(own)?;
-            for _ in 0..from.number()? {
-                let blocks = from.number()?;
-                let mut force = [0.0; D];
-                from.numbers(&mut force)?;
-                own.push(Reaction {
-                    on: (blocks >> 32) as u32,
-                    from: blocks as u32,
-                    force,
-                });
-            }
+            take_reactions(own, from)?;
         }
         Some(())
     }
