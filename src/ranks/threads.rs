@@ -180,8 +180,10 @@ impl Ranks for Thread {
             let letters = letters.read().unwrap_or_else(PoisonError::into_inner);
             let (bytes, lengths) = &*letters;
             let start: usize = lengths[..self.rank].iter().sum();
+            let sent = bytes.get(start..start + lengths[self.rank]);
+            let sent = sent.filter(|sent| sent.len() == count);
             let (to, behind) = rest.split_at_mut(count);
-            to.copy_from_slice(&bytes[start..start + lengths[self.rank]]);
+            to.copy_from_slice(sent.ok_or("a rank has sent more or less than was expected")?);
             rest = behind;
         }
         self.hall.meet()

@@ -414,7 +414,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             })
     }
 
-    /// Limits that laws and updates have applied since the start, by name, in particle steps or evaluations: smoothing
+    /// Limits that laws and updates have applied since the start, in the order of their names, in particle steps or evaluations: smoothing
     /// lengths held at a limit, densities of cavitated liquid held from thinning out further, gas whose internal energy is
     /// negative: a few ahead of a strong shock do no harm, many say that the viscosity is too weak or the step too long.
     #[must_use]
@@ -426,6 +426,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 None => all.push((name, *count)),
             }
         }
+        // Whichever acted first.
+        all.sort_unstable();
         all
     }
 
