@@ -2,17 +2,18 @@
 //! Scenes of one particle, its neighbours and sums; a scene with more than that runs as before, which is tested too.
 
 use super::bits::said;
-use super::scenes::{DX, dam_break, down};
+use super::scenes::{
+    DX, bent_plate, corner, crushed_tank, dam_break, periodic_gas, plate_at_wall, rod,
+    rod_by_runge_kutta, tank_in_space,
+};
 use super::watched;
-use meshfree::boundary::{Crush, Wall};
-use meshfree::effect::{Hypoelastic, NeoHookean};
-use meshfree::material::eos::{IdealGas, Linear};
-use meshfree::material::{Material, SoundSpeed};
+use meshfree::boundary::Wall;
+use meshfree::effect::Hypoelastic;
+use meshfree::material::SoundSpeed;
 use meshfree::prelude::*;
 use meshfree::ranks::{self, Ranks};
 use meshfree::run::{Run, Schedule};
 use meshfree::scene::Start;
-use meshfree::term::CentralViscosity;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -46,7 +47,7 @@ fn told<T: Real, const D: usize>(scene: Scene<T, D>, end: f64, shares: &[f64]) -
     }
 }
 
-/// Holds runs of so many steps on ranks, and so many threads of each, against a plain one, over at least so many list builds.
+/// Compares runs of so many steps on ranks, and so many threads of each, with a plain one, over at least so many list builds.
 fn one_set_of_bits_in_parts<T: Real, const D: usize>(
     name: &'static str,
     (steps, builds): (usize, u64),
@@ -94,76 +95,22 @@ fn a_dam_breaks_in_a_plane() {
 
 #[test]
 fn water_sloshes_in_a_tank_in_space() {
-    one_set_of_bits_in_parts("tank in space, f32", (90, 5), true, || {
-        let water = catalogue::weakly_compressible_water(3.0).with_dynamic_viscosity(0.5);
-        let open = [[true; 2], [true; 2], [true, false]];
-        Scene::<f32, 3>::new(schemes::weakly_compressible().with(Laminar(CentralViscosity)))
-            .body(
-                Body::block("water", water, [0.0; 3], [0.16, 0.16, 0.16], DX)
-                    .velocity([2.0, 1.0, 0.0]),
-            )
-            .wall(Wall::around(
-                "tank",
-                [0.0; 3],
-                [0.16, 0.16, 0.2],
-                DX,
-                3,
-                open,
-            ))
-            .acceleration(down)
-    });
+    one_set_of_bits_in_parts("tank in space, f32", (90, 5), true, tank_in_space);
 }
 
 #[test]
 fn water_falls_into_a_corner_of_mirrors() {
-    one_set_of_bits_in_parts("corner", (250, 5), true, || {
-        let water = catalogue::weakly_compressible_water(4.0);
-        let drop = Body::block("water", water, [0.0; 2], [0.7, 0.4], DX).velocity([-1.0, -0.5]);
-        Scene::<f64, 2>::new(schemes::weakly_compressible())
-            .body(drop)
-            .boundary(MirrorPlane::wall([0.0; 2], [-1.0, 0.0]))
-            .boundary(MirrorPlane::wall([0.0; 2], [0.0, -1.0]))
-            .acceleration(down)
-    });
+    one_set_of_bits_in_parts("corner", (250, 5), true, corner);
 }
 
 #[test]
 fn a_tank_is_crushed() {
-    one_set_of_bits_in_parts("crushed", (150, 4), true, || {
-        let water = catalogue::weakly_compressible_water(3.0);
-        let tank = Wall::around("tank", [0.0; 2], [0.8, 0.5], DX, 4, [[true; 2]; 2]);
-        Scene::<f64, 2>::new(schemes::weakly_compressible())
-            .body(Body::block("water", water, [0.0; 2], [0.8, 0.4], DX))
-            .wall(tank.motion(Crush::along(1, 0.0, |t| [0.5 * t, 0.5, 0.0])))
-            .acceleration(down)
-    });
+    one_set_of_bits_in_parts("crushed", (150, 4), true, crushed_tank);
 }
 
 #[test]
 fn a_gas_flows_through_periods() {
-    one_set_of_bits_in_parts("periodic gas", (80, 5), true, || {
-        let gas = IdealGas::new(1.4, 1.0);
-        let square = Body::block("gas", Material::new("gas", gas), [0.0; 2], [1.0; 2], 0.02);
-        let start = move |x: [f64; 2], start: Start<2>| Start {
-            velocity: [2.0 + (2.0 * PI * x[1]).sin(), (2.0 * PI * x[0]).sin()],
-            energy: gas.energy(1.0, 1.0),
-            ..start
-        };
-        Scene::<f64, 2>::new(schemes::gas())
-            .body(square.start(start))
-            .boundary(Periodic::along(0, 0.0, 1.0))
-            .boundary(Periodic::along(1, 0.0, 1.0))
-    });
-}
-
-fn rod(velocity: f64) -> Scene<f64, 1> {
-    let rod = Body::block("rod", catalogue::copper(), [0.0], [0.01], 5e-6);
-    Scene::new(schemes::impact())
-        .body(rod.start(move |x, start| Start {
-            velocity: [velocity + 50.0 * (200.0 * PI * x[0]).sin()],
-            ..start
-        }))
-        .boundary(Periodic::along(0, 0.0, 0.01))
+    one_set_of_bits_in_parts("periodic gas", (80, 5), true, periodic_gas);
 }
 
 #[test]
@@ -173,41 +120,20 @@ fn a_rod_flows_through_a_period() {
 
 #[test]
 fn a_rod_flows_by_runge_kutta() {
-    one_set_of_bits_in_parts("Runge-Kutta", (60, 4), true, || {
-        let rod = Body::block("rod", catalogue::copper(), [0.0], [0.01], 5e-6);
-        Scene::<f64, 1>::new(schemes::impact().energy(EnergyForm::Symmetric))
-            .body(rod.start(|x, start| Start {
-                velocity: [900.0 + 50.0 * (200.0 * PI * x[0]).sin()],
-                ..start
-            }))
-            .boundary(Periodic::along(0, 0.0, 0.01))
-            .integrator(RungeKutta4)
-    });
+    one_set_of_bits_in_parts("Runge-Kutta", (60, 4), true, rod_by_runge_kutta);
 }
 
 #[test]
 fn a_plate_swings_by_its_reference_neighbours() {
-    one_set_of_bits_in_parts("total-Lagrangian plate", (80, 1), true, || {
-        let rubber = Material::new("rubber", Linear::new(1100.0, 40.0)).with_shear_modulus(5e5);
-        let plate = Body::block("plate", rubber, [0.0; 2], [1.0, 0.4], DX);
-        Scene::<f64, 2>::new(schemes::total_lagrangian().with(NeoHookean)).body(plate.start(
-            |[x, _], start| Start {
-                velocity: [0.0, 2.0 * x * x],
-                ..start
-            },
-        ))
-    });
-}
-
-fn steel_plate() -> Body<f64, 2> {
-    let steel = catalogue::steel().with_shear_modulus(77e9);
-    Body::block("plate", steel, [0.0; 2], [0.08, 0.04], 1e-3)
+    one_set_of_bits_in_parts("total-Lagrangian plate", (80, 1), true, bent_plate);
 }
 
 #[test]
 fn a_plate_that_turns_by_continuity() {
     one_set_of_bits_in_parts("elastic plate that turns", (150, 5), true, || {
-        let plate = steel_plate().start(|[x, y], start| Start {
+        let steel = catalogue::steel().with_shear_modulus(77e9);
+        let plate = Body::block("plate", steel, [0.0; 2], [0.08, 0.04], 1e-3);
+        let plate = plate.start(|[x, y], start| Start {
             velocity: [-4000.0 * (y - 0.02), 4000.0 * (x - 0.04)],
             ..start
         });
@@ -217,21 +143,13 @@ fn a_plate_that_turns_by_continuity() {
 
 #[test]
 fn a_plate_that_strikes_a_wall_runs_as_before() {
-    one_set_of_bits_in_parts("plate at a wall", (60, 2), false, || {
-        Scene::<f64, 2>::new(schemes::impact_by_continuity().with(Hypoelastic))
-            .body(steel_plate().velocity([-150.0, 30.0]))
-            .boundary(MirrorPlane::wall([-0.0005, 0.0], [-1.0, 0.0]))
-    });
+    one_set_of_bits_in_parts("plate at a wall", (60, 2), false, plate_at_wall);
 }
 
 #[test]
 fn a_plate_that_is_held_runs_as_before() {
     one_set_of_bits_in_parts("held plate", (40, 1), false, || {
-        let rubber = Material::new("rubber", Linear::new(1100.0, 40.0)).with_shear_modulus(5e5);
-        let plate = Body::block("plate", rubber, [0.0; 2], [1.0, 0.4], DX);
-        Scene::<f64, 2>::new(schemes::total_lagrangian().with(NeoHookean))
-            .body(plate.velocity([0.0, 1.0]))
-            .fix("plate", |[x, _]| *x < 0.05)
+        bent_plate().fix("plate", |[x, _]| *x < 0.05)
     });
 }
 

@@ -33,80 +33,96 @@ fn a_dam_breaks_in_a_plane() {
     one_set_of_bits("dam break", (400, 6), dam_break);
 }
 
+/// Viscous water that sloshes in a tank.
+pub(super) fn tank_in_space() -> Scene<f32, 3> {
+    let water = catalogue::weakly_compressible_water(3.0).with_dynamic_viscosity(0.5);
+    Scene::new(schemes::weakly_compressible().with(Laminar(CentralViscosity)))
+        .body(
+            Body::block("water", water, [0.0; 3], [0.16, 0.16, 0.16], DX).velocity([2.0, 1.0, 0.0]),
+        )
+        .wall(Wall::around(
+            "tank",
+            [0.0; 3],
+            [0.16, 0.16, 0.2],
+            DX,
+            3,
+            [[true; 2], [true; 2], [true, false]],
+        ))
+        .acceleration(down)
+}
+
 #[test]
 fn water_sloshes_in_a_tank_in_space() {
-    one_set_of_bits("tank in space, f32", (150, 6), || {
-        let water = catalogue::weakly_compressible_water(3.0).with_dynamic_viscosity(0.5);
-        Scene::<f32, 3>::new(schemes::weakly_compressible().with(Laminar(CentralViscosity)))
-            .body(
-                Body::block("water", water, [0.0; 3], [0.16, 0.16, 0.16], DX)
-                    .velocity([2.0, 1.0, 0.0]),
-            )
-            .wall(Wall::around(
-                "tank",
-                [0.0; 3],
-                [0.16, 0.16, 0.2],
-                DX,
-                3,
-                [[true; 2], [true; 2], [true, false]],
-            ))
-            .acceleration(down)
-    });
+    one_set_of_bits("tank in space, f32", (150, 6), tank_in_space);
+}
+
+/// Gas that streams through two periods, with lengths that follow its density.
+pub(super) fn periodic_gas() -> Scene<f64, 2> {
+    let gas = IdealGas::new(1.4, 1.0);
+    let square = Body::block("gas", Material::new("gas", gas), [0.0; 2], [1.0; 2], 0.02);
+    let start = move |x: [f64; 2], start: Start<2>| Start {
+        velocity: [2.0 + (2.0 * PI * x[1]).sin(), (2.0 * PI * x[0]).sin()],
+        energy: gas.energy(1.0, 1.0),
+        ..start
+    };
+    Scene::new(schemes::gas())
+        .body(square.start(start))
+        .boundary(Periodic::along(0, 0.0, 1.0))
+        .boundary(Periodic::along(1, 0.0, 1.0))
 }
 
 #[test]
 fn a_gas_flows_through_periods() {
-    one_set_of_bits("periodic gas", (120, 6), || {
-        let gas = IdealGas::new(1.4, 1.0);
-        let square = Body::block("gas", Material::new("gas", gas), [0.0; 2], [1.0; 2], 0.02);
-        let start = move |x: [f64; 2], start: Start<2>| Start {
-            velocity: [2.0 + (2.0 * PI * x[1]).sin(), (2.0 * PI * x[0]).sin()],
-            energy: gas.energy(1.0, 1.0),
+    one_set_of_bits("periodic gas", (120, 6), periodic_gas);
+}
+
+/// A rod that streams through a period.
+pub(super) fn rod(velocity: f64) -> Scene<f64, 1> {
+    let rod = Body::block("rod", catalogue::copper(), [0.0], [0.01], 5e-6);
+    Scene::new(schemes::impact())
+        .body(rod.start(move |x, start| Start {
+            velocity: [velocity + 50.0 * (200.0 * PI * x[0]).sin()],
             ..start
-        };
-        Scene::<f64, 2>::new(schemes::gas())
-            .body(square.start(start))
-            .boundary(Periodic::along(0, 0.0, 1.0))
-            .boundary(Periodic::along(1, 0.0, 1.0))
-    });
+        }))
+        .boundary(Periodic::along(0, 0.0, 0.01))
 }
 
 #[test]
 fn a_rod_flows_through_a_period() {
-    one_set_of_bits("rod", (300, 6), || {
-        let rod = Body::block("rod", catalogue::copper(), [0.0], [0.01], 5e-6);
-        Scene::<f64, 1>::new(schemes::impact())
-            .body(rod.start(|x, start| Start {
-                velocity: [400.0 + 50.0 * (200.0 * PI * x[0]).sin()],
-                ..start
-            }))
-            .boundary(Periodic::along(0, 0.0, 0.01))
-    });
+    one_set_of_bits("rod", (300, 6), || rod(400.0));
+}
+
+/// A rubber plate that swings, free.
+pub(super) fn bent_plate() -> Scene<f64, 2> {
+    let rubber = Material::new("rubber", Linear::new(1100.0, 40.0)).with_shear_modulus(5e5);
+    let plate = Body::block("plate", rubber, [0.0; 2], [1.0, 0.4], DX);
+    Scene::new(schemes::total_lagrangian().with(NeoHookean)).body(plate.start(|[x, _], start| {
+        Start {
+            velocity: [0.0, 2.0 * x * x],
+            ..start
+        }
+    }))
 }
 
 #[test]
 fn a_plate_bends_by_its_reference_neighbours() {
     one_set_of_bits("total-Lagrangian plate", (100, 1), || {
-        let rubber = Material::new("rubber", Linear::new(1100.0, 40.0)).with_shear_modulus(5e5);
-        let plate = Body::block("plate", rubber, [0.0; 2], [1.0, 0.4], DX);
-        Scene::<f64, 2>::new(schemes::total_lagrangian().with(NeoHookean))
-            .body(plate.start(|[x, _], start| Start {
-                velocity: [0.0, 2.0 * x * x],
-                ..start
-            }))
-            .fix("plate", |[x, _]| *x < 0.05)
+        bent_plate().fix("plate", |[x, _]| *x < 0.05)
     });
+}
+
+/// A steel plate that strikes a wall.
+pub(super) fn plate_at_wall() -> Scene<f64, 2> {
+    let steel = catalogue::steel().with_shear_modulus(77e9);
+    let plate = Body::block("plate", steel, [0.0; 2], [0.08, 0.04], 1e-3);
+    Scene::new(schemes::impact_by_continuity().with(Hypoelastic))
+        .body(plate.velocity([-150.0, 30.0]))
+        .boundary(MirrorPlane::wall([-0.0005, 0.0], [-1.0, 0.0]))
 }
 
 #[test]
 fn a_plate_that_yields_strikes_a_wall_by_continuity() {
-    one_set_of_bits("elastic plate that turns", (100, 2), || {
-        let steel = catalogue::steel().with_shear_modulus(77e9);
-        let plate = Body::block("plate", steel, [0.0; 2], [0.08, 0.04], 1e-3);
-        Scene::<f64, 2>::new(schemes::impact_by_continuity().with(Hypoelastic))
-            .body(plate.velocity([-150.0, 30.0]))
-            .boundary(MirrorPlane::wall([-0.0005, 0.0], [-1.0, 0.0]))
-    });
+    one_set_of_bits("elastic plate that turns", (100, 2), plate_at_wall);
 }
 
 #[test]
@@ -202,29 +218,35 @@ fn a_rigid_block_floats_in_a_tank() {
     });
 }
 
+/// Water in a tank that is crushed.
+pub(super) fn crushed_tank() -> Scene<f64, 2> {
+    let water = catalogue::weakly_compressible_water(3.0);
+    let tank = Wall::around("tank", [0.0; 2], [0.8, 0.5], DX, 4, [[true; 2]; 2]);
+    Scene::new(schemes::weakly_compressible())
+        .body(Body::block("water", water, [0.0; 2], [0.8, 0.4], DX))
+        .wall(tank.motion(Crush::along(1, 0.0, |t| [0.5 * t, 0.5, 0.0])))
+        .acceleration(down)
+}
+
 #[test]
 fn a_tank_is_crushed() {
-    one_set_of_bits("crushed", (200, 4), || {
-        let water = catalogue::weakly_compressible_water(3.0);
-        let tank = Wall::around("tank", [0.0; 2], [0.8, 0.5], DX, 4, [[true; 2]; 2]);
-        Scene::<f64, 2>::new(schemes::weakly_compressible())
-            .body(Body::block("water", water, [0.0; 2], [0.8, 0.4], DX))
-            .wall(tank.motion(Crush::along(1, 0.0, |t| [0.5 * t, 0.5, 0.0])))
-            .acceleration(down)
-    });
+    one_set_of_bits("crushed", (200, 4), crushed_tank);
+}
+
+/// Water that falls into a corner of mirror planes.
+pub(super) fn corner() -> Scene<f64, 2> {
+    let water = catalogue::weakly_compressible_water(4.0);
+    let drop = Body::block("water", water, [0.0; 2], [0.7, 0.4], DX).velocity([-1.0, -0.5]);
+    Scene::new(schemes::weakly_compressible())
+        .body(drop)
+        .boundary(MirrorPlane::wall([0.0; 2], [-1.0, 0.0]))
+        .boundary(MirrorPlane::wall([0.0; 2], [0.0, -1.0]))
+        .acceleration(down)
 }
 
 #[test]
 fn water_falls_into_a_corner_of_mirrors() {
-    one_set_of_bits("corner", (250, 6), || {
-        let water = catalogue::weakly_compressible_water(4.0);
-        let drop = Body::block("water", water, [0.0; 2], [0.7, 0.4], DX).velocity([-1.0, -0.5]);
-        Scene::<f64, 2>::new(schemes::weakly_compressible())
-            .body(drop)
-            .boundary(MirrorPlane::wall([0.0; 2], [-1.0, 0.0]))
-            .boundary(MirrorPlane::wall([0.0; 2], [0.0, -1.0]))
-            .acceleration(down)
-    });
+    one_set_of_bits("corner", (250, 6), corner);
 }
 
 #[test]
@@ -241,18 +263,21 @@ fn water_enters_between_periods_by_another_integrator() {
     });
 }
 
+/// A rod that streams through a period, by an integrator that keeps states.
+pub(super) fn rod_by_runge_kutta() -> Scene<f64, 1> {
+    let rod = Body::block("rod", catalogue::copper(), [0.0], [0.01], 5e-6);
+    Scene::new(schemes::impact().energy(EnergyForm::Symmetric))
+        .body(rod.start(|x, start| Start {
+            velocity: [900.0 + 50.0 * (200.0 * PI * x[0]).sin()],
+            ..start
+        }))
+        .boundary(Periodic::along(0, 0.0, 0.01))
+        .integrator(RungeKutta4)
+}
+
 #[test]
 fn a_rod_flows_by_runge_kutta() {
-    one_set_of_bits("Runge-Kutta", (60, 4), || {
-        let rod = Body::block("rod", catalogue::copper(), [0.0], [0.01], 5e-6);
-        Scene::<f64, 1>::new(schemes::impact().energy(EnergyForm::Symmetric))
-            .body(rod.start(|x, start| Start {
-                velocity: [900.0 + 50.0 * (200.0 * PI * x[0]).sin()],
-                ..start
-            }))
-            .boundary(Periodic::along(0, 0.0, 0.01))
-            .integrator(RungeKutta4)
-    });
+    one_set_of_bits("Runge-Kutta", (60, 4), rod_by_runge_kutta);
 }
 
 #[test]
