@@ -149,6 +149,9 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
                 }
             }
             if own.update == Update::Rotated {
+                for (source, y) in sources.iter_mut().zip(x) {
+                    *source += *y * growth;
+                }
                 let spin = spin::<D>(&x[turning..]);
                 let of = |numbers: &[Traced]| Symmetric::new(core::array::from_fn(|k| numbers[k]));
                 let moved = of(&x[..width]).plus(dt, &of(&sources));

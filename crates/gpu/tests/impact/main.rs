@@ -10,11 +10,32 @@ mod compare;
 
 use common::device;
 use compare::{in_both, in_double, on, on_device};
-use meshfree::effect::Damage;
+use meshfree::effect::{Damage, Effect, Point, PointRate, Reach, Setting, StepProgram};
 use meshfree::material::eos::IdealGas;
 use meshfree::material::failure::SpallStrength;
 use meshfree::material::strength::PerfectPlasticity;
 use meshfree::prelude::*;
+use meshfree::scalar::Lane;
+
+/// Deviatoric stress that relaxes at a rate \[1/s\]: growth of a field that turns with the material.
+#[derive(Clone, Copy, Debug)]
+struct Relaxing(f64);
+
+impl<const D: usize> Effect<D> for Relaxing {
+    type Terms = ();
+    fn terms(&self, _setting: &Setting) {}
+    fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
+        program.contribute(Hypoelastic::STRESS, *self);
+    }
+}
+
+impl<const D: usize> PointRate<D> for Relaxing {
+    const GROWTH: bool = true;
+    #[inline(always)]
+    fn point<L: Lane, P: Reach>(&self, _at: &Point<'_, L, D, P>, _: L, rate: &mut [L]) {
+        rate[0] -= L::of(self.0);
+    }
+}
 
 /// Water that sloshes between planes, of which one comes nearer.
 fn pushed<T: Real>(fused: bool) -> Scene<T, 2> {
@@ -106,12 +127,19 @@ fn bars_that_flow_and_fail_are_those_of_the_host() {
     let Some(device) = device("bars that flow and fail") else {
         return;
     };
-    let scheme = || {
+    let scheme = |relaxing: Option<Relaxing>| {
         let own = schemes::impact_by_continuity().with(Hypoelastic);
-        own.with(Plasticity).with(Damage)
+        own.with(Plasticity).with(Damage).with(relaxing)
     };
-    let double = |fused| bar::<f64, 2>(fused, scheme());
+    let double = |fused| bar::<f64, 2>(fused, scheme(None));
     in_double(&device, "Bar", double, 100);
+    let relaxing = |fused| bar::<f64, 2>(fused, scheme(Some(Relaxing(1e5))));
+    in_double(&device, "Relaxing bar", relaxing, 60);
+    let [own, without] = [relaxing(false), double(false)].map(|scene| {
+        let end = on_device(&device, scene, 60);
+        end.ledger().whole.total("distortion").expect("a solid")
+    });
+    assert!(own < 0.95 * without, "{own} {without}");
     // In space, with corrected gradients.
     let in_space = |fused| bar::<f64, 3>(fused, schemes::updated_lagrangian().with(Plasticity));
     in_double(&device, "Bar", in_space, 40);
