@@ -21,7 +21,7 @@ pub struct Known {
     pub sound_speed: Option<f64>,
     /// Surface tension, in N/m.
     pub surface_tension: Option<f64>,
-    /// Density of a gas beside the liquid that the scene leaves out, in kg/m³.
+    /// Density of a gas next to the liquid that the scene leaves out, in kg/m³.
     pub gas_density: Option<f64>,
     /// Whether liquid can close in pockets of that gas.
     pub trapped_gas: Option<bool>,

@@ -4,7 +4,6 @@
 use crate::format::GasScheme;
 use meshfree::kernel::{Kernel, WendlandC4};
 use meshfree::prelude::{Scheme, schemes};
-use meshfree::term::viscosity::LimitedMonaghanGingold;
 
 /// The scheme of a file.
 pub(super) fn gas<const D: usize>(own: &GasScheme) -> Scheme<f64, D>
@@ -12,11 +11,8 @@ where
     WendlandC4: Kernel<D>,
 {
     let ready = schemes::gas();
-    let standard = *ready.viscosity();
-    let mut ready = ready.with_viscosity(LimitedMonaghanGingold {
-        alpha: own.alpha.unwrap_or(standard.alpha),
-        beta: own.beta.unwrap_or(standard.beta),
-    });
+    let viscosity = super::limited(*ready.viscosity(), [own.alpha, own.beta]);
+    let mut ready = ready.with_viscosity(viscosity);
     if let Some(ratio) = own.h_over_dx {
         ready = ready.h_over_dx(ratio);
     }

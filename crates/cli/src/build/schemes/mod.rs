@@ -14,6 +14,8 @@ use super::Part;
 use crate::fault::Fault;
 use crate::format::Scheme as Described;
 use meshfree::prelude::Scheme;
+#[cfg(any(feature = "gases", feature = "rods"))]
+use meshfree::term::viscosity::LimitedMonaghanGingold;
 
 /// Why a scheme is not there in a dimension.
 fn lacking<V>(own: &Described, dimension: usize) -> Part<V> {
@@ -28,6 +30,18 @@ fn lacking<V>(own: &Described, dimension: usize) -> Part<V> {
          take another scheme or dimension, or write the scene in Rust"
     );
     Err(Fault::new("scheme", text))
+}
+
+/// The viscosity of a ready scheme, with coefficients of a file.
+#[cfg(any(feature = "gases", feature = "rods"))]
+fn limited(
+    standard: LimitedMonaghanGingold,
+    [alpha, beta]: [Option<f64>; 2],
+) -> LimitedMonaghanGingold {
+    LimitedMonaghanGingold {
+        alpha: alpha.unwrap_or(standard.alpha),
+        beta: beta.unwrap_or(standard.beta),
+    }
 }
 
 /// The scheme of a file in one dimension.
