@@ -133,7 +133,7 @@ fn bars_that_flow_and_fail_are_those_of_the_host() {
     };
     let double = |fused| bar::<f64, 2>(fused, scheme(None));
     in_double(&device, "Bar", double, 100);
-    let relaxing = |fused| bar::<f64, 2>(fused, scheme(Some(Relaxing(1e5))));
+    let relaxing = |fused| bar::<f64, 2>(fused, scheme(Some(Relaxing(5e6))));
     in_double(&device, "Relaxing bar", relaxing, 60);
     let [own, without] = [relaxing(false), double(false)].map(|scene| {
         let end = on_device(&device, scene, 60);
