@@ -25,7 +25,7 @@ const PLATEAU: (f64, f64) = (2.0e-6, 3.2e-6);
 /// Strengths of the midpoint reconstruction: none, and what cancels the leading dispersion.
 const CURVATURES: [Option<f64>; 3] = [None, Some(0.25), Some(1.0 / 3.0)];
 const TARGETS: [&str; 2] = ["copper", "pmma"];
-/// The laws with the coefficients that are tried; `docs/viscosity_frontier.md` says why some of them
+/// The laws with the coefficients that are tried; `docs/rods.md` says why some of them
 /// have to be so large.
 const LAWS: [(&str, &[&str]); 8] = [
     ("none", &["none"]),

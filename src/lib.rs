@@ -222,7 +222,7 @@
 //!
 //! | page | what it holds |
 //! |---|---|
-//! | [tutorials](https://github.com/meshfree/meshfree/blob/main/docs/tutorials.md) | four programs, from a rod to a liquid with a structure |
+//! | [tutorials](https://github.com/meshfree/meshfree/blob/main/docs/tutorials.md) | programs, from a channel with open ends to a mechanism |
 //! | [output in time](https://github.com/meshfree/meshfree/blob/main/docs/how_to_output.md) | observers by schedule, criteria that end a run, receipts |
 //! | [ParaView and films](https://github.com/meshfree/meshfree/blob/main/docs/how_to_paraview.md) | particle files and films, and how to look at them |
 //! | [restart](https://github.com/meshfree/meshfree/blob/main/docs/how_to_restart.md) | checkpoints and restarts |
@@ -238,13 +238,10 @@
 //! | [theory](https://github.com/meshfree/meshfree/blob/main/docs/theory.md) | what is solved |
 //! | [extending](https://github.com/meshfree/meshfree/blob/main/docs/extending.md) | a kernel, law, boundary, integrator or effect of your own |
 //! | [validation](https://github.com/meshfree/meshfree/blob/main/docs/validation.md) | every case with its reference and its error |
-//! | [rods](https://github.com/meshfree/meshfree/blob/main/docs/rods.md) | rods, with convergence |
-//! | [rods with strength](https://github.com/meshfree/meshfree/blob/main/docs/rod_strength.md) | rods that yield |
-//! | [artificial viscosities](https://github.com/meshfree/meshfree/blob/main/docs/viscosity_frontier.md) | rise and overshoot of a front by each artificial viscosity |
+//! | [rods, artificial viscosities](https://github.com/meshfree/meshfree/blob/main/docs/rods.md) | rods: convergence, strength, rise and overshoot of a front by each artificial viscosity |
 //! | [gentle and closed flows](https://github.com/meshfree/meshfree/blob/main/docs/liquids.md) | waves, channels, cavities and vortices |
 //! | [dam breaks and sloshing](https://github.com/meshfree/meshfree/blob/main/docs/dam_breaks.md) | dam breaks and a rolling tank, with experiments |
-//! | [sloshing](https://github.com/meshfree/meshfree/blob/main/docs/sloshing.md) | a tank at 30 g |
-//! | [crushed cells](https://github.com/meshfree/meshfree/blob/main/docs/cellular_filler.md) | water in cells that are crushed |
+//! | [sloshing, crushed cells](https://github.com/meshfree/meshfree/blob/main/docs/sloshing.md) | a tank at 30 g, and water in cells that are crushed |
 //! | [solids](https://github.com/meshfree/meshfree/blob/main/docs/solids.md) | plates, rings and bars |
 //! | [contact](https://github.com/meshfree/meshfree/blob/main/docs/contact.md) | contact of solids |
 //! | [liquid and structure](https://github.com/meshfree/meshfree/blob/main/docs/liquid_structure.md) | plates, gates and beams in a flow |

@@ -1,5 +1,5 @@
 //! What must hold, measured: start-up pressure, impulses, balances, frames, and the wall that is left.
-//! Each line is a quantity, what it must be, and what was found; `docs/sloshing.md` keeps a full run.
+//! Each line is a quantity, what it must be, and what was found; `docs/sloshing.md` has the main ones.
 
 use super::common::{Failure, Options};
 use super::pulse::Pulse;

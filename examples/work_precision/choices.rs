@@ -17,18 +17,6 @@ const VORTICES: &str = "C2, h/dx 1.5, shifted (default)";
 const CHOICES: &[Choice] = &[
     ("`f32` for `f64`", "rods_copper", IMPACT, "impact, f32"),
     (
-        "half the step",
-        "rods_copper",
-        IMPACT,
-        "impact, half the step",
-    ),
-    (
-        "drift–kick–drift for kick–drift–kick",
-        "rods_copper",
-        IMPACT,
-        "impact, drift–kick–drift",
-    ),
-    (
         "drift–kick–drift for kick–drift–kick",
         "tank",
         LIQUID,
@@ -64,14 +52,7 @@ const CHOICES: &[Choice] = &[
         "C2, h/dx 2.0, shifted",
         "C4, h/dx 2.2, shifted",
     ),
-    (
-        "h/dx 1.0 for 1.2",
-        "rods_copper",
-        IMPACT,
-        "impact, h/dx 1.0",
-    ),
     ("h/dx 1.3 for 1.8", "sod", GAS, "gas, C4, h/dx 1.3"),
-    ("h/dx 1.3 for 1.8", "noh_3d", GAS, "gas, C4, h/dx 1.3"),
     ("h/dx 2.0 for 1.5", "tank", LIQUID, WIDER),
     ("h/dx 2.0 for 1.5", "wave", LIQUID, WIDER),
     ("h/dx 2.0 for 1.5", "dam", LIQUID, WIDER),
@@ -87,14 +68,12 @@ const CHOICES: &[Choice] = &[
         "h/dx 0.8 (default)",
         "h/dx 1.2",
     ),
-    ("viscosity α 1 for 2", "rods_copper", IMPACT, "impact, α 1"),
     (
         "matrix gradients for the plain force",
         "sod",
         "plain force, C4, h/dx 1.8",
         GAS,
     ),
-    ("h/dx 2.2 for 1.8", "gresho", GAS, "gas, h/dx 2.2"),
     (
         "diffusion of Antuono for that of Fourtakas",
         "sound_1d",

@@ -65,8 +65,8 @@ impl Page {
             .iter()
             .map(|row| row.seconds * row.repeats as f64);
         self.seconds += times.filter(|time| time.is_finite()).sum::<f64>();
-        self.pictures
-            .push(format!("![{}](accuracy_{}.svg)", text.title, text.key));
+        let key = text.key;
+        self.pictures.push(format!("![{key}](accuracy_{key}.svg)"));
     }
 
     /// How the finest runs were predicted.

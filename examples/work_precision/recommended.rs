@@ -32,8 +32,10 @@ const GAINS: f64 = 0.9;
 pub fn table() -> Table {
     Table::new([
         "problem",
-        "advice",
-        "time and pairs over the cheapest",
+        "error",
+        "method, spacing [m]",
+        "time, pairs",
+        "over the cheapest",
         "error predicted over measured (90 %)",
     ])
 }
@@ -73,13 +75,12 @@ pub fn add(table: &mut Table, key: &str, title: &str, report: &Report) {
     table.row([
         title.to_string(),
         format!(
-            "for {} % of {}, take `{method}` at {} m: {} s, {} pairs",
+            "{} % of {}",
             significant(100.0 * error, 2),
-            view.quantity().name(),
-            significant(row.spacing, 3),
-            significant(seconds, 2),
-            significant(pairs, 2),
+            view.quantity().name()
         ),
+        format!("`{method}`, {}", significant(row.spacing, 3)),
+        format!("{} s, {}", significant(seconds, 2), significant(pairs, 2)),
         format!(
             "{:.2}, {:.2}",
             over_least(report, &view, error, seconds, Column::Seconds),
