@@ -266,11 +266,44 @@
 //! | `progress` | no | the drawing of [`output::progress`] | `indicatif` |
 //! | `checkpoint` | no | `Simulation::save` and `Scene::resume` | `safetensors` |
 //! | `meshes` | no | shapes from STL files | `stl_io` |
+//! | `serde` | no | reports written, laws of materials and settings written and read ([below](#reports-and-settings-in-files)) | `serde` |
 //! | `devices` | no | records of sweeps, laws, rates and limits, from which a device runs them | |
 //! | `precompiled` | no | nothing but time: what runs a scene is compiled with the crate, in all dimensions and scalars, and not with each program | |
 //!
 //! On two cores the first program above takes 40 s to compile for release from nothing, and 10 s when a line of it changes.
 //! With `precompiled` it takes 76 s from nothing and 4 s for a line; bits are the same ([speed](crate#pages)).
+//!
+//! # Reports and settings in files
+//!
+//! With the feature `serde` reports (ledgers, energy, stability, indicators, cost, contacts, rigid bodies, advice, summaries of runs,
+//! results of studies) are `Serialize`; equations of state, strengths, failures, viscosities, kernels, integrators, settings of effects
+//! and contacts, [`StepControl`](simulation::StepControl), [`Thresholds`](simulation::Thresholds) and
+//! [`Known`](scene::advice::Known) are `Serialize` and `Deserialize`. What holds functions or erased laws, as
+//! [`Material`](material::Material), [`Scene`](scene::Scene), schemes, motions and loads, is left out, as are shapes, boundaries and
+//! effects with places.
+//!
+#![cfg_attr(feature = "serde", doc = "```")]
+#![cfg_attr(not(feature = "serde"), doc = "```ignore")]
+//! use meshfree::material::eos::Tait;
+//! use meshfree::prelude::*;
+//! let law: Tait = serde_json::from_str(r#"{"reference_density": 1000.0, "sound_speed": 20.0, "gamma": -7.0}"#).unwrap();
+//! let water = Body::block("water", Material::new("water", law), [0.0], [0.1], 0.01);
+//! let refused = Scene::<f64, 1>::new(schemes::weakly_compressible()).body(water).build().unwrap_err();
+//! assert!(refused.to_string().contains("gamma of material `water` of body `water` is -7"), "{refused}");
+//! ```
+//!
+//! - A number is written so that it is read back to the same bits; `serde_json` reads so with its feature `float_roundtrip`.
+//! - JSON has no infinity and no NaN. In a setting that may be infinite, infinity is the text `"inf"` or `"-inf"`; in a report either
+//!   is `null`.
+//! - Reading does not check ranges. A scene checks what was read as it checks what a program writes, with the same
+//!   [`Error`](error::Error).
+//! - An unknown name is an error. `StepControl`, `Thresholds`, `Known` and contacts have their defaults for what is not named; other
+//!   types need every number.
+//! - A time of the clock is `{"secs", "nanos"}`, and a choice without numbers its name: `"WendlandC2"` of
+//!   [`KernelKind`](kernel::KernelKind). A type without fields, as [`WendlandC2`](kernel::WendlandC2), is `null`.
+//! - Names of fields are those of the Rust types, and change with them.
+//!
+//! # Without default features
 //!
 //! Without default features the crate builds for `wasm32-unknown-unknown`, where the clock stands still.
 #![warn(missing_docs)]
@@ -301,6 +334,8 @@ pub mod scalar;
 pub mod scene;
 pub mod scheme;
 pub mod schemes;
+#[cfg(feature = "serde")]
+mod serial;
 pub mod simulation;
 pub mod study;
 pub mod sweep;

@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 /// Whether liquid slides along a wall.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Slip {
     /// The wall exerts no viscous friction: right where the boundary layer is thinner than the spacing.
     /// Its particles still make it a little rough: in the impacts of the example `sloshing_tank`,

@@ -48,10 +48,16 @@ const LAYERS: i32 = 3;
 /// Source: Wu, Zhang, Kong & Hu 2026 (arXiv 2602.19429): a contact density, and forces in analogy to a fluid's. The
 /// threshold by a flat face, and K, are this crate's.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct ContactDensity {
     factor: f64,
     friction: Option<Coulomb>,
-    /// θ and g of lattices in each dimension.
+    /// θ and g of lattices in each dimension, which follow from the kernel.
+    #[cfg_attr(feature = "serde", serde(skip))]
     faces: [[f64; 2]; 3],
 }
 

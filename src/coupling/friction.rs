@@ -21,6 +21,11 @@ use crate::scalar::Real;
 /// distance of the particles, about a spacing. Two bodies that roll on each other exchange energy with nothing by that; a wall
 /// that turns does not, since it works at the place of the body's particle.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Coulomb {
     /// Coefficient of friction μ.
     pub mu: f64,

@@ -18,6 +18,7 @@ use crate::term::TermDoc;
 ///
 /// [`Scene::between`]: crate::scene::Scene::between
 #[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LiquidStructure;
 
 impl<T: Real, const D: usize> Coupling<T, D> for LiquidStructure {

@@ -37,6 +37,11 @@ use crate::term::TermDoc;
 /// Source: Hallquist, Goudreau & Benson 1985 (Comput. Methods Appl. Mech. Eng. 51, 107), whose stiffness is a share of
 /// K A²/V of a segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct Penalty {
     stiffness: Spring,
     scale: f64,

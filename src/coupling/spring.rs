@@ -5,6 +5,7 @@ use crate::scalar::Real;
 
 /// A stiffness k \[N/m\] of a pair (N/m per metre in 2D, per m² in 1D), if it was given.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Spring(pub Option<f64>);
 
 impl Spring {

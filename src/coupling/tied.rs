@@ -20,6 +20,11 @@ use crate::term::TermDoc;
 ///
 /// Source: central-force lattices, as Hrennikoff 1941 (J. Appl. Mech. 8, A169) has them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct Tied {
     stiffness: Spring,
 }

@@ -27,6 +27,11 @@ use crate::term::{Stage, TermDoc};
 /// assert!(scheme.to_string().contains("bulk viscosity against sound"));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct AcousticDamping {
     /// Strength λ; zero does nothing.
     pub strength: f64,

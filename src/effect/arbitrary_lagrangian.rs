@@ -43,6 +43,11 @@ const MOST: f64 = 0.7;
 /// assert!(tank.to_string().contains("arbitrary Lagrangian"));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct ArbitraryLagrangian<const HEAT: bool = false> {
     /// How particles leave the flow: δu, with its strength 0.1 by default. At zero they follow the flow, and nothing is exchanged.
     pub shifting: ConsistentShifting,

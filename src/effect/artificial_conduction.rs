@@ -13,6 +13,7 @@ use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, left_of_jump, st
 
 /// The speed v by which [`ArtificialConduction`] evens out energy between two particles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum ConductionSignal {
     /// v = √(|pᵢ − pⱼ|/ρ̄) (Price 2008): none where pressures are even, so a contact that has come to rest is not
     /// smeared further. Under gravity the hydrostatic difference counts as a jump.
@@ -66,6 +67,11 @@ pub enum ConductionSignal {
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct ArtificialConduction {
     /// Strength α; 0.5. Price (2008) has 1, which smears more and turns no fewer neighbours ([defaults](crate#pages)). Zero is none.
     pub strength: f64,

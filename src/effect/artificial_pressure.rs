@@ -43,6 +43,11 @@ use crate::term::{In, Layout, Pair, Sums, Term, TermDoc, stage};
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct ArtificialPressure {
     /// Share ε of the tension; 0.3: with the 0.2 of the paper voids open in a spinning patch that starts off the lattice, and 0.5
     /// is too much ([hard cases](crate#pages)).

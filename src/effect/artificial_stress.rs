@@ -44,6 +44,11 @@ use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct ArtificialStress {
     /// Share ε of the tension that is taken away; 0.3, which Gray et al. find by the dispersion relation of waves in a
     /// stretched solid.

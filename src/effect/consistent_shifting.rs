@@ -47,6 +47,11 @@ use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 /// assert!(violent.to_string().contains("consistent shifting"));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct ConsistentShifting {
     /// Strength a; 0.1: less leaves the layers of the first lattice in violent flow, more loses impulse. Zero is none.
     pub strength: f64,

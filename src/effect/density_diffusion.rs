@@ -24,6 +24,7 @@ use crate::term::{In, Term, stage};
 ///     .compose();
 /// ```
 #[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DensityDiffusion<W>(pub W);
 
 impl<const D: usize, W: Term<D>> Effect<D> for DensityDiffusion<W> {

@@ -38,6 +38,11 @@ use crate::term::{Stage, TermDoc};
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct DensityFloor {
     /// Share s of the density at rest; 0.1 by default, ten times the volume.
     pub share: f64,

@@ -22,6 +22,7 @@ use core::str::FromStr;
 /// first moments M = −Σ V₀ r·∇W/D and s make waves run at the sound speed of the material instead of
 /// s times it (1.0205 for the cubic spline at h/dx 1.2).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum DensityForm {
     /// Summation: gases, and shocks in one material.
     ///

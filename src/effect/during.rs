@@ -20,12 +20,19 @@ use crate::scalar::Real;
 /// assert!(scheme.step_program().contains("acoustic damping"));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct During<A> {
     /// The effect.
     pub effect: A,
     /// When it begins \[s\].
+    #[cfg_attr(feature = "serde", serde(with = "crate::serial::unbounded"))]
     pub from: f64,
     /// When it ends \[s\]; infinity for never.
+    #[cfg_attr(feature = "serde", serde(with = "crate::serial::unbounded"))]
     pub until: f64,
 }
 

@@ -15,6 +15,7 @@ use crate::term::{
 
 /// How internal energy follows from the work of pair forces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum EnergyForm {
     /// Not carried: the materials do not ask for it.
     None,

@@ -25,6 +25,11 @@ use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 /// It is an elastic spring of the body as built: across plastic folds it resists what is meant to stay.
 /// [`YieldingHourglass`](super::YieldingHourglass) cuts it there.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct HourglassControl {
     /// Strength α; 0.1 by default, ten times less than what begins to stiffen bending ([defaults](crate#pages)).
     pub strength: f64,

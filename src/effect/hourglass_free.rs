@@ -59,6 +59,11 @@ use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct HourglassFree {
     /// Stiffness ξ in units of the shear modulus; 1, with which colliding rings rebound whole at any spacing tried. More
     /// holds the lattice straighter and puts more energy into forces that no stress shows.

@@ -30,6 +30,7 @@ use crate::term::{In, Stage, Term, VelocityAtWall, VelocityGradient, ViscosityAt
 ///     .compose();
 /// ```
 #[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Laminar<X>(pub X);
 
 impl<const D: usize, X: Term<D>> Effect<D> for Laminar<X> {

@@ -8,6 +8,7 @@ use core::fmt::Debug;
 
 /// What a law reports of a chunk.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Tally {
     /// Particles at which it applied a limit.
     pub limited: u64,

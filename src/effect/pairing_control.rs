@@ -25,6 +25,11 @@ use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 /// near pairs count is of this crate. It keeps pairs apart and does not close voids: with it alone, a liquid in
 /// tension opens into a net of threads. Use it with [`ArtificialPressure`](super::ArtificialPressure), where there is an example.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct PairingControl {
     /// Strength a; 0.005, the least that keeps pairs apart in a spinning patch: more swells a liquid that is stretched
     /// ([defaults](crate#pages)).

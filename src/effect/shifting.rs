@@ -15,6 +15,11 @@ use crate::term::{ConcentrationGradient, In, Stage, stage};
 /// Densities do not follow the shifts, and drift where viscosity is too weak to keep order:
 /// [`VolumeConsistency`](super::VolumeConsistency) holds them.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub enum Shifting {
     /// Against the gradient of their concentration.
     ///

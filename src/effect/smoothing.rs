@@ -7,6 +7,7 @@ use crate::sweep::SmoothingMode;
 /// How the smoothing length changes. As an effect it is the choice of a run: loops of every law are compiled.
 /// [`MixedSpacing`], [`DivergenceSmoothing`] and [`ConsistentSmoothing`] each compile their own alone. The last of a list holds.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Smoothing {
     /// Fixed, h = η dx with one dx.
     #[default]
@@ -51,6 +52,11 @@ pub struct MixedSpacing;
 ///
 #[doc = include_str!("../../docs/equations/smoothing_divergence.html")]
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct DivergenceSmoothing {
     /// Smallest h in units of η dx, the first of the body.
     pub smallest: f64,
@@ -63,6 +69,11 @@ pub struct DivergenceSmoothing {
 ///
 #[doc = include_str!("../../docs/equations/smoothing_consistent.html")]
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct ConsistentSmoothing {
     /// Smallest h in units of η dx, the first of the body.
     pub smallest: f64,

@@ -52,6 +52,11 @@ use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, stage};
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct TwoPhase {
     /// Share ε of the repulsion; 0.02. Grenier et al. take 0.01 to 0.1. Zero is none.
     pub sharpness: f64,

@@ -36,6 +36,11 @@ use crate::term::{In, Layout, Pair, Sums, Term, TermDoc, stage};
 /// assert!(closed.to_string().contains("volume consistency"));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct VolumeConsistency {
     /// Strength κ.
     pub strength: f64,

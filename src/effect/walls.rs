@@ -10,6 +10,7 @@ use crate::term::{In, Layout, LiquidNearWall, Pair, Stage, Sums, Term, TermDoc, 
 
 /// No walls: what a scheme has that meets none.
 #[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct NoWalls;
 
 impl<const D: usize> Effect<D> for NoWalls {
@@ -27,9 +28,15 @@ pub(super) const DRY: f64 = 1e-6;
 ///
 /// (Adami, Hu & Adams 2012, eq. 27), not below a floor.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct ExtrapolatedPressure {
     /// The lowest pressure \[Pa\] that a wall can show the liquid: 0 by default, so nothing sticks.
     /// In a closed domain that is always full, minus infinity.
+    #[cfg_attr(feature = "serde", serde(with = "crate::serial::unbounded"))]
     pub floor: f64,
 }
 
@@ -108,8 +115,14 @@ impl<const D: usize> PointLaw<D> for ExtrapolatedPressure {
 /// assert!(scheme.to_string().contains("without the acceleration of the wall"));
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct HydrostaticWalls {
     /// The lowest pressure \[Pa\], as of [`ExtrapolatedPressure`].
+    #[cfg_attr(feature = "serde", serde(with = "crate::serial::unbounded"))]
     pub floor: f64,
 }
 
@@ -178,8 +191,14 @@ impl<const D: usize> PointLaw<D> for HydrostaticWalls {
 /// assert!(scheme.to_string().contains("Riemann"));
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct RiemannWalls {
     /// The lowest pressure \[Pa\], as of [`ExtrapolatedPressure`].
+    #[cfg_attr(feature = "serde", serde(with = "crate::serial::unbounded"))]
     pub floor: f64,
 }
 

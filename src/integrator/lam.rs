@@ -6,6 +6,7 @@ use crate::error::Result;
 
 /// Which acceleration equations 26 and 27 call aₙ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Predictor {
     /// Evaluated anew at tₙ: two evaluations a step, stable to ω dt = 1.414.
     #[default]
@@ -21,6 +22,11 @@ pub enum Predictor {
 /// Equations 26 and 27 together put ½ dt² aₙ into x½ where Taylor has ⅛. On an oscillator of ω dt = z
 /// the determinant of a step is 1 − z⁴/4: second order, irreversible, and a low-pass filter.
 #[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct LamLeapfrog {
     /// Which reading.
     pub predictor: Predictor,

@@ -12,6 +12,7 @@ use crate::error::Result;
 /// energy see both predicted to the end of the step with the last rates, without which the step is
 /// first order in them.
 #[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct KickDriftKick;
 
 impl Integrator for KickDriftKick {
@@ -36,6 +37,7 @@ impl Integrator for KickDriftKick {
 ///
 #[doc = include_str!("../../docs/equations/drift_kick_drift.html")]
 #[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DriftKickDrift;
 
 impl Integrator for DriftKickDrift {
@@ -60,6 +62,7 @@ impl Integrator for DriftKickDrift {
 ///
 /// a evaluated at tₙ predicts v½ and e½; then as [`DriftKickDrift`].
 #[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PositionVerlet;
 
 impl Integrator for PositionVerlet {

@@ -8,6 +8,7 @@ use crate::error::Result;
 ///
 #[doc = include_str!("../../docs/equations/midpoint.html")]
 #[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Midpoint;
 
 impl Integrator for Midpoint {
@@ -37,6 +38,7 @@ impl Integrator for Midpoint {
 ///
 #[doc = include_str!("../../docs/equations/ssp_rk3.html")]
 #[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StrongStabilityPreserving3;
 
 impl Integrator for StrongStabilityPreserving3 {
@@ -68,6 +70,7 @@ impl Integrator for StrongStabilityPreserving3 {
 ///
 #[doc = include_str!("../../docs/equations/runge_kutta_4.html")]
 #[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RungeKutta4;
 
 impl Integrator for RungeKutta4 {

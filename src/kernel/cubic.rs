@@ -16,6 +16,7 @@ use crate::scalar::Lane;
 /// particles pair above h/dx ≈ 1.25 and the builder refuses more. In 1D a uniform row is not
 /// unstable up to h/dx = 2, and at h/dx = 1 and 2 the sum over it is exactly one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CubicSpline;
 
 family! {

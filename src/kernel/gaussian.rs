@@ -15,6 +15,7 @@ use crate::scalar::Lane;
 /// Use it for comparison with theory only: it needs an exponential for every pair and gains nothing
 /// over the quintic spline.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Gaussian;
 
 family! {

@@ -180,6 +180,7 @@ macro_rules! kernel_kind {
         /// assert_eq!(Kernel::<2>::support(&kind), 3.0);
         /// ```
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
         pub enum KernelKind {
             $(
                 #[doc = concat!("[`", stringify!($Kernel), "`](struct@", stringify!($Kernel), "), `", $name, "` on a command line.")]
@@ -340,6 +341,7 @@ fn inside<L: Lane>(q: L) -> (L, L) {
 
 /// What a kernel says about itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct KernelFacts {
     /// Its name.
     pub name: &'static str,

@@ -14,6 +14,7 @@ use crate::scalar::Lane;
 /// number. It costs about three times the cubic (195 neighbours in 3D at h/dx = 1.2). In 1D at
 /// h/dx = 1 and 2 the sum over a uniform lattice is exactly one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct QuinticSpline;
 
 family! {

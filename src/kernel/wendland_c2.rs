@@ -16,6 +16,7 @@ use crate::scalar::Lane;
 /// summed over a lattice is 0.35 % too high at h/dx = 1.5 in 3D; in a stiff liquid use the
 /// continuity equation or calibrated masses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct WendlandC2;
 
 family! {

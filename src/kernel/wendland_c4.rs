@@ -14,6 +14,7 @@ use crate::scalar::Lane;
 /// 0.453 h in 3D against 0.548 h of the cubic spline), so it needs a larger h/dx: 1.8, that is 196
 /// neighbours in 3D.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct WendlandC4;
 
 family! {

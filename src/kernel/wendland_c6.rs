@@ -13,6 +13,7 @@ use crate::scalar::Lane;
 /// Use it for reference solutions: at h/dx = 2 it has 268 neighbours in 3D and stays free of
 /// pairing however many there are. It is slow, and too narrow for a small h/dx.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct WendlandC6;
 
 family! {

@@ -20,6 +20,11 @@ const STEP_FACTOR: f64 = 0.55;
 /// decide, ρ₀ c v behind a wave of the water-hammer kind, is then that of the artificial one, too low
 /// by the same factor.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub enum SoundSpeed {
     /// That of the real liquid: right for impact, water hammer and sound.
     #[default]
@@ -96,6 +101,11 @@ impl SoundSpeed {
 /// assert_eq!(material.state(920.0, 0.0), (0.0, 5.0));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Liquid {
     density: f64,
     sound_speed: f64,

@@ -14,6 +14,7 @@ use crate::tensor::Symmetric;
 
 /// A field at points, as [`Simulation::sample`] reads it.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Sample<const D: usize> {
     name: &'static str,
     shape: Shape,

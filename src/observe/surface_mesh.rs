@@ -18,6 +18,7 @@ use std::sync::Arc;
 /// Seen from outside, corners of a triangle go round anticlockwise. The surface has no rim: each edge is that of two
 /// triangles.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SurfaceMesh {
     vertices: Vec<[f64; 3]>,
     triangles: Vec<[u32; 3]>,

@@ -45,6 +45,7 @@ macro_rules! name {
 
 /// How a quantity changes under rotation and reflection.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Shape {
     /// One number that no rotation changes.
     Scalar,

@@ -49,6 +49,7 @@ pub(crate) struct Stamp {
 
 /// Messages of a rank since its simulation was built, and the time that they took.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Traffic {
     /// Times at which all ranks gathered.
     pub gathered: u64,

@@ -8,6 +8,7 @@ use std::time::Duration;
 /// Why a run ended.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum End {
     /// Its time was over.
     Time {
@@ -48,6 +49,7 @@ impl fmt::Display for End {
 /// What a run took, and why it ended. Printed it is one line.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Summary {
     /// Particles of bodies at the end.
     pub particles: usize,

@@ -11,6 +11,9 @@ use super::{OnAvx2, OnAvx512};
 /// that every machine has are left out: `RUSTFLAGS="-C target-cpu=native"` compiles in less time for this machine alone, to the
 /// same bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+// Loops run on a set after `or_detected`, so one that the machine lacks is harmless wherever its name was read.
+#[cfg_attr(feature = "serde", allow(clippy::unsafe_derive_deserialize))]
 pub enum InstructionSet {
     /// What every machine of the target has. It has no fused multiply-add, so sums, products and roots round alike everywhere,
     /// and with them elementary functions.

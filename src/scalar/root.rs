@@ -6,6 +6,9 @@ use super::{Lane, Lanes, Real};
 /// How loops over neighbours take roots in `f64` where rows have a fused multiply-add; in `f32`, and without it, the
 /// divider is faster everywhere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+// What is unsafe asks the processor for its maker, whatever the value.
+#[cfg_attr(feature = "serde", allow(clippy::unsafe_derive_deserialize))]
 pub enum Root {
     /// By the machine's divider, correctly rounded.
     Divider,

@@ -195,6 +195,7 @@ impl Conversion {
 
 /// Where a total-Lagrangian body is deformed beyond the bounds of a [`Conversion`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Distortion<const D: usize> {
     /// `det F`, `least stretch` or `largest stretch`.
     pub quantity: &'static str,
@@ -205,6 +206,7 @@ pub struct Distortion<const D: usize> {
     /// The index of the particle in its body.
     pub particle: usize,
     /// Its place \[m\].
+    #[cfg_attr(feature = "serde", serde(serialize_with = "crate::serial::components"))]
     pub position: [f64; D],
     /// When \[s\].
     pub time: f64,

@@ -35,6 +35,11 @@ use std::ops::Range;
 /// ([`stability`](crate::integrator::Integrator::stability)), and sᵢⱼ the signal that the viscosity in
 /// use adds to the sound speed of a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct StepControl {
     /// Factor C on h/(c + signal), where the signal is what the artificial viscosity in use adds;
     /// taken from the scheme by default (0.55). It must be below one, and below what the
@@ -54,6 +59,7 @@ pub struct StepControl {
     /// periodically excite what is not damped. With 1.2, as in LULESH (Karlin et al. 2013), a step regains half of its length in
     /// four, and a start whose steps grow a hundredfold takes 25. Cuts by
     /// [`Simulation::step_at_most`] and [`Scene::step_ends_at`](crate::scene::Scene::step_ends_at) do not count.
+    #[cfg_attr(feature = "serde", serde(with = "crate::serial::unbounded"))]
     pub growth: f64,
     /// A fixed step \[s\], held in every step against the limit by the factor of the scheme, or by
     /// [`courant`](Self::courant) if that is larger.

@@ -28,6 +28,7 @@ impl Spent {
 
 /// What one sweep or law has cost.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct CostLine {
     /// The stage that it belongs to.
     pub stage: &'static str,
@@ -41,6 +42,7 @@ pub struct CostLine {
 
 /// The cost of a run so far, by effect.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Cost {
     /// Sweeps and laws, in the order of a step; then neighbour lists, materials, the work of compatible energy, and
     /// integration.

@@ -12,6 +12,7 @@ use crate::term::TermDoc;
 
 /// How a coupling by forces stands; see [couplings](crate::coupling#energy).
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Contact {
     /// The name of the coupling.
     pub name: &'static str,

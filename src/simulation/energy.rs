@@ -11,6 +11,7 @@ use crate::tensor::length;
 
 /// Energies \[J\] of a liquid, and the work done on it since the start.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct EnergyLedger {
     /// Kinetic energy now.
     pub kinetic: f64,

@@ -50,6 +50,7 @@ pub(crate) struct Clamp<const D: usize> {
 
 /// How a clamp stands.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Clamped {
     /// The body.
     pub body: String,

@@ -16,6 +16,7 @@ use std::borrow::Cow;
 
 /// Mass, momentum and energy of a body, or of all.
 #[derive(Clone, Debug, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Budget {
     /// Mass \[kg\].
     pub mass: f64,
@@ -33,6 +34,7 @@ pub struct Budget {
 
 /// The sum over a body of what an effect keeps in the ledger.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Total {
     /// Its name, as `heat`.
     pub name: &'static str,
@@ -77,6 +79,7 @@ impl Budget {
 
 /// The ledger at one instant.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Ledger {
     /// Time \[s\].
     pub time: f64,

@@ -8,6 +8,7 @@ use std::time::Duration;
 
 /// Time spent in steps since the scene was built, by phase.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Phases {
     /// Sorting, neighbour lists and images, and the question whether they are still good.
     pub lists: Duration,

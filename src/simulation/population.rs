@@ -131,12 +131,14 @@ impl<T: Real, const D: usize> Particles<T, D> {
 
 /// Particles that have left a simulation through outlets and drains, or [entered](super::Simulation::entered) it.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Passed<const D: usize> {
     /// Particles.
     pub particles: u64,
     /// Mass \[kg\].
     pub mass: f64,
     /// Momentum \[kg m/s\].
+    #[cfg_attr(feature = "serde", serde(serialize_with = "crate::serial::components"))]
     pub momentum: [f64; D],
     /// Kinetic energy \[J\].
     pub kinetic: f64,

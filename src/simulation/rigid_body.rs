@@ -37,6 +37,7 @@ use std::borrow::Cow;
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RigidBody<const D: usize> {
     /// Mass \[kg\].
     pub mass: f64,
@@ -44,10 +45,12 @@ pub struct RigidBody<const D: usize> {
     /// points: a lattice of n of them a side has (1 − 1/n²) of the moment of a solid.
     pub inertia: [[f64; 3]; 3],
     /// The centre of mass \[m\]. It goes on where [periods](crate::boundary::Periodic) bring particles back.
+    #[cfg_attr(feature = "serde", serde(serialize_with = "crate::serial::components"))]
     pub centre: [f64; D],
     /// The rotation R since it was built: what was at X from the centre is at R X.
     pub orientation: [[f64; 3]; 3],
     /// Velocity of the centre of mass \[m/s\].
+    #[cfg_attr(feature = "serde", serde(serialize_with = "crate::serial::components"))]
     pub velocity: [f64; D],
     /// Angular velocity \[rad/s\].
     pub angular_velocity: [f64; 3],
@@ -55,10 +58,12 @@ pub struct RigidBody<const D: usize> {
     pub angular_momentum: [f64; 3],
     /// The force \[N\] of all that acts on it at the last evaluation: liquids, contacts, loads, springs, dampers and motors; without the
     /// weight by [`Scene::acceleration`](crate::scene::Scene::acceleration), and without what holds joints.
+    #[cfg_attr(feature = "serde", serde(serialize_with = "crate::serial::components"))]
     pub force: [f64; D],
     /// The moment of the same about the centre of mass \[N m\].
     pub moment: [f64; 3],
     /// The force \[N\] that holds its [joints](crate::coupling::Joint), the mean of the last step.
+    #[cfg_attr(feature = "serde", serde(serialize_with = "crate::serial::components"))]
     pub joint_force: [f64; D],
     /// The moment of the same about the centre of mass \[N m\].
     pub joint_moment: [f64; 3],
@@ -79,6 +84,7 @@ impl<const D: usize> RigidBody<D> {
 
 /// How a [joint](crate::coupling::Joint) stands.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Jointed<const D: usize> {
     /// What it is, as `hinge`.
     pub name: &'static str,
@@ -89,10 +95,12 @@ pub struct Jointed<const D: usize> {
     /// dq/dt \[m/s or rad/s\].
     pub rate: f64,
     /// The force \[N\] on the first body: of what holds, the mean of the last step, and of spring, damper and motor at the last evaluation.
+    #[cfg_attr(feature = "serde", serde(serialize_with = "crate::serial::components"))]
     pub force: [f64; D],
     /// The moment of the same about the place of the joint \[N m\].
     pub moment: [f64; 3],
     /// Momentum \[kg m/s\] given to the first body since the start; the second, or the ground, got the opposite.
+    #[cfg_attr(feature = "serde", serde(serialize_with = "crate::serial::components"))]
     pub impulse: [f64; D],
     /// Energy in the spring \[J\].
     pub stored: f64,

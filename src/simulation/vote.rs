@@ -5,6 +5,7 @@ use crate::collective::Join;
 
 /// What limits the step of a particle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Criterion {
     /// h/(c + signal): sound, with what the viscosity adds.
     Acoustic,
@@ -59,6 +60,7 @@ impl Criterion {
 
 /// A vote on the time step.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Vote {
     /// The step \[s\].
     pub step: f64,

@@ -7,6 +7,7 @@ use std::time::Duration;
 
 /// What a run has done so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Work {
     /// Particles of bodies.
     pub particles: usize,

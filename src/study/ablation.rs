@@ -55,6 +55,7 @@ impl Choice<'_> {
 
 /// What a run gave: the quantity, and what it cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Outcome {
     /// The quantity that is asked for.
     pub value: f64,
@@ -72,6 +73,7 @@ impl Outcome {
 
 /// A run without an effect, or why there is none.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Without {
     /// The effect that it leaves out.
     pub effect: String,
@@ -81,6 +83,7 @@ pub struct Without {
 
 /// What each effect changes and costs: print it.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Ablation {
     /// The quantity's name, with its unit.
     pub quantity: String,

@@ -30,6 +30,7 @@ const LEAST: usize = 9;
 
 /// A prediction of what is left of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Forecast {
     /// Steps.
     pub steps: f64,

@@ -39,6 +39,7 @@ pub struct Column {
 
 /// Shallow water at a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ShallowWater {
     /// Depth \[m\].
     pub depth: f64,

@@ -20,6 +20,7 @@ const PRESUMED: f64 = 0.1;
 
 /// A result with its error bar.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ErrorBar {
     /// The result on the finest spacing, in its unit.
     pub value: f64,

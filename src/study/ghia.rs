@@ -17,6 +17,7 @@
 
 /// A point on a centre line.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct CentreLinePoint {
     /// Distance from the left or lower wall, in units of L.
     pub place: f64,

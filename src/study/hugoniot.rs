@@ -33,6 +33,7 @@ pub struct Hugoniot {
 
 /// Pressure and velocity between the two shocks of an impact.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Plateau {
     /// Pressure p* \[Pa\].
     pub pressure: f64,

@@ -198,6 +198,7 @@ impl Joint {
 
 /// A time during which a contact was closed.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ContactInterval {
     /// When the contact closed \[s\].
     pub from: f64,

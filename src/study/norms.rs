@@ -20,6 +20,7 @@ use super::{StudyError, finite, positive};
 
 /// The three usual norms of a difference, in the unit of the samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Norms {
     /// Weighted mean of |a − b|.
     pub l1: f64,
@@ -198,6 +199,7 @@ pub fn overshoot(values: &[f64], before: f64, plateau: f64) -> Result<f64, Study
 
 /// The observed order of convergence.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Order {
     /// The order q in error = C hᵠ.
     pub order: f64,

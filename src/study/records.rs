@@ -20,6 +20,7 @@ use std::path::Path;
 
 /// A table of numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Record {
     /// The names of the columns, usually with their units.
     pub columns: Vec<String>,

@@ -70,6 +70,7 @@ impl Gas {
 
 /// Density, velocity and pressure. A density of zero is vacuum; its other values are then unused.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct GasState {
     /// Density ρ \[kg/m³\].
     pub density: f64,
@@ -153,6 +154,7 @@ impl Half {
 
 /// How fast the edges of the outward wave of one side move \[m/s\].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Wave {
     /// A shock.
     Shock {

@@ -78,6 +78,7 @@ pub use crate::scalar::{InstructionSet, Root};
 
 /// What a pair of blocks does to each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Interaction {
     /// As particles of one body: carries compression and tension.
     #[default]

@@ -31,6 +31,11 @@ fn factor<L: Lane, const D: usize, P: Layout>(pair: &Pair<'_, L, D, P>, delta: f
 /// It smooths the hydrostatic gradient too, which lets a free surface rise slowly: for violent flow
 /// of short duration.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Molteni {
     /// Strength δ; 0.1.
     pub delta: f64,
@@ -76,6 +81,11 @@ impl<const D: usize> Term<D> for Molteni {
 /// g is the body force in the frame of the wall that
 /// [carries the liquid](crate::boundary::Wall::container_frame), so a tank under 30 g is at rest in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Fourtakas {
     /// Strength δ; 0.1.
     pub delta: f64,
@@ -140,6 +150,11 @@ impl<const D: usize> Term<D> for Fourtakas {
 ///
 /// It costs a sweep for the gradient, and needs to know nothing of body forces.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Antuono {
     /// Strength δ; 0.1.
     pub delta: f64,
@@ -189,6 +204,7 @@ impl<const D: usize> Term<D> for Antuono {
 /// (Zhang, Hu & Adams 2017, eqs. 8, 12, with the hydrostatic
 /// part left out). Join it with [`Riemann`](crate::term::viscosity::Riemann) as viscosity.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RiemannDiffusion;
 
 impl<const D: usize> Term<D> for RiemannDiffusion {

@@ -15,6 +15,7 @@ use crate::scalar::Lane;
 /// It conserves linear momentum and not angular momentum, and is exact for shear between walls: the
 /// default of channels. A wall with free slip has no viscosity, so the mean vanishes there.
 #[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LaminarViscosity;
 
 /// Laminar viscosity along the line of centres.
@@ -25,6 +26,7 @@ pub struct LaminarViscosity;
 /// 10⁻⁶ h² keeps the fraction finite). It conserves linear and
 /// angular momentum: the choice for rotating flow and free surfaces.
 #[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CentralViscosity;
 
 /// 2 Vᵢ Vⱼ μ̄ F, over the first moment of the lattice.

@@ -137,6 +137,7 @@ pub use wall::{LiquidNearWall, VelocityAtWall, ViscosityAtWall};
 
 /// What a term is, for people: printed by a scheme and collected in the documentation.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct TermDoc {
     /// The field's name of the effect.
     pub name: String,

@@ -57,6 +57,11 @@ impl<const D: usize> Term<D> for PressureForce {
 /// the force: χ = 1/3 makes up for both, for every kernel. The force stays antisymmetric, but derives
 /// from no energy: pair it with the compatible energy form.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct MidpointReconstruction {
     /// Strength χ; 1/3 cancels the leading dispersion.
     pub strength: f64,

@@ -28,3 +28,5 @@ mod step_limits;
 mod step_program;
 mod stored_energy;
 mod vtk;
+#[cfg(feature = "serde")]
+mod written;

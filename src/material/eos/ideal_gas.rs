@@ -20,6 +20,11 @@ use crate::scalar::Lane;
 /// assert!((state.pressure - 1.0128e5).abs() < 1.0);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct IdealGas {
     /// Ratio of specific heats γ \[1\], above 1: 1.4 for air, 5/3 for a monatomic gas.
     pub gamma: f64,

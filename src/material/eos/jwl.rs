@@ -37,6 +37,11 @@ use crate::scalar::Lane;
 /// Guards: below V = 0.3 the law goes on along its tangent in ρ
 /// (`compression`); c stays above a hundredth of its cold value at V = 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Jwl {
     /// Density ρ₀ \[kg/m³\] of the unreacted explosive.
     pub reference_density: f64,

@@ -12,6 +12,11 @@ use crate::scalar::Lane;
 /// For a solid c₀² = K/ρ₀ with the bulk modulus K \[Pa\]. Valid within some 2 % of ρ₀. It needs no
 /// guard: pressure and sound speed are finite everywhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Linear {
     /// Density ρ₀ \[kg/m³\] at zero pressure.
     pub reference_density: f64,

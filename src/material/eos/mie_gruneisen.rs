@@ -7,6 +7,11 @@ use crate::scalar::{Lane, Mask};
 
 /// The form of the reference curve of [`MieGruneisen`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub enum Hugoniot {
     /// The third-order expansion of Lam, Shen & Gong, eqs. 4–6 (eq. 4 prints ρ for p on its left):
     ///
@@ -50,6 +55,11 @@ pub enum Hugoniot {
 /// wide expansion) c stays at 0.01 C₀ (`compression` or `expansion`). The cubic beyond η = −0.15
 /// counts as `expansion`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(from = "Given", into = "Given")
+)]
 pub struct MieGruneisen {
     reference_density: f64,
     sound_speed: f64,
@@ -57,6 +67,44 @@ pub struct MieGruneisen {
     gruneisen: f64,
     form: Hugoniot,
     limit: f64,
+}
+
+/// The law without what follows from its numbers: what a file has of it.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+#[serde(rename = "MieGruneisen", deny_unknown_fields)]
+struct Given {
+    reference_density: f64,
+    sound_speed: f64,
+    slope: f64,
+    gruneisen: f64,
+    form: Hugoniot,
+}
+
+#[cfg(feature = "serde")]
+impl From<MieGruneisen> for Given {
+    fn from(law: MieGruneisen) -> Self {
+        Self {
+            reference_density: law.reference_density,
+            sound_speed: law.sound_speed,
+            slope: law.slope,
+            gruneisen: law.gruneisen,
+            form: law.form,
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl From<Given> for MieGruneisen {
+    fn from(own: Given) -> Self {
+        let law = Self::new(
+            own.reference_density,
+            own.sound_speed,
+            own.slope,
+            own.gruneisen,
+        );
+        law.with_form(own.form)
+    }
 }
 
 /// Expansion η down to which the cubic is followed; its slope turns over near −0.3 (steel of Lam et al.).

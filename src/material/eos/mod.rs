@@ -114,6 +114,7 @@ impl<L: Lane> Guards<L> {
 
 /// How often each kind of guard acted, in particle evaluations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct GuardCounts {
     /// Evaluations beyond the compression limit.
     pub compression: u64,

@@ -12,6 +12,11 @@ use crate::scalar::Lane;
 /// Valid up to about p = K₀/2. Guards: beyond ρ/ρ₀ = 2 the law goes on along its tangent
 /// (`compression`); c stays above a hundredth of √(K₀/ρ₀) (`expansion`).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Murnaghan {
     /// Density ρ₀ \[kg/m³\] at zero pressure.
     pub reference_density: f64,

@@ -13,6 +13,11 @@ use crate::scalar::Lane;
 /// C₄ = C₅ = γ − 1 is the ideal gas. Guards: outside the range of the fit the law goes on along its
 /// tangent in μ (counted); c stays above a hundredth of √(C₁/ρ₀), and above 10⁻⁶ m/s.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Polynomial {
     /// Density ρ₀ \[kg/m³\].
     pub reference_density: f64,

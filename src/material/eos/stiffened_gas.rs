@@ -14,6 +14,11 @@ use crate::scalar::Lane;
 /// the difference ρ − ρ₀ keeps its digits in `f32`. Use it for shocks in liquids and for water next
 /// to air. Guard: p stays above −(1 − 10⁻⁴) p∞, where c² would vanish; counted under `expansion`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct StiffenedGas {
     /// Exponent γ \[1\], above 1.
     pub gamma: f64,

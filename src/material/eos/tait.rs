@@ -12,6 +12,11 @@ use crate::scalar::Lane;
 /// times the greatest speed the density stays within 1 %. Guards: beyond ρ/ρ₀ = 2 the law goes on
 /// along its tangent (`compression`); c stays above 0.01 c₀ (`expansion`).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Tait {
     /// Density ρ₀ \[kg/m³\] at zero pressure.
     pub reference_density: f64,

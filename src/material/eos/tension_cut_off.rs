@@ -22,6 +22,11 @@ use crate::scalar::Lane;
 /// assert!(stretched.guards.cut_off);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct TensionCutOff<E> {
     /// The law that is cut.
     pub law: E,

@@ -14,6 +14,11 @@ use crate::scalar::Lane;
 /// or vaporises. Guards, all under `expansion`: a negative energy counts as zero inside r; c stays
 /// above a hundredth of √(A/ρ₀) (under `compression` if μ ≥ 0).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Tillotson {
     /// Density ρ₀ \[kg/m³\] of the cold solid.
     pub reference_density: f64,

@@ -29,6 +29,11 @@ use crate::scalar::Lane;
 /// assert!((copper.damage(&pulled) - 0.5).abs() < 1e-12);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct JohnsonCookFailure {
     /// D₁, the strain at failure under large tension.
     pub least: f64,
@@ -45,6 +50,7 @@ pub struct JohnsonCookFailure {
     /// Reference temperature T_r \[K\]; [`ROOM_TEMPERATURE`].
     pub reference_temperature: f64,
     /// Melting temperature T_m \[K\]; infinite, which is no effect, unless set.
+    #[cfg_attr(feature = "serde", serde(with = "crate::serial::unbounded"))]
     pub melting_temperature: f64,
 }
 

@@ -13,6 +13,11 @@ use crate::scalar::Lane;
 /// assert_eq!(law.damage(&FailureState { strain: 0.5, ..FailureState::default() }), 1.0);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct PlasticStrainLimit {
     /// Plastic strain ε_f at which it fails.
     pub strain: f64,

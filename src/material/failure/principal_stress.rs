@@ -13,6 +13,11 @@ use crate::scalar::Lane;
 /// assert_eq!(glass.damage(&pulled), 1.0);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct PrincipalStressLimit {
     /// Principal stress σ_f \[Pa\] at which it fails.
     pub stress: f64,

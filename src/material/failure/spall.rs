@@ -15,6 +15,11 @@ use crate::scalar::Lane;
 /// assert_eq!(copper.damage(&FailureState { pressure: -1.1e9, ..FailureState::default() }), 0.0);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct SpallStrength {
     /// Spall strength σ_s \[Pa\], positive.
     pub tension: f64,

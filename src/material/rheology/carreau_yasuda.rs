@@ -13,6 +13,11 @@ use crate::scalar::Lane;
 ///
 /// Between the plateaus it thins like a power law of index n.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct CarreauYasuda {
     /// Viscosity μ₀ \[Pa s\] at rest.
     pub at_rest: f64,

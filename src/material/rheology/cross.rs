@@ -13,6 +13,11 @@ use crate::scalar::Lane;
 ///
 /// Between the two plateaus it thins like a power law of index 1 − m, and it is halfway at γ̇ = 1/λ.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Cross {
     /// Viscosity μ₀ \[Pa s\] at rest.
     pub at_rest: f64,

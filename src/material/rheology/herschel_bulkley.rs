@@ -17,6 +17,11 @@ use crate::scalar::Lane;
 /// e^(−mγ̇), where γ̇ ≫ 1/m. Choose 1/m as a hundredth of the shear rates that matter; a larger m costs
 /// smaller viscous steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct HerschelBulkley {
     /// Yield stress τ_y \[Pa\]; zero gives a power law.
     pub yield_stress: f64,

@@ -10,6 +10,11 @@ use crate::scalar::Lane;
 /// [`Material::with_dynamic_viscosity`](crate::material::Material::with_dynamic_viscosity) is a
 /// shorter way to the same liquid.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Newtonian {
     /// Dynamic viscosity μ \[Pa s\]; water at 20 °C has 10⁻³.
     pub dynamic_viscosity: f64,

@@ -14,6 +14,11 @@ use crate::scalar::Lane;
 /// n < 1 thins under shear, n > 1 thickens. The plain law is infinite at γ̇ = 0 if n < 1, and vanishes
 /// there if n > 1; the bounds have no default because they are the ends of the measured range.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct PowerLaw {
     /// Consistency K \[Pa sⁿ\]: the stress at γ̇ = 1/s.
     pub consistency: f64,

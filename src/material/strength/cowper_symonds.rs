@@ -21,6 +21,11 @@ use crate::scalar::Lane;
 /// assert_eq!(steel.yield_stress(&fast), 500e6);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct CowperSymonds<S> {
     /// The law at vanishing rate.
     pub slow: S,

@@ -27,6 +27,11 @@ use crate::scalar::Lane;
 /// assert!((law.yield_stress(&pressed) - 72.7e6).abs() < 1.0);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct DruckerPrager {
     /// Yield stress k \[Pa\] without pressure.
     pub cohesion: f64,

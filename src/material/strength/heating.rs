@@ -21,6 +21,11 @@ use crate::scalar::Lane;
 /// assert!((temperature - 377.1).abs() < 0.1);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct PlasticHeating {
     /// Specific heat c \[J/(kg K)\].
     pub specific_heat: f64,

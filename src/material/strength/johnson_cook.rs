@@ -26,6 +26,11 @@ use crate::scalar::Lane;
 /// assert!((copper.yield_stress(&strained) - 382e6).abs() < 1.0);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct JohnsonCook {
     /// A + B εⁿ.
     pub hardening: PowerHardening,
@@ -38,6 +43,7 @@ pub struct JohnsonCook {
     /// Reference temperature T_r \[K\]; [`ROOM_TEMPERATURE`] unless set.
     pub reference_temperature: f64,
     /// Melting temperature T_m \[K\]; infinite, which is no softening, unless set.
+    #[cfg_attr(feature = "serde", serde(with = "crate::serial::unbounded"))]
     pub melting_temperature: f64,
 }
 

@@ -22,6 +22,11 @@ use crate::scalar::Lane;
 /// assert_eq!(copper.yield_stress(&strained), 450e6);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct LinearHardening {
     /// Yield stress Y₀ \[Pa\] at zero plastic strain.
     pub yield_stress: f64,

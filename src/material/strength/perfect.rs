@@ -20,6 +20,11 @@ use crate::scalar::Lane;
 /// assert_eq!(pmma.yield_stress(&PlasticState::default()), 70e6);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct PerfectPlasticity {
     /// Yield stress Y₀ \[Pa\] in simple tension.
     pub yield_stress: f64,

@@ -20,6 +20,11 @@ use crate::scalar::Lane;
 /// assert_eq!(law.yield_stress(&strained), 250e6);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct PowerHardening {
     /// Yield stress A \[Pa\] at zero plastic strain.
     pub yield_stress: f64,

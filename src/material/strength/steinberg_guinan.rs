@@ -25,6 +25,11 @@ use crate::scalar::Lane;
 /// assert_eq!(law.yield_stress(&room), 0.29e9);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct SteinbergGuinan {
     /// Yield stress Y₀ \[Pa\] at 300 K, without pressure and strain.
     pub yield_stress: f64,

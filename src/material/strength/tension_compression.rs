@@ -22,6 +22,11 @@ use crate::scalar::Lane;
 /// assert_eq!([at(-10e6), at(0.0), at(10e6)], [49e6, 70e6, 91e6]);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct TensionCompression {
     /// Yield stress Y_t \[Pa\] in simple tension.
     pub tension: f64,

@@ -9,6 +9,7 @@
 /// assert_eq!(law.at(2.0), 12.0);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PowerLaw {
     /// The exponent.
     pub exponent: f64,

@@ -5,6 +5,7 @@ use super::{Line, Need};
 
 /// A band of a number: what follows from a value below `below`, and at least the bound of the band before.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Band {
     /// Its upper bound, which does not belong to it; infinity for the last.
     pub below: f64,
@@ -23,6 +24,7 @@ pub struct Band {
 /// assert_eq!(mach.band(0.1).need, Need::Require);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Scale {
     /// The effect.
     pub effect: &'static str,

@@ -12,6 +12,11 @@ use crate::error::Problem;
 /// assert_eq!(known.gravity, 9.81);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct Known {
     /// Gravity g \[m/s²\] where the scene is; 9.81 unless set, 0 in space.
     pub gravity: f64,

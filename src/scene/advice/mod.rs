@@ -75,6 +75,7 @@ use measures::Measures;
 
 /// How much a scene needs an effect, from most to least; what cannot be had comes last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Need {
     /// The answer is wrong without it.
     Require,
@@ -104,6 +105,7 @@ impl Need {
 
 /// A line of advice: an effect, the number that speaks for or against it, and why.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Line {
     /// The effect.
     pub effect: &'static str,
@@ -148,6 +150,7 @@ impl Line {
 
 /// What the numbers of a scene say of effects: print it.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Advice {
     /// The lines, what concerns liquids first.
     pub lines: Vec<Line>,

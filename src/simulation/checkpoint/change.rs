@@ -10,6 +10,7 @@ use core::fmt;
 /// [`Scene::resume_with`](crate::scene::Scene::resume_with).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Change {
     /// How steps are chosen, and the times at which they end.
     Steps,
@@ -71,6 +72,7 @@ impl Change {
 
 /// What is other in a scene than in the one that wrote a checkpoint.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Difference {
     /// The part of the scene, as `walls`.
     pub part: &'static str,

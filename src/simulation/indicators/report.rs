@@ -6,6 +6,7 @@ use core::fmt;
 
 /// The values of an indicator over particles.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Spread {
     /// Half of the particles have less.
     pub median: f64,
@@ -22,6 +23,7 @@ pub struct Spread {
 /// The measures of consistency are those of Quinlan, Basa & Lastiwka (2006, 10.1002/nme.1617); the cone that finds surfaces is
 /// after Marrone, Colagrossi, Le Touzé & Graziani (2010, 10.1016/j.jcp.2010.01.019).
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Indicators {
     /// The time \[s\].
     pub time: f64,
@@ -66,6 +68,7 @@ impl Indicators {
 /// What can limit accuracy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum LimitedBy {
     /// The kernel smooths what is narrower than it: fronts, waves, layers. The remedy is a finer spacing.
     Smoothing,
@@ -93,6 +96,7 @@ impl fmt::Display for LimitedBy {
 
 /// A limit of accuracy, and what one step better costs. Printed it is a sentence.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Limit {
     /// What limits.
     pub by: LimitedBy,

@@ -21,6 +21,7 @@ const SURFACE: f64 = 0.25;
 /// shock compresses counts as well arranged, and images behind planes of symmetry do not count as neighbours to be near
 /// to. A nearest neighbour farther than two spacings counts as two.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Arrangement {
     /// Smallest distance of two particles.
     pub nearest: f64,
@@ -39,6 +40,7 @@ pub struct Arrangement {
     /// Root mean square of v − v̄ over that of v, with the mean v̄ of near neighbours.
     pub noise: f64,
     /// The slot of the one with the smallest distance, and its group.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) at: (usize, usize),
 }
 

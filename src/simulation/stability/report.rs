@@ -11,6 +11,7 @@ use crate::scalar::Real;
 
 /// A value with where and when it was met.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Extreme {
     /// The value.
     pub value: f64,
@@ -26,6 +27,7 @@ pub struct Extreme {
 
 /// Steps of a run.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct StepHistory {
     /// The shortest \[s\], with the particle that set it.
     pub least: Extreme,
@@ -39,6 +41,7 @@ pub struct StepHistory {
 
 /// A threshold that was left.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Breach {
     /// What was measured.
     pub measure: &'static str,
@@ -52,6 +55,7 @@ pub struct Breach {
 
 /// Whether a run was stable.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Verdict {
     /// Whether steps were watched, by [`keep_stability`](Simulation::keep_stability). Without, what follows is of the
     /// present state alone.
@@ -77,6 +81,7 @@ impl Verdict {
 
 /// How sound a run is. What could not be measured is `None`.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct StabilityReport {
     /// Now \[s\].
     pub time: f64,

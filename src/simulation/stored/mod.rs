@@ -60,6 +60,7 @@ use measured::energies;
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct StoredEnergy {
     /// Time \[s\].
     pub time: f64,
@@ -71,6 +72,7 @@ pub struct StoredEnergy {
 
 /// A part of a scene that shares its energy.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct StoredPart {
     /// Its bodies, or the coupling and its bodies.
     pub name: String,
@@ -80,6 +82,7 @@ pub struct StoredPart {
 
 /// Stored energy of a part and the work that went into it.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct StoredBalance {
     /// Stored now \[J\].
     pub stored: f64,

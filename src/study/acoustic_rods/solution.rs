@@ -26,6 +26,7 @@ impl Steps {
 
 /// State of a material point from a time on.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Arrival {
     /// When the state begins \[s\].
     pub time: f64,
@@ -37,6 +38,7 @@ pub struct Arrival {
 
 /// State of a joint from a time on.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct JointState {
     /// When the state begins \[s\].
     pub time: f64,
@@ -54,6 +56,7 @@ pub struct JointState {
 
 /// A stretch of rod with one stress and one velocity.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Piece {
     /// Left end in the undeformed chain \[m\].
     pub from: f64,

@@ -7,6 +7,7 @@ use crate::study::{ContactInterval, Joint, StudyError};
 
 /// History of a material point, one entry for each step, the first at time zero.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct GaugeRecord {
     /// Where the point starts \[m\].
     pub x0: f64,
@@ -20,6 +21,7 @@ pub struct GaugeRecord {
 
 /// History of a joint: means over each step, given at the middle of the step.
 #[derive(Clone, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct JointRecord {
     /// Middle of the step \[s\].
     pub time: Vec<f64>,
@@ -41,6 +43,7 @@ pub struct JointRecord {
 
 /// A cell at the time of a snapshot.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Cell {
     /// Where its centre started \[m\].
     pub x0: f64,
@@ -62,6 +65,7 @@ pub struct Cell {
 
 /// All cells at one time.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Snapshot {
     /// The time \[s\].
     pub time: f64,
@@ -71,6 +75,7 @@ pub struct Snapshot {
 
 /// Sums over the chain for each unit of cross-section, at the start and at the end.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Ledger {
     /// Mass \[kg/m²\], which never changes.
     pub mass: f64,

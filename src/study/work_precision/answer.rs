@@ -11,6 +11,7 @@ use std::time::Duration;
 
 /// What an answer rests on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Basis {
     /// The law of the error of the method, and the price of its runs.
     Fitted,
@@ -20,6 +21,7 @@ pub enum Basis {
 
 /// How to run, what it costs, and the result. Intervals hold with 90 % if the laws hold.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Recipe {
     /// The method.
     pub method: String,
@@ -69,6 +71,7 @@ impl fmt::Display for Recipe {
 
 /// The finest run of a method, and what the laws through its other runs say of it.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Foretold {
     /// The method.
     pub method: String,

@@ -6,6 +6,7 @@ use core::fmt;
 
 /// The value of a choice: a number or a text.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Value {
     /// A number.
     Number(f64),
@@ -39,6 +40,7 @@ impl fmt::Display for Value {
 
 /// One method: choices by name, and what it is called.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Method {
     /// What tables and plots call it.
     pub name: String,

@@ -6,6 +6,7 @@ use std::time::Duration;
 
 /// What the time of a run is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Clock {
     /// That of all steps on the wall: what one waits for.
     #[default]

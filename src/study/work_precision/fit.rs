@@ -40,6 +40,7 @@ const GRID: usize = 60;
 
 /// A value with the interval that holds it with 90 %.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Estimate {
     /// The best value.
     pub value: f64,

@@ -18,6 +18,7 @@ use crate::study::norms::{first_crossing, overshoot, plateau_mean, rise_10_90};
 /// # Ok::<(), meshfree::study::StudyError>(())
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct History {
     times: Vec<f64>,
     values: Vec<f64>,

@@ -7,6 +7,7 @@ use std::time::Duration;
 
 /// What a run gave.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Outcome {
     pub(super) values: Vec<(String, Vec<f64>)>,
     pub(super) work: Work,

@@ -5,6 +5,7 @@ use crate::study::norms::Norms;
 
 /// What a quantity is compared with.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Reference {
     /// The run has measured its own error, against an exact or a manufactured solution: the value is the error.
     Measured,
@@ -19,6 +20,7 @@ pub enum Reference {
 
 /// The norm of samples that are compared.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Norm {
     /// Mean of the absolute.
     L1,
@@ -51,6 +53,7 @@ impl Norm {
 /// # let _ = (plateau, profile);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Quantity {
     pub(super) name: String,
     pub(super) reference: Reference,

@@ -7,6 +7,7 @@ use crate::output::table::significant;
 /// Why there is no answer.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Refusal {
     /// Three parameters need three spacings.
     #[error(

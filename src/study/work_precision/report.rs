@@ -14,6 +14,7 @@ use std::time::Duration;
 
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Status {
     /// It went to its end.
     Done,
@@ -70,6 +71,7 @@ impl Measured {
 
 /// One run.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Row {
     /// The name of its method.
     pub method: String,
@@ -93,6 +95,7 @@ pub struct Row {
 
 /// What a study found. Printed, it is a table and the fits of every quantity.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Report {
     pub(super) name: String,
     pub(super) quantities: Vec<Quantity>,

@@ -12,6 +12,11 @@ use crate::term::{Layout, Pair, TermDoc};
 /// one. Where a shock and a shear layer coincide it fails the shock. In 1D nothing turns and f = 1.
 /// In 2D and 3D it needs the velocity gradient: a sweep before the rates, and D² numbers a particle.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Balsara {
     /// Linear coefficient α; 1 for shocks.
     pub alpha: f64,

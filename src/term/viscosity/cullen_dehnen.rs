@@ -24,6 +24,11 @@ use crate::term::{Layout, Pair, Sums, TermDoc};
 /// metres a second, it takes for sound. Two numbers a particle, and in 2D and 3D the velocity
 /// gradient. Velocities that a scene starts with count as having just appeared.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct CullenDehnen {
     /// Largest coefficient α_max; 2.
     pub maximum: f64,

@@ -8,6 +8,7 @@ use crate::term::{Layout, Pair, TermDoc};
 
 /// No artificial viscosity: Π = 0. Costs nothing, and shocks ring without end.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Inviscid;
 
 impl Inviscid {

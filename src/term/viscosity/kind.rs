@@ -58,6 +58,7 @@ macro_rules! viscosity_kind {
         /// # Ok::<(), meshfree::term::viscosity::UnknownViscosity>(())
         /// ```
         #[derive(Clone, Copy, Debug, PartialEq)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
         pub enum ViscosityKind {
             $(
                 #[doc = concat!("[`", stringify!($Law), "`](struct@", stringify!($Law), "), `", $name, "` on a command line.")]

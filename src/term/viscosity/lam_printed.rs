@@ -12,6 +12,11 @@ use crate::term::{Layout, Pair, TermDoc};
 /// that collide pressure grows without bound, where [`MonaghanGingold`](super::MonaghanGingold) stays at the exact plateau
 /// (`tests/solids/misprints.rs`).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct LamPrinted {
     /// Linear coefficient α.
     pub alpha: f64,

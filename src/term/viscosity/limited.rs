@@ -14,6 +14,11 @@ use crate::term::{Layout, Pair, TermDoc, left_of_jump};
 ///
 /// It needs the velocity gradient: a sweep before the rates, and D² numbers a particle.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct LimitedMonaghanGingold {
     /// Linear coefficient α; 2 leaves no overshoot behind a front whose dispersion is corrected,
     /// and 5 keeps it under 2 % where it is not. In gases 1, with β = 1: 2 % over in Sod's tube.

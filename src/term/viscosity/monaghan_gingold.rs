@@ -14,6 +14,11 @@ use crate::term::{Layout, Pair, TermDoc};
 /// whatever D, and α h c/(4 (D + 2)) in shear, half of what Monaghan (2005) gives for a form that acts
 /// on receding pairs too. It reads no field of its own, and no law is cheaper.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct MonaghanGingold {
     /// Linear coefficient α; 1 for shocks.
     pub alpha: f64,

@@ -14,6 +14,11 @@ use crate::term::{Layout, Pair, TermDoc};
 /// α_max Δv/c, so it serves shocks with Δv of the order of c, and not the weak shocks of an impact at
 /// some metres a second. One number a particle, and the rate of compression in the rates.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct MorrisMonaghan {
     /// Coefficient far from shocks; 0.1, which keeps particles in order.
     pub minimum: f64,

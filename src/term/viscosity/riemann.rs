@@ -15,6 +15,11 @@ use crate::term::{Layout, Pair, TermDoc};
 /// limiter gives the full solver, which is close to Monaghan–Gingold with α = 1. It reads no field of
 /// its own; a square root and a division a pair more than Monaghan–Gingold.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Riemann {
     /// Share α of the solver's dissipation; 1.
     pub alpha: f64,

@@ -13,6 +13,11 @@ use crate::term::{Layout, Pair, TermDoc};
 /// not shrink there. With equal sound speeds α is that of Monaghan–Gingold, and β = 3 is its β of
 /// 1.5 α. It reads no field of its own; a square root a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct SignalVelocity {
     /// Strength α = 2K; 1 for shocks (Monaghan 1997: K = 0.5).
     pub alpha: f64,
