@@ -43,7 +43,7 @@ impl Team {
 
 #[cfg(test)]
 mod tests {
-    use super::super::in_threads;
+    use super::super::{Letters, in_threads};
     use super::*;
     use crate::error::{Error, Problem};
 
@@ -65,13 +65,13 @@ mod tests {
             let rank = team.rank();
             let (mut come, each) = ([9; 3], [1; 3]);
             let own: Vec<u8> = (0..3).map(|other| (10 * rank + other) as u8).collect();
-            let came = team.exchange((&own, &each), (&mut come, &each));
+            let came = team.exchange(Letters::Each(1), (&own, &each), (&mut come, &each));
             // One fails while the others wait for its letter.
             if rank == 1 {
                 let wrong = Err::<(), _>(Error::Argument(Problem::EmptyScene));
                 return (came, come, team.agree(None, wrong).is_err());
             }
-            let failed = !team.exchange((&own, &each), (&mut [0; 3], &each));
+            let failed = !team.exchange(Letters::Each(1), (&own, &each), (&mut [0; 3], &each));
             (came, come, failed && team.agree(None, Ok(())).is_err())
         });
         let expected = [[0, 10, 20], [1, 11, 21], [2, 12, 22]].map(|come| (true, come, true));
