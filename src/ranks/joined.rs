@@ -33,6 +33,24 @@ impl Team {
         most
     }
 
+    /// The first rank that says something, and what: the same on all ranks.
+    pub fn first_said(&self, own: Option<&str>) -> Option<(usize, String)> {
+        let mut first = None;
+        let put = |to: &mut Vec<u8>| {
+            if let Some(own) = own {
+                to.push(1);
+                to.extend_from_slice(own.as_bytes());
+            }
+        };
+        self.gather(What::Decision, put, |rank, said| {
+            if let (None, Some((_, said))) = (&first, said.split_first()) {
+                first = Some((rank, String::from_utf8_lossy(said).into_owned()));
+            }
+            Some(())
+        });
+        first
+    }
+
     /// Whether it is so on any rank.
     pub fn any(&self, own: bool) -> bool {
         let mut any = false;
@@ -56,6 +74,21 @@ mod tests {
             (most, team.any(rank == 1), team.any(false))
         });
         assert_eq!(all.expect("threads"), [([2.0, 1.0], true, false); 3]);
+    }
+
+    #[test]
+    fn all_hear_the_first_that_says_something() {
+        let all = in_threads(3, 1, |ranks| {
+            let team = Team::new(ranks);
+            let rank = team.rank();
+            let own = format!("of {rank}");
+            let late = team.first_said((rank > 0).then_some(&*own));
+            let empty = team.first_said((rank == 2).then_some(""));
+            (late, empty, team.first_said(None), team.is_broken())
+        });
+        let said = |rank: usize, text: &str| Some((rank, text.to_string()));
+        let expected = (said(1, "of 1"), said(2, ""), None, false);
+        assert_eq!(all.expect("threads"), vec![expected; 3]);
     }
 
     #[test]

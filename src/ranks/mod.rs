@@ -51,7 +51,8 @@
 //! Every rank runs the same program, so what writes a file belongs under
 //! [`Simulation::is_first_rank`](crate::simulation::Simulation::is_first_rank). `Simulation::save` is called on all ranks: the
 //! first one writes an ordinary checkpoint, and all of them return its outcome. It resumes on any number of ranks, and without
-//! any, to the same bits.
+//! any, to the same bits. [`Run::paraview_in_pieces`](crate::run::Run::paraview_in_pieces) is called on all ranks too, of which each
+//! writes its own particles.
 //!
 //! # Cost
 //!

@@ -183,6 +183,7 @@ mod own_work;
 mod pair_list;
 mod part;
 mod phases;
+mod pieces;
 mod population;
 mod query;
 mod rank_model;

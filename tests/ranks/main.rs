@@ -8,6 +8,7 @@ mod common;
 
 mod errors;
 mod parts;
+mod pieces;
 mod predicted;
 #[cfg(feature = "checkpoint")]
 mod restart;
