@@ -353,6 +353,8 @@ mod pages {
     pub struct Output;
     #[doc = include_str!("../docs/how_to_paraview.md")]
     pub struct ParaView;
+    #[doc = include_str!("../docs/ranks.md")]
+    pub struct OnRanks;
     #[doc = include_str!("../docs/how_to_restart.md")]
     pub struct Restart;
     #[doc = include_str!("../docs/how_to_waves.md")]

@@ -12,6 +12,7 @@ pub mod picture;
 #[cfg(feature = "pictures")]
 pub mod png;
 pub mod progress;
+pub mod pvtu;
 pub mod svg;
 pub mod table;
 #[cfg(feature = "checkpoint")]

@@ -79,6 +79,16 @@ impl Array {
         array
     }
 
+    /// What a list of pieces says of it.
+    pub fn declared(&self) -> String {
+        format!(
+            "<PDataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"/>",
+            self.kind,
+            xml_escape(&self.name),
+            self.components
+        )
+    }
+
     /// A field in `D` dimensions as VTK reads it: vectors and matrices padded with zeros to three dimensions, a
     /// symmetric tensor as xx, yy, zz, xy, yz, xz.
     pub fn of_field<const D: usize>(

@@ -159,6 +159,11 @@ impl Vtu {
         write_whole(path, &self.bytes())
     }
 
+    /// Positions, and what is known at each.
+    pub(super) fn columns(&self) -> (&Array, &[Array]) {
+        (&self.positions, &self.arrays)
+    }
+
     /// The whole file.
     pub(crate) fn bytes(&self) -> Vec<u8> {
         let n = self.len();
@@ -263,12 +268,17 @@ impl Pvd {
     /// # Errors
     /// When a file cannot be written, or an array has another length than the positions.
     pub fn frame(&mut self, time: f64, particles: &Vtu) -> Result<PathBuf> {
-        let stem = self.path.file_stem().unwrap_or_default().to_string_lossy();
-        let name = format!("{stem}_{:05}.vtu", self.frames);
+        let name = self.next("vtu");
         let path = self.path.with_file_name(&name);
         particles.write(&path)?;
         self.list(time, &name)?;
         Ok(path)
+    }
+
+    /// The name of the next frame, with an ending.
+    pub(crate) fn next(&self, ending: &str) -> String {
+        let stem = self.path.file_stem().unwrap_or_default().to_string_lossy();
+        format!("{stem}_{:05}.{ending}", self.frames)
     }
 
     /// Lists a file that is already there, by its path seen from the list's folder.

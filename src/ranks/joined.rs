@@ -33,6 +33,24 @@ impl Team {
         most
     }
 
+    /// The first rank that says something, and what: the same on all ranks.
+    pub fn first_said(&self, own: Option<&str>) -> Option<(usize, String)> {
+        let mut first = None;
+        let put = |to: &mut Vec<u8>| {
+            if let Some(own) = own {
+                to.push(1);
+                to.extend_from_slice(own.as_bytes());
+            }
+        };
+        self.gather(What::Decision, put, |rank, said| {
+            if let (None, Some((_, said))) = (&first, said.split_first()) {
+                first = Some((rank, String::from_utf8_lossy(said).into_owned()));
+            }
+            Some(())
+        });
+        first
+    }
+
     /// Whether it is so on any rank.
     pub fn any(&self, own: bool) -> bool {
         let mut any = false;
@@ -43,7 +61,7 @@ impl Team {
 
 #[cfg(test)]
 mod tests {
-    use super::super::in_threads;
+    use super::super::{Letters, in_threads};
     use super::*;
     use crate::error::{Error, Problem};
 
@@ -59,19 +77,34 @@ mod tests {
     }
 
     #[test]
+    fn all_hear_the_first_that_says_something() {
+        let all = in_threads(3, 1, |ranks| {
+            let team = Team::new(ranks);
+            let rank = team.rank();
+            let own = format!("of {rank}");
+            let late = team.first_said((rank > 0).then_some(&*own));
+            let empty = team.first_said((rank == 2).then_some(""));
+            (late, empty, team.first_said(None), team.is_broken())
+        });
+        let said = |rank: usize, text: &str| Some((rank, text.to_string()));
+        let expected = (said(1, "of 1"), said(2, ""), None, false);
+        assert_eq!(all.expect("threads"), vec![expected; 3]);
+    }
+
+    #[test]
     fn letters_reach_those_for_whom_they_are_and_errors_reach_all() {
         let all = in_threads(3, 1, |ranks| {
             let team = Team::new(ranks);
             let rank = team.rank();
             let (mut come, each) = ([9; 3], [1; 3]);
             let own: Vec<u8> = (0..3).map(|other| (10 * rank + other) as u8).collect();
-            let came = team.exchange((&own, &each), (&mut come, &each));
+            let came = team.exchange(Letters::Each(1), (&own, &each), (&mut come, &each));
             // One fails while the others wait for its letter.
             if rank == 1 {
                 let wrong = Err::<(), _>(Error::Argument(Problem::EmptyScene));
                 return (came, come, team.agree(None, wrong).is_err());
             }
-            let failed = !team.exchange((&own, &each), (&mut [0; 3], &each));
+            let failed = !team.exchange(Letters::Each(1), (&own, &each), (&mut [0; 3], &each));
             (came, come, failed && team.agree(None, Ok(())).is_err())
         });
         let expected = [[0, 10, 20], [1, 11, 21], [2, 12, 22]].map(|come| (true, come, true));

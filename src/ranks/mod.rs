@@ -51,7 +51,14 @@
 //! Every rank runs the same program, so what writes a file belongs under
 //! [`Simulation::is_first_rank`](crate::simulation::Simulation::is_first_rank). `Simulation::save` is called on all ranks: the
 //! first one writes an ordinary checkpoint, and all of them return its outcome. It resumes on any number of ranks, and without
-//! any, to the same bits.
+//! any, to the same bits. [`Run::paraview_in_pieces`](crate::run::Run::paraview_in_pieces) is called on all ranks too, of which each
+//! writes its own particles.
+//!
+//! # Cost
+//!
+//! [`Simulation::cost`](crate::simulation::Simulation::cost) lists the messages of a run, and
+//! [`Simulation::rank_model`](crate::simulation::Simulation::rank_model) predicts them, the time of a step and the memory of a rank for
+//! any number of ranks and any [`Network`]. What limits first is memory, and then the gathering of all particles at list builds.
 //!
 //! # Errors
 //!
@@ -62,14 +69,18 @@
 mod bytes;
 mod division;
 mod joined;
+mod model;
 mod team;
 mod threads;
+mod traffic;
 
 pub(crate) use bytes::{Taken, put_number, put_numbers, put_words};
 pub(crate) use division::{Division, even};
-pub use team::Traffic;
+pub use model::{Network, RankCost, RankCostLine, RankModel, RankParts, RankPrice};
 pub(crate) use team::{Stamp, Team, What};
 pub use threads::in_threads;
+pub(crate) use traffic::Letters;
+pub use traffic::Traffic;
 
 use crate::error::Failure;
 

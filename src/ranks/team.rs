@@ -2,10 +2,10 @@
 //! Each gathering begins with a header of every rank, so an error or another program on one of them reaches all.
 
 use super::Ranks;
+use super::traffic::{Given, Letters, Traffic};
 use crate::clock::Instant;
 use crate::error::{Error, Failure};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
 
 /// What a gathering is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,6 +28,13 @@ pub(crate) enum What {
     Ghosts,
 }
 
+impl What {
+    /// Whether what ranks give are parts of one whole, and otherwise as much from each.
+    fn is_parts(self) -> bool {
+        matches!(self, Self::Sums | Self::Lists | Self::State)
+    }
+}
+
 /// A rank that has failed says so in the place of what the others gather.
 const FAILED: u64 = u64::MAX;
 
@@ -45,22 +52,6 @@ pub(crate) struct Stamp {
     pub particles: usize,
     /// A number that follows from their velocities.
     pub motion: u64,
-}
-
-/// Messages of a rank since its simulation was built, and the time that they took.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Traffic {
-    /// Times at which all ranks gathered.
-    pub gathered: u64,
-    /// Times at which ranks exchanged particles with those near them.
-    pub exchanged: u64,
-    /// Bytes that the rank gave.
-    pub sent: u64,
-    /// Bytes that it got.
-    pub received: u64,
-    /// Time of sending, receiving and waiting for others.
-    pub waited: Duration,
 }
 
 /// The ranks of a simulation, as one of them sees them.
@@ -98,6 +89,7 @@ struct Buffers {
     headers: Vec<u8>,
     all: Vec<u8>,
     traffic: Traffic,
+    given: Given,
 }
 
 impl Buffers {
@@ -154,6 +146,11 @@ impl Team {
         self.buffers().traffic
     }
 
+    /// The same by kind.
+    pub fn given(&self) -> Given {
+        self.buffers().given
+    }
+
     fn buffers(&self) -> MutexGuard<'_, Buffers> {
         self.buffers.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -177,6 +174,12 @@ impl Team {
         let mut buffers = self.buffers();
         buffers.own.clear();
         put(&mut buffers.own);
+        let length = buffers.own.len() as u64;
+        if what.is_parts() {
+            buffers.given.parts += length;
+        } else {
+            buffers.given.each += length;
+        }
         let gathered = self.gather_put(what as u64, &mut buffers);
         let mut at = 0;
         let taken = gathered.and_then(|()| {
@@ -219,6 +222,7 @@ impl Team {
         } = buffers;
         let headed = self.ranks.gather(&own, counts, headers);
         buffers.count(own.len(), own.len() * count);
+        buffers.given.each += own.len() as u64;
         headed.map_err(|why| self.unreachable(&why))?;
         let failed = (0..count).find(|&rank| buffers.header(rank, 0) == FAILED);
         let other = (0..count).find(|&rank| buffers.header(rank, 0) != buffers.header(0, 0));
@@ -255,6 +259,7 @@ impl Team {
     /// Gives each rank what is meant for it, as [`Ranks::exchange`] does, and whether it came: where a rank has failed it does not.
     pub fn exchange(
         &self,
+        letters: Letters,
         (own, to): (&[u8], &[usize]),
         (all, from): (&mut [u8], &[usize]),
     ) -> bool {
@@ -269,6 +274,10 @@ impl Team {
         let come = headed.and_then(|failed| {
             if failed.is_some() {
                 return self.gather_announced(failed, &mut buffers);
+            }
+            match letters {
+                Letters::Each(bytes) => buffers.given.to_each += bytes as u64,
+                Letters::Ghosts(bytes) => buffers.given.of_ghost += bytes as u64,
             }
             buffers.traffic.exchanged += 1;
             buffers.traffic.sent += own.len() as u64;

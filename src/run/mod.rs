@@ -49,6 +49,7 @@ pub use summary::{End, Summary};
 use crate::clock::Instant;
 use crate::error::{Error, Problem, Result};
 use crate::output::progress::Progress;
+use crate::output::pvtu;
 use crate::output::vtu::Pvd;
 use crate::output::write_whole;
 use crate::scalar::Real;
@@ -203,6 +204,67 @@ impl<'r, T: Real, const D: usize> Run<'r, T, D> {
                 series.frame(now.time(), &now.vtu_with_walls())?;
             }
             Ok(())
+        })
+    }
+
+    /// The same in pieces, for runs on [ranks](crate::ranks): at each time each rank writes its own particles, as
+    /// [`write_pieces`](Simulation::write_pieces) does, and the first one the list of pieces and the `.pvd` file at `path`. All ranks
+    /// must see the same folder. Without ranks there is one piece at each time.
+    ///
+    /// A file that one rank cannot write ends the run on all, with the same error.
+    ///
+    /// ```
+    /// use meshfree::prelude::*;
+    /// use meshfree::ranks;
+    /// use meshfree::run::{Run, Schedule};
+    /// # let folder = std::env::temp_dir().join(format!("meshfree-paraview-pieces-{}", std::process::id()));
+    /// # let path = folder.join("rod.pvd");
+    /// # /*
+    /// let path = "out/rod.pvd";
+    /// # */
+    /// let all = ranks::in_threads(2, 1, |ranks| -> Result<(), Error> {
+    ///     let mut rod = Scene::<f64, 1>::new(schemes::impact())
+    ///         .body(Body::block("rod", catalogue::copper(), [0.0], [0.01], 5e-6).velocity([20.0]))
+    ///         .on_ranks(ranks)
+    ///         .build()?;
+    ///     Run::new(&mut rod, 1e-8).paraview_in_pieces(Schedule::every(5e-9), &path).go()?;
+    ///     Ok(())
+    /// })?;
+    /// assert!(all.into_iter().all(|own| own.is_ok()));
+    /// # let list = std::fs::read_to_string(&path).unwrap_or_default();
+    /// # assert!(folder.join("rod_00002_1.vtu").exists() && list.matches("rod_00002.pvtu").count() == 1);
+    /// # let _ = std::fs::remove_dir_all(folder);
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[must_use]
+    pub fn paraview_in_pieces(self, schedule: Schedule, path: impl AsRef<Path>) -> Self {
+        let path = path.as_ref().to_path_buf();
+        let begin = (self.simulation.steps() > 0).then(|| self.simulation.time());
+        // The first rank has it, and says how a frame is named.
+        let mut series = None;
+        self.observe(schedule, move |now| {
+            let mut begun = Ok(());
+            if now.is_first_rank() && series.is_none() {
+                let started = match begin {
+                    Some(time) => Pvd::resume(&path, time),
+                    None => Pvd::create(&path),
+                };
+                begun = started.map(|own| series = Some(own));
+            }
+            now.of_any_rank(begun)?;
+            let name = series
+                .as_ref()
+                .map(|own| (own.next(pvtu::ENDING), String::new()));
+            let Some((name, _)) = now.as_first_rank(name) else {
+                // Another rank has failed, which all are told where the call ends.
+                return Ok(());
+            };
+            now.write_pieces(path.with_file_name(&name))?;
+            let listed = match &mut series {
+                Some(series) => series.list(now.time(), &name),
+                None => Ok(()),
+            };
+            Ok(now.of_any_rank(listed)?)
         })
     }
 

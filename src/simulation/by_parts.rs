@@ -63,7 +63,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Whether a step of this scene needs a particle, its neighbours, and what is joined over all. Not so of couplings, joints, rigid
     /// bodies, clamps, structures, loads, events, inlets and outlets, sub-cycles, forces of laws, contacts, and books of energy and
     /// stability.
-    fn may_part(&self) -> bool {
+    pub(super) fn may_part(&self) -> bool {
         let state = &self.state;
         state.couples.is_empty()
             && state.joints.is_empty()

@@ -1,4 +1,4 @@
-//! The price of a run by effect: time of sweeps and laws, bytes of a particle, and what set the steps.
+//! The price of a run by effect: time of sweeps and laws, bytes of a particle, messages of ranks, and what set the steps.
 //! Two looks at the clock for each sweep and for each law of a chunk.
 
 use super::Simulation;
@@ -51,6 +51,48 @@ pub struct Cost {
     pub bytes: Vec<(String, f64)>,
     /// Steps by the criterion that set them.
     pub steps: Vec<(&'static str, u64)>,
+    /// Messages of this rank, on [ranks](crate::ranks). What they would be on other numbers of ranks,
+    /// [`rank_model`](Simulation::rank_model) predicts.
+    pub messages: Option<Messages>,
+}
+
+/// What a rank and the others said to each other, in the mean of all steps.
+///
+/// ```
+/// use meshfree::prelude::*;
+/// use meshfree::ranks;
+/// let all = ranks::in_threads(2, 1, |ranks| -> Result<_, Error> {
+///     let mut rod = Scene::<f64, 1>::new(schemes::impact())
+///         .body(Body::block("rod", catalogue::copper(), [0.0], [0.01], 5e-6).velocity([20.0]))
+///         .on_ranks(ranks)
+///         .build()?;
+///     rod.run_until(1e-8)?;
+///     Ok(rod.cost())
+/// })?;
+/// for cost in all {
+///     let messages = cost?.messages.expect("ranks");
+///     assert_eq!(messages.ranks, 2);
+///     assert!(messages.gathered > 1.0 && messages.received > 0.0);
+/// }
+/// # Ok::<(), Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Messages {
+    /// The ranks.
+    pub ranks: usize,
+    /// Gatherings of all ranks in a step.
+    pub gathered: f64,
+    /// Exchanges with ranks near by in a step.
+    pub exchanged: f64,
+    /// Bytes that the rank gave in a step.
+    pub sent: f64,
+    /// Bytes that it got in a step.
+    pub received: f64,
+    /// Time of sending, receiving and waiting for others in all steps.
+    pub waited: Duration,
+    /// Its share of the time of all steps.
+    pub share: f64,
 }
 
 impl fmt::Display for Cost {
@@ -69,6 +111,18 @@ impl fmt::Display for Cost {
         writeln!(f, "steps set by")?;
         for (criterion, steps) in &self.steps {
             writeln!(f, "  {steps:7}  {criterion}")?;
+        }
+        if let Some(own) = &self.messages {
+            writeln!(f, "messages a step, on {} ranks", own.ranks)?;
+            writeln!(f, "  {:7.1}  gatherings", own.gathered)?;
+            writeln!(f, "  {:7.1}  exchanges", own.exchanged)?;
+            writeln!(f, "  {:7.0}  bytes sent", own.sent)?;
+            writeln!(f, "  {:7.0}  bytes received", own.received)?;
+            writeln!(
+                f,
+                "  {:5.1} %  of the time: messages and waiting",
+                100.0 * own.share
+            )?;
         }
         Ok(())
     }
@@ -163,6 +217,23 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             lines,
             bytes,
             steps: self.after_step().votes.clone(),
+            messages: self.messages(total),
         }
+    }
+
+    /// Messages of this rank over steps that took so long \[s\].
+    fn messages(&self, total: f64) -> Option<Messages> {
+        let (_, ranks) = self.rank()?;
+        let own = self.traffic()?;
+        let steps = self.steps().max(1) as f64;
+        Some(Messages {
+            ranks,
+            gathered: own.gathered as f64 / steps,
+            exchanged: own.exchanged as f64 / steps,
+            sent: own.sent as f64 / steps,
+            received: own.received as f64 / steps,
+            waited: own.waited,
+            share: own.waited.as_secs_f64() / total,
+        })
     }
 }

@@ -95,6 +95,15 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         self.support * largest.max(self.smoothing_length) + self.skin
     }
 
+    /// Makes the lists outdated, for a rehearsal, with the skin that they have.
+    pub fn outdate(&mut self) {
+        self.served = u32::midpoint(LASTING[0], LASTING[1]);
+        if let Some(first) = self.listed.first_mut() {
+            // No particle is as far away as that.
+            first[0] = T::from_f64(f64::from(f32::MAX).sqrt());
+        }
+    }
+
     /// A skin that suits how long the lists have lasted. It depends on the flow alone, and not on the time that
     /// anything took, so that the next run makes the same lists.
     pub fn choose_skin(&mut self) {

@@ -3,7 +3,7 @@
 
 use super::neighborhood::Neighborhood;
 use crate::neighbors::{Block, CHUNK, ClusterLists};
-use crate::ranks::{Division, Taken, Team, put_numbers, put_words};
+use crate::ranks::{Division, Letters, Taken, Team, put_numbers, put_words};
 use crate::scalar::{Real, width};
 use crate::sweep::{Ghosts, Image};
 use std::ops::Range;
@@ -200,7 +200,7 @@ impl Halo {
         let (mut asked, mut counts) = (Vec::new(), vec![0; 8 * ranks]);
         put_counts(&from, &mut asked);
         let each = vec![8; ranks];
-        let told = team.exchange((&asked, &each), (&mut counts, &each));
+        let told = team.exchange(Letters::Each(8), (&asked, &each), (&mut counts, &each));
         let to: Vec<usize> = counts.chunks_exact(8).map(count_of).collect();
         asked.clear();
         put_words(ghosts, &mut asked);
@@ -213,7 +213,9 @@ impl Halo {
                 0
             }
         ];
-        let told = told && team.exchange((&asked, &bytes(&from)), (&mut wanted, &bytes(&to)));
+        let slots = Letters::Ghosts(4);
+        let told =
+            told && team.exchange(slots, (&asked, &bytes(&from)), (&mut wanted, &bytes(&to)));
         let mut sends = Vec::new();
         if told {
             let _ = Taken(&wanted).words(wanted.len() / 4, &mut sends);
@@ -255,7 +257,11 @@ impl<T: Real> Ghosts<T> for Halo {
         let bytes = |counts: &[usize]| -> Vec<usize> { counts.iter().map(|n| size * n).collect() };
         let mut come = vec![0; size_of_val(ghosts)];
         let (to, from) = (bytes(&self.to), bytes(&self.from));
-        if self.team.exchange((&letters, &to), (&mut come, &from)) {
+        let records = Letters::Ghosts(size);
+        if self
+            .team
+            .exchange(records, (&letters, &to), (&mut come, &from))
+        {
             let _ = Taken(&come).numbers(ghosts);
         }
     }

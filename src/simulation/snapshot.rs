@@ -29,7 +29,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// ```
     #[must_use]
     pub fn vtu(&self) -> Vtu {
-        self.file_of(&self.of_bodies())
+        let all = self.of_bodies();
+        self.file_of(&all, &all)
     }
 
     /// The same with the particles of walls behind those of bodies: `wall` is 1 for them and 0 for bodies, and `body` goes on
@@ -48,6 +49,20 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// ```
     #[must_use]
     pub fn vtu_with_walls(&self) -> Vtu {
+        let all = self.with_walls();
+        self.file_with_walls(&all, &all)
+    }
+
+    /// The same of the particles that this rank writes, with the columns of all.
+    pub(super) fn piece(&self) -> Vtu {
+        let all = self.with_walls();
+        let is_own = |own: &&Written<'_, T, D>| own.0.group.is_written_here(own.0.slot);
+        let own: Vec<_> = all.iter().filter(is_own).copied().collect();
+        self.file_with_walls(&all, &own)
+    }
+
+    /// Particles of bodies, and those of walls behind them.
+    fn with_walls(&self) -> Vec<Written<'_, T, D>> {
         let mut all = self.of_bodies();
         let bodies = self.body_count();
         for (k, (group, wall)) in self.all_walls().enumerate() {
@@ -58,10 +73,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let own = ParticleViews::new(group, wall.slots.clone());
             all.extend(own.map(|particle| (particle, bodies + k, spacing)));
         }
-        let is_wall = all
+        all
+    }
+
+    fn file_with_walls(&self, all: &[Written<'_, T, D>], own: &[Written<'_, T, D>]) -> Vtu {
+        let is_wall = own
             .iter()
             .map(|(particle, ..)| u8::from(!particle.is_mobile()));
-        self.file_of(&all).scalar("wall", is_wall)
+        self.file_of(all, own).scalar("wall", is_wall)
     }
 
     /// Particles of bodies, with the numbers of these and spacings \[m\].
@@ -74,21 +93,22 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         each.collect()
     }
 
-    fn file_of(&self, all: &[Written<'_, T, D>]) -> Vtu {
-        let particles = || all.iter().map(|own| own.0);
+    /// Some of all particles, with the columns of all.
+    fn file_of(&self, all: &[Written<'_, T, D>], written: &[Written<'_, T, D>]) -> Vtu {
+        let particles = || written.iter().map(|own| own.0);
         let mut vtu = Vtu::new(particles().map(|own| own.position()))
             .time(self.time())
-            .scalar("body", all.iter().map(|own| own.1 as i32))
+            .scalar("body", written.iter().map(|own| own.1 as i32))
             .scalar("number", particles().map(|own| own.id() as i64))
             .scalar("mass", particles().map(|own| own.mass()))
             .scalar(
                 "smoothing_length",
                 particles().map(|own| own.smoothing_length()),
             )
-            .scalar("spacing", all.iter().map(|own| own.2))
+            .scalar("spacing", written.iter().map(|own| own.2))
             .vector("velocity", particles().map(|own| own.velocity()));
         for field in self.written() {
-            if particles().any(|own| own.numbers(field).is_some()) {
+            if all.iter().any(|own| own.0.numbers(field).is_some()) {
                 let tuple = |particle: ParticleView<'_, T, D>| {
                     let mut numbers = particle.values(field).into_iter().flatten();
                     core::array::from_fn(|_| numbers.next().unwrap_or(f64::NAN))

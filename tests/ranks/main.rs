@@ -8,6 +8,8 @@ mod common;
 
 mod errors;
 mod parts;
+mod pieces;
+mod predicted;
 #[cfg(feature = "checkpoint")]
 mod restart;
 mod scenes;

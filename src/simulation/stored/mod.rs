@@ -5,7 +5,6 @@ mod account;
 mod measured;
 mod parts;
 
-#[cfg(feature = "devices")]
 pub(super) use account::EVERY;
 pub(super) use account::Stores;
 

@@ -1,0 +1,201 @@
+//! Ghosts by counting boxes of a lattice, a cost by hand, and the numbers of docs/ranks.md.
+
+use super::*;
+use approx::assert_relative_eq;
+
+fn cube(side: u32, reach: f64) -> RankParts {
+    RankParts {
+        particles: f64::from(side).powi(3),
+        sides: vec![f64::from(side); 3],
+        periodic: vec![false; 3],
+        reach,
+        across: 0.0,
+    }
+}
+
+/// Ghosts of boxes of a lattice by counting, as a mean over all boxes.
+fn counted([nx, ny]: [i32; 2], [px, py]: [i32; 2], reach: i32) -> f64 {
+    let (lx, ly) = (nx / px, ny / py);
+    let mut ghosts = 0;
+    for (a, b) in (0..px).flat_map(|a| (0..py).map(move |b| (a, b))) {
+        for (x, y) in (0..nx).flat_map(|x| (0..ny).map(move |y| (x, y))) {
+            let off = |x: i32, a: i32, l: i32| (a * l - x).max(x - (a + 1) * l + 1).max(0);
+            let (dx, dy) = (off(x, a, lx), off(y, b, ly));
+            ghosts += i32::from((dx, dy) != (0, 0) && dx.max(dy) <= reach);
+        }
+    }
+    f64::from(ghosts) / f64::from(px * py)
+}
+
+#[test]
+fn ghosts_are_those_that_counting_gives() {
+    let plane = |nx: i32, ny: i32, reach: i32| RankParts {
+        particles: f64::from(nx * ny),
+        sides: vec![f64::from(nx), f64::from(ny)],
+        periodic: vec![false; 2],
+        reach: f64::from(reach),
+        across: 0.0,
+    };
+    for (sides, boxes, reach) in [
+        ([64, 64], [2, 2], 3),
+        ([64, 64], [8, 8], 3),
+        ([120, 20], [4, 1], 5),
+        ([128, 32], [8, 2], 2),
+    ] {
+        let predicted = plane(sides[0], sides[1], reach).ghosts((boxes[0] * boxes[1]) as usize);
+        assert_relative_eq!(
+            predicted,
+            counted(sides, boxes, reach),
+            max_relative = 1e-12
+        );
+    }
+}
+
+#[test]
+fn periods_have_two_neighbours_and_one_rank_has_no_ghosts() {
+    let mut channel = cube(30, 2.0);
+    channel.sides = vec![90.0, 10.0, 30.0];
+    channel.periodic = vec![true, false, false];
+    // Two ends of 300 particles, two deep.
+    assert_relative_eq!(channel.ghosts(2), 1200.0, max_relative = 1e-12);
+    channel.periodic[0] = false;
+    assert_relative_eq!(channel.ghosts(2), 600.0, max_relative = 1e-12);
+    channel.across = 80.0;
+    assert_relative_eq!(channel.ghosts(2), 640.0, max_relative = 1e-12);
+    assert_relative_eq!(channel.ghosts(1), 0.0);
+    // No more than all others.
+    assert_relative_eq!(cube(10, 99.0).ghosts(8), 875.0, max_relative = 1e-12);
+}
+
+/// Water in space, by the numbers of docs/ranks.md, with one rank a machine of so many cores.
+fn water(particles: f64, cores: f64) -> RankModel {
+    let million = RankModel {
+        particles: 1e6,
+        chunk: 512.0,
+        bytes: 325e6,
+        parts: vec![cube(100, 3.0)],
+        own_alone: true,
+        step: RankPrice {
+            gathered: 22.0,
+            exchanged: 2.0,
+            each: 700.0,
+            of_ghost: 160.0,
+            divided: 0.671 / cores,
+            ..RankPrice::default()
+        },
+        list_build: RankPrice {
+            gathered: 26.0,
+            exchanged: 4.0,
+            each: 800.0,
+            parts: 490e6,
+            to_each: 8.0,
+            of_ghost: 164.0,
+            divided: 0.76 * 0.671 / cores,
+            undivided: 0.24 * 0.671 / cores,
+        },
+        gather_all: RankPrice {
+            gathered: 2.0,
+            each: 16.0,
+            parts: 300e6,
+            ..RankPrice::default()
+        },
+        list_builds: 0.04,
+        gathers_of_all: 0.0,
+    };
+    million.of_particles(particles).expect("particles")
+}
+
+/// The formula of one page, written out by hand for one case.
+#[test]
+fn a_step_takes_what_its_parts_take() {
+    let network = Network {
+        latency: 1e-5,
+        bandwidth: 1e9,
+    };
+    let cost = water(8e6, 1.0).on(8, &network).expect("a cost");
+    let ghosts = 103.0_f64.powi(3) - 1e6;
+    assert_relative_eq!(cost.ghosts, ghosts, max_relative = 1e-12);
+    let each = 0.96 * 700.0 + 0.04 * 800.0;
+    let votes = 7.0 * each + 8.0 * 0.04 * 8.0;
+    let bytes = ghosts * (0.96 * 160.0 + 0.04 * 164.0) + votes + 0.04 * 490.0 * 8e6 * 7.0 / 8.0;
+    assert_relative_eq!(cost.received, bytes, max_relative = 1e-12);
+    let share = (8e6_f64 / 512.0 / 8.0).ceil() / 15_625.0;
+    let work = 8.0 * 0.671 * (share * (0.96 + 0.04 * 0.76) + 0.04 * 0.24);
+    let waiting = 1e-5 * (3.0 * (0.96 * 22.0 + 0.04 * 26.0) + 0.96 * 2.0 + 0.04 * 4.0);
+    assert_relative_eq!(
+        cost.step,
+        work + waiting + bytes / 1e9,
+        max_relative = 1e-12
+    );
+    // Alone it has neither ghosts nor messages of others.
+    let alone = water(8e6, 1.0).on(1, &network).expect("a cost");
+    assert_relative_eq!(alone.step, 8.0 * 0.671, max_relative = 1e-9);
+}
+
+/// The table of docs/ranks.md; `cargo test --lib ranks::model -- --nocapture` prints it.
+#[test]
+fn memory_and_list_builds_limit_first() {
+    let network = Network::default();
+    println!("particles, ranks: ms a step, speed-up, GB of a rank, largest");
+    for particles in [1e6, 1e8, 1e10] {
+        let model = water(particles, 32.0);
+        let one = model.on(1, &network).expect("a cost");
+        for ranks in [1, 10, 100, 1000, 10_000] {
+            let cost = model.on(ranks, &network).expect("a cost");
+            let largest = cost.largest().expect("a line");
+            println!(
+                "{particles:.0e}, {ranks}: {:.3e}, {:.1}, {:.3e}, {}",
+                1e3 * cost.step,
+                one.step / cost.step,
+                1e-9 * cost.memory,
+                largest.what
+            );
+            // All of the scene, on any number of ranks.
+            assert!(cost.memory > 325.0 * particles);
+        }
+    }
+    // Eight ranks gain most of what more of them do, and a thousand gain what list builds leave.
+    let steps = [1, 8, 1000].map(|ranks| water(1e8, 32.0).on(ranks, &network).expect("a cost"));
+    assert!(steps[0].step / steps[2].step < 10.0);
+    let largest = steps[2].largest().expect("a line").what;
+    assert!(largest.starts_with("list builds"), "{largest}");
+    // Without list builds it would be another table.
+    let mut without = water(1e8, 32.0);
+    without.list_builds = 0.0;
+    let cost = without.on(1000, &network).expect("a cost");
+    assert!(
+        steps[0].step / cost.step > 200.0,
+        "{}",
+        steps[0].step / cost.step
+    );
+}
+
+#[test]
+fn wrong_numbers_are_refused_by_name() {
+    let network = Network::default();
+    let model = water(1e6, 1.0);
+    let text = |outcome: Result<RankCost>| outcome.expect_err("refused").to_string();
+    assert!(text(model.on(0, &network)).contains("number of ranks"));
+    for bandwidth in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let wrong = Network {
+            bandwidth,
+            ..network
+        };
+        assert!(text(model.on(2, &wrong)).contains("bandwidth of the network"));
+    }
+    let wrong = Network {
+        latency: -1e-6,
+        ..network
+    };
+    assert!(text(model.on(2, &wrong)).contains("latency of the network"));
+    let mut wrong = model.clone();
+    wrong.list_build.of_ghost = f64::NAN;
+    assert!(text(wrong.on(2, &network)).contains("bytes of a ghost"));
+    let mut wrong = model.clone();
+    wrong.list_builds = 1.5;
+    assert!(text(wrong.on(2, &network)).contains("list builds"));
+    let mut wrong = model.clone();
+    wrong.parts[0].sides[1] = f64::INFINITY;
+    assert!(text(wrong.on(2, &network)).contains("side of a part"));
+    assert!(model.of_particles(0.0).is_err() && model.of_particles(f64::NAN).is_err());
+}
