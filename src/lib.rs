@@ -136,7 +136,8 @@
 //! | the same, with what shifting carries exchanged between particles, so that no volume is lost | [`schemes::weakly_compressible`] with [`ExpansionMemory`](effect::ExpansionMemory) and [`ArbitraryLagrangian`](effect::ArbitraryLagrangian) |
 //! | the same, without a coefficient to choose | [`schemes::riemann_liquid`] |
 //! | two liquids, or a liquid and a gas | [`schemes::weakly_compressible`] with [`TwoPhase`](effect::TwoPhase), bodies bonded |
-//! | the same with surface tension between them | [`SchemeBuilder::liquid`](scheme::SchemeBuilder::liquid) with [`SurfaceTension`](effect::SurfaceTension) and a weak [transport velocity](scheme::Shifting::TransportVelocity), bodies bonded |
+//! | water and air that fill a tank, with air that is compressed; shocks from one fluid into the other | [`SchemeBuilder::five_equations`](scheme::SchemeBuilder::five_equations) |
+//! | two liquids with surface tension between them | [`SchemeBuilder::liquid`](scheme::SchemeBuilder::liquid) with [`SurfaceTension`](effect::SurfaceTension) and a weak [transport velocity](scheme::Shifting::TransportVelocity), bodies bonded |
 //! | a liquid that fills what encloses it | [`schemes::weakly_compressible`] with [`Shifting::CLOSED`](scheme::Shifting::CLOSED) and [walls](effect::ExtrapolatedPressure) with a floor of −∞ |
 //! | the same on a lattice that stays where it is | [`schemes::weakly_compressible`] with [`Eulerian`](effect::Eulerian) |
 //! | a liquid in tension, as one that spins or is drawn out | [`schemes::weakly_compressible`] with [`Shifting::STANDARD`](scheme::Shifting::STANDARD), [`ArtificialPressure`](effect::ArtificialPressure) and [`PairingControl`](effect::PairingControl) |

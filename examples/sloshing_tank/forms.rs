@@ -8,17 +8,19 @@ use super::tank::{ALPHA, Case, GRAVITY, H_OVER_DX, JITTER, LAYERS};
 use meshfree::boundary::{Motion, Translation};
 use meshfree::coupling::Penalty;
 use meshfree::effect::{
-    ArbitraryLagrangian, Eulerian, ExpansionMemory, HourglassControl, LagrangianLiquid, Shifting,
+    ArbitraryLagrangian, ExpansionMemory, FiveEquations, HourglassControl, LagrangianLiquid,
+    Shifting,
 };
 use meshfree::kernel::{Kernel, WendlandC2};
 use meshfree::material::Liquid;
+use meshfree::material::eos::{IdealGas, StiffenedGas};
 use meshfree::observe::PressureProbe;
 use meshfree::output::csv::CsvWriter;
 use meshfree::output::progress::Progress;
 use meshfree::output::svg::{Axis, Figure, Panel, Series};
 use meshfree::output::table::{Table, significant};
 use meshfree::prelude::*;
-use meshfree::scene::Conversion;
+use meshfree::scene::{Conversion, Start};
 use meshfree::term::viscosity::MonaghanGingold;
 use std::time::{Duration, Instant};
 
@@ -61,7 +63,7 @@ struct Record {
     volume: f64,
     /// The same of mass; of momentum what is neither from the acceleration nor from walls, over that from the acceleration.
     mass: f64,
-    momentum: f64,
+    momentum: Option<f64>,
     /// Work of the acceleration that is not energy of motion, over the work: dissipated, or stored in compression.
     energy: f64,
     particles: usize,
@@ -88,10 +90,61 @@ impl Record {
     }
 }
 
+/// Pressure of the air at rest \[Pa\], from which pressures of the Eulerian form count, and the density of the air \[kg/m³\].
+const AIR: [f64; 2] = [101_325.0, 1.2];
+/// Exponents of water and air.
+const GAMMA: [f64; 2] = [4.4, 1.4];
+/// The true sound speed of water \[m/s\].
+const SOUND: f64 = 1480.0;
+
+/// Water of a sound speed \[m/s\], and air.
+fn laws(sound: f64) -> (StiffenedGas, IdealGas) {
+    let stiffness = 1000.0 * sound * sound / GAMMA[0] - AIR[0];
+    (
+        StiffenedGas::new(GAMMA[0], stiffness, 1000.0),
+        IdealGas::new(GAMMA[1], AIR[1]),
+    )
+}
+
+fn fluids(sound: f64) -> FiveEquations {
+    let (water, air) = laws(sound);
+    FiveEquations::new(water, air)
+}
+
+/// Water and air of the Eulerian form at rest, under the pressure of the air.
+fn water_and_air<const D: usize>(case: &Case) -> [Body<f64, D>; 2] {
+    let up = D - 1;
+    let (water, air) = laws(case.sound_speed.of(SOUND));
+    let mut low = [0.0; D];
+    let mut high: [f64; D] = core::array::from_fn(|d| case.size[d]);
+    (low[up], high[up]) = (case.depth(), case.size[2]);
+    let warm = |p: f64, gamma: f64, density: f64| p / ((gamma - 1.0) * density);
+    let depth = case.depth();
+    let above = Body::block("air", Material::new("air", air), low, high, case.spacing)
+        .energy(warm(AIR[0], GAMMA[1], AIR[1]));
+    (low[up], high[up]) = (0.0, depth);
+    let below = Body::block(
+        "water",
+        Material::new("water", water),
+        low,
+        high,
+        case.spacing,
+    );
+    let below = below.start(move |x, start| Start {
+        energy: warm(
+            AIR[0] + 1000.0 * GRAVITY * (depth - x[up]),
+            GAMMA[0],
+            1000.0,
+        ),
+        ..start
+    });
+    [below, above]
+}
+
 /// The scheme of a form; one text for a slice and for space.
 macro_rules! scheme_of {
     ($name:ident, $dimension:literal) => {
-        fn $name(form: Form, floor: f64) -> Scheme<f64, $dimension> {
+        fn $name(form: Form, floor: f64, sound: f64) -> Scheme<f64, $dimension> {
             let viscosity = MonaghanGingold {
                 alpha: ALPHA,
                 beta: 0.0,
@@ -108,7 +161,9 @@ macro_rules! scheme_of {
                 Form::Ale => flowing()
                     .with(ArbitraryLagrangian::<false>::default())
                     .compose(),
-                Form::Eulerian => flowing().with(Eulerian::<false>).compose(),
+                Form::Eulerian => {
+                    SchemeBuilder::five_equations(WendlandC2, fluids(sound)).compose()
+                }
                 Form::Lagrangian => SchemeBuilder::total_lagrangian(WendlandC2, viscosity)
                     .h_over_dx(1.0)
                     .with(HourglassControl::default())
@@ -127,12 +182,12 @@ pub fn compare(case: &Case, in_space: bool, options: &Options) -> Result<(), Fai
         return Err("--compare: the forms run in f64 alone; leave out --precision".into());
     }
     std::fs::create_dir_all(options.folder())?;
-    let mut records = Vec::new();
+    let (sound, mut records) = (case.sound_speed.of(SOUND), Vec::new());
     for (form, name) in FORMS {
         records.push(if in_space {
-            run(case, form, name, space(form, case.cut_off))?
+            run(case, form, name, space(form, case.cut_off, sound))?
         } else {
-            run(case, form, name, slice(form, case.cut_off))?
+            run(case, form, name, slice(form, case.cut_off, sound))?
         });
     }
     let table = table(case, &records);
@@ -196,7 +251,7 @@ fn table(case: &Case, records: &[Record]) -> Table {
     row("volume of particles".into(), &|own| percent(own.volume));
     row("mass".into(), &|own| Some(format!("{:.1e}", own.mass)));
     row("momentum".into(), &|own| {
-        Some(format!("{:.1e}", own.momentum))
+        Some(format!("{:.1e}", own.momentum?))
     });
     row("work not in motion".into(), &|own| {
         (own.end() >= EARLY).then(|| percent(own.energy))?
@@ -290,7 +345,12 @@ fn build<const D: usize>(
         .jitter(if moves { JITTER } else { 0.0 }, 1)
         .hydrostatic(gravity, surface);
     let mut closed = [[true; 2]; D];
-    let mut scene = Scene::new(scheme).body(body);
+    let mut scene = Scene::new(scheme);
+    scene = if form == Form::Eulerian {
+        water_and_air(case).into_iter().fold(scene, Scene::body)
+    } else {
+        scene.body(body)
+    };
     if form == Form::Lagrangian {
         closed = [[false; 2]; D];
         closed[0][0] = true;
@@ -338,15 +398,19 @@ where
     let mut normal = [0.0; D];
     normal[0] = -1.0;
     let mut probe = PressureProbe::disc(&own, "Point 1", point, normal, SENSOR)?;
-    if form != Form::Lagrangian {
+    if ![Form::Lagrangian, Form::Eulerian].contains(&form) {
         probe = probe.on_wall("tank")?;
     }
+    // Of the water, where it shares its particles with air.
     let totals = |now: &Simulation<f64, D>| -> [f64; 2] {
         let all = now.all();
         all.fold([0.0; 2], |[m, v], p| {
-            [m + p.mass(), v + p.mass() / p.density()]
+            let mass = p.scalar(FiveEquations::LIQUID).unwrap_or(p.mass());
+            let share = p.scalar(FiveEquations::FRACTION).unwrap_or(1.0);
+            [m + mass, v + share * p.mass() / p.density()]
         })
     };
+    let rest = if form == Form::Eulerian { AIR[0] } else { 0.0 };
     let acceleration = |t: f64| -> [f64; D] {
         let a = motion.pose(t).shift[2];
         core::array::from_fn(|d| -a[d] - if d == up { GRAVITY } else { 0.0 })
@@ -355,23 +419,10 @@ where
     let start = totals(&own);
     let mut record = Record {
         name,
-        particles: own.body("water")?.count(),
-        samples: vec![[0.0, probe.pressure(&own)]],
+        particles: own.all().count(),
+        samples: vec![[0.0, probe.pressure(&own) - rest]],
         ..Record::default()
     };
-    // Water of the first surface: above, and at the wall that it leaves; and how far it would have come.
-    let exposed: Vec<Option<usize>> = own
-        .body("water")?
-        .map(|p| {
-            let x = p.position();
-            let free = [
-                (up, x[up] > case.depth() - case.spacing),
-                (0, x[0] < case.spacing),
-            ];
-            free.into_iter().find(|own| own.1).map(|own| own.0)
-        })
-        .collect();
-    let mut come = vec![0.0; exposed.len()];
     let monitor = Conversion::default()
         .volumes([0.1, 10.0])
         .stretches(STRETCHES);
@@ -389,26 +440,14 @@ where
             work += half * (before.1[d] * before.2[d] + now.1[d] * now.2[d]);
         }
         before = now;
-        record.samples.push([time, probe.pressure(&own)]);
+        record.samples.push([time, probe.pressure(&own) - rest]);
         progress.update(time / case.until, format_args!("t = {:.2} ms", 1e3 * time));
-        let reason = match form {
-            Form::Lagrangian => monitor
+        let reason = if form == Form::Lagrangian {
+            monitor
                 .distortion(&own, "water")?
-                .map(|reason| reason.to_string()),
-            Form::Eulerian => {
-                let mut most = 0.0_f64;
-                for ((come, axis), p) in come.iter_mut().zip(&exposed).zip(own.body("water")?) {
-                    if let Some(d) = axis {
-                        *come += 2.0 * half * p.velocity()[*d];
-                        most = most.max(come.abs());
-                    }
-                }
-                (most > case.spacing).then(|| {
-                    "its surface would have moved by a spacing, and particles at rest pass nothing on to where none are"
-                        .to_string()
-                })
-            }
-            _ => None,
+                .map(|own| own.to_string())
+        } else {
+            None
         };
         let shown = time >= SNAPSHOT && record.heights.is_none();
         if shown {
@@ -429,7 +468,8 @@ where
             };
             let size =
                 |of: &dyn Fn(usize) -> f64| (0..D).map(|d| of(d).powi(2)).sum::<f64>().sqrt();
-            record.momentum = size(&lack) / size(&|d| given[d]);
+            // Forces on walls of the Eulerian form are in no sum.
+            record.momentum = (form != Form::Eulerian).then(|| size(&lack) / size(&|d| given[d]));
         }
         if let Some(reason) = reason {
             record.stopped = Some((time, reason));

@@ -2,6 +2,7 @@
 //! On a slice and in space, at any place along the tank.
 
 use super::tank::{Case, H_OVER_DX};
+use meshfree::effect::FiveEquations;
 use meshfree::kernel::{Kernel, WendlandC2};
 use meshfree::prelude::*;
 
@@ -20,10 +21,14 @@ where
     WendlandC2: Kernel<D>,
 {
     pub fn of(case: &Case, now: &Simulation<f64, D>) -> Result<Self, Error> {
-        let water = now.body("water")?;
+        // Particles that share their volume with air count by the water's part.
+        let share = |p: &meshfree::simulation::ParticleView<'_, f64, D>| {
+            p.scalar(FiveEquations::FRACTION).unwrap_or(1.0)
+        };
+        let water = now.all();
         Ok(Self {
             water: water
-                .map(|p| (p.position(), p.mass() / p.density()))
+                .map(|p| (p.position(), share(&p) * p.mass() / p.density()))
                 .collect(),
             width: case.size[1],
             height: case.size[2],

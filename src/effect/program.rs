@@ -65,6 +65,8 @@ pub struct StepProgram<T: Real, const D: usize> {
     pub(crate) requirements: Vec<Requirement<T>>,
     step_factors: Vec<f64>,
     pub(crate) wall_normals: bool,
+    /// Whether laws give pressure and sound speed, and equations of state are not evaluated.
+    pub(crate) gives_state: bool,
     /// Whether particles move with their velocities.
     pub(crate) moves: bool,
     /// Fields of rigid bodies that are walls: of which the smallest is taken, and which it is written to.
@@ -105,6 +107,7 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
             requirements: Vec::new(),
             step_factors: Vec::new(),
             wall_normals: false,
+            gives_state: false,
             moves: true,
             least_on_rigid: Vec::new(),
             stored: Vec::new(),
@@ -197,6 +200,12 @@ impl<T: Real, const D: usize> StepProgram<T, D> {
     /// Says that forces do not follow from the pressure of the equation of state, which then stores nothing.
     pub fn replace_pressure(&mut self) {
         self.presses = false;
+    }
+
+    /// Says that laws of [`Stage::State`] give every particle its pressure and sound speed, so that equations of state are not
+    /// evaluated.
+    pub fn give_state(&mut self) {
+        self.gives_state = true;
     }
 
     /// Says in words what the effect does in addition to its terms.

@@ -3,12 +3,13 @@
 
 use super::{EnergyForm, Scheme};
 use crate::effect::{
-    Cavitation, DensityDiffusion, DensityForm, Effect, Effects, ExtrapolatedPressure, NoWalls,
-    TotalLagrangian,
+    Cavitation, DensityDiffusion, DensityForm, Effect, Effects, ExtrapolatedPressure,
+    FiveEquations, NoWalls, TotalLagrangian,
 };
 use crate::kernel::Kernel;
 use crate::scalar::Real;
 use crate::sweep::Interaction;
+use crate::term::viscosity::Inviscid;
 use crate::term::{
     ArtificialViscosity, InternalEnergy, KernelSum, MatrixPressureForce, MidpointReconstruction,
     PressureForce, RenormalisedPressureForce,
@@ -105,6 +106,22 @@ impl<K, V> SchemeBuilder<K, V, ExtrapolatedPressure, (((), PressureForce), Cavit
                 let walls = ExtrapolatedPressure::default();
                 (k, v, walls, (pressure, Cavitation))
             })
+    }
+}
+
+impl<K> SchemeBuilder<K, Inviscid, ExtrapolatedPressure, ((), FiveEquations)> {
+    /// A scheme of two fluids on a lattice that stays, with a kernel: [`FiveEquations`].
+    ///
+    /// With h/dx 0.75, if nothing else is said, a particle has to do with those beside it alone, as the cells of a finite-volume scheme have:
+    /// wider kernels blur interfaces and pressures over their support.
+    #[must_use]
+    pub fn five_equations(kernel: K, fluids: FiveEquations) -> Self {
+        SchemeBuilder::liquid(kernel, Inviscid)
+            .named("five equations")
+            .h_over_dx(0.75)
+            .energy(EnergyForm::Symmetric)
+            .between_bodies(Interaction::Bonded)
+            .map(|k, v, w, _| (k, v, w, ((), fluids)))
     }
 }
 

@@ -84,7 +84,7 @@ impl<K, V, W, E> SchemeBuilder<K, V, W, E> {
             program.law(Stage::Rates, law);
         }
         let carries_energy = own.energy != EnergyForm::None;
-        let cannot = (carries_energy && !E::ENERGY)
+        let cannot = (carries_energy && !E::ENERGY && !program.gives_state)
             || !(integrated || E::SUMS || own.density == DensityForm::Deformation);
         program.require(move |_| {
             cannot.then(|| Problem::Incompatible {

@@ -122,7 +122,7 @@ impl Entries {
             stage(Stage::Contacts),
             stage(Stage::Density),
             follows.then_some(Entry::LengthRates),
-            Some(Entry::Materials),
+            (!scheme.program.gives_state).then_some(Entry::Materials),
             stage(Stage::State),
             // Walls that nothing sums over are met by nobody.
             stage(Stage::Walls).filter(|_| scheme.meets_walls()),

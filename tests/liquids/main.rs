@@ -12,6 +12,7 @@ mod cylinders;
 mod dam_break;
 mod drops;
 mod drum;
+mod five_equations;
 mod floating;
 mod gauges;
 mod gentle_flows;

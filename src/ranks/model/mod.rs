@@ -21,6 +21,7 @@ use core::fmt;
 /// assert!(ethernet.latency > Network::default().latency);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Network {
     /// Time λ of an empty message \[s\]: 2 µs by default, as MPI has it between two machines (1.93 µs in Squyres 2014, "MPI over 40Gb
     /// Ethernet", Cisco).
@@ -169,6 +170,7 @@ pub struct RankModel {
 
 /// A line of the cost of a step.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RankCostLine {
     /// What it is.
     pub what: &'static str,
@@ -180,6 +182,7 @@ pub struct RankCostLine {
 
 /// The predicted cost of a step on ranks, as a mean over steps with and without list builds.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RankCost {
     /// The ranks.
     pub ranks: usize,

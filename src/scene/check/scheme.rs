@@ -17,6 +17,12 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
     pub(in crate::scene) fn check_scheme(&self, problems: &mut Vec<Problem>) {
         let (scheme, kernel) = (&self.scheme, self.scheme.kernel);
         let (lowest, highest) = kernel.range;
+        // On a lattice that stays it is enough to reach the particles beside one.
+        let lowest = if scheme.program.moves {
+            lowest
+        } else {
+            lowest.min(1.2 / kernel.support)
+        };
         if !(lowest..=highest).contains(&scheme.h_over_dx) {
             problems.push(Problem::SmoothingRatio {
                 kernel: kernel.name,
