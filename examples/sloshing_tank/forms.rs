@@ -381,6 +381,24 @@ fn build<const D: usize>(
         .build()
 }
 
+/// Pressure \[Pa\] at Point 1 from the two layers of a lattice before it, continued to the wall: a probe takes what is not full for dry, and here
+/// all is full, of water or of air.
+fn at_wall<const D: usize>(case: &Case, now: &Simulation<f64, D>) -> f64 {
+    let mut layers = [[0.0; 2]; 2];
+    for p in now.all() {
+        let x = p.position();
+        let layer = ((case.size[0] - x[0]) / case.spacing) as usize;
+        let beside = |d: usize, at: f64| (x[d] - at).abs() <= 0.5 * SENSOR;
+        let near = beside(D - 1, POINT) && (1..D - 1).all(|d| beside(d, 0.5 * case.size[d]));
+        if let Some([sum, count]) = layers.get_mut(layer).filter(|_| near) {
+            *sum += p.pressure();
+            *count += 1.0;
+        }
+    }
+    let [first, second] = layers.map(|[sum, count]| sum / count);
+    1.5 * first - 0.5 * second
+}
+
 fn run<const D: usize>(
     case: &Case,
     form: Form,
@@ -398,7 +416,7 @@ where
     let mut normal = [0.0; D];
     normal[0] = -1.0;
     let mut probe = PressureProbe::disc(&own, "Point 1", point, normal, SENSOR)?;
-    if ![Form::Lagrangian, Form::Eulerian].contains(&form) {
+    if form != Form::Lagrangian {
         probe = probe.on_wall("tank")?;
     }
     // Of the water, where it shares its particles with air.
@@ -410,7 +428,13 @@ where
             [m + mass, v + share * p.mass() / p.density()]
         })
     };
-    let rest = if form == Form::Eulerian { AIR[0] } else { 0.0 };
+    let pressure = |now: &Simulation<f64, D>| {
+        if form == Form::Eulerian {
+            at_wall(case, now) - AIR[0]
+        } else {
+            probe.pressure(now)
+        }
+    };
     let acceleration = |t: f64| -> [f64; D] {
         let a = motion.pose(t).shift[2];
         core::array::from_fn(|d| -a[d] - if d == up { GRAVITY } else { 0.0 })
@@ -420,7 +444,7 @@ where
     let mut record = Record {
         name,
         particles: own.all().count(),
-        samples: vec![[0.0, probe.pressure(&own) - rest]],
+        samples: vec![[0.0, pressure(&own)]],
         ..Record::default()
     };
     let monitor = Conversion::default()
@@ -440,7 +464,7 @@ where
             work += half * (before.1[d] * before.2[d] + now.1[d] * now.2[d]);
         }
         before = now;
-        record.samples.push([time, probe.pressure(&own) - rest]);
+        record.samples.push([time, pressure(&own)]);
         progress.update(time / case.until, format_args!("t = {:.2} ms", 1e3 * time));
         let reason = if form == Form::Lagrangian {
             monitor
@@ -451,7 +475,7 @@ where
         };
         let shown = time >= SNAPSHOT && record.heights.is_none();
         if shown {
-            let surface = Surface::of(case, &own)?;
+            let surface = Surface::of(case, &own);
             record.heights = Some(STATIONS.map(|share| surface.height(share * case.size[0])));
             let count = (2.0 * case.size[0] / case.spacing).round() as usize;
             let places = (0..count).map(|k| (k as f64 + 0.5) * case.size[0] / count as f64);

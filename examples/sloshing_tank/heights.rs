@@ -20,13 +20,13 @@ impl<const D: usize> Surface<D>
 where
     WendlandC2: Kernel<D>,
 {
-    pub fn of(case: &Case, now: &Simulation<f64, D>) -> Result<Self, Error> {
+    pub fn of(case: &Case, now: &Simulation<f64, D>) -> Self {
         // Particles that share their volume with air count by the water's part.
         let share = |p: &meshfree::simulation::ParticleView<'_, f64, D>| {
             p.scalar(FiveEquations::FRACTION).unwrap_or(1.0)
         };
         let water = now.all();
-        Ok(Self {
+        Self {
             water: water
                 .map(|p| (p.position(), share(&p) * p.mass() / p.density()))
                 .collect(),
@@ -34,7 +34,7 @@ where
             height: case.size[2],
             h: H_OVER_DX * case.spacing,
             spacing: case.spacing,
-        })
+        }
     }
     /// The share of the kernel that water fills at (x, z), less what walls would below, above and at the sides: those are beyond its reach
     /// at all heights and places that are read, or count as half.

@@ -94,13 +94,13 @@ impl Fluid {
 #[doc = include_str!("../../docs/equations/five_equations.html")]
 ///
 /// with the volume V \[m³\] of a particle, its fluids' densities ρ₁, ρ₂ \[kg/m³\], velocity u \[m/s\], pressure p \[Pa\], energy E \[J/m³\], and fluxes G of
-/// HLLC (Toro, Spruce & Speares 1994). States at the middle are reconstructed from both sides with gradients that are exact for linear fields, limited as van Leer
-/// (1979) does and, the fraction, as superbee (Roe 1985) does. Both fluids have one pressure, so an interface that is carried along at one
-/// velocity and pressure leaves them as they are.
+/// HLLC (Toro, Spruce & Speares 1994). Densities, velocity and pressure at the middle are reconstructed from both sides with gradients that
+/// are exact for linear fields, limited as van Leer (1979) does; the fraction is that of downwind, as far as the upwind side has it (Després &
+/// Lagoutière 2001). Both fluids have one pressure, so an interface that is carried along leaves pressure and velocity as they are.
 ///
-/// **Where to take it**: sloshing, impact of liquids and shocks, where fluids fill their room, a lattice between walls or across periods, and where breaking
-/// and merging matter more than the last drop: an interface is three or four spacings wide. It is of second order in space and first in time. Air is compressible here, so steps are
-/// those of its sound.
+/// **Where to take it**: sloshing, impact of liquids and shocks on a lattice between walls or across periods that fluids fill, and where breaking and
+/// merging matter more than the last drop. Each side of a bubble is two spacings wide after it has moved a hundred. It is of second
+/// order in space and of first in time. Air is compressed, so steps are those of its sound.
 ///
 /// | it adds | as |
 /// |---|---|
@@ -111,7 +111,8 @@ impl Fluid {
 /// It is the list of effects of [`SchemeBuilder::five_equations`](crate::scheme::SchemeBuilder::five_equations). Bodies are of one of the two fluids each, by the equations of state of their
 /// materials; a scene with a third one is refused.
 /// Walls must not move in the frame of the scene: let the container [be the frame](crate::boundary::Wall::container_frame). Forces on walls are not
-/// summed: take pressures.
+/// summed: take pressures of the particles before them, or [sample](crate::simulation::Simulation::sample) them, since a
+/// [probe](crate::observe::PressureProbe) counts from the pressure of a dry wall, zero.
 ///
 /// ```
 /// use meshfree::effect::FiveEquations;
@@ -457,15 +458,12 @@ fn half_of<L: Lane>(ahead: L, twice: L) -> L {
     L::select(alike, product, L::zero()) / sum
 }
 
-/// Share of the difference that the fraction at the middle may take from upwind: more than half keeps interfaces sharp.
-const SHARPNESS: f64 = 1.0;
-
-/// What of the difference to a neighbour the fraction at the middle takes, with the room on both sides: no more than it can lose on the other.
+/// What of the difference to a neighbour the fraction at the middle takes: all of it, as far as the other neighbours show that the upwind side has
+/// it (Després & Lagoutière 2001). Without a limit it would be the downwind fraction, which keeps interfaces sharp.
 #[inline(always)]
 fn sharp_part_of<L: Lane>(ahead: L, above: L, below: L) -> L {
     let rises = ahead.gt(L::zero());
-    let most = L::of(SHARPNESS) * ahead.abs();
-    let part = most.min(L::select(rises, below, above));
+    let part = ahead.abs().min(L::select(rises, below, above));
     L::select(rises, part, -part)
 }
 

@@ -76,7 +76,7 @@ impl<const D: usize> WaveGauge<D> {
     /// The liquid around the line.
     fn column<T: Real>(&self, simulation: &Simulation<T, D>) -> Column<D> {
         let foot = self.foot.pose(simulation).of(0, &self.foot.point);
-        let h = simulation.smoothing_length();
+        let h = simulation.sampling_length();
         let norm = normalisation::<D>() / h.powi(D as i32);
         let mut particles = Vec::new();
         let mut images = Vec::new();

@@ -25,7 +25,7 @@ impl<const D: usize> Place<D> {
         point: [f64; D],
         line: Option<usize>,
     ) -> Result<Self> {
-        let reach = 2.0 * simulation.smoothing_length();
+        let reach = 2.0 * simulation.sampling_length();
         // Without walls liquid can come anywhere, but not out of all proportion.
         let mut extent = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
         for x in simulation.all().map(|particle| particle.position()) {

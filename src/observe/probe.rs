@@ -129,7 +129,7 @@ impl<const D: usize> PressureProbe<D> {
     /// [`pressure`](Self::pressure) \[Pa\] of each of many probes, in one search for the particles around them.
     #[must_use]
     pub fn pressures<T: Real>(probes: &[Self], simulation: &Simulation<T, D>) -> Vec<f64> {
-        let h = simulation.smoothing_length();
+        let h = simulation.sampling_length();
         let norm = normalisation::<D>() / h.powi(D as i32);
         let poses = probes.iter().map(|probe| probe.centre.pose(simulation));
         let (places, mut points): (Vec<_>, Vec<_>) = probes

@@ -154,7 +154,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let norm = normalisation::<D>();
         let mut images = Vec::new();
         for particle in carriers {
-            let (x, h) = (particle.position(), particle.smoothing_length());
+            let (x, h) = (particle.position(), particle.sampling_length());
             // Most of a scene is often out of reach of all points.
             let near =
                 |x: &[f64; D]| (0..D).all(|d| low[d] - 2.0 * h < x[d] && x[d] < high[d] + 2.0 * h);

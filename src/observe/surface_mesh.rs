@@ -146,7 +146,7 @@ impl<T: Real> Simulation<T, 3> {
         let particles = self.body(body)?;
         let mut box_of_all = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
         for particle in particles.clone() {
-            let reach = 2.0 * particle.smoothing_length();
+            let reach = 2.0 * particle.sampling_length();
             for (d, x) in particle.position().into_iter().enumerate() {
                 box_of_all[0][d] = box_of_all[0][d].min(x - reach);
                 box_of_all[1][d] = box_of_all[1][d].max(x + reach);

@@ -197,6 +197,16 @@ impl<T: Real, const D: usize> Scheme<T, D> {
         self.program.permute(seed);
     }
 
+    /// By how much kernels that sample its particles are wider than its own, which on a [lattice that stays](crate::effect::StepProgram::stay)
+    /// may be too narrow for a sum over volumes to be one.
+    pub(crate) fn widening(&self) -> f64 {
+        if self.h_over_dx < self.kernel.range.0 {
+            self.kernel.h_over_dx / self.h_over_dx
+        } else {
+            1.0
+        }
+    }
+
     /// The fields that a particle carries under this scheme.
     #[must_use]
     pub fn fields(&self) -> Fields {

@@ -56,6 +56,15 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         // Not in the order of the list of effects.
         of_effects.sort_by_cached_key(ToString::to_string);
         problems.extend(of_effects);
+        let moving = self.walls.iter().map(|(wall, _)| wall);
+        let moving = moving.filter(|wall| !scheme.program.moves && wall.motion.is_some());
+        problems.extend(moving.map(|wall| Problem::Incompatible {
+            what: format!(
+                "wall `{}` moves through particles of scheme `{}`, which stay where they are",
+                wall.name, scheme.name
+            ),
+            remedy: "let the container be the frame of the scene (Wall::container_frame) and accelerate what is in it (Scene::acceleration)",
+        }));
         for (what, value, must_be) in &scheme.kernel_problems {
             problems.push(Problem::Parameter {
                 what: format!("{what} of the {} kernel", kernel.name),
