@@ -9,6 +9,10 @@ use crate::scalar::Real;
 use crate::tensor::Symmetric;
 
 impl<T: Real, const D: usize> ParticleView<'_, T, D> {
+    /// The length \[m\] of kernels that sample it: the smoothing length, and more where that reaches too few others.
+    pub(crate) fn sampling_length(&self) -> f64 {
+        self.smoothing_length() * self.group.scheme.widening()
+    }
     /// All components of a field, or `None` if the particle does not carry it.
     pub(crate) fn numbers(&self, field: Field) -> Option<&[T]> {
         let width = field.components(D);
@@ -65,6 +69,13 @@ impl<T: Real, const D: usize> ParticleView<'_, T, D> {
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
+    /// The length \[m\] of kernels that sample the group of [`smoothing_length`](Self::smoothing_length).
+    pub(crate) fn sampling_length(&self) -> f64 {
+        let group = self.observed().next();
+        let widening = group.map_or(1.0, |group| group.scheme.widening());
+        self.smoothing_length() * widening
+    }
+
     /// The field with a name, that an effect has declared or the crate knows, of those that particles carry. The full
     /// name, as `meshfree::damage`, does for all, and has to where two have one name.
     ///

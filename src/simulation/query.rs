@@ -97,10 +97,6 @@ impl<T: Real, const D: usize> ParticleView<'_, T, D> {
         self.scalar(Field::SMOOTHING_LENGTH)
             .unwrap_or(self.group.neighborhood.smoothing_length)
     }
-    /// The length \[m\] of kernels that sample it: the smoothing length, and more where that reaches too few others.
-    pub(crate) fn sampling_length(&self) -> f64 {
-        self.smoothing_length() * self.group.scheme.widening()
-    }
 }
 
 /// A wall, and the group of a liquid that meets it.
@@ -387,13 +383,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.observed()
             .next()
             .map_or(0.0, |group| group.neighborhood.smoothing_length)
-    }
-
-    /// The length \[m\] of kernels that sample that group.
-    pub(crate) fn sampling_length(&self) -> f64 {
-        let group = self.observed().next();
-        let widening = group.map_or(1.0, |group| group.scheme.widening());
-        self.smoothing_length() * widening
     }
 
     /// How far the kernel of that group reaches \[m\].
