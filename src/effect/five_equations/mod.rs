@@ -14,7 +14,6 @@ use super::{
     SceneFacts, Setting, StepProgram,
 };
 use crate::error::Problem;
-use crate::material::Material;
 use crate::name;
 use crate::particles::{Field, Fields};
 use crate::scalar::{Lane, Real};
