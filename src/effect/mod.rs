@@ -117,7 +117,7 @@ pub use during::During;
 pub use eulerian::Eulerian;
 pub use evolved::{ByField, BySum, Evolved, Rate, Update, View, When};
 pub use finite_strain_plasticity::FiniteStrainPlasticity;
-pub use five_equations::{FiveEquations, Fluid, FluidFluxes, Rises};
+pub use five_equations::{FiveEquations, Fluid, FluidFluxes, FluidGradients};
 pub use forms::EnergyForm;
 pub(crate) use gradients::CorrectedGradients;
 pub use heat_conduction::{HeatConduction, HeatFlow};

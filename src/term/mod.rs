@@ -307,7 +307,7 @@ macro_rules! for_each_term {
             $crate::effect::ShiftedContinuity,
             $crate::effect::Exchange::<false, true>,
             $crate::effect::Exchange::<true, true>,
-            $crate::effect::Rises,
+            $crate::effect::FluidGradients,
             $crate::effect::FluidFluxes($crate::effect::FiveEquations::new(
                 $crate::material::eos::StiffenedGas::water(),
                 $crate::material::eos::IdealGas::new(1.4, 1.2)

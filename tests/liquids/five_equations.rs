@@ -8,6 +8,7 @@ use meshfree::kernel::WendlandC2;
 use meshfree::material::eos::{IdealGas, StiffenedGas};
 use meshfree::prelude::*;
 use meshfree::scene::Start;
+use meshfree::simulation::ParticleView;
 use std::f64::consts::TAU;
 
 /// Exponents of water and air.
@@ -60,6 +61,12 @@ fn an_interface_is_carried_along() {
         between += usize::from((0.1..0.9).contains(&fraction));
     }
     assert!((2..=6).contains(&between), "{between}");
+    // No fraction was held, and no pressure was without a sound speed.
+    assert!(
+        tube.limits().iter().all(|own| own.1 == 0),
+        "{:?}",
+        tube.limits()
+    );
     let air: f64 = tube
         .all()
         .map(|p| 1.0 - p.scalar(FiveEquations::FRACTION).unwrap())
@@ -319,22 +326,64 @@ fn other_fluids_are_refused() {
         third.contains("`own`") && third.contains("neither fluid"),
         "{third}"
     );
-    let driven = Scene::<f64, 2>::new(SchemeBuilder::five_equations(WendlandC2, two))
-        .body(Body::block(
-            "own",
-            Material::new("own", water),
-            [0.0; 2],
-            [0.1; 2],
-            0.01,
-        ))
-        .wall(
-            Wall::around("tank", [0.0; 2], [0.1; 2], 0.01, 3, [[true; 2]; 2])
-                .motion(Translation::steady([1.0, 0.0])),
-        )
+    let with_cut_off = Material::new("own", water).with_pressure_cut_off(0.0);
+    let built = Scene::<f64, 1>::new(scheme(two))
+        .body(Body::block("own", with_cut_off, [0.0], [1.0], 0.1))
         .build();
-    let driven = driven.err().unwrap().to_string();
+    let cut = built.err().unwrap().to_string();
+    assert!(cut.contains("without a cut-off"), "{cut}");
+    let same = refused(FiveEquations::new(water, water), water).unwrap();
+    assert!(same.contains("are the same"), "{same}");
+    let tank = || {
+        let water = Material::new("own", water);
+        Scene::<f64, 2>::new(scheme(two)).body(Body::block("own", water, [0.0; 2], [0.1; 2], 0.01))
+    };
+    let driven = tank().wall(
+        Wall::around("tank", [0.0; 2], [0.1; 2], 0.01, 3, [[true; 2]; 2])
+            .motion(Translation::steady([1.0, 0.0])),
+    );
+    let driven = driven.build().err().unwrap().to_string();
     assert!(driven.contains("wall `tank` moves"), "{driven}");
+    let pushed = tank().boundary(MirrorPlane::symmetry([0.0; 2], [-1.0, 0.0]).moving(0.1));
+    let pushed = pushed.build().err().unwrap().to_string();
+    assert!(pushed.contains("moves through particles"), "{pushed}");
     let thin = FiveEquations::new(StiffenedGas::new(1.0, 1e6, 1000.0), air);
     let thin = refused(thin, water).unwrap();
     assert!(thin.contains("gamma"), "{thin}");
+}
+
+/// Reading after every step, another number of threads and a copy that goes on change no bit.
+#[test]
+fn readings_threads_and_copies_change_no_bit() {
+    let numbers = |now: &Simulation<f64, 1>| -> Vec<u64> {
+        let of = |p: ParticleView<'_, f64, 1>| {
+            let fraction = p.scalar(FiveEquations::FRACTION).unwrap();
+            [p.mass(), p.velocity()[0], p.energy(), fraction].map(f64::to_bits)
+        };
+        now.all().flat_map(of).collect()
+    };
+    let mut plain = bubble();
+    plain.run_until(2e-3).unwrap();
+    let mut read = bubble();
+    read.run_with(2e-3, |now| {
+        let probe = now.sample(FiveEquations::FRACTION, &[[0.43]]).unwrap();
+        assert!(now.ledger().whole.mass > 0.0 && probe.filling()[0] > 0.9);
+    })
+    .unwrap();
+    assert_eq!(numbers(&plain), numbers(&read));
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build()
+        .unwrap();
+    let alone = pool.install(|| {
+        let mut own = bubble();
+        own.run_until(2e-3).unwrap();
+        numbers(&own)
+    });
+    assert_eq!(numbers(&plain), alone);
+    let mut clone = plain.clone();
+    for own in [&mut plain, &mut clone] {
+        own.run_until(4e-3).unwrap();
+    }
+    assert_eq!(numbers(&plain), numbers(&clone));
 }

@@ -56,18 +56,29 @@ impl Fluid {
     fn pressure(self, density: f64, energy: f64) -> f64 {
         (density * (energy + self.at_rest()) - self.stored()) / self.slope()
     }
-    /// Whether a material obeys it: at rest, compressed, and warm.
+    /// Whether a material obeys it: at rest, compressed, warm, and in tension, which a cut-off would not bear.
     pub(super) fn is<T: Real>(self, material: &Material<T>) -> bool {
         let rest = self.reference_density;
         let warm = (self.stiffness + 1e5) / rest;
-        [(1.0, warm), (1.02, 0.5 * warm), (1.02, 2.0 * warm)]
-            .into_iter()
-            .all(|(share, energy)| {
-                let (density, wanted) = (share * rest, self.pressure(share * rest, energy));
-                let (own, _) = material.state(density, energy);
-                let size = self.stiffness + density * energy;
-                (own - wanted).abs() < 1e-4 * size
-            })
+        // A gas bears none.
+        let tension = if self.stiffness > 0.0 {
+            -0.5 * self.stiffness * self.slope() / rest
+        } else {
+            warm
+        };
+        [
+            (1.0, warm),
+            (1.02, 0.5 * warm),
+            (1.02, 2.0 * warm),
+            (1.0, tension),
+        ]
+        .into_iter()
+        .all(|(share, energy)| {
+            let (density, wanted) = (share * rest, self.pressure(share * rest, energy));
+            let (own, _) = material.state(density, energy);
+            let size = self.stiffness + density * energy.abs();
+            (own - wanted).abs() < 1e-4 * size
+        })
     }
     pub(super) fn problems(self) -> [(&'static str, f64, &'static str); 3] {
         [

@@ -2,7 +2,7 @@
 //! Toro, Spruce & Speares 1994; Vila 1999; Johnsen & Colonius 2006.
 
 use super::super::{Point, PointLaw, Reach, Rung};
-use super::slopes::{ROOM, SCALARS, SLOPES, TURNING};
+use super::gradients::{EXTREMES, GRADIENTS, SCALARS, VELOCITY_GRADIENT};
 use super::{FRACTION, FiveEquations, LIQUID};
 use crate::name;
 use crate::particles::{Field, Fields, Output, Outputs};
@@ -17,9 +17,10 @@ const MOMENTUM: Output = Output::vector(name!("momentum_of_fluids", "N"));
 const ENERGY: Output = Output::scalar(name!("energy_of_fluids", "W"));
 const CARRIED: Output = Output::scalar(name!("carried_volume_fraction", "1/s"));
 
-/// What the slopes on both sides of a particle leave of half the difference to a neighbour, with the slope ahead and behind: van Leer's harmonic mean.
+/// Half the slope at a particle towards a neighbour: half the harmonic mean of the difference `ahead` and of that behind, which with it makes `twice` the
+/// slope of the gradient (van Leer 1979).
 #[inline(always)]
-fn half_of<L: Lane>(ahead: L, twice: L) -> L {
+fn half_by_van_leer<L: Lane>(ahead: L, twice: L) -> L {
     let behind = twice - ahead;
     let product = ahead * behind;
     let alike = product.gt(L::zero());
@@ -27,16 +28,16 @@ fn half_of<L: Lane>(ahead: L, twice: L) -> L {
     L::select(alike, product, L::zero()) / sum
 }
 
-/// What of the difference to a neighbour the fraction at the middle takes: all of it, as far as the other neighbours show that the upwind side has
-/// it (Després & Lagoutière 2001). Without a limit it would be the downwind fraction, which keeps interfaces sharp.
+/// What of the difference to a neighbour the fraction at the middle takes: all of it, which makes it that of downwind and keeps interfaces sharp, but no
+/// more than by which the fraction changes on the other side, so that no particle gives what it does not have (Després & Lagoutière 2001).
 #[inline(always)]
-fn sharp_part_of<L: Lane>(ahead: L, above: L, below: L) -> L {
+fn limited_downwind<L: Lane>(ahead: L, above: L, below: L) -> L {
     let rises = ahead.gt(L::zero());
     let part = ahead.abs().min(L::select(rises, below, above));
     L::select(rises, part, -part)
 }
 
-/// What a pair of particles passes to each other.
+/// Mass, momentum, energy and volume fraction that a pair of particles of [`FiveEquations`] passes to each other.
 #[derive(Clone, Copy, Debug)]
 pub struct FluidFluxes(pub FiveEquations);
 
@@ -95,13 +96,13 @@ impl<const D: usize> Term<D> for FluidFluxes {
         SCALARS[0],
         SCALARS[1],
         SCALARS[2],
-        SLOPES[0],
-        SLOPES[1],
-        SLOPES[2],
-        TURNING,
+        GRADIENTS[0],
+        GRADIENTS[1],
+        GRADIENTS[2],
+        VELOCITY_GRADIENT,
         FRACTION,
-        ROOM[0],
-        ROOM[1],
+        EXTREMES[0],
+        EXTREMES[1],
     ]);
     const WRITES: Outputs = Outputs::of(&[MASS, LIQUID_MASS, MOMENTUM, ENERGY, CARRIED]);
     #[inline(always)]
@@ -116,28 +117,32 @@ impl<const D: usize> Term<D> for FluidFluxes {
         for k in 0..3 {
             let (mut twice_i, mut twice_j) = (L::zero(), L::zero());
             for d in 0..D {
-                twice_i = pair.i_at(SLOPES[k], d).mul_add(pair.r[d], twice_i);
-                twice_j = pair.j_at(SLOPES[k], d).mul_add(pair.r[d], twice_j);
+                twice_i = pair.i_at(GRADIENTS[k], d).mul_add(pair.r[d], twice_i);
+                twice_j = pair.j_at(GRADIENTS[k], d).mul_add(pair.r[d], twice_j);
             }
             let (own, other) = (pair.i(SCALARS[k]), pair.j(SCALARS[k]));
             let ahead = other - own;
-            at_i[k] = own + half_of(ahead, L::of(-2.0) * twice_i);
-            at_j[k] = other - half_of(ahead, L::of(-2.0) * twice_j);
+            at_i[k] = own + half_by_van_leer(ahead, L::of(-2.0) * twice_i);
+            at_j[k] = other - half_by_van_leer(ahead, L::of(-2.0) * twice_j);
         }
         let (own, other) = (pair.i(FRACTION), pair.j(FRACTION));
         let ahead = other - own;
-        let from_i = own + sharp_part_of(ahead, pair.i(ROOM[0]), pair.i(ROOM[1]));
-        let from_j = other + sharp_part_of(-ahead, pair.j(ROOM[0]), pair.j(ROOM[1]));
+        let from_i = own + limited_downwind(ahead, pair.i(EXTREMES[0]), pair.i(EXTREMES[1]));
+        let from_j = other + limited_downwind(-ahead, pair.j(EXTREMES[0]), pair.j(EXTREMES[1]));
         let (mut u_i, mut u_j) = ([L::zero(); D], [L::zero(); D]);
         for a in 0..D {
             let (mut twice_i, mut twice_j) = (L::zero(), L::zero());
             for b in 0..D {
-                twice_i = pair.i_at(TURNING, a * D + b).mul_add(pair.r[b], twice_i);
-                twice_j = pair.j_at(TURNING, a * D + b).mul_add(pair.r[b], twice_j);
+                twice_i = pair
+                    .i_at(VELOCITY_GRADIENT, a * D + b)
+                    .mul_add(pair.r[b], twice_i);
+                twice_j = pair
+                    .j_at(VELOCITY_GRADIENT, a * D + b)
+                    .mul_add(pair.r[b], twice_j);
             }
             let ahead = -pair.v[a];
-            u_i[a] = pair.i_at(Field::VELOCITY, a) + half_of(ahead, L::of(-2.0) * twice_i);
-            u_j[a] = pair.j_at(Field::VELOCITY, a) - half_of(ahead, L::of(-2.0) * twice_j);
+            u_i[a] = pair.i_at(Field::VELOCITY, a) + half_by_van_leer(ahead, L::of(-2.0) * twice_i);
+            u_j[a] = pair.j_at(Field::VELOCITY, a) - half_by_van_leer(ahead, L::of(-2.0) * twice_j);
         }
         let left = self.side(from_i, at_i, u_i, &normal);
         let right = self.side(from_j, at_j, u_j, &normal);
@@ -217,11 +222,11 @@ impl<const D: usize> Term<D> for FluidFluxes {
     }
 }
 
-/// Gives each particle what the others have passed to it.
+/// Gives each particle what the others have passed to it, and holds fractions between zero and one.
 #[derive(Clone, Copy, Debug)]
-pub(in super::super) struct Passed;
+pub(in super::super) struct FluidExchange;
 
-impl<const D: usize> PointLaw<D> for Passed {
+impl<const D: usize> PointLaw<D> for FluidExchange {
     const NAME: &'static str = "exchange of two fluids";
     const READS: Fields = Fields::of(&[
         Field::WEIGHT,
@@ -260,6 +265,32 @@ impl<const D: usize> PointLaw<D> for Passed {
         let liquid = at.get(LIQUID) + at.dt() * at.sum(LIQUID_MASS);
         at.set(LIQUID, liquid);
         let fraction = at.get(FRACTION) + at.dt() * at.sum(CARRIED);
+        // A millionth beyond is rounding, and more is counted.
+        let (least, most) = (L::of(-1e-6), L::of(1.0 + 1e-6));
+        at.limited(fraction.lt(least) | fraction.gt(most));
         at.set(FRACTION, fraction.max(L::zero()).min(L::one()));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_linear_field_is_met_in_the_middle_and_an_extreme_is_left() {
+        // Differences of 2 on both sides, of 2 and 6, and of 2 and −2.
+        approx::assert_relative_eq!(half_by_van_leer(2.0, 4.0), 1.0);
+        approx::assert_relative_eq!(half_by_van_leer(2.0, 8.0), 1.5);
+        assert_eq!(half_by_van_leer(2.0, 0.0), 0.0);
+        assert_eq!(half_by_van_leer(0.0, 0.0), 0.0);
+    }
+
+    #[test]
+    fn the_fraction_is_that_of_downwind_as_far_as_it_is_there() {
+        assert_eq!(limited_downwind(0.5, 0.5, 0.7), 0.5);
+        assert_eq!(limited_downwind(0.5, 0.5, 0.1), 0.1);
+        assert_eq!(limited_downwind(-0.5, 0.2, 0.5), -0.2);
+        // A particle without liquid gives none.
+        assert_eq!(limited_downwind(1.0, 1.0, 0.0), 0.0);
     }
 }

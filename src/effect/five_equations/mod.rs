@@ -3,11 +3,11 @@
 
 mod fluid;
 mod fluxes;
-mod slopes;
+mod gradients;
 
 pub use fluid::Fluid;
 pub use fluxes::FluidFluxes;
-pub use slopes::Rises;
+pub use gradients::FluidGradients;
 
 use super::{
     Around, CONSTANTS, DensityForm, Effect, LedgerColumn, Point, PointLaw, PointLimit, Reach, Rung,
@@ -18,8 +18,8 @@ use crate::name;
 use crate::particles::{Field, Fields};
 use crate::scalar::{Lane, Real};
 use crate::term::{In, Stage, TermDoc, stage};
-use fluxes::Passed;
-use slopes::{ROOM, SLOPES, Slopes, TURNING};
+use fluxes::FluidExchange;
+use gradients::{CorrectedFluidGradients, EXTREMES, GRADIENTS, VELOCITY_GRADIENT};
 
 /// Two fluids, as water and air, on particles that stay where they are: mass, momentum and energy pass between them as an approximate
 /// solution of the Riemann problem at the middle of each pair says, and an interface is where the volume fraction α of the
@@ -41,9 +41,11 @@ use slopes::{ROOM, SLOPES, Slopes, TURNING};
 /// | [`FRACTION`](Self::FRACTION) | volume fraction α of the liquid |
 /// | [`LIQUID`](Self::LIQUID) | mass of the liquid \[kg\]; in the ledger as `liquid mass` |
 /// | limit of the step | 0.2 h/(c + \|u\|) |
+/// | [limits](crate::simulation::Simulation::limits) | pressures without a sound speed, as below zero in air, as `state of two fluids`; fractions that a step takes beyond zero or one, as `exchange of two fluids` |
 ///
 /// It is the list of effects of [`SchemeBuilder::five_equations`](crate::scheme::SchemeBuilder::five_equations). Bodies are of one of the two fluids each, by the equations of state of their
 /// materials; a scene with a third one is refused.
+/// Work that other forces dissipate, as that of a viscosity, is not kept as heat.
 /// Walls must not move in the frame of the scene: let the container [be the frame](crate::boundary::Wall::container_frame). Forces on walls are not
 /// summed: take pressures of the particles before them, or [sample](crate::simulation::Simulation::sample) them, since a
 /// [probe](crate::observe::PressureProbe) counts from the pressure of a dry wall, zero.
@@ -138,26 +140,26 @@ impl FiveEquations {
 
 impl<const D: usize> Effect<D> for FiveEquations {
     type Terms = (
-        In<stage::Gradients, Rises>,
+        In<stage::Gradients, FluidGradients>,
         In<stage::Continuity, FluidFluxes>,
     );
     fn terms(&self, _setting: &Setting) -> Self::Terms {
-        (In::new(Rises), In::new(FluidFluxes(*self)))
+        (In::new(FluidGradients), In::new(FluidFluxes(*self)))
     }
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
         let own = *self;
         program.declare(FRACTION, 0.0);
         program.declare(LIQUID, 0.0);
-        for field in SLOPES.into_iter().chain(ROOM) {
+        for field in GRADIENTS.into_iter().chain(EXTREMES) {
             program.declare(field, 0.0);
         }
-        program.declare(TURNING, 0.0);
+        program.declare(VELOCITY_GRADIENT, 0.0);
         program.stay();
         program.give_state();
         program.law(Stage::Reference, Filled(own));
         program.law(Stage::State, MixtureState(own));
-        program.law(Stage::Gradients, Slopes);
-        program.law(Stage::Continuity, Passed);
+        program.law(Stage::Gradients, CorrectedFluidGradients);
+        program.law(Stage::Continuity, FluidExchange);
         program.limit(own);
         program.ledger(LedgerColumn {
             name: "liquid mass",
@@ -186,7 +188,13 @@ impl<const D: usize> Effect<D> for FiveEquations {
                 remedy: "leave out the viscosity or effect that reads gradients: fluxes of FiveEquations dissipate by themselves",
             })
         });
-        program.require(move |scene| own.stranger(scene));
+        program.require(move |_| {
+            (own.liquid == own.gas).then(|| Problem::Incompatible {
+                what: "the two fluids of FiveEquations are the same".into(),
+                remedy: "give it a liquid and a gas, or take Eulerian for one liquid",
+            })
+        });
+        program.require(move |scene| own.unknown_fluid(scene));
     }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         let fluids = [self.liquid, self.gas].into_iter();
@@ -211,7 +219,7 @@ impl FiveEquations {
     }
 
     /// Why a scene cannot have it: a body of neither fluid.
-    fn stranger<T: Real>(&self, scene: &SceneFacts<'_, T>) -> Option<Problem> {
+    fn unknown_fluid<T: Real>(&self, scene: &SceneFacts<'_, T>) -> Option<Problem> {
         let mut bodies = scene.bodies.iter();
         let (body, material) = bodies.find(|(_, own)| !self.liquid.is(own) && !self.gas.is(own))?;
         Some(Problem::Incompatible {
@@ -219,7 +227,7 @@ impl FiveEquations {
                 "the equation of state of body `{body}`, of {}, is that of neither fluid of FiveEquations",
                 material.name
             ),
-            remedy: "give the material the StiffenedGas or IdealGas that FiveEquations::new was given",
+            remedy: "give the material the StiffenedGas or IdealGas that FiveEquations::new was given, without a cut-off",
         })
     }
 }
@@ -273,8 +281,12 @@ impl<const D: usize> PointLaw<D> for MixtureState {
         let energy = density * at.get(Field::ENERGY) + self.0.at_rest(liquid, gas);
         let pressure = (energy - stored) / slope;
         at.set(Field::PRESSURE, pressure);
-        let squared = self.0.squared_speed(mixed, pressure, density);
-        at.set(Field::SOUND_SPEED, squared.sqrt());
+        let (squared, slowest) = (
+            self.0.squared_speed(mixed, pressure, density),
+            L::of(self.0.slowest()),
+        );
+        at.limited(squared.lt(slowest));
+        at.set(Field::SOUND_SPEED, squared.max(slowest).sqrt());
         let parts = [(fraction, liquid), (L::one() - fraction, gas)];
         let fluids = [self.0.liquid, self.0.gas];
         for ((field, fluid), (fraction, partial)) in DENSITIES.into_iter().zip(fluids).zip(parts) {

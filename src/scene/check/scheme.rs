@@ -14,6 +14,25 @@ use crate::term::Stage;
 use std::sync::Arc;
 
 impl<T: Real, const D: usize> Plan<'_, T, D> {
+    /// Particles that stay are a lattice that nothing may move through.
+    fn check_what_stays(&self, problems: &mut Vec<Problem>) {
+        if self.scheme.program.moves {
+            return;
+        }
+        let walls = self.walls.iter().map(|(wall, _)| wall);
+        let walls = walls.filter(|wall| wall.motion.is_some());
+        let walls = walls.map(|wall| format!("wall `{}`", wall.name));
+        let boundaries = self.scene.boundaries.iter().filter(|own| own.moves());
+        let moving = walls.chain(boundaries.map(|own| own.name()));
+        problems.extend(moving.map(|what| Problem::Incompatible {
+            what: format!(
+                "{what} moves through particles of the scheme {}, which stay where they are",
+                self.scheme.name
+            ),
+            remedy: "let the container be the frame of the scene (Wall::container_frame) and accelerate what is in it (Scene::acceleration)",
+        }));
+    }
+
     pub(in crate::scene) fn check_scheme(&self, problems: &mut Vec<Problem>) {
         let (scheme, kernel) = (&self.scheme, self.scheme.kernel);
         let (lowest, highest) = kernel.range;
@@ -56,15 +75,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         // Not in the order of the list of effects.
         of_effects.sort_by_cached_key(ToString::to_string);
         problems.extend(of_effects);
-        let moving = self.walls.iter().map(|(wall, _)| wall);
-        let moving = moving.filter(|wall| !scheme.program.moves && wall.motion.is_some());
-        problems.extend(moving.map(|wall| Problem::Incompatible {
-            what: format!(
-                "wall `{}` moves through particles of scheme `{}`, which stay where they are",
-                wall.name, scheme.name
-            ),
-            remedy: "let the container be the frame of the scene (Wall::container_frame) and accelerate what is in it (Scene::acceleration)",
-        }));
+        self.check_what_stays(problems);
         for (what, value, must_be) in &scheme.kernel_problems {
             problems.push(Problem::Parameter {
                 what: format!("{what} of the {} kernel", kernel.name),
