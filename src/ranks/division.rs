@@ -20,6 +20,11 @@ impl Division {
         }
     }
 
+    /// Whether every rank has particles that move by forces.
+    pub fn is_full(&self) -> bool {
+        self.bounds[0].windows(2).all(|own| own[0] < own[1])
+    }
+
     /// The chunks of a rank.
     pub fn of(&self, rank: usize) -> [Range<usize>; 2] {
         self.bounds.each_ref().map(|bounds| {
@@ -86,6 +91,7 @@ mod tests {
         let mut sorted = all.clone();
         sorted.sort_unstable();
         assert_eq!(sorted, [0, 1, 2]);
+        assert!(!division.is_full() && Division::new(&[5, 5, 5], 2, 2).is_full());
         assert_eq!(Division::new(&[], 0, 3).of(2), [0..0, 0..0]);
         assert_eq!((0..3).map(|rank| even(7, rank, 3).len()).sum::<usize>(), 7);
     }

@@ -115,7 +115,9 @@ impl<T: Real, const D: usize> Group<T, D> {
                 .all(|wall| wall.structure.is_none() && wall.inflow.is_none())
             // What settles together is cut from the first slot of a body on.
             && (!settles || bodies.iter().all(|body| body.slots.start % PIECE == 0))
-            && (self.share.as_ref()).is_some_and(|share| share.is_divided(&self.neighborhood.lists))
+            && (self.share.as_ref()).is_some_and(|share| {
+                share.division().is_full() && share.is_divided(&self.neighborhood.lists)
+            })
     }
 
     /// The ranks, if this one has its own particles alone.

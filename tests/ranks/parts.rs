@@ -8,8 +8,10 @@ use super::scenes::{
 };
 use super::watched;
 use meshfree::boundary::Wall;
-use meshfree::effect::Hypoelastic;
-use meshfree::material::SoundSpeed;
+use meshfree::effect::{FiveEquations, Hypoelastic, NeoHookean};
+use meshfree::kernel::WendlandC2;
+use meshfree::material::eos::{IdealGas, Linear, StiffenedGas};
+use meshfree::material::{Material, SoundSpeed};
 use meshfree::prelude::*;
 use meshfree::ranks::{self, Ranks};
 use meshfree::run::{Run, Schedule};
@@ -50,6 +52,23 @@ fn told<T: Real, const D: usize>(scene: Scene<T, D>, end: f64, shares: &[f64]) -
 /// Compares runs of so many steps on ranks, and so many threads of each, with a plain one, over at least so many list builds.
 fn one_set_of_bits_in_parts<T: Real, const D: usize>(
     name: &'static str,
+    least: (usize, u64),
+    divides: bool,
+    scene: impl Fn() -> Scene<T, D> + Send + Sync + 'static,
+) {
+    one_set_of_bits_on(
+        &[[1, 1], [2, 1], [3, 2], [4, 1]],
+        name,
+        least,
+        divides,
+        scene,
+    );
+}
+
+/// The same on some numbers of ranks and threads.
+fn one_set_of_bits_on<T: Real, const D: usize>(
+    ranks: &'static [[usize; 2]],
+    name: &'static str,
     (steps, builds): (usize, u64),
     divides: bool,
     scene: impl Fn() -> Scene<T, D> + Send + Sync + 'static,
@@ -68,7 +87,7 @@ fn one_set_of_bits_in_parts<T: Real, const D: usize>(
             unseen.said[..] == plain.said[READ.len() - 1..],
             "{name}: read"
         );
-        for [count, threads] in [[1, 1], [2, 1], [3, 2], [4, 1]] {
+        for &[count, threads] in ranks {
             let program = |ranks: Arc<dyn Ranks>| told(scene().on_ranks(ranks), end, &READ);
             let all = ranks::in_threads(count, threads, program).expect("threads");
             for (rank, own) in all.into_iter().enumerate() {
@@ -150,6 +169,60 @@ fn a_plate_that_strikes_a_wall_runs_as_before() {
 fn a_plate_that_is_held_runs_as_before() {
     one_set_of_bits_in_parts("held plate", (40, 1), false, || {
         bent_plate().fix("plate", |[x, _]| *x < 0.05)
+    });
+}
+
+#[test]
+fn few_particles_on_many_ranks_run_as_before() {
+    const MANY: [[usize; 2]; 2] = [[3, 1], [6, 1]];
+    one_set_of_bits_on(&MANY, "few in a rod", (300, 3), false, || {
+        let rod = Body::block("rod", catalogue::copper(), [0.0], [0.01], 4e-4);
+        Scene::<f64, 1>::new(schemes::impact())
+            .body(rod.velocity([900.0]))
+            .boundary(Periodic::along(0, 0.0, 0.01))
+    });
+    one_set_of_bits_on(&MANY, "few in a dam break", (150, 3), false, || {
+        let water = catalogue::weakly_compressible_water(4.0);
+        let open = [[true; 2], [true, false]];
+        Scene::<f64, 2>::new(schemes::weakly_compressible())
+            .body(Body::block("water", water, [0.0; 2], [0.1, 0.2], DX))
+            .wall(Wall::around("tank", [0.0; 2], [0.3, 0.3], DX, 4, open))
+            .acceleration(down)
+    });
+    one_set_of_bits_on(&MANY, "few in a tank of two fluids", (60, 1), false, || {
+        let (water, air) = (StiffenedGas::new(4.4, 1e6, 1000.0), IdealGas::new(1.4, 1.2));
+        let scheme = SchemeBuilder::five_equations(WendlandC2, FiveEquations::new(water, air));
+        let block = |name, fluid: Material<f64>, low, high, energy| {
+            Body::block(name, fluid, [0.0, low], [0.2, high], DX).energy(energy)
+        };
+        let liquid = Material::new("water", water);
+        Scene::<f64, 2>::new(scheme)
+            .body(block("water", liquid, 0.0, 0.1, 1e5 / 3400.0))
+            .body(block(
+                "air",
+                Material::new("air", air),
+                0.1,
+                0.2,
+                1e5 / 0.48,
+            ))
+            .wall(Wall::around(
+                "tank",
+                [0.0; 2],
+                [0.2; 2],
+                DX,
+                3,
+                [[true; 2]; 2],
+            ))
+            .acceleration(|_| [20.0, -9.81])
+    });
+    one_set_of_bits_on(&MANY, "few in a plate", (80, 1), false, || {
+        let rubber = Material::new("rubber", Linear::new(1100.0, 40.0)).with_shear_modulus(5e5);
+        let plate = Body::block("plate", rubber, [0.0; 2], [0.3, 0.1], DX);
+        let plate = plate.start(|[x, _], start| Start {
+            velocity: [0.0, 9.0 * x * x],
+            ..start
+        });
+        Scene::<f64, 2>::new(schemes::total_lagrangian().with(NeoHookean)).body(plate)
     });
 }
 
