@@ -309,7 +309,7 @@ macro_rules! for_each_term {
             $crate::effect::Exchange::<true, true>,
             $crate::effect::FluidGradients,
             $crate::effect::FluidFluxes($crate::effect::FiveEquations::new(
-                $crate::material::eos::StiffenedGas::water(),
+                $crate::material::eos::StiffenedGas::new(4.4, 2.0, 1.0),
                 $crate::material::eos::IdealGas::new(1.4, 1.2)
             )),
             $crate::effect::PressureSlope,
