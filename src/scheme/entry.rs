@@ -136,13 +136,14 @@ impl Entries {
         let bounds = has_laws(Stage::Bounds).then_some(Entry::Laws(Stage::Bounds));
         let summed = scheme.sweep(Stage::Continuity);
         let mut drift = [
+            has_laws(Stage::HalfStep).then_some(Entry::Laws(Stage::HalfStep)),
             summed.map(|_| Entry::Sweep(Stage::Continuity)),
             evolves(When::Drift).then_some(Entry::Evolve(When::Drift)),
             has_laws(Stage::Continuity).then_some(Entry::Laws(Stage::Continuity)),
             None,
         ];
         let acts = drift.iter().any(Option::is_some);
-        drift[3] = bounds.filter(|_| acts);
+        drift[4] = bounds.filter(|_| acts);
         let kick = [
             Some(Entry::Velocity),
             evolves(When::Kick).then_some(Entry::Evolve(When::Kick)),

@@ -35,6 +35,8 @@ pub enum Stage {
     Flow,
     /// Forces and rates.
     Rates,
+    /// States half a drift ahead, from which the next stage sums.
+    HalfStep,
     /// The rate of density, and what is summed with it.
     Continuity,
     /// Limits of evolved fields.
@@ -45,7 +47,7 @@ impl Stage {
     /// How many there are.
     pub const COUNT: usize = Self::ALL.len();
     /// All, in the order of a step.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Reference,
         Self::Contacts,
         Self::Density,
@@ -54,6 +56,7 @@ impl Stage {
         Self::Gradients,
         Self::Flow,
         Self::Rates,
+        Self::HalfStep,
         Self::Continuity,
         Self::Bounds,
     ];
@@ -70,6 +73,7 @@ impl Stage {
             Self::Gradients => "gradients",
             Self::Flow => "flow",
             Self::Rates => "rates",
+            Self::HalfStep => "half step",
             Self::Continuity => "continuity",
             Self::Bounds => "bounds",
         }

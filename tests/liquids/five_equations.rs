@@ -308,6 +308,35 @@ fn water_under_air_stays_at_rest() {
     }
 }
 
+/// Sound of fifty particles a wave length keeps its height over four periods, and never gains.
+#[test]
+fn sound_does_not_grow() {
+    let (water, air) = fluids(1e6, 1.2);
+    let sound = (GAMMA[0] * (REST + 1e6) / 1000.0).sqrt();
+    let scheme = SchemeBuilder::five_equations(WendlandC2, FiveEquations::new(water, air));
+    let wave = Body::block("water", Material::new("water", water), [0.0], [1.0], 0.02);
+    let mut tube = Scene::<f64, 1>::new(scheme)
+        .body(wave.start(move |[x], start| Start {
+            velocity: [1e-3 * sound * (TAU * x).sin()],
+            energy: energy(REST, GAMMA[0], 1000.0),
+            ..start
+        }))
+        .boundary(Periodic::along(0, 0.0, 1.0))
+        .build()
+        .unwrap();
+    let mut before = 1.0;
+    for period in 1..=4 {
+        tube.run_until(f64::from(period) / sound).unwrap();
+        let along = |p: ParticleView<'_, f64, 1>| p.velocity()[0] * (TAU * p.position()[0]).sin();
+        let height = tube.all().map(along).sum::<f64>() / (0.5 * 50.0 * 1e-3 * sound);
+        assert!(
+            height < before && height > before - 0.006,
+            "{period} {height}"
+        );
+        before = height;
+    }
+}
+
 /// A third fluid, and fluids that cannot be, are refused by name.
 #[test]
 fn other_fluids_are_refused() {
@@ -347,6 +376,8 @@ fn other_fluids_are_refused() {
     let pushed = tank().boundary(MirrorPlane::symmetry([0.0; 2], [-1.0, 0.0]).moving(0.1));
     let pushed = pushed.build().err().unwrap().to_string();
     assert!(pushed.contains("moves through particles"), "{pushed}");
+    let late = tank().integrator(DriftKickDrift).build().err().unwrap();
+    assert!(late.to_string().contains("half a step behind"), "{late}");
     let thin = FiveEquations::new(StiffenedGas::new(1.0, 1e6, 1000.0), air);
     let thin = refused(thin, water).unwrap();
     assert!(thin.contains("gamma"), "{thin}");

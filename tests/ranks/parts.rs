@@ -3,7 +3,7 @@
 
 use super::bits::said;
 use super::scenes::{
-    DX, bent_plate, corner, crushed_tank, dam_break, periodic_gas, plate_at_wall, rod,
+    DX, bent_plate, corner, crushed_tank, dam_break, down, periodic_gas, plate_at_wall, rod,
     rod_by_runge_kutta, tank_in_space,
 };
 use super::watched;

@@ -3,6 +3,7 @@
 
 use super::super::{Point, PointLaw, Reach, Rung};
 use super::gradients::{EXTREMES, GRADIENTS, SCALARS, VELOCITY_GRADIENT};
+use super::half_step::HALF_STEP_VELOCITY;
 use super::{FRACTION, FiveEquations, LIQUID};
 use crate::name;
 use crate::particles::{Field, Fields, Output, Outputs};
@@ -100,6 +101,7 @@ impl<const D: usize> Term<D> for FluidFluxes {
         GRADIENTS[1],
         GRADIENTS[2],
         VELOCITY_GRADIENT,
+        HALF_STEP_VELOCITY,
         FRACTION,
         EXTREMES[0],
         EXTREMES[1],
@@ -140,9 +142,13 @@ impl<const D: usize> Term<D> for FluidFluxes {
                     .j_at(VELOCITY_GRADIENT, a * D + b)
                     .mul_add(pair.r[b], twice_j);
             }
-            let ahead = -pair.v[a];
-            u_i[a] = pair.i_at(Field::VELOCITY, a) + half_by_van_leer(ahead, L::of(-2.0) * twice_i);
-            u_j[a] = pair.j_at(Field::VELOCITY, a) - half_by_van_leer(ahead, L::of(-2.0) * twice_j);
+            let (own, other) = (
+                pair.i_at(HALF_STEP_VELOCITY, a),
+                pair.j_at(HALF_STEP_VELOCITY, a),
+            );
+            let ahead = other - own;
+            u_i[a] = own + half_by_van_leer(ahead, L::of(-2.0) * twice_i);
+            u_j[a] = other - half_by_van_leer(ahead, L::of(-2.0) * twice_j);
         }
         let left = self.side(from_i, at_i, u_i, &normal);
         let right = self.side(from_j, at_j, u_j, &normal);

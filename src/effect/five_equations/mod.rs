@@ -4,6 +4,7 @@
 mod fluid;
 mod fluxes;
 mod gradients;
+mod half_step;
 
 pub use fluid::Fluid;
 pub use fluxes::FluidFluxes;
@@ -14,12 +15,14 @@ use super::{
     SceneFacts, Setting, StepProgram,
 };
 use crate::error::Problem;
+use crate::integrator::{DriftKickDrift, Integrator};
 use crate::name;
 use crate::particles::{Field, Fields};
 use crate::scalar::{Lane, Real};
 use crate::term::{In, Stage, TermDoc, stage};
 use fluxes::FluidExchange;
 use gradients::{CorrectedFluidGradients, EXTREMES, GRADIENTS, VELOCITY_GRADIENT};
+use half_step::{HALF_STEP_VELOCITY, HalfStep};
 
 /// Two fluids, as water and air, on particles that stay where they are: mass, momentum and energy pass between them as an approximate
 /// solution of the Riemann problem at the middle of each pair says, and an interface is where the volume fraction α of the
@@ -29,18 +32,18 @@ use gradients::{CorrectedFluidGradients, EXTREMES, GRADIENTS, VELOCITY_GRADIENT}
 ///
 /// with the volume V \[m³\] of a particle, its fluids' densities ρ₁, ρ₂ \[kg/m³\], velocity u \[m/s\], pressure p \[Pa\], energy E \[J/m³\], and fluxes G of
 /// HLLC (Toro, Spruce & Speares 1994). Densities, velocity and pressure at the middle are reconstructed from both sides with gradients that
-/// are exact for linear fields, limited as van Leer (1979) does; the fraction is that of downwind, as far as the upwind side has it (Després &
+/// are exact for linear fields, limited as van Leer (1979) does, half a step ahead (Hancock; van Leer 1984); the fraction is that of downwind, as far as the upwind side has it (Després &
 /// Lagoutière 2001). Both fluids have one pressure, so an interface that is carried along leaves pressure and velocity as they are.
 ///
 /// **Where to take it**: sloshing, impact of liquids and shocks on a lattice between walls or across periods that fluids fill, and where breaking and
 /// merging matter more than the last drop. Each side of a bubble is two spacings wide after it has moved a hundred. It is of second
-/// order in space and of first in time. Air is compressed, so steps are those of its sound.
+/// order in space and time. Air is compressed, so steps are those of its sound.
 ///
 /// | it adds | as |
 /// |---|---|
 /// | [`FRACTION`](Self::FRACTION) | volume fraction α of the liquid |
 /// | [`LIQUID`](Self::LIQUID) | mass of the liquid \[kg\]; in the ledger as `liquid mass` |
-/// | limit of the step | 0.2 h/(c + \|u\|) |
+/// | limit of the step | 0.4 h/(c + \|u\|) |
 /// | [limits](crate::simulation::Simulation::limits) | pressures without a sound speed, as below zero in air, as `state of two fluids`; fractions that a step takes beyond zero or one, as `exchange of two fluids` |
 ///
 /// It is the list of effects of [`SchemeBuilder::five_equations`](crate::scheme::SchemeBuilder::five_equations). Bodies are of one of the two fluids each, by the equations of state of their
@@ -154,11 +157,13 @@ impl<const D: usize> Effect<D> for FiveEquations {
             program.declare(field, 0.0);
         }
         program.declare(VELOCITY_GRADIENT, 0.0);
+        program.declare(HALF_STEP_VELOCITY, 0.0);
         program.stay();
         program.give_state();
         program.law(Stage::Reference, Filled(own));
         program.law(Stage::State, MixtureState(own));
         program.law(Stage::Gradients, CorrectedFluidGradients);
+        program.law(Stage::HalfStep, HalfStep);
         program.law(Stage::Continuity, FluidExchange);
         program.limit(own);
         program.ledger(LedgerColumn {
@@ -192,6 +197,13 @@ impl<const D: usize> Effect<D> for FiveEquations {
             (own.liquid == own.gas).then(|| Problem::Incompatible {
                 what: "the two fluids of FiveEquations are the same".into(),
                 remedy: "give it a liquid and a gas, or take Eulerian for one liquid",
+            })
+        });
+        program.require(|scene| {
+            let late = scene.integrator == DriftKickDrift.name();
+            late.then(|| Problem::Incompatible {
+                what: "FiveEquations passes on what the last evaluation found, which drift-kick-drift leaves half a step behind".into(),
+                remedy: "take KickDriftKick, whose drift begins where it was evaluated",
             })
         });
         program.require(move |scene| own.unknown_fluid(scene));
@@ -298,7 +310,7 @@ impl<const D: usize> PointLaw<D> for MixtureState {
 }
 
 impl<const D: usize> PointLimit<D> for FiveEquations {
-    const NAME: &'static str = "sound and flow of two fluids: 0.2 h/(c + |u|)";
+    const NAME: &'static str = "sound and flow of two fluids: 0.4 h/(c + |u|)";
     const READS: Fields = Fields::of(&[Field::SOUND_SPEED, Field::VELOCITY]);
     #[inline(always)]
     fn step<L: Lane, P: Reach>(&self, at: &Point<'_, L, D, P>) -> L {
@@ -306,6 +318,6 @@ impl<const D: usize> PointLimit<D> for FiveEquations {
         for u in at.vector(Field::VELOCITY) {
             square += u * u;
         }
-        L::of(0.2 * at.around.smoothing_length) / (at.get(Field::SOUND_SPEED) + square.sqrt())
+        L::of(0.4 * at.around.smoothing_length) / (at.get(Field::SOUND_SPEED) + square.sqrt())
     }
 }
