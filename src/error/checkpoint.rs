@@ -1,6 +1,7 @@
 //! Why a simulation cannot go on from a checkpoint.
 //! A problem says what differs and what to resume with.
 
+use std::path::PathBuf;
 use thiserror::Error;
 
 /// Why a simulation cannot go on from a checkpoint.
@@ -12,6 +13,21 @@ pub enum CheckpointProblem {
     Damaged {
         /// Where it shows.
         detail: String,
+    },
+    /// The file of one of the ranks that wrote it is not there, or is another.
+    #[error(
+        "its part {}, of rank {rank} of {count}, {fault}: bring all files of the checkpoint into one folder under their \
+         names, or take an older checkpoint", part.display()
+    )]
+    Part {
+        /// The file.
+        part: PathBuf,
+        /// The rank that wrote it.
+        rank: usize,
+        /// How many ranks there were.
+        count: usize,
+        /// What is wrong with it.
+        fault: String,
     },
     /// Another version of the crate wrote it, which held another state.
     #[error(

@@ -3,9 +3,14 @@
 //!
 //! The last column, `checksum`, is the hash of every byte before it.
 
+mod parts;
+
 pub(crate) use super::hash::Hash;
+pub(crate) use parts::Before;
+
 use super::{file_error, make_folder};
 use crate::error::{CheckpointProblem, Error, Result};
+use crate::ranks::even;
 use crate::scalar::Real;
 use safetensors::{Dtype, SafeTensors, View};
 use std::borrow::Cow;
@@ -46,11 +51,23 @@ macro_rules! numbers {
 
 numbers!(u8: U8, u32: U32, u64: U64, f32: F32, f64: F64);
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 struct Column {
     kind: Dtype,
     shape: Vec<usize>,
     bytes: Vec<u8>,
+}
+
+impl Column {
+    fn of<N: Number>(shape: Vec<usize>, numbers: impl Iterator<Item = N>) -> Self {
+        let mut bytes = Vec::with_capacity(size_of::<N>() * shape.iter().product::<usize>());
+        numbers.for_each(|number| number.append(&mut bytes));
+        Self {
+            kind: N::KIND,
+            shape,
+            bytes,
+        }
+    }
 }
 
 impl View for &Column {
@@ -73,6 +90,10 @@ impl View for &Column {
 pub(crate) struct Checkpoint {
     columns: BTreeMap<String, Column>,
     texts: BTreeMap<String, String>,
+    /// This rank and how many there are, if each writes its rows of long columns as a file of its own.
+    ranks: Option<[usize; 2]>,
+    /// These rows.
+    rows: BTreeMap<String, Column>,
 }
 
 /// The column that is the hash of all before it: the only one of bytes, which the format puts behind wider numbers.
@@ -122,13 +143,23 @@ impl Checkpoint {
     fn put_shaped<N: Number>(
         &mut self,
         name: String,
-        shape: Vec<usize>,
+        mut shape: Vec<usize>,
         numbers: impl Iterator<Item = N>,
     ) {
-        let mut bytes = Vec::with_capacity(size_of::<N>() * shape.iter().product::<usize>());
-        numbers.for_each(|number| number.append(&mut bytes));
-        let kind = N::KIND;
-        self.columns.insert(name, Column { kind, shape, bytes });
+        let rows = shape.first().copied().unwrap_or(0);
+        match self.ranks {
+            Some([rank, count]) if rows >= parts::LONG => {
+                let own = even(rows, rank, count);
+                shape[0] = own.len();
+                let width: usize = shape[1..].iter().product();
+                let numbers = numbers.skip(width * own.start).take(width * own.len());
+                self.rows.insert(name, Column::of(shape, numbers));
+            }
+            Some([rank, _]) if rank > 0 => {}
+            _ => {
+                self.columns.insert(name, Column::of(shape, numbers));
+            }
+        }
     }
 
     /// Adds a text.
@@ -212,35 +243,21 @@ impl Checkpoint {
     }
 
     /// Writes the file at once: a reader, or a run that starts after a crash, sees the old one or the new one.
-    pub fn write(mut self, path: &Path) -> Result<()> {
-        self.put(CHECKSUM.into(), 1, [0_u8; SUM]);
-        let texts = core::mem::take(&mut self.texts).into_iter().collect();
-        let mut bytes = safetensors::serialize(&self.columns, Some(texts))
-            .map_err(|error| file_error("write", path)(io::Error::other(error.to_string())))?;
-        let mut hash = Hash::new();
-        let end = bytes.len() - SUM;
-        hash.bytes(&bytes[..end]);
-        bytes[end..].copy_from_slice(&hash.value().to_le_bytes());
-        make_folder(path)?;
-        let mut part: OsString = path.as_os_str().to_owned();
-        part.push(".part");
-        let part = Path::new(&part);
-        let mut file = File::create(part).map_err(file_error("write", part))?;
-        file.write_all(&bytes)
-            .and_then(|()| file.sync_all())
-            .map_err(file_error("write", part))?;
-        drop(file);
-        fs::rename(part, path).map_err(file_error("write", path))?;
-        sync_folder(path)
+    pub fn write(self, path: &Path) -> Result<()> {
+        write_columns(self.columns, self.texts, path).map(|_| ())
     }
 
-    /// Reads a file, whole and unaltered.
+    /// Reads a file, whole and unaltered, with the parts that ranks have written beside it.
     pub fn read(path: &Path) -> Result<Self> {
+        let mut file = Self::read_alone(path)?;
+        file.join(path).map_err(of_file(path))?;
+        Ok(file)
+    }
+
+    /// Reads a file without parts beside it: its texts are all that there are.
+    pub fn read_alone(path: &Path) -> Result<Self> {
         let bytes = fs::read(path).map_err(file_error("read", path))?;
-        Self::of_bytes(&bytes).map_err(|problem| Error::Checkpoint {
-            path: path.to_path_buf(),
-            problem,
-        })
+        Self::of_bytes(&bytes).map_err(of_file(path))
     }
 
     fn of_bytes(bytes: &[u8]) -> Read<Self> {
@@ -268,8 +285,48 @@ impl Checkpoint {
         Ok(Self {
             columns,
             texts: texts.collect(),
+            ..Self::default()
         })
     }
+}
+
+/// The error of a problem of the file at `path`.
+fn of_file(path: &Path) -> impl Fn(CheckpointProblem) -> Error {
+    move |problem| Error::Checkpoint {
+        path: path.to_path_buf(),
+        problem,
+    }
+}
+
+/// Writes a file at once, under a checksum, and returns that.
+fn write_columns(
+    mut columns: BTreeMap<String, Column>,
+    texts: BTreeMap<String, String>,
+    path: &Path,
+) -> Result<u64> {
+    let none = [0_u8; SUM].into_iter();
+    columns.insert(CHECKSUM.into(), Column::of(vec![SUM], none));
+    let texts = texts.into_iter().collect();
+    let mut bytes = safetensors::serialize(&columns, Some(texts))
+        .map_err(|error| file_error("write", path)(io::Error::other(error.to_string())))?;
+    drop(columns);
+    let mut hash = Hash::new();
+    let end = bytes.len() - SUM;
+    hash.bytes(&bytes[..end]);
+    let sum = hash.value();
+    bytes[end..].copy_from_slice(&sum.to_le_bytes());
+    make_folder(path)?;
+    let mut part: OsString = path.as_os_str().to_owned();
+    part.push(".part");
+    let part = Path::new(&part);
+    let mut file = File::create(part).map_err(file_error("write", part))?;
+    file.write_all(&bytes)
+        .and_then(|()| file.sync_all())
+        .map_err(file_error("write", part))?;
+    drop(file);
+    fs::rename(part, path).map_err(file_error("write", path))?;
+    sync_folder(path)?;
+    Ok(sum)
 }
 
 /// Makes a new name in a folder last.

@@ -91,6 +91,36 @@ mod tests {
         assert_eq!(all.expect("threads"), vec![expected; 3]);
     }
 
+    /// As where one rank has a scene with a chunk more: the others could go on, and would wait for it.
+    #[test]
+    fn a_message_that_one_cannot_take_ends_all() {
+        let all = in_threads(3, 1, |ranks| {
+            let team = Team::new(ranks);
+            let rank = team.rank();
+            let take = |from: usize, _: &[u8]| (rank != 2 || from != 1).then_some(());
+            team.gather(What::Lists, |to| to.push(1), take);
+            let was_broken = team.is_broken();
+            let (own, each) = ([1; 3], [1; 3]);
+            let came = team.exchange(Letters::Each(1), (&own, &each), (&mut [0; 3], &each));
+            let told = team
+                .agree(None, Ok(()))
+                .expect_err("one scene is another")
+                .to_string();
+            (
+                was_broken,
+                came,
+                told.contains("(Lists) is not that of the same scene"),
+                team,
+            )
+        });
+        for (rank, (was_broken, came, is_told, team)) in
+            all.expect("threads").into_iter().enumerate()
+        {
+            assert_eq!((was_broken, came, is_told), (rank == 2, false, true));
+            assert!(team.is_broken());
+        }
+    }
+
     #[test]
     fn letters_reach_those_for_whom_they_are_and_errors_reach_all() {
         let all = in_threads(3, 1, |ranks| {

@@ -49,10 +49,10 @@
 //! # Files
 //!
 //! Every rank runs the same program, so what writes a file belongs under
-//! [`Simulation::is_first_rank`](crate::simulation::Simulation::is_first_rank). `Simulation::save` is called on all ranks: the
-//! first one writes an ordinary checkpoint, and all of them return its outcome. It resumes on any number of ranks, and without
-//! any, to the same bits. [`Run::paraview_in_pieces`](crate::run::Run::paraview_in_pieces) is called on all ranks too, of which each
-//! writes its own particles.
+//! [`Simulation::is_first_rank`](crate::simulation::Simulation::is_first_rank). `Simulation::save` is called on all ranks: each writes
+//! a part of its own, and the first one the manifest of them. It resumes on any number of ranks, and without any, to the same bits, as long
+//! as all files are in one folder. [`Run::paraview_in_pieces`](crate::run::Run::paraview_in_pieces) is called on all ranks too, of which
+//! each writes its own particles.
 //!
 //! # Cost
 //!

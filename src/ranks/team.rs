@@ -181,7 +181,7 @@ impl Team {
             buffers.given.each += length;
         }
         let gathered = self.gather_put(what as u64, &mut buffers);
-        let mut at = 0;
+        let (mut at, is_heard) = (0, gathered.is_ok());
         let taken = gathered.and_then(|()| {
             for rank in 0..self.count() {
                 let own = &buffers.all[at..at + buffers.counts[rank]];
@@ -193,6 +193,11 @@ impl Team {
             }
             Ok(())
         });
+        if let (Err(own), true) = (&taken, is_heard) {
+            // Those who could take it hear of it in their next gathering.
+            buffers.own = own.cause.clone().into_bytes();
+            let _ = self.gather_put(FAILED, &mut buffers);
+        }
         buffers.traffic.waited += start.elapsed();
         if let Err(own) = taken {
             *self.broken() = Some(own);

@@ -47,13 +47,13 @@ pub use stop::Stop;
 pub use summary::{End, Summary};
 
 use crate::clock::Instant;
-use crate::error::{Error, Problem, Result};
+use crate::error::{Error, Result};
 use crate::output::progress::Progress;
 use crate::output::pvtu;
 use crate::output::vtu::Pvd;
 use crate::output::write_whole;
 use crate::scalar::Real;
-use crate::simulation::{Simulation, rounding};
+use crate::simulation::{Simulation, check_end, rounding};
 use crate::study::cost_model::CostModel;
 use core::fmt;
 use receipt::Receipt;
@@ -333,21 +333,11 @@ impl<'r, T: Real, const D: usize> Run<'r, T, D> {
     /// criterion makes no sense, or an event is not of the scene. Observers have been shown all up to there.
     pub fn go(mut self) -> Result<Summary> {
         let end = self.end;
-        if !end.is_finite() {
-            return Err(Error::Argument(Problem::Parameter {
-                what: "end of the run".into(),
-                value: end,
-                must_be: "must be a finite time in seconds",
-            }));
-        }
-        let mut clocks = Vec::new();
-        for observer in &self.observers {
-            observer.schedule.check(self.simulation, end)?;
-            clocks.push(Clock::new(&observer.schedule, self.simulation, end));
-        }
-        for stop in &mut self.stops {
-            stop.begin(self.simulation)?;
-        }
+        let clocks = match self.begin() {
+            Ok(clocks) => clocks,
+            // Other ranks may be on their way.
+            Err(error) => return self.simulation.agree_on(Err(error)),
+        };
         let Some(path) = self.receipt.take() else {
             return self.drive(clocks);
         };
@@ -368,6 +358,18 @@ impl<'r, T: Real, const D: usize> Run<'r, T, D> {
         };
         let written = self.simulation.agree_on(written);
         outcome.and_then(|summary| written.map(|()| summary))
+    }
+
+    /// Checks what the run is asked for, and sets its clocks.
+    fn begin(&mut self) -> Result<Vec<Clock>> {
+        let (now, end) = (&*self.simulation, self.end);
+        check_end(end)?;
+        self.stops.iter_mut().try_for_each(|stop| stop.begin(now))?;
+        let clock = |own: &Observer<'_, T, D>| {
+            own.schedule.check(now, end)?;
+            Ok(Clock::new(&own.schedule, now, end))
+        };
+        self.observers.iter().map(clock).collect()
     }
 
     fn drive(&mut self, clocks: Vec<Clock>) -> Result<Summary> {

@@ -183,7 +183,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
     /// [`Error::File`] and [`Error::Checkpoint`] if the file cannot be read.
     #[cfg(feature = "checkpoint")]
     pub fn differences(&self, path: impl AsRef<Path>) -> Result<Vec<Difference>> {
-        let file = Checkpoint::read(path.as_ref())?;
+        let file = Checkpoint::read_alone(path.as_ref())?;
         let described = (&self.hashes(), &self.values());
         Ok(differences(described, &RARE, &file))
     }

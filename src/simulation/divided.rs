@@ -296,3 +296,41 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.root = roots[usize::from(all[1])];
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::prelude::{Body, Scene, Wall, catalogue, schemes};
+    use crate::ranks::in_threads;
+
+    /// What the lists of each rank cost over the mean, after ten list builds of water that is on one side of its tank.
+    #[test]
+    fn the_slowest_rank_is_within_a_tenth_of_the_mean() {
+        let all = in_threads(2, 1, |ranks| {
+            let water = catalogue::weakly_compressible_water(4.0);
+            let open = [[true; 2], [true, false]];
+            let mut now = Scene::<f64, 2>::new(schemes::weakly_compressible())
+                .body(Body::block("water", water, [0.0; 2], [0.8, 0.8], 0.006))
+                .wall(Wall::around("tank", [0.0; 2], [2.4, 1.2], 0.006, 4, open))
+                .acceleration(|_| [0.0, -9.81])
+                .on_ranks(ranks)
+                .build()
+                .expect("the scene");
+            while now.list_builds() < 11 {
+                now.step().expect("a step");
+            }
+            let group = &now.state.groups[0];
+            let division = group.share.as_ref().expect("ranks").division();
+            let chunks = group.neighborhood.lists.chunks();
+            [0, 1].map(|rank| {
+                let own = division.of(rank).into_iter().flatten();
+                own.map(|chunk| chunks[chunk].neighbors.len())
+                    .sum::<usize>() as f64
+            })
+        });
+        for costs in all.expect("threads") {
+            let mean = 0.5 * (costs[0] + costs[1]);
+            assert!(costs[0].max(costs[1]) < 1.1 * mean, "{costs:?}");
+        }
+    }
+}

@@ -138,7 +138,7 @@
 //! The format is [safetensors](https://github.com/huggingface/safetensors). In Python,
 //! `safetensors.numpy.load_file("rods.safetensors")["group0/particles/position"]` has a row for each slot; `group0/ids`
 //! says which particle is in it, and slots from `group0/body_ends` on repeat the last of a body. Positions count from
-//! `origin`.
+//! `origin`. On ranks long columns are in their parts, one after another: `numpy.concatenate` of those of `run.a0`, `run.a1` and so on.
 
 mod advance;
 mod approach;
@@ -248,6 +248,7 @@ pub(crate) use pair_list::PairList;
 pub use population::Passed;
 pub(crate) use population::{BodyState, Particles};
 pub(crate) use rigid::Rigid;
+pub(crate) use run::check_end;
 pub(crate) use side::{MetWall, Side};
 pub(crate) use sources::{DrainState, SourceState};
 pub(crate) use spin::Spins;

@@ -85,7 +85,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// # Errors
     /// As [`run_until`](Simulation::run_until) if a rehearsed step fails, and [`Error::Argument`](crate::error::Error::Argument) if the end is not finite.
     pub fn expected_work(&mut self, end: f64) -> Result<Work> {
-        once!(self => &mut Simulation, |own, end: f64| -> Result<Work> { own.expect_work(end) })
+        once!(self => &mut Simulation, |own, end: f64| -> Result<Work> {
+            let expected = own.expect_work(end);
+            own.agree_on(expected)
+        })
     }
 
     fn expect_work(&mut self, end: f64) -> Result<Work> {

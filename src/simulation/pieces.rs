@@ -63,7 +63,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// The outcome of files that ranks write: of all if it is well on all, and otherwise one error on all. A simulation goes on after
     /// it, for no particle is elsewhere.
-    pub(crate) fn of_any_rank(&self, outcome: Result<()>) -> Result<()> {
+    pub(crate) fn of_any_rank<V>(&self, outcome: Result<V>) -> Result<V> {
         let Some(team) = self.team.as_ref().filter(|team| team.count() > 1) else {
             return outcome;
         };

@@ -30,11 +30,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// As [`run_until`](Simulation::run_until), and [`Error::Argument`] if the limit is not positive.
     pub fn step_at_most(&mut self, limit: f64) -> Result<f64> {
         if limit.is_nan() || limit <= 0.0 {
-            return Err(Error::Argument(Problem::Parameter {
+            return self.agree_on(Err(Error::Argument(Problem::Parameter {
                 what: "limit of the step".into(),
                 value: limit,
                 must_be: "it must be positive, in seconds",
-            }));
+            })));
         }
         self.accept();
         self.step_to(limit)
@@ -264,7 +264,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// when a wall leaves its velocity, [`Error::Failed`] after any of these, and [`Error::Argument`] if a fixed step
     /// exceeds the stability limit.
     pub fn run_until(&mut self, end: f64) -> Result<()> {
-        check_end(end)?;
+        if let Err(error) = check_end(end) {
+            // The others may be on their way.
+            return self.agree_on(Err(error));
+        }
         self.check_failure()?;
         let mut outcome = self.begin_parts();
         while outcome.is_ok() && end - self.state.time > rounding(end) {
@@ -280,7 +283,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// # Errors
     /// As [`run_until`](Simulation::run_until).
     pub fn run_with(&mut self, end: f64, mut observe: impl FnMut(&Self)) -> Result<()> {
-        check_end(end)?;
+        if let Err(error) = check_end(end) {
+            // The others may be on their way.
+            return self.agree_on(Err(error));
+        }
         self.check_failure()?;
         while end - self.state.time > rounding(end) {
             self.step_until(end)?;
@@ -291,7 +297,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 }
 
 /// Refuses an end that is no time.
-pub(super) fn check_end(end: f64) -> Result<()> {
+pub(crate) fn check_end(end: f64) -> Result<()> {
     if end.is_finite() {
         return Ok(());
     }

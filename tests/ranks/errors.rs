@@ -20,7 +20,7 @@ fn on_ranks(
 }
 
 /// All ranks say that one has failed; that one says why, which is in what the others say.
-fn named_by_all(all: &[String], failed: usize, why: &str) {
+pub(super) fn named_by_all(all: &[String], failed: usize, why: &str) {
     assert!(all[failed].contains(why), "{all:#?}");
     for (rank, text) in all.iter().enumerate().filter(|(rank, _)| *rank != failed) {
         assert!(

@@ -6,7 +6,10 @@ mod bits;
 #[path = "../common/mod.rs"]
 mod common;
 
+mod bad_inputs;
 mod errors;
+#[cfg(feature = "checkpoint")]
+mod killed;
 mod parts;
 mod pieces;
 mod predicted;

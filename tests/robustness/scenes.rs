@@ -306,3 +306,46 @@ fn a_million_scenes() {
         .and_then(|n| n.parse().ok());
     guard::all("scenes", from.unwrap_or(1000), guard::asked(), case);
 }
+
+/// What a scene comes to: the error that ends it, or the bits after three steps.
+fn end_of(scene: S) -> String {
+    let ran = scene.build().and_then(|mut run| {
+        (0..3).try_for_each(|_| run.step().map(|_| ()))?;
+        run.run_until(run.time() * 1.3)?;
+        Ok(format!("{:016x}", run.bits_hash()))
+    });
+    ran.unwrap_or_else(|error| error.to_string())
+}
+
+/// Every rank comes to what one process comes to; and where one of three has another scene, all end, and say which.
+fn on_ranks(seed: u64) -> &'static str {
+    use meshfree::ranks::in_threads;
+    let of = |seed| scene(&mut Numbers::of(seed));
+    let plain = end_of(of(seed));
+    let count = 2 + seed as usize % 2;
+    let all = in_threads(count, 1, |ranks| end_of(of(seed).on_ranks(ranks))).expect("threads");
+    assert_eq!(all, vec![plain.clone(); count]);
+    let other = seed as usize % 3;
+    let apart = in_threads(3, 1, |ranks| {
+        let seed = if ranks.rank() == other {
+            seed + 1
+        } else {
+            seed
+        };
+        end_of(of(seed).on_ranks(ranks))
+    });
+    let is_bits = |own: &String| own.len() == 16 && u64::from_str_radix(own, 16).is_ok();
+    let apart = apart.expect("threads");
+    assert!(
+        !apart.iter().any(is_bits) || apart.iter().all(|own| *own == plain),
+        "{apart:#?}"
+    );
+    if is_bits(&plain) { "ran" } else { "refused" }
+}
+
+#[test]
+fn scenes_on_ranks_come_to_what_they_come_to_alone() {
+    let words = guard::all("scenes on ranks", 0, 250, on_ranks);
+    assert!(guard::share(&words, "refused") >= 100, "{words:?}");
+    assert!(guard::share(&words, "ran") > 20, "{words:?}");
+}

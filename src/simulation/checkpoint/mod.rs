@@ -10,6 +10,7 @@ mod group;
 mod held;
 mod joints;
 mod particles;
+mod ranks;
 mod workspace;
 
 use super::energy::Work;
@@ -51,18 +52,21 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// It holds the state that the next step starts from, and the time that is [shown](crate::simulation#readings) where that
     /// is another.
     ///
-    /// On [ranks](crate::ranks) all call it, and the first one writes.
+    /// On [ranks](crate::ranks) all call it, and see the same folder. Each writes a part of its own next to `path`, as `run.a0` and `run.a1`
+    /// for `run`, and when all are there the first one a manifest at `path`, by which the checkpoint counts; parts are `a` and `b` in turn.
+    /// Any number of ranks resumes from it, and one process without ranks.
     ///
     /// # Errors
-    /// [`Error::File`] if the file cannot be written, and [`Error::Failed`] after a step that has failed: its state is
-    /// none to go on from.
+    /// [`Error::File`] if the file cannot be written, on several ranks as the same [`Error::Rank`] on all, after which the simulation can go
+    /// on; and [`Error::Failed`] after a step that has failed: its state is none to go on from.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
         let path = path.as_ref();
         once!(self => &Simulation, |own, path: &Path| -> Result<()> {
             own.check_failure()?;
-            // Every rank has the whole state.
-            let written = if own.is_first_rank() { own.put().write(path) } else { Ok(()) };
-            own.agree_on(written)
+            match own.team.as_deref().filter(|team| team.count() > 1) {
+                Some(team) => own.save_in_parts(team, path),
+                None => own.agree_on(own.put(Checkpoint::default()).write(path)),
+            }
         })
     }
 
@@ -108,7 +112,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         Ok(self)
     }
 
-    fn put(&self) -> Checkpoint {
+    fn put(&self, mut file: Checkpoint) -> Checkpoint {
         let Self {
             state: shown,
             domain: _,
@@ -155,7 +159,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             Reading::Rounded(own) => own,
             _ => time,
         };
-        let mut file = Checkpoint::default();
         file.put_text("format", FORMAT);
         file.put_text("version", VERSION);
         file.put_text("crate version", env!("CARGO_PKG_VERSION"));
@@ -372,7 +375,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Whether a file goes on from a simulation like this one, on a machine of which `best` is the best.
     fn check(&self, file: &Checkpoint, changes: Changes<'_>, best: InstructionSet) -> Read<()> {
         if file.text("format")? != FORMAT {
-            return Err(damaged("it is no checkpoint"));
+            return Err(damaged("it is no checkpoint by itself"));
         }
         let found = file.text("version")?;
         if found != VERSION {
@@ -423,7 +426,7 @@ mod tests {
         let rod = Body::block("rod", catalogue::copper(), [0.0], [0.01], 1e-3);
         let scene = Scene::<f64, 1>::new(schemes::impact()).body(rod);
         let simulation = scene.build().unwrap();
-        let mut file = simulation.put();
+        let mut file = simulation.put(Checkpoint::default());
         for (set, best, runs) in [
             (
                 "Baseline",
