@@ -18,12 +18,14 @@ mod hash;
 mod scenes;
 
 use hash::Hash;
+use meshfree::ranks::{Ranks, in_threads};
 use meshfree::scalar::Real;
 use meshfree::scene::Scene;
 use meshfree::simulation::Simulation;
 use meshfree::sweep::{InstructionSet, Root};
 use std::collections::BTreeMap;
 use std::fmt::Write;
+use std::sync::Arc;
 
 const PATHS: [(InstructionSet, &str); 3] = [
     (InstructionSet::Baseline, "baseline"),
@@ -36,7 +38,8 @@ const AGAIN: &str = "MESHFREE_RECORD=1 cargo test --test checks recording";
 
 /// The hashes of a run, in the order of [`PARTS`].
 type Bits = [u64; 4];
-type Run = Box<dyn Fn(InstructionSet) -> Result<Bits, String> + Send + Sync>;
+type Run =
+    Box<dyn Fn(InstructionSet, Option<Arc<dyn Ranks>>) -> Result<Bits, String> + Send + Sync>;
 
 /// The scenes by name, each with what runs it.
 #[derive(Default)]
@@ -74,7 +77,14 @@ impl Scenes {
         scene: impl Fn() -> Scene<T, D> + Send + Sync + 'static,
     ) {
         let name = name.into();
-        let run = move |set| run(&plan, scene().instructions(set).root(Root::Products));
+        let run = move |set, ranks: Option<Arc<dyn Ranks>>| {
+            let scene = scene().instructions(set).root(Root::Products);
+            let scene = match ranks {
+                Some(ranks) => scene.on_ranks(ranks),
+                None => scene,
+            };
+            run(&plan, scene)
+        };
         self.0.push((name, Box::new(run)));
     }
 }
@@ -181,7 +191,7 @@ fn scenes_have_the_bits_of_the_recording() {
         for (scene, run) in &scenes {
             compared += 1;
             let key = (scene.clone(), path.to_owned());
-            match (run(set), recording.get(&key)) {
+            match (run(set, None), recording.get(&key)) {
                 (Err(error), _) => wrong.push(format!("{scene} on {path} {error}")),
                 (Ok(found), _) if record => {
                     recording.insert(key, found);
@@ -227,7 +237,7 @@ fn one_thread_and_two_give_the_same_bits() {
     let on = |threads: usize, run: &Run| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         let set = InstructionSet::detect();
-        pool.expect("a pool").install(|| run(set))
+        pool.expect("a pool").install(|| run(set, None))
     };
     let Scenes(scenes) = scenes::all();
     let differ: Vec<&str> = scenes
@@ -236,4 +246,23 @@ fn one_thread_and_two_give_the_same_bits() {
         .map(|(name, _)| name.as_str())
         .collect();
     assert!(differ.is_empty(), "threads change the bits of {differ:?}");
+}
+
+/// Probes, integrators, openings, structures, contacts and images of all these scenes on ranks.
+#[test]
+#[ignore = "all scenes on two, three and four ranks: minutes"]
+fn ranks_do_not_change_a_bit() {
+    let Scenes(scenes) = scenes::all();
+    let set = InstructionSet::detect();
+    let mut differ = Vec::new();
+    for (name, run) in &scenes {
+        let alone = run(set, None);
+        for (count, threads) in [(2, 1), (3, 2), (4, 1)] {
+            let all = in_threads(count, threads, |ranks| run(set, Some(ranks)));
+            if all.expect("threads").iter().any(|own| *own != alone) {
+                differ.push(format!("{name} on {count} ranks"));
+            }
+        }
+    }
+    assert!(differ.is_empty(), "{differ:#?}");
 }
