@@ -263,7 +263,7 @@ pub(crate) fn not_negative(
 /// macro_rules! most {
 ///     ($least:literal: $($term:expr),*) => { [$least, $(writes(&$term)),*].into_iter().max() };
 /// }
-/// assert_eq!(meshfree::for_each_term!(most 1:), Some(5));
+/// assert_eq!(meshfree::for_each_term!(most 1:), Some(7));
 /// ```
 #[macro_export]
 macro_rules! for_each_term {
