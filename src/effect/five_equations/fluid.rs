@@ -56,7 +56,7 @@ impl Fluid {
     fn pressure(self, density: f64, energy: f64) -> f64 {
         (density * (energy + self.at_rest()) - self.stored()) / self.slope()
     }
-    /// Whether a material obeys it: at rest, compressed, warm, and in tension, which a cut-off would not bear.
+    /// Whether a material obeys it: at rest, compressed, warm, and in tension, which a cut-off would not allow.
     pub(super) fn is<T: Real>(self, material: &Material<T>) -> bool {
         let rest = self.reference_density;
         let warm = (self.stiffness + 1e5) / rest;

@@ -72,7 +72,7 @@ impl fmt::Display for Recipe {
 /// The finest run of a method, and what the laws through its other runs say of it.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Foretold {
+pub struct Prediction {
     /// The method.
     pub method: String,
     /// The spacing of the finest run \[m\].
@@ -215,13 +215,13 @@ impl View<'_> {
     /// Of every method the finest run, as the laws through its other runs predict it: what answers are worth here.
     /// Methods with fewer than four runs are not in it, for three are needed to predict the fourth.
     #[must_use]
-    pub fn foretold(&self) -> Vec<Foretold> {
+    pub fn predicted(&self) -> Vec<Prediction> {
         let of = |method: &str| {
             let pilots = self.pilots(method);
             let (finest, others) = pilots.split_last()?;
             let rows: Vec<_> = others.iter().map(|(row, _)| *row).collect();
             let (row, error) = *finest;
-            (others.len() >= 3).then(|| Foretold {
+            (others.len() >= 3).then(|| Prediction {
                 method: method.into(),
                 spacing: row.spacing,
                 error: (

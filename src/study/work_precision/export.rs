@@ -113,7 +113,7 @@ impl View<'_> {
             "pairs ~ dx^-q, q",
             "finest predicted: error, time (over measured)",
         ]);
-        let foretold = self.foretold();
+        let predicted = self.predicted();
         for method in self.report.methods() {
             let [order, floor, scatter] = match self.fit(method) {
                 Ok(fit) => [
@@ -125,7 +125,7 @@ impl View<'_> {
             };
             let cost = self.price(method);
             let cost = cost.map_or("–".into(), |price| span(price.order(), 1.0));
-            let own = foretold.iter().find(|one| one.method == method);
+            let own = predicted.iter().find(|one| one.method == method);
             let ratio = |(by_law, measured): &(core::result::Result<Estimate, _>, f64)| match by_law
             {
                 Ok(by_law) => format!("{:.2}", by_law.value / measured),

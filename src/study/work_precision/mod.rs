@@ -47,7 +47,7 @@
 //! | how good is the best run of so many seconds? | [`Report::within`] |
 //! | what did an error take, in pairs that no machine changes? | [`View::work_at`] |
 //! | which runs are beaten by no other? | [`View::front`] |
-//! | does the law predict the finest run from the others? | [`View::foretold`] |
+//! | does the law predict the finest run from the others? | [`View::predicted`] |
 //! | all of it to look at | [`Report`] as text, [`Report::csv`], [`Report::json`], [`View::figure`], [`page`] for a browser |
 
 mod answer;
@@ -67,7 +67,7 @@ mod report;
 #[cfg(test)]
 mod tests;
 
-pub use answer::{Basis, Foretold, Recipe};
+pub use answer::{Basis, Prediction, Recipe};
 pub use case::{Case, Method, Value};
 pub use clock::Clock;
 pub(super) use fit::student_90;

@@ -114,11 +114,11 @@ fn work_between_runs_is_that_of_the_straight_line() {
 }
 
 #[test]
-fn laws_foretell_the_finest_run() {
+fn laws_predict_the_finest_run() {
     let view = report();
-    let foretold = view.first().foretold();
-    assert_eq!(foretold.len(), 2, "the third has two runs");
-    for one in foretold {
+    let predicted = view.first().predicted();
+    assert_eq!(predicted.len(), 2, "the third has two runs");
+    for one in predicted {
         let by_law = one.error.0.unwrap().value;
         assert!(
             (by_law / one.error.1 - 1.0).abs() < 0.02,
