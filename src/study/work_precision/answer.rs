@@ -3,7 +3,7 @@
 
 use super::fit::{Estimate, PowerFit, REACH};
 use super::price::Price;
-use super::refusal::Refusal;
+use super::refusal::{Refusal, Rejected};
 use super::report::{Row, View, fit_of_errors};
 use crate::output::table::significant;
 use core::fmt;
@@ -146,7 +146,11 @@ impl View<'_> {
             let recipes = good.map(|(row, error)| as_measured(row, *error));
             match recipes.min_by(|a, b| rank(a).total_cmp(&rank(b))) {
                 Some(recipe) => answers.push(recipe),
-                None => refusals.push((method.to_string(), why)),
+                None => refusals.push(Rejected {
+                    method: method.to_string(),
+                    why,
+                    finest: pilots.last().map(|(row, _)| (row.spacing, row.seconds)),
+                }),
             }
         }
         let best = answers
@@ -169,6 +173,8 @@ impl View<'_> {
                 let (from, to) = laws.error.range();
                 if spacing.value > to {
                     return Err(Refusal::TooFar {
+                        what: "spacing",
+                        unit: "m",
                         wanted: spacing.value,
                         from: from / REACH,
                         to,
@@ -199,7 +205,7 @@ impl View<'_> {
                     }
                     Err(why) => return Err(why),
                 };
-                // No coarser than what was run, and no finer than what the law of the error bears.
+                // No coarser than what was run, and no finer than what the law of the error supports.
                 let spacing = (1.0 / fineness).max(laws.error.range().0 / REACH);
                 if fineness < coarsest {
                     let least = laws.time.at(coarsest)?.value;

@@ -208,9 +208,10 @@ impl Report {
     #[must_use]
     pub fn json(&self) -> String {
         let machine = format!(
-            "{{\"architecture\": {}, \"processor\": {}, \"threads\": {}, \"clock\": {}, \"code\": \"meshfree\", \"version\": {}}}",
+            "{{\"architecture\": {}, \"processor\": {}, \"cores\": {}, \"threads\": {}, \"clock\": {}, \"code\": \"meshfree\", \"version\": {}}}",
             json_text(std::env::consts::ARCH),
             json_text(&processor()),
+            std::thread::available_parallelism().map_or(1, usize::from),
             crate::parallel::threads(),
             json_text(self.clock.words()),
             json_text(env!("CARGO_PKG_VERSION"))
