@@ -3,6 +3,8 @@
 
 #[path = "pages/browser.rs"]
 mod browser;
+#[path = "common/browser.rs"]
+mod headless;
 #[path = "pages/messages.rs"]
 mod messages;
 #[path = "pages/words.rs"]
