@@ -1,4 +1,4 @@
-//! The frontier of artificial viscosities: how steep a front each law allows, and how far it rings.
+//! The frontier of artificial viscosities: the rise of a front under each law, and its overshoot.
 //! Copper rods at 20 m/s on copper and PMMA; writes a page of tables and a plot.
 
 use clap::Parser;

@@ -5,11 +5,11 @@
 
 #[doc(no_inline)]
 pub use crate::boundary::{
-    Boundary, Crush, LeesEdwards, MirrorPlane, Motion, Outlet, Periodic, Rotation, Translation,
-    Wall,
+    Boundary, Composed, Crush, Inlet, LeesEdwards, MirrorPlane, Motion, Outlet, Periodic, Recorded,
+    Rotation, Translation, Wall,
 };
 #[doc(no_inline)]
-pub use crate::coupling::{ContactDensity, Coupling, Penalty, Tied};
+pub use crate::coupling::{ContactDensity, Coupling, Joint, Penalty, Tied};
 #[doc(no_inline)]
 pub use crate::effect::{
     AcousticDamping, Cavitation, ConsistentSmoothing, DensityDiffusion, DivergenceSmoothing,
@@ -33,7 +33,7 @@ pub use crate::kernel::{
 #[doc(no_inline)]
 pub use crate::material::eos::{EosState, EquationOfState, Guards, IdealGas, Linear, Tait};
 #[doc(no_inline)]
-pub use crate::material::{Material, catalogue};
+pub use crate::material::{Liquid, Material, SoundSpeed, catalogue};
 #[doc(no_inline)]
 pub use crate::observe::{PressureProbe, WaveGauge};
 #[doc(no_inline)]
@@ -42,6 +42,8 @@ pub use crate::output::csv::CsvWriter;
 pub use crate::output::svg::{Axis, Cloud, Figure, Panel, Series};
 #[doc(no_inline)]
 pub use crate::particles::{Field, Fields};
+#[doc(no_inline)]
+pub use crate::run::{Run, Schedule, Stop};
 #[doc(no_inline)]
 pub use crate::scalar::{Lane, Real};
 #[doc(no_inline)]

@@ -1,6 +1,15 @@
 //! Pages: every link of README and docs leads to a file and a heading that are there, the book has every page, and words to
 //! avoid are in none. Reads files alone, so it costs nothing.
 
+#[path = "pages/browser.rs"]
+mod browser;
+#[path = "common/browser.rs"]
+mod headless;
+#[path = "pages/messages.rs"]
+mod messages;
+#[path = "pages/words.rs"]
+mod words;
+
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -99,14 +108,20 @@ fn sources() -> Vec<(PathBuf, String)> {
 
 /// Source files in a folder of the crate.
 fn sources_in(folder: &str) -> Vec<(PathBuf, String)> {
+    files_in(folder, "rs")
+}
+
+/// Files of a kind in a folder of the crate and below, and their texts. A package has no folder `crates`.
+fn files_in(folder: &str, kind: &str) -> Vec<(PathBuf, String)> {
     let mut folders = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)];
+    folders.retain(|folder| folder.exists());
     let mut found = Vec::new();
     while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(folder).expect("a folder") {
             let path = entry.expect("an entry").path();
             if path.is_dir() {
                 folders.push(path);
-            } else if path.extension().is_some_and(|end| end == "rs") {
+            } else if path.extension().is_some_and(|end| end == kind) {
                 let text = fs::read_to_string(&path).expect("a file");
                 found.push((path, text));
             }
@@ -147,171 +162,6 @@ fn index_lines_are_whole_sentences() {
     assert!(broken.is_empty(), "{}", broken.join("\n"));
 }
 
-/// Words and phrases to avoid, and what to write.
-const AVOID: [(&str, &str); 64] = [
-    ("asleep", "at rest"),
-    ("astray", "what it did"),
-    ("bear", "support, carry or allow"),
-    ("bears", "supports, carries or allows"),
-    ("chattering", "in repeated contact"),
-    ("crowding", "concentration gradient"),
-    ("cure", "remedy"),
-    ("cured", "remedied"),
-    ("cures", "remedies"),
-    ("foretell", "predict"),
-    ("foretells", "predicts"),
-    ("foretold", "predicted"),
-    ("mend", "fix"),
-    ("mended", "fixed"),
-    ("mends", "fixes"),
-    ("moods", "scatter of timings"),
-    ("nobody", "the noun"),
-    ("outlook", "forecast"),
-    ("retract", "restore"),
-    ("stagger", "random offset"),
-    ("staggered rows", "lattice rows with random offset"),
-    ("stuff", "material"),
-    ("tear", "cavitate, or separate"),
-    ("tearing", "cavitation"),
-    ("torn", "cavitated, or separated"),
-    ("touching sum", "contact sum"),
-    ("unmended", "not fixed"),
-    ("wear", "take"),
-    ("wears", "takes"),
-    ("by turns", "alternately"),
-    ("distance of particles", "particle spacing"),
-    ("dual criteria", "correction caching"),
-    ("facing a room", "the fluid side"),
-    ("how far off", "error"),
-    ("lies against", "abuts"),
-    ("number that is none", "NaN"),
-    ("puts back", "restores"),
-    ("what is off", "the noun"),
-    ("one s own", "your own"),
-    ("from nowhere", "that the time integration creates"),
-    ("give way", "move"),
-    ("gives way", "moves"),
-    ("has to be said", "the scene has to say"),
-    ("held against", "compared with"),
-    ("how steep", "rise"),
-    ("in vain", "the noun"),
-    ("looks through", "reaches through"),
-    ("middling", "moderate"),
-    ("otherwise than", "differently from"),
-    ("tells of", "reports"),
-    ("that is none", "the condition"),
-    ("turn round", "reverse"),
-    ("turned round", "reversed"),
-    ("unless told", "by default"),
-    ("wants", "needs"),
-    // What only the history of a page or the work on it explains.
-    ("as this page had", "what holds"),
-    ("as was written here", "what holds"),
-    ("was asked for", "the value, or requested"),
-    ("were asked for", "the bound"),
-    ("asked of us", "what holds"),
-    ("of the project", "what holds"),
-    ("the coordinator", "nothing"),
-    ("the issue", "the subject"),
-    ("the owner", "nothing"),
-];
-
-/// Words of prose in lower case, with their lines: no blocks of code, spans of code or targets of links.
-fn words(text: &str) -> Vec<(usize, String)> {
-    let mut code = false;
-    let mut found = Vec::new();
-    for (number, line) in text.lines().enumerate() {
-        code ^= line.trim_start().starts_with("```");
-        if code {
-            continue;
-        }
-        let mut parts = line.split("](");
-        let mut plain = parts.next().unwrap_or_default().to_owned();
-        for part in parts {
-            plain.push(' ');
-            plain += part.split_once(')').map_or(part, |(_, rest)| rest);
-        }
-        for prose in plain.split('`').step_by(2) {
-            let own = prose.split(|c: char| !c.is_alphabetic());
-            let own = own.filter(|word| !word.is_empty());
-            found.extend(own.map(|word| (number + 1, word.to_lowercase())));
-        }
-    }
-    found
-}
-
-/// The words to avoid in a text, with their lines.
-fn to_avoid(text: &str) -> Vec<String> {
-    let words = words(text);
-    let mut found = Vec::new();
-    for (avoid, instead) in AVOID {
-        let parts: Vec<_> = avoid.split(' ').collect();
-        for own in words.windows(parts.len()) {
-            if own.iter().zip(&parts).all(|((_, word), part)| word == part) {
-                found.push(format!("line {}: \"{avoid}\": write {instead}", own[0].0));
-            }
-        }
-    }
-    found
-}
-
-/// What rustdoc shows of a source, in the lines of the source.
-fn documentation(source: &str) -> String {
-    let lines = source.lines().map(|line| {
-        let line = line.trim_start();
-        let inner = || line.strip_prefix("//!");
-        line.strip_prefix("///").or_else(inner).unwrap_or_default()
-    });
-    lines.collect::<Vec<_>>().join("\n")
-}
-
-/// What a source may print: its texts in quotes that are longer than a word.
-fn printed(source: &str) -> String {
-    let code = source.lines();
-    let code = code.filter(|line| !line.trim_start().starts_with("//"));
-    let code = code.collect::<Vec<_>>().join("\n");
-    let code = code.replace("\\\"", "").replace("'\"'", "");
-    let texts = code.split('"').skip(1).step_by(2);
-    let texts = texts.filter(|text| text.trim().contains(' '));
-    texts.map(|text| text.replace('`', " ") + "\n").collect()
-}
-
-#[test]
-fn words_that_were_replaced_are_not_printed() {
-    let mut found = Vec::new();
-    for (path, text) in sources().into_iter().chain(sources_in("examples")) {
-        let own = to_avoid(&printed(&text)).into_iter();
-        found.extend(own.map(|said| format!("{}: {said}", path.display())));
-    }
-    assert!(found.is_empty(), "{}", found.join("\n"));
-    let source = "// \"no cure\"\nlet a = ['\"', \"cure\", \"a \\\"cure\\\" \\\n of it\"];";
-    assert_eq!(to_avoid(&printed(source)).len(), 1);
-}
-
-#[test]
-fn words_that_were_replaced_stay_away() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let more = ["CONTRIBUTING.md", "CHANGELOG.md"].map(|name| root.join(name));
-    let texts = pages().into_iter().chain(more).map(|path| {
-        let text = fs::read_to_string(&path).expect("a page");
-        (path, text)
-    });
-    let sources = sources().into_iter();
-    let texts = texts.chain(sources.map(|(path, text)| (path, documentation(&text))));
-    let mut found = Vec::new();
-    for (path, text) in texts {
-        let own = to_avoid(&text).into_iter();
-        found.extend(own.map(|said| format!("{}: {said}", path.display())));
-    }
-    assert!(found.is_empty(), "{}", found.join("\n"));
-    // Over the end of a line too, and neither in code nor in what links lead to.
-    assert_eq!(to_avoid("A block has no cure, as was\nasked for.").len(), 2);
-    let hidden = "`cure` [a remedy](cure.md)\n```\ncure\n```\n";
-    assert!(to_avoid(hidden).is_empty());
-    assert!(to_avoid(&documentation("// cure\nlet cure = 1;")).is_empty());
-    assert_eq!(to_avoid(&documentation("    /// Cure.")).len(), 1);
-}
-
 #[test]
 fn rustdoc_links_every_page_and_names_no_file() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -343,12 +193,8 @@ const WITHOUT_EQUATION: [&str; 2] = ["NoWalls", "During"];
 
 #[test]
 fn every_effect_has_its_equation() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/effect");
-    let files = fs::read_dir(folder).expect("the folder of effects");
     let (mut with, mut without) = (0, Vec::new());
-    let paths = files.map(|file| file.expect("an entry").path());
-    for path in paths.filter(|path| path.is_file()) {
-        let text = fs::read_to_string(path).expect("a file");
+    for (_, text) in sources_in("src/effect") {
         let effects = text.lines().filter(|line| line.starts_with("impl"));
         let effects = effects.filter_map(|line| Some(line.split_once("Effect<D> for ")?.1));
         for effect in effects {
@@ -377,6 +223,21 @@ fn every_effect_has_its_equation() {
     );
 }
 
+/// The bytes that all pages may have together: history and measurements in full belong to `docs/notebook`.
+const MOST: usize = 130_000;
+
+#[test]
+fn the_book_stays_short() {
+    let pages = pages().into_iter().skip(1);
+    let pages = pages.filter(|page| !page.ends_with("SUMMARY.md"));
+    let sizes = pages.map(|page| fs::read(page).expect("a page").len());
+    let bytes: usize = sizes.sum();
+    assert!(
+        bytes <= MOST,
+        "{bytes} bytes in docs/*.md, and {MOST} at most"
+    );
+}
+
 #[test]
 fn the_book_has_every_page() {
     let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
@@ -387,76 +248,4 @@ fn the_book_has_every_page() {
         .filter(|page| !page.ends_with("SUMMARY.md"))
         .collect();
     assert_eq!(listed, written);
-}
-
-/// What a browser makes of the page of costs at an address, and what its console says. `None` without a browser.
-fn in_a_browser(page: &Path, fragment: &str) -> Option<(String, String)> {
-    let profile = std::env::temp_dir().join(format!("meshfree-browser-{}", std::process::id()));
-    let done = std::process::Command::new("chromium")
-        .args([
-            "--headless",
-            "--no-sandbox",
-            "--disable-gpu",
-            "--disable-quic",
-            "--no-first-run",
-        ])
-        .args([
-            "--disable-background-networking",
-            "--disable-component-update",
-            "--disable-sync",
-        ])
-        .args(["--enable-logging=stderr", "--v=0", "--dump-dom"])
-        .arg(format!("--user-data-dir={}", profile.display()))
-        .arg(format!("file://{}#{fragment}", page.display()))
-        .output()
-        .ok()?;
-    drop(fs::remove_dir_all(profile));
-    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-    Some((text(&done.stdout), text(&done.stderr)))
-}
-
-/// Points that are drawn and runs that are listed.
-fn drawn(dom: &str) -> [usize; 2] {
-    ["data-points=\"", "data-rows=\""].map(|name| {
-        let rest = dom.split_once(name).map_or("", |(_, rest)| rest);
-        rest.split('"')
-            .next()
-            .and_then(|n| n.parse().ok())
-            .unwrap_or(0)
-    })
-}
-
-#[test]
-fn the_page_of_costs_draws_and_filters_in_a_browser() {
-    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/accuracy.html");
-    let Some((dom, console)) = in_a_browser(&page, "") else {
-        println!("skipped: there is no chromium");
-        return;
-    };
-    let [points, rows] = drawn(&dom);
-    assert!(
-        points > 20 && rows >= points,
-        "{points} points of {rows} rows"
-    );
-    // The script in the page has the text of a mark, too.
-    let marks = dom.matches("data-row=\"").count() - dom.matches("data-row=\"${").count();
-    assert!((points..=rows).contains(&marks), "{marks} marks");
-    let (less, also) =
-        in_a_browser(&page, "filter=default&x=pairs&most=0.05").expect("it was there");
-    let [fewer, listed] = drawn(&less);
-    assert!(
-        fewer > 0 && fewer < points && listed < rows,
-        "{fewer} of {points}"
-    );
-    // The cheapest run of these is told, with the command that repeats it.
-    let told = less.split_once("id=\"point\"").map_or("", |(_, rest)| rest);
-    let told = told.split("</p>").next().unwrap_or_default();
-    assert!(
-        told.contains("--spacing ") && told.contains("default"),
-        "{told}"
-    );
-    for said in [console, also] {
-        assert!(!said.contains("CONSOLE"), "{said}");
-    }
-    assert!(!dom.contains("data-error") && !less.contains("data-error"));
 }

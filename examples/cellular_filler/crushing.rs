@@ -28,7 +28,7 @@ const WATER: f64 = 1000.0;
 pub struct Sample {
     pub time: f64,
     pub strain: f64,
-    /// On the upper and the lower plate \[Pa\], and that part of the upper one which the water bears.
+    /// On the upper and the lower plate \[Pa\], and that part of the upper one which the water supports.
     pub stress: [f64; 3],
     /// Work of the upper plate.
     pub work: f64,

@@ -147,7 +147,7 @@ impl Case {
     }
 }
 
-/// Water of a dynamic viscosity \[Pa s\] by the law of Mie and Grüneisen, as the paper has it, which bears no tension. Its internal
+/// Water of a dynamic viscosity \[Pa s\] by the law of Mie and Grüneisen, as the paper has it, which supports no tension. Its internal
 /// energy, of which Γ = 0.1 takes 10⁻⁴ of the pressure at the few MPa here, is not integrated.
 pub fn water<T: Real>(viscosity: f64) -> Material<T> {
     catalogue::water()

@@ -28,7 +28,7 @@ pub struct Own {
 /// The command line.
 #[derive(Args, Clone, Debug)]
 pub struct Options {
-    /// Distance of particles [m]
+    /// Spacing of particles [m]
     #[arg(long, value_name = "M", value_parser = positive)]
     pub spacing: Option<f64>,
     /// Scalar of the run: f64 or f32

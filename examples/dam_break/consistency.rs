@@ -1,5 +1,5 @@
 //! SPHERIC 2 over quarter seconds, beside its record: pressures on the face of the box, and the water that gauges see.
-//! The record is held against itself, too: what its gauges add up to, and what weighs between its sensors.
+//! The record is compared with itself, too: what its gauges add up to, and what weighs between its sensors.
 
 use super::common::Failure;
 use super::flat::GRAVITY;

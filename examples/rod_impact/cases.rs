@@ -114,7 +114,7 @@ pub fn with_shear(material: Material<f64>) -> Material<f64> {
 }
 
 impl Case {
-    /// Whether rods bear more than pressure.
+    /// Whether rods support more than pressure.
     pub fn bears_shear(&self) -> bool {
         self.state != StateChoice::Hydrodynamic
     }

@@ -55,7 +55,7 @@ choices! {
 }
 
 choices! {
-    /// What stress a rod bears: pressure alone, or that of a layer of a plate, or that of a slender bar.
+    /// What stress a rod supports: pressure alone, or that of a layer of a plate, or that of a slender bar.
     StateChoice:
     Hydrodynamic "hydrodynamic", UniaxialStrain "uniaxial-strain", UniaxialStress "uniaxial-stress",
 }
@@ -67,14 +67,14 @@ choices! {
 }
 
 impl SchemeChoice {
-    /// The integrator that the scheme runs with unless told.
+    /// The integrator that the scheme runs with by default.
     pub fn integrator(self) -> IntegratorChoice {
         match self {
             Self::Lam2002 => IntegratorChoice::LamFresh,
             _ => IntegratorChoice::KickDriftKick,
         }
     }
-    /// The contact law that the scheme runs with unless told; the paper has none.
+    /// The contact law that the scheme runs with by default; the paper has none.
     pub fn contact(self) -> ContactChoice {
         match self {
             Self::Lam2002 => ContactChoice::Bonded,

@@ -38,13 +38,13 @@ struct Line {
     target_length: f64,
     #[arg(long, value_name = "NAME", default_value = "hydrodynamic", help_heading = CASE)]
     state: StateChoice,
-    /// Whether rods that bear shear yield [default: on]
+    /// Whether rods that support shear yield [default: on]
     #[arg(long, value_name = "NAME", help_heading = CASE)]
     strength: Option<StrengthChoice>,
     /// 0.05, with --quick 0.2
     #[arg(long, value_name = "MM", value_parser = positive, help_heading = METHOD)]
     spacing: Option<f64>,
-    /// [default: impact; continuity for rods that bear shear]
+    /// [default: impact; continuity for rods that support shear]
     #[arg(long, value_name = "NAME", help_heading = METHOD)]
     scheme: Option<SchemeChoice>,
     /// cubic, quartic, quintic, wendland-c2, wendland-c4, wendland-c6, gaussian
@@ -178,7 +178,7 @@ impl Line {
     }
 }
 
-/// What does not go with rods that bear shear, and with those that do not.
+/// What does not go with rods that support shear, and with those that do not.
 fn shear(case: &Case) -> Result<(), String> {
     let state = case.state.key();
     if !case.bears_shear() {

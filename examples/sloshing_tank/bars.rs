@@ -118,7 +118,7 @@ fn start_up<T: Real>(case: &Case, artificial: &Case) -> Result<Table, Failure> {
     Ok(table)
 }
 
-/// Constant acceleration: the water lies against the wall.
+/// Constant acceleration: the water abuts the wall.
 fn steady<T: Real>(artificial: &Case) -> Result<Table, Failure> {
     let case = Case {
         pulse: Pulse::Constant,

@@ -138,7 +138,7 @@ pub fn choices(case: &Case, youngs: f64) -> String {
     )
 }
 
-/// Mean load \[Pa\] above which a deflection is held against that of a plate.
+/// Mean load \[Pa\] above which a deflection is compared with that of a plate.
 const LOADED: f64 = 2e4;
 
 /// How the walls stand at one time.

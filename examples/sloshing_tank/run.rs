@@ -50,7 +50,7 @@ pub struct FarWall {
     pub film: f64,
     /// Lowest pressure of the wall and of the water within a smoothing length of it \[Pa\].
     pub lowest: f64,
-    /// Times that a particle's pressure was cut, or the density of torn water held, since the start.
+    /// Times that a particle's pressure was cut, or the density of cavitated water held, since the start.
     pub cuts: u64,
 }
 
@@ -81,7 +81,7 @@ pub struct Record {
     /// Difference of the momentum of water and what walls and gravity gave, over the impulse on the tank; with elastic
     /// walls that of both and what loads and clamps gave, over the loads'.
     pub imbalance: f64,
-    /// What sensors all over the ends of the tank read, every millisecond, if that was asked for.
+    /// What sensors all over the ends of the tank read, every millisecond, where requested.
     pub ends: Vec<Ends>,
     /// Space that the water takes against its volume, at 38 ms and at the end.
     pub space: [Space; 2],

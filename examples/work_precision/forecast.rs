@@ -1,4 +1,4 @@
-//! What the first steps of a run foretell of the rest, against the rest.
+//! What the first steps of a run predict of the rest, against the rest.
 //! Scenes of the other problems, in sizes of their own.
 
 use super::{liquids, rods};
@@ -8,7 +8,7 @@ use meshfree::study::cost_model::CostModel;
 use meshfree::study::work_precision::Failure;
 use std::time::Duration;
 
-/// A row: what was foretold after so long, over what came.
+/// A row: what was predicted after so long, over what came.
 fn hold<T: Real, const D: usize>(
     table: &mut Table,
     name: &str,
@@ -22,7 +22,7 @@ fn hold<T: Real, const D: usize>(
     let (before, at) = (simulation.work(), simulation.time());
     simulation.run_until(end)?;
     let after = simulation.work();
-    let ratio = |foretold: f64, came: f64| format!("{:.3}", foretold / came);
+    let ratio = |predicted: f64, came: f64| format!("{:.3}", predicted / came);
     let seconds = after.time.saturating_sub(before.time).as_secs_f64();
     table.row([
         name.to_string(),

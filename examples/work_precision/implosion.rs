@@ -120,7 +120,7 @@ fn implode(case: &Case<'_>) -> Result<Outcome, Failure> {
     Ok(Outcome::of(&gas).value(DENSITY, error).value(PLATEAU, mean))
 }
 
-/// The blast of a joule, and the time at which its shock is where it is held against the exact one.
+/// The blast of a joule, and the time at which its shock is where it is compared with the exact one.
 fn blast() -> Result<(Sedov, f64), Failure> {
     let exact = Sedov::new(3, 1.4, 1.0, 1.0)?;
     let end = (RADIUS / exact.shock_radius(1.0)).powf(2.5);

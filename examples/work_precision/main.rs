@@ -73,7 +73,7 @@ struct Line {
     /// Where files go instead
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// What first steps foretell of whole runs
+    /// What first steps predict of whole runs
     #[arg(long)]
     forecast: bool,
     /// What compatible energy costs against symmetric

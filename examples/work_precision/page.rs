@@ -25,7 +25,7 @@ pub struct Page {
     failed: usize,
     /// Finest runs that the coarser ones could predict; errors within a quarter, times within 15 %, the same refused, and errors within
     /// their intervals.
-    foretold: [usize; 6],
+    predicted: [usize; 6],
     /// Time of all runs \[s\].
     seconds: f64,
 }
@@ -39,7 +39,7 @@ impl Page {
             choices: choices::table(),
             recommended: recommended::table(),
             failed: 0,
-            foretold: [0; 6],
+            predicted: [0; 6],
             seconds: 0.0,
         }
     }
@@ -71,24 +71,26 @@ impl Page {
 
     /// How the finest runs were predicted.
     fn count(&mut self, view: &View<'_>) {
-        for own in view.foretold() {
-            self.foretold[0] += 1;
+        for own in view.predicted() {
+            self.predicted[0] += 1;
             if let (Ok(by_law), measured) = &own.error {
                 let held = by_law.low <= *measured && *measured <= by_law.high;
-                self.foretold[5] += usize::from(held);
+                self.predicted[5] += usize::from(held);
             }
             let off = |by_law: &Estimate, measured: f64| (by_law.value / measured - 1.0).abs();
             for (at, (by_law, measured), bound) in [(1, own.error, 0.25), (2, own.seconds, 0.15)] {
                 match by_law {
-                    Ok(by_law) => self.foretold[at] += usize::from(off(&by_law, measured) <= bound),
-                    Err(_) => self.foretold[at + 2] += 1,
+                    Ok(by_law) => {
+                        self.predicted[at] += usize::from(off(&by_law, measured) <= bound)
+                    }
+                    Err(_) => self.predicted[at + 2] += 1,
                 }
             }
         }
     }
 
     pub fn save(&self, path: &Path) -> Result<(), Error> {
-        let [all, errors, times, no_errors, no_times, held] = self.foretold;
+        let [all, errors, times, no_errors, no_times, held] = self.predicted;
         let failed = match self.failed {
             0 => String::new(),
             some => format!(" {some} problems failed, as their sections say."),

@@ -62,8 +62,8 @@ pub fn add(table: &mut Table, key: &str, title: &str, report: &Report) {
     let Some((row, error)) = worth else {
         return;
     };
-    let foretold = view.foretold();
-    let law = foretold.iter().find(|one| one.method == *method);
+    let predicted = view.predicted();
+    let law = predicted.iter().find(|one| one.method == *method);
     let law = law.map_or("too few runs".into(), |one| match &one.error {
         (Ok(by_law), measured) => {
             let [value, low, high] = [by_law.value, by_law.low, by_law.high].map(|x| x / measured);

@@ -225,7 +225,7 @@ impl<const D: usize> Term<D> for Crowding {
     }
     fn document(&self) -> TermDoc {
         TermDoc {
-            name: "crowding".into(),
+            name: "concentration gradient".into(),
             equation: "Σⱼ Vⱼ (1 + 0.2 (W/W₀)⁴) ∇W, Σⱼ Vⱼ ∇W, Σⱼ Vⱼ r·∇W",
             source: "Lind et al. 2012, eq. 24; Sun et al. 2019",
         }

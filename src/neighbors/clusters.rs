@@ -364,7 +364,7 @@ fn sort(
         }
     }
     let [apart, later, earlier] = sorted.each_mut().map(|list| &mut list[..count]);
-    // Each is put down in all lists and counted in one, by counters in registers: nothing foretells which it will be, and a
+    // Each is put down in all lists and counted in one, by counters in registers: nothing predicts which it will be, and a
     // branch or a counter in memory is waited for.
     let (mut a, mut b, mut c) = (0, 0, 0);
     for &j in found {

@@ -12,6 +12,8 @@ mod cylinders;
 mod dam_break;
 mod drops;
 mod drum;
+#[cfg(feature = "pictures")]
+mod film;
 mod five_equations;
 mod floating;
 mod gauges;

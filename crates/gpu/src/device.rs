@@ -167,7 +167,7 @@ impl Device {
     ///
     /// # Errors
     ///
-    /// [`Error::Size`] if that is none, or more than the device takes.
+    /// [`Error::Size`] if that is zero, or more than the device takes.
     pub fn with_threads(mut self, threads: u32) -> Result<Self, Error> {
         let most = self.inner.limits().max_compute_invocations_per_workgroup;
         if threads == 0 || threads > most {

@@ -78,7 +78,7 @@ pub enum Error {
         /// What it says.
         message: String,
     },
-    /// The driver rounds sums of `f32` otherwise than they are written, so places would lose what their rounding leaves.
+    /// The driver computes sums of `f32` in another order than they are written, so places would lose what their rounding leaves.
     #[error(
         "the driver of `{adapter}` reorders sums, so places in f32 would drift by what rounding leaves of them; run the scene in f64, or on \
          another adapter"

@@ -3,7 +3,7 @@
 
 use super::fit::{Estimate, PowerFit, REACH};
 use super::price::Price;
-use super::refusal::Refusal;
+use super::refusal::{Refusal, Rejected};
 use super::report::{Row, View, fit_of_errors};
 use crate::output::table::significant;
 use core::fmt;
@@ -72,7 +72,7 @@ impl fmt::Display for Recipe {
 /// The finest run of a method, and what the laws through its other runs say of it.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Foretold {
+pub struct Prediction {
     /// The method.
     pub method: String,
     /// The spacing of the finest run \[m\].
@@ -146,7 +146,11 @@ impl View<'_> {
             let recipes = good.map(|(row, error)| as_measured(row, *error));
             match recipes.min_by(|a, b| rank(a).total_cmp(&rank(b))) {
                 Some(recipe) => answers.push(recipe),
-                None => refusals.push((method.to_string(), why)),
+                None => refusals.push(Rejected {
+                    method: method.to_string(),
+                    why,
+                    finest: pilots.last().map(|(row, _)| (row.spacing, row.seconds)),
+                }),
             }
         }
         let best = answers
@@ -169,6 +173,8 @@ impl View<'_> {
                 let (from, to) = laws.error.range();
                 if spacing.value > to {
                     return Err(Refusal::TooFar {
+                        what: "spacing",
+                        unit: "m",
                         wanted: spacing.value,
                         from: from / REACH,
                         to,
@@ -199,7 +205,7 @@ impl View<'_> {
                     }
                     Err(why) => return Err(why),
                 };
-                // No coarser than what was run, and no finer than what the law of the error bears.
+                // No coarser than what was run, and no finer than what the law of the error supports.
                 let spacing = (1.0 / fineness).max(laws.error.range().0 / REACH);
                 if fineness < coarsest {
                     let least = laws.time.at(coarsest)?.value;
@@ -215,13 +221,13 @@ impl View<'_> {
     /// Of every method the finest run, as the laws through its other runs predict it: what answers are worth here.
     /// Methods with fewer than four runs are not in it, for three are needed to predict the fourth.
     #[must_use]
-    pub fn foretold(&self) -> Vec<Foretold> {
+    pub fn predicted(&self) -> Vec<Prediction> {
         let of = |method: &str| {
             let pilots = self.pilots(method);
             let (finest, others) = pilots.split_last()?;
             let rows: Vec<_> = others.iter().map(|(row, _)| *row).collect();
             let (row, error) = *finest;
-            (others.len() >= 3).then(|| Foretold {
+            (others.len() >= 3).then(|| Prediction {
                 method: method.into(),
                 spacing: row.spacing,
                 error: (

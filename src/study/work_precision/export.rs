@@ -113,7 +113,7 @@ impl View<'_> {
             "pairs ~ dx^-q, q",
             "finest predicted: error, time (over measured)",
         ]);
-        let foretold = self.foretold();
+        let predicted = self.predicted();
         for method in self.report.methods() {
             let [order, floor, scatter] = match self.fit(method) {
                 Ok(fit) => [
@@ -125,7 +125,7 @@ impl View<'_> {
             };
             let cost = self.price(method);
             let cost = cost.map_or("–".into(), |price| span(price.order(), 1.0));
-            let own = foretold.iter().find(|one| one.method == method);
+            let own = predicted.iter().find(|one| one.method == method);
             let ratio = |(by_law, measured): &(core::result::Result<Estimate, _>, f64)| match by_law
             {
                 Ok(by_law) => format!("{:.2}", by_law.value / measured),
@@ -208,9 +208,10 @@ impl Report {
     #[must_use]
     pub fn json(&self) -> String {
         let machine = format!(
-            "{{\"architecture\": {}, \"processor\": {}, \"threads\": {}, \"clock\": {}, \"code\": \"meshfree\", \"version\": {}}}",
+            "{{\"architecture\": {}, \"processor\": {}, \"cores\": {}, \"threads\": {}, \"clock\": {}, \"code\": \"meshfree\", \"version\": {}}}",
             json_text(std::env::consts::ARCH),
             json_text(&processor()),
+            std::thread::available_parallelism().map_or(1, usize::from),
             crate::parallel::threads(),
             json_text(self.clock.words()),
             json_text(env!("CARGO_PKG_VERSION"))

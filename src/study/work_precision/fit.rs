@@ -111,7 +111,7 @@ pub struct PowerFit {
 }
 
 impl PowerFit {
-    /// The law through `values` at `x`.
+    /// The law through `values` at `x`: errors, as parts of the scale of their quantity, on spacings \[m\].
     ///
     /// # Errors
     /// If there are fewer than three different x, they span less than a factor of two, a value is not positive and
@@ -119,8 +119,16 @@ impl PowerFit {
     /// quarter, or its order is at the edge of what is tried, 0.1 to 6.
     pub fn of(x: &[f64], values: &[f64]) -> Result<Self, Refusal> {
         let good = |v: &f64| v.is_finite() && *v > 0.0;
-        if x.len() != values.len() || !x.iter().chain(values).all(good) {
-            return Err(Refusal::NoLogarithm);
+        for k in 0..x.len().max(values.len()) {
+            let [spacing, value] = [x, values].map(|own| own.get(k).copied().unwrap_or(f64::NAN));
+            if !good(&spacing) || !good(&value) {
+                return Err(Refusal::NoLogarithm {
+                    what: "error",
+                    unit: "",
+                    spacing,
+                    value,
+                });
+            }
         }
         let mut sorted = x.to_vec();
         sorted.sort_by(f64::total_cmp);
@@ -141,7 +149,11 @@ impl PowerFit {
         };
         let (coarse, fine) = (mean_at(range.1), mean_at(range.0));
         if fine > 1.2 * coarse {
-            return Err(Refusal::Grows { coarse, fine });
+            return Err(Refusal::Grows {
+                coarse,
+                fine,
+                spacings: [range.1, range.0],
+            });
         }
         let (mut range, mut largest) = (range, sorted.len());
         let (points, best) = loop {
@@ -272,6 +284,8 @@ impl PowerFit {
         // What is written as a quarter may be a little less by rounding.
         if x * REACH < least * 0.999_999 || x > most * REACH * 1.000_001 || !x.is_finite() {
             return Err(Refusal::TooFar {
+                what: "spacing",
+                unit: "m",
                 wanted: x,
                 from: least / REACH,
                 to: most * REACH,

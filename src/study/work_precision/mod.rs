@@ -47,7 +47,7 @@
 //! | how good is the best run of so many seconds? | [`Report::within`] |
 //! | what did an error take, in pairs that no machine changes? | [`View::work_at`] |
 //! | which runs are beaten by no other? | [`View::front`] |
-//! | does the law predict the finest run from the others? | [`View::foretold`] |
+//! | does the law predict the finest run from the others? | [`View::predicted`] |
 //! | all of it to look at | [`Report`] as text, [`Report::csv`], [`Report::json`], [`View::figure`], [`page`] for a browser |
 
 mod answer;
@@ -67,7 +67,7 @@ mod report;
 #[cfg(test)]
 mod tests;
 
-pub use answer::{Basis, Foretold, Recipe};
+pub use answer::{Basis, Prediction, Recipe};
 pub use case::{Case, Method, Value};
 pub use clock::Clock;
 pub(super) use fit::student_90;
@@ -78,7 +78,7 @@ pub use page::{json, page, save_page};
 pub use plot::Column;
 pub use price::Price;
 pub use quantity::{Norm, Quantity, Reference};
-pub use refusal::Refusal;
+pub use refusal::{Refusal, Rejected};
 pub use report::{Report, Row, Status, View};
 
 use crate::clock::Instant;
@@ -180,8 +180,9 @@ impl<'a> WorkPrecision<'a> {
         self
     }
 
-    /// How often a run is repeated, for the median of its time, as long as all its repeats together take less than
-    /// [`repeat_up_to`](Self::repeat_up_to); 3 by default.
+    /// How often a run is timed, for the median of its time, as long as all its repeats together take less than
+    /// [`repeat_up_to`](Self::repeat_up_to); 3 by default. A run before them, which finds cold caches and a clock that has yet to rise,
+    /// is not counted; where there is no time for a second run, it is the one that counts.
     #[must_use]
     pub fn repeats(mut self, times: usize) -> Self {
         self.repeats = times.max(1);
@@ -369,7 +370,13 @@ impl<'a> WorkPrecision<'a> {
         let start = Instant::now();
         let mut times: Vec<f64> = Vec::new();
         let mut outcome = Outcome::default();
-        while times.len() < self.repeats {
+        // The first of several warms up.
+        let runs = if self.repeats > 1 {
+            self.repeats + 1
+        } else {
+            1
+        };
+        while times.len() < runs {
             let begin = Begin::now();
             let result = match &pool {
                 Some(pool) => pool.install(|| run(case)),
@@ -393,6 +400,9 @@ impl<'a> WorkPrecision<'a> {
             if start.elapsed() + mean > self.repeat_up_to {
                 break;
             }
+        }
+        if times.len() > 1 {
+            times.remove(0);
         }
         times.sort_by(f64::total_cmp);
         Measured {

@@ -56,8 +56,13 @@ impl Price {
             })
             .collect();
         let is_finite = |own: &Point| own.x.is_finite() && own.time.is_finite();
-        if !points.iter().all(is_finite) {
-            return Err(Refusal::NoLogarithm);
+        if let Some(at) = points.iter().position(|own| !is_finite(own)) {
+            return Err(Refusal::NoLogarithm {
+                what: "time",
+                unit: " s",
+                spacing: rows[at].spacing,
+                value: rows[at].seconds,
+            });
         }
         points.sort_by(|a, b| a.x.total_cmp(&b.x));
         points.dedup_by(|a, b| a.x == b.x);
@@ -112,6 +117,8 @@ impl Price {
         let (least, most) = self.range();
         if !(least / REACH * 0.999_999..=most * REACH * 1.000_001).contains(&fineness) {
             return Err(Refusal::TooFar {
+                what: "fineness",
+                unit: "1/m",
                 wanted: fineness,
                 from: least / REACH,
                 to: most * REACH,
@@ -136,6 +143,8 @@ impl Price {
         let [mut low, mut high] = ends.map(f64::ln);
         let wanted = seconds.ln();
         let beyond = |wanted| Refusal::TooFar {
+            what: "fineness",
+            unit: "1/m",
             wanted,
             from: ends[0],
             to: ends[1],

@@ -58,7 +58,13 @@ fn answers_are_those_of_the_laws() {
     // Four times beyond 0.1 is 0.025, where the better method is at 0.00025.
     let why = report.for_error(1e-4).unwrap_err().to_string();
     assert!(
-        why.contains("cubic: not reachable by refinement") && why.contains("wide: it would take"),
+        why.contains("cubic: an error of 0.01 % is not reachable by refinement")
+            && why.contains("wide: it would take a spacing of"),
+        "{why}"
+    );
+    // 1e-4 dx⁻², on 0.1 m.
+    assert!(
+        why.contains("(its finest run, on 0.1 m, took 0.01 s)"),
         "{why}"
     );
     assert!(
@@ -97,6 +103,29 @@ fn answers_are_those_of_the_laws() {
 }
 
 #[test]
+fn the_first_of_several_runs_warms_up() {
+    let runs = std::sync::atomic::AtomicU32::new(0);
+    let report = |repeats| {
+        let study = WorkPrecision::new("cold at first", |_| {
+            let before = runs.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+            let work = Work {
+                time: Duration::from_secs(if before == 0 { 60 } else { 1 }),
+                ..Work::default()
+            };
+            Ok(Outcome::from_work(work).value("error", 0.1))
+        });
+        let study = study.quantity(Quantity::measured("error"));
+        study.spacings([0.1]).repeats(repeats).run().unwrap()
+    };
+    let row = &report(2).rows()[0];
+    assert_eq!((row.repeats, row.seconds, row.spread), (2, 1.0, [1.0; 2]));
+    assert_eq!(runs.load(std::sync::atomic::Ordering::Relaxed), 3);
+    // One run is that one, however cold.
+    runs.store(0, std::sync::atomic::Ordering::Relaxed);
+    assert_eq!(report(1).rows()[0].seconds, 60.0);
+}
+
+#[test]
 fn work_between_runs_is_that_of_the_straight_line() {
     let report = report();
     let view = report.first();
@@ -114,11 +143,11 @@ fn work_between_runs_is_that_of_the_straight_line() {
 }
 
 #[test]
-fn laws_foretell_the_finest_run() {
+fn laws_predict_the_finest_run() {
     let view = report();
-    let foretold = view.first().foretold();
-    assert_eq!(foretold.len(), 2, "the third has two runs");
-    for one in foretold {
+    let predicted = view.first().predicted();
+    assert_eq!(predicted.len(), 2, "the third has two runs");
+    for one in predicted {
         let by_law = one.error.0.unwrap().value;
         assert!(
             (by_law / one.error.1 - 1.0).abs() < 0.02,

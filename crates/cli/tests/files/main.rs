@@ -58,5 +58,17 @@ fn every_scene_passes_its_check() {
         }
         count += 1;
     }
-    assert!(count >= 6, "{count} scenes");
+    assert!(count >= 8, "{count} scenes");
+}
+
+#[test]
+fn the_scene_of_the_page_passes_its_check() {
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/how_to_scene_files.md");
+    let page = std::fs::read_to_string(page).expect("the page");
+    let (_, rest) = page.split_once("```toml\n").expect("a scene");
+    let (scene, _) = rest.split_once("```").expect("its end");
+    match perform(&source(scene), &Task::Check) {
+        Ok(text) => assert!(text.contains(" particles, about "), "{text}"),
+        Err(stopped) => panic!("{stopped}"),
+    }
 }

@@ -39,6 +39,24 @@ fn a_shock_tube_has_the_densities_of_sod() {
     }
 }
 
+/// Cases 1 and 2 of Lam, Shen & Gong: half of the speed is left behind the front in like rods, none at a rigid wall, and the shock
+/// relation p = ρ₀ (C₀ + S u) u has the pressure of what was stopped, u.
+#[test]
+fn rods_have_the_pressures_of_the_shock_relation() {
+    for (scene, stopped) in [("rods", 10.0), ("rod_on_wall", 20.0)] {
+        let probes = table(&text(&format!("{scene}.toml")), scene, "probes.csv");
+        let [time, pressure] = [0, 1].map(|k| column(&probes, &probes.header[k].clone()));
+        // In the striker's middle between the front, at 1.3 µs, and its echo from the free end, at 3.8 µs.
+        let inside = time.iter().zip(&pressure);
+        let inside = inside.filter(|(t, _)| (2.0e-6..3.2e-6).contains(*t));
+        let (count, sum) = inside.fold((0.0, 0.0), |own, (_, p)| (own.0 + 1.0, own.1 + p));
+        let exact = 8930.0 * (3940.0 + 1.49 * stopped) * stopped;
+        let ratio = sum / count / exact;
+        println!("{scene}: {ratio} of {exact} Pa");
+        assert!((ratio - 1.0).abs() < 0.01, "{scene}: {ratio}");
+    }
+}
+
 #[test]
 fn a_bar_turns_its_speed_into_work_and_loses_none() {
     let bar = altered(

@@ -113,12 +113,17 @@ fn what_the_values_do_not_bear_is_refused() {
     ));
     assert!(matches!(
         PowerFit::of(&x, &[0.4, 0.0, 0.3]),
-        Err(Refusal::NoLogarithm)
+        Err(Refusal::NoLogarithm { spacing, value, .. }) if spacing == 0.2 && value == 0.0
     ));
     let fit = PowerFit::of(&[0.4, 0.2, 0.1, 0.05], &[0.41, 0.21, 0.11, 0.06]).unwrap();
     assert!(fit.at(0.0126).is_ok());
     assert!(matches!(fit.at(0.0124), Err(Refusal::TooFar { .. })));
     assert!(matches!(fit.inverse(0.005), Err(Refusal::Floor { .. })));
+    // With units: spacings in metres, errors in percent.
+    let far = fit.at(0.0124).unwrap_err().to_string();
+    assert!(far.contains("a spacing of 0.0124 m"), "{far}");
+    let floor = fit.inverse(0.005).unwrap_err().to_string();
+    assert!(floor.contains("an error of 0.5 %"), "{floor}");
     let spacing = fit.inverse(0.03).unwrap();
     assert!(
         (spacing.value - 0.02).abs() < 1e-3 && spacing.low < 0.02,
