@@ -41,7 +41,13 @@ pub(super) fn said_but_places<T: Real, const D: usize>(simulation: &Simulation<T
     }
     let mut add = |numbers: &[f64]| all.extend(numbers.iter().map(|x| x.to_bits()));
     let ledger = simulation.ledger();
-    add(&ledger.boundary_impulse);
+    for impulse in [
+        &ledger.boundary_impulse,
+        &ledger.law_impulse,
+        &ledger.joint_impulse,
+    ] {
+        add(impulse);
+    }
     for (_, budget) in &ledger.bodies {
         add(&budget.momentum);
         add(&[budget.mass, budget.kinetic, budget.internal]);
@@ -59,9 +65,17 @@ pub(super) fn said_but_places<T: Real, const D: usize>(simulation: &Simulation<T
     for contact in simulation.contacts() {
         add(&contact.force);
     }
-    let removed = simulation.removed();
-    add(&removed.momentum);
-    add(&[removed.mass, removed.kinetic]);
+    for joint in simulation.joints() {
+        add(&joint.force);
+        add(&joint.moment);
+        add(&joint.impulse);
+        add(&[joint.value, joint.rate, joint.stored, joint.work]);
+        add(&[joint.motor_work, joint.heat]);
+    }
+    for passed in [simulation.removed(), simulation.entered()] {
+        add(&passed.momentum);
+        add(&[passed.mass, passed.kinetic]);
+    }
     if let Some(energy) = simulation.energy() {
         add(&[energy.load_work, energy.wall_work, energy.dissipated]);
     }

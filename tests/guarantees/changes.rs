@@ -7,6 +7,7 @@ use meshfree::error::Result;
 use meshfree::integrator::{Integrator, System};
 use meshfree::prelude::*;
 use meshfree::simulation::{Change, Simulation};
+use meshfree::term::CentralViscosity;
 use meshfree::term::viscosity::MonaghanGingold;
 use std::path::PathBuf;
 
@@ -87,6 +88,45 @@ fn another_viscosity_is_that_of_a_scheme_which_takes_over() -> Result<()> {
     let thick = tank(0.02, 5.0, 0.0).resume_with(&file, &[Change::Viscosity]);
     let _ = std::fs::remove_file(file);
     thick.map(|_| ())
+}
+
+/// A block of viscous liquid that moves as a whole, so that its viscosity does nothing, until a load shears it after what is saved.
+fn sheared_later(dynamic_viscosity: f64) -> Scene<f64, 2> {
+    let water =
+        catalogue::weakly_compressible_water(10.0).with_dynamic_viscosity(dynamic_viscosity);
+    let later = |time: f64| if time > WHEN + 0.01 { 40.0 } else { 0.0 };
+    Scene::new(schemes::weakly_compressible().with(Laminar(CentralViscosity)))
+        .body(Body::block("water", water, [0.0; 2], [1.0, 0.5], DX).velocity([0.5, 0.0]))
+        .load(Load::acceleration(move |at| {
+            [later(at.time) * at.position[1], 0.0]
+        }))
+}
+
+#[test]
+fn another_viscosity_of_the_material_is_that_of_a_run_built_with_it() -> Result<()> {
+    let (thin, thick) = (1e-3, 5.0);
+    let file = saved("material", sheared_later(thin))?;
+    let refused = sheared_later(thick).resume(&file).err();
+    assert!(refused.is_some_and(|error| error.to_string().contains("viscosity")));
+    let mut resumed = sheared_later(thick).resume_with(&file, &[Change::Viscosity])?;
+    let mut same = sheared_later(thin).resume(&file)?;
+    let _ = std::fs::remove_file(file);
+    let mut built = sheared_later(thick).build()?;
+    for run in [&mut resumed, &mut same, &mut built] {
+        run.run_until(END)?;
+    }
+    assert!(bits(&resumed) == bits(&built));
+    // What shear there is fades as the viscosity says.
+    let apart = |run: &Simulation<f64, 2>| {
+        let speeds = run.all().map(|p| p.velocity()[0]);
+        let [low, high] = speeds.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| {
+            [low.min(v), high.max(v)]
+        });
+        high - low
+    };
+    println!("{} and {} m/s", apart(&resumed), apart(&same));
+    assert!(apart(&resumed) < 0.99 * apart(&same));
+    Ok(())
 }
 
 /// Kick, drift, kick by another name.

@@ -14,6 +14,8 @@ mod entries;
 mod error_bars;
 mod filled;
 mod filling;
+#[cfg(feature = "checkpoint")]
+mod flap;
 mod forces_of_laws;
 mod invariance;
 mod neighbours;
@@ -23,9 +25,13 @@ mod place;
 mod readings;
 #[cfg(feature = "checkpoint")]
 mod restart;
+#[cfg(feature = "checkpoint")]
+mod restart_of_parts;
 mod runs;
 mod step_limits;
 mod step_program;
+#[cfg(feature = "checkpoint")]
+mod stopped;
 mod stored_energy;
 mod vtk;
 #[cfg(feature = "serde")]

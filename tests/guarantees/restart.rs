@@ -2,7 +2,7 @@
 //! scheme; and a file that is not its own is refused with what differs.
 
 use super::bits::said;
-use super::readings::read_on_the_way;
+use super::stopped::{Folder, held, stop_and_go_on};
 use crate::common::{self, Random};
 use meshfree::boundary::{Crush, Inlet, Outlet, Rotation, Wall};
 use meshfree::coupling::ContactDensity;
@@ -16,122 +16,13 @@ use meshfree::scene::Start;
 use meshfree::sweep::InstructionSet;
 use meshfree::term::CentralViscosity;
 use meshfree::term::viscosity::CullenDehnen;
-use safetensors::SafeTensors;
-use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 const DX: f64 = 0.01;
-
-/// A folder of its own for a test, removed when it goes out of scope.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("meshfree-{}-{name}", std::process::id()));
-        fs::create_dir_all(&path).unwrap();
-        Self(path)
-    }
-    fn file(&self, name: &str) -> PathBuf {
-        self.0.join(name)
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
-    }
-}
-
-/// All that a file holds, by name.
-fn held(path: &Path) -> BTreeMap<String, Vec<u8>> {
-    let bytes = fs::read(path).unwrap();
-    let file = SafeTensors::deserialize(&bytes).unwrap();
-    let columns = file
-        .iter()
-        .filter(|(name, _)| *name != "checksum")
-        .map(|(name, view)| (name.to_string(), view.data().to_vec()));
-    let (_, header) = SafeTensors::read_metadata(&bytes).unwrap();
-    let texts = header.metadata().clone().unwrap();
-    let texts = texts
-        .into_iter()
-        .map(|(name, text)| (name, text.into_bytes()));
-    columns.chain(texts).collect()
-}
-
-fn assert_same(name: &str, one: &Path, other: &Path) {
-    let [one, other] = [one, other].map(held);
-    let names = |of: &BTreeMap<String, Vec<u8>>| of.keys().cloned().collect::<Vec<_>>();
-    assert_eq!(names(&one), names(&other), "{name}");
-    for (column, bytes) in &one {
-        assert!(*bytes == other[column], "{name}: `{column}` differs");
-    }
-}
-
-/// Moments at which each scene is stopped.
-const MOMENTS: usize = 5;
-
-/// Stops a scene at random moments of a run to `end` \[s\], goes on from each, and holds the ends against that of the
-/// run which did not stop.
-fn stop_and_go_on<T: Real, const D: usize>(
-    name: &str,
-    scene: impl Fn() -> Scene<T, D>,
-    keeps_energy: bool,
-    end: f64,
-) -> Vec<u64> {
-    let folder = Folder::new(name);
-    let start = || {
-        let mut simulation = scene().build().unwrap();
-        if keeps_energy {
-            simulation.keep_energy();
-        }
-        simulation
-    };
-    let mut whole = start();
-    whole.run_until(end).unwrap();
-    let (last, steps, builds) = (said(&whole), whole.steps(), whole.list_builds());
-    assert!((20..400).contains(&steps), "{name}: {steps} steps");
-    println!("{name}: {steps} steps, {builds} list builds");
-    let at_end = folder.file("end");
-    whole.save(&at_end).unwrap();
-    drop(whole);
-    let mut random = Random(name.bytes().map(u64::from).sum());
-    let mut moments: Vec<u64> = Vec::new();
-    while moments.len() < MOMENTS {
-        let moment = 1 + random.bits() % (steps - 1);
-        if !moments.contains(&moment) {
-            moments.push(moment);
-        }
-    }
-    let mut watched = start();
-    watched
-        .run_with(end, |now| {
-            if moments.contains(&now.steps()) {
-                now.save(folder.file(&now.steps().to_string())).unwrap();
-            }
-        })
-        .unwrap();
-    assert!(said(&watched) == last, "{name}: to save changes nothing");
-    drop(watched);
-    for moment in moments {
-        let stopped = folder.file(&moment.to_string());
-        let mut resumed = scene().resume(&stopped).unwrap();
-        assert_eq!(resumed.steps(), moment);
-        let again = folder.file("again");
-        resumed.save(&again).unwrap();
-        assert_same(name, &stopped, &again);
-        resumed.run_until(end).unwrap();
-        assert!(said(&resumed) == last, "{name}: stopped after {moment}");
-        resumed.save(&again).unwrap();
-        assert_same(name, &at_end, &again);
-    }
-    let resume = |path: &Path| scene().resume(path).unwrap();
-    read_on_the_way(name, start, resume, end, &folder.file("read"));
-    last
-}
 
 fn rods<T: Real>() -> Scene<T, 1> {
     Scene::new(schemes::impact())

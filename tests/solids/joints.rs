@@ -167,6 +167,33 @@ fn slider_crank(clamped: bool) -> Scene<f64, 2> {
 /// Radius \[m\], length of the rod \[m\], and speed \[rad/s\].
 const CRANK: [f64; 3] = [0.3, 1.0, 3.0];
 
+/// Masses \[kg\] of the rod, of 20 particles, and of the block, of 12, with ρ Δx² = 2.5 kg each.
+const CRANKED: [f64; 2] = [50.0, 30.0];
+
+/// Acceleration of the block along x \[m/s²\], by the second derivative of x(θ) = r cos θ + √(l² − r² sin² θ).
+fn acceleration_of_block(time: f64) -> f64 {
+    let [r, l, speed] = CRANK;
+    let (sin, cos) = (speed * time).sin_cos();
+    let along = (l * l - (r * sin).powi(2)).sqrt();
+    let turned =
+        r * r * (cos * cos - sin * sin) / along + (r * r * sin * cos).powi(2) / along.powi(3);
+    -speed * speed * (r * cos + turned)
+}
+
+/// Kinetic energy of rod and block \[J\]; that of the crank is constant. The rod's angle φ follows from l sin φ = r sin θ.
+fn kinetic_of_rod_and_block(time: f64) -> f64 {
+    let ([r, l, speed], [rod, block]) = (CRANK, CRANKED);
+    let (sin, cos) = (speed * time).sin_cos();
+    let along = (l * l - (r * sin).powi(2)).sqrt();
+    let spin = speed * r * cos / along;
+    let block_speed = -speed * r * sin * (1.0 + r * cos / along);
+    // The middle of the rod is half way between its ends.
+    let [u, v] = [0.5 * (block_speed - speed * r * sin), 0.5 * speed * r * cos];
+    // Of 20 points in a row.
+    let inertia = rod * (l * l - 0.05 * 0.05) / 12.0;
+    0.5 * (rod * (u * u + v * v) + inertia * spin * spin + block * block_speed * block_speed)
+}
+
 #[test]
 fn a_slider_crank_follows_its_closed_form() {
     let [r, l, speed] = CRANK;
@@ -175,8 +202,31 @@ fn a_slider_crank_follows_its_closed_form() {
         let mut simulation = slider_crank(clamped).build().unwrap();
         let start = simulation.ledger().whole.kinetic;
         let (mut worst, mut unpaid) = (0.0_f64, 0.0_f64);
+        // Force of the rod on the block, and power of the motor: largest error and largest value.
+        let (mut force, mut power, mut last) = ([0.0_f64; 2], [0.0_f64; 2], 0.0);
         simulation
             .run_with(5.0, |now| {
+                let dt = now.time() - last;
+                // The first step has the blow with which the crank starts. Forces of what holds are means of a step.
+                if last > 0.0 {
+                    let exact = CRANKED[1] * acceleration_of_block(last + 0.5 * dt);
+                    let found = now.joints()[2].force[0];
+                    force = [
+                        force[0].max((found - exact).abs()),
+                        force[1].max(exact.abs()),
+                    ];
+                    let [before, after] = [last, now.time()].map(kinetic_of_rod_and_block);
+                    let exact = (after - before) / dt;
+                    let found = now
+                        .joints()
+                        .get(3)
+                        .map_or(exact, |motor| motor.moment[2] * speed);
+                    power = [
+                        power[0].max((found - exact).abs()),
+                        power[1].max(exact.abs()),
+                    ];
+                }
+                last = now.time();
                 let angle = speed * now.time();
                 let exact = r * angle.cos() + (l * l - (r * angle.sin()).powi(2)).sqrt() - r - l;
                 worst = worst.max((now.joints()[0].value - exact).abs());
@@ -191,10 +241,14 @@ fn a_slider_crank_follows_its_closed_form() {
             .unwrap();
         let kinetic = simulation.ledger().whole.kinetic;
         println!(
-            "clamped {clamped}: off by {worst:e} m, energy by {:e}, steps {}",
+            "clamped {clamped}: off by {worst:e} m, energy by {:e}, force and power by {:e} and {:e}, steps {}",
             unpaid / kinetic,
+            force[0] / force[1],
+            power[0] / power[1],
             simulation.steps()
         );
+        assert!(force[0] < 0.01 * force[1], "{force:?}");
+        assert!(power[0] < 0.01 * power[1], "{power:?}");
         assert!(worst < apart, "{worst:e}");
         assert!(unpaid < 1e-5 * kinetic, "{unpaid:e} of {kinetic}");
         if !clamped {

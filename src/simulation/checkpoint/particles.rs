@@ -3,9 +3,11 @@
 
 use super::change::{Change, Changes};
 use crate::output::checkpoint::{Checkpoint, Read, damaged};
+use crate::particles::Field;
 use crate::scalar::Real;
 use crate::scheme::Scheme;
 use crate::simulation::population::{BodyState, Moves, Particles, Passed};
+use crate::term::Stage;
 use std::ops::Range;
 
 pub(super) fn put_particles<T: Real, const D: usize>(
@@ -83,6 +85,11 @@ pub(super) fn take_particles<T: Real, const D: usize>(
     changes: Changes<'_>,
 ) -> Read<()> {
     let slots = particles.columns.slots();
+    let viscosities = if changes.has(Change::Viscosity) {
+        built_viscosities(particles, scheme)
+    } else {
+        Vec::new()
+    };
     for field in particles.columns.fields().iter() {
         let column = format!("{name}/particles/{}", scheme.program.name_of(field));
         // What a load that is new gives to.
@@ -104,6 +111,16 @@ pub(super) fn take_particles<T: Real, const D: usize>(
         }
         particles.bodies[k].slots.end = end;
     }
+    if !viscosities.is_empty() {
+        let column = particles.columns.raw_mut(Field::DYNAMIC_VISCOSITY);
+        for body in particles.bodies.iter().filter(|own| !own.slots.is_empty()) {
+            for slot in body.run() {
+                // The last particle is repeated to the end of the run.
+                let id = particles.ids[slot.min(body.slots.end - 1)] as usize;
+                column[slot] = viscosities[id].unwrap_or(column[slot]);
+            }
+        }
+    }
     particles.moved = Moves::default();
     particles.removed = take_passed(&format!("{name}/removed"), file)?;
     particles.entered = if file.has(&format!("{name}/entered/particles")) {
@@ -112,6 +129,41 @@ pub(super) fn take_particles<T: Real, const D: usize>(
         Passed::default()
     };
     Ok(())
+}
+
+/// The viscosity \[Pa s\] that the scene gives each particle of its bodies, by number. Where no law of the scheme makes another of
+/// it, the column of the file has that of the earlier material.
+fn built_viscosities<T: Real, const D: usize>(
+    particles: &Particles<T, D>,
+    scheme: &Scheme<T, D>,
+) -> Vec<Option<T>> {
+    const VISCOSITY: Field = Field::DYNAMIC_VISCOSITY;
+    if !particles.columns.fields().contains(VISCOSITY) {
+        return Vec::new();
+    }
+    let program = &scheme.program;
+    // Walls take that of the liquid before them.
+    let mut stages = Stage::ALL.into_iter().filter(|own| *own != Stage::Walls);
+    let varies = program.evolved.iter().any(|own| own.field == VISCOSITY)
+        || stages.any(|stage| {
+            let mut laws = program.laws[stage.number()].iter();
+            laws.any(|law| law.writes().contains(VISCOSITY))
+        });
+    let built = particles.columns.raw(VISCOSITY);
+    let mut all = vec![None; particles.slot_of.len()];
+    for body in &particles.bodies {
+        let law = body.material.rheology();
+        if varies && law.is_some() {
+            continue;
+        }
+        let of_material = T::from_f64(law.map_or(0.0, |law| law.viscosity(0.0)));
+        for id in body.run() {
+            // Those that are yet to enter have no slot.
+            let own = built.get(particles.slot_of[id] as usize);
+            all[id] = Some(own.copied().unwrap_or(of_material));
+        }
+    }
+    all
 }
 
 /// Particles stay in the run of their body or wall.
