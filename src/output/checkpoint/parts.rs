@@ -59,7 +59,7 @@ impl Before {
         })
     }
 
-    /// Removes its parts, which no manifest names any more. What stays is in nobody's way.
+    /// Removes its parts, which no manifest names any more. What stays harms nothing.
     pub fn remove(self) {
         for part in self.parts {
             let _ = fs::remove_file(part);
