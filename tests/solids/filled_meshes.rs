@@ -274,7 +274,7 @@ fn placed_meshes_refuse_what_stretches() {
     refused(one, [0.0, f64::INFINITY, 0.0], "shift of the shape");
 }
 
-/// 108 000 triangles and half a million particles, turned: row by row in 0.2 s on two cores, point by point in half a minute.
+/// 108 000 triangles and half a million particles, turned and filled row by row: the whole test takes 2.5 s of one core.
 #[test]
 fn a_placed_mesh_of_many_triangles_fills_by_rows() {
     let rotation = turn(0.6, 0.2);
