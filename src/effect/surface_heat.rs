@@ -159,7 +159,7 @@ impl SurfaceHeat {
             }));
         }
         // An unknown name is told with those that there are.
-        drop(simulation.body(body)?);
+        simulation.body(body).map(drop)?;
         let ledger = simulation.ledger();
         let own = ledger.bodies.iter().find(|(name, _)| name == body);
         let found = own.and_then(|(_, budget)| budget.total(TOTAL_AREA));
