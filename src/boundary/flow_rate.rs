@@ -75,6 +75,9 @@ impl<const D: usize> OpenBoundary<D> for FlowRate<D> {
     fn span(&self) -> [f64; 2] {
         self.rate.span()
     }
+    fn resolution(&self) -> Option<f64> {
+        self.rate.resolution()
+    }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         let mut problems = Vec::new();
         if let Some(bad) = self.rate.bad_constant() {

@@ -54,6 +54,9 @@ impl<const D: usize> OpenBoundary<D> for GivenPressure<D> {
     fn span(&self) -> [f64; 2] {
         self.level.span()
     }
+    fn resolution(&self) -> Option<f64> {
+        self.level.resolution()
+    }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         let bad = self.level.bad_constant().into_iter();
         bad.map(|bad| ("pressure", bad, "it must be finite, in Pa"))

@@ -129,6 +129,11 @@ impl<const D: usize> Inlet<D> {
         self
     }
 
+    /// What carries it, if it moves.
+    pub(crate) fn carried(&self) -> Option<&dyn Motion<D>> {
+        self.motion.as_deref()
+    }
+
     fn direction(&self) -> [f64; D] {
         let size = length(&Vector::from(self.velocity));
         self.velocity.map(|v| v / size)

@@ -62,6 +62,11 @@ pub trait OpenBoundary<const D: usize>: Send + Sync {
     fn span(&self) -> [f64; 2] {
         [f64::NEG_INFINITY, f64::INFINITY]
     }
+    /// An estimate of how far it is from what its rows were taken from, if it is made of rows; none by default.
+    /// [`TimeSeries::resolution`](super::TimeSeries::resolution) has it, and [`Scene::advise`](crate::scene::Scene::advise) judges it.
+    fn resolution(&self) -> Option<f64> {
+        None
+    }
     /// What is wrong with it, as `(what, value, what it must be)`.
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         Vec::new()

@@ -140,6 +140,11 @@ impl<const D: usize> Outlet<D> {
         self.2.as_deref()
     }
 
+    /// The boundary whose state its buffer has, if it has one.
+    pub(crate) fn state(&self) -> Option<&dyn OpenBoundary<D>> {
+        self.1.as_ref().map(|buffer| &*buffer.state)
+    }
+
     /// The same at rest where it is at `time` \[s\].
     pub(crate) fn at(&self, time: f64) -> Self {
         let reason = match (&self.0, &self.2) {

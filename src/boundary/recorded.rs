@@ -64,6 +64,9 @@ const FASTER: f64 = 10.0;
 /// The least part of the range of a record that counts as a jump.
 const LEAST: f64 = 0.01;
 
+/// Amplitude of rows that are the same but for rounding, over the largest number in them.
+const SAME: f64 = 1e-12;
+
 /// How far beyond its rows a time still counts as within, for rounding, over the length of the record.
 const ROUNDING: f64 = 1e-9;
 
@@ -297,11 +300,16 @@ fn jump<const W: usize>(rows: &[(f64, [f64; W])]) -> Option<(usize, f64)> {
     })
 }
 
-/// How far the spline through every other row passes the others at most, over the amplitude.
-fn resolution<const W: usize>(rows: &[(f64, [f64; W])]) -> Option<f64> {
+/// How far the spline through every other row passes the others at most, over the amplitude; none of fewer than eight rows, and of rows
+/// that are the same but for rounding.
+pub(super) fn resolution<const W: usize>(rows: &[(f64, [f64; W])]) -> Option<f64> {
     let half: Vec<_> = rows.iter().copied().step_by(2).collect();
     let amplitude = amplitude(rows);
-    if rows.len() < 8 || amplitude == 0.0 {
+    let largest = rows
+        .iter()
+        .flat_map(|row| row.1)
+        .fold(0.0, |most: f64, x| most.max(x.abs()));
+    if rows.len() < 8 || amplitude <= SAME * largest {
         return None;
     }
     let spline = Spline::new(&half, Ends::Free);

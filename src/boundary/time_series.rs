@@ -1,6 +1,7 @@
 //! A number as a function of time: a constant, a function, or rows of time and value.
 //! Rows are joined by a cubic spline.
 
+use super::recorded::resolution;
 use super::spline::{Ends, Spline};
 use crate::error::{Error, Problem, Result};
 use crate::output::hash::Hash;
@@ -33,7 +34,7 @@ pub struct TimeSeries {
 enum Kind {
     Constant(f64),
     Function(Arc<dyn Fn(f64) -> f64 + Send + Sync>),
-    Rows(Arc<Spline<1>>, [f64; 2]),
+    Rows(Arc<Spline<1>>, [f64; 2], Option<f64>),
 }
 
 /// How far beyond its rows a time still counts as within, for rounding, over the length of the record.
@@ -86,7 +87,7 @@ impl TimeSeries {
                 span[1],
                 hash.value()
             ),
-            kind: Kind::Rows(Arc::new(spline), span),
+            kind: Kind::Rows(Arc::new(spline), span, resolution(&columns)),
         })
     }
 
@@ -105,7 +106,7 @@ impl TimeSeries {
         match &self.kind {
             Kind::Constant(value) => *value,
             Kind::Function(of) => of(time),
-            Kind::Rows(spline, _) => {
+            Kind::Rows(spline, ..) => {
                 let [first, last] = self.span();
                 if time < first || time > last {
                     return f64::NAN;
@@ -119,11 +120,38 @@ impl TimeSeries {
     #[must_use]
     pub fn span(&self) -> [f64; 2] {
         match &self.kind {
-            Kind::Rows(_, [first, last]) => {
+            Kind::Rows(_, [first, last], _) => {
                 let slack = ROUNDING * (last - first);
                 [first - slack, last + slack]
             }
             _ => [f64::NEG_INFINITY, f64::INFINITY],
+        }
+    }
+
+    /// An estimate of how far the spline is from what its rows were taken from: how far the spline through every other row passes the
+    /// rows in between at most, over half the range of the rows. It is that of [`Recorded`](super::Recorded#resolution) motions, which
+    /// lists its size for a sine. None of a constant, a function, fewer than eight rows, and rows that all have one value.
+    ///
+    /// [`Scene::advise`](crate::scene::Scene::advise) warns from 0.01 on. Rows that meet a period always at the same place, as one row a
+    /// period does, look like a constant: no estimate from rows alone sees that.
+    ///
+    /// ```
+    /// use meshfree::boundary::TimeSeries;
+    /// let sine = |per_period: u32| {
+    ///     let times = (0..=6 * per_period).map(|k| f64::from(k) / f64::from(per_period));
+    ///     let rows: Vec<(f64, f64)> = times.map(|t| (t, (std::f64::consts::TAU * t).sin())).collect();
+    ///     TimeSeries::rows(&rows)
+    /// };
+    /// assert!(sine(40)?.resolution().is_some_and(|off| off < 0.01));
+    /// assert!(sine(5)?.resolution().is_some_and(|off| off > 0.1));
+    /// assert_eq!(TimeSeries::from(3.0).resolution(), None);
+    /// # Ok::<(), meshfree::error::Error>(())
+    /// ```
+    #[must_use]
+    pub fn resolution(&self) -> Option<f64> {
+        match self.kind {
+            Kind::Rows(_, _, resolution) => resolution,
+            _ => None,
         }
     }
 

@@ -49,6 +49,9 @@ impl<const D: usize> OpenBoundary<D> for VelocityProfile<D> {
     fn span(&self) -> [f64; 2] {
         self.strength.span()
     }
+    fn resolution(&self) -> Option<f64> {
+        self.strength.resolution()
+    }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         let bad = self.strength.bad_constant().into_iter();
         bad.map(|bad| ("strength of the profile", bad, "it must be finite"))

@@ -7,10 +7,12 @@ use super::{
     Around, CONSTANTS, Effect, Evolved, HeatConduction, LedgerColumn, Point, PointLaw, PointLimit,
     PointRate, Reach, Setting, StepProgram, not_negative,
 };
-use crate::error::Problem;
+use crate::error::{Error, Problem, Result};
+use crate::geometry::POSITIVE;
 use crate::name;
 use crate::particles::{Field, Fields, Outputs};
 use crate::scalar::{Lane, Real};
+use crate::simulation::Simulation;
 use crate::term::{In, Stage, TermDoc, stage};
 
 /// Stefan–Boltzmann constant σ \[W/(m² K⁴)\], exact in the SI (CODATA 2018).
@@ -35,7 +37,8 @@ pub const STEFAN_BOLTZMANN: f64 = 5.670374419e-8;
 /// | ball | −4 to −2 % | |
 /// | cube | −10 to −7 % | |
 ///
-/// Where edges matter, scale h and ε by the true area over the sum of [`AREA`](Self::AREA).
+/// Where edges matter, [`set_area`](Self::set_area) gives a body its true area. The sum is in the
+/// [ledger](crate::simulation::Budget::totals) as `area of the surface`.
 ///
 /// The step is limited to a quarter of the time in which a particle comes to T∞. The heat that entered is in the
 /// [ledger](crate::simulation::Budget::totals) as `heat through surfaces` \[J\]. In a total-Lagrangian scheme areas are those of the
@@ -74,6 +77,8 @@ struct Exchange {
 impl SurfaceHeat {
     /// The area \[mᴰ⁻¹\] that a particle has of the free surface.
     pub const AREA: Field = Field::scalar(name!("surface_area", "mᴰ⁻¹"));
+    /// What the area of a particle is multiplied with \[1\]: 1 by default, and what [`set_area`](Self::set_area) or `Body::field` gives.
+    pub const AREA_FACTOR: Field = Field::scalar(name!("surface_area_factor", "1"));
     /// Heat that has entered a particle through its surface so far, over its mass \[J/kg\].
     pub const RECEIVED: Field = Field::scalar(name!("surface_heat", "J/kg"));
 
@@ -116,6 +121,60 @@ impl SurfaceHeat {
         self
     }
 
+    /// Makes the surface of a body have this area \[mᴰ⁻¹\] as it is now: multiplies the [`AREA_FACTOR`](Self::AREA_FACTOR) of its
+    /// particles by area/Σ A, and returns that ratio. Smoothing rounds edges, so Σ A of a cube is up to 10 % low.
+    ///
+    /// The factor stays with the particles and is saved with them. What covers a part of the surface at that time, as a wall, counts as no
+    /// surface.
+    ///
+    /// ```
+    /// use meshfree::effect::{HeatConduction, SurfaceHeat};
+    /// use meshfree::prelude::*;
+    /// let conduction = HeatConduction { conductivity: 1.0, specific_heat: 1.0, temperature: 400.0 };
+    /// let scheme = schemes::weakly_compressible().with(conduction).with(SurfaceHeat::convection(50.0, 300.0));
+    /// let water = catalogue::weakly_compressible_water(1.0);
+    /// let mut square = Scene::<f64, 2>::new(scheme)
+    ///     .body(Body::block("square", water, [0.0; 2], [0.1; 2], 0.01))
+    ///     .build()?;
+    /// let factor = SurfaceHeat::set_area(&mut square, "square", 0.4)?;
+    /// assert!((1.0..1.15).contains(&factor), "{factor}");
+    /// square.step_at_most(1e-9)?;
+    /// let area = square.ledger().whole.total("area of the surface").unwrap_or(0.0);
+    /// assert!((area - 0.4).abs() < 1e-9, "{area}");
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Argument`] if there is no such body, it has no area, or `area` is not positive and finite.
+    pub fn set_area<T: Real, const D: usize>(
+        simulation: &mut Simulation<T, D>,
+        body: &str,
+        area: f64,
+    ) -> Result<f64> {
+        if !(area.is_finite() && area > 0.0) {
+            return Err(Error::Argument(Problem::Parameter {
+                what: format!("area of the surface of body `{body}`"),
+                value: area,
+                must_be: POSITIVE,
+            }));
+        }
+        // An unknown name is told with those that there are.
+        simulation.body(body).map(drop)?;
+        let ledger = simulation.ledger();
+        let own = ledger.bodies.iter().find(|(name, _)| name == body);
+        let found = own.and_then(|(_, budget)| budget.total(TOTAL_AREA));
+        let Some(found) = found.filter(|found| *found > 0.0) else {
+            return Err(Error::Argument(Problem::Incompatible {
+                what: format!("body `{body}` has no area of a free surface"),
+                remedy: "take a scheme with SurfaceHeat, and leave a part of the surface free",
+            }));
+        };
+        let ratio = area / found;
+        let field = Self::AREA_FACTOR;
+        simulation.set_field(body, field, |_, [factor]: [f64; 1]| [ratio * factor])?;
+        Ok(ratio)
+    }
+
     /// Of all exchanges of a material: Σ h, Σ h T∞, Σ ε σ and Σ ε σ T∞⁴.
     fn sums(&self, material: &str) -> [f64; CONSTANTS] {
         let of = |own: &&Exchange| own.material.as_ref().is_none_or(|name| name == material);
@@ -133,6 +192,9 @@ impl SurfaceHeat {
 }
 
 const AREA: Field = SurfaceHeat::AREA;
+const AREA_FACTOR: Field = SurfaceHeat::AREA_FACTOR;
+/// Σ A in the ledger.
+const TOTAL_AREA: &str = "area of the surface";
 const RECEIVED: Field = SurfaceHeat::RECEIVED;
 const TEMPERATURE: Field = HeatConduction::TEMPERATURE;
 /// Heat through the surface over mass and time \[W/kg\].
@@ -147,6 +209,7 @@ impl<const D: usize> Effect<D> for SurfaceHeat {
     }
     fn register<T: Real>(&self, program: &mut StepProgram<T, D>) {
         program.declare(AREA, 0.0);
+        program.declare(AREA_FACTOR, 1.0);
         program.declare(RECEIVED, 0.0);
         let factor = program.setting().area_factor;
         program.law(
@@ -165,6 +228,13 @@ impl<const D: usize> Effect<D> for SurfaceHeat {
             unit: "J",
             field: RECEIVED,
             times_mass: true,
+            factor: 1.0,
+        });
+        program.ledger(LedgerColumn {
+            name: TOTAL_AREA,
+            unit: "mᴰ⁻¹",
+            field: AREA,
+            times_mass: false,
             factor: 1.0,
         });
         for own in &self.exchanges {
@@ -216,6 +286,7 @@ impl<const D: usize> PointLaw<D> for Exchanged {
     const READS: Fields = Fields::of(&[
         TEMPERATURE,
         SPECIFIC_HEAT,
+        AREA_FACTOR,
         Field::MASS,
         Field::DENSITY,
         Field::SMOOTHING_LENGTH,
@@ -234,7 +305,7 @@ impl<const D: usize> PointLaw<D> for Exchanged {
     #[inline(always)]
     fn point<L: Lane, P: Reach>(&self, at: &mut Point<'_, L, D, P>) {
         let mass = at.get(Field::MASS);
-        let area = area_of_surface(at, self.factor);
+        let area = at.get(AREA_FACTOR) * area_of_surface(at, self.factor);
         let temperature = at.get(TEMPERATURE);
         let cube = temperature * temperature * temperature;
         let convected = at.constant(1) - at.constant(0) * temperature;

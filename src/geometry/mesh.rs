@@ -1,10 +1,12 @@
 //! Shapes from triangle meshes, read from STL files.
 //! Inside is where the winding number is one; the distance is that to the nearest triangle.
 
+use super::moved::problems_of;
 use super::overlap::correction;
 use super::rows::Line;
 use super::{Shape, is_inside};
 use crate::error::{Error, Problem, Result};
+use crate::tensor::{Matrix, Vector};
 use std::collections::HashMap;
 use std::fmt;
 use std::io::Cursor;
@@ -256,6 +258,49 @@ impl Mesh {
     #[must_use]
     pub fn volume(&self) -> f64 {
         self.volume
+    }
+
+    /// The mesh with its triangles turned about the origin by an orthonormal `rotation`, then moved by `shift` \[m\]. A reflection
+    /// mirrors it.
+    ///
+    /// The surface is that of [`Shape::moved`], which turns every point that is asked for instead. Rows of a lattice are not rows any
+    /// more in the turned frame, so [`fill`](super::fill) goes through a moved shape point by point, and through this one row by row.
+    ///
+    /// ```
+    /// use meshfree::geometry::{Mesh, Shape};
+    /// use meshfree::tensor::Matrix;
+    /// let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    /// let mesh = Mesh::new(&corners, &[[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])?;
+    /// // A quarter turn about z, and 2 m up.
+    /// let quarter = Matrix::<f64, 3>::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
+    /// let placed = mesh.clone().placed(quarter, [0.0, 0.0, 2.0])?;
+    /// assert_eq!(placed.bounds(), ([-1.0, 0.0, 2.0], [0.0, 1.0, 3.0]));
+    /// assert!(mesh.placed(2.0 * quarter, [0.0; 3]).is_err());
+    /// # Ok::<(), meshfree::error::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Argument`] if an entry of RᵀR − 1 is above 10⁻⁹, or the shift is not finite.
+    pub fn placed(mut self, rotation: Matrix<f64, 3>, shift: Point) -> Result<Self> {
+        if let Some((what, value, must_be)) = problems_of(&rotation, &shift).into_iter().next() {
+            let what = what.into();
+            return Err(Error::Argument(Problem::Parameter {
+                what,
+                value,
+                must_be,
+            }));
+        }
+        let mirrors = rotation.determinant() < 0.0;
+        for own in &mut self.triangles {
+            *own = own.map(|x| (rotation * Vector::from(x) + Vector::from(shift)).into());
+            if mirrors {
+                own.swap(1, 2);
+            }
+        }
+        self.nodes.clear();
+        let count = self.triangles.len();
+        build(&mut self.triangles, 0, count, &mut self.nodes);
+        Ok(self)
     }
 
     /// How many triangles it has.

@@ -1,7 +1,7 @@
 //! A shape in another place and direction.
 //! d(x) = a(Rᵀ (x − s)), with rotation R and shift s.
 
-use super::Shape;
+use super::{Flaw, Shape};
 use crate::tensor::{Matrix, Vector};
 
 /// Most by which the product of a rotation with its transpose may differ from one: rotations made in
@@ -58,20 +58,30 @@ impl<const D: usize, S: Shape<D>> Shape<D> for Moved<S, D> {
         }
         (lowest, highest)
     }
-    fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
+    fn problems(&self) -> Vec<Flaw> {
         let mut problems = self.shape.problems();
-        let error = self.rotation.tr_mul(&self.rotation) - Matrix::identity();
-        let mut entries = error.iter();
-        if let Some(&bad) = entries.find(|x| x.is_nan() || x.abs() > ORTHONORMAL) {
-            problems.push((
-                "an entry of RᵀR − 1 of the rotation",
-                bad,
-                "it must be zero: the columns must be orthonormal, or distances would be stretched",
-            ));
-        }
-        if let Some(&bad) = self.shift.iter().find(|s| !s.is_finite()) {
-            problems.push(("shift of the shape", bad, "it must be finite, in metres"));
-        }
+        problems.extend(problems_of(&self.rotation, &self.shift));
         problems
     }
+}
+
+/// What is wrong with a rotation and a shift.
+pub(super) fn problems_of<const D: usize>(
+    rotation: &Matrix<f64, D>,
+    shift: &[f64; D],
+) -> Vec<Flaw> {
+    let mut problems = Vec::new();
+    let error = rotation.tr_mul(rotation) - Matrix::identity();
+    let mut entries = error.iter();
+    if let Some(&bad) = entries.find(|x| x.is_nan() || x.abs() > ORTHONORMAL) {
+        problems.push((
+            "an entry of RᵀR − 1 of the rotation",
+            bad,
+            "it must be zero: the columns must be orthonormal, or distances would be stretched",
+        ));
+    }
+    if let Some(&bad) = shift.iter().find(|s| !s.is_finite()) {
+        problems.push(("shift of the shape", bad, "it must be finite, in metres"));
+    }
+    problems
 }

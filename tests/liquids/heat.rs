@@ -141,6 +141,71 @@ fn a_block_cools_by_convection() {
     assert!(thick > 1.2, "{thick}");
 }
 
+/// What is left of T − T∞ of a body over that of the lumped solution, with Bi = h L/(2 k) = 0.0075, and by how much its area was low.
+fn left_of_block<const D: usize>(body: Body<f64, D>, true_area: Option<f64>) -> [f64; 2]
+where
+    WendlandC2: meshfree::kernel::Kernel<D>,
+{
+    let (h, until) = (50.0, 0.2);
+    let scheme = still!(400.0, SurfaceHeat::convection(h, 300.0));
+    let mut run = Scene::new(scheme).body(body).build().expect("a block");
+    run.step_at_most(1e-9).expect("a step");
+    let ratio = true_area.map_or(1.0, |area| {
+        SurfaceHeat::set_area(&mut run, "block", area).expect("an area")
+    });
+    run.run_until(until).expect("a run");
+    let [mean, _] = temperature(&run);
+    // A/V = 2 D/L of a square and a cube.
+    let rate = h * 2.0 * D as f64 / (RHO * EDGE);
+    [(mean - 300.0) / (100.0 * (-rate * until).exp()), ratio]
+}
+
+/// Twelve particles of a block \[m\].
+const EDGE: f64 = 0.12;
+
+/// With its true area a block with edges cools as the lumped solution does. The control has the area that smoothing leaves.
+#[test]
+fn blocks_with_edges_cool_by_their_true_area() {
+    let dx = EDGE / 12.0;
+    let square = || Body::block("block", water(), [0.0; 2], [EDGE; 2], dx);
+    let cube = || Body::block("block", water(), [0.0; 3], [EDGE; 3], dx);
+    let squares = [None, Some(4.0 * EDGE)].map(|area| left_of_block(square(), area));
+    let cubes = [None, Some(6.0 * EDGE * EDGE)].map(|area| left_of_block(cube(), area));
+    println!("square {squares:?}, cube {cubes:?}");
+    for ([rounded, _], [exact, ratio], most) in
+        [(squares[0], squares[1], 1.01), (cubes[0], cubes[1], 1.05)]
+    {
+        assert_relative_eq!(exact, 1.0, max_relative = 0.01);
+        assert!(rounded > most && ratio > 1.03, "{rounded} {ratio}");
+    }
+}
+
+#[test]
+fn areas_that_no_body_has_are_refused() {
+    let mut run = slab(1.0, SurfaceHeat::convection(1.0, 300.0));
+    let refused = |run: &mut Simulation<f64, 1>, body: &str, area: f64, what: &str| {
+        let error = SurfaceHeat::set_area(run, body, area).expect_err(what);
+        assert!(error.to_string().contains(what), "{error}");
+    };
+    // Without the effect there is no area.
+    let scheme = schemes::weakly_compressible().with(conduction(1.0));
+    let body = Body::block("slab", water(), [0.0], [0.2], 0.01);
+    let mut without = Scene::new(scheme).body(body).build().expect("a slab");
+    refused(&mut without, "slab", 2.0, "SurfaceHeat");
+    refused(
+        &mut run,
+        "slab",
+        f64::NAN,
+        "area of the surface of body `slab`",
+    );
+    refused(&mut run, "slab", 0.0, "positive");
+    refused(&mut run, "slap", 2.0, "slab");
+    let ratio = SurfaceHeat::set_area(&mut run, "slab", 1.0).expect("an area");
+    assert_relative_eq!(ratio, 0.5, max_relative = 1e-9);
+    run.step_at_most(1e-9).expect("a step");
+    assert_relative_eq!(area(&run), 1.0, max_relative = 1e-9);
+}
+
 #[test]
 fn a_block_cools_by_radiation() {
     let mut run = slab(
@@ -259,13 +324,18 @@ fn heat_resumes_to_the_same_bits() {
         Scene::<f32, 2>::new(scheme).body(Body::block("block", water(), [0.0; 2], [0.1; 2], 0.01))
     };
     let bits = |run: &Simulation<f32, 2>| -> Vec<u64> {
-        let fields = [HeatConduction::TEMPERATURE, SurfaceHeat::RECEIVED];
+        let fields = [
+            HeatConduction::TEMPERATURE,
+            SurfaceHeat::RECEIVED,
+            SurfaceHeat::AREA,
+        ];
         let of = |field| run.all().filter_map(move |own| own.scalar(field));
         fields.into_iter().flat_map(of).map(f64::to_bits).collect()
     };
     let file = std::env::temp_dir().join(format!("meshfree-{}-heat", std::process::id()));
     let mut whole = scene().build().expect("a block");
     whole.run_until(0.02).expect("a run");
+    SurfaceHeat::set_area(&mut whole, "block", 0.4).expect("an area");
     whole.save(&file).expect("a file");
     whole.run_until(0.04).expect("a run");
     let mut resumed = scene().resume(&file).expect("a file");

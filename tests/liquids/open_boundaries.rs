@@ -3,12 +3,13 @@
 
 use approx::assert_relative_eq;
 use meshfree::boundary::{
-    FlowRate, GivenPressure, Inlet, Outlet, TimeSeries, VelocityProfile, Wall,
+    FlowRate, GivenPressure, Inlet, Outlet, Recorded, TimeSeries, VelocityProfile, Wall,
 };
 use meshfree::effect::{ConsistentShifting, Laminar, PressureDifference};
 use meshfree::material::eos::Linear;
 use meshfree::material::{Liquid, SoundSpeed};
 use meshfree::prelude::*;
+use meshfree::scene::advice::{Known, Need};
 use meshfree::scheme::Start;
 use meshfree::term::LaminarViscosity;
 use meshfree::term::viscosity::Inviscid;
@@ -189,11 +190,11 @@ fn pipe_water() -> Material<f64> {
 }
 
 /// A pipe in one dimension, fed by rows of a flow that swings between a half and one and a half of its mean.
-fn pipe(rows: u32, periods: f64) -> Scene<f64, 1> {
+fn pipe(rows: f64, periods: f64) -> Scene<f64, 1> {
     let dx = 0.005;
     let rate = |t: f64| FLOW[0] * (1.0 + 0.5 * (TAU * t / FLOW[1]).sin());
-    let step = FLOW[1] / f64::from(rows);
-    let count = (periods * f64::from(rows)).ceil() as u32;
+    let step = FLOW[1] / rows;
+    let count = (periods * rows).ceil() as u32;
     let rows: Vec<(f64, f64)> = (0..=count)
         .map(|k| step * f64::from(k))
         .map(|t| (t, rate(t)))
@@ -209,7 +210,7 @@ fn pipe(rows: u32, periods: f64) -> Scene<f64, 1> {
 #[test]
 fn a_record_of_flow_closes_its_mass() {
     let periods = 22.25;
-    let mut flow = pipe(20, periods).build().unwrap();
+    let mut flow = pipe(20.0, periods).build().unwrap();
     let middle = 0.1;
     let beyond = |flow: &Simulation<f64, 1>| -> f64 {
         let own = flow.all().filter(|p| p.position()[0] > middle);
@@ -233,23 +234,93 @@ fn a_record_of_flow_closes_its_mass() {
     }
 }
 
-/// The control: rows too far apart for the flow they are taken from. The spline closes another mass.
+/// Rows too far apart for the flow that they are taken from: the spline passes another mass, and advice says so with a number.
 #[test]
-fn rows_too_far_apart_pass_another_mass() {
-    let mut flow = pipe(1, 4.0).build().unwrap();
-    flow.run_until(0.75 * FLOW[1]).unwrap();
-    let entered = flow.removed().particles + flow.particles() as u64;
-    let first = pipe(1, 4.0).build().unwrap().particles() as u64;
-    // Rows at whole periods all have the mean.
-    let volume = 0.005 * (entered - first) as f64;
-    let exact = FLOW[0] * (0.75 * FLOW[1] + 0.5 * FLOW[1] / TAU);
+fn advice_warns_of_rows_of_flow_that_pass_another_mass() {
+    let line = |rows: f64| {
+        let advice = pipe(rows, 9.0).advise(1.0, &Known::default());
+        let line = advice.of("rows of an open boundary").next().cloned();
+        line.expect("a line on rows")
+    };
+    let fine = line(40.0);
+    println!("40 rows: {fine}");
+    assert_eq!(
+        (fine.need, fine.of.as_str()),
+        (Need::Skip, "inlet of water")
+    );
+    assert_eq!(line(12.0).need, Need::Recommend);
+    // Four rows in three periods pass for a slow swing.
+    let few = 4.0 / 3.0;
+    let coarse = line(few);
+    println!("4/3 rows: {coarse}");
+    assert_eq!(coarse.need, Need::Impossible);
+    assert!(coarse.value > 0.1, "{coarse}");
+    let until = 0.5 * FLOW[1];
+    let mut flow = pipe(few, 9.0).build().unwrap();
+    let first = flow.particles();
+    flow.run_until(until).unwrap();
+    let entered = flow.removed().particles + (flow.particles() - first) as u64;
+    let volume = 0.005 * entered as f64;
+    let exact = FLOW[0] * (until + FLOW[1] / TAU);
+    println!("4/3 rows: {volume} of {exact}");
     assert!((volume / exact - 1.0).abs() > 0.05, "{volume} of {exact}");
+    // Rows at whole periods all have the mean: from the rows alone that is a steady flow.
+    let steady = pipe(1.0, 9.0).advise(1.0, &Known::default());
+    assert_eq!(steady.of("rows of an open boundary").count(), 0);
+}
+
+/// A motion from rows that carries an opening is judged as that of a wall is, and rows of the pressure at an outlet as those of a flow.
+#[test]
+fn advice_knows_rows_at_inlets_and_outlets() {
+    let sine = |per_period: u32| -> Vec<(f64, f64)> {
+        let times = (0..=6 * per_period).map(|k| f64::from(k) / f64::from(per_period));
+        times.map(|t| (t, 0.1 * (TAU * t).sin())).collect()
+    };
+    let carried = |per_period| {
+        let rows: Vec<_> = sine(per_period)
+            .into_iter()
+            .map(|(t, x)| (t, [x]))
+            .collect();
+        Recorded::translation(&rows).unwrap()
+    };
+    let scene = |per_period| {
+        let rows: Vec<_> = sine(per_period)
+            .into_iter()
+            .map(|(t, p)| (t, BACK + p))
+            .collect();
+        let level = GivenPressure::of(TimeSeries::rows(&rows).unwrap());
+        Scene::<f64, 1>::new(schemes::weakly_compressible())
+            .body(Body::block("water", pipe_water(), [0.0], [0.2], 0.005).velocity([1.0]))
+            .inlet(Inlet::new("water", vec![[0.0]], [1.0], 0.005, 200).motion(carried(per_period)))
+            .outlet(
+                Outlet::plane([0.2], [1.0])
+                    .buffer(0.04, level)
+                    .motion(carried(per_period)),
+            )
+    };
+    for (per_period, need) in [
+        (40, Need::Skip),
+        (12, Need::Recommend),
+        (5, Need::Impossible),
+    ] {
+        let advice = scene(per_period).advise(1.0, &Known::default());
+        let lines = |effect| -> Vec<(String, Need)> {
+            let all = advice.of(effect);
+            all.map(|line| (line.of.clone(), line.need)).collect()
+        };
+        let (inlet, outlet) = ("inlet of water".to_string(), "outlet 1".to_string());
+        assert_eq!(
+            lines("rows of a recorded motion"),
+            [(inlet, need), (outlet.clone(), need)]
+        );
+        assert_eq!(lines("rows of an open boundary"), [(outlet, need)]);
+    }
 }
 
 /// At the end of its rows a run ends with an error that names the boundary.
 #[test]
 fn a_run_beyond_the_rows_says_so() {
-    let mut flow = pipe(20, 1.0).build().unwrap();
+    let mut flow = pipe(20.0, 1.0).build().unwrap();
     let error = flow.run_until(0.6).unwrap_err().to_string();
     assert!(
         error.contains("velocity of the inlet of body `water`"),

@@ -2,6 +2,8 @@
 //! Rows go through corners, along edges and in faces too, and shells lie in shells.
 
 use meshfree::geometry::{Ball, Mesh, Shape, fill, layers};
+use meshfree::tensor::Matrix;
+use std::time::Instant;
 
 type Surface = (Vec<[f64; 3]>, Vec<[usize; 3]>);
 
@@ -224,4 +226,84 @@ fn any_number_of_threads_fills_alike() {
     for threads in [2, 3, 8] {
         assert_eq!(of(threads), one, "{threads} threads");
     }
+}
+
+/// R = R_y(b) R_z(a), to the rounding of sines.
+fn turn(a: f64, b: f64) -> Matrix<f64, 3> {
+    let ([s, c], [t, d]) = (a.sin_cos().into(), b.sin_cos().into());
+    let about_z = Matrix::<f64, 3>::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0);
+    let about_y = Matrix::<f64, 3>::new(d, 0.0, t, 0.0, 1.0, 0.0, -t, 0.0, d);
+    about_y * about_z
+}
+
+/// A mesh whose triangles are turned is the shape that turns points: the same particles, the same distances.
+#[test]
+fn placed_meshes_hold_what_moved_ones_hold() {
+    let mirror = Matrix::<f64, 3>::from_diagonal(&[-1.0, 1.0, 1.0].into());
+    for (k, (name, (corners, triangles), spacing, origin)) in cases().into_iter().enumerate() {
+        let mesh = Mesh::new(&corners, &triangles).unwrap();
+        let mut rotation = turn(0.3 + k as f64, 1.0 / (1.0 + k as f64));
+        if k % 2 == 1 {
+            rotation *= mirror;
+        }
+        let shift = [3.7, -2.3, 0.41].map(|x| x * spacing);
+        let placed = mesh.clone().placed(rotation, shift).unwrap();
+        assert_eq!(placed.volume(), mesh.volume(), "{name}");
+        let moved = mesh.moved(rotation, shift);
+        let by_rows = fill(&placed, spacing, origin).unwrap();
+        assert_eq!(by_rows, fill(&moved, spacing, origin).unwrap(), "{name}");
+        for x in by_rows.iter().step_by(7) {
+            let [a, b] = [placed.signed_distance(x), moved.signed_distance(x)];
+            assert!((a - b).abs() < 1e-9 * spacing, "{name}: {a}, {b}");
+        }
+    }
+}
+
+#[test]
+fn placed_meshes_refuse_what_stretches() {
+    let (corners, triangles) = cube(1);
+    let mesh = Mesh::new(&corners, &triangles).unwrap();
+    let refused = |rotation: Matrix<f64, 3>, shift: [f64; 3], what: &str| {
+        let error = mesh.clone().placed(rotation, shift).map(drop);
+        let error = error.expect_err(what).to_string();
+        assert!(error.contains(what), "{error}");
+    };
+    let one = Matrix::<f64, 3>::identity();
+    refused(one * 1.001, [0.0; 3], "orthonormal");
+    refused(one * f64::NAN, [0.0; 3], "rotation");
+    refused(one, [0.0, f64::INFINITY, 0.0], "shift of the shape");
+}
+
+/// 108 000 triangles and half a million particles, turned and filled row by row: the whole test takes 2.5 s of one core.
+#[test]
+fn a_placed_mesh_of_many_triangles_fills_by_rows() {
+    let rotation = turn(0.6, 0.2);
+    let (corners, triangles) = torus(600, 90, 0.4);
+    let spacing =
+        (0.5 * 0.4_f64 * 0.4 * std::f64::consts::TAU * std::f64::consts::PI / 2.5e5).cbrt();
+    let mesh = Mesh::new(&corners, &triangles).unwrap();
+    let began = Instant::now();
+    let placed = mesh.clone().placed(rotation, [0.1, 0.2, 0.3]).unwrap();
+    let turned = began.elapsed();
+    let points = fill(&placed, spacing, [0.0; 3]).unwrap();
+    println!(
+        "{} triangles, {} particles: turned in {turned:?}, filled after {:?}",
+        mesh.triangles(),
+        points.len(),
+        began.elapsed()
+    );
+    assert!(points.len() > 400_000);
+    // A hundredth of the lattice point by point, in a box of the mesh.
+    let moved = mesh.moved(rotation, [0.1, 0.2, 0.3]);
+    let part = meshfree::geometry::Cuboid::new([0.8, -0.2, -0.6], [1.2, 0.2, 0.6]);
+    let of = |shape: &dyn Shape<3>| {
+        let all = fill(shape, spacing, [0.0; 3]).unwrap();
+        all.into_iter()
+            .filter(|x| part.signed_distance(x) < 0.0)
+            .collect::<Vec<_>>()
+    };
+    let slow = fill(&moved.intersection(part), spacing, [0.0; 3]).unwrap();
+    let by_rows = of(&placed);
+    assert!(slow.len() > 1000);
+    assert_eq!(slow, by_rows);
 }

@@ -197,6 +197,11 @@ scales! {
         Skip "the rows resolve the motion", below 0.01;
         Recommend "the greatest accelerations are off by 1.5 to 5 %: give rows at shorter intervals", below 0.1;
         => Impossible "the rows do not resolve the motion: give rows at shorter intervals";
+    FLOW_ROWS "rows of an open boundary", "|q_2 - q|/A":
+        Skip "the rows resolve the flow or pressure", below 0.01;
+        Recommend "the greatest accelerations of the liquid are off by some per cent: give rows at shorter intervals", below 0.1;
+        => Impossible "the rows do not resolve the flow or pressure, and another mass passes: give rows at shorter \
+        intervals";
 }
 
 #[cfg(test)]

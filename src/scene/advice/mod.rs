@@ -52,6 +52,7 @@
 //! | spacing across a wall, gap or film | thickness/dx | ≥ 5 | impossible < 4 |
 //! | spacing across what bends in three dimensions | thickness/dx | ≥ 7.5 | never: it costs accuracy |
 //! | rows of a [recorded motion](crate::boundary::Recorded) | how far the spline through every other row s₂ passes the rows, over the amplitude A | < 0.01 | impossible ≥ 0.1 |
+//! | rows of an [open boundary](crate::boundary::TimeSeries) | the same of a flow, strength or pressure q, over half the range A of its rows | < 0.01 | impossible ≥ 0.1 |
 //!
 //! They are estimates of orders of magnitude, and their bands customary ones: a number near a bound says little.
 //! An [ablation](crate::study::ablation) tells what an effect really changes.
