@@ -1,6 +1,7 @@
 //! Checkpoints on ranks: written on some number of them, resumed on any other and without any, to the same bits.
 
 use super::bits::said;
+use super::flap::raft_with_flap;
 use super::scenes::dam_break;
 use super::watched;
 use meshfree::prelude::*;
@@ -45,10 +46,10 @@ fn go_on(mut simulation: Simulation<f64, 2>) -> Result<Vec<u64>, Error> {
     Ok(said(&simulation))
 }
 
-/// The file that some ranks write after some steps.
-fn written_on(count: usize, path: &Path) {
+/// The file that some ranks write after some steps of a scene.
+fn written_on(count: usize, scene: fn() -> Scene<f64, 2>, path: &Path) {
     let written = ranks::in_threads(count, 1, |ranks| -> Result<(), Error> {
-        let mut simulation = dam_break().on_ranks(ranks).build()?;
+        let mut simulation = scene().on_ranks(ranks).build()?;
         for _ in 0..STEPS {
             simulation.step()?;
         }
@@ -59,31 +60,40 @@ fn written_on(count: usize, path: &Path) {
     }
 }
 
+/// Writes a scene on so many ranks and goes on without any and on others, as the run of one process that does not stop.
+fn goes_on_anywhere(name: &str, scene: fn() -> Scene<f64, 2>, count: usize, others: &[usize]) {
+    let folder = Folder::new(name);
+    let [path, plain] = ["ranks", "plain"].map(|name| folder.0.join(name));
+    let mut whole = scene().build().expect("the scene");
+    for _ in 0..STEPS {
+        whole.step().expect("a step");
+    }
+    whole.save(&plain).expect("a file");
+    let end = go_on(whole).expect("the end");
+    written_on(count, scene, &path);
+    assert!(
+        held(&path) == held(&plain),
+        "{name}: ranks write the file of one process"
+    );
+    let resumed = scene().resume(&path).and_then(go_on);
+    assert!(resumed.expect("the end") == end, "{name}: without ranks");
+    for &count in others {
+        let program = |ranks| scene().on_ranks(ranks).resume(&path).and_then(go_on);
+        for own in ranks::in_threads(count, 1, program).expect("threads") {
+            assert!(own.expect("the end") == end, "{name}: on {count} ranks");
+        }
+    }
+}
+
 #[test]
 fn a_run_on_three_ranks_goes_on_anywhere() {
-    watched(|| {
-        let folder = Folder::new("on-ranks");
-        let [path, plain] = ["ranks", "plain"].map(|name| folder.0.join(name));
-        let mut whole = dam_break().build().expect("the scene");
-        for _ in 0..STEPS {
-            whole.step().expect("a step");
-        }
-        whole.save(&plain).expect("a file");
-        let end = go_on(whole).expect("the end");
-        written_on(3, &path);
-        assert!(
-            held(&path) == held(&plain),
-            "ranks write the file of one process"
-        );
-        let resumed = dam_break().resume(&path).and_then(go_on);
-        assert!(resumed.expect("the end") == end, "without ranks");
-        for count in [1, 2, 4] {
-            let program = |ranks| dam_break().on_ranks(ranks).resume(&path).and_then(go_on);
-            for own in ranks::in_threads(count, 1, program).expect("threads") {
-                assert!(own.expect("the end") == end, "on {count} ranks");
-            }
-        }
-    });
+    watched(|| goes_on_anywhere("on-ranks", dam_break, 3, &[1, 2, 4]));
+}
+
+/// Two groups, of which one has joints with springs, dampers and a motor.
+#[test]
+fn a_raft_with_a_flap_on_two_ranks_goes_on_anywhere() {
+    watched(|| goes_on_anywhere("raft", || raft_with_flap(0.01), 2, &[2]));
 }
 
 #[test]
