@@ -44,9 +44,10 @@ impl<T: Real, const D: usize> Coupling<T, D> for Bands {
         0.1 * (mass / self.stiffness).sqrt()
     }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
-        let bad = !(self.stiffness > 0.0);
+        let fine = self.stiffness > 0.0;
         let must_be = "it must be positive, in N/m";
-        bad.then_some(("stiffness of the bands", self.stiffness, must_be))
+        (!fine)
+            .then_some(("stiffness of the bands", self.stiffness, must_be))
             .into_iter()
             .collect()
     }

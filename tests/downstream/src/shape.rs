@@ -20,7 +20,8 @@ impl Shape<2> for Ellipse {
         (self.half_axes.map(|a| -a), self.half_axes)
     }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
-        let bad = self.half_axes.into_iter().find(|a| !(*a > 0.0));
+        let fine = |a: &f64| *a > 0.0;
+        let bad = self.half_axes.into_iter().find(|a| !fine(a));
         let must_be = "it must be positive, in metres";
         bad.map(|a| ("half axis of the ellipse", a, must_be))
             .into_iter()
