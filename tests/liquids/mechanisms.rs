@@ -75,6 +75,74 @@ fn a_hinged_flap_floats_upright() {
     assert!(end.dissipated > 0.0, "{:e}", end.dissipated);
 }
 
+/// A flap of 3 by 9 spacings that is hinged near the floor of a tank of water and does not reach its walls.
+fn flap_on(hinge: Joint<2>) -> Simulation<f64, 2> {
+    let (low, high) = ([14.0, 4.0], [17.0, 13.0]);
+    let mut simulation = liquid()
+        .body(water(31, 18, &[[low, high]]))
+        .wall(tank(31, 26))
+        .group(
+            schemes::impact_by_continuity(),
+            [boxed("flap", stuff(400.0), low, [3.0, 9.0])],
+        )
+        .rigid("flap")
+        .between("flap", "tank", Interaction::None)
+        .joint_to_ground("flap", hinge)
+        .build()
+        .unwrap();
+    simulation.evaluate().unwrap();
+    simulation
+}
+
+/// A flap on a spring swings with the period that its inertia and that of the water around it give. The inertia is the moment in
+/// phase with the angular acceleration which a motor needs for the same swing in the same tank; it has what the flap's weight and
+/// buoyancy do as well. Both runs are of this crate, so this compares two independent ways to one number, and not either with theory:
+/// the water of a swing that is free, and the moment where the swing is prescribed.
+#[test]
+fn a_flap_on_a_spring_has_the_period_of_its_inertia_and_the_waters() {
+    let hinge = || Joint::hinge([15.5 * DX, 4.5 * DX], [0.0, 0.0, 1.0]);
+    let (stiffness, swing) = (200.0, 0.02);
+    // Let go at rest, one swing from where the spring rests.
+    let mut free = flap_on(hinge().stiffness(stiffness).rest(swing));
+    let (mut last, mut turns) = ([0.0; 2], Vec::new());
+    free.run_with(1.5, |now| {
+        let next = [now.time(), now.joints()[0].rate];
+        // The rate is zero at ends of swings, wherever their middle is.
+        if (last[1] < 0.0) != (next[1] < 0.0) && last[0] > 0.0 {
+            turns.push(last[0] - last[1] * (next[0] - last[0]) / (next[1] - last[1]));
+        }
+        last = next;
+    })
+    .unwrap();
+    let found = (turns[6] - turns[0]) / 3.0;
+    let omega = core::f64::consts::TAU / found;
+    let mut driven = flap_on(hinge().speed(move |t| swing * omega * (omega * t).sin()));
+    driven.run_until(2.0 * found).unwrap();
+    let (mut moments, mut last) = ([0.0; 2], driven.time());
+    driven
+        .run_with(6.0 * found, |now| {
+            let dt = now.time() - last;
+            // The moment is the mean of the step.
+            let (sin, cos) = (omega * (last + 0.5 * dt)).sin_cos();
+            last = now.time();
+            let moment = 0.5 * dt / found * now.joints()[0].moment[2];
+            moments = [moments[0] + moment * cos, moments[1] + moment * sin];
+        })
+        .unwrap();
+    let inertia = moments[0] / (swing * omega * omega);
+    let damping = moments[1] / (swing * omega);
+    let expected = (stiffness / inertia - (0.5 * damping / inertia).powi(2)).sqrt();
+    let period = core::f64::consts::TAU / expected;
+    let own = driven.rigid_body("flap").unwrap();
+    let own = own.inertia[2][2] + own.mass * (4.0 * DX).powi(2);
+    println!(
+        "period {found} s of {period} s, inertia {inertia} of which {own} the flap's, damping {damping}, turns {turns:?}"
+    );
+    assert_relative_eq!(found, period, max_relative = 0.01);
+    // Without the water the period would be another.
+    assert!(inertia > 1.5 * own, "{inertia} and {own}");
+}
+
 /// Four plates of two particles sink onto each other and lie.
 #[test]
 fn four_thin_plates_come_to_rest_as_a_pile() {

@@ -5,6 +5,9 @@
 mod bits;
 #[path = "../common/mod.rs"]
 mod common;
+#[cfg(feature = "checkpoint")]
+#[path = "../guarantees/flap.rs"]
+mod flap;
 
 mod bad_inputs;
 mod errors;

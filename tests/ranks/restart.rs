@@ -1,6 +1,7 @@
 //! Checkpoints on ranks: parts and manifest hold what one process writes, go on anywhere to the same bits, and stand when another one fails.
 
 use super::bits::said;
+use super::flap::raft_with_flap;
 use super::scenes::{crushed_tank, dam_break, periodic_gas, rod_by_runge_kutta};
 use super::watched;
 use meshfree::prelude::*;
@@ -142,6 +143,12 @@ fn a_run_that_keeps_states_goes_on_anywhere() {
 #[test]
 fn a_crushed_tank_on_three_ranks_goes_on_anywhere() {
     goes_on_anywhere("crushed", crushed_tank);
+}
+
+/// Two groups, of which one has joints with springs, dampers and a motor.
+#[test]
+fn a_raft_with_a_flap_goes_on_anywhere() {
+    goes_on_anywhere("raft", || raft_with_flap(0.01));
 }
 
 /// What each of three ranks says.

@@ -1,5 +1,6 @@
 //! Short runs with every part, each held against something independent.
 
+mod bodies;
 mod heat;
 mod hypoelastic;
 mod parts;
