@@ -117,7 +117,8 @@ fn the_first_of_several_runs_warms_up() {
         let study = study.quantity(Quantity::measured("error"));
         study.spacings([0.1]).repeats(repeats).run().unwrap()
     };
-    let row = &report(2).rows()[0];
+    let twice = report(2);
+    let row = &twice.rows()[0];
     assert_eq!((row.repeats, row.seconds, row.spread), (2, 1.0, [1.0; 2]));
     assert_eq!(runs.load(std::sync::atomic::Ordering::Relaxed), 3);
     // One run is that one, however cold.
