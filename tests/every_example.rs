@@ -98,11 +98,15 @@ fn files(folder: &Path) -> Vec<PathBuf> {
 
 examples! {
     dam_break "../examples/dam_break.rs"
+    elastic_plate "../examples/elastic_plate.rs"
     falling_drop "../examples/falling_drop.rs"
+    hydrostatic "../examples/hydrostatic.rs"
     mechanism "../examples/mechanism.rs"
     own_effect "../examples/own_effect.rs"
     own_material "../examples/own_material.rs"
     rod_impact "../examples/rod_impact.rs"
     sloshing_tank "../examples/sloshing_tank.rs" ["0.03"]
+    standing_wave "../examples/standing_wave.rs"
     taylor_bar "../examples/taylor_bar.rs"
+    taylor_green "../examples/taylor_green.rs"
 }
