@@ -61,7 +61,7 @@ fn particles(chain: &[Rod], until: f64) -> Result<Vec<[f64; 2]>, Failure> {
     let mut scene = Scene::<f64, 1>::new(schemes::impact());
     let mut end = 0.0;
     for (name, material, length, speed) in chain {
-        let rod = Body::block(*name, material.clone(), [end], [end + length], SPACING);
+        let rod = Body::block(name, material.clone(), [end], [end + length], SPACING);
         scene = scene.body(rod.velocity([*speed]));
         end += length;
     }

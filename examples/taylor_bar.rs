@@ -61,7 +61,7 @@ pub(crate) fn main() -> Result<(), Failure> {
         let strain = p.scalar(Plasticity::STRAIN).unwrap_or(0.0);
         (1e3 * x, 1e3 * y, strain)
     });
-    let strain = Axis::linear("plastic strain", "1").from(0.0);
+    let strain = Axis::linear("plastic strain", "1").range(0.0, 1.5);
     let picture = Panel::new(Axis::linear("x", "mm"), Axis::linear("y", "mm"))
         .cloud(Cloud::new(strain, points).diameter(1e3 * SPACING))
         .equal_aspect()
