@@ -1,62 +1,76 @@
-//! A drop that falls on a film of water: the splash, the pressure below it, and the impulse that the pan takes.
-//! `cargo run --release --example falling_drop -- --help` lists the options.
+//! A drop that falls on a film of water, in a plane. It shows a body that fills a shape, a pressure probe, the impulse that
+//! a wall takes, and pictures of one run at several times.
+//! `cargo run --release --example falling_drop` leaves a picture, a table and files for ParaView in `out/falling_drop`.
 
-mod common;
-
-use common::{Example, Failure, Options, Shade, picture};
-use meshfree::observe::PressureProbe;
-use meshfree::output::csv::CsvWriter;
-use meshfree::output::svg::Figure;
 use meshfree::prelude::*;
-use meshfree::run::{Run, Schedule};
+use meshfree::run::{Failure, Run, Schedule};
 
-const EXAMPLE: Example = Example {
-    name: "falling_drop",
-    about: "A cylinder of water, 20 mm across, falls at 4 m/s on a film of 8 mm in a pan, in a plane.",
-    schemes: &["weakly-compressible"],
-    own: &[],
-};
+/// Radius of the drop, depth of the film and width of the pan \[m\].
+const RADIUS: f64 = 0.010;
+const DEPTH: f64 = 0.008;
+const WIDTH: f64 = 0.200;
+/// Speed of the drop \[m/s\].
+const SPEED: f64 = 4.0;
+const GRAVITY: [f64; 2] = [0.0, -9.81];
+const SPACING: f64 = 0.0005;
 
-pub(crate) fn main() -> std::process::ExitCode {
-    common::main(&EXAMPLE, perform::<f64>, None)
-}
-
-fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
-    let (radius, depth, width, speed, gravity) = (0.010, 0.008, 0.200, 4.0, [0.0, -9.81]);
-    let dx = options.spacing_or(0.0005, 0.001);
-    let water = || catalogue::weakly_compressible_water(2.0 * speed);
-    let film = Body::block("film", water(), [0.0; 2], [width, depth], dx);
-    let ball = Ball::new([0.5 * width, depth + radius + dx], radius);
-    let drop = Body::fill("drop", water(), &ball, dx).velocity([0.0, -speed]);
-    let pan = [[true; 2], [true, false]];
-    let pan = Wall::around("pan", [0.0; 2], [width, 0.08], dx, 3, pan);
-    let mut now = Scene::<T, 2>::new(schemes::weakly_compressible())
-        .body(film.hydrostatic(gravity, [0.0, depth]))
+pub(crate) fn main() -> Result<(), Failure> {
+    // The sound speed follows from the greatest expected speed, that of the splash.
+    let water = || catalogue::weakly_compressible_water(2.0 * SPEED);
+    let film = Body::block("film", water(), [0.0; 2], [WIDTH, DEPTH], SPACING);
+    let ball = Ball::new([0.5 * WIDTH, DEPTH + RADIUS + SPACING], RADIUS);
+    let drop = Body::fill("drop", water(), &ball, SPACING).velocity([0.0, -SPEED]);
+    // Walls at both ends of x and at the lower end of y.
+    let sides = [[true; 2], [true, false]];
+    let pan = Wall::around("pan", [0.0; 2], [WIDTH, 0.08], SPACING, 3, sides);
+    let mut splash = Scene::<f64, 2>::new(schemes::weakly_compressible())
+        .body(film.hydrostatic(GRAVITY, [0.0, DEPTH]))
         .body(drop)
         .wall(pan)
-        .acceleration(move |_| gravity)
+        .acceleration(|_| GRAVITY)
         .build()?;
-    let below = PressureProbe::disc(&now, "below", [0.5 * width, 0.0], [0.0, 1.0], 4.0 * dx)?;
+
+    let (place, inwards) = ([0.5 * WIDTH, 0.0], [0.0, 1.0]);
+    let below = PressureProbe::disc(&splash, "below", place, inwards, 4.0 * SPACING)?;
+    let start = splash.ledger().whole;
     let columns = ["time_s", "pressure_pa", "impulse_n_s", "missing_n_s"];
-    let mut table = CsvWriter::create(options.file("below.csv"), &columns)?;
-    let start = now.ledger().whole;
+    let mut table = CsvWriter::create("out/falling_drop/below.csv", &columns)?;
     let mut panels = Vec::new();
-    let summary = Run::new(&mut now, options.until_or(0.02, 0.01))
+    let summary = Run::new(&mut splash, 0.02)
         .label("drop")
         .observe(Schedule::evenly(81), |now| {
             // What the water has lost, and its weight has given, is what the pan has got.
-            let given = start.momentum[1] + gravity[1] * start.mass * now.time();
+            let given = start.momentum[1] + GRAVITY[1] * start.mass * now.time();
             let impulse = now.wall_impulse("pan")?[1];
             let missing = given - now.ledger().whole.momentum[1] - impulse;
             table.row(&[now.time(), below.pressure(now), impulse, missing])?;
-            panels.push(picture(now, Shade::Speed, [0, 1], dx));
             Ok(())
         })
+        .observe(Schedule::at([0.005, 0.01, 0.015, 0.02]), |now| {
+            panels.push(picture(now));
+            Ok(())
+        })
+        .paraview(Schedule::every(0.001), "out/falling_drop/splash.pvd")
         .go()?;
-    let shown = panels.into_iter().skip(20).step_by(20);
     let figure = Figure::new().columns(1).panel_size(720.0, 290.0);
-    let figure = shown.fold(figure, Figure::panel);
-    figure.save(options.file("splash.svg"))?;
-    println!("{summary}\nwritten to {}", options.folder().display());
+    let figure = panels.into_iter().fold(figure, Figure::panel);
+    figure.save("out/falling_drop/splash.svg")?;
+    println!("{summary}\nwritten to out/falling_drop");
     Ok(())
+}
+
+/// Particles, coloured by their speed, with the same axes at all times.
+fn picture(now: &Simulation<f64, 2>) -> Panel {
+    let points = now.all().map(|p| {
+        let ([x, y], [u, v]) = (p.position(), p.velocity());
+        (x, y, u.hypot(v))
+    });
+    let speed = Axis::linear("speed", "m/s").range(0.0, 2.0 * SPEED);
+    Panel::new(
+        Axis::linear("x", "m").range(0.0, WIDTH),
+        Axis::linear("y", "m").range(0.0, 0.08),
+    )
+    .cloud(Cloud::new(speed, points).diameter(SPACING))
+    .equal_aspect()
+    .title(&format!("t = {:.4} s", now.time()))
 }

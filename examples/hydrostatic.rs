@@ -1,125 +1,64 @@
-//! A column of water at rest: what its pressure, its surface and its particles do when nothing should.
-//! `cargo run --release --example hydrostatic -- --help` lists the options.
+//! Water at rest in a tank, next to the exact pressure: the first thing to try with a scheme for liquids. It shows a body that
+//! starts in equilibrium, and how much particles move that should not.
+//! `cargo run --release --example hydrostatic` leaves a picture, a table and files for ParaView in `out/hydrostatic`.
 
-mod common;
-
-use common::{Example, Failure, Options, Shade, picture};
-use meshfree::boundary::Wall;
-use meshfree::material::{Material, SoundSpeed, catalogue};
-use meshfree::output::csv::CsvWriter;
-use meshfree::output::svg::{Axis, Figure, Panel, Series};
-use meshfree::output::vtu::Pvd;
 use meshfree::prelude::*;
-use meshfree::run::{Run, Schedule};
-use meshfree::scene::Start;
-use meshfree::term::Antuono;
-use std::process::ExitCode;
-
-const EXAMPLE: Example = Example {
-    name: "hydrostatic",
-    about: "Water of 1 m depth and 0.5 m width at rest in a tank, for 20 sqrt(H/g).",
-    schemes: &["fourtakas", "antuono"],
-    own: &[],
-};
+use meshfree::run::{Failure, Run, Schedule};
 
 const DEPTH: f64 = 1.0;
-const GRAVITY: f64 = 9.81;
+const WIDTH: f64 = 0.5;
+const GRAVITY: [f64; 2] = [0.0, -9.81];
+const SPACING: f64 = 0.02;
 
-pub(crate) fn main() -> ExitCode {
-    common::main(&EXAMPLE, perform::<f64>, None)
-}
-
-fn sound_speed() -> f64 {
-    10.0 * (GRAVITY * DEPTH).sqrt()
-}
-
-fn scene<T: Real>(options: &Options, spacing: f64) -> Scene<T, 2> {
-    let water: Material<T> = catalogue::water_at(SoundSpeed::Chosen(sound_speed()));
-    let law = water.clone();
-    let at_depth = move |z: f64| law.eos().density_at(1000.0 * GRAVITY * (DEPTH - z), 0.0);
-    let body = Body::block("water", water, [0.0; 2], [0.5, DEPTH], spacing);
-    let body = body.start(|x, start| Start {
-        density: at_depth(x[1]).unwrap_or(start.density),
-        ..start
-    });
-    // Of h/dx 1.5 and 2, the wider leaves the particles a tenth of the residual motion.
-    let scheme = schemes::weakly_compressible().h_over_dx(2.0);
-    let scheme: Scheme<T, 2> = match options.scheme.as_str() {
-        "antuono" => scheme.density_diffusion(Antuono::default()).compose(),
-        _ => scheme.compose(),
-    };
-    let sides = [[true; 2], [true, false]];
-    let mut tank = Wall::around("tank", [0.0; 2], [0.5, DEPTH], spacing, 5, sides);
-    // The sides go on above the surface, which may swing.
-    let above = (0..10).map(|k| DEPTH + (f64::from(k) + 0.5) * spacing);
-    let columns = (0..5).flat_map(|k| {
-        let off = (f64::from(k) + 0.5) * spacing;
-        [-off, 0.5 + off]
-    });
-    let more = columns.flat_map(|x| above.clone().map(move |z| [x, z]));
-    let points: Vec<_> = tank.points().iter().copied().chain(more).collect();
-    tank = Wall::of("tank", points, spacing);
-    Scene::new(scheme)
-        .body(body)
+pub(crate) fn main() -> Result<(), Failure> {
+    // Nothing moves, but a liquid needs a sound speed: that of water that falls through its own depth.
+    let fall = (2.0 * 9.81 * DEPTH).sqrt();
+    let water = catalogue::weakly_compressible_water(fall);
+    let water = Body::block("water", water, [0.0; 2], [WIDTH, DEPTH], SPACING);
+    // Walls end above the surface, with as many layers as the kernel reaches through.
+    let (top, sides) = ([WIDTH, DEPTH + 0.2], [[true; 2], [true, false]]);
+    let tank = Wall::around("tank", [0.0; 2], top, SPACING, 4, sides);
+    // A wider kernel leaves a tenth of the residual motion.
+    let mut column = Scene::<f64, 2>::new(schemes::weakly_compressible().h_over_dx(2.0))
+        .body(water.hydrostatic(GRAVITY, [0.0, DEPTH]))
         .wall(tank)
-        .acceleration(|_| [0.0, -GRAVITY])
-}
+        .acceleration(|_| GRAVITY)
+        .build()?;
 
-fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
-    let spacing = options.spacing_or(0.01, 0.05);
-    let until = options.until_or(20.0 * (DEPTH / GRAVITY).sqrt(), 2.0);
-    let mut simulation = scene::<T>(options, spacing).build()?;
-    let surface = |now: &Simulation<T, 2>| {
-        let heights = now.all().map(|particle| particle.position()[1]);
-        heights.fold(0.0, f64::max) + 0.5 * spacing
-    };
-
-    let columns = ["time_s", "rms_of_rho_g_h", "surface_m", "speed_of_c0"];
-    let mut csv = CsvWriter::create(options.file("rest.csv"), &columns)?;
-    let mut movie = Pvd::create(options.file("column.pvd"))?;
-    let mut last = [0.0; 3];
-    let summary = Run::new(&mut simulation, until)
-        .label(EXAMPLE.name)
-        .observe(Schedule::evenly(21), |now| {
-            let errors = now.all().map(|particle| {
-                let exact = 1000.0 * GRAVITY * (DEPTH - particle.position()[1]);
-                (particle.pressure() - exact).powi(2)
+    let exact = |height: f64| 1000.0 * 9.81 * (DEPTH - height);
+    let columns = ["time_s", "error_over_rho_g_h", "fastest_m_s"];
+    let mut table = CsvWriter::create("out/hydrostatic/rest.csv", &columns)?;
+    let mut error = Vec::new();
+    let summary = Run::new(&mut column, 4.0)
+        .label("column")
+        .observe(Schedule::evenly(81), |now| {
+            let squares = now.all().map(|p| {
+                let [_, height] = p.position();
+                (p.pressure() - exact(height)).powi(2)
             });
-            let mean = errors.sum::<f64>() / now.particles() as f64;
-            let fastest = now
-                .all()
-                .map(|particle| particle.velocity()[0].hypot(particle.velocity()[1]))
-                .fold(0.0, f64::max);
-            last = [
-                mean.sqrt() / (1000.0 * GRAVITY * DEPTH),
-                surface(now),
-                fastest / sound_speed(),
-            ];
-            csv.row(&[now.time(), last[0], last[1], last[2]])?;
-            movie.frame(now.time(), &now.vtu_with_walls())?;
+            let mean = squares.sum::<f64>() / now.particles() as f64;
+            let share = mean.sqrt() / exact(0.0);
+            let speeds = now.all().map(|p| p.velocity()[0].hypot(p.velocity()[1]));
+            table.row(&[now.time(), share, speeds.fold(0.0, f64::max)])?;
+            error.push((now.time(), 100.0 * share));
             Ok(())
         })
+        .paraview(Schedule::evenly(11), "out/hydrostatic/column.pvd")
         .go()?;
 
-    let profile = simulation.all();
-    let profile = profile.map(|particle| (particle.pressure(), particle.position()[1]));
-    let exact = [(0.0, DEPTH), (1000.0 * GRAVITY * DEPTH, 0.0)];
-    Figure::new()
-        .panel(
-            Panel::new(Axis::linear("pressure", "Pa"), Axis::linear("height", "m"))
-                .series(Series::markers(&options.scheme, profile))
-                .series(Series::line("hydrostatic", exact).reference()),
-        )
-        .panel(picture(&simulation, Shade::Pressure, [0, 1], spacing))
-        .save(options.file("column.svg"))?;
-    println!(
-        "{summary}\npressure, RMS of rho g H: {:.3} % (bar 1 %)\n\
-         surface, drift in spacings: {:+.3} (bar 0.5)\n\
-         greatest speed over c0: {:.1e} (bar 1e-4)\nwritten to {}",
-        100.0 * last[0],
-        (last[1] - DEPTH) / spacing,
-        last[2],
-        options.folder().display()
-    );
+    let of_particles = column.all().map(|p| (1e-3 * p.pressure(), p.position()[1]));
+    let of_theory = [0.0, DEPTH].map(|height| (1e-3 * exact(height), height));
+    let [x, y] = [Axis::linear("pressure", "kPa"), Axis::linear("height", "m")];
+    let pressure = Panel::new(x, y)
+        .series(Series::markers("particles after 4 s", of_particles))
+        .series(Series::line("exact", of_theory).reference());
+    let [x, y] = [
+        Axis::linear("time", "s"),
+        Axis::linear("error of the pressure", "% of ρgH"),
+    ];
+    let error = Panel::new(x, y.from(0.0)).series(Series::line("root mean square", error));
+    let figure = Figure::new().panel(pressure).panel(error);
+    figure.save("out/hydrostatic/column.svg")?;
+    println!("{summary}\nwritten to out/hydrostatic");
     Ok(())
 }

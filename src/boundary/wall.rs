@@ -11,7 +11,7 @@ use std::sync::Arc;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Slip {
     /// The wall exerts no viscous friction: right where the boundary layer is thinner than the spacing.
-    /// Its particles still make it a little rough: in the impacts of the example `sloshing_tank`,
+    /// Its particles still make it a little rough: in the impacts of the program `sloshing_tank`,
     /// with 1 to 16 kN on the ends, bottom, lid and sides take up to 280 N along the tank.
     #[default]
     Free,

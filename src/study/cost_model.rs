@@ -16,7 +16,7 @@
 //! does later, when a front has formed or a dam has broken, is in neither: [`CostModel::watch`] or [`CostModel::see`] it again
 //! from time to time.
 //!
-//! `cargo bench --bench cost_model` holds the prediction against ten scenes, and `cargo run --release --example work_precision --
+//! `cargo bench --bench cost_model` holds the prediction against ten scenes, and `cargo validate work_precision --
 //! --forecast` what first steps predict against whole runs.
 
 use crate::clock::Instant;

@@ -1,5 +1,5 @@
 //! Gentle and closed flows of liquids against exact solutions, at resolutions that take seconds.
-//! The examples of the same names take the full ones; docs/liquids.md has their values.
+//! The programs of the same names take the full ones; docs/liquids.md has their values.
 
 use crate::tank::{after_rest, swings};
 use meshfree::boundary::Wall;

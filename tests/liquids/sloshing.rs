@@ -1,5 +1,5 @@
 //! A tank thrown sideways at 30 g in a plane, against the impulsive solution and the laws of balance.
-//! The same in space, finer and with all figures, is `examples/sloshing_tank --bars`.
+//! The same in space, finer and with all figures, is `cargo validate sloshing_tank -- --bars`.
 
 use meshfree::boundary::Motion;
 use meshfree::material::{Liquid, SoundSpeed};

@@ -1,5 +1,5 @@
 //! Solids that flow, with the options of a file.
-//! As in the example `taylor_bar`, with the remedy of the tensile instability that it takes.
+//! As in the program `taylor_bar` of crates/validation, with the remedy of the tensile instability that it takes.
 
 use crate::format::SolidScheme;
 use meshfree::effect::{HourglassFree, Plasticity};
