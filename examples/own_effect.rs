@@ -64,13 +64,13 @@ impl<const D: usize> Term<D> for Diffusion {
 /// Without a limit of the step a fast diffusion would overflow.
 impl<T: Real, const D: usize> Limit<T, D> for Diffusion {
     fn name(&self) -> &'static str {
-        "diffusion: 0.15 h²/κ"
+        "diffusion: 0.08 h²/κ"
     }
     fn reads(&self) -> Fields {
         Fields::NONE
     }
     fn step(&self, at: &View<'_, T, D>, _slot: usize) -> f64 {
-        0.15 * at.around.smoothing_length.powi(2) / self.diffusivity
+        0.08 * at.around.smoothing_length.powi(2) / self.diffusivity
     }
 }
 

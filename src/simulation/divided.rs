@@ -299,7 +299,6 @@ impl<T: Real, const D: usize> Group<T, D> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::prelude::{Body, Scene, Wall, catalogue, schemes};
     use crate::ranks::in_threads;
 

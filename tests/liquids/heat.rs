@@ -174,6 +174,17 @@ fn a_square_cools_by_its_true_area() {
     assert!(rounded > 1.01 && ratio > 1.03, "{rounded} {ratio}");
 }
 
+/// So does a cube, whose conduction takes the longest step that is stable in space.
+#[test]
+fn a_cube_cools_by_its_true_area() {
+    let cube = || Body::block("block", water(), [0.0; 3], [EDGE; 3], EDGE / 12.0);
+    let [[rounded, _], [exact, ratio]] =
+        [None, Some(6.0 * EDGE * EDGE)].map(|area| left_of_block(cube(), area));
+    println!("cube {rounded} {exact}, area low by {ratio}");
+    assert_relative_eq!(exact, 1.0, max_relative = 0.01);
+    assert!(rounded > 1.01 && ratio > 1.1, "{rounded} {ratio}");
+}
+
 #[test]
 fn areas_that_no_body_has_are_refused() {
     let mut run = slab(1.0, SurfaceHeat::convection(1.0, 300.0));

@@ -88,12 +88,12 @@ impl<const D: usize> Term<D> for HeatConduction {
 }
 
 impl<const D: usize> PointLimit<D> for HeatConduction {
-    const NAME: &'static str = "conduction: 0.15 h² ρ c/k";
+    const NAME: &'static str = "conduction: 0.08 h² ρ c/k";
     const READS: Fields = Fields::of(&[CONDUCTIVITY, Field::DENSITY]);
     #[inline(always)]
     fn step<L: Lane, P: Reach>(&self, at: &Point<'_, L, D, P>) -> L {
         let capacity = at.get(Field::DENSITY) * L::of(self.specific_heat);
-        let h2 = L::of(0.15 * at.around.smoothing_length.powi(2));
+        let h2 = L::of(0.08 * at.around.smoothing_length.powi(2));
         h2 / (at.get(CONDUCTIVITY) / capacity)
     }
 }

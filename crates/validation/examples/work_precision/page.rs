@@ -81,7 +81,7 @@ impl Page {
             for (at, (by_law, measured), bound) in [(1, own.error, 0.25), (2, own.seconds, 0.15)] {
                 match by_law {
                     Ok(by_law) => {
-                        self.predicted[at] += usize::from(off(&by_law, measured) <= bound)
+                        self.predicted[at] += usize::from(off(&by_law, measured) <= bound);
                     }
                     Err(_) => self.predicted[at + 2] += 1,
                 }

@@ -52,7 +52,7 @@ fn a_sine_decays_at_second_order_and_heat_stays() {
         let vote = simulation.last_vote().unwrap();
         assert_eq!(
             vote.criterion,
-            Criterion::Effect("conduction: 0.15 h² ρ c/k")
+            Criterion::Effect("conduction: 0.08 h² ρ c/k")
         );
         simulation.run_until(end).unwrap();
         let after = simulation.ledger().whole.total("heat").unwrap();
