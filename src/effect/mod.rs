@@ -151,6 +151,7 @@ pub use smoothing::{ConsistentSmoothing, DivergenceSmoothing, MixedSpacing, Smoo
 pub use sponge::Sponge;
 pub use st_venant_kirchhoff::StVenantKirchhoff;
 pub use surface_area::VolumeGradient;
+pub(crate) use surface_heat::TOTAL_AREA;
 pub use surface_heat::{STEFAN_BOLTZMANN, SurfaceHeat};
 pub use surface_tension::{ColourGradient, InterfaceCurvature, SurfaceTension};
 pub(crate) use total_lagrangian::stretches;

@@ -1,8 +1,10 @@
 //! Lists as messages between ranks: those of some chunks, as they are.
 //! Lists follow from positions alone, so what one rank finds is what all would find.
 
-use super::clusters::{ChunkList, ClusterLists, Order, Segment};
+use super::SearchInput;
+use super::clusters::{CHUNK, ChunkList, ClusterLists, Order, Segment};
 use crate::ranks::{Taken, put_number, put_words};
+use crate::scalar::Real;
 use std::ops::Range;
 
 /// In a message the order of a segment stands behind its block.
@@ -49,10 +51,15 @@ impl ClusterLists {
         }
     }
 
-    /// Takes the lists of some chunks from a message, if they are these.
-    pub(crate) fn take(&mut self, chunks: Range<usize>, from: &mut Taken<'_>) -> Option<()> {
-        let mut numbers = Vec::new();
-        for list in self.chunks.get_mut(chunks)? {
+    /// Takes the lists of some chunks from a message, if they are these, and of these particles.
+    pub(crate) fn take<T: Real, const D: usize>(
+        &mut self,
+        chunks: Range<usize>,
+        input: &SearchInput<'_, T, D>,
+        from: &mut Taken<'_>,
+    ) -> Option<()> {
+        let (mut numbers, all) = (Vec::new(), input.slots.div_ceil(input.width));
+        for (chunk, list) in chunks.clone().zip(self.chunks.get_mut(chunks)?) {
             let mut length = || from.number().map(|length| length as usize);
             let [neighbors, segments, starts] = [length()?, length()?, length()?];
             let ChunkList {
@@ -74,8 +81,29 @@ impl ClusterLists {
                 block: own[3] / ORDERS.len() as u32,
                 order: ORDERS[own[3] as usize % ORDERS.len()],
             }));
+            let clusters = CHUNK.min(all.saturating_sub(chunk * CHUNK));
+            let named = [input.positions.len(), input.blocks.len()];
+            list.fits(clusters, named).then_some(())?;
         }
         Some(())
+    }
+}
+
+impl ChunkList {
+    /// Whether it is of so many clusters and names nothing beyond so many particles and blocks: that of another scene is not.
+    fn fits(&self, clusters: usize, [particles, blocks]: [usize; 2]) -> bool {
+        let entries = self.neighbors.len() as u32;
+        let is_run = |own: &Segment| {
+            own.start <= own.near_end && own.near_end <= own.end && own.end <= entries
+        };
+        self.starts.len() == clusters + 1
+            && self.starts.is_sorted()
+            && self.starts.last() == Some(&(self.segments.len() as u32))
+            && self
+                .segments
+                .iter()
+                .all(|own| is_run(own) && (own.block as usize) < blocks)
+            && self.neighbors.iter().all(|&j| (j as usize) < particles)
     }
 }
 
@@ -114,11 +142,17 @@ mod tests {
             let mut message = Vec::new();
             own.put(part.clone(), &mut message);
             let mut taken = Taken(&message);
-            assert_eq!(all.take(part.clone(), &mut taken), Some(()));
+            assert_eq!(all.take(part.clone(), &input, &mut taken), Some(()));
             assert!(taken.0.is_empty());
             if !part.is_empty() {
                 let short = &message[..message.len() - 1];
-                assert_eq!(own.take(part, &mut Taken(short)), None);
+                assert_eq!(own.take(part.clone(), &input, &mut Taken(short)), None);
+                // Of a scene that has more particles.
+                let few = SearchInput {
+                    positions: &positions[..1200],
+                    ..input
+                };
+                assert_eq!(own.take(part, &few, &mut Taken(&message)), None);
             }
         }
         for (own, other) in all.chunks().iter().zip(whole.chunks()) {

@@ -93,6 +93,7 @@ mod plan;
 mod resample;
 mod sources;
 mod state;
+mod true_area;
 
 pub use body::{Body, Start};
 pub use conversion::{Conversion, Distortion};

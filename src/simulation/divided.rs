@@ -93,7 +93,7 @@ impl Share {
                 return Some(());
             }
             let mut from = Taken(from);
-            lists.take(even(chunks, other, ranks), &mut from)?;
+            lists.take(even(chunks, other, ranks), input, &mut from)?;
             from.0.is_empty().then_some(())
         };
         self.team
