@@ -1,15 +1,17 @@
-//! Sponge layers: waves of a flume that end in one, against theory and without it, and a stream whose momentum they take.
+//! Sponge layers: waves of a flume that end in one, against theory and without it, and a stream whose momentum they take. A paddle on a
+//! spring and a damper that absorbs.
 //! Incident and reflected waves by two gauges: Goda & Suzuki 1976 (Proc. 15th Coastal Eng. Conf., 828).
 
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use meshfree::boundary::Wall;
+use meshfree::coupling::Joint;
 use meshfree::effect::Sponge;
 use meshfree::error::{Error, Problem};
 use meshfree::material::{Material, SoundSpeed};
 use meshfree::observe::WaveGauge;
 use meshfree::prelude::*;
 use meshfree::simulation::Criterion;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 const DX: f64 = 0.05;
 const DEPTH: f64 = 0.5;
@@ -43,12 +45,14 @@ fn piston(t: f64) -> [f64; 3] {
     ]
 }
 
-fn flume(length: f64, sponge: Option<Sponge>) -> Simulation<f64, 2> {
+/// A flume whose end is a wall, or open to a floor that goes on.
+fn open_flume(length: f64, sponge: Option<Sponge>, is_closed: bool) -> Scene<f64, 2> {
     let gravity = [0.0, -GRAVITY];
     let sound = SoundSpeed::Chosen(10.0 * (GRAVITY * DEPTH).sqrt());
     let water: Material<f64> = catalogue::water_at(sound);
     let body = Body::block("water", water, [0.0; 2], [length, DEPTH], DX);
-    let sides = [[false, true], [true, false]];
+    let sides = [[false, is_closed], [true, false]];
+    let end = if is_closed { length } else { length + 0.5 };
     let place = |i: u32, j: u32| [DX * (f64::from(i) - 4.5), DX * (f64::from(j) + 0.5)];
     let maker = (0..5).flat_map(|i| (0..16).map(move |j| place(i, j)));
     let motion = Translation::new(
@@ -58,18 +62,83 @@ fn flume(length: f64, sponge: Option<Sponge>) -> Simulation<f64, 2> {
     );
     Scene::new(schemes::weakly_compressible().with(sponge))
         .body(body.hydrostatic(gravity, [0.0, DEPTH]))
-        .wall(Wall::around(
-            "tank",
-            [-0.25, 0.0],
-            [length, 0.8],
-            DX,
-            5,
-            sides,
-        ))
+        .wall(Wall::around("tank", [-0.25, 0.0], [end, 0.8], DX, 5, sides))
         .wall(Wall::of("piston", maker.collect(), DX).motion(motion))
         .acceleration(move |_| gravity)
+}
+
+fn flume(length: f64, sponge: Option<Sponge>) -> Simulation<f64, 2> {
+    let scene = open_flume(length, sponge, true);
+    scene.build().expect("a flume")
+}
+
+/// Added mass \[kg/m\] and radiation damping \[kg/(m s)\] of a vertical plate that swings along the flume, from its velocity in the
+/// eigenfunctions cosh k(z + d) and cos kₙ(z + d) with ω² = −g kₙ tan kₙ d (Dean & Dalrymple 1991, chapter 6).
+fn loads_of_plate() -> [f64; 2] {
+    let (k, deep) = (wavenumber(), OMEGA * OMEGA * DEPTH / GRAVITY);
+    let kd = k * DEPTH;
+    let share = 4.0 * kd.sinh().powi(2) / (2.0 * kd + (2.0 * kd).sinh());
+    let of_root = |n: u32| {
+        let [mut low, mut high] = [f64::from(n) - 0.5, f64::from(n)].map(|x| x * PI);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if middle.tan() + deep / middle > 0.0 {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        4.0 * low.sin().powi(2) / (low * low * (2.0 * low + (2.0 * low).sin()))
+    };
+    let added: f64 = (1..200).map(of_root).sum();
+    [
+        1000.0 * DEPTH * DEPTH * added,
+        1000.0 * OMEGA * share / (k * k),
+    ]
+}
+
+/// Density \[kg/m³\] and size \[m\] of the paddle.
+const PADDLE: [f64; 3] = [400.0, 0.25, 0.8];
+
+/// A paddle absorbs where what it radiates cancels what a wall reflects: the damper has the radiation damping, and the spring the mass
+/// and added mass in resonance, k = ω² (M + m) (Milgram 1970, J. Ship Res. 14, 187). `share` of that damping is there.
+fn paddle(length: f64, share: f64) -> Simulation<f64, 2> {
+    let [density, width, height] = PADDLE;
+    let [added, damping] = loads_of_plate();
+    let stiffness = OMEGA * OMEGA * (density * width * height + added);
+    let still = 0.5 * 1000.0 * GRAVITY * DEPTH * DEPTH;
+    // The spring is tensioned against water at rest.
+    let slider = Joint::slider([length, 0.5 * DEPTH], [1.0, 0.0])
+        .stiffness(stiffness)
+        .damping(share * damping)
+        .rest(-still / stiffness);
+    let wood = Material::new("wood", Linear::new(density, 20.0));
+    let (low, high) = ([length, 0.0], [length + width, height]);
+    open_flume(length, None, false)
+        .group(
+            schemes::impact_by_continuity(),
+            [Body::block("paddle", wood, low, high, DX)],
+        )
+        .rigid("paddle")
+        .between("paddle", "tank", Interaction::None)
+        .between("paddle", "piston", Interaction::None)
+        .joint_to_ground("paddle", slider)
         .build()
         .expect("a flume")
+}
+
+#[test]
+fn a_paddle_on_a_spring_and_a_damper_absorbs() {
+    let [incident, reflected, _] = waves(paddle(3.5, 1.0), 6.0 * PERIOD);
+    println!(
+        "paddle: {incident} m, {reflected} back, loads {:?}",
+        loads_of_plate()
+    );
+    assert!(reflected < 0.1 * incident, "{reflected} of {incident}");
+    // The control: a hundredth of the damping gives back what the spring takes.
+    let [incident, reflected, _] = waves(paddle(3.5, 0.01), 6.0 * PERIOD);
+    println!("hardly damped: {incident} m, {reflected} back");
+    assert!(reflected > 0.5 * incident, "{reflected} of {incident}");
 }
 
 /// Amplitudes \[m\] of the incident and the reflected wave in two periods from a time on, and the power \[W/m\] that laws take then.
