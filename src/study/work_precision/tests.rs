@@ -58,13 +58,13 @@ fn answers_are_those_of_the_laws() {
     // Four times beyond 0.1 is 0.025, where the better method is at 0.00025.
     let why = report.for_error(1e-4).unwrap_err().to_string();
     assert!(
-        why.contains("cubic: an error of 0.01 % is not reachable by refinement")
+        why.contains("cubic: an error of 0.0100 % is not reachable by refinement")
             && why.contains("wide: it would take a spacing of"),
         "{why}"
     );
     // 1e-4 dx⁻², on 0.1 m.
     assert!(
-        why.contains("(its finest run, on 0.1 m, took 0.01 s)"),
+        why.contains("(its finest run, on 0.100 m, took 0.0100 s)"),
         "{why}"
     );
     assert!(

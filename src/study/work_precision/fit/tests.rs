@@ -123,7 +123,7 @@ fn what_the_values_do_not_bear_is_refused() {
     let far = fit.at(0.0124).unwrap_err().to_string();
     assert!(far.contains("a spacing of 0.0124 m"), "{far}");
     let floor = fit.inverse(0.005).unwrap_err().to_string();
-    assert!(floor.contains("an error of 0.5 %"), "{floor}");
+    assert!(floor.contains("an error of 0.500 %"), "{floor}");
     let spacing = fit.inverse(0.03).unwrap();
     assert!(
         (spacing.value - 0.02).abs() < 1e-3 && spacing.low < 0.02,
