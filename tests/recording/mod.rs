@@ -250,7 +250,7 @@ fn one_thread_and_two_give_the_same_bits() {
 
 /// Probes, integrators, openings, structures, contacts and images of all these scenes on ranks.
 #[test]
-#[ignore = "all scenes on two, three and four ranks: minutes"]
+#[ignore = "all scenes on two, three and four ranks: 40 s"]
 fn ranks_do_not_change_a_bit() {
     let Scenes(scenes) = scenes::all();
     let set = InstructionSet::detect();
