@@ -25,14 +25,14 @@ impl SurfaceHeat {
     ///     .build()?;
     /// let factor = SurfaceHeat::set_area(&mut square, "square", 0.4)?;
     /// assert!((1.0..1.15).contains(&factor), "{factor}");
-    /// square.step_at_most(1e-9)?;
     /// let area = square.ledger().whole.total("area of the surface").unwrap_or(0.0);
     /// assert!((area - 0.4).abs() < 1e-9, "{area}");
     /// # Ok::<(), Error>(())
     /// ```
     ///
     /// # Errors
-    /// [`Error::Argument`] if there is no such body, it has no area, or `area` is not positive and finite.
+    /// [`Error::Argument`] if there is no such body, it has no area, or `area` is not positive and finite; those of
+    /// [`Simulation::evaluate`].
     pub fn set_area<T: Real, const D: usize>(
         simulation: &mut Simulation<T, D>,
         body: &str,
@@ -47,6 +47,8 @@ impl SurfaceHeat {
         }
         // An unknown name is told with those that there are.
         simulation.body(body).map(drop)?;
+        // Areas are those of an evaluation: with the factors and places as they are.
+        simulation.evaluate()?;
         let ledger = simulation.ledger();
         let own = ledger.bodies.iter().find(|(name, _)| name == body);
         let found = own.and_then(|(_, budget)| budget.total(TOTAL_AREA));
@@ -59,6 +61,7 @@ impl SurfaceHeat {
         let ratio = area / found;
         let field = Self::AREA_FACTOR;
         simulation.set_field(body, field, |_, [factor]: [f64; 1]| [ratio * factor])?;
+        simulation.evaluate()?;
         Ok(ratio)
     }
 }

@@ -1,6 +1,8 @@
 //! What the integration tests share: random particle sets, and measures of what a run has done.
 #![allow(dead_code)]
 
+pub mod folder;
+
 use meshfree::kernel::{Kernel, KernelKind};
 use meshfree::material::eos::IdealGas;
 use meshfree::material::{Material, catalogue};

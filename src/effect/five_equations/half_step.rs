@@ -1,5 +1,5 @@
 //! Fluids half a step ahead, from which fluxes are taken, so that a step is of second order in time.
-//! van Leer 1984 (SIAM J. Sci. Stat. Comput. 5, 1), after Hancock; Allaire, Clerc & Kokh 2002, eq. 20.
+//! van Leer 1984 (SIAM J. Sci. Stat. Comput. 5, 1), after Hancock; rates of the model of Allaire, Clerc & Kokh 2002 in these quantities.
 
 use super::super::{Point, PointLaw, Reach, Rung};
 use super::gradients::{GRADIENTS, SCALARS, VELOCITY_GRADIENT};
