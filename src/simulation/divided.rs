@@ -300,7 +300,7 @@ impl<T: Real, const D: usize> Group<T, D> {
 #[cfg(test)]
 mod tests {
     use crate::prelude::{Body, Scene, Wall, catalogue, schemes};
-    use crate::ranks::in_threads;
+    use crate::ranks::{even, in_threads};
 
     /// What the lists of each rank cost over the mean, after ten list builds of water that is on one side of its tank.
     #[test]
@@ -321,15 +321,21 @@ mod tests {
             let group = &now.state.groups[0];
             let division = group.share.as_ref().expect("ranks").division();
             let chunks = group.neighborhood.lists.chunks();
-            [0, 1].map(|rank| {
-                let own = division.of(rank).into_iter().flatten();
-                own.map(|chunk| chunks[chunk].neighbors.len())
-                    .sum::<usize>() as f64
-            })
+            let cost = |chunks_of_rank: Vec<usize>| {
+                let entries = chunks_of_rank
+                    .iter()
+                    .map(|&own| chunks[own].neighbors.len());
+                entries.sum::<usize>() as f64
+            };
+            let by_cost = |rank| cost(division.of(rank).into_iter().flatten().collect());
+            let by_number = |rank| cost(even(chunks.len(), rank, 2).collect());
+            [[0, 1].map(by_cost), [0, 1].map(by_number)]
         });
+        let over_mean = |costs: [f64; 2]| 2.0 * costs[0].max(costs[1]) / (costs[0] + costs[1]);
         for costs in all.expect("threads") {
-            let mean = 0.5 * (costs[0] + costs[1]);
-            assert!(costs[0].max(costs[1]) < 1.1 * mean, "{costs:?}");
+            assert!(over_mean(costs[0]) < 1.1, "{costs:?}");
+            // The control: so many chunks for each.
+            assert!(over_mean(costs[1]) > 1.1, "{costs:?}");
         }
     }
 }

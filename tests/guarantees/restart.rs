@@ -2,7 +2,8 @@
 //! scheme; and a file that is not its own is refused with what differs.
 
 use super::bits::said;
-use super::stopped::{Folder, held, stop_and_go_on};
+use super::stopped::{held, stop_and_go_on};
+use crate::common::folder::Folder;
 use crate::common::{self, Random};
 use meshfree::boundary::{Crush, Inlet, Outlet, Rotation, Wall};
 use meshfree::coupling::ContactDensity;

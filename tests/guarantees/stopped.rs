@@ -4,31 +4,12 @@
 use super::bits::said;
 use super::readings::read_on_the_way;
 use crate::common::Random;
+use crate::common::folder::Folder;
 use meshfree::prelude::*;
 use safetensors::SafeTensors;
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
-
-/// A folder of its own for a test, removed when it goes out of scope.
-pub(super) struct Folder(PathBuf);
-
-impl Folder {
-    pub(super) fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("meshfree-{}-{name}", std::process::id()));
-        fs::create_dir_all(&path).unwrap();
-        Self(path)
-    }
-    pub(super) fn file(&self, name: &str) -> PathBuf {
-        self.0.join(name)
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
-    }
-}
+use std::path::Path;
 
 /// All that a file holds, by name.
 pub(super) fn held(path: &Path) -> BTreeMap<String, Vec<u8>> {

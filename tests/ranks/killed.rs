@@ -2,8 +2,8 @@
 //! Each victim goes on from what the one before has left, on another number of ranks.
 
 use super::bits::said;
-use super::restart::Folder;
 use crate::common::Random;
+use crate::common::folder::Folder;
 use meshfree::prelude::*;
 use meshfree::ranks;
 use std::fs::{self, OpenOptions};

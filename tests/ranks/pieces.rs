@@ -4,30 +4,14 @@
 use super::bits::said;
 use super::scenes::{dam_break, periodic_gas, rod, tank_in_space};
 use super::watched;
+use crate::common::folder::Folder;
 use meshfree::prelude::*;
 use meshfree::ranks::{self, Ranks};
 use meshfree::run::{Run, Schedule};
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
-
-/// A folder of its own for a test, removed when it goes out of scope.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("meshfree-{}-{name}", std::process::id()));
-        fs::create_dir_all(&path).expect("a folder");
-        Self(path)
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
-    }
-}
 
 /// The text of an attribute of a tag.
 fn attribute<'a>(tag: &'a str, name: &str) -> &'a str {

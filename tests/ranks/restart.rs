@@ -4,31 +4,15 @@ use super::bits::said;
 use super::flap::raft_with_flap;
 use super::scenes::{crushed_tank, dam_break, periodic_gas, rod_by_runge_kutta};
 use super::watched;
+use crate::common::folder::Folder;
 use meshfree::prelude::*;
 use meshfree::ranks;
 use safetensors::SafeTensors;
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 const STEPS: usize = 60;
-
-/// A folder of its own for a test, removed when it goes out of scope.
-pub(super) struct Folder(pub(super) PathBuf);
-
-impl Folder {
-    pub(super) fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("meshfree-{}-{name}", std::process::id()));
-        fs::create_dir_all(&path).expect("a folder");
-        Self(path)
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
-    }
-}
 
 /// All columns of a file, by name.
 fn columns(path: &Path) -> BTreeMap<String, Vec<u8>> {
