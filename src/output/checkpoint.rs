@@ -180,6 +180,23 @@ impl Checkpoint {
         })
     }
 
+    /// What follows in the names of columns that begin alike.
+    pub fn names<'a>(&'a self, begin: &'a str) -> impl Iterator<Item = &'a str> {
+        self.columns
+            .keys()
+            .filter_map(move |own| own.strip_prefix(begin))
+    }
+
+    /// Scalars of a simulation, whichever it was of, and how many are in a row.
+    pub fn rows(&self, name: &str) -> Read<(usize, Vec<f64>)> {
+        let width = self.columns.get(name).and_then(|own| own.shape.get(1));
+        let numbers = match self.get_reals::<f64>(name) {
+            Ok(numbers) => numbers,
+            Err(_) => self.get::<f32>(name)?.into_iter().map(f64::from).collect(),
+        };
+        Ok((width.copied().unwrap_or(1), numbers))
+    }
+
     /// The numbers of a column.
     pub fn get<N: Number>(&self, name: &str) -> Read<Vec<N>> {
         let column = self.columns.get(name);

@@ -1,6 +1,9 @@
 //! A state as a table: places of particles and numbers at each, read from files and from simulations.
 //! VTK files of the crate and tables of comma-separated values, back to the bits that were written.
 
+#[cfg(feature = "checkpoint")]
+mod saved;
+
 use crate::error::{Error, Result};
 use crate::output::csv::{Csv, CsvWriter};
 use crate::particles::{Field, Shape};
@@ -21,7 +24,7 @@ struct Quantity {
 /// Particles of another run: their places \[m\], and what is known at each by the names that
 /// [`Simulation::vtu`](crate::simulation::Simulation::vtu) gives: `velocity`, `density`, `energy`, `mass`, `body` and fields of effects.
 ///
-/// It comes from a VTK file of the crate, from a table, or from a simulation, as one that was resumed from a checkpoint of another scene:
+/// It comes from a VTK file of the crate, from a table, from a checkpoint of another scene (with the feature `checkpoint`), or from a simulation:
 ///
 /// ```
 /// use meshfree::prelude::*;
@@ -140,6 +143,11 @@ impl<const D: usize> ParticleState<D> {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.points.is_empty()
+    }
+
+    /// The names of what is known at each particle.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.quantities.iter().map(|own| &*own.name)
     }
 
     /// The numbers of a quantity, particle by particle; none if there is none of that name.
