@@ -5,6 +5,7 @@ mod common;
 mod contract;
 mod guarantees;
 mod hard_cases;
+mod ranks;
 mod recording;
 mod robustness;
 mod solids;

@@ -4,7 +4,7 @@
 use meshfree::prelude::*;
 
 /// Places of particles, forces on walls, and all other numbers.
-pub(super) fn said<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Vec<u64> {
+pub fn said<T: Real, const D: usize>(simulation: &Simulation<T, D>) -> Vec<u64> {
     let walls = 0..simulation.walls().count();
     let of_walls = walls.flat_map(|wall| simulation.wall(wall).unwrap());
     let particles = simulation.all().chain(of_walls).map(|own| own.position());

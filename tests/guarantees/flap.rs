@@ -15,7 +15,7 @@ const RAFT: [[f64; 2]; 2] = [[0.2, 0.2], [0.4, 0.28]];
 const FLAP: [[f64; 2]; 2] = [[0.28, 0.08], [0.32, 0.18]];
 
 /// With particles `dx` \[m\] apart, of which 0.02 is a multiple.
-pub(super) fn raft_with_flap(dx: f64) -> Scene<f64, 2> {
+pub fn raft_with_flap(dx: f64) -> Scene<f64, 2> {
     let count = |length: f64| (length / dx).round() as u32;
     let at = |k: u32| dx * (f64::from(k) + 0.5);
     let cells = (0..count(DEPTH)).flat_map(|j| (0..count(WIDTH)).map(move |i| [at(i), at(j)]));

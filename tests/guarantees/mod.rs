@@ -5,7 +5,7 @@ mod absent_effects;
 mod allocations;
 mod approach;
 mod bad_input;
-mod bits;
+pub mod bits;
 mod causes;
 #[cfg(feature = "checkpoint")]
 mod changes;
@@ -15,7 +15,7 @@ mod error_bars;
 mod filled;
 mod filling;
 #[cfg(feature = "checkpoint")]
-mod flap;
+pub mod flap;
 mod forces_of_laws;
 mod invariance;
 mod neighbours;

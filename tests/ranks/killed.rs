@@ -78,7 +78,7 @@ fn victim(folder: &Path, count: usize) -> Victim {
     let mut own = Command::new(std::env::current_exe().expect("this program"));
     own.args([
         "--exact",
-        "killed::fifty_kills_lose_nothing_that_was_written",
+        "ranks::killed::fifty_kills_lose_nothing_that_was_written",
     ])
     .env(VICTIM, folder)
     .env("MESHFREE_RANKS_COUNT", count.to_string())

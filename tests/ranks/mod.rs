@@ -1,14 +1,6 @@
 //! A scene on ranks that are threads of one process: one set of bits on 1, 2, 3 and 4 ranks, with 1 and 2 threads each,
 //! equal to that of a plain run; and errors that reach all ranks.
 
-#[path = "../guarantees/bits.rs"]
-mod bits;
-#[path = "../common/mod.rs"]
-mod common;
-#[cfg(feature = "checkpoint")]
-#[path = "../guarantees/flap.rs"]
-mod flap;
-
 mod bad_inputs;
 mod errors;
 #[cfg(feature = "checkpoint")]
@@ -20,7 +12,9 @@ mod predicted;
 mod restart;
 mod scenes;
 
-use bits::said;
+use crate::guarantees::bits::{self, said};
+#[cfg(feature = "checkpoint")]
+use crate::guarantees::flap;
 use meshfree::prelude::*;
 use meshfree::ranks::{self, Ranks};
 use std::sync::Arc;
