@@ -166,11 +166,11 @@ fn run<T: Real>(options: &Options, name: &str, flow: Flow) -> Result<(), Failure
                 let exact = flow.exact(y.clamp(0.0, WIDTH), now.time())?;
                 csv.row(&[now.time(), y, u, exact])?;
                 worst = worst.max((u - exact).abs() / SPEED);
-                profile.push((y, u));
+                profile.push((1e3 * y, u));
             }
             let mut exact = Vec::new();
             for y in evenly(WIDTH, 101) {
-                exact.push((y, flow.exact(y, now.time())?));
+                exact.push((1e3 * y, flow.exact(y, now.time())?));
             }
             let label = format!("t = {:.2} s", now.time());
             curves.push(Series::line("exact", exact).reference());
@@ -180,13 +180,14 @@ fn run<T: Real>(options: &Options, name: &str, flow: Flow) -> Result<(), Failure
         })
         .go()?;
     let panel = Panel::new(
-        Axis::linear("distance y", "m"),
+        Axis::linear("distance y", "mm"),
         Axis::linear("velocity", "m/s"),
     );
     let panel = curves.into_iter().fold(panel, Panel::series);
     Figure::new()
         .panel(panel.title(name))
         .panel(picture(&simulation, Shade::Speed, [0, 1], spacing))
+        .shared_legend()
         .save(options.file(&format!("{name}.svg")))?;
     let bar = if flow == Flow::PowerLaw { 2 } else { 1 };
     println!(

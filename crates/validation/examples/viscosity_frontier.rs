@@ -200,8 +200,12 @@ fn figure(results: &[(Case, Option<Front>)], targets: &[&str]) -> Figure {
     let mut figure = Figure::new()
         .title("Rise and overshoot of a 20 m/s impact front, copper striker")
         .shared_legend();
+    let is_run = |target: &str, curvature: Option<f64>| {
+        let mut cases = results.iter().map(|(case, _)| case);
+        cases.any(|case| case.target == target && case.curvature == curvature)
+    };
     for &target in targets {
-        for curvature in CURVATURES {
+        for curvature in CURVATURES.into_iter().filter(|own| is_run(target, *own)) {
             let mut panel = Panel::new(
                 Axis::linear("rise 10–90 %", "µs").from(0.0),
                 Axis::linear("overshoot", "%").range(0.0, 30.0),
@@ -234,7 +238,8 @@ fn figure(results: &[(Case, Option<Front>)], targets: &[&str]) -> Figure {
             figure = figure.panel(panel);
         }
     }
-    figure.columns(CURVATURES.len())
+    let is_shown = |own: &&Option<f64>| targets.iter().any(|target| is_run(target, **own));
+    figure.columns(CURVATURES.iter().filter(is_shown).count())
 }
 
 const TEXT: &str = include_str!("viscosity_frontier.md");

@@ -36,6 +36,11 @@ pub fn picture<T: Real, const D: usize>(
     spacing: f64,
 ) -> Panel {
     const NAMES: [&str; 3] = ["x", "y", "z"];
+    let (scale, unit) = if spacing < 1e-3 {
+        (1e3, "mm")
+    } else {
+        (1.0, "m")
+    };
     let value = match shade {
         Shade::Pressure => Axis::linear("pressure", "Pa"),
         Shade::Speed => Axis::linear("speed", "m/s").from(0.0),
@@ -46,11 +51,11 @@ pub fn picture<T: Real, const D: usize>(
             Shade::Pressure => particle.pressure(),
             Shade::Speed => v.iter().map(|v| v * v).sum::<f64>().sqrt(),
         };
-        (x[axes[0]], x[axes[1]], value)
+        (scale * x[axes[0]], scale * x[axes[1]], value)
     });
-    let axis = |d: usize| Axis::linear(NAMES.get(d).copied().unwrap_or(""), "m");
+    let axis = |d: usize| Axis::linear(NAMES.get(d).copied().unwrap_or(""), unit);
     Panel::new(axis(axes[0]), axis(axes[1]))
-        .cloud(Cloud::new(value, points).diameter(spacing))
+        .cloud(Cloud::new(value, points).diameter(scale * spacing))
         .equal_aspect()
         .title(&format!("t = {:.4} s", simulation.time()))
 }
