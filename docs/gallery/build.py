@@ -13,26 +13,25 @@ from pathlib import Path
 
 HERE = Path(__file__).parent
 ROOT = HERE.parent.parent
-WIDTH = 640
 
 # Program of crates/validation: the plot that it leaves, and the options that suit a gallery.
 PICTURES = {
     "cellular_filler": ("c1.5mm_mu1e-3/sections.svg", ["--quick"]),
-    "channel": ("poiseuille.svg", ["--quick"]),
-    "dam_break": ("frame_00004.svg", ["--quick"]),
-    "elastic_gate": ("gate.svg", ["--quick"]),
-    "elastic_plate": ("plate.svg", ["--quick"]),
-    "hydrostatic": ("column.svg", ["--quick"]),
-    "hypervelocity": ("cloud.svg", ["--quick"]),
-    "lid_driven_cavity": ("cavity_100.svg", ["--quick"]),
-    "rod_impact": ("figure1.svg", ["--quick"]),
-    "rubber_rings": ("rings.svg", ["--quick"]),
+    "channel": ("poiseuille.svg", []),
+    "dam_break": ("frame_00020.svg", []),
+    "elastic_gate": ("gate.svg", []),
+    "elastic_plate": ("plate.svg", []),
+    "hydrostatic": ("column.svg", []),
+    "hypervelocity": ("cloud.svg", []),
+    "lid_driven_cavity": ("cavity_100.svg", []),
+    "rod_impact": ("figure1.svg", []),
+    "rubber_rings": ("rings.svg", []),
     "sloshing_roll": ("frame_00004.svg", ["--quick"]),
     "sloshing_tank": ("particles_38ms.svg", []),
-    "square_patch": ("patch.svg", ["--quick"]),
-    "standing_wave": ("wave.svg", ["--quick"]),
-    "taylor_bar": ("taylor_bar.svg", ["--quick"]),
-    "taylor_green": ("vortices.svg", ["--quick"]),
+    "square_patch": ("patch.svg", []),
+    "standing_wave": ("wave.svg", []),
+    "taylor_bar": ("taylor_bar.svg", []),
+    "taylor_green": ("vortices.svg", []),
     "turek_hron": ("flow.svg", ["--quick"]),
     "viscosity_frontier": ("viscosity_frontier.svg", ["--quick"]),
     "water_on_plate": ("plate.svg", ["--quick"]),
@@ -104,14 +103,21 @@ def written(rows):
 
 
 def check_bar(plot, rows):
-    """Fails unless the ends of a plot's colour bar, which is 12 wide, are in the picture as the plot has them."""
+    """Fails unless the ends of a plot's colour bar, which is 12 wide, are in the picture as the plot has them.
+
+    A pixel may lie on the first two cells of the bar: an end may be as far off as the second of them.
+    """
     fills = re.findall(r'<rect [^>]*width="12" [^>]*fill="#([0-9a-f]{6})"', plot.read_text(encoding="utf-8"))
     colours = {p for row in rows for p in row}
-    for fill in {fills[0], fills[-1]} if fills else ():
-        wanted = tuple(bytes.fromhex(fill))
-        nearest = min(colours, key=lambda p: sum(abs(a - b) for a, b in zip(p, wanted)))
-        if max(abs(a - b) for a, b in zip(nearest, wanted)) > 2:
-            sys.exit(f"{plot}: the end #{fill} of its colour bar became {nearest}")
+
+    def apart(a, b):
+        return max(abs(x - y) for x, y in zip(a, b))
+
+    for ends in (fills[:2], fills[:-3:-1]) if len(fills) > 1 else ():
+        wanted, second = (tuple(bytes.fromhex(fill)) for fill in ends)
+        nearest = min(colours, key=lambda p: apart(p, wanted))
+        if apart(nearest, wanted) > max(2, apart(second, wanted)):
+            sys.exit(f"{plot}: the end #{ends[0]} of its colour bar became {nearest}")
 
 
 def main(names):
@@ -127,7 +133,7 @@ def main(names):
             cargo = ["cargo", "validate", name, "--"]
             subprocess.run([*cargo, *options, "--out", out], cwd=ROOT, check=True)
             plot = out / file
-        convert = ["rsvg-convert", "--width", str(WIDTH), "--background-color", "white", plot]
+        convert = ["rsvg-convert", "--background-color", "white", plot]
         png = subprocess.run(convert, capture_output=True, check=True).stdout
         rows = pixels(png)
         small = written(rows)
