@@ -16,7 +16,7 @@ ROOT = HERE.parent.parent
 
 # Program of crates/validation: the plot that it leaves, and the options that suit a gallery.
 PICTURES = {
-    "cellular_filler": ("c1.5mm_mu1e-3/sections.svg", ["--quick"]),
+    "cellular_filler": ("c1.5mm_mu1e-3/sections.svg", []),
     "channel": ("poiseuille.svg", []),
     "dam_break": ("frame_00020.svg", []),
     "elastic_gate": ("gate.svg", []),

@@ -16,7 +16,9 @@ use crush::Crushed;
 use crushing::Crushing;
 use filler::{Case, Record};
 use meshfree::scalar::Real;
+use std::path::Path;
 use std::process::ExitCode;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 const EXAMPLE: Example = Example {
     name: "cellular_filler",
@@ -190,32 +192,15 @@ fn deform(options: &Options) -> Result<(), Failure> {
         None => options.number("--strain", options.pick(0.3, 0.1))?,
     };
     println!("{}", crush::CHOICES);
-    let mut runs: Vec<(Crushed, Crushing)> = Vec::new();
-    for (wall, viscosity) in list {
-        let case = Crushed {
-            wall: 1e-3 * wall,
-            viscosity,
-            cells: count,
-            // Four spacings through the wall, and six through the thickest.
-            spacing: options.spacing_or(0.25e-3_f64.min(0.25e-3 * wall), 4.5e-4),
-            strain,
-        };
-        let folder = options.folder().join(case.name());
-        let record = crushing::run(&case, &folder)?;
-        crush_report::sections(&case, &record).save(folder.join("sections.svg"))?;
-        std::fs::write(
-            folder.join("report.txt"),
-            crush_report::text(&case, &record),
-        )?;
-        println!(
-            "{}: {} particles, {} steps, {:.0} s",
-            case.name(),
-            record.particles.iter().sum::<usize>(),
-            record.steps,
-            record.seconds
-        );
-        runs.push((case, record));
-    }
+    let cases = list.into_iter().map(|(wall, viscosity)| Crushed {
+        wall: 1e-3 * wall,
+        viscosity,
+        cells: count,
+        // Four spacings through the wall, and six through the thickest.
+        spacing: options.spacing_or(0.25e-3_f64.min(0.25e-3 * wall), 4.5e-4),
+        strain,
+    });
+    let runs = at_once(cases.collect(), options.folder())?;
     crush_report::figure(&runs).save(options.file("stress_strain.svg"))?;
     let (table, trends) = (crush_report::table(&runs), crush_report::trends(&runs));
     println!("\n{table}\n{trends}");
@@ -223,6 +208,52 @@ fn deform(options: &Options) -> Result<(), Failure> {
     std::fs::write(options.file("report.txt"), text)?;
     println!("written to {}", options.folder().display());
     Ok(())
+}
+
+/// Runs that do not depend on each other, each on a thread of its own: for more it has too few particles.
+fn at_once(cases: Vec<Crushed>, folder: &Path) -> Result<Vec<(Crushed, Crushing)>, Failure> {
+    let next = AtomicUsize::new(0);
+    let work = || -> Result<Vec<(usize, Crushing)>, String> {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+        let pool = pool.map_err(|error| error.to_string())?;
+        let mut own = Vec::new();
+        loop {
+            let k = next.fetch_add(1, Ordering::Relaxed);
+            let Some(case) = cases.get(k) else {
+                return Ok(own);
+            };
+            let record = pool.install(|| crush_one(case, folder));
+            own.push((k, record.map_err(|error| error.to_string())?));
+        }
+    };
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let ended: Vec<_> = std::thread::scope(|scope| {
+        let count = cores.min(cases.len());
+        let all: Vec<_> = (0..count).map(|_| scope.spawn(&work)).collect();
+        all.into_iter().map(|own| own.join()).collect()
+    });
+    let mut records = Vec::new();
+    for own in ended {
+        records.extend(own.map_err(|_| "a run has panicked")??);
+    }
+    records.sort_by_key(|own| own.0);
+    let records = records.into_iter().map(|own| own.1);
+    Ok(cases.into_iter().zip(records).collect())
+}
+
+fn crush_one(case: &Crushed, folder: &Path) -> Result<Crushing, Failure> {
+    let folder = folder.join(case.name());
+    let record = crushing::run(case, &folder)?;
+    crush_report::sections(case, &record).save(folder.join("sections.svg"))?;
+    std::fs::write(folder.join("report.txt"), crush_report::text(case, &record))?;
+    println!(
+        "{}: {} particles, {} steps, {:.0} s",
+        case.name(),
+        record.particles.iter().sum::<usize>(),
+        record.steps,
+        record.seconds
+    );
+    Ok(record)
 }
 
 /// `4x4`, or `4` for the same.
