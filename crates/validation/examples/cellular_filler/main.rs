@@ -229,7 +229,7 @@ fn at_once(cases: Vec<Crushed>, folder: &Path) -> Result<Vec<(Crushed, Crushing)
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let ended: Vec<_> = std::thread::scope(|scope| {
         let count = cores.min(cases.len());
-        let all: Vec<_> = (0..count).map(|_| scope.spawn(&work)).collect();
+        let all: Vec<_> = (0..count).map(|_| scope.spawn(work)).collect();
         all.into_iter().map(|own| own.join()).collect()
     });
     let mut records = Vec::new();
