@@ -3,6 +3,7 @@
 
 mod common;
 mod contract;
+mod coupled;
 mod guarantees;
 mod hard_cases;
 mod ranks;

@@ -1,4 +1,4 @@
-//! Liquids, alone and with structures: flows with exact solutions, violent ones, walls, and what is conserved.
+//! Liquids: flows with exact solutions, violent ones, walls, and what is conserved.
 //! One program, so that loops over pairs that several files use are compiled once.
 
 #[path = "../common/mod.rs"]
@@ -7,38 +7,27 @@ mod tank;
 
 mod across_boundaries;
 mod advice;
-mod arbitrary_lagrangian;
 mod cylinders;
 mod dam_break;
 mod drops;
 mod drum;
 #[cfg(feature = "pictures")]
 mod film;
-mod five_equations;
-mod floating;
 mod gauges;
 mod gentle_flows;
-mod groups;
-mod heat;
 mod indicators;
 mod jet_on_step;
-mod lagrangian_liquid;
 mod lees_edwards;
 mod liquid_conservation;
 mod manufactured;
-mod mechanisms;
-mod mirror_planes;
 mod moving_openings;
 mod off_lattice;
 mod open_boundaries;
-mod penalty_structure;
 mod recorded_motion;
 mod riemann_walls;
 mod sampling;
 mod sloshing;
 mod slow;
-mod solids_in_tank;
 mod sound_and_volume;
 mod sources;
 mod sponge;
-mod structures;

@@ -1,7 +1,7 @@
 //! Planes that reflect hold liquid that has no pressure, as they hold what presses against them.
 //! A drop that flies through a plane is the drop that comes from behind it.
 
-use crate::solids_in_tank::rubber;
+use super::solids_in_tank::rubber;
 use meshfree::material::{Liquid, SoundSpeed};
 use meshfree::prelude::*;
 use meshfree::scene::Start;
