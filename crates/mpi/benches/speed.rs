@@ -1,0 +1,128 @@
+//! Whole steps of a column of water in space on one process and on more, in turns, with one thread each: medians and their ratio.
+//! `cargo bench -p meshfree-mpi --bench speed [-- PARTICLES ROUNDS RANKS]`; it starts itself under `mpirun`.
+
+use meshfree::boundary::Wall;
+use meshfree::prelude::*;
+use meshfree_mpi::World;
+use std::error::Error;
+use std::process::{Command, ExitCode};
+use std::time::Instant;
+
+/// Particles of water in processes that `mpirun` starts.
+const COUNT: &str = "MESHFREE_MPI_SPEED";
+/// Least number of steps that are timed, after the first list build.
+const STEPS: u64 = 30;
+
+fn main() -> ExitCode {
+    let ended = match std::env::var(COUNT) {
+        Ok(count) => timed(&count),
+        Err(_) => compare(),
+    };
+    if let Err(error) = &ended {
+        eprintln!("{error}");
+    }
+    ExitCode::from(u8::from(ended.is_err()))
+}
+
+/// A column twice as long as high and deep, in a closed tank.
+fn scene(count: f64) -> Scene<f64, 3> {
+    let dx = (2.0 / count).cbrt();
+    let water = catalogue::weakly_compressible_water(2.0 * 9.81_f64.sqrt());
+    let column = Body::block("water", water, [0.0; 3], [2.0, 1.0, 1.0], dx);
+    let closed = [[true; 2]; 3];
+    Scene::new(schemes::weakly_compressible())
+        .body(column)
+        .wall(Wall::around(
+            "tank",
+            [0.0; 3],
+            [2.5, 1.0, 1.5],
+            dx,
+            4,
+            closed,
+        ))
+        .acceleration(|_| [0.0, 0.0, -9.81])
+}
+
+/// Times steps, and prints seconds a step, bytes that the first rank got a step, and the bits of all.
+fn timed(count: &str) -> Result<(), Box<dyn Error>> {
+    let world = World::init()?;
+    let scene = scene(count.parse()?).on_ranks(world.ranks());
+    let mut simulation = scene.build()?;
+    // The first evaluation fills the lists.
+    let mut step = 0.0;
+    for _ in 0..3 {
+        step = simulation.step()?;
+    }
+    let (steps, builds) = (simulation.steps(), simulation.list_builds());
+    let before = simulation.traffic();
+    let begun = Instant::now();
+    simulation.run_until(simulation.time() + STEPS as f64 * step)?;
+    let taken = begun.elapsed().as_secs_f64();
+    let steps = (simulation.steps() - steps) as f64;
+    if !simulation.is_first_rank() {
+        return Ok(());
+    }
+    let [got, waited] = simulation
+        .traffic()
+        .zip(before)
+        .map_or([0.0; 2], |(now, own)| {
+            let waited = (now.waited - own.waited).as_secs_f64();
+            [(now.received - own.received) as f64 / steps, waited / steps]
+        });
+    println!(
+        "{} {steps} {} {got} {waited} {:016x}",
+        taken / steps,
+        simulation.list_builds() - builds,
+        simulation.bits_hash()
+    );
+    Ok(())
+}
+
+/// Starts both in turns.
+fn compare() -> Result<(), Box<dyn Error>> {
+    let numbers: Vec<usize> = std::env::args()
+        .filter_map(|own| own.parse().ok())
+        .collect();
+    let [count, rounds, ranks] = [1_000_000, 3, 2];
+    let count = numbers.first().copied().unwrap_or(count);
+    let rounds = numbers.get(1).copied().unwrap_or(rounds);
+    let ranks = numbers.get(2).copied().unwrap_or(ranks);
+    let program = std::env::current_exe()?;
+    let mut times = [Vec::new(), Vec::new()];
+    let mut bits: Option<String> = None;
+    for _ in 0..rounds {
+        for (own, ranks) in times.iter_mut().zip([1, ranks]) {
+            let run = Command::new("mpirun")
+                .args(["-n", &ranks.to_string()])
+                .arg(&program)
+                .env(COUNT, count.to_string())
+                .env("RAYON_NUM_THREADS", "1")
+                .output()?;
+            let said = String::from_utf8_lossy(&run.stdout);
+            let words: Vec<&str> = said.split_whitespace().collect();
+            let [step, steps, builds, got, waited, hash] = words[..] else {
+                let why = String::from_utf8_lossy(&run.stderr);
+                return Err(format!("no times of {ranks} ranks: {said}{why}").into());
+            };
+            println!(
+                "{ranks} ranks: {:.4} s a step, {steps} steps, {builds} list builds; {:.0} kB and {:.4} s of messages and waiting a step",
+                step.parse::<f64>()?,
+                got.parse::<f64>()? / 1e3,
+                waited.parse::<f64>()?,
+            );
+            own.push(step.parse::<f64>()?);
+            if bits.get_or_insert(hash.to_owned()).as_str() != hash {
+                return Err(format!("{ranks} ranks have other bits").into());
+            }
+        }
+    }
+    let [one, more] = times.map(|mut own| {
+        own.sort_by(f64::total_cmp);
+        own[own.len() / 2]
+    });
+    println!(
+        "{count} particles, medians of {rounds}: {one:.4} s on one, {more:.4} s on {ranks}: {:.2} times as fast, the same bits",
+        one / more
+    );
+    Ok(())
+}
