@@ -5,6 +5,7 @@ mod common;
 
 use common::{Example, Failure, Options, Own, Shade, evenly, picture};
 use meshfree::boundary::Wall;
+use meshfree::kernel::WendlandC6;
 use meshfree::material::{Liquid, Material, SoundSpeed};
 use meshfree::output::csv::CsvWriter;
 use meshfree::output::svg::{Axis, Figure, Panel, Series};
@@ -13,14 +14,15 @@ use meshfree::prelude::*;
 use meshfree::run::{Run, Schedule};
 use meshfree::scheme::Shifting;
 use meshfree::study::ghia::{ALONG_X, ALONG_Y, CentreLinePoint};
-use meshfree::term::LaminarViscosity;
 use meshfree::term::viscosity::Inviscid;
+use meshfree::term::{Fourtakas, LaminarViscosity};
 use std::process::ExitCode;
 
 const EXAMPLE: Example = Example {
     name: "lid_driven_cavity",
-    about: "Liquid in a square of 1 m under a lid that slides at 1 m/s: velocities on the centre lines.",
-    schemes: &["shifting", "transport"],
+    about: "Liquid in a square of 1 m under a lid that slides at 1 m/s: velocities on the centre lines.\n\
+            smooth: Wendland C6 at h/dx 2.5 for C2 at 1.5; transport: another shifting.",
+    schemes: &["shifting", "transport", "smooth"],
     own: &[Own {
         name: "--reynolds",
         value: "RE",
@@ -35,7 +37,7 @@ const SAMPLES: usize = 20;
 /// Places on a centre line.
 const PLACES: usize = 257;
 /// Layers of wall particles.
-const LAYERS: usize = 4;
+const LAYERS: usize = 5;
 
 pub(crate) fn main() -> ExitCode {
     common::main(&EXAMPLE, perform::<f64>, None)
@@ -56,15 +58,25 @@ fn scene<T: Real>(options: &Options, reynolds: f64, spacing: f64) -> Scene<T, 2>
         LAYERS,
         [[false; 2], [false, true]],
     );
+    let pressure = ExtrapolatedPressure {
+        floor: f64::NEG_INFINITY,
+    };
+    let consistency = VolumeConsistency { strength: 0.05 };
     let scheme = schemes::weakly_compressible()
         .with_viscosity(Inviscid)
         .with(Laminar(LaminarViscosity))
-        .walls(ExtrapolatedPressure {
-            floor: f64::NEG_INFINITY,
-        })
-        .with(VolumeConsistency { strength: 0.05 });
+        .walls(pressure)
+        .with(consistency);
     let scheme: Scheme<T, 2> = match options.scheme.as_str() {
         "transport" => scheme.with(Shifting::TRANSPORT).compose(),
+        "smooth" => SchemeBuilder::liquid(WendlandC6, Inviscid)
+            .with(DensityDiffusion(Fourtakas::default()))
+            .with(Laminar(LaminarViscosity))
+            .walls(pressure)
+            .with(consistency)
+            .with(Shifting::CLOSED)
+            .h_over_dx(2.5)
+            .compose(),
         _ => scheme.with(Shifting::CLOSED).compose(),
     };
     Scene::new(scheme)
