@@ -68,7 +68,7 @@ fn timed(count: &str) -> Result<(), Box<dyn Error>> {
         .traffic()
         .zip(before)
         .map_or([0.0; 2], |(now, own)| {
-            let waited = (now.waited - own.waited).as_secs_f64();
+            let waited = now.waited.as_secs_f64() - own.waited.as_secs_f64();
             [(now.received - own.received) as f64 / steps, waited / steps]
         });
     println!(
