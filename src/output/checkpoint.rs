@@ -187,8 +187,8 @@ impl Checkpoint {
             .filter_map(move |own| own.strip_prefix(begin))
     }
 
-    /// Scalars of a simulation, whichever it was of, and how many are in a row.
-    pub fn rows(&self, name: &str) -> Read<(usize, Vec<f64>)> {
+    /// How many scalars of a simulation are in a row, and these, whether `f32` or `f64`.
+    pub fn get_rows(&self, name: &str) -> Read<(usize, Vec<f64>)> {
         let width = self.columns.get(name).and_then(|own| own.shape.get(1));
         let numbers = match self.get_reals::<f64>(name) {
             Ok(numbers) => numbers,

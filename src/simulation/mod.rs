@@ -213,7 +213,7 @@ mod workspace;
 #[cfg(feature = "checkpoint")]
 pub use checkpoint::{Change, Difference};
 #[cfg(feature = "checkpoint")]
-pub(crate) use checkpoint::{Changes, RARE, differences};
+pub(crate) use checkpoint::{Changes, RARE, differences, saved_groups};
 pub use column::Column;
 pub use control::StepControl;
 pub use cost::{Cost, CostLine, Messages};

@@ -7,6 +7,8 @@ use meshfree::boundary::{Inlet, Outlet};
 use meshfree::effect::{HeatConduction, NeoHookean};
 use meshfree::output::vtu::Vtu;
 use meshfree::prelude::*;
+#[cfg(feature = "checkpoint")]
+use meshfree::ranks::in_threads;
 use meshfree::scene::{ParticleState, Start};
 use std::path::PathBuf;
 
@@ -169,12 +171,14 @@ fn a_checkpoint_of_another_scene_starts_a_body() {
                 [[true; 2]; 2],
             ))
     };
-    let mut other = scene().build().expect("a scene");
-    other.step_at_most(1e-12).expect("a step");
+    let other = scene().build().expect("a scene");
     other.save(&path).expect("a file");
     let state = ParticleState::read_checkpoint(&path).expect("a state");
+    let resumed = scene().resume(&path).expect("a run");
     let _ = std::fs::remove_file(&path);
-    same_state(&state, &ParticleState::of(&other));
+    for known in [other, resumed] {
+        same_state(&state, &ParticleState::of(&known));
+    }
     let state = state.only("body", 1.0);
     assert_eq!(state.len(), 200);
     let fine = body(0.01).started_from(&state).expect("a body");
@@ -184,7 +188,7 @@ fn a_checkpoint_of_another_scene_starts_a_body() {
         .expect("water");
     for own in run.all() {
         let exact = velocity(own.position())[0];
-        assert_abs_diff_eq!(own.velocity()[0], exact, epsilon = 1e-8);
+        assert_abs_diff_eq!(own.velocity()[0], exact, epsilon = 1e-10);
     }
 }
 
@@ -282,6 +286,39 @@ fn checkpoints_are_read_without_their_scenes() {
     let after = Body::block("after", water(), [-2.4], [-2.0], dx);
     let state = read(pipe.body(after), 150, "pipe");
     assert_eq!(state.only("body", 1.0).len(), 20);
+
+    // Written in parts by ranks, and with tensors of a plane.
+    let plate = || {
+        let body = Body::<f64, 2>::block("plate", copper(), [0.0; 2], [0.2, 0.1], dx);
+        let body = body.start(|[x, y], own| Start {
+            velocity: [-90.0 * x + y, 20.0 * y],
+            ..own
+        });
+        Scene::new(schemes::updated_lagrangian()).body(body)
+    };
+    let alone = read(plate(), 12, "plate");
+    let path = file("parts");
+    let written = path.clone();
+    in_threads(3, 1, move |ranks| {
+        let mut run = plate().on_ranks(ranks).build().expect("a scene");
+        for _ in 0..12 {
+            run.step_at_most(1.0).expect("a step");
+        }
+        run.save(&written).expect("a part");
+    })
+    .expect("ranks");
+    let parts = ParticleState::read_checkpoint(&path).expect("a state");
+    let line = ParticleState::<1>::read_checkpoint(&path);
+    let error = line.map(drop).expect_err("a plane").to_string();
+    assert!(error.contains("dimension"), "{error}");
+    same_state(&parts, &alone);
+    let part = path.with_extension("a0");
+    let read = ParticleState::<2>::read_checkpoint(&part);
+    let error = read.map(drop).expect_err("a part alone").to_string();
+    assert!(error.contains("no checkpoint by itself"), "{error}");
+    for end in ["", "a0", "a1", "a2"] {
+        let _ = std::fs::remove_file(path.with_extension(end));
+    }
 
     let path = file("no_checkpoint");
     std::fs::write(&path, b"none").expect("a file");

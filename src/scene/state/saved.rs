@@ -1,15 +1,16 @@
 //! A state from a checkpoint alone, without the scene that wrote it: places, and columns by the names of their fields.
-//! What is needed of a file is which slots hold particles of bodies; walls and repeated particles are left out.
+//! Vectors, tensors and matrices get the components that files for VTK have.
 
 use super::{ParticleState, Quantity};
-use crate::error::{CheckpointProblem, Error, Result};
-use crate::output::checkpoint::{Checkpoint, Read, damaged};
+use crate::error::{Error, Result};
+use crate::output::checkpoint::{Checkpoint, Read};
 use crate::particles::Field;
+use crate::simulation::saved_groups;
 use std::path::Path;
 
 impl<const D: usize> ParticleState<D> {
     /// Reads a checkpoint of any scene, of `f32` or `f64`, which need not be at hand: all its columns by the names of their fields, and
-    /// `body`. It is the state that the next step starts from.
+    /// `body`. It is the state that the next step starts from, which is up to a step away from the time that was shown.
     ///
     /// ```
     /// use meshfree::prelude::*;
@@ -28,7 +29,7 @@ impl<const D: usize> ParticleState<D> {
     /// ```
     ///
     /// # Errors
-    /// When the file cannot be read, is no checkpoint or was altered, or is of another dimension.
+    /// When the file cannot be read, is no checkpoint or was altered, or is of another dimension or version.
     pub fn read_checkpoint(path: impl AsRef<Path>) -> Result<Self> {
         let path = path.as_ref();
         let state = Self::of_checkpoint(&Checkpoint::read(path)?);
@@ -39,59 +40,32 @@ impl<const D: usize> ParticleState<D> {
     }
 
     fn of_checkpoint(file: &Checkpoint) -> Read<Self> {
-        let found = file.text("dimension")?;
-        if found != D.to_string() {
-            return Err(CheckpointProblem::Kind {
-                what: "dimension",
-                found: found.into(),
-                own: D.to_string(),
-            });
-        }
-        let origin: [f64; D] = file.get_array("origin")?;
         let (mut state, mut bodies) = (Self::default(), 0);
-        for group in (0..).map(|k| format!("group{k}")) {
-            if !file.has(&format!("{group}/body_ends")) {
-                break;
-            }
-            let ends = file.get::<u64>(&format!("{group}/body_ends"))?;
-            let slots = particles(file, &group, &ends)?;
+        for group in saved_groups::<D>(file)? {
             let before = state.points.len();
-            let columns = format!("{group}/particles/");
             let mut known = vec![Quantity {
                 name: "body".into(),
                 components: 1,
-                values: slots.iter().map(|own| (bodies + own.0) as f64).collect(),
+                values: group
+                    .bodies
+                    .iter()
+                    .map(|own| (bodies + own) as f64)
+                    .collect(),
             }];
-            for name in file.names(&columns) {
-                let (width, numbers) = file.rows(&format!("{columns}{name}"))?;
-                let components = components::<D>(name, width);
-                let mut values = Vec::with_capacity(slots.len() * components.len());
-                for (_, slot) in &slots {
-                    let row = numbers.get(slot * width..(slot + 1) * width);
-                    let row =
-                        row.ok_or_else(|| damaged(format!("column `{name}` is too short")))?;
-                    values.extend(components.iter().map(|k| k.map_or(0.0, |k| row[k])));
-                }
-                known.push(Quantity {
-                    name: name.to_owned(),
+            known.extend(group.columns.into_iter().map(|(name, width, numbers)| {
+                let components = components::<D>(&name, width);
+                let rows = numbers.chunks_exact(width.max(1));
+                let values =
+                    rows.flat_map(|row| components.iter().map(|k| k.map_or(0.0, |k| row[k])));
+                Quantity {
+                    values: values.collect(),
                     components: components.len(),
-                    values,
-                });
-            }
-            let mut take = |field: Field| {
-                let own = known.iter().position(|own| own.name == field.name());
-                own.map(|k| known.remove(k))
-            };
-            let position = take(Field::POSITION).ok_or_else(|| damaged("it has no positions"))?;
-            let lost = take(Field::POSITION_RESIDUAL);
-            state.points.extend((0..slots.len()).map(|n| {
-                core::array::from_fn(|d| {
-                    let of = |own: &Quantity| own.values[n * own.components + d];
-                    of(&position) + lost.as_ref().map_or(0.0, of) + origin[d]
-                })
+                    name,
+                }
             }));
+            state.points.extend(group.points);
             state.join(before, known);
-            bodies += ends.len();
+            bodies += group.count;
         }
         state.join(state.points.len(), Vec::new());
         Ok(state)
@@ -117,29 +91,6 @@ impl<const D: usize> ParticleState<D> {
                 .resize(self.points.len() * own.components, f64::NAN);
         }
     }
-}
-
-/// Body and slot of each particle of a group that is in a body, body by body in the order of identities.
-fn particles(file: &Checkpoint, group: &str, ends: &[u64]) -> Read<Vec<(usize, usize)>> {
-    let ids = file.get::<u32>(&format!("{group}/ids"))?;
-    let slot_of = file.get::<u32>(&format!("{group}/slot_of"))?;
-    let mut all = Vec::new();
-    let mut body = 0;
-    for (slot, id) in ids.into_iter().enumerate() {
-        // Behind the bodies are walls.
-        while ends.get(body).is_some_and(|end| *end <= slot as u64) {
-            body += 1;
-        }
-        // Another slot repeats its particle.
-        if body < ends.len() && slot_of.get(id as usize) == Some(&(slot as u32)) {
-            all.push((body, id, slot));
-        }
-    }
-    all.sort_unstable();
-    Ok(all
-        .into_iter()
-        .map(|(body, _, slot)| (body, slot))
-        .collect())
 }
 
 /// Which numbers of a row are the components that a file for VTK has: of a vector three, of a tensor xx, yy, zz, xy, yz, xz, of a

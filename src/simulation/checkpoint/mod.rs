@@ -11,6 +11,7 @@ mod held;
 mod joints;
 mod particles;
 mod ranks;
+mod saved;
 mod workspace;
 
 use super::energy::Work;
@@ -29,6 +30,7 @@ use std::path::Path;
 
 pub use change::{Change, Difference};
 pub(crate) use change::{Changes, differences};
+pub(crate) use saved::saved_groups;
 
 /// The version of what is held. It rises with every change of it.
 const VERSION: &str = "6";
@@ -374,16 +376,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Whether a file goes on from a simulation like this one, on a machine of which `best` is the best.
     fn check(&self, file: &Checkpoint, changes: Changes<'_>, best: InstructionSet) -> Read<()> {
-        if file.text("format")? != FORMAT {
-            return Err(damaged("it is no checkpoint by itself"));
-        }
-        let found = file.text("version")?;
-        if found != VERSION {
-            return Err(CheckpointProblem::Version {
-                found: found.into(),
-                known: VERSION,
-            });
-        }
+        check_format(file)?;
         let kinds = [
             ("scalar", T::NAME.to_string()),
             ("dimension", D.to_string()),
@@ -414,6 +407,21 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
         Ok(())
     }
+}
+
+/// Whether a file holds what this version of the crate knows.
+fn check_format(file: &Checkpoint) -> Read<()> {
+    if file.text("format")? != FORMAT {
+        return Err(damaged("it is no checkpoint by itself"));
+    }
+    let found = file.text("version")?;
+    if found == VERSION {
+        return Ok(());
+    }
+    Err(CheckpointProblem::Version {
+        found: found.into(),
+        known: VERSION,
+    })
 }
 
 #[cfg(test)]
