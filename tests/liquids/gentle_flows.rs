@@ -203,24 +203,32 @@ fn a_liquid_that_thins_flows_as_its_law_says() {
     assert!(apart > 0.1, "{apart}");
 }
 
-/// Taylor–Green vortices at Re 100, until the speed has halved, on 50² particles.
-#[test]
-fn vortices_decay_by_viscosity_alone() {
+/// Taylor–Green vortices at Re 100 on so many particles squared, as they start.
+fn vortices(scheme: impl Into<Scheme<f64, 2>>, count: u32) -> (TaylorGreen, Simulation<f64, 2>) {
     let exact = TaylorGreen::new(100.0).expect("vortices");
     let liquid = Liquid::new(1.0, 1480.0, exact.kinematic_viscosity()).linear();
     let material = liquid.material("liquid", SoundSpeed::Chosen(10.0));
-    let body = Body::block("liquid", material, [0.0; 2], [1.0; 2], 0.02);
+    let dx = 1.0 / f64::from(count);
+    let body = Body::block("liquid", material, [0.0; 2], [1.0; 2], dx);
     let body = body.start(|x, start| Start {
         velocity: exact.velocity(x, 0.0),
         density: 1.0 + exact.pressure(x, 0.0) / 100.0,
         ..start
     });
-    let mut vortices = Scene::<f64, 2>::new(viscous(LaminarViscosity).with(Shifting::CLOSED))
+    let vortices = Scene::new(scheme)
         .body(body)
         .boundary(Periodic::along(0, 0.0, 1.0))
         .boundary(Periodic::along(1, 0.0, 1.0))
         .build()
         .expect("vortices");
+    (exact, vortices)
+}
+
+/// Until the speed has halved.
+#[test]
+fn vortices_decay_by_viscosity_alone() {
+    let scheme = viscous(LaminarViscosity).with(Shifting::CLOSED);
+    let (exact, mut vortices) = vortices(scheme, 50);
     for (time, bar) in [(0.5, 0.005), (0.88, 0.01)] {
         vortices.run_until(time).expect("a run");
         let energy = vortices.ledger().whole.kinetic / exact.kinetic_energy(time);
@@ -236,28 +244,13 @@ fn vortices_decay_by_viscosity_alone() {
 /// With more neighbours the rate at which they decay is within 0.2 % and the pressure within 3 % at 100², and both converge.
 #[test]
 fn vortices_converge_with_many_neighbours() {
-    let exact = TaylorGreen::new(100.0).expect("vortices");
     let errors = |count: u32| {
         let scheme = SchemeBuilder::liquid(WendlandC6, Inviscid)
             .with(DensityDiffusion(Fourtakas::default()))
             .with(Laminar(LaminarViscosity))
             .with(Shifting::CLOSED)
             .h_over_dx(2.5);
-        let liquid = Liquid::new(1.0, 1480.0, exact.kinematic_viscosity()).linear();
-        let material = liquid.material("liquid", SoundSpeed::Chosen(10.0));
-        let dx = 1.0 / f64::from(count);
-        let body =
-            Body::block("liquid", material, [0.0; 2], [1.0; 2], dx).start(|x, start| Start {
-                velocity: exact.velocity(x, 0.0),
-                density: 1.0 + exact.pressure(x, 0.0) / 100.0,
-                ..start
-            });
-        let mut vortices = Scene::<f64, 2>::new(scheme)
-            .body(body)
-            .boundary(Periodic::along(0, 0.0, 1.0))
-            .boundary(Periodic::along(1, 0.0, 1.0))
-            .build()
-            .expect("vortices");
+        let (exact, mut vortices) = vortices(scheme, count);
         let energy = |now: &Simulation<f64, 2>| now.ledger().whole.kinetic;
         let start = energy(&vortices);
         vortices.run_until(1.0).expect("a run");
