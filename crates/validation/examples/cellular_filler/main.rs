@@ -210,11 +210,15 @@ fn deform(options: &Options) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Runs that do not depend on each other, each on a thread of its own: for more it has too few particles.
+/// Runs that do not depend on each other, as many at once as there are cores, which they share: a run has too few particles for more.
 fn at_once(cases: Vec<Crushed>, folder: &Path) -> Result<Vec<(Crushed, Crushing)>, Failure> {
     let next = AtomicUsize::new(0);
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let count = cores.min(cases.len());
     let work = || -> Result<Vec<(usize, Crushing)>, String> {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(cores / count)
+            .build();
         let pool = pool.map_err(|error| error.to_string())?;
         let mut own = Vec::new();
         loop {
@@ -223,12 +227,11 @@ fn at_once(cases: Vec<Crushed>, folder: &Path) -> Result<Vec<(Crushed, Crushing)
                 return Ok(own);
             };
             let record = pool.install(|| crush_one(case, folder));
-            own.push((k, record.map_err(|error| error.to_string())?));
+            let named = |error| format!("{}: {error}", case.name());
+            own.push((k, record.map_err(named)?));
         }
     };
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let ended: Vec<_> = std::thread::scope(|scope| {
-        let count = cores.min(cases.len());
         let all: Vec<_> = (0..count).map(|_| scope.spawn(work)).collect();
         all.into_iter().map(|own| own.join()).collect()
     });
