@@ -10,7 +10,7 @@ use std::time::Instant;
 
 /// Particles of water in processes that `mpirun` starts.
 const COUNT: &str = "MESHFREE_MPI_SPEED";
-/// Least number of steps that are timed, after the first list build.
+/// About how many steps are timed, after the first list build.
 const STEPS: u64 = 60;
 
 fn main() -> ExitCode {
@@ -24,8 +24,7 @@ fn main() -> ExitCode {
     ExitCode::from(u8::from(ended.is_err()))
 }
 
-/// A column twice as long as high and deep, in a closed tank, which moves so that lists are
-/// built every twenty to thirty steps, as in a dam break.
+/// A column twice as long as high and deep, in a closed tank, which moves so that lists are built every fifteen steps.
 fn scene(count: f64) -> Scene<f64, 3> {
     let dx = (2.0 / count).cbrt();
     let water = catalogue::weakly_compressible_water(2.0 * 9.81_f64.sqrt());
