@@ -29,18 +29,18 @@ use continuity_by_hand::{
     OF_BENT, OF_DENSITY, PAIRING, REPULSION, SHIFTED, SHIFTING, SLOPE, SUMMED, WITHIN,
 };
 use meshfree::effect::{
-    ArtificialConduction, ArtificialPressure, ArtificialStress, ConductionSignal, Crowding,
-    HourglassControl, HourglassFree, Hypoelastic, NearPairs, NeoHookean, PairingControl,
-    Plasticity, ShiftedContinuity, TensionRepulsion, TwoPhase, WithinPhase,
+    ArtificialConduction, ArtificialPressure, ArtificialStress, ConductionSignal, HourglassControl,
+    HourglassFree, Hypoelastic, NeoHookean, PairingControl, Plasticity, TwoPhase, WithinPhase,
+    parts::{Crowding, NearPairs, ShiftedContinuity, TensionRepulsion},
 };
 use meshfree::kernel::WendlandC2;
 use meshfree::prelude::*;
 use meshfree::scene::Start;
 use meshfree::term::viscosity::{Inviscid, MonaghanGingold};
 use meshfree::term::{
-    Antuono, CentralViscosity, Compression, ConcentrationGradient, Fourtakas, InternalEnergy,
-    KernelMoment, KernelSum, LaminarViscosity, Molteni, PressureForce, RiemannDiffusion, SlopeInH,
-    Unity,
+    Antuono, CentralViscosity, Fourtakas, InternalEnergy, KernelSum, LaminarViscosity, Molteni,
+    PressureForce, RiemannDiffusion,
+    parts::{Compression, ConcentrationGradient, KernelMoment, SlopeInH, Unity},
 };
 use std::time::Instant;
 

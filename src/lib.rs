@@ -321,6 +321,7 @@ pub mod geometry;
 pub mod integrator;
 pub mod kernel;
 pub mod material;
+#[doc(hidden)]
 pub mod neighbors;
 pub mod observe;
 mod once;

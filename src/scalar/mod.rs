@@ -15,14 +15,17 @@ mod traced;
 mod twice;
 
 pub(crate) use function::{Function, OfLanes, call};
+pub use instructions::InstructionSet;
 use instructions::Instructions;
-pub use instructions::{InstructionSet, OnRows};
+#[doc(hidden)]
+pub use instructions::OnRows;
 pub use lanes::{LaneMask, Lanes};
 pub use real::Real;
 pub(crate) use real::width;
 #[cfg(target_arch = "x86_64")]
 pub(crate) use registers::{OnAvx2, OnAvx512};
 pub use root::Root;
+#[doc(hidden)]
 pub use traced::{Binary, Operation, Record, Traced, TracedMask, Unary, Unrecordable};
 
 use core::fmt::Debug;

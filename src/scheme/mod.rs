@@ -70,7 +70,9 @@ mod start;
 pub use crate::effect::{DensityForm, EnergyForm, Shifting, Smoothing};
 pub use crate::kernel::KernelFacts;
 pub(crate) use builder::DEFAULT_STEP_FACTOR;
-pub use builder::{Renormalise, SchemeBuilder};
+#[doc(hidden)]
+pub use builder::Renormalise;
+pub use builder::SchemeBuilder;
 pub(crate) use entry::{Entries, Entry};
 pub use start::Start;
 

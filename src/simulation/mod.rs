@@ -151,6 +151,7 @@ mod control;
 mod cost;
 mod couplings;
 #[cfg(feature = "devices")]
+#[doc(hidden)]
 pub mod device;
 mod divided;
 mod energy;

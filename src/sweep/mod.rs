@@ -64,6 +64,7 @@ mod work;
 #[doc(hidden)]
 pub use fused_kernel::{FusedKernel, PairSweep, Pass, SweepInput};
 #[cfg(feature = "devices")]
+#[doc(hidden)]
 pub use pair_record::PairRecord;
 pub use records::Transform;
 #[doc(hidden)]

@@ -105,6 +105,8 @@ mod list;
 mod matrix;
 mod momentum;
 mod pair;
+#[doc(hidden)]
+pub mod parts;
 mod probe;
 mod renormalised;
 mod staged;
@@ -113,27 +115,27 @@ mod sums;
 pub mod viscosity;
 mod wall;
 
-pub use concentration::{ConcentrationGradient, Nothing};
+pub use concentration::Nothing;
 pub use density_diffusion::{Antuono, Fourtakas, Molteni, RiemannDiffusion};
-pub use density_sums::{Compression, KernelMoment, KernelSum, SlopeInH, Unity};
-pub use force::{Along, FreeForce};
-pub use gradient::{DensityGradient, MomentMatrix, PressureGradient, VelocityGradient};
+pub use density_sums::KernelSum;
+pub use force::Along;
+pub use gradient::VelocityGradient;
 pub use laminar_viscosity::{CentralViscosity, LaminarViscosity};
 pub(crate) use limiter::left_of_jump;
 pub(crate) use list::{ByName, Join};
-pub use list::{Names, TermList, Terms};
+pub use list::{Names, Terms};
 pub use matrix::MatrixPressureForce;
 pub use momentum::{InternalEnergy, MidpointReconstruction, PressureForce};
 pub(crate) use pair::assert_room;
-pub use pair::{Layout, MOST_READS, MOST_SUMS, Pair};
+pub use pair::{Layout, Pair};
+pub(crate) use parts::*;
 pub use probe::{Probe, probe};
+pub use renormalised::RenormalisedPressureForce;
 pub(crate) use renormalised::corrected;
-pub use renormalised::{RenormalisedCompression, RenormalisedPressureForce};
-pub use staged::{In, StageMarker, StagedTerms, stage};
+pub use staged::{In, stage};
 pub use stages::Stage;
 pub use sums::Sums;
 pub use viscosity::{ArtificialViscosity, Viscosity, Viscous};
-pub use wall::{LiquidNearWall, VelocityAtWall, ViscosityAtWall};
 
 /// What a term is, for people: printed by a scheme and collected in the documentation.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -147,6 +149,7 @@ pub struct TermDoc {
     pub source: &'static str,
 }
 
+#[doc(hidden)]
 /// A term of a sweep, for the check of a scheme's order and for people.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TermUse {
@@ -274,61 +277,61 @@ macro_rules! for_each_term {
             $crate::term::MidpointReconstruction { strength: 1.0 / 3.0 },
             $crate::term::InternalEnergy,
             $crate::term::KernelSum,
-            $crate::term::Unity,
-            $crate::term::KernelMoment,
-            $crate::term::SlopeInH,
-            $crate::term::Compression,
+            $crate::term::parts::Unity,
+            $crate::term::parts::KernelMoment,
+            $crate::term::parts::SlopeInH,
+            $crate::term::parts::Compression,
             $crate::term::VelocityGradient,
-            $crate::term::PressureGradient,
-            $crate::term::DensityGradient,
-            $crate::term::MomentMatrix,
+            $crate::term::parts::PressureGradient,
+            $crate::term::parts::DensityGradient,
+            $crate::term::parts::MomentMatrix,
             $crate::term::LaminarViscosity,
             $crate::term::CentralViscosity,
             $crate::term::Molteni::default(),
             $crate::term::Fourtakas::default(),
             $crate::term::Antuono::default(),
             $crate::term::RiemannDiffusion,
-            $crate::term::ConcentrationGradient { repulsion: 0.2, at_spacing: 1.0 },
-            $crate::term::LiquidNearWall,
-            $crate::term::VelocityAtWall,
-            $crate::term::ViscosityAtWall,
-            $crate::effect::VelocityBeforeWall,
+            $crate::term::parts::ConcentrationGradient { repulsion: 0.2, at_spacing: 1.0 },
+            $crate::term::parts::LiquidNearWall,
+            $crate::term::parts::VelocityAtWall,
+            $crate::term::parts::ViscosityAtWall,
+            $crate::effect::parts::VelocityBeforeWall,
             $crate::effect::ArtificialConduction::default(),
             $crate::effect::Hypoelastic,
             $crate::effect::RenormalisedHypoelastic,
-            $crate::effect::Repulsion { exponent: 4, over_kernel_at_spacing: 1.0 },
-            $crate::effect::TensionRepulsion {
+            $crate::effect::parts::Repulsion { exponent: 4, over_kernel_at_spacing: 1.0 },
+            $crate::effect::parts::TensionRepulsion {
                 of: $crate::effect::ArtificialPressure { share: 0.3, exponent: 4 },
                 over_kernel_at_spacing: 1.0
             },
-            $crate::effect::NearPairs { over_kernel_at_spacing: 20.0 },
-            $crate::effect::SummedMass,
-            $crate::effect::Crowding { over_kernel_at_spacing: 20.0 },
-            $crate::effect::ShiftedContinuity,
-            $crate::effect::Exchange::<false, true>,
-            $crate::effect::Exchange::<true, true>,
-            $crate::effect::FluidGradients,
-            $crate::effect::FluidFluxes($crate::effect::FiveEquations::new(
+            $crate::effect::parts::NearPairs { over_kernel_at_spacing: 20.0 },
+            $crate::effect::parts::SummedMass,
+            $crate::effect::parts::Crowding { over_kernel_at_spacing: 20.0 },
+            $crate::effect::parts::ShiftedContinuity,
+            $crate::effect::parts::Exchange::<false, true>,
+            $crate::effect::parts::Exchange::<true, true>,
+            $crate::effect::parts::FluidGradients,
+            $crate::effect::parts::FluidFluxes($crate::effect::FiveEquations::new(
                 $crate::material::eos::StiffenedGas::new(4.4, 2.0, 1.0),
                 $crate::material::eos::IdealGas::new(1.4, 1.2)
             )),
-            $crate::effect::PressureSlope,
+            $crate::effect::parts::PressureSlope,
             $crate::effect::TwoPhase::default(),
             $crate::effect::WithinPhase($crate::term::Fourtakas::default()),
-            $crate::effect::ColourGradient,
-            $crate::effect::InterfaceCurvature,
-            $crate::effect::HeatFlow { moment: 1.0 },
-            $crate::effect::VolumeGradient,
+            $crate::effect::parts::ColourGradient,
+            $crate::effect::parts::InterfaceCurvature,
+            $crate::effect::parts::HeatFlow { moment: 1.0 },
+            $crate::effect::parts::VolumeGradient,
             $crate::effect::HourglassFree::default(),
-            $crate::effect::VelocityMismatch,
-            $crate::effect::ReferenceMoment,
-            $crate::effect::DisplacementGradient,
-            $crate::effect::StressForce,
+            $crate::effect::parts::VelocityMismatch,
+            $crate::effect::parts::ReferenceMoment,
+            $crate::effect::parts::DisplacementGradient,
+            $crate::effect::parts::StressForce,
             $crate::effect::HourglassControl::default(),
             $crate::term::RenormalisedPressureForce,
-            $crate::term::RenormalisedCompression,
+            $crate::term::parts::RenormalisedCompression,
             $crate::term::MatrixPressureForce,
-            $crate::effect::EnergyGradient,
+            $crate::effect::parts::EnergyGradient,
             $crate::term::Viscosity($crate::term::viscosity::Inviscid),
             $crate::term::Viscosity($crate::term::viscosity::MonaghanGingold::STANDARD),
             $crate::term::Viscosity($crate::term::viscosity::LimitedMonaghanGingold::STANDARD),

@@ -5,7 +5,7 @@ use meshfree::effect::{Effect, Point, PointLaw, Reach, Setting, StepProgram};
 use meshfree::name;
 use meshfree::particles::{Field, Fields, Output, Outputs};
 use meshfree::prelude::*;
-use meshfree::term::{In, Layout, Pair, Stage, StageMarker, Sums, Term, TermDoc, stage};
+use meshfree::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, parts::StageMarker, stage};
 use std::marker::PhantomData;
 
 pub const FILLED: Field = Field::scalar(name!("filling", "1"));

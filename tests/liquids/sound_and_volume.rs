@@ -12,7 +12,7 @@ use meshfree::scene::Start;
 use meshfree::simulation::ParticleView;
 
 use meshfree::term::viscosity::Inviscid;
-use meshfree::term::{In, Unity, stage};
+use meshfree::term::{In, parts::Unity, stage};
 
 const SOUND: f64 = 10.0;
 const DENSITY: f64 = 1000.0;

@@ -6,8 +6,8 @@ use meshfree::effect::{Hypoelastic, RenormalisedHypoelastic};
 use meshfree::particles::{Field, Output};
 use meshfree::scalar::Lane;
 use meshfree::term::{
-    DensityGradient, MidpointReconstruction, MomentMatrix, PressureForce, PressureGradient,
-    RenormalisedCompression, RenormalisedPressureForce,
+    MidpointReconstruction, PressureForce, RenormalisedPressureForce,
+    parts::{DensityGradient, MomentMatrix, PressureGradient, RenormalisedCompression},
 };
 
 /// Where xx, xy, xz, yx, … of a symmetric tensor stand in its six numbers.

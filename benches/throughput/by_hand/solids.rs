@@ -6,13 +6,13 @@ use super::by_hand::{
 };
 use super::lattice::H;
 use meshfree::effect::{
-    ArtificialStress, DisplacementGradient, HourglassControl, HourglassFree, Hypoelastic,
-    Repulsion, StressForce, TotalLagrangian, VelocityMismatch,
+    ArtificialStress, HourglassControl, HourglassFree, Hypoelastic, TotalLagrangian,
+    parts::{DisplacementGradient, Repulsion, StressForce, VelocityMismatch},
 };
 use meshfree::name;
 use meshfree::particles::{Field, Output};
 use meshfree::scalar::Lane;
-use meshfree::term::{Compression, PressureForce, VelocityGradient};
+use meshfree::term::{PressureForce, VelocityGradient, parts::Compression};
 
 /// What a loop sums beside the pressure force.
 const STRESS: u8 = 1;

@@ -3,11 +3,11 @@
 
 use super::by_hand::{Apart, MOST, Record, Written, norm, places, row};
 use super::lattice::H;
-use meshfree::effect::VelocityBeforeWall;
+use meshfree::effect::parts::VelocityBeforeWall;
 use meshfree::name;
 use meshfree::particles::{Field, Output};
 use meshfree::scalar::Lane;
-use meshfree::term::{LiquidNearWall, VelocityAtWall, ViscosityAtWall};
+use meshfree::term::parts::{LiquidNearWall, VelocityAtWall, ViscosityAtWall};
 
 /// What a loop sums beside the pressure of the liquid: its velocity for walls as Riemann problems, or velocity, arm and viscosity
 /// for walls without slip.

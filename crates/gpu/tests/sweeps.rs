@@ -13,7 +13,7 @@ use meshfree::sweep::{
     SweepInput,
 };
 use meshfree::term::viscosity::MonaghanGingold;
-use meshfree::term::{Compression, Fourtakas, PressureForce, Viscosity};
+use meshfree::term::{Fourtakas, PressureForce, Viscosity, parts::Compression};
 use meshfree_gpu::{Device, Dialect, Error, Language, PairKernel, PairLists, Precision, Shared};
 
 const H: f64 = 1.5;

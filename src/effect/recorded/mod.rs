@@ -238,7 +238,7 @@ pub(super) fn by_sum<T: Real, const D: usize>(rate: &BySum) -> PointRecord {
 /// a material; what acts on a wall is recorded as there. Particles have the fields `more` in addition to those that the effect names.
 ///
 /// ```
-/// use meshfree::effect::{Cavitation, DensityForm, point_records};
+/// use meshfree::effect::{Cavitation, DensityForm, parts::point_records};
 /// use meshfree::{material::catalogue, particles::Fields};
 /// let water = catalogue::water::<f64>().with_pressure_cut_off(0.0);
 /// let all = point_records::<f64, 2>(&Cavitation, DensityForm::Continuity, &water, Fields::NONE);

@@ -47,6 +47,7 @@ pub use monaghan_gingold::MonaghanGingold;
 pub use morris_monaghan::MorrisMonaghan;
 pub use riemann::Riemann;
 pub use signal_velocity::SignalVelocity;
+#[doc(hidden)]
 pub use switch::{Surroundings, Switch, SwitchObject};
 
 use super::{Layout, Pair, Sums, Term, TermDoc, not_negative};

@@ -3,7 +3,10 @@
 
 use super::common::{self, Random};
 use super::{COUNT, Outcome};
-use meshfree::effect::{DensityForm, Effect, PointRecord, point_records};
+use meshfree::effect::{
+    DensityForm, Effect,
+    parts::{PointRecord, point_records},
+};
 use meshfree::material::Material;
 use meshfree::material::eos::Linear;
 use meshfree::material::failure::JohnsonCookFailure;
