@@ -31,3 +31,4 @@ mod slow;
 mod sound_and_volume;
 mod sources;
 mod sponge;
+mod still_water;

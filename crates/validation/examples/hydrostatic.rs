@@ -11,7 +11,6 @@ use meshfree::output::svg::{Axis, Figure, Panel, Series};
 use meshfree::output::vtu::Pvd;
 use meshfree::prelude::*;
 use meshfree::run::{Run, Schedule};
-use meshfree::scene::Start;
 use meshfree::term::Antuono;
 use std::process::ExitCode;
 
@@ -33,15 +32,16 @@ fn sound_speed() -> f64 {
     10.0 * (GRAVITY * DEPTH).sqrt()
 }
 
+/// The pressure \[Pa\] at rest of water that its own weight compresses, p = ρ₀c² (exp(g d/c²) − 1) at the depth d \[m\].
+fn at_rest(depth: f64) -> f64 {
+    let square = sound_speed() * sound_speed();
+    1000.0 * square * (GRAVITY * depth / square).exp_m1()
+}
+
 fn scene<T: Real>(options: &Options, spacing: f64) -> Scene<T, 2> {
     let water: Material<T> = catalogue::water_at(SoundSpeed::Chosen(sound_speed()));
-    let law = water.clone();
-    let at_depth = move |z: f64| law.eos().density_at(1000.0 * GRAVITY * (DEPTH - z), 0.0);
     let body = Body::block("water", water, [0.0; 2], [0.5, DEPTH], spacing);
-    let body = body.start(|x, start| Start {
-        density: at_depth(x[1]).unwrap_or(start.density),
-        ..start
-    });
+    let body = body.hydrostatic([0.0, -GRAVITY], [0.0, DEPTH]);
     // Of h/dx 1.5 and 2, the wider leaves the particles a tenth of the residual motion.
     let scheme = schemes::weakly_compressible().h_over_dx(2.0);
     let scheme: Scheme<T, 2> = match options.scheme.as_str() {
@@ -82,8 +82,7 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
         .label(EXAMPLE.name)
         .observe(Schedule::evenly(21), |now| {
             let errors = now.all().map(|particle| {
-                let exact = 1000.0 * GRAVITY * (DEPTH - particle.position()[1]);
-                (particle.pressure() - exact).powi(2)
+                (particle.pressure() - at_rest(DEPTH - particle.position()[1])).powi(2)
             });
             let mean = errors.sum::<f64>() / now.particles() as f64;
             let fastest = now
@@ -103,7 +102,8 @@ fn perform<T: Real>(options: &Options) -> Result<(), Failure> {
 
     let profile = simulation.all();
     let profile = profile.map(|particle| (particle.pressure(), particle.position()[1]));
-    let exact = [(0.0, DEPTH), (1000.0 * GRAVITY * DEPTH, 0.0)];
+    let exact = (0..=20).map(|k| 0.05 * DEPTH * f64::from(k));
+    let exact = exact.map(|depth| (at_rest(depth), DEPTH - depth));
     Figure::new()
         .panel(
             Panel::new(Axis::linear("pressure", "Pa"), Axis::linear("height", "m"))

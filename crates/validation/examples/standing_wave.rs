@@ -38,17 +38,16 @@ pub(crate) fn main() -> ExitCode {
 fn scene<T: Real>(options: &Options, wave: StandingWave, spacing: f64) -> Scene<T, 2> {
     let sound_speed = SoundSpeed::artificial(2.0 * (GRAVITY * DEPTH).sqrt());
     let water: Material<T> = catalogue::water_at(sound_speed);
-    let law = water.clone();
-    let at_depth = move |z: f64| law.eos().density_at(1000.0 * GRAVITY * (DEPTH - z), 0.0);
     let side = 0.5 * LENGTH;
     // A quarter of a period before its crest: the surface is flat, and the water at its fastest.
     let flat = -0.25 * wave.period();
     let body = Body::block("water", water, [0.0; 2], [side, DEPTH], spacing);
-    let body = body.start(|x, start| Start {
-        velocity: wave.velocity(x, flat),
-        density: at_depth(x[1]).unwrap_or(start.density),
-        ..start
-    });
+    let body = body
+        .hydrostatic([0.0, -GRAVITY], [0.0, DEPTH])
+        .start(|x, start| Start {
+            velocity: wave.velocity(x, flat),
+            ..start
+        });
     let sides = [[true; 2], [true, false]];
     let top = DEPTH + 0.3;
     let tank = Wall::around("tank", [0.0; 2], [side, top], spacing, 4, sides);
