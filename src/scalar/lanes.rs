@@ -1,7 +1,7 @@
 //! Rows of scalars, and of the outcomes of comparing them.
 //! Arithmetic acts element by element, in loops of fixed length that become vector instructions.
 
-use super::{Lane, Mask, Real};
+use super::{Lane, Mask, Real, power};
 use core::ops::{
     Add, AddAssign, BitAnd, BitOr, Div, DivAssign, Index, Mul, MulAssign, Neg, Not, Sub, SubAssign,
 };
@@ -204,6 +204,11 @@ impl<T: Real, const W: usize, const FUSED: bool> Lane for Lanes<T, W, FUSED> {
     #[inline(always)]
     fn root(self) -> Self {
         T::root_of_row(self)
+    }
+    #[inline(always)]
+    fn powf(mut self, exponent: f64) -> Self {
+        power::of_row(&mut self.0, exponent);
+        self
     }
     #[inline(always)]
     fn abs(self) -> Self {

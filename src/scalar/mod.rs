@@ -6,6 +6,7 @@ mod function;
 mod halves;
 mod instructions;
 mod lanes;
+mod power;
 mod real;
 #[cfg(target_arch = "x86_64")]
 mod registers;

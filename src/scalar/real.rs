@@ -111,7 +111,7 @@ macro_rules! real {
             }
             #[inline(always)]
             fn powf(self, exponent: f64) -> $T {
-                elementary::powf(f64::from(self), exponent) as $T
+                elementary::powf::<false>(f64::from(self), exponent) as $T
             }
             #[inline(always)]
             fn exp(self) -> $T {
