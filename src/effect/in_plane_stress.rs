@@ -9,7 +9,7 @@ use super::{
 };
 use crate::name;
 use crate::particles::{Field, Fields};
-use crate::scalar::{Lane, Real};
+use crate::scalar::{Lane, Real, iterate};
 use crate::tensor::Square;
 use crate::term::{Stage, TermDoc};
 
@@ -132,7 +132,7 @@ impl Sheet for NeoHookean {
         // In s = ln λ₃ the condition is rising and convex for λ ≥ 0: Newton's method comes down to the root.
         let (area, two) = (gradient.determinant().ln(), L::of(2.0));
         let first = -lambda * area / (lambda + two * mu);
-        let [s] = L::iterate(MOST_TRIALS, [first], |[s]| {
+        let [s] = iterate!(L, MOST_TRIALS, [first], |[s]| {
             let squared = (two * s).exp();
             let excess = lambda.fused(area + s, mu * (squared - L::one()));
             let change = excess / (two * mu).fused(squared, lambda);

@@ -8,7 +8,7 @@ use super::{
 use crate::error::Problem;
 use crate::name;
 use crate::particles::{Field, Fields, Output, Outputs};
-use crate::scalar::{Lane, Real};
+use crate::scalar::{Lane, Real, iterate};
 use crate::tensor::Symmetric;
 use crate::term::{Stage, TermDoc};
 
@@ -162,26 +162,26 @@ pub(super) fn strain_across<L: Lane>(
     // while σ grows: Newton with what lies between, kept within its bracket by halving.
     let endless = L::of(f64::INFINITY);
     let least = L::of(1e-14) * trial.von_mises().max(L::of(f64::MIN_POSITIVE));
-    let [strain, _, _] = L::iterate(
-        MOST_TRIALS,
-        [L::zero(), -endless, endless],
-        |[strain, low, high]| {
-            let changed = with_strain_across(trial, shear, strain);
-            let share = left(changed.von_mises());
-            let residual = share.fused(changed.at(2, 2), bulk.fused(strain, -pressure));
-            let above = residual.gt(L::zero());
-            let (low, high) = (
-                L::select(above, low, strain),
-                L::select(above, strain, high),
-            );
-            let next = strain - residual / L::of(4.0 / 3.0 * shear).fused(share, bulk);
-            let outside = next.le(low) | next.ge(high);
-            let next = L::select(outside, L::of(0.5) * (low + high), next);
-            let stays = (next.le(strain) & next.ge(strain)) | !next.abs().lt(endless);
-            let done = !asked | residual.abs().le(least) | stays;
-            ([L::select(done, strain, next), low, high], done)
-        },
-    );
+    let [strain, _, _] = iterate!(L, MOST_TRIALS, [L::zero(), -endless, endless], |[
+        strain,
+        low,
+        high,
+    ]| {
+        let changed = with_strain_across(trial, shear, strain);
+        let share = left(changed.von_mises());
+        let residual = share.fused(changed.at(2, 2), bulk.fused(strain, -pressure));
+        let above = residual.gt(L::zero());
+        let (low, high) = (
+            L::select(above, low, strain),
+            L::select(above, strain, high),
+        );
+        let next = strain - residual / L::of(4.0 / 3.0 * shear).fused(share, bulk);
+        let outside = next.le(low) | next.ge(high);
+        let next = L::select(outside, L::of(0.5) * (low + high), next);
+        let stays = (next.le(strain) & next.ge(strain)) | !next.abs().lt(endless);
+        let done = !asked | residual.abs().le(least) | stays;
+        ([L::select(done, strain, next), low, high], done)
+    });
     strain
 }
 

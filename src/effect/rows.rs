@@ -6,7 +6,7 @@ use super::point::{AtWall, CONSTANTS, OfLaw};
 use super::shifting::PLACE;
 use super::{Around, Chunk, Law, Point, PointLaw, Rung, Tally};
 use crate::particles::{Field, Fields, Output, Outputs};
-use crate::scalar::{Lane, MOST_LANES, Real};
+use crate::scalar::{Lane, MOST_LANES, OnOwnRows, Real, on_wide_registers};
 use crate::sweep::{Results, add_compensated};
 use crate::tensor::{Matrix, Vector};
 use crate::term::{MOST_READS, MOST_SUMS};
@@ -156,11 +156,7 @@ impl<T: Real, const D: usize, A: PointLaw<D>> Law<T, D> for A {
         A::RUNG
     }
     fn apply(&self, chunk: &mut Chunk<'_, T, D>) -> Tally {
-        if A::DOUBLE {
-            rows::<T, <f64 as Real>::Wide<false>, A, D>(self, chunk)
-        } else {
-            rows::<T, T::Wide<false>, A, D>(self, chunk)
-        }
+        on_wide_registers(OnChunk { law: self, chunk })
     }
     fn repeats(&self) -> Option<(usize, f64)> {
         self.repeated()
@@ -171,7 +167,26 @@ impl<T: Real, const D: usize, A: PointLaw<D>> Law<T, D> for A {
     }
 }
 
+/// A law that is due on a chunk.
+struct OnChunk<'a, 'c, T: Real, A, const D: usize> {
+    law: &'a A,
+    chunk: &'a mut Chunk<'c, T, D>,
+}
+
+impl<T: Real, const D: usize, A: PointLaw<D>> OnOwnRows for OnChunk<'_, '_, T, A, D> {
+    type Output = Tally;
+    #[inline(always)]
+    fn run(self) -> Tally {
+        if A::DOUBLE {
+            rows::<T, <f64 as Real>::Wide<false>, A, D>(self.law, self.chunk)
+        } else {
+            rows::<T, T::Wide<false>, A, D>(self.law, self.chunk)
+        }
+    }
+}
+
 /// A law over a chunk, row by row.
+#[inline(always)]
 fn rows<T: Real, L: Lane, A: PointLaw<D>, const D: usize>(
     law: &A,
     chunk: &mut Chunk<'_, T, D>,

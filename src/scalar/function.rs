@@ -1,7 +1,7 @@
 //! Functions of numbers whose type is erased, which any lane can call: laws that a material holds.
 //! A trait object has no generic methods, so it has one for each kind of lane, and a call finds its own.
 
-use super::{Lane, Real, Traced};
+use super::{Lane, OnOwnRows, Real, Traced, on_wide_registers};
 use core::any::Any;
 
 /// A function of `N` numbers in the arithmetic of lanes.
@@ -24,12 +24,23 @@ pub trait Function<const N: usize> {
     fn of_traced(&self, given: &[Traced; N]) -> Traced;
 }
 
+/// A call of a function.
+struct Call<'a, F, L, const N: usize>(&'a F, &'a [L; N]);
+
+impl<F: OfLanes<N>, L: Lane, const N: usize> OnOwnRows for Call<'_, F, L, N> {
+    type Output = L;
+    #[inline(always)]
+    fn run(self) -> L {
+        self.0.of(*self.1)
+    }
+}
+
 impl<const N: usize, F: OfLanes<N>> Function<N> for F {
     fn of_row(&self, given: &[Row; N]) -> Row {
-        self.of(*given)
+        on_wide_registers(Call(self, given))
     }
     fn of_single_row(&self, given: &[SingleRow; N]) -> SingleRow {
-        self.of(*given)
+        on_wide_registers(Call(self, given))
     }
     fn of_one(&self, given: &[f64; N]) -> f64 {
         self.of(*given)

@@ -59,6 +59,33 @@ pub trait Instructions: 'static {
     type Single: Lane<Scalar = f32, Broadcast = f32>;
 }
 
+/// Work on rows of its own, without fused lanes: compiled for wider registers it has the same bits. What [`run`](Self::run)
+/// calls ought to be `#[inline(always)]`, as with [`OnRows`].
+pub(crate) trait OnOwnRows {
+    /// What comes of it.
+    type Output;
+    /// Does it.
+    fn run(self) -> Self::Output;
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
+fn own_on_avx2<W: OnOwnRows>(work: W) -> W::Output {
+    work.run()
+}
+
+/// Does work on rows of its own in registers that the machine has beyond those of the baseline: rows of the baseline take four
+/// instructions for one, and functions of a library for products that round once.
+#[inline(always)]
+pub(crate) fn on_wide_registers<W: OnOwnRows>(work: W) -> W::Output {
+    #[cfg(target_arch = "x86_64")]
+    if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+        // SAFETY: this machine has the instructions.
+        return unsafe { own_on_avx2(work) };
+    }
+    work.run()
+}
+
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,fma")]
 fn on_avx512<T: Real, W: OnRows<T>>(work: W) -> W::Output {

@@ -20,6 +20,7 @@ pub use instructions::InstructionSet;
 use instructions::Instructions;
 #[doc(hidden)]
 pub use instructions::OnRows;
+pub(crate) use instructions::{OnOwnRows, on_wide_registers};
 pub use lanes::{LaneMask, Lanes};
 pub use real::Real;
 pub(crate) use real::width;
@@ -28,6 +29,27 @@ pub(crate) use registers::{OnAvx2, OnAvx512};
 pub use root::Root;
 #[doc(hidden)]
 pub use traced::{Binary, Operation, Record, Traced, TracedMask, Unary, Unrecordable};
+
+/// [`Lane::iterate`] as a loop in the text around it: a closure that is compiled by itself has the registers of the baseline.
+macro_rules! iterate {
+    ($L:ty, $most:expr, $first:expr, |$given:pat_param| $step:expr) => {{
+        let mut state = $first;
+        let mut open = <<$L as $crate::scalar::Lane>::Mask as $crate::scalar::Mask>::all_of(true);
+        for _ in 0..$most {
+            if !<$L as $crate::scalar::Lane>::somewhere(open) {
+                break;
+            }
+            let $given = state;
+            let (next, done) = $step;
+            for (own, next) in state.iter_mut().zip(next) {
+                *own = <$L as $crate::scalar::Lane>::select(open, next, *own);
+            }
+            open = open & !done;
+        }
+        state
+    }};
+}
+pub(crate) use iterate;
 
 use core::fmt::Debug;
 use core::ops::{
@@ -297,17 +319,7 @@ pub trait Lane:
         mut state: [Self; N],
         step: impl Fn([Self; N]) -> ([Self; N], Self::Mask),
     ) -> [Self; N] {
-        let mut open = Self::Mask::all_of(true);
-        for _ in 0..most {
-            if !Self::somewhere(open) {
-                break;
-            }
-            let (next, done) = step(state);
-            for k in 0..N {
-                state[k] = Self::select(open, next[k], state[k]);
-            }
-            open = open & !done;
-        }
+        state = iterate!(Self, most, state, |given| step(given));
         state
     }
 }

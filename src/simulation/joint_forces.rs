@@ -1,7 +1,6 @@
 //! Forces of joints in kicks: of springs, dampers and motors, and those with which joints hold; their work, and the step they allow.
 //! What is left for impulses is in `joints`.
 
-use super::forces::Forces;
 use super::joint_rows::Frame;
 use super::joint_system::{Line, Mover, factored, matrix, solve, with};
 use super::joints::{Jointing, finite_motor};

@@ -1,7 +1,6 @@
 //! The buffers of outlets: liquid before a plane takes what the boundary gives, and the rest from the liquid inside.
 //! After Tafuni, Domínguez, Vacondio & Crespo 2018 (Comput. Methods Appl. Mech. Engrg. 342, 604).
 
-use super::forces::Forces;
 use super::group::Group;
 use crate::boundary::{BEYOND, OpenPlace, Outlet};
 use crate::error::{Error, Result};
