@@ -1,7 +1,7 @@
 //! Elastic–plastic solids under finite strain: a total-Lagrangian stress with the yield condition of von Mises.
 //! The multiplicative plasticity of Simo 1992 (Simo & Hughes 1998, box 9.1), with pressure by the equation of state.
 
-use super::radial_return::{before, returned};
+use super::radial_return::{before, returned, yields_first};
 use super::total_lagrangian::{require_solid, stretches_of};
 use super::{
     Around, CONSTANTS, Effect, Hypoelastic, LedgerColumn, Plasticity, Point, PointLaw, Reach, Rung,
@@ -10,7 +10,7 @@ use super::{
 use crate::error::Problem;
 use crate::name;
 use crate::particles::{Field, Fields};
-use crate::scalar::{Lane, Real};
+use crate::scalar::{Lane, Real, iterate};
 use crate::tensor::{Square, Symmetric};
 use crate::term::{Stage, TermDoc};
 
@@ -141,7 +141,8 @@ impl<const D: usize> PointLaw<D> for FiniteStrainPlasticity {
         let before = before(at);
         // √(3/2 s:s) falls by 3 G tr b̄/3 for each unit of plastic strain.
         let stiffness = shear * elastic.deformation.trace() / volume;
-        let back = returned(law, &before, dt, [von_mises, stiffness]);
+        let first = yields_first(law, &before, dt);
+        let back = returned(law, &before, dt, [first, von_mises, stiffness]);
         let mut stress = trial;
         at.limited(back.flows);
         if L::somewhere(back.flows) {
@@ -227,7 +228,7 @@ impl<L: Lane> Elastic<L> {
         // det(a + m 1) = m³ − ½ (a:a) m + det a, which rises beyond its root.
         let (half, third) = (L::of(0.5) * deviator.square(), deviator.determinant());
         let first = (self.deformation.trace() / L::of(3.0)).max(L::one());
-        let [mean] = L::iterate(MOST_MEANS, [first], |[mean]| {
+        let [mean] = iterate!(L, MOST_MEANS, [first], |[mean]| {
             let excess = (mean * mean - half) * mean + third - L::one();
             let change = excess / (L::of(3.0) * mean * mean - half);
             let next = mean - change;

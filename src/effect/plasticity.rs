@@ -1,7 +1,7 @@
 //! Plastic flow of solids: the deviatoric stress returns to the yield surface of the material's law of strength.
 //! The radial return of Wilkins 1964, implicit in the plastic strain for any hardening and rate.
 
-use super::radial_return::{before, returned};
+use super::radial_return::{before, returned, yields_first};
 use super::{
     Around, CONSTANTS, Damage, Effect, Hypoelastic, LedgerColumn, PlaneStress, Point, PointLaw,
     Reach, Rung, SceneFacts, Setting, StepProgram, UniaxialStress, plane_stress,
@@ -174,7 +174,8 @@ impl<const D: usize> PointLaw<D> for Plasticity {
             3.0 * modulus
         };
         let (before, dt) = (before(at), at.dt());
-        let returned = |trial: L| returned(law, &before, dt, [trial, L::of(stiffness)]);
+        let first = yields_first(law, &before, dt);
+        let returned = |trial: L| returned(law, &before, dt, [first, trial, L::of(stiffness)]);
         let own = at.tensor(STRESS);
         let mut trial = own.von_mises();
         let mut back = returned(trial);

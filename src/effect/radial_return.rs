@@ -5,7 +5,7 @@ use super::{Plasticity, Point, Reach};
 use crate::material::StrengthObject;
 use crate::material::strength::{PlasticState, ROOM_TEMPERATURE};
 use crate::particles::Field;
-use crate::scalar::Lane;
+use crate::scalar::{Lane, OnOwnRows, iterate, on_wide_registers};
 
 /// The state of a point at rest, with its plastic strain, work, pressure and density.
 #[inline(always)]
@@ -36,6 +36,16 @@ fn after<L: Lane>(law: &dyn StrengthObject, before: &PlasticState<L>, more: L, d
     })
 }
 
+/// The yield stress \[Pa\] at no more strain, which all returns of a particle in a step have in common.
+#[inline(always)]
+pub(super) fn yields_first<L: Lane>(
+    law: &dyn StrengthObject,
+    before: &PlasticState<L>,
+    dt: L,
+) -> L {
+    after(law, before, L::zero(), dt)
+}
+
 /// What a return comes to.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Return<L: Lane> {
@@ -47,23 +57,49 @@ pub(super) struct Return<L: Lane> {
     pub yields: L,
 }
 
-/// The return of a stress of von Mises σ \[Pa\] by a law of strength within `dt` \[s\]. A function of its own, so that loops with
-/// several returns hold one text of it.
+/// The return of a stress of von Mises σ \[Pa\] by a law of strength within `dt` \[s\], with the [first](yields_first) yield
+/// stress. A function of its own, so that loops with several returns hold one text of it.
 #[inline(never)]
 pub(super) fn returned<L: Lane>(
     law: &dyn StrengthObject,
     before: &PlasticState<L>,
     dt: L,
-    [trial, stiffness]: [L; 2],
+    [first, trial, stiffness]: [L; 3],
 ) -> Return<L> {
-    radial_return(trial, stiffness, |more| after(law, before, more, dt))
+    on_wide_registers(ByLaw {
+        law,
+        before,
+        dt,
+        first,
+        trial,
+        stiffness,
+    })
+}
+
+/// A return that is asked for.
+struct ByLaw<'a, L> {
+    law: &'a dyn StrengthObject,
+    before: &'a PlasticState<L>,
+    dt: L,
+    first: L,
+    trial: L,
+    stiffness: L,
+}
+
+impl<L: Lane> OnOwnRows for ByLaw<'_, L> {
+    type Output = Return<L>;
+    #[inline(always)]
+    fn run(self) -> Return<L> {
+        radial_return(self.first, self.trial, self.stiffness, |more| {
+            after(self.law, self.before, more, self.dt)
+        })
+    }
 }
 
 /// The plastic strain Δ at which σ − k Δ has come down to the yield stress Y(Δ), and that yield stress, where σ is above Y(0).
-/// `trial` is σ \[Pa\], `stiffness` k \[Pa\].
+/// `first` is Y(0), `trial` σ \[Pa\], `stiffness` k \[Pa\].
 #[inline(always)]
-fn radial_return<L: Lane>(trial: L, stiffness: L, yields: impl Fn(L) -> L) -> Return<L> {
-    let first = yields(L::zero());
+fn radial_return<L: Lane>(first: L, trial: L, stiffness: L, yields: impl Fn(L) -> L) -> Return<L> {
     let mut own = Return {
         flows: !trial.le(first),
         increment: L::zero(),
@@ -72,58 +108,67 @@ fn radial_return<L: Lane>(trial: L, stiffness: L, yields: impl Fn(L) -> L) -> Re
     if !L::somewhere(own.flows) {
         return own;
     }
-    let excess = |strain: L| trial - stiffness * strain - yields(strain);
+    // What the stress is above the yield stress, and that.
+    let excess = |strain: L| {
+        let own = yields(strain);
+        [trial - stiffness * strain - own, own]
+    };
     // Beyond it a law that hardens is above the stress; one that softens may go on until no stress is left.
     let mut high = (trial - first) / stiffness;
-    let mut above = excess(high);
+    let [mut above, mut last] = excess(high);
     let rounding = L::of(4.0 * f64::EPSILON) * trial;
     let softens = own.flows & above.gt(rounding);
     if L::somewhere(softens) {
         high = L::select(softens, trial / stiffness, high);
-        above = L::select(softens, excess(high), above);
+        let [other, yields] = excess(high);
+        above = L::select(softens, other, above);
+        last = L::select(softens, yields, last);
     }
-    let strain = root(
+    let [strain, last] = root(
         excess,
-        [L::zero(), trial - first],
-        [high, above],
+        [L::zero(), trial - first, first],
+        [high, above, last],
         (rounding, own.flows),
     );
     own.increment = L::select(own.flows, strain, own.increment);
-    own.yields = L::select(own.flows, yields(strain), first);
+    own.yields = L::select(own.flows, last, first);
     own
 }
 
 /// Where a function passes from positive to negative between two places that are not negative: a first secant, then
 /// inverse quadratic interpolation where it is safe (Chandrupatla 1997), or bisection. `low` and `high` are places with
-/// their values; `asked` says where a root is asked for.
+/// their values and what else the function gives there, which is also returned; `asked` says where a root is asked for.
 #[inline(always)]
 fn root<L: Lane>(
-    function: impl Fn(L) -> L,
-    low: [L; 2],
-    high: [L; 2],
+    function: impl Fn(L) -> [L; 2],
+    low: [L; 3],
+    high: [L; 3],
     (rounding, asked): (L, L::Mask),
-) -> L {
-    let ([a, f_a], [b, f_b]) = (high, low);
+) -> [L; 2] {
+    let ([a, f_a, y_a], [b, f_b, y_b]) = (high, low);
     let next = a + f_a / (f_a - f_b) * (b - a);
-    let [a, f_a, b, f_b, _] = L::iterate(
+    let [a, f_a, y_a, b, f_b, y_b, _] = iterate!(
+        L,
         MOST_TRIALS,
-        [a, f_a, b, f_b, next],
-        |[a, f_a, b, f_b, next]| {
-            let [best, residual] = smaller([a, f_a], [b, f_b]);
+        [a, f_a, y_a, b, f_b, y_b, next],
+        |[a, f_a, y_a, b, f_b, y_b, next]| 'trial: {
+            let [best, residual, _] = smaller([a, f_a, y_a], [b, f_b, y_b]);
             let least = L::of(2.0 * f64::EPSILON) * best;
             let narrow = (least + least).gt((b - a).abs());
             let done = !asked | residual.abs().le(rounding) | narrow;
             if !L::somewhere(!done) {
-                return ([a, f_a, b, f_b, next], done);
+                break 'trial ([a, f_a, y_a, b, f_b, y_b, next], done);
             }
             let next = next.max(a.min(b) + least).min(a.max(b) - least);
-            let f_next = function(next);
+            let [f_next, y_next] = function(next);
             // The end that is given up is the third place of the interpolation.
             let (above, other) = (f_next.gt(L::zero()), f_a.gt(L::zero()));
             let same = done | (above & other) | (!above & !other);
             let pick = |yes: L, no: L| L::select(same, yes, no);
-            let ([c, f_c], [b, f_b]) = ([pick(a, b), pick(f_a, f_b)], [pick(b, a), pick(f_b, f_a)]);
-            let (a, f_a) = (L::select(done, a, next), L::select(done, f_a, f_next));
+            let [c, f_c] = [pick(a, b), pick(f_a, f_b)];
+            let [b, f_b, y_b] = [pick(b, a), pick(f_b, f_a), pick(y_b, y_a)];
+            let go_on = |own: L, next: L| L::select(done, own, next);
+            let [a, f_a, y_a] = [go_on(a, next), go_on(f_a, f_next), go_on(y_a, y_next)];
             let along = (a - b) / (c - b);
             let up = (f_a - f_b) / (f_c - f_b);
             let safe =
@@ -132,18 +177,19 @@ fn root<L: Lane>(
                 + (c - a) / (b - a) * f_a / (f_c - f_a) * f_b / (f_c - f_b);
             let inside = middle(a.min(b), a.max(b));
             let next = L::select(safe, a + share * (b - a), inside);
-            ([a, f_a, b, f_b, next], done)
-        },
+            ([a, f_a, y_a, b, f_b, y_b, next], done)
+        }
     );
-    smaller([a, f_a], [b, f_b])[0]
+    let [strain, _, last] = smaller([a, f_a, y_a], [b, f_b, y_b]);
+    [strain, last]
 }
 
 /// Of two places with their values, that with the smaller one.
 #[inline(always)]
-fn smaller<L: Lane>(first: [L; 2], second: [L; 2]) -> [L; 2] {
+fn smaller<L: Lane>(first: [L; 3], second: [L; 3]) -> [L; 3] {
     let less = first[1].abs().lt(second[1].abs());
     let pick = |k: usize| L::select(less, first[k], second[k]);
-    [pick(0), pick(1)]
+    [pick(0), pick(1), pick(2)]
 }
 
 /// The middle of an interval; of its logarithm where it spans decades, because powers of plastic strain and rate put
@@ -170,6 +216,10 @@ mod tests {
         PowerHardening, SteinbergGuinan, Strength, TensionCompression,
     };
 
+    fn returns(trial: f64, stiffness: f64, yields: impl Fn(f64) -> f64) -> Return<f64> {
+        radial_return(yields(0.0), trial, stiffness, yields)
+    }
+
     #[test]
     fn linear_hardening_returns_exactly() {
         for modulus in [0.0, 1e9, 1e11] {
@@ -179,7 +229,7 @@ mod tests {
                 ..PlasticState::default()
             };
             let trial = 1.3 * law.yield_stress(&before);
-            let back = radial_return(trial, 3.0 * 77e9, |more| after(&law, &before, more, 1e-9));
+            let back = returns(trial, 3.0 * 77e9, |more| after(&law, &before, more, 1e-9));
             assert!(back.flows);
             let (strain, stress) = (back.increment, back.yields);
             let exact = (trial - law.yield_stress(&before)) / (3.0 * 77e9 + modulus);
@@ -225,7 +275,7 @@ mod tests {
                         calls.set(calls.get() + 1);
                         after(&**law, &before, more, dt)
                     };
-                    let back = radial_return(trial, stiffness, yields);
+                    let back = returns(trial, stiffness, yields);
                     let (more, stress) = (back.increment, back.yields);
                     assert!(back.flows);
                     let left = (trial - stiffness * more) / stress - 1.0;
@@ -233,7 +283,7 @@ mod tests {
                     assert!(more >= 0.0 && stress <= trial * (1.0 + 1e-15));
                     most = most.max(calls.get());
                     let below = law.yield_stress(&before) * (1.0 - 1e-9);
-                    assert!(!radial_return(below, stiffness, yields).flows);
+                    assert!(!returns(below, stiffness, yields).flows);
                 }
             }
         }
@@ -245,12 +295,12 @@ mod tests {
     #[test]
     fn a_law_that_softens_has_a_root_too() {
         let brittle = |strain: f64| 1e8 * (-strain / 1e-6).exp();
-        let back = radial_return(1.5e8, 3e9, brittle);
+        let back = returns(1.5e8, 3e9, brittle);
         let (strain, stress) = (back.increment, back.yields);
         assert!(((1.5e8 - 3e9 * strain) - stress).abs() < 1e-6);
         assert!((strain / 0.05 - 1.0).abs() < 1e-6 && stress < 1.0);
         // What is no number stays so.
-        let back = radial_return(1e8, 3e9, |_| f64::NAN);
+        let back = returns(1e8, 3e9, |_| f64::NAN);
         assert!(back.flows && back.yields.is_nan());
     }
 }
