@@ -2,9 +2,9 @@
 //! Rows are loaded as those of laws are.
 
 use super::point::{AtWall, CONSTANTS, OfLimit, OfRate};
-use super::rows::{MOST, assert_few, convert, load, load_sums, places_of_sums};
+use super::rows::{MOST, assert_few, convert, load, load_sums};
 use super::{Around, Limit, Point, PointLimit, PointRate, Rate, View};
-use crate::particles::{Fields, Output, Outputs};
+use crate::particles::{Field, Fields, Output, Outputs};
 use crate::scalar::{Lane, Real};
 use crate::term::{MOST_READS, MOST_SUMS};
 
@@ -35,35 +35,72 @@ impl<T: Real, const D: usize, A: PointRate<D>> Rate<T, D> for A {
     }
 }
 
+/// The fields and sums of a rate or limit, and where their numbers stand in a row; found when it is compiled.
+struct Places {
+    all: Fields,
+    fields: [(Field, usize); MOST],
+    fields_count: usize,
+    sums: [(Output, usize); MOST],
+    sums_count: usize,
+}
+
+impl Places {
+    const fn of<const D: usize>(reads: Fields, sums: Outputs) -> Self {
+        let mut own = Self {
+            all: reads,
+            fields: [(Field::POSITION, 0); MOST],
+            fields_count: 0,
+            sums: [(Output::FORCE, 0); MOST],
+            sums_count: 0,
+        };
+        let mut place = 0;
+        while let Some((field, next)) = reads.from(place) {
+            own.fields[own.fields_count] = (field, reads.offset(field, D));
+            own.fields_count += 1;
+            place = next;
+        }
+        place = 0;
+        while let Some((output, next)) = sums.from(place) {
+            own.sums[own.sums_count] = (output, sums.offset(output, D));
+            own.sums_count += 1;
+            place = next;
+        }
+        own
+    }
+}
+
 /// Columns that are read from a slot on, with where their numbers stand, and sums.
 struct Given<'a, T: Real, const D: usize> {
     columns: [(&'a [T], usize, usize); MOST],
     count: usize,
-    there: Fields,
-    list: [(Output, usize); MOST],
-    sums_count: usize,
+    /// The fields that are there, where some are not.
+    fewer: Option<Fields>,
+    places: &'static Places,
 }
 
 impl<'a, T: Real, const D: usize> Given<'a, T, D> {
-    fn new(at: &View<'a, T, D>, reads: Fields, sums: Outputs) -> Self {
-        let (list, sums_count) = places_of_sums::<D>(sums, sums);
+    fn new(at: &View<'a, T, D>, places: &'static Places) -> Self {
         let mut columns = [([].as_slice(), 1, 0); MOST];
-        let (mut count, mut there) = (0, Fields::NONE);
-        for field in reads.iter() {
+        let (mut count, mut fewer) = (0, None);
+        for &(field, offset) in &places.fields[..places.fields_count] {
             let column = at.columns.raw(field);
-            if !column.is_empty() {
-                columns[count] = (column, field.components(D), reads.offset(field, D));
+            if column.is_empty() {
+                fewer = Some(fewer.unwrap_or(places.all).without(field));
+            } else {
+                columns[count] = (column, field.components(D), offset);
                 count += 1;
-                there = there.union(Fields::of(&[field]));
             }
         }
         Self {
             columns,
             count,
-            there,
-            list,
-            sums_count,
+            fewer,
+            places,
         }
+    }
+    /// The fields that are there.
+    fn there(&self) -> &Fields {
+        self.fewer.as_ref().unwrap_or(&self.places.all)
     }
     /// The numbers of the row that starts with a slot.
     #[inline(never)]
@@ -76,7 +113,8 @@ impl<'a, T: Real, const D: usize> Given<'a, T, D> {
         for &(column, width, start) in &self.columns[..self.count] {
             load(&column[slot * width..], width, &mut numbers[start..]);
         }
-        load_sums(around.sums, &self.list[..self.sums_count], slot, sums);
+        let list = &self.places.sums[..self.places.sums_count];
+        load_sums(around.sums, list, slot, sums);
     }
 }
 
@@ -95,7 +133,7 @@ fn rates<T: Real, L: Lane, A: PointRate<D>, const D: usize>(
         return;
     }
     let constants = constants.map(L::of);
-    let given = Given::new(at, A::READS, A::SUMS);
+    let given = Given::new(at, const { &Places::of::<D>(A::READS, A::SUMS) });
     let (mut numbers, mut sums) = ([L::zero(); MOST_READS], [L::zero(); MOST_SUMS]);
     let wall = AtWall::none();
     for (n, values) in values.chunks_mut(L::WIDTH * width).enumerate() {
@@ -109,7 +147,7 @@ fn rates<T: Real, L: Lane, A: PointRate<D>, const D: usize>(
         let point = Point::<L, D, OfRate<T, A, D>> {
             numbers: &mut numbers,
             sums: &sums,
-            there: &given.there,
+            there: given.there(),
             access: &at.access,
             limited: None,
             change: None,
@@ -140,7 +178,7 @@ impl<T: Real, const D: usize, A: PointLimit<D>> Limit<T, D> for A {
     }
     fn step(&self, at: &View<'_, T, D>, slot: usize) -> f64 {
         const { assert_few::<D>(A::READS, A::SUMS) }
-        let given = Given::new(at, A::READS, A::SUMS);
+        let given = Given::new(at, const { &Places::of::<D>(A::READS, A::SUMS) });
         let (mut numbers, mut sums) = ([0.0; MOST_READS], [0.0; MOST_SUMS]);
         given.load(&at.around, slot, (&mut numbers, &mut sums));
         PointLimit::step(
@@ -148,7 +186,7 @@ impl<T: Real, const D: usize, A: PointLimit<D>> Limit<T, D> for A {
             &Point::<f64, D, OfLimit<T, A, D>> {
                 numbers: &mut numbers,
                 sums: &sums,
-                there: &given.there,
+                there: given.there(),
                 access: &at.access,
                 limited: None,
                 change: None,

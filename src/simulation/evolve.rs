@@ -8,8 +8,9 @@ use crate::scalar::Real;
 use crate::sweep::{add_compensated, two_sum};
 use crate::tensor::{Symmetric, rotation};
 
-/// Numbers whose rates are on the stack at a time; a whole number of rows of particles of any shape and either scalar.
-pub(super) const RATES: usize = 576;
+/// Numbers whose rates are on the stack at a time; a whole number of rows of particles of any shape and either scalar. With a
+/// quarter as many, looking up what rates read took a twelfth of a step of a solid.
+pub(super) const RATES: usize = 2304;
 
 /// Positions, and what their rounding has lost.
 pub(super) const POSITIONS: [Field; 2] = [Field::POSITION, Field::POSITION_RESIDUAL];
