@@ -44,16 +44,8 @@ impl<T: Real, const D: usize> Stepping<'_, T, D> {
             dt / self.size,
         );
         for group in 0..apart {
-            let Some(apart) = &mut self.simulation.state.groups[group].sub_cycle else {
-                continue;
-            };
-            let [count, middle] = apart.steps_in(share);
-            let steps = if before_middle {
-                0..middle
-            } else {
-                middle..count
-            };
-            apart.steps += steps.end - steps.start;
+            let own = &mut self.simulation.state.groups[group];
+            let (steps, count) = own.take_steps(share, before_middle);
             let size = dt / count as f64;
             let integrator = self.simulation.integrator.clone();
             for step in steps {
@@ -114,7 +106,7 @@ impl<T: Real, const D: usize> System for Stepping<'_, T, D> {
             self.simulation.apply_loads(k, time)?;
             let group = &mut self.simulation.state.groups[k];
             group.free_buffers();
-            if group.sub_cycle.is_some() {
+            if group.sub_cycles() {
                 group.hold(time, false);
             }
         }
@@ -146,9 +138,7 @@ impl<T: Real, const D: usize> System for Stepping<'_, T, D> {
             return;
         };
         for group in &mut state.groups {
-            if let Some(apart) = &mut group.sub_cycle {
-                apart.kick(&mut group.particles, dt);
-            }
+            group.kick_apart(dt);
         }
         state.hold_motions(state.evaluated, true);
     }

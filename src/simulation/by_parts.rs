@@ -105,7 +105,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             && self.emitters.is_empty()
             && self.sources.is_empty()
             && self.drains.is_empty()
-            && self.sub_cycle.is_none()
+            && !self.sub_cycles()
             && self.held.is_empty()
             && !self.is_met
             && !self.has_contacts()

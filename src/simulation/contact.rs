@@ -116,13 +116,13 @@ impl<T: Real, const D: usize> Couple<T, D> {
                 return 0.0;
             };
             // Where a group sub-cycles, the kick is that of couplings alone.
-            let Some(apart) = &group.sub_cycle else {
+            let Some(apart) = group.force_apart(slot) else {
                 return group.work.power(columns, &force, slot, 0.5 * dt);
             };
             power(
                 &force,
                 &core::array::from_fn(|d| {
-                    let a = (apart.forces[slot][d] / mass[slot]).to_f64();
+                    let a = (apart[d] / mass[slot]).to_f64();
                     v[slot][d].to_f64() + 0.5 * dt * a
                 }),
             )

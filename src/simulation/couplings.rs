@@ -93,17 +93,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Brings the walls that structures are to where their particles are at `time` \[s\]; whether all rates are about to be
     /// evaluated. In the middle of a `drift` \[s\], and its share of a step, groups that sub-cycle may be half a step of theirs
     /// further.
-    pub(super) fn place_structures(
-        &mut self,
-        time: f64,
-        evaluated: bool,
-        [drift, share]: [f64; 2],
-    ) {
+    pub(super) fn place_structures(&mut self, time: f64, evaluated: bool, drift: [f64; 2]) {
         self.for_each_structure(|liquid, wall, group| {
             let (own, boundaries) = (&mut liquid.particles, &liquid.boundaries);
             let others = (&group.particles, &group.work);
-            let apart = group.sub_cycle.as_ref().filter(|_| drift != 0.0);
-            let ahead = apart.map_or(0.0, |apart| drift * apart.beyond_middle(share));
+            let ahead = group.ahead(drift);
             liquid.walls[wall].follow(own, boundaries, others, (time, evaluated, ahead));
         });
     }
@@ -111,10 +105,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Gives bodies of other groups the forces of couplings, with the rates at hand.
     pub(super) fn couple(&mut self) {
         for group in &mut self.state.groups {
-            if let Some(apart) = &mut group.sub_cycle {
-                apart.forces.clear();
-                apart.forces.resize(group.particles.mobile, [T::zero(); D]);
-            }
+            group.forget_forces_apart();
             group.sum_on_structures();
         }
         // What the liquids feel with the opposite sign, pair by pair.

@@ -160,7 +160,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             .state
             .groups
             .iter()
-            .position(|group| group.sub_cycle.is_none());
+            .position(|group| !group.sub_cycles());
         let gravity = self.state.groups[alone.or(first).unwrap_or(0)].gravity;
         for d in 0..D {
             momentum[d] += 0.5 * dt * mass * gravity[d];

@@ -2,7 +2,6 @@
 //! A group that sub-cycles has those of couplings apart from its own.
 
 use super::population::Particles;
-use super::sub_cycle::SubCycle;
 use super::workspace::Workspace;
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
@@ -14,18 +13,6 @@ pub(crate) enum Forces<'a, T: Real, const D: usize> {
 }
 
 impl<'a, T: Real, const D: usize> Forces<'a, T, D> {
-    /// Those of a group itself, or those among which the forces of couplings are.
-    pub fn of(
-        work: &'a mut Workspace<T, D>,
-        sub_cycle: &'a mut Option<SubCycle<T, D>>,
-        coupled: bool,
-    ) -> Self {
-        match sub_cycle {
-            Some(apart) if coupled => Self::Apart(&mut apart.forces),
-            _ => Self::Own(work),
-        }
-    }
-
     /// Whether they are those of couplings alone.
     pub fn are_apart(&self) -> bool {
         matches!(self, Self::Apart(_))

@@ -3,7 +3,6 @@
 
 use super::divided::Share;
 use super::exchange::Exchange;
-use super::forces::Forces;
 use super::held::Held;
 use super::neighborhood::Neighborhood;
 use super::own_group::All;
@@ -110,18 +109,12 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// Whether the group needs no evaluation in mid-drift.
     pub fn drifts_at_once(&self) -> bool {
-        !self.scheme.acts_in_drift() && (!self.is_met || self.sub_cycle.is_some())
+        !self.scheme.acts_in_drift() && (!self.is_met || self.sub_cycles())
     }
 
     /// Whether it, with this number, steps where one does that sub-cycles alone, or all that do not.
     pub fn steps_with(&self, alone: Option<usize>, number: usize) -> bool {
-        alone.map_or(self.sub_cycle.is_none(), |alone| alone == number)
-    }
-
-    /// How many steps it takes in one of the others.
-    pub fn step_ratio(&self) -> f64 {
-        let apart = self.sub_cycle.as_ref();
-        apart.map_or(1.0, |apart| f64::from(apart.count))
+        alone.map_or(!self.sub_cycles(), |alone| alone == number)
     }
 
     /// Whether bodies touch that may part.
@@ -194,8 +187,8 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// Adds a force \[N\] of a coupling on a particle: to its rates, or apart from them where it sub-cycles.
     pub fn push(&mut self, slot: usize, force: [T; D]) {
-        let body = &self.particles.bodies[self.particles.body_of(slot)];
-        let mut forces = Forces::of(&mut self.work, &mut self.sub_cycle, true);
+        let (mut forces, particles, _) = self.forces(true);
+        let body = &particles.bodies[particles.body_of(slot)];
         // What repeats the last particle goes where that goes.
         for slot in body.with_repeats(slot) {
             forces.add(slot, force);
@@ -204,8 +197,8 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// Replaces forces on what is held at `time` \[s\]: of its own, or of couplings where it sub-cycles.
     pub fn hold(&mut self, time: f64, coupled: bool) {
-        let mut forces = Forces::of(&mut self.work, &mut self.sub_cycle, coupled);
-        self.held.hold(&self.particles, &mut forces, time);
+        let (mut forces, particles, held) = self.forces(coupled);
+        held.hold(particles, &mut forces, time);
     }
 
     /// Brings images and lists up to date with the positions at `time`; `chord` \[s\] are the ends of the drift

@@ -283,7 +283,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// couplings alone.
     pub(super) fn hold(&mut self, time: f64) {
         for group in &mut self.state.groups {
-            group.hold(time, group.sub_cycle.is_some());
+            group.hold(time, group.sub_cycles());
         }
     }
 
@@ -292,7 +292,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub(super) fn record_clamps(&mut self, alone: Option<usize>, dt: f64) {
         for (k, group) in self.state.groups.iter_mut().enumerate() {
             if alone.is_none_or(|alone| alone == k) {
-                let coupled = alone.is_none() && group.sub_cycle.is_some();
+                let coupled = alone.is_none() && group.sub_cycles();
                 (group.held).record(&group.particles, &group.work, coupled, dt);
             }
         }

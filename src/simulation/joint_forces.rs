@@ -44,10 +44,8 @@ impl<T: Real, const D: usize> State<T, D> {
         }
         let given = with(&lines, &forces, bodies.len());
         for (&[group, number], given) in bodies.iter().zip(given) {
-            let group = &mut self.groups[group];
-            let rigid = &group.held.rigid[number];
-            let mut forces = Forces::of(&mut group.work, &mut group.sub_cycle, true);
-            rigid.push(&group.particles, &mut forces, given);
+            let (mut forces, particles, held) = self.groups[group].forces(true);
+            held.rigid[number].push(particles, &mut forces, given);
         }
         Ok(())
     }
@@ -82,10 +80,8 @@ impl<T: Real, const D: usize> State<T, D> {
         }
         let given = bodies.iter().zip(given).zip(free).filter(|own| own.1);
         for ((&[group, number], given), _) in given {
-            let group = &mut self.groups[group];
-            let rigid = &group.held.rigid[number];
-            let mut forces = Forces::of(&mut group.work, &mut group.sub_cycle, true);
-            rigid.push(&group.particles, &mut forces, given);
+            let (mut forces, particles, held) = self.groups[group].forces(true);
+            held.rigid[number].push(particles, &mut forces, given);
         }
     }
 

@@ -249,13 +249,13 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 value: own.factor * sum,
             });
         }
-        if let Some(apart) = &group.sub_cycle {
-            let mut bodies = group.particles.bodies.iter().zip(&apart.work);
-            let own = bodies.find(|(other, _)| core::ptr::eq(*other, body));
+        let mut bodies = group.particles.bodies.iter();
+        let number = bodies.position(|other| core::ptr::eq(other, body));
+        if let Some(value) = number.and_then(|number| group.work_apart(number)) {
             budget.add_total(&Total {
                 name: "work of couplings",
                 unit: "J",
-                value: own.map_or(0.0, |(_, work)| *work),
+                value,
             });
         }
         budget
@@ -297,7 +297,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                     continue;
                 };
                 // A group that sub-cycles has the work of all of its couplings.
-                if self.state.groups[group].sub_cycle.is_none() {
+                if !self.state.groups[group].sub_cycles() {
                     let total = of_couplings("work of couplings", work);
                     bodies[index].1.add_total(&total);
                 }
@@ -446,7 +446,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Forces between blocks at the last evaluation, as [`reactions`](Self::reactions), of all groups.
     fn all_reactions(&self) -> impl Iterator<Item = (usize, usize, [f64; D])> {
         let groups = self.state.groups.iter().enumerate();
-        let apart = groups.filter(|(_, group)| group.sub_cycle.is_some());
+        let apart = groups.filter(|(_, group)| group.sub_cycles());
         let alone = apart.flat_map(|(group, _)| self.reactions(Some(group)));
         self.reactions(None).chain(alone)
     }

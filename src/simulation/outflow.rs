@@ -289,11 +289,11 @@ impl<T: Real, const D: usize> Group<T, D> {
     pub(super) fn free_buffers(&mut self) {
         let (gravity, time) = (self.work.evaluated_gravity, self.work.evaluated_time);
         let outlets: Vec<_> = self.outlets.iter().map(|own| own.at(time)).collect();
-        let columns = &self.particles.columns;
+        let (mut forces, particles, _) = self.forces(false);
+        let columns = &particles.columns;
         let (x, mass) = (columns.vectors(Field::POSITION), columns.raw(Field::MASS));
-        let mut forces = Forces::of(&mut self.work, &mut self.sub_cycle, false);
         for zone in outlets.iter().filter_map(Zone::of) {
-            for body in &self.particles.bodies {
+            for body in &particles.bodies {
                 for slot in body.run().filter(|&slot| zone.beyond(&x[slot]) >= 0.0) {
                     forces.set(slot, core::array::from_fn(|d| -mass[slot] * gravity[d]));
                 }

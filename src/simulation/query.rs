@@ -50,8 +50,7 @@ impl<T: Real, const D: usize> ParticleView<'_, T, D> {
         if !self.is_mobile() {
             return [0.0; D];
         }
-        let apart = self.group.sub_cycle.as_ref();
-        let coupled = apart.and_then(|apart| apart.forces.get(self.slot));
+        let coupled = self.group.force_apart(self.slot);
         let mass = self.group.particles.columns.raw(Field::MASS);
         core::array::from_fn(|d| {
             let own = self
@@ -460,8 +459,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     #[must_use]
     pub fn sub_steps(&self) -> u64 {
         let groups = self.after_step().groups.iter();
-        let apart = groups.filter_map(|group| group.sub_cycle.as_ref());
-        apart.map(|apart| apart.steps).sum()
+        groups.map(Group::sub_steps).sum()
     }
 
     /// Bytes held for particles, lists and records of the run. While a state [between two steps](crate::simulation#readings)

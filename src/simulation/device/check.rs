@@ -42,9 +42,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 let body = &group.particles.bodies[rigid.body].name;
                 part(true, &|| format!("the rigid body `{body}`"));
             }
-            part(group.sub_cycle.is_some(), &|| {
-                "a group that sub-cycles".into()
-            });
+            part(group.sub_cycles(), &|| "a group that sub-cycles".into());
         }
         part(!group.exchanges.is_empty(), &|| {
             "schemes that follow each other by events".into()

@@ -62,7 +62,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         if let Some(couple) = self.couple_of(k) {
             let apart = |side: &Side<D>| {
                 let body = side.body();
-                body.is_some_and(|(group, _)| self.state.groups[group].sub_cycle.is_some())
+                body.is_some_and(|(group, _)| self.state.groups[group].sub_cycles())
             };
             return if !couple.coupling.books_energy() {
                 Some("the coupling does not say what it stores")
