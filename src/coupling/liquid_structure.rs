@@ -3,6 +3,8 @@
 
 use super::{CoupledParticle, Coupling};
 use crate::scalar::Real;
+#[cfg(feature = "devices")]
+use crate::scalar::Record;
 use crate::term::TermDoc;
 
 /// A body of solid that a liquid meets as a wall.
@@ -37,5 +39,9 @@ impl<T: Real, const D: usize> Coupling<T, D> for LiquidStructure {
     }
     fn wall_mass(&self, rest: T, particle: &CoupledParticle<T, D>) -> T {
         rest * particle.mass / particle.density
+    }
+    #[cfg(feature = "devices")]
+    fn wall_mass_record(&self) -> Option<Record> {
+        Record::of(3, |x| vec![x[0] * x[1] / x[2]]).ok()
     }
 }

@@ -72,6 +72,8 @@ pub use tied::Tied;
 
 use crate::particles::{Columns, Field, Fields};
 use crate::scalar::Real;
+#[cfg(feature = "devices")]
+use crate::scalar::Record;
 use crate::term::TermDoc;
 use core::fmt::Debug;
 
@@ -250,6 +252,12 @@ pub trait Coupling<T: Real, const D: usize>: Debug + Send + Sync {
     /// The mass \[kg\] with which they do, where the liquid has a density at rest of `rest` \[kg/m³\].
     fn wall_mass(&self, _rest: T, particle: &CoupledParticle<T, D>) -> T {
         particle.mass
+    }
+    /// The same as a record for a device, of the density at rest, the mass and the density of the particle. A scene whose walls have
+    /// none is refused there.
+    #[cfg(feature = "devices")]
+    fn wall_mass_record(&self) -> Option<Record> {
+        None
     }
     /// How near \[m\] two particles must be to act on each other by [`force`](Self::force), for bodies of these
     /// spacings \[m\]; zero if none do.

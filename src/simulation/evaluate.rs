@@ -298,7 +298,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             sweep.pack(Pass::Work, &self.input(), &mut records);
             self.work.phases.work += start.elapsed();
             self.work.work_records = records;
-        } else if self.scheme.energy == EnergyForm::Compatible {
+        } else if self.keeps_rates_of_pairs() {
             self.keep_rates_of_pairs();
         }
     }

@@ -6,11 +6,17 @@ use crate::clock::Instant;
 use crate::parallel::{GRAIN, cut, for_each};
 use crate::particles::{Field, Output};
 use crate::scalar::{MOST_LANES, Real};
+use crate::scheme::EnergyForm;
 use crate::sweep::Results;
 
 /// The power P of the rates is that of the velocities u with which they were summed. P − Fᵢ·(v̄ᵢ − uᵢ) adds up to −Σ Fᵢ·v̄ᵢ over
 /// all particles, whatever u is, as the work of all pairs with v̄ does. Neighbours stay, so slots do from evaluation to kick.
 impl<T: Real, const D: usize> Group<T, D> {
+    /// Whether work is that of the pair forces of the rates.
+    pub(super) fn keeps_rates_of_pairs(&self) -> bool {
+        self.scheme.energy == EnergyForm::Compatible && !self.scheme.sweeps_work()
+    }
+
     /// Keeps forces and power of pairs, before others add forces, and the velocities that they were summed with.
     pub(super) fn keep_rates_of_pairs(&mut self) {
         let start = Instant::now();

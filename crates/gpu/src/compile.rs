@@ -3,9 +3,9 @@
 
 use crate::device::{Device, Kernel};
 use crate::fuse::{Around, Layout, by_run};
-use crate::kernel::{Array, Frame};
+use crate::kernel::Array;
 use crate::pairs::sweep_of_run;
-use crate::{Dialect, Error, Part, Precision, emit};
+use crate::{Dialect, Error, Precision, emit};
 use meshfree::particles::{Fields, Outputs};
 use meshfree::scalar::Record;
 use meshfree::simulation::device::{Action, PointStep, RepeatStep, SweepStep};
@@ -48,6 +48,7 @@ pub(crate) enum Kind {
         of_rates: bool,
         of_kept: bool,
         of_approach: bool,
+        reacts: bool,
     },
 }
 
@@ -72,6 +73,7 @@ pub struct Lists {
     pub vote: Vec<Piece>,
     pub approach: Vec<Piece>,
     pub moved: Vec<Piece>,
+    pub reacts: Vec<Piece>,
 }
 
 /// The sizes that do not change in a run.
@@ -79,9 +81,8 @@ pub struct Lists {
 pub struct Sizes {
     pub layout: Layout,
     pub rates: Outputs,
-    /// Bodies and walls, and the slots of each body without repeats.
+    /// Bodies and walls.
     pub blocks: usize,
-    pub bodies: Vec<Range<usize>>,
     pub cluster: usize,
     /// Numbers that all particles share, and of each pair.
     pub shared: usize,
@@ -97,16 +98,7 @@ fn pack(
 ) -> Result<(Kernel, Option<Kernel>), Error> {
     let d = layout.dimensions;
     let kernel = |name: &str, buffers: &[Array], body: &str| {
-        let part = Part {
-            kind: "records",
-            name: name.into(),
-        };
-        let frame = Frame {
-            dialect,
-            name: "pack",
-            buffers,
-        };
-        device.kernel(&part, &frame, body)
+        device.kernel(("records", name), (dialect, buffers), body)
     };
     let components = fields
         .iter()
@@ -208,7 +200,7 @@ impl<'a> Compiler<'a> {
     fn sweep(&mut self, sweep: &SweepStep, of_approach: bool) -> Result<Vec<Piece>, Error> {
         let (device, sizes, precision) = (self.device, self.sizes, self.precision);
         let (d, pair) = (sizes.layout.dimensions, &sweep.pair);
-        let reacts = sweep.of_rates;
+        let reacts = sweep.of_rates || sweep.of_walls;
         let shape = (d, sizes.cluster);
         let of = (sizes.blocks, reacts);
         let kernel = sweep_of_run(device, sweep.name, pair, shape, precision, of)?;
@@ -219,6 +211,7 @@ impl<'a> Compiler<'a> {
             of_rates: sweep.of_rates,
             of_kept: sweep.of_kept,
             of_approach,
+            reacts,
         };
         let mut pieces = Vec::new();
         if !sweep.of_kept {
@@ -277,16 +270,9 @@ impl<'a> Compiler<'a> {
         let one = dialect.constant(1.0);
         body += &format!("if (columns[{changes}u + k] >= {tolerance}) {{ open = {one}; }}\n}}\n");
         body += &format!("columns[{}u + i] = open;\n", changes + slots);
-        let part = Part {
-            kind: "steps",
-            name: "what has settled".into(),
-        };
-        let frame = Frame {
-            dialect,
-            name: "settle",
-            buffers: &[Array::numbers("columns").written()],
-        };
-        self.device.kernel(&part, &frame, &body)
+        let buffers = [Array::numbers("columns").written()];
+        let part = ("steps", "what has settled");
+        self.device.kernel(part, (dialect, &buffers), &body)
     }
 
     pub fn list(&mut self, actions: &[Action], of_approach: bool) -> Result<Vec<Piece>, Error> {

@@ -84,6 +84,7 @@ impl Compiled {
             vote: own.list(&program.vote, false)?,
             approach: own.list(&program.approach, true)?,
             moved: own.list(&program.moved, false)?,
+            reacts: own.list(&program.reacts, false)?,
         };
         let d = sizes.layout.dimensions;
         let ranges = |first: usize| {
@@ -96,7 +97,7 @@ impl Compiled {
         Ok(Self {
             vote: find(votes.into_iter().chain(ranges(3)).collect())?,
             moved: find(moves.into_iter().chain(ranges(1)).collect())?,
-            open: find(vec![Find::Most(Program::columns(d) + 1)])?,
+            open: find(vec![Find::Most(Program::common(d) + 1)])?,
             of_open: Vec::new(),
             repeats: own.repeats,
             approach: find(vec![Find::LeastAt(0, 0), Find::LeastAt(1, 1)])?,
@@ -115,7 +116,7 @@ impl Compiled {
     }
 
     /// Room for all that a run holds, with its lists.
-    pub fn room(&self, device: &Device, sizes: &Sizes) -> Result<Memory, Error> {
+    pub fn room(&self, device: &Device, sizes: &Sizes, program: &Program) -> Result<Memory, Error> {
         let precision = self.precision;
         let layout = &sizes.layout;
         let (d, slots) = (layout.dimensions, layout.slots);
@@ -129,18 +130,16 @@ impl Compiled {
         ];
         let between = all.map(|own| own.between(slots)).into_iter().max();
         let between = || numbers("what levels of sums pass on", between.unwrap_or(1));
-        let repeated = Program::REPEATED * usize::from(!self.repeats.is_empty());
-        let columns = Program::columns(d) + repeated;
         let walls = (2 * d + d * d) * (slots - layout.mobile);
         let none = || device.room("the lists of neighbours", 0);
-        let votes = self.vote.outputs + sizes.bodies.len() * self.forces.outputs;
+        let votes = self.vote.outputs + program.feels.len() * self.forces.outputs;
         Ok(Memory {
             state: numbers("the columns of particles", layout.numbers())?,
             rates: numbers("the rates", sizes.rates.width(d) * slots)?,
             sums: numbers("the sums", self.widths[1] * slots)?,
             shared: numbers("what particles share", sizes.shared)?,
             walls: numbers("what is known of walls", walls)?,
-            columns: numbers("what is voted on", columns * slots)?,
+            columns: numbers("what is voted on", program.columns * slots)?,
             records: numbers("the records of particles", self.widths[0] * slots)?,
             kept: numbers("the records of particles", self.kept.width(d) * slots)?,
             settings: numbers("what pairs share", sizes.settings)?,
@@ -164,7 +163,7 @@ impl Compiled {
         &mut self,
         device: &Device,
         memory: &mut Memory,
-        sizes: &Sizes,
+        (sizes, program): (&Sizes, &Program),
         (lists, images, transforms): (&PairLists, &[u32], &[u8]),
     ) -> Result<(), Error> {
         let indices = |all: &[u32]| device.upload("the lists of neighbours", &pack_indices(all));
@@ -197,6 +196,7 @@ impl Compiled {
                     of_rates,
                     of_kept,
                     of_approach,
+                    reacts,
                 } => {
                     let settings = if of_approach {
                         &m.approach
@@ -206,7 +206,7 @@ impl Compiled {
                     let records = records(of_kept);
                     let mut all = vec![records, settings, &m.clusters, &m.segments, &m.list];
                     all.push(if of_rates { &m.rates } else { &m.sums });
-                    all.extend(of_rates.then_some(&m.reactions));
+                    all.extend(reacts.then_some(&m.reactions));
                     all
                 }
             };
@@ -234,7 +234,7 @@ impl Compiled {
             self.of_open = over(&self.open, sizes.layout.mobile, &m.moves);
         }
         self.of_approach = over(&self.approach, sizes.layout.mobile, &m.meetings);
-        for (k, body) in sizes.bodies.iter().enumerate() {
+        for (k, (_, body)) in program.feels.iter().enumerate() {
             let target = self.vote.outputs + k * self.forces.outputs;
             self.of_vote.extend(self.forces.bind(
                 device,

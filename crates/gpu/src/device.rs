@@ -1,8 +1,8 @@
 //! The device itself, by Vulkan: adapters, memory and kernels.
 //! What a driver refuses is an error here, before anything runs.
 
-use crate::kernel::{Frame, THREADS};
-use crate::{Error, Part, Precision};
+use crate::kernel::{Array, Frame, THREADS};
+use crate::{Dialect, Error, Part, Precision};
 use pollster::block_on;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -170,13 +170,9 @@ impl Device {
     /// [`Error::Size`] if that is zero, or more than the device takes.
     pub fn with_threads(mut self, threads: u32) -> Result<Self, Error> {
         let most = self.inner.limits().max_compute_invocations_per_workgroup;
-        if threads == 0 || threads > most {
-            return Err(Error::Size {
-                what: "threads of a work group, at most",
-                found: threads as usize,
-                wanted: most as usize,
-            });
-        }
+        let fits = (1..=most).contains(&threads);
+        let sizes = [threads as usize, most as usize];
+        Error::unless(fits, "threads of a work group, at most", sizes)?;
         self.threads = threads;
         Ok(self)
     }
@@ -222,14 +218,19 @@ impl Device {
         }
     }
 
-    /// Compiles a kernel.
+    /// Compiles a kernel of a part, by its kind and name, from its body.
     pub(crate) fn kernel(
         &self,
-        part: &Part,
-        frame: &Frame<'_>,
+        (kind, name): (&'static str, &str),
+        (dialect, buffers): (Dialect, &[Array]),
         body: &str,
     ) -> Result<Kernel, Error> {
-        self.can(frame.dialect.precision)?;
+        self.can(dialect.precision)?;
+        let frame = Frame {
+            dialect,
+            name: "main",
+            buffers,
+        };
         let source = frame.source(body, self.threads);
         let make = || {
             let module = self
@@ -238,7 +239,7 @@ impl Device {
                     label: None,
                     source: wgpu::ShaderSource::Wgsl(source.as_str().into()),
                 });
-            let entries: Vec<_> = (0..=frame.buffers.len())
+            let entries: Vec<_> = (0..=buffers.len())
                 .map(|n| wgpu::BindGroupLayoutEntry {
                     binding: n as u32,
                     visibility: wgpu::ShaderStages::COMPUTE,
@@ -246,7 +247,7 @@ impl Device {
                         ty: match n.checked_sub(1) {
                             None => wgpu::BufferBindingType::Uniform,
                             Some(n) => wgpu::BufferBindingType::Storage {
-                                read_only: !frame.buffers[n].writable,
+                                read_only: !buffers[n].writable,
                             },
                         },
                         has_dynamic_offset: false,
@@ -285,7 +286,10 @@ impl Device {
             }
         };
         self.checked(make, |message| Error::Kernel {
-            part: part.clone(),
+            part: Part {
+                kind,
+                name: name.into(),
+            },
             message,
         })
     }
@@ -400,8 +404,13 @@ impl Device {
         self.queue.submit([encoder.finish()]);
     }
 
-    /// The first bytes of a buffer, after all that was launched.
-    pub(crate) fn download(&self, buffer: &wgpu::Buffer, bytes: usize) -> Result<Vec<u8>, Error> {
+    /// Bytes of a buffer from a place on, after all that was launched.
+    pub(crate) fn download(
+        &self,
+        buffer: &wgpu::Buffer,
+        at: usize,
+        bytes: usize,
+    ) -> Result<Vec<u8>, Error> {
         let lost = |message: String| Error::Lost { message };
         if bytes == 0 {
             return Ok(Vec::new());
@@ -418,7 +427,7 @@ impl Device {
         let mut encoder = self
             .inner
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        encoder.copy_buffer_to_buffer(buffer, 0, &back, 0, size);
+        encoder.copy_buffer_to_buffer(buffer, at as u64, &back, 0, size);
         self.queue.submit([encoder.finish()]);
         back.slice(..).map_async(wgpu::MapMode::Read, |_| {});
         let waited = self.inner.poll(wgpu::PollType::wait_indefinitely());

@@ -122,3 +122,19 @@ pub enum Error {
         message: String,
     },
 }
+
+impl Error {
+    /// Refuses a size that is not as it should be.
+    pub(crate) fn unless(
+        fits: bool,
+        what: &'static str,
+        [found, wanted]: [usize; 2],
+    ) -> Result<(), Self> {
+        let wrong = Self::Size {
+            what,
+            found,
+            wanted,
+        };
+        if fits { Ok(()) } else { Err(wrong) }
+    }
+}

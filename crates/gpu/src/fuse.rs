@@ -2,7 +2,7 @@
 //! Numbers go from step to step in registers; all is read before anything is written.
 
 use crate::device::{Device, Kernel};
-use crate::kernel::{Array, Frame};
+use crate::kernel::Array;
 use crate::{Dialect, Error, Part, emit};
 use core::cell::RefCell;
 use meshfree::particles::{Field, Fields, Outputs};
@@ -102,29 +102,56 @@ impl Around<'_> {
     }
 
     fn text(&self, place: Place) -> String {
+        self.text_of(place, ["", "i"])
+    }
+
+    /// The text of a number of the particle in a slot, in buffers whose names begin otherwise.
+    fn text_of(&self, place: Place, [of, i]: [&str; 2]) -> String {
         let d = self.layout.dimensions;
         let mobile = self.layout.mobile;
         let walls = self.layout.slots - mobile;
         match place {
-            Place::State(at) => format!("state[{at}u + i]"),
-            Place::Rate(k) => format!("rates[i * {}u + {k}u]", self.rates.width(d)),
-            Place::Sum(k) => format!("sums[i * {}u + {k}u]", self.sums.width(d)),
-            Place::Wall(k) => format!("walls[{}u + i - {mobile}u]", k * walls),
-            Place::Shared(k) => format!("numbers[{k}u]"),
-            Place::Column(k) => format!("columns[{}u + i]", k * self.layout.slots),
+            Place::State(at) => format!("{of}state[{at}u + {i}]"),
+            Place::Rate(k) => format!("{of}rates[{i} * {}u + {k}u]", self.rates.width(d)),
+            Place::Sum(k) => format!("{of}sums[{i} * {}u + {k}u]", self.sums.width(d)),
+            Place::Wall(k) => format!("{of}walls[{}u + {i} - {mobile}u]", k * walls),
+            Place::Shared(k) => format!("{of}numbers[{k}u]"),
+            Place::Column(k) => format!("{of}columns[{}u + {i}]", k * self.layout.slots),
         }
+    }
+
+    /// The same of what is given.
+    pub fn read(&self, given: Given, names: [&str; 2]) -> String {
+        match self.place(given) {
+            Ok(place) => self.text_of(place, names),
+            Err(value) => self.dialect.constant(value),
+        }
+    }
+
+    /// Where a result goes.
+    fn goes(&self, made: Made) -> Option<Place> {
+        Some(match made {
+            Made::Field(field, k) => Place::State(self.layout.field(field, k)),
+            Made::Saved(field, k) => Place::State(self.layout.saved(field, k)),
+            Made::Column(k) => Place::Column(k),
+            Made::Wall(k) => Place::Wall(k),
+            Made::Count(k) => Place::State(self.layout.count(k)),
+            Made::Nothing => return None,
+        })
+    }
+
+    /// The text of where a result goes.
+    pub fn write(&self, made: Made) -> Option<String> {
+        self.goes(made).map(|place| self.text(place))
     }
 
     /// The record of all steps, with what it is given and where its results go.
     fn joined(&self, steps: &[&PointStep]) -> Result<(Record, Vec<Place>, Vec<Place>), Error> {
-        let counted = |k: usize| Place::State(self.layout.count(k));
         let all = steps.iter().flat_map(|step| {
             let given = step.given.iter().filter_map(|own| self.place(*own).ok());
-            let counts = step.made.iter().filter_map(|made| match made {
-                Made::Count(k) => Some(counted(*k)),
-                _ => None,
-            });
-            given.chain(counts)
+            let counts = step.made.iter();
+            let counts = counts.filter(|made| matches!(made, Made::Count(_)));
+            given.chain(counts.filter_map(|made| self.goes(*made)))
         });
         let all: Vec<Place> = all.collect::<BTreeSet<_>>().into_iter().collect();
         let mut written = Vec::new();
@@ -138,16 +165,12 @@ impl Around<'_> {
                 });
                 let results = step.record.follow(&given.collect::<Vec<_>>());
                 for (made, mut value) in step.made.iter().zip(results) {
-                    let place = match *made {
-                        Made::Field(field, k) => Place::State(self.layout.field(field, k)),
-                        Made::Saved(field, k) => Place::State(self.layout.saved(field, k)),
-                        Made::Column(k) => Place::Column(k),
-                        Made::Count(k) => {
-                            value += now[&counted(k)];
-                            counted(k)
-                        }
-                        Made::Nothing => continue,
+                    let Some(place) = self.goes(*made) else {
+                        continue;
                     };
+                    if let Made::Count(_) = made {
+                        value += now[&place];
+                    }
                     now.insert(place, value);
                     if !written.contains(&place) {
                         written.push(place);
@@ -157,7 +180,10 @@ impl Around<'_> {
             written.iter().map(|place| now[place]).collect()
         });
         let record = record.map_err(|error| Error::Recorded {
-            part: part(steps),
+            part: Part {
+                kind: "steps",
+                name: names(steps),
+            },
             what: error.what,
         })?;
         Ok((record, all, written))
@@ -188,21 +214,14 @@ impl Around<'_> {
 
     /// The kernel of some steps over one run of slots.
     pub fn kernel(&self, device: &Device, steps: &[&PointStep]) -> Result<Kernel, Error> {
-        let frame = Frame {
-            dialect: self.dialect,
-            name: "points",
-            buffers: &BUFFERS,
-        };
-        device.kernel(&part(steps), &frame, &self.body(steps)?)
+        let body = self.body(steps)?;
+        device.kernel(("steps", &names(steps)), (self.dialect, &BUFFERS), &body)
     }
 }
 
-fn part(steps: &[&PointStep]) -> Part {
+fn names(steps: &[&PointStep]) -> String {
     let names: Vec<_> = steps.iter().map(|step| step.name.as_str()).collect();
-    Part {
-        kind: "steps",
-        name: names.join(", "),
-    }
+    names.join(", ")
 }
 
 /// Steps by the run of slots that they act on, each with its own in their order.

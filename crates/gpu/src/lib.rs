@@ -40,6 +40,7 @@ mod dialect;
 mod elementary;
 mod emit;
 mod error;
+mod follow;
 mod fuse;
 mod kernel;
 mod pairs;

@@ -4,7 +4,7 @@
 use crate::device::Kernel;
 use crate::emit::{Text, emit_as};
 use crate::kernel::{Array, Frame, THREADS, pack, pack_indices, unpack};
-use crate::{Device, Dialect, Error, Part, Precision};
+use crate::{Device, Dialect, Error, Precision};
 use core::cell::RefCell;
 use meshfree::neighbors::{Block, ChunkList};
 use meshfree::particles::Output;
@@ -93,18 +93,10 @@ pub(crate) fn sweep_of_run(
     (blocks, reacts): (usize, bool),
 ) -> Result<Kernel, Error> {
     let dialect = Dialect::wgsl(precision);
-    let part = Part {
-        kind: "sweep",
-        name: name.into(),
-    };
     let mut buffers = BUFFERS.to_vec();
     buffers.extend(reacts.then_some(Array::numbers("reactions").written()));
-    let frame = Frame {
-        dialect,
-        name: "sweep",
-        buffers: &buffers,
-    };
-    device.kernel(&part, &frame, &body(pair, shape, dialect, (blocks, reacts)))
+    let body = body(pair, shape, dialect, (blocks, reacts));
+    device.kernel(("sweep", name), (dialect, &buffers), &body)
 }
 
 /// The numbers of [`BUFFERS`] that all pairs of a sweep share.
@@ -277,19 +269,9 @@ impl PairKernel {
         (dimensions, width): (usize, usize),
         precision: Precision,
     ) -> Result<Self, Error> {
-        let dialect = Dialect::wgsl(precision);
-        let part = Part {
-            kind: "sweep",
-            name: name.into(),
-        };
-        let frame = Frame {
-            dialect,
-            name: "sweep",
-            buffers: &BUFFERS,
-        };
-        let body = body(pair, (dimensions, width), dialect, (0, false));
+        let shape = (dimensions, width);
         Ok(Self {
-            kernel: device.kernel(&part, &frame, &body)?,
+            kernel: sweep_of_run(device, name, pair, shape, precision, (0, false))?,
             stride: pair.reads.width(dimensions),
             sums: pair.writes.width(dimensions),
             support: pair.support,
@@ -328,33 +310,14 @@ impl PairKernel {
         lists: &PairLists,
         shared: &Shared,
     ) -> Result<Vec<f64>, Error> {
-        let size = |what, found: usize, wanted: usize| {
-            if found == wanted {
-                Ok(())
-            } else {
-                Err(Error::Size {
-                    what,
-                    found,
-                    wanted,
-                })
-            }
-        };
-        size(
-            "numbers of the body force",
-            shared.body_force.len(),
-            self.dimensions,
-        )?;
-        let clusters = lists.clusters.len() / 2 - 1;
-        size(
-            "clusters that have lists",
-            clusters,
-            count.div_ceil(lists.width),
-        )?;
+        let size = |what, found, wanted| Error::unless(found == wanted, what, [found, wanted]);
+        let force = shared.body_force.len();
+        size("numbers of the body force", force, self.dimensions)?;
+        let (listed, clusters) = (lists.clusters.len() / 2 - 1, count.div_ceil(lists.width));
+        size("clusters that have lists", listed, clusters)?;
         let last = lists.list.iter().max().map_or(0, |last| *last as usize + 1);
-        let wanted = last.max(count) * self.stride;
-        if records.len() < wanted {
-            size("numbers of records", records.len(), wanted)?;
-        }
+        let (there, wanted) = (records.len(), last.max(count) * self.stride);
+        Error::unless(there >= wanted, "numbers of records", [there, wanted])?;
         let all = settings(self.support, shared, &lists.mobile);
         let numbers = |all: &[f64]| pack(all.iter().copied(), self.precision);
         let records = device.upload("the records of particles", &numbers(records))?;
@@ -367,6 +330,6 @@ impl PairKernel {
         let rows = device.room("the sums", bytes)?;
         let buffers = [&records, &shared, &clusters, &segments, &list, &rows];
         device.launch(&[&device.bind(&self.kernel, &buffers, count)]);
-        Ok(unpack(&device.download(&rows, bytes)?, self.precision))
+        Ok(unpack(&device.download(&rows, 0, bytes)?, self.precision))
     }
 }

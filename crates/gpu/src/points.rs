@@ -3,7 +3,7 @@
 
 use crate::device::Kernel;
 use crate::kernel::{Array, Frame, THREADS, pack, unpack};
-use crate::{Device, Dialect, Error, Part, Precision, emit};
+use crate::{Device, Dialect, Error, Precision, emit};
 use meshfree::scalar::Record;
 
 const BUFFERS: [Array; 2] = [Array::numbers("given"), Array::numbers("results").written()];
@@ -48,17 +48,9 @@ impl PointKernel {
         precision: Precision,
     ) -> Result<Self, Error> {
         let dialect = Dialect::wgsl(precision);
-        let part = Part {
-            kind: "record",
-            name: name.into(),
-        };
-        let frame = Frame {
-            dialect,
-            name: "points",
-            buffers: &BUFFERS,
-        };
+        let body = body(record, dialect);
         Ok(Self {
-            kernel: device.kernel(&part, &frame, &body(record, dialect))?,
+            kernel: device.kernel(("record", name), (dialect, &BUFFERS), &body)?,
             inputs: inputs(record),
             results: record.results().len(),
             precision,
@@ -83,27 +75,18 @@ impl PointKernel {
     /// [`Error::Size`] if there are fewer columns than the record reads, or columns of different lengths; [`Error::TooLarge`] and
     /// [`Error::OutOfMemory`] if they do not fit; [`Error::Lost`] if the device fails.
     pub fn run(&self, device: &Device, given: &[&[f64]]) -> Result<Vec<Vec<f64>>, Error> {
-        if given.len() < self.inputs {
-            return Err(Error::Size {
-                what: "columns of numbers",
-                found: given.len(),
-                wanted: self.inputs,
-            });
-        }
+        let (there, wanted) = (given.len(), self.inputs);
+        Error::unless(there >= wanted, "columns of numbers", [there, wanted])?;
         let count = given.first().map_or(0, |column| column.len());
-        if let Some(column) = given.iter().find(|column| column.len() != count) {
-            return Err(Error::Size {
-                what: "numbers of a column",
-                found: column.len(),
-                wanted: count,
-            });
+        for own in given.iter().map(|column| column.len()) {
+            Error::unless(own == count, "numbers of a column", [own, count])?;
         }
         let all = given.iter().flat_map(|column| column.iter().copied());
         let columns = device.upload("what the particles have", &pack(all, self.precision))?;
         let bytes = self.results * count * self.precision.bytes();
         let results = device.room("the results", bytes)?;
         device.launch(&[&device.bind(&self.kernel, &[&columns, &results], count)]);
-        let found = unpack(&device.download(&results, bytes)?, self.precision);
+        let found = unpack(&device.download(&results, 0, bytes)?, self.precision);
         Ok(found.chunks(count.max(1)).map(<[f64]>::to_vec).collect())
     }
 }

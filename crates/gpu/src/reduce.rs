@@ -2,8 +2,8 @@
 //! A thread takes 64 numbers, and the next level those of 64 threads, until one is left.
 
 use crate::device::{Bound, Extent, Kernel};
-use crate::kernel::{Array, Frame};
-use crate::{Device, Dialect, Error, Part, Precision};
+use crate::kernel::Array;
+use crate::{Device, Dialect, Error, Precision};
 
 /// Numbers that a thread takes.
 const SHARE: usize = 64;
@@ -99,16 +99,11 @@ fn body(finds: &[Find], is_first: bool, dialect: Dialect) -> String {
 impl Reduction {
     pub fn new(device: &Device, finds: &[Find], precision: Precision) -> Result<Self, Error> {
         let dialect = Dialect::wgsl(precision);
-        let part = Part {
-            kind: "reduction",
-            name: format!("{finds:?}"),
+        let name = format!("{finds:?}");
+        let kernel = |is_first| {
+            let body = body(finds, is_first, dialect);
+            device.kernel(("reduction", &name), (dialect, &BUFFERS), &body)
         };
-        let frame = Frame {
-            dialect,
-            name: "reduction",
-            buffers: &BUFFERS,
-        };
-        let kernel = |is_first| device.kernel(&part, &frame, &body(finds, is_first, dialect));
         Ok(Self {
             first: kernel(true)?,
             later: kernel(false)?,

@@ -3,44 +3,92 @@
 
 use crate::compile::Sizes;
 use crate::compiled::{Compiled, Memory};
+use crate::follow::Link;
 use crate::fuse::Layout;
 use crate::kernel::{pack, unpack};
 use crate::stepping::Stepping;
 use crate::{Device, Error, Part, PointKernel, Precision};
 use meshfree::error::Error as HostError;
-use meshfree::neighbors::Block;
 use meshfree::scalar::{Real, Record};
 use meshfree::simulation::Simulation;
-use meshfree::simulation::device::{Advance, Approaching, Found, Moment, Offloaded, Program};
+use meshfree::simulation::device::{
+    Advance, Approaching, Forces, Found, Moment, Offloaded, Program,
+};
 use std::sync::Arc;
-
-/// Forces \[N\] between blocks: on which, from which.
-type Forces<const D: usize> = Vec<([usize; 2], [f64; D])>;
 
 /// A simulation whose steps run on a device. [`Device::load`] makes one.
 #[derive(Debug)]
 pub struct Run<T: Real, const D: usize> {
     pub(crate) host: Offloaded<T, D>,
     pub(crate) device: Device,
-    pub(crate) program: Arc<Program>,
     pub(crate) precision: Precision,
-    pub(crate) sizes: Sizes,
-    pub(crate) compiled: Compiled,
-    pub(crate) memory: Memory,
+    pub(crate) groups: Vec<Group>,
+    pub(crate) links: Vec<Link>,
     /// Whether the host has the state of the device.
     pub(crate) is_taken: bool,
     /// Whether a vote of the present state is at hand.
     pub(crate) is_voted: bool,
-    /// Forces between blocks of the last evaluation, once the host has read them, and the time \[s\] of kicks by them that are not
-    /// booked yet.
-    pub(crate) forces: Option<Forces<D>>,
+    /// Forces between blocks of the last evaluation, group by group, once the host has read them, and the time \[s\] of kicks by them
+    /// that are not booked yet.
+    pub(crate) forces: Option<Vec<Forces<D>>>,
     pub(crate) kicked: f64,
-    /// Counts that the host has had, of the columns on the device.
-    pub(crate) counted: Vec<u64>,
     pub(crate) is_predicted: bool,
     /// Why the next step is not taken.
     pub(crate) refused: Option<Error>,
-    pub(crate) body_force: [f64; D],
+}
+
+/// A group of bodies under one scheme, on the device.
+#[derive(Debug)]
+pub(crate) struct Group {
+    pub program: Arc<Program>,
+    pub sizes: Sizes,
+    pub compiled: Compiled,
+    pub memory: Memory,
+    /// Counts that the host has had, of the columns on the device.
+    pub counted: Vec<u64>,
+    /// The acceleration that pairs were told of; none if not yet.
+    pub body_force: Vec<f64>,
+}
+
+impl Group {
+    fn new<T: Real, const D: usize>(
+        device: &Device,
+        host: &Offloaded<T, D>,
+        number: usize,
+        precision: Precision,
+    ) -> Result<Self, Error> {
+        let (program, columns) = (host.program(number), host.columns(number));
+        let blocks = host.blocks(number).len();
+        let sizes = Sizes {
+            layout: Layout {
+                fields: columns.fields(),
+                dimensions: D,
+                slots: columns.slots(),
+                mobile: host.mobile(number),
+                saved: program.saved.clone(),
+                counts: program.counts.len(),
+            },
+            rates: host.rates(number).0,
+            blocks,
+            cluster: host.cluster(),
+            shared: host.shared(number, &host.begin_vote()).len(),
+            settings: 3 + D + blocks * (1 + blocks),
+        };
+        let compiled = Compiled::new(device, &program, &sizes, precision)?;
+        Ok(Self {
+            memory: compiled.room(device, &sizes, &program)?,
+            counted: vec![0; program.counts.len()],
+            body_force: Vec::new(),
+            program,
+            sizes,
+            compiled,
+        })
+    }
+
+    /// How many numbers a vote gives, with the forces between blocks.
+    fn votes(&self) -> usize {
+        self.compiled.vote.outputs + self.program.feels.len() * self.compiled.forces.outputs
+    }
 }
 
 impl Device {
@@ -112,7 +160,6 @@ fn keeps_rounding(device: &Device) -> Result<(), Error> {
 impl<T: Real, const D: usize> Run<T, D> {
     fn new(device: Device, simulation: Simulation<T, D>) -> Result<Self, Error> {
         let host = simulation.offload()?;
-        let program = host.program();
         let precision = match size_of::<T>() {
             4 => Precision::Single,
             _ => Precision::Double,
@@ -120,48 +167,25 @@ impl<T: Real, const D: usize> Run<T, D> {
         if T::COMPENSATED {
             keeps_rounding(&device)?;
         }
-        let blocks = host.blocks();
-        // Blocks of images come behind those of all particles.
-        let slots = host.columns().slots();
-        let is_body = |block: &&Block| !block.wall && block.slots.start < slots;
-        let bodies = blocks.iter().filter(is_body);
-        let sizes = Sizes {
-            layout: Layout {
-                fields: host.columns().fields(),
-                dimensions: D,
-                slots: host.columns().slots(),
-                mobile: host.mobile(),
-                saved: program.saved.clone(),
-                counts: program.counts.len(),
-            },
-            rates: host.rates().0,
-            blocks: blocks.len(),
-            bodies: bodies.map(|block| block.slots.clone()).collect(),
-            cluster: host.cluster(),
-            shared: host.shared(&host.begin_vote()).len(),
-            settings: 3 + D + blocks.len() * (1 + blocks.len()),
-        };
-        let compiled = Compiled::new(&device, &program, &sizes, precision)?;
-        let memory = compiled.room(&device, &sizes)?;
+        let group = |number| Group::new(&device, &host, number, precision);
+        let groups = (0..host.groups())
+            .map(group)
+            .collect::<Result<Vec<_>, _>>()?;
+        let links = Link::all(&device, &groups, precision)?;
         let mut own = Self {
-            counted: vec![0; program.counts.len()],
             host,
             device,
-            program,
             precision,
-            sizes,
-            compiled,
-            memory,
+            groups,
+            links,
             is_taken: true,
             is_voted: false,
             forces: None,
             kicked: 0.0,
             is_predicted: false,
             refused: None,
-            body_force: [f64::NAN; D],
         };
-        own.send(own.time())?;
-        own.forces = Some(own.host.forces());
+        own.send_all()?;
         Ok(own)
     }
 
@@ -294,10 +318,19 @@ impl<T: Real, const D: usize> Run<T, D> {
         }
         self.host.check()?;
         if self.host.return_to_last_step() {
-            self.send(self.time())?;
-            self.forces = Some(self.host.forces());
-            self.is_taken = true;
+            self.send_all()?;
         }
+        Ok(())
+    }
+
+    /// Takes the state of the host to the device, with the forces of its rates.
+    fn send_all(&mut self) -> Result<(), Error> {
+        for group in 0..self.groups.len() {
+            self.send(group, self.time())?;
+        }
+        let forces = (0..self.groups.len()).map(|group| self.host.forces(group));
+        self.forces = Some(forces.collect());
+        self.is_taken = true;
         Ok(())
     }
 
@@ -334,14 +367,44 @@ impl<T: Real, const D: usize> Run<T, D> {
     }
 
     pub(crate) fn read(&self, from: &wgpu::Buffer, count: usize) -> Result<Vec<f64>, Error> {
-        let bytes = count * self.precision.bytes();
-        Ok(unpack(&self.device.download(from, bytes)?, self.precision))
+        self.read_at(from, 0, count)
     }
 
-    pub(crate) fn share(&self, moment: &Moment) {
-        let shared = self.host.shared(moment).into_iter();
-        self.device
-            .write(&self.memory.shared, &self.numbers(shared));
+    pub(crate) fn read_at(
+        &self,
+        from: &wgpu::Buffer,
+        first: usize,
+        count: usize,
+    ) -> Result<Vec<f64>, Error> {
+        let [at, bytes] = [first, count].map(|own| own * self.precision.bytes());
+        let bytes = self.device.download(from, at, bytes)?;
+        Ok(unpack(&bytes, self.precision))
+    }
+
+    pub(crate) fn share(&self, group: usize, moment: &Moment) {
+        let shared = self.host.shared(group, moment).into_iter();
+        let memory = &self.groups[group].memory;
+        self.device.write(&memory.shared, &self.numbers(shared));
+    }
+
+    /// What groups have voted for, and the forces between their blocks.
+    pub(crate) fn votes(&self) -> Result<(Vec<Vec<f64>>, Vec<Forces<D>>), Error> {
+        let (mut votes, mut forces) = (Vec::new(), Vec::new());
+        for own in &self.groups {
+            let mut found = self.read(&own.memory.votes, own.votes())?;
+            let of_blocks = found.split_off(own.compiled.vote.outputs);
+            let (mut all, width) = (Vec::new(), own.compiled.forces.outputs);
+            for ((on, _), numbers) in own.program.feels.iter().zip(of_blocks.chunks(width)) {
+                for (from, force) in numbers.as_chunks::<D>().0.iter().enumerate() {
+                    if from != *on {
+                        all.push(([*on, from], *force));
+                    }
+                }
+            }
+            votes.push(found);
+            forces.push(all);
+        }
+        Ok((votes, forces))
     }
 
     /// Votes on the next step, unless that is done.
@@ -350,72 +413,66 @@ impl<T: Real, const D: usize> Run<T, D> {
             return Ok(());
         }
         let moment = self.host.begin_vote();
-        self.share(&moment);
-        let mut all = self.compiled.of(&self.compiled.lists.vote);
-        all.extend(&self.compiled.of_vote);
-        self.device.launch(&all);
-        let count =
-            self.compiled.vote.outputs + self.sizes.bodies.len() * self.compiled.forces.outputs;
-        let found = self.read(&self.memory.votes, count)?;
-        let (vote, forces) = found.split_at(self.compiled.vote.outputs);
+        for (number, group) in self.groups.iter().enumerate() {
+            self.share(number, &moment);
+            let mut all = group.compiled.of(&group.compiled.lists.vote);
+            all.extend(&group.compiled.of_vote);
+            self.device.launch(&all);
+        }
+        let (votes, forces) = self.votes()?;
         // Those of rates that came from the host are known.
         if self.forces.is_none() {
-            self.book(self.forces_of(forces));
+            self.book(forces);
         }
-        let found = Found {
+        let found = votes.iter().map(|vote| Found {
             step: vote[0],
             slot: vote[1] as usize,
             criterion: vote[2] as usize,
             speed2: vote[3],
             length: vote[4],
             range: [vote[5..5 + D].to_vec(), vote[5 + D..5 + 2 * D].to_vec()],
-        };
-        if found.step < 0.0 {
+        });
+        let found: Vec<_> = found.collect();
+        if found.iter().any(|found| found.step < 0.0) {
             self.take()?;
         }
-        let (device, compiled, memory) = (&self.device, &self.compiled, &self.memory);
-        let (precision, mut met) = (self.precision, None);
-        let voted = self.host.vote(&found, |host| {
-            let shared = host.shared(&moment).into_iter();
+        let (device, groups, precision) = (&self.device, &self.groups, self.precision);
+        let mut met = vec![None; groups.len()];
+        let voted = self.host.vote(&found, |host, number| {
+            let Group {
+                compiled, memory, ..
+            } = &groups[number];
+            let shared = host.shared(number, &moment).into_iter();
             device.write(&memory.shared, &pack(shared, precision));
             let mut all = compiled.of(&compiled.lists.approach);
             all.extend(&compiled.of_approach);
             device.launch(&all);
             let bytes = compiled.approach.outputs * precision.bytes();
-            let found = unpack(&device.download(&memory.meetings, bytes)?, precision);
+            let found = unpack(&device.download(&memory.meetings, 0, bytes)?, precision);
             let own = Approaching {
                 step: (found[0], found[1] as usize),
                 mach: (-found[3], found[4] as usize),
             };
-            met = Some(own);
+            met[number] = Some(own);
             Ok::<_, Error>(own)
         });
-        match (voted, met) {
+        if let Err(Error::Simulation(HostError::SoundSpeedTooLow { .. })) = voted {
             // The error names a particle, of which the host needs the state.
-            (Err(Error::Simulation(HostError::SoundSpeedTooLow { .. })), Some(met)) => {
-                self.take()?;
-                self.host.vote(&found, |_| Ok::<_, Error>(met))?;
-            }
-            (voted, _) => voted?,
+            self.take()?;
+            self.host.vote(&found, |_, number| {
+                let none = || Error::Lost {
+                    message: "no answer".into(),
+                };
+                met[number].ok_or_else(none)
+            })?;
         }
+        voted?;
         self.is_voted = true;
         Ok(())
     }
 
-    pub(crate) fn forces_of(&self, numbers: &[f64]) -> Forces<D> {
-        let mut all = Vec::new();
-        for (on, numbers) in numbers.chunks(self.compiled.forces.outputs).enumerate() {
-            for (from, force) in numbers.as_chunks::<D>().0.iter().enumerate() {
-                if from != on {
-                    all.push(([on, from], *force));
-                }
-            }
-        }
-        all
-    }
-
     /// Books kicks by the forces of the last evaluation, which the host has now.
-    pub(crate) fn book(&mut self, forces: Forces<D>) {
+    pub(crate) fn book(&mut self, forces: Vec<Forces<D>>) {
         if self.kicked != 0.0 {
             self.host.book(core::mem::take(&mut self.kicked), &forces);
         }

@@ -11,28 +11,43 @@ use meshfree::scalar::Real;
 use meshfree::simulation::device::{Moment, Moved};
 
 impl<T: Real, const D: usize> Run<T, D> {
-    /// Runs the pieces of a list at a moment.
+    /// Runs the pieces of a list of all groups at a moment.
     fn act(
         &mut self,
         pieces: impl Fn(&Compiled) -> &[Piece],
         moment: &Moment,
     ) -> Result<(), Error> {
-        self.share(moment);
-        let own = pieces(&self.compiled).to_vec();
-        self.act_on(&own, moment).map(|_| ())
+        for group in 0..self.groups.len() {
+            let own = pieces(&self.groups[group].compiled).to_vec();
+            if !own.is_empty() {
+                self.share(group, moment);
+                self.act_on(group, &own, moment)?;
+            }
+        }
+        Ok(())
     }
 
-    /// The same; whether lists were built anew.
-    fn act_on(&mut self, pieces: &[Piece], moment: &Moment) -> Result<bool, Error> {
+    /// Brings walls that are bodies of other groups to these, or these the forces on the walls.
+    fn link(&self, what: usize, moment: &Moment) {
+        if self.links.is_empty() {
+            return;
+        }
+        (0..self.groups.len()).for_each(|group| self.share(group, moment));
+        let all: Vec<_> = self.links.iter().map(|link| &link.bound[what]).collect();
+        self.device.launch(&all);
+    }
+
+    /// The same as [`act`](Self::act) of a group; whether lists were built anew.
+    fn act_on(&mut self, group: usize, pieces: &[Piece], moment: &Moment) -> Result<bool, Error> {
         let mut rebuilt = false;
         for part in pieces.split_inclusive(|piece| !matches!(piece, Piece::Kernel(_))) {
-            let kernels = self.compiled.of(part);
+            let kernels = self.groups[group].compiled.of(part);
             if !kernels.is_empty() {
                 self.device.launch(&kernels);
             }
             match part.last() {
-                Some(Piece::Lists) => rebuilt |= self.bring_lists(moment)?,
-                Some(Piece::Repeat(k)) => self.repeat(*k, moment)?,
+                Some(Piece::Lists) => rebuilt |= self.bring_lists(group, moment)?,
+                Some(Piece::Repeat(k)) => self.repeat(group, *k, moment)?,
                 _ => {}
             }
         }
@@ -40,59 +55,60 @@ impl<T: Real, const D: usize> Run<T, D> {
     }
 
     /// Repeats what particles need to settle. The host reads one number each time.
-    fn repeat(&mut self, number: usize, moment: &Moment) -> Result<(), Error> {
-        let own = &self.compiled.repeats[number];
+    fn repeat(&mut self, group: usize, number: usize, moment: &Moment) -> Result<(), Error> {
+        let own = &self.groups[group].compiled.repeats[number];
         let (times, begin, end) = (own.times, own.begin.clone(), own.end.clone());
         // Lists are the first of what is repeated: where they were built anew particles have other places.
         let is_lists = |piece: &Piece| matches!(piece, Piece::Lists);
         let after = own.pieces.iter().position(is_lists).map_or(0, |at| at + 1);
         let [lists, pieces] = [&own.pieces[..after], &own.pieces[after..]].map(<[_]>::to_vec);
-        self.act_on(&begin, moment)?;
+        self.act_on(group, &begin, moment)?;
         for _ in 0..times {
-            if self.act_on(&lists, moment)? {
-                self.act_on(&begin, moment)?;
+            if self.act_on(group, &lists, moment)? {
+                self.act_on(group, &begin, moment)?;
             }
-            self.act_on(&pieces, moment)?;
-            let all: Vec<_> = self.compiled.of_open.iter().collect();
+            self.act_on(group, &pieces, moment)?;
+            let own = &self.groups[group];
+            let all: Vec<_> = own.compiled.of_open.iter().collect();
             self.device.launch(&all);
-            if self.read(&self.memory.moves, 1)?[0] == 0.0 {
+            if self.read(&own.memory.moves, 1)?[0] == 0.0 {
                 break;
             }
         }
-        self.act_on(&end, moment).map(|_| ())
+        self.act_on(group, &end, moment).map(|_| ())
     }
 
     /// Walls go to their places, and lists are built anew if particles have used up their skin; whether they were.
-    fn bring_lists(&mut self, moment: &Moment) -> Result<bool, Error> {
-        let (walls, images) = self.host.place_walls(moment);
+    fn bring_lists(&mut self, group: usize, moment: &Moment) -> Result<bool, Error> {
+        let (walls, images) = self.host.place_walls(group, moment);
         for slots in walls {
-            self.send_wall(&slots);
-            self.send_walls(moment.time);
+            self.send_wall(group, &slots);
+            self.send_walls(group, moment.time);
         }
         if images {
-            self.send_transforms();
+            self.send_transforms(group);
         }
-        self.send_settings();
-        if self.compiled.lists.moved.is_empty() {
+        self.send_settings(group);
+        let own = &self.groups[group];
+        if own.compiled.lists.moved.is_empty() {
             return Ok(false);
         }
-        let mut all = self.compiled.of(&self.compiled.lists.moved);
-        all.extend(&self.compiled.of_moved);
+        let mut all = own.compiled.of(&own.compiled.lists.moved);
+        all.extend(&own.compiled.of_moved);
         self.device.launch(&all);
-        let found = self.read(&self.memory.moves, self.compiled.moved.outputs)?;
+        let found = self.read(&own.memory.moves, own.compiled.moved.outputs)?;
         let moved = Moved {
             farthest2: found[0],
             grown: found[1],
             range: [found[2..2 + D].to_vec(), found[2 + D..].to_vec()],
         };
-        let is_outdated = self.host.is_outdated(&moved, moment.time);
+        let is_outdated = self.host.is_outdated(group, &moved, moment.time);
         if is_outdated {
+            self.take_group(group)?;
+            self.host.rebuild(group, moment.time);
+            self.send(group, moment.time)?;
             self.is_taken = false;
-            self.take()?;
-            self.host.rebuild(moment.time);
-            self.send(moment.time)?;
-            self.is_taken = false;
-            self.share(moment);
+            self.share(group, moment);
         }
         Ok(is_outdated)
     }
@@ -129,20 +145,20 @@ impl<T: Real, const D: usize> System for Stepping<'_, T, D> {
         if self.run.kicked != 0.0 {
             // Kicks by forces that the next evaluation writes over.
             let run = &mut *self.run;
-            run.device
-                .launch(&run.compiled.of_vote.iter().collect::<Vec<_>>());
-            let first = run.compiled.vote.outputs;
-            let count = first + run.sizes.bodies.len() * run.compiled.forces.outputs;
-            match run.read(&run.memory.votes, count) {
-                Ok(found) => {
-                    let forces = run.forces_of(&found[first..]);
-                    run.book(forces);
-                }
+            for group in &run.groups {
+                let all: Vec<_> = group.compiled.of_vote.iter().collect();
+                run.device.launch(&all);
+            }
+            match run.votes() {
+                Ok((_, forces)) => run.book(forces),
                 Err(error) => self.lost = Some(error),
             }
         }
         let moment = self.run.host.begin_evaluation(offset)?;
+        self.run.link(0, &moment);
         self.act(|own| &own.lists.evaluation, &moment);
+        self.act(|own| &own.lists.reacts, &moment);
+        self.run.link(1, &moment);
         self.run.forces = None;
         self.outcome()
     }
@@ -159,10 +175,9 @@ impl<T: Real, const D: usize> System for Stepping<'_, T, D> {
     fn drift(&mut self, dt: f64, offset: f64) -> Result<(), HostError> {
         let moment = self.run.host.begin_drift(dt, offset)?;
         self.act(|own| &own.lists.drift_begins, &moment);
-        if !self.run.compiled.lists.drift_middle.is_empty() {
-            self.act(|own| &own.lists.drift_middle, &moment);
-            self.act(|own| &own.lists.drift_ends, &moment);
-        }
+        self.run.link(0, &moment);
+        self.act(|own| &own.lists.drift_middle, &moment);
+        self.act(|own| &own.lists.drift_ends, &moment);
         self.outcome()
     }
 

@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{Random, device};
+use common::{Random, device, in_any_groups};
 use meshfree::kernel::WendlandC2;
 use meshfree::neighbors::{Block, ClusterLists, Radii, SearchInput};
 use meshfree::particles::{Columns, Field};
@@ -236,19 +236,10 @@ fn a_sweep_has_the_same_bits_twice_and_in_any_work_groups() {
     };
     let scene = Scene::<f64>::new();
     let pair = pair::<f64>();
-    let first = scene.on_device(&device, &pair, Precision::Double);
-    let mut device = device;
-    for threads in [64, 128, 256] {
-        device = device
-            .with_threads(threads)
-            .expect("a size that devices have");
-        let own = scene.on_device(&device, &pair, Precision::Double);
-        assert!(
-            own.iter()
-                .zip(&first)
-                .all(|(a, b)| a.to_bits() == b.to_bits())
-        );
-    }
+    in_any_groups(device, |device| {
+        let sums = scene.on_device(device, &pair, Precision::Double);
+        sums.into_iter().map(f64::to_bits).collect()
+    });
 }
 
 #[test]
@@ -261,42 +252,20 @@ fn what_does_not_fit_is_an_error() {
     let kernel = PairKernel::new(&device, "liquid", &pair, (3, 8), Precision::Double);
     let kernel = kernel.unwrap_or_else(|error| panic!("{error}"));
     let (records, slots) = (scene.records(&pair), scene.columns.slots());
-    let few = kernel.run(&device, (&records[1..], slots), &scene.lists(), &shared());
-    assert!(
-        matches!(
-            few,
-            Err(Error::Size {
-                what: "numbers of records",
-                ..
-            })
-        ),
-        "{few:?}"
-    );
-    let few = kernel.run(&device, (&records, slots - 64), &scene.lists(), &shared());
-    assert!(
-        matches!(
-            few,
-            Err(Error::Size {
-                what: "clusters that have lists",
-                ..
-            })
-        ),
-        "{few:?}"
-    );
     let mut flat = shared();
     flat.body_force.pop();
-    let few = kernel.run(&device, (&records, slots), &scene.lists(), &flat);
-    assert!(
-        matches!(
-            few,
-            Err(Error::Size {
-                found: 2,
-                wanted: 3,
-                ..
-            })
-        ),
-        "{few:?}"
-    );
+    let all = shared();
+    for (few, slots, shared, name) in [
+        (&records[1..], slots, &all, "numbers of records"),
+        (&records[..], slots - 64, &all, "clusters that have lists"),
+        (&records[..], slots, &flat, "numbers of the body force"),
+    ] {
+        let found = kernel.run(&device, (few, slots), &scene.lists(), shared);
+        assert!(
+            matches!(found, Err(Error::Size { what, .. }) if what == name),
+            "{name}: {found:?}"
+        );
+    }
     let most = device.adapter().most_bound as usize / 8;
     let many = kernel.run(
         &device,

@@ -1,6 +1,7 @@
 //! What of a simulation does not run on a device, by its name and with a remedy.
 //! Nothing is left out in silence.
 
+use super::structures;
 use crate::effect::DensityForm;
 use crate::error::Problem;
 use crate::scalar::Real;
@@ -20,13 +21,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             }
         };
         let state = &self.state;
-        let group = &state.groups[0];
-        let (scheme, program) = (&group.scheme, &group.scheme.program);
-        part(state.groups.len() > 1, &|| {
-            let schemes = state.groups.iter().map(|own| own.scheme.name());
-            let schemes: Vec<_> = schemes.collect();
-            format!("bodies of several schemes ({})", schemes.join(", "))
-        });
         for couple in &state.couples {
             part(true, &|| {
                 format!("the coupling `{}`", couple.coupling.name())
@@ -42,44 +36,50 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 let body = &group.particles.bodies[rigid.body].name;
                 part(true, &|| format!("the rigid body `{body}`"));
             }
-            part(group.sub_cycles(), &|| "a group that sub-cycles".into());
-        }
-        part(!group.exchanges.is_empty(), &|| {
-            "schemes that follow each other by events".into()
-        });
-        for emitter in &group.emitters {
-            let wall = &group.walls[emitter.wall].name;
-            part(true, &|| format!("the inlet `{wall}`"));
-        }
-        for wall in group.walls.iter().filter(|wall| wall.inflow.is_some()) {
-            part(true, &|| format!("the inlet `{}`", wall.name));
-        }
-        for _ in &group.outlets {
-            part(true, &|| "an outlet".into());
-        }
-        for own in &group.sources {
-            part(true, &|| {
-                format!("the source of `{}`", group.particles.bodies[own.body].name)
+            part(group.sub_cycles(), &|| {
+                "a group that sub-cycles".into()
+            });
+            for what in structures::refused(group) {
+                part(true, &|| what.clone());
+            }
+            let (scheme, program) = (&group.scheme, &group.scheme.program);
+            part(!group.exchanges.is_empty(), &|| {
+                "schemes that follow each other by events".into()
+            });
+            for emitter in &group.emitters {
+                let wall = &group.walls[emitter.wall].name;
+                part(true, &|| format!("the inlet `{wall}`"));
+            }
+            for wall in group.walls.iter().filter(|wall| wall.inflow.is_some()) {
+                part(true, &|| format!("the inlet `{}`", wall.name));
+            }
+            for _ in &group.outlets {
+                part(true, &|| "an outlet".into());
+            }
+            for own in &group.sources {
+                part(true, &|| {
+                    format!("the source of `{}`", group.particles.bodies[own.body].name)
+                });
+            }
+            for _ in &group.drains {
+                part(true, &|| "a drain".into());
+            }
+            part(group.share.is_some(), &|| "a scene on ranks".into());
+            part(scheme.density == DensityForm::Lam, &|| {
+                "density by Lam et al. (DensityForm::Lam)".into()
+            });
+            part(!program.laws[Stage::Rates.number()].is_empty(), &|| {
+                let laws = program.laws[Stage::Rates.number()].iter();
+                let names: Vec<_> = laws.map(|law| format!("`{}`", law.name())).collect();
+                format!("laws of the rates ({})", names.join(", "))
             });
         }
-        for _ in &group.drains {
-            part(true, &|| "a drain".into());
-        }
-        part(group.share.is_some(), &|| "a scene on ranks".into());
         for load in &self.loads {
             part(true, &|| format!("the load ({load})"));
         }
         for event in &self.events {
             part(true, &|| format!("the event `{}`", event.name));
         }
-        part(scheme.density == DensityForm::Lam, &|| {
-            "density by Lam et al. (DensityForm::Lam)".into()
-        });
-        part(!program.laws[Stage::Rates.number()].is_empty(), &|| {
-            let laws = program.laws[Stage::Rates.number()].iter();
-            let names: Vec<_> = laws.map(|law| format!("`{}`", law.name())).collect();
-            format!("laws of the rates ({})", names.join(", "))
-        });
         part(self.integrator.slots() > 0, &|| {
             format!(
                 "the integrator {}, which keeps states",

@@ -6,6 +6,7 @@ use super::laws::{Acting, record_law};
 use crate::effect::Smoothing;
 use crate::error::{Error, Result};
 use crate::scalar::Real;
+use crate::simulation::Group;
 use crate::simulation::run::check_end;
 use crate::simulation::stored::EVERY;
 use crate::simulation::view::{Reading, rounding};
@@ -76,21 +77,24 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         (state.evaluated, state.impulses.time) = (time, time);
         state.evaluations += 1;
         state.rates_at_hand = true;
-        let group = &mut state.groups[0];
-        group.gravity = gravity;
-        group.work.evaluated_gravity = gravity.map(T::from_f64);
-        group.work.evaluated_time = time;
-        if matches!(group.scheme.smoothing, Smoothing::Consistent(_)) {
-            let since = time - group.work.lengths_time;
-            let known = since.is_finite() && since != 0.0;
-            let [since, inverse] = if known {
-                [since, since.recip()]
-            } else {
-                [0.0; 2]
-            };
-            let any = group.work.lengths_time != time;
-            self.since_lengths = [since, inverse, f64::from(u8::from(any))];
-            group.work.lengths_time = time;
+        for (group, own) in state.groups.iter_mut().zip(&mut self.recorded) {
+            group.gravity = gravity;
+            group.work.evaluated_gravity = gravity.map(T::from_f64);
+            group.work.evaluated_time = time;
+            let structures = group.walls.iter_mut().filter_map(|w| w.structure.as_mut());
+            structures.for_each(|structure| structure.evaluated = time);
+            if matches!(group.scheme.smoothing, Smoothing::Consistent(_)) {
+                let since = time - group.work.lengths_time;
+                let known = since.is_finite() && since != 0.0;
+                let [since, inverse] = if known {
+                    [since, since.recip()]
+                } else {
+                    [0.0; 2]
+                };
+                let any = group.work.lengths_time != time;
+                own.since_lengths = [since, inverse, f64::from(u8::from(any))];
+                group.work.lengths_time = time;
+            }
         }
         Ok(Moment::over(time, elapsed))
     }
@@ -109,8 +113,11 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         let begin = self.simulation.state.time + offset;
         let middle = begin + 0.5 * dt;
         self.simulation.state.impulses.time = begin + dt;
-        if self.simulation.state.groups[0].scheme.acts_in_drift() {
-            self.simulation.state.groups[0].gravity = self.simulation.uniform_loads(middle)?;
+        let groups = &self.simulation.state.groups;
+        if !groups.iter().all(Group::drifts_at_once) {
+            let gravity = self.simulation.uniform_loads(middle)?;
+            let groups = &mut self.simulation.state.groups;
+            groups.iter_mut().for_each(|group| group.gravity = gravity);
         }
         Ok(Moment {
             chord: Some([begin, begin + dt]),
@@ -134,19 +141,20 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         Moment::over(self.simulation.state.time, 0.0)
     }
 
-    /// The numbers that all particles share at a moment.
+    /// The numbers that all particles of a group share at a moment.
     #[must_use]
-    pub fn shared(&self, moment: &Moment) -> Vec<f64> {
-        let group = &self.simulation.state.groups[0];
+    pub fn shared(&self, number: usize, moment: &Moment) -> Vec<f64> {
+        let group = &self.simulation.state.groups[number];
+        let recorded = &self.recorded[number];
         let mut all = moment.over.to_vec();
         all.extend(group.gravity);
         all.extend(group.work.evaluated_gravity.map(Real::to_f64));
-        all.extend(&self.range);
+        all.extend(&recorded.range);
         all.extend(group.carried_since_listed(moment.time));
         if matches!(group.scheme.smoothing, Smoothing::Consistent(_)) {
-            all.extend(self.since_lengths);
+            all.extend(recorded.since_lengths);
         }
-        for own in &self.timed {
+        for own in &recorded.timed {
             let law = &group.scheme.program.laws[own.stage.number()][own.law];
             let acting = Acting {
                 time: moment.time,

@@ -56,18 +56,18 @@ pub(super) fn image_record<const D: usize>(reads: Fields) -> Result<Record, Unre
 }
 
 impl<T: Real, const D: usize> Offloaded<T, D> {
-    /// The images of particles that lists have behind all slots: the slot of each, and the number of its transform.
+    /// The images of particles of a group that lists have behind all slots: the slot of each, and the number of its transform.
     #[must_use]
-    pub fn images(&self) -> Vec<u32> {
-        let images = &self.simulation.state.groups[0].neighborhood.images;
+    pub fn images(&self, group: usize) -> Vec<u32> {
+        let images = &self.simulation.state.groups[group].neighborhood.images;
         let of = images.iter().flat_map(|own| [own.source, own.transform]);
         of.collect()
     }
 
     /// Transforms of images, one after another: rotation or reflection row by row, shift \[m\], velocity \[m/s\].
     #[must_use]
-    pub fn transforms(&self) -> Vec<f64> {
-        let chains = &self.simulation.state.groups[0].neighborhood.chains;
+    pub fn transforms(&self, group: usize) -> Vec<f64> {
+        let chains = &self.simulation.state.groups[group].neighborhood.chains;
         let mut all = Vec::new();
         for own in &chains.transforms {
             all.extend(own.rotation.transpose().iter().map(|x| x.to_f64()));
@@ -77,8 +77,8 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
     }
 
     /// Brings boundaries that move to where they are at a time \[s\]; whether there are any.
-    pub(super) fn place_boundaries(&mut self, time: f64) -> bool {
-        let group = &mut self.simulation.state.groups[0];
+    pub(super) fn place_boundaries(&mut self, group: usize, time: f64) -> bool {
+        let group = &mut self.simulation.state.groups[group];
         let moves = group.boundaries.iter().any(|own| own.moves());
         if moves {
             group.neighborhood.place_transforms(&group.boundaries, time);
@@ -88,8 +88,12 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
 
     /// The largest speed \[m/s\] that a boundary gives images, and a range of velocities \[m/s\] with those of all images: no image is
     /// outside of what its boundary makes of the range of all particles.
-    pub(super) fn range_with_images(&self, [low, high]: &[Vec<f64>; 2]) -> (f64, Vec<f64>) {
-        let chains = &self.simulation.state.groups[0].neighborhood.chains;
+    pub(super) fn range_with_images(
+        &self,
+        group: usize,
+        [low, high]: &[Vec<f64>; 2],
+    ) -> (f64, Vec<f64>) {
+        let chains = &self.simulation.state.groups[group].neighborhood.chains;
         let (mut most, [mut least, mut largest]) = (0.0_f64, [low.clone(), high.clone()]);
         for own in &chains.transforms {
             most = most.max(own.velocity.map(Real::to_f64).norm());

@@ -14,7 +14,7 @@ use crate::term::Stage;
 /// Columns of what is repeated, which nothing else writes: the change of each particle, whether its piece has not settled, and where laws
 /// have limited.
 pub(super) const fn change<const D: usize>() -> usize {
-    Program::columns(D)
+    Program::common(D)
 }
 pub(super) const fn open<const D: usize>() -> usize {
     change::<D>() + 1
@@ -31,6 +31,13 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
     pub(super) fn repeats(&self, stage: Stage) -> Option<(usize, f64)> {
         let laws = &self.group.scheme.program.laws[stage.number()];
         laws.iter().find_map(|law| law.repeats())
+    }
+
+    /// The columns behind those of all groups, and of what is repeated.
+    pub(super) fn further_columns(&self) -> usize {
+        let mut laws = self.group.scheme.program.laws.iter().flatten();
+        let repeats = laws.any(|law| law.repeats().is_some());
+        change::<D>() + if repeats { 2 + MOST_REPEATED } else { 0 }
     }
 
     /// The sweep of a stage and its laws, on particles that have not settled.

@@ -14,13 +14,14 @@ mod motion;
 mod program;
 mod record;
 mod state;
+mod structures;
 mod vote;
 
 pub use clock::{Advance, Moment};
 pub use program::{
-    Action, Counted, Given, KeepStep, Made, PointStep, Program, RepeatStep, SweepStep,
+    Action, Counted, FollowStep, Given, KeepStep, Made, PointStep, Program, RepeatStep, SweepStep,
 };
-pub use state::Moved;
+pub use state::{Forces, Moved};
 pub use vote::{Approaching, Found};
 
 use super::Simulation;
@@ -44,23 +45,30 @@ use std::sync::Arc;
 ///     .wall(Wall::around("tank", [0.0; 2], [0.3, 0.3], 0.02, 3, [[true, true], [true, false]]))
 ///     .build()?;
 /// let tank = tank.offload()?;
-/// assert!(!tank.program().evaluation.is_empty());
+/// assert!(!tank.program(0).evaluation.is_empty());
 /// # Ok::<(), Error>(())
 /// ```
 pub struct Offloaded<T: Real, const D: usize> {
     simulation: Simulation<T, D>,
-    program: Arc<Program>,
-    timed: Vec<Timed>,
+    /// What is known of each group.
+    recorded: Vec<Recorded>,
     /// What the last vote asks for.
     last_vote: Option<Vote>,
-    /// The least and the largest component of velocities, as the last vote found them, and the least smoothing length.
-    range: Vec<f64>,
-    /// The time \[s\] since smoothing lengths were found, its inverse, both zero where they never were, and one if there is any.
-    since_lengths: [f64; 3],
     /// The step under way, and the one that it is cut from.
     under_way: Option<[Vote; 2]>,
     /// The state after the last step while a copy steps for a reading, and its vote.
     last_step: Option<(State<T, D>, Option<Vote>)>,
+}
+
+/// A group of bodies under one scheme, recorded.
+#[derive(Debug, Default)]
+struct Recorded {
+    program: Arc<Program>,
+    timed: Vec<Timed>,
+    /// The least and the largest component of velocities, as the last vote found them, and the least smoothing length.
+    range: Vec<f64>,
+    /// The time \[s\] since smoothing lengths were found, its inverse, both zero where they never were, and one if there is any.
+    since_lengths: [f64; 3],
 }
 
 impl<T: Real, const D: usize> core::fmt::Debug for Offloaded<T, D> {
@@ -81,26 +89,32 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let mut problems = self.not_on_device();
         let mut own = Offloaded {
             simulation: self,
-            program: Arc::default(),
-            timed: Vec::new(),
+            recorded: Vec::new(),
             last_vote: None,
-            range: vec![0.0; 2 * D + 1],
-            since_lengths: [0.0; 3],
             under_way: None,
             last_step: None,
         };
         if problems.is_empty() {
-            let control: StepControl = own.control_of_vote();
-            let mut recorder = Recorder::new(&own.simulation.state.groups[0]);
-            recorder.all(&control);
-            let Recorder {
-                program,
-                timed,
-                problems: found,
-                ..
-            } = recorder;
-            (own.program, own.timed) = (Arc::new(program), timed);
-            problems = found;
+            for number in 0..own.groups() {
+                let control: StepControl = own.control_of_vote(number);
+                let groups = &own.simulation.state.groups;
+                let mut recorder = Recorder::new(&groups[number]);
+                recorder.all(&control);
+                recorder.structures(groups);
+                let Recorder {
+                    program,
+                    timed,
+                    problems: found,
+                    ..
+                } = recorder;
+                own.recorded.push(Recorded {
+                    program: Arc::new(program),
+                    timed,
+                    range: vec![0.0; 2 * D + 1],
+                    since_lengths: [0.0; 3],
+                });
+                problems.extend(found);
+            }
         }
         if problems.is_empty() {
             // Of a state that was changed from outside.
@@ -116,10 +130,17 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 }
 
 impl<T: Real, const D: usize> Offloaded<T, D> {
-    /// The step program.
+    /// How many groups there are: bodies that obey one scheme together, with the walls that they meet. What other methods take as a
+    /// group is its number.
     #[must_use]
-    pub fn program(&self) -> Arc<Program> {
-        self.program.clone()
+    pub fn groups(&self) -> usize {
+        self.simulation.state.groups.len()
+    }
+
+    /// The step program of a group.
+    #[must_use]
+    pub fn program(&self, group: usize) -> Arc<Program> {
+        self.recorded[group].program.clone()
     }
 
     /// The order of the operations of a step.

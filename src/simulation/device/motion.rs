@@ -60,9 +60,13 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
             };
             return self.keep_records(&work, work.pair.reads);
         }
-        let given = (0..D).map(|d| Given::Field(Field::VELOCITY, d)).collect();
+        let mut given: Vec<_> = (0..D).map(|d| Given::Field(Field::VELOCITY, d)).collect();
         let made = (0..D).map(|d| Made::Field(Field::MEAN_VELOCITY, d));
-        let made = made.collect();
+        let mut made: Vec<_> = made.collect();
+        if let Some(own) = self.program.own_forces {
+            given.extend((0..D).map(|d| Given::Rate(Output::FORCE, d)));
+            made.extend((0..D).map(|d| Made::Column(own + d)));
+        }
         self.on_each("summed velocities", self.bodies(), (given, made), |x| {
             x.to_vec()
         })
@@ -125,16 +129,18 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
         for d in 0..D {
             given.push(Given::Field(Field::VELOCITY, d));
             given.push(Given::Field(Field::MEAN_VELOCITY, d));
-            given.push(Given::Rate(Output::FORCE, d));
+            let force = Given::Rate(Output::FORCE, d);
+            let own = self.program.own_forces;
+            given.extend([force, own.map_or(force, |own| Given::Column(own + d))]);
             given.push(evaluated::<D>(d));
         }
         let made = vec![Made::Field(Field::ENERGY, 0)];
         self.on_each("work", self.bodies(), (given, made), |x| {
             let [energy, mass, power, dt, half] = [x[0], x[1], x[2], x[3], x[4]];
             let mut spent = Traced::of(0.0);
-            for own in x[5..].chunks_exact(4) {
-                let since = own[0] + half * (own[2] / mass + own[3]) - own[1];
-                spent += own[2] * since;
+            for own in x[5..].chunks_exact(5) {
+                let since = own[0] + half * (own[2] / mass + own[4]) - own[1];
+                spent += own[3] * since;
             }
             vec![energy + dt * (power - spent) / mass]
         })

@@ -40,6 +40,8 @@ pub enum Made {
     Count(usize),
     /// A column of its own.
     Column(usize),
+    /// What a wall law sees at a particle of a wall.
+    Wall(usize),
     /// Nowhere.
     Nothing,
 }
@@ -92,6 +94,29 @@ pub struct SweepStep {
     pub of_rates: bool,
     /// Whether it reads [records that are kept](Action::Keep), and not those of the present state.
     pub of_kept: bool,
+    /// Whether it sums what the particles of [walls that are bodies](FollowStep) feel, whose forces between blocks are booked with
+    /// those of the rates.
+    pub of_walls: bool,
+}
+
+/// A wall that is a body of another group: it follows that, and what it feels is added to the forces on it.
+#[derive(Clone, Debug)]
+pub struct FollowStep {
+    /// The slots of the wall.
+    pub slots: Range<usize>,
+    /// The number of the other group.
+    pub group: usize,
+    /// The slots of the body there.
+    pub body: Range<usize>,
+    /// What becomes of a particle of the wall.
+    pub record: Record,
+    /// Its inputs: of the particle of the wall, and behind them of that of the body, which
+    /// [`Offloaded::followed`](super::Offloaded::followed) gives.
+    pub own: Vec<Given>,
+    /// See [`own`](Self::own).
+    pub from: Vec<Given>,
+    /// Where its results go, as many as there are.
+    pub made: Vec<Made>,
 }
 
 /// Records that stay from an evaluation to the kicks by its forces, whose work is summed over them.
@@ -200,22 +225,28 @@ pub struct Program {
     /// Of every particle the square of its displacement \[m²\] since lists were built, the displacement \[m\], and by how much its
     /// smoothing length has grown \[m\].
     pub moved: Vec<Action>,
+    /// Before evaluations and in the middle of drifts: walls that are bodies of other groups, and what these feel after an evaluation.
+    pub follows: Vec<FollowStep>,
+    /// The forces on them, summed after all groups have evaluated their rates.
+    pub reacts: Vec<Action>,
+    /// Blocks whose forces are booked: bodies, and walls that are; each with its slots.
+    pub feels: Vec<(usize, Range<usize>)>,
     /// What is counted.
     pub counts: Vec<Counted>,
     /// The fields that a prediction saves.
     pub saved: Vec<Field>,
+    /// How many columns of their own actions make.
+    pub columns: usize,
+    /// The first column of the forces of pairs alone, where others add to the rates and work is done by those.
+    pub own_forces: Option<usize>,
 }
 
 impl Program {
-    /// How many columns of their own its actions make in `d` dimensions, but for what is [repeated](RepeatStep), which has
-    /// [`REPEATED`](Self::REPEATED) more.
+    /// How many columns votes and displacements make in `d` dimensions; what is [repeated](RepeatStep) has those behind them.
     #[must_use]
-    pub const fn columns(d: usize) -> usize {
+    pub const fn common(d: usize) -> usize {
         4 + d
     }
-
-    /// Columns of what is repeated.
-    pub const REPEATED: usize = 2 + super::lengths::MOST_REPEATED;
 
     /// All actions.
     pub fn actions(&self) -> impl Iterator<Item = &Action> {
@@ -231,6 +262,7 @@ impl Program {
             &self.vote,
             &self.approach,
             &self.moved,
+            &self.reacts,
         ]
         .into_iter()
         .flatten()

@@ -86,13 +86,18 @@ pub(super) fn add(y: Traced, lost: Option<Traced>, change: Traced) -> (Traced, O
 }
 impl<'a, T: Real, const D: usize> Recorder<'a, T, D> {
     pub fn new(group: &'a Group<T, D>) -> Self {
-        Self {
+        let mut own = Self {
             group,
             program: Program::default(),
             timed: Vec::new(),
             problems: Vec::new(),
             in_drift: false,
-        }
+        };
+        let further = own.further_columns();
+        let own_forces = (group.is_met && group.keeps_rates_of_pairs()).then_some(further);
+        own.program.columns = further + own_forces.map_or(0, |_| D);
+        own.program.own_forces = own_forces;
+        own
     }
 
     /// Where the numbers of the next law start among the shared ones.
@@ -171,14 +176,15 @@ impl<'a, T: Real, const D: usize> Recorder<'a, T, D> {
         self.program.drift_middle.extend(middle);
         self.in_drift = false;
         self.program.kick = of(self, &[&entries.work[..], &entries.kick].concat());
-        let acts = scheme.acts_in_drift();
         let mut begins = Vec::new();
-        if acts {
+        if scheme.acts_in_drift() {
             begins.extend(self.predict_weights());
         }
-        begins.extend(self.moves(if acts { HALF } else { DT }));
+        // What a liquid meets is looked at in the middle.
+        let at_once = self.group.drifts_at_once();
+        begins.extend(self.moves(if at_once { DT } else { HALF }));
         self.program.drift_begins = begins;
-        if acts {
+        if !at_once {
             self.program.drift_ends = self.moves(HALF);
         }
         self.program.shift = self.shift();
@@ -266,6 +272,7 @@ impl<'a, T: Real, const D: usize> Recorder<'a, T, D> {
                 slots: first.start..last.end,
                 of_rates: stage == Stage::Rates && pass == Pass::Rates,
                 of_kept: pass == Pass::Work,
+                of_walls: false,
             }))),
             Err(error) => {
                 let terms: Vec<_> = sweep.document().into_iter().map(|term| term.name).collect();

@@ -4,12 +4,15 @@
 use super::program::Kind;
 use super::{Moment, Offloaded};
 use crate::neighbors::{Block, ChunkList};
-use crate::particles::{Columns, Field, Outputs};
+use crate::particles::{Columns, Field, Output, Outputs};
 use crate::scalar::{Real, width};
 use crate::scheme::EnergyForm;
 use crate::sweep::{Interaction, Reaction, Records, Results};
 use crate::term::Stage;
 use std::ops::Range;
+
+/// Forces \[N\] between blocks: the one that feels, the one that exerts.
+pub type Forces<const D: usize> = Vec<([usize; 2], [f64; D])>;
 
 /// How far particles have moved since lists were built.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,21 +26,21 @@ pub struct Moved {
 }
 
 impl<T: Real, const D: usize> Offloaded<T, D> {
-    /// The columns of all particles, those of walls behind those of bodies.
+    /// The columns of all particles of a group, those of walls behind those of bodies.
     #[must_use]
-    pub fn columns(&self) -> &Columns<T, D> {
-        &self.simulation.state.groups[0].particles.columns
+    pub fn columns(&self, group: usize) -> &Columns<T, D> {
+        &self.simulation.state.groups[group].particles.columns
     }
 
     /// The same, to be taken from the device.
-    pub fn columns_mut(&mut self) -> &mut Columns<T, D> {
-        &mut self.simulation.state.groups[0].particles.columns
+    pub fn columns_mut(&mut self, group: usize) -> &mut Columns<T, D> {
+        &mut self.simulation.state.groups[group].particles.columns
     }
 
     /// Slots below this move by forces.
     #[must_use]
-    pub fn mobile(&self) -> usize {
-        self.simulation.state.groups[0].particles.mobile
+    pub fn mobile(&self, group: usize) -> usize {
+        self.simulation.state.groups[group].particles.mobile
     }
 
     /// Particles a cluster.
@@ -48,8 +51,8 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
 
     /// The rates at hand: which sums, and their numbers slot by slot for all that moves by forces.
     #[must_use]
-    pub fn rates(&self) -> (Outputs, Vec<T>) {
-        let group = &self.simulation.state.groups[0];
+    pub fn rates(&self, group: usize) -> (Outputs, Vec<T>) {
+        let group = &self.simulation.state.groups[group];
         let outputs = group.scheme.sums(Stage::Rates);
         let rates = &group.work.rates;
         let mut all = Vec::new();
@@ -61,11 +64,13 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         (outputs, all)
     }
 
-    /// Forces \[N\] between blocks that came with the rates at hand: the block that feels, the one that exerts.
+    /// Forces \[N\] between blocks that came with the rates at hand: the block that feels, the one that exerts. Bodies feel, and walls
+    /// that are [bodies of other groups](FollowStep).
     #[must_use]
-    pub fn forces(&self) -> Vec<([usize; 2], [f64; D])> {
-        let mut all: Vec<([usize; 2], [f64; D])> = Vec::new();
-        for own in self.simulation.state.groups[0].work.rates.reactions() {
+    pub fn forces(&self, group: usize) -> Forces<D> {
+        let mut all: Forces<D> = Vec::new();
+        let work = &self.simulation.state.groups[group].work;
+        for own in work.rates.reactions().chain(work.coupling.reactions()) {
             let pair = [own.on as usize, own.from as usize];
             match all.iter_mut().find(|other| other.0 == pair) {
                 Some(sum) => (0..D).for_each(|d| sum.1[d] += own.force[d]),
@@ -78,60 +83,88 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
     /// The records of particles and images that are kept for the work of kicks, as [`KeepStep::reads`](super::KeepStep) says but for
     /// whether particles are active in contacts; empty where no sweep sums that work.
     #[must_use]
-    pub fn kept_records(&self) -> &[T] {
-        self.simulation.state.groups[0].work.work_records.data()
+    pub fn kept_records(&self, group: usize) -> &[T] {
+        self.simulation.state.groups[group].work.work_records.data()
     }
 
-    /// Takes the rates back, as [`rates`](Self::rates) gives them, with the forces between blocks and the records that are kept, `stride`
-    /// numbers each.
+    /// The forces \[N\] that pairs of a group give with the rates at hand, slot by slot for all that moves by forces; empty where they
+    /// are in the [rates](Self::rates), to which nothing else adds.
+    #[must_use]
+    pub fn own_forces(&self, group: usize) -> Vec<[T; D]> {
+        let (own, group) = (&self.recorded[group], &self.simulation.state.groups[group]);
+        let there = 0..own.program.own_forces.map_or(0, |_| group.particles.mobile);
+        let worked = &group.work.worked;
+        there
+            .map(|slot| worked.vector(Output::FORCE, slot))
+            .collect()
+    }
+
+    /// Takes the rates of a group back, as [`rates`](Self::rates) gives them, with its [own forces](Self::own_forces), the forces between
+    /// blocks, and the records that are kept, `stride` numbers each.
     pub fn take_rates(
         &mut self,
-        numbers: &[T],
+        number: usize,
+        (numbers, own): (&[T], &[[T; D]]),
         forces: &[([usize; 2], [f64; D])],
         (records, stride): (Vec<T>, usize),
     ) {
-        let group = &mut self.simulation.state.groups[0];
+        let group = &mut self.simulation.state.groups[number];
         let outputs = group.scheme.sums(Stage::Rates);
-        group.work.rates = Results::of_rows(outputs, numbers, reactions(forces));
-        // Nothing but pairs adds to the rates of what runs on a device.
+        let bodies = group.particles.bodies.len();
+        let (of_bodies, of_structures): (Forces<D>, Forces<D>) =
+            forces.iter().partition(|own| own.0[0] < bodies);
+        group.work.rates = Results::of_rows(outputs, numbers, reactions(&of_bodies));
+        let of_structures = reactions(&of_structures);
+        if !of_structures.is_empty() {
+            group.work.coupling = Results::of_stored(outputs, (Vec::new(), 0), of_structures);
+        }
         if group.scheme.sweeps_work() {
             group.work.work_records = Records::of_stored(records, stride);
         } else if group.scheme.energy == EnergyForm::Compatible {
             group.work.worked.copy(&group.work.rates);
+            for (slot, force) in own.iter().enumerate() {
+                group.work.worked.set(Output::FORCE, slot, *force);
+            }
         }
         group.work.records_of_rates = false;
         group.work.first_kick = None;
     }
 
-    /// Books what forces \[N\] between blocks give in kicks over `dt` \[s\].
-    pub fn book(&mut self, dt: f64, forces: &[([usize; 2], [f64; D])]) {
-        let outputs = self.simulation.state.groups[0].work.rates.outputs();
-        let work = &mut self.simulation.state.groups[0].work;
-        let rates = Results::of_stored(outputs, (Vec::new(), 0), reactions(forces));
-        let kept = core::mem::replace(&mut work.rates, rates);
+    /// Books what forces \[N\] between blocks give in kicks over `dt` \[s\], group by group.
+    pub fn book(&mut self, dt: f64, forces: &[Forces<D>]) {
+        let mut kept = Vec::new();
+        for (group, forces) in self.simulation.state.groups.iter_mut().zip(forces) {
+            let outputs = group.work.rates.outputs();
+            let rates = Results::of_stored(outputs, (Vec::new(), 0), reactions(forces));
+            let coupling = core::mem::take(&mut group.work.coupling);
+            let rates = core::mem::replace(&mut group.work.rates, rates);
+            kept.push((rates, coupling));
+        }
         self.simulation.record_kick(None, dt);
-        self.simulation.state.groups[0].work.rates = kept;
+        for (group, kept) in self.simulation.state.groups.iter_mut().zip(kept) {
+            (group.work.rates, group.work.coupling) = kept;
+        }
     }
 
     /// What a prediction has saved.
     #[must_use]
-    pub fn saved(&self, field: Field) -> &[T] {
-        let saved = &self.simulation.state.groups[0].work.predicted;
+    pub fn saved(&self, group: usize, field: Field) -> &[T] {
+        let saved = &self.simulation.state.groups[group].work.predicted;
         let own = saved.iter().find(|own| own.0 == field);
         own.map_or(&[], |own| &own.1)
     }
 
     /// Takes what a prediction has saved back while one is under way, so that it follows what list builds do.
-    pub fn take_saved(&mut self, saved: Vec<(Field, Vec<T>)>) {
-        let work = &mut self.simulation.state.groups[0].work;
+    pub fn take_saved(&mut self, group: usize, saved: Vec<(Field, Vec<T>)>) {
+        let work = &mut self.simulation.state.groups[group].work;
         work.is_predicted = !saved.is_empty();
         work.predicted = saved;
     }
 
     /// Counts that the device has made, in the order of [`Program::counts`](super::Program::counts).
-    pub fn count(&mut self, counts: &[f64]) {
-        let program = self.program.clone();
-        let group = &mut self.simulation.state.groups[0];
+    pub fn count(&mut self, group: usize, counts: &[f64]) {
+        let program = self.program(group);
+        let group = &mut self.simulation.state.groups[group];
         for (own, count) in program.counts.iter().zip(counts) {
             let count = count.round() as u64;
             match own.kind {
@@ -145,19 +178,19 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
 
     /// Moves walls and boundaries to where they are at a moment; the slots of walls that move, whose columns the device needs anew, and
     /// whether it needs [transforms](Self::transforms) anew.
-    pub fn place_walls(&mut self, moment: &Moment) -> (Vec<Range<usize>>, bool) {
-        let group = &mut self.simulation.state.groups[0];
+    pub fn place_walls(&mut self, number: usize, moment: &Moment) -> (Vec<Range<usize>>, bool) {
+        let group = &mut self.simulation.state.groups[number];
         group.place_walls(moment.time, moment.chord);
         let moving = group.walls.iter().filter(|wall| wall.motion.is_some());
         let slots = moving.map(|wall| wall.slots.start..wall.end).collect();
-        (slots, self.place_boundaries(moment.time))
+        (slots, self.place_boundaries(number, moment.time))
     }
 
     /// What wall laws see at the particles of walls at a time \[s\]: accelerations \[m/s²\], normals, and velocity gradients \[1/s\] row
     /// by row, each component for all slots behind those of bodies.
     #[must_use]
-    pub fn walls(&self, time: f64) -> Vec<f64> {
-        let group = &self.simulation.state.groups[0];
+    pub fn walls(&self, group: usize, time: f64) -> Vec<f64> {
+        let group = &self.simulation.state.groups[group];
         let (mobile, slots) = (group.particles.mobile, group.particles.columns.slots());
         let count = slots - mobile;
         let mut all = vec![0.0; (2 * D + D * D) * count];
@@ -186,34 +219,39 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
 
     /// The acceleration of all particles in the frame of their container \[m/s²\].
     #[must_use]
-    pub fn body_force(&self) -> [f64; D] {
-        self.simulation.state.groups[0].body_force.map(Real::to_f64)
+    pub fn body_force(&self, group: usize) -> [f64; D] {
+        self.simulation.state.groups[group]
+            .body_force
+            .map(Real::to_f64)
     }
 
     /// The smoothing length \[m\] that serves all, and the lattice consistency factor.
     #[must_use]
-    pub fn scales(&self) -> [f64; 2] {
-        let group = &self.simulation.state.groups[0];
+    pub fn scales(&self, group: usize) -> [f64; 2] {
+        let group = &self.simulation.state.groups[group];
         let h = group.neighborhood.smoothing_length;
         [h, group.scheme.lattice_consistency_factor]
     }
 
     /// The neighbour lists, chunk by chunk.
     #[must_use]
-    pub fn lists(&self) -> &[ChunkList] {
-        self.simulation.state.groups[0].neighborhood.lists.chunks()
+    pub fn lists(&self, group: usize) -> &[ChunkList] {
+        self.simulation.state.groups[group]
+            .neighborhood
+            .lists
+            .chunks()
     }
 
     /// The blocks of the lists: bodies, then walls.
     #[must_use]
-    pub fn blocks(&self) -> &[Block] {
-        &self.simulation.state.groups[0].neighborhood.blocks
+    pub fn blocks(&self, group: usize) -> &[Block] {
+        &self.simulation.state.groups[group].neighborhood.blocks
     }
 
     /// The share of a closing speed that counts where a particle meets one of each block: half where that mirrors its velocity.
     #[must_use]
-    pub fn seen(&self) -> Vec<f64> {
-        let group = &self.simulation.state.groups[0];
+    pub fn seen(&self, group: usize) -> Vec<f64> {
+        let group = &self.simulation.state.groups[group];
         let sticks = group.particles.columns.fields();
         let sticks = sticks.contains(Field::DYNAMIC_VISCOSITY);
         let share = |mirrored: &bool| if sticks && *mirrored { 0.5 } else { 1.0 };
@@ -222,8 +260,10 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
 
     /// Whether a contact that may open is between blocks `a` and `b`, at `a * blocks + b`.
     #[must_use]
-    pub fn contacts(&self) -> Vec<bool> {
-        let interactions = &self.simulation.state.groups[0].neighborhood.interactions;
+    pub fn contacts(&self, group: usize) -> Vec<bool> {
+        let interactions = &self.simulation.state.groups[group]
+            .neighborhood
+            .interactions;
         let opens = interactions
             .iter()
             .map(|own| *own == Interaction::Unilateral);
@@ -232,28 +272,28 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
 
     /// The places for which lists were built \[m\], from the origin of the columns.
     #[must_use]
-    pub fn listed(&self) -> &[[T; D]] {
-        let slots = self.columns().slots();
-        &self.simulation.state.groups[0].neighborhood.listed[..slots]
+    pub fn listed(&self, group: usize) -> &[[T; D]] {
+        let slots = self.columns(group).slots();
+        &self.simulation.state.groups[group].neighborhood.listed[..slots]
     }
 
     /// The smoothing lengths for which lists were built \[m\]; empty where one serves all.
     #[must_use]
-    pub fn listed_lengths(&self) -> &[T] {
-        let all = &self.simulation.state.groups[0].neighborhood.listed_h;
-        &all[..all.len().min(self.columns().slots())]
+    pub fn listed_lengths(&self, group: usize) -> &[T] {
+        let all = &self.simulation.state.groups[group].neighborhood.listed_h;
+        &all[..all.len().min(self.columns(group).slots())]
     }
 
     /// Whether lists are outdated at a time \[s\]; else they serve once more.
-    pub fn is_outdated(&mut self, moved: &Moved, time: f64) -> bool {
-        let is_outdated = self.has_used_skin(moved, time);
-        let neighborhood = &mut self.simulation.state.groups[0].neighborhood;
+    pub fn is_outdated(&mut self, group: usize, moved: &Moved, time: f64) -> bool {
+        let is_outdated = self.has_used_skin(group, moved, time);
+        let neighborhood = &mut self.simulation.state.groups[group].neighborhood;
         neighborhood.served += u32::from(!is_outdated);
         is_outdated
     }
 
-    fn has_used_skin(&self, moved: &Moved, time: f64) -> bool {
-        let group = &self.simulation.state.groups[0];
+    fn has_used_skin(&self, group: usize, moved: &Moved, time: f64) -> bool {
+        let group = &self.simulation.state.groups[group];
         let shift = group.carried_since_listed(time);
         let left = group
             .neighborhood
@@ -268,12 +308,12 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
     }
 
     /// Builds lists for the places of the columns, which it may sort anew, at a time \[s\].
-    pub fn rebuild(&mut self, time: f64) {
-        let group = &mut self.simulation.state.groups[0];
+    pub fn rebuild(&mut self, number: usize, time: f64) {
+        let group = &mut self.simulation.state.groups[number];
         group.neighborhood.choose_skin();
         group.rebuild(time);
         group.neighborhood.served = 1;
-        self.simulation.follow_moves(0);
+        self.simulation.follow_moves(number);
     }
 }
 

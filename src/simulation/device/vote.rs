@@ -232,6 +232,7 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
                     slots,
                     of_rates: false,
                     of_kept: false,
+                    of_walls: false,
                 })));
         }
         let mut given = vec![Given::Sum(CLOSING, 0), Given::Sum(MACH, 0)];
@@ -309,84 +310,95 @@ fn square(vector: &[Traced]) -> Traced {
 }
 
 impl<T: Real, const D: usize> Offloaded<T, D> {
-    /// The vote of the particles. Where pairs may close too fast, the numbers of [`Program::approach`](super::Program::approach) are
-    /// asked of `approaching`, after the least and the largest component of velocities were set as [shared](Self::shared) numbers.
+    /// The vote of the particles by what each group asks for. Where pairs may close too fast, the numbers of
+    /// [`Program::approach`](super::Program::approach) of a group are asked of `approaching`, after the least and the largest component of
+    /// velocities were set as [shared](Self::shared) numbers.
     ///
     /// # Errors
     /// [`Error::NotFinite`] where the state is broken, of which the host must have a copy ([`columns_mut`](Self::columns_mut)) then,
     /// and [`Error::SoundSpeedTooLow`].
     pub fn vote<E: From<Error>>(
         &mut self,
-        found: &Found,
-        approaching: impl FnOnce(&mut Self) -> core::result::Result<Approaching, E>,
+        found: &[Found],
+        mut approaching: impl FnMut(&mut Self, usize) -> core::result::Result<Approaching, E>,
     ) -> core::result::Result<(), E> {
-        if found.step < 0.0 {
-            let group = &self.simulation.state.groups[0];
-            let error = self.simulation.broken(group, found.slot);
-            return Err(self.fail(error).into());
+        let mut vote = NO_VOTE;
+        for (k, found) in found.iter().enumerate() {
+            if found.step < 0.0 {
+                let group = &self.simulation.state.groups[k];
+                let error = self.simulation.broken(group, found.slot);
+                return Err(self.fail(error).into());
+            }
+            let own = self.vote_at(
+                k,
+                found.step,
+                self.criterion(k, found.criterion),
+                found.slot,
+            );
+            if k == 0 || own.step < vote.step {
+                vote = own;
+            }
         }
-        let mut vote = self.vote_at(found.step, self.criterion(found.criterion), found.slot);
-        let (shifted, range) = self.range_with_images(&found.range);
-        self.range = [range, vec![found.length]].concat();
-        if self.may_meet((found, shifted), vote.step) {
-            let own = approaching(self)?;
-            if self.meets_walls() && own.mach.0 > FASTEST {
-                let error = self.too_fast(own.mach);
+        for (k, found) in found.iter().enumerate() {
+            let (shifted, range) = self.range_with_images(k, &found.range);
+            self.recorded[k].range = [range, vec![found.length]].concat();
+            if !self.may_meet(k, (found, shifted), vote.step) {
+                continue;
+            }
+            let own = approaching(self, k)?;
+            if self.simulation.state.groups[k].scheme.meets_walls() && own.mach.0 > FASTEST {
+                let error = self.too_fast(k, own.mach);
                 return Err(self.fail(error).into());
             }
             if own.step.0 < vote.step {
-                vote = self.vote_at(own.step.0, Criterion::Approach, own.step.1);
+                vote = self.vote_at(k, own.step.0, Criterion::Approach, own.step.1);
             }
         }
         self.last_vote = Some(vote);
         Ok(())
     }
 
-    fn criterion(&self, number: usize) -> Criterion {
+    fn criterion(&self, group: usize, number: usize) -> Criterion {
         match number {
             0 => Criterion::Acoustic,
             1 => Criterion::Force,
             2 => Criterion::Viscous,
             other => {
-                let limits = &self.simulation.state.groups[0].scheme.program.limits;
+                let limits = &self.simulation.state.groups[group].scheme.program.limits;
                 let limit = limits.get(other - 3);
                 limit.map_or(Criterion::Fixed, |limit| Criterion::Effect(limit.name()))
             }
         }
     }
 
-    fn vote_at(&self, step: f64, criterion: Criterion, slot: usize) -> Vote {
-        let ids = &self.simulation.state.groups[0].particles.ids;
-        match ids.get(slot).filter(|_| step < f64::INFINITY) {
+    fn vote_at(&self, group: usize, step: f64, criterion: Criterion, slot: usize) -> Vote {
+        let particles = &self.simulation.state.groups[group].particles;
+        match particles.ids.get(slot).filter(|_| step < f64::INFINITY) {
             Some(&id) => Vote {
                 step,
                 criterion,
-                particle: id as usize,
+                particle: particles.first_id + id as usize,
             },
             None => NO_VOTE,
         }
     }
 
-    fn meets_walls(&self) -> bool {
-        self.simulation.state.groups[0].scheme.meets_walls()
-    }
-
     /// Whether a pair may close by more than its share in a step \[s\].
-    fn may_meet(&self, (found, shifted): (&Found, f64), limit: f64) -> bool {
-        let group = &self.simulation.state.groups[0];
+    fn may_meet(&self, number: usize, (found, shifted): (&Found, f64), limit: f64) -> bool {
+        let group = &self.simulation.state.groups[number];
         let bearable =
             self.simulation.control.approach * NEAREST * found.length / group.scheme.h_over_dx;
         let harmless = |speed: f64| speed == 0.0 || speed * limit <= bearable;
         if harmless(2.0 * found.speed2.sqrt() + shifted) {
             return false;
         }
-        let (low, high) = self.range[..2 * D].split_at(D);
+        let (low, high) = self.recorded[number].range[..2 * D].split_at(D);
         let spread: f64 = low.iter().zip(high).map(|(a, b)| (b - a).powi(2)).sum();
         !harmless(spread.sqrt())
     }
 
-    fn too_fast(&self, (mach, slot): (f64, usize)) -> Error {
-        let particles = &self.simulation.state.groups[0].particles;
+    fn too_fast(&self, group: usize, (mach, slot): (f64, usize)) -> Error {
+        let particles = &self.simulation.state.groups[group].particles;
         let body = &particles.bodies[particles.body_of(slot)];
         let sound_speed = particles.columns.raw(Field::SOUND_SPEED)[slot].to_f64();
         Error::SoundSpeedTooLow {
@@ -408,13 +420,17 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         self.simulation.keep_broken(next)
     }
 
-    /// How a vote is to be held: a fixed step against the largest one that is stable.
-    pub(super) fn control_of_vote(&self) -> StepControl {
+    /// How a vote of a group is to be held: a fixed step against the largest one that is stable. What a user asks of the first scheme
+    /// may be more than another allows.
+    pub(super) fn control_of_vote(&self, group: usize) -> StepControl {
         let simulation = &self.simulation;
         let mut control = simulation.control;
+        let factor = |group: usize| simulation.state.groups[group].scheme.step_factor;
         if control.fixed.is_some() {
-            let own = simulation.state.groups[0].scheme.step_factor;
-            control.courant = control.courant.max(own);
+            control.courant = control.courant.max(factor(0));
+        }
+        if group > 0 {
+            control.courant = control.courant.min(factor(group));
         }
         control.courant *= simulation.integrator.stability();
         control

@@ -18,6 +18,17 @@ pub fn device(test: &str) -> Option<Device> {
     }
 }
 
+/// Asserts that bits are the same twice, and for work groups of 64, 128 and 256 threads.
+pub fn in_any_groups(mut device: Device, bits: impl Fn(&Device) -> Vec<u64>) {
+    let first = bits(&device);
+    for threads in [64, 128, 256] {
+        device = device
+            .with_threads(threads)
+            .expect("a size that devices have");
+        assert_eq!(bits(&device), first, "{threads}");
+    }
+}
+
 /// Numbers without pattern (Steele, Lea & Flood 2014).
 pub struct Random(pub u64);
 

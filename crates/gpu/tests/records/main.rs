@@ -2,6 +2,7 @@
 //! The host follows the record, which has the bits of its loops (`meshfree::effect`, `meshfree::material`, the contract of terms).
 
 #[path = "../common/mod.rs"]
+#[allow(dead_code)]
 mod common;
 mod laws;
 mod materials;
