@@ -74,6 +74,7 @@ pub struct Lists {
     pub approach: Vec<Piece>,
     pub moved: Vec<Piece>,
     pub reacts: Vec<Piece>,
+    pub hold: Vec<Piece>,
 }
 
 /// The sizes that do not change in a run.

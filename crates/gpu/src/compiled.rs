@@ -85,6 +85,7 @@ impl Compiled {
             approach: own.list(&program.approach, true)?,
             moved: own.list(&program.moved, false)?,
             reacts: own.list(&program.reacts, false)?,
+            hold: own.list(&program.hold, false)?,
         };
         let d = sizes.layout.dimensions;
         let ranges = |first: usize| {

@@ -14,7 +14,7 @@ use std::ops::Range;
 /// The buffers of such a kernel, in the order in which they are bound.
 pub const BUFFERS: [Array; 6] = [
     Array::numbers("state").written(),
-    Array::numbers("rates"),
+    Array::numbers("rates").written(),
     Array::numbers("sums"),
     Array::numbers("numbers"),
     Array::numbers("walls"),
@@ -135,6 +135,7 @@ impl Around<'_> {
             Made::Saved(field, k) => Place::State(self.layout.saved(field, k)),
             Made::Column(k) => Place::Column(k),
             Made::Wall(k) => Place::Wall(k),
+            Made::Rate(sum, k) => Place::Rate(self.rates.offset(sum, self.layout.dimensions) + k),
             Made::Count(k) => Place::State(self.layout.count(k)),
             Made::Nothing => return None,
         })

@@ -159,6 +159,7 @@ impl<T: Real, const D: usize> System for Stepping<'_, T, D> {
         self.act(|own| &own.lists.evaluation, &moment);
         self.act(|own| &own.lists.reacts, &moment);
         self.run.link(1, &moment);
+        self.act(|own| &own.lists.hold, &moment);
         self.run.forces = None;
         self.outcome()
     }

@@ -56,6 +56,9 @@ impl<T: Real, const D: usize> Run<T, D> {
                 write(&memory.columns, (first + d) * slots, forces.collect());
             }
         }
+        if let Some(first) = own.program.held {
+            write(&memory.columns, first * slots, self.host.held(group));
+        }
         write(&memory.walls, 0, self.host.walls(group, time));
         let (lists, blocks) = (self.host.lists(group), self.host.blocks(group));
         let lists = PairLists::new(lists, blocks, own.sizes.cluster);
@@ -220,6 +223,17 @@ impl<T: Real, const D: usize> Run<T, D> {
             let all = self.read_at(&memory.columns, first * slots, D * slots)?;
             let of = |slot| core::array::from_fn(|d| T::from_f64(all[d * slots + slot]));
             forces.extend((0..layout.mobile).map(of));
+        }
+        if let Some(first) = program.held {
+            let Range { start, end } = self.host.held_changes();
+            let at = (first + start) * slots;
+            let mut given = self.read_at(&memory.columns, at, (end - start) * slots)?;
+            self.host.take_held(group, &given);
+            // Sums that were taken are not taken again.
+            given[D * slots..].fill(0.0);
+            let at = at * self.precision.bytes();
+            let given = self.numbers(given.into_iter());
+            self.device.write_at(&memory.columns, at, &given);
         }
         if !program.follows.is_empty() {
             let walls = self.read(&memory.walls, D * (slots - layout.mobile))?;

@@ -1,7 +1,7 @@
 //! What of a simulation does not run on a device, by its name and with a remedy.
 //! Nothing is left out in silence.
 
-use super::structures;
+use super::{clamps, structures};
 use crate::effect::DensityForm;
 use crate::error::Problem;
 use crate::scalar::Real;
@@ -28,10 +28,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
         part(!state.joints.is_empty(), &|| "joints".into());
         for group in &state.groups {
-            for clamp in &group.held.clamps {
-                let body = &group.particles.bodies[clamp.body].name;
-                part(true, &|| format!("the clamp of body `{body}`"));
-            }
+            part(clamps::overlap(&group.held.clamps), &|| {
+                "a particle that two clamps hold".into()
+            });
             for rigid in &group.held.rigid {
                 let body = &group.particles.bodies[rigid.body].name;
                 part(true, &|| format!("the rigid body `{body}`"));

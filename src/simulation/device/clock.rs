@@ -2,6 +2,7 @@
 //! It is the host's own order of a step, without the particles.
 
 use super::Offloaded;
+use super::clamps;
 use super::laws::{Acting, record_law};
 use crate::effect::Smoothing;
 use crate::error::{Error, Result};
@@ -170,6 +171,7 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
                 None => all.extend([0.0; 5]),
             }
         }
+        all.extend(clamps::shared(group, moment.time));
         all
     }
 

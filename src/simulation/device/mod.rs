@@ -5,6 +5,7 @@
 //! [`meshfree-gpu`](crate#pages) drives it; a program that only runs scenes needs nothing of this module.
 
 mod check;
+mod clamps;
 mod clock;
 mod evolved;
 mod images;
@@ -100,6 +101,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 let groups = &own.simulation.state.groups;
                 let mut recorder = Recorder::new(&groups[number]);
                 recorder.all(&control);
+                recorder.clamps();
                 recorder.structures(groups);
                 let Recorder {
                     program,

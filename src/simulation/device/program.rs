@@ -42,6 +42,8 @@ pub enum Made {
     Column(usize),
     /// What a wall law sees at a particle of a wall.
     Wall(usize),
+    /// A component of a sum of the last evaluation of the rates.
+    Rate(Output, usize),
     /// Nowhere.
     Nothing,
 }
@@ -229,6 +231,10 @@ pub struct Program {
     pub follows: Vec<FollowStep>,
     /// The forces on them, summed after all groups have evaluated their rates.
     pub reacts: Vec<Action>,
+    /// The forces on clamped particles, after all others.
+    pub hold: Vec<Action>,
+    /// The first column of what is clamped.
+    pub held: Option<usize>,
     /// Blocks whose forces are booked: bodies, and walls that are; each with its slots.
     pub feels: Vec<(usize, Range<usize>)>,
     /// What is counted.
@@ -263,6 +269,7 @@ impl Program {
             &self.approach,
             &self.moved,
             &self.reacts,
+            &self.hold,
         ]
         .into_iter()
         .flatten()

@@ -53,6 +53,8 @@ pub(super) struct Recorder<'a, T: Real, const D: usize> {
     pub problems: Vec<Problem>,
     /// Whether the entries are those of the middle of a drift.
     pub(super) in_drift: bool,
+    /// How many actions of a kick are of its work, and come before velocities change.
+    pub(super) of_work: usize,
 }
 
 /// Where sums of an entry are.
@@ -92,9 +94,11 @@ impl<'a, T: Real, const D: usize> Recorder<'a, T, D> {
             timed: Vec::new(),
             problems: Vec::new(),
             in_drift: false,
+            of_work: 0,
         };
         let further = own.further_columns();
-        let own_forces = (group.is_met && group.keeps_rates_of_pairs()).then_some(further);
+        let others = group.is_met || !group.held.clamps.is_empty();
+        let own_forces = (others && group.keeps_rates_of_pairs()).then_some(further);
         own.program.columns = further + own_forces.map_or(0, |_| D);
         own.program.own_forces = own_forces;
         own
@@ -175,7 +179,10 @@ impl<'a, T: Real, const D: usize> Recorder<'a, T, D> {
         let middle = of(self, &entries.drift);
         self.program.drift_middle.extend(middle);
         self.in_drift = false;
-        self.program.kick = of(self, &[&entries.work[..], &entries.kick].concat());
+        self.program.kick = of(self, &entries.work);
+        self.of_work = self.program.kick.len();
+        let kick = of(self, &entries.kick);
+        self.program.kick.extend(kick);
         let mut begins = Vec::new();
         if scheme.acts_in_drift() {
             begins.extend(self.predict_weights());

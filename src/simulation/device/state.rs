@@ -138,11 +138,13 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
             let rates = Results::of_stored(outputs, (Vec::new(), 0), reactions(forces));
             let coupling = core::mem::take(&mut group.work.coupling);
             let rates = core::mem::replace(&mut group.work.rates, rates);
-            kept.push((rates, coupling));
+            // What clamps give is added up on the device.
+            let clamps = core::mem::take(&mut group.held.clamps);
+            kept.push((rates, coupling, clamps));
         }
         self.simulation.record_kick(None, dt);
         for (group, kept) in self.simulation.state.groups.iter_mut().zip(kept) {
-            (group.work.rates, group.work.coupling) = kept;
+            (group.work.rates, group.work.coupling, group.held.clamps) = kept;
         }
     }
 

@@ -1,5 +1,5 @@
-//! Several schemes in one scene, liquids that meet structures, on the device as on the host.
-//! Blocks in a tank of water, by their neighbours as built and by the present ones.
+//! Several schemes in one scene, liquids that meet structures, and clamps, on the device as on the host.
+//! Blocks and plates in a tank of water, by their neighbours as built and by the present ones.
 
 #[path = "../common/mod.rs"]
 #[allow(dead_code)]
@@ -10,7 +10,8 @@ mod compare;
 
 use approx::assert_relative_eq;
 use common::{device, in_any_groups};
-use compare::{build, in_both, in_double, on, on_device, on_host};
+use compare::{build, differences, in_both, in_double, load, on, on_device, on_host};
+use meshfree::boundary::Rotation;
 use meshfree::coupling::Coupling;
 use meshfree::effect::NeoHookean;
 use meshfree::material::eos::Linear;
@@ -68,6 +69,25 @@ fn soft<T: Real>(fused: bool) -> Scene<T, 2> {
     on(in_water([14..26, 8..14], scheme, rubber()), fused)
 }
 
+/// A plate across the tank, fixed at one end and turned to and fro at the other.
+fn plate<T: Real>(fused: bool) -> Scene<T, 2> {
+    let turns = |t: f64| {
+        let (size, rate) = (0.01, 100.0);
+        let (sine, cosine) = (rate * t).sin_cos();
+        [
+            size * sine,
+            size * rate * cosine,
+            -size * rate * rate * sine,
+        ]
+    };
+    let turns = Rotation::about([0.45, 0.15], turns);
+    let scheme = schemes::total_lagrangian().with(NeoHookean);
+    let scene = in_water([0..40, 10..14], scheme, rubber())
+        .fix("block", |x| x[0] < 3.0 * SPACING)
+        .clamp("block", |x| x[0] > 37.0 * SPACING, turns);
+    on(scene, fused)
+}
+
 #[test]
 fn a_block_in_water_is_that_of_the_host() {
     let Some(device) = device("a block in water") else {
@@ -98,10 +118,63 @@ fn bits_of_a_block_in_water_are_the_same_in_any_work_groups() {
         return;
     };
     in_any_groups(device, |device| {
-        let all = [block(false), soft(false)];
+        let all = [block(false), soft(false), plate(false)];
         let after = |scene: Scene<f64, 2>| on_device(device, scene, 30);
         all.map(|scene| after(scene).bits_hash()).to_vec()
     });
+}
+
+#[test]
+fn a_clamped_plate_in_water_is_that_of_the_host() {
+    let Some(device) = device("a clamped plate in water") else {
+        return;
+    };
+    let single = || plate::<f32>(false);
+    in_both(&device, "Plate in water", plate::<f64>, single, 200);
+    // What clamps give, also where a run is looked at on its way.
+    let mut run = load(&device, plate::<f64>(false));
+    let mut host = build(plate::<f64>(false));
+    for _ in 0..10 {
+        for _ in 0..10 {
+            run.step().unwrap();
+            host.step().unwrap();
+        }
+        let own = run.simulation().unwrap().clamps();
+        for (a, b) in own.iter().zip(&host.clamps()) {
+            assert_eq!((&a.body, a.particles), (&b.body, b.particles));
+            for d in 0..2 {
+                let [force, impulse] = [&b.force, &b.impulse].map(|own| own[0].hypot(own[1]));
+                assert!((a.force[d] - b.force[d]).abs() < 1e-8 * force);
+                assert!((a.impulse[d] - b.impulse[d]).abs() < 1e-9 * impulse);
+            }
+            assert!((a.work - b.work).abs() <= 1e-9 * host.clamps()[1].work.abs());
+        }
+    }
+    assert!(host.clamps()[1].work.abs() > 0.0);
+}
+
+#[test]
+fn a_checkpoint_of_a_plate_in_water_resumes_on_the_other_side() {
+    let Some(device) = device("checkpoints of a plate in water") else {
+        return;
+    };
+    let file = std::env::temp_dir().join(format!("meshfree-gpu-plate-{}", std::process::id()));
+    let scene = || plate::<f64>(false);
+    let host = on_host(scene(), 40);
+    let most = differences(&on_host(plate::<f64>(true), 40), &host);
+    on_device(&device, scene(), 20).save(&file).unwrap();
+    let mut resumed = scene().resume(&file).unwrap();
+    (0..20).for_each(|_| resumed.step().map(drop).unwrap());
+    on_host(scene(), 20).save(&file).unwrap();
+    let mut run = device.load(scene().resume(&file).unwrap()).unwrap();
+    (0..20).for_each(|_| run.step().map(drop).unwrap());
+    for own in [resumed, run.into_simulation().unwrap()] {
+        let found = differences(&own, &host);
+        assert!((0..3).all(|k| found[k] <= 20.0 * most[k]), "{found:?}");
+        let [a, b] = [&own, &host].map(|own| own.clamps()[1].work);
+        assert_relative_eq!(a, b, max_relative = 1e-9);
+    }
+    let _ = std::fs::remove_file(file);
 }
 
 /// A wall by a text of its own, of which there is no record.
@@ -136,6 +209,8 @@ fn what_does_not_run_is_refused_by_name() {
     };
     let light = block(false).couple("water", "block", Light);
     refused(light, "a liquid that meets `block` by the coupling `light`");
+    let twice = plate(false).fix("block", |x| x[0] < SPACING);
+    refused(twice, "a particle that two clamps hold");
     let plane = MirrorPlane::symmetry([0.0; 2], [-1.0, 0.0]);
     refused(
         block(false).boundary(plane),

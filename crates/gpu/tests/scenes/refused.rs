@@ -94,8 +94,6 @@ fn solids_are_refused_by_what_they_have() {
     };
     let penalty = rods().couple("left", "right", Penalty::new());
     refused(penalty, &["the coupling `penalty"]);
-    let held = rods().fix("left", |x| x[0] < 6e-4);
-    refused(held, &["the clamp of body `left`"]);
     let stiff = rods()
         .rigid("right")
         .couple("left", "right", Penalty::new());
