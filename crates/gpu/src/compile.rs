@@ -2,13 +2,13 @@
 //! Single particles are joined to one kernel between two sweeps; a sweep is preceded by what packs its records.
 
 use crate::device::{Device, Kernel};
-use crate::fuse::{Around, Layout, by_run};
+use crate::fuse::Around;
 use crate::kernel::Array;
 use crate::pairs::sweep_of_run;
-use crate::{Dialect, Error, Precision, emit};
+use crate::{Dialect, Error, Part, Precision, emit};
 use meshfree::particles::{Fields, Outputs};
 use meshfree::scalar::Record;
-use meshfree::simulation::device::{Action, PointStep, RepeatStep, SweepStep};
+use meshfree::simulation::device::{Action, Layout, PointStep, RepeatStep, SweepStep};
 use std::ops::Range;
 
 /// A piece of a list of the program.
@@ -149,7 +149,6 @@ pub(crate) struct Compiler<'a> {
     precision: Precision,
     pub kernels: Vec<Own>,
     pub repeats: Vec<Repeat>,
-    pub support: f64,
     pub widths: [usize; 2],
     pub kept: Fields,
 }
@@ -162,7 +161,6 @@ impl<'a> Compiler<'a> {
             precision,
             kernels: Vec::new(),
             repeats: Vec::new(),
-            support: 0.0,
             widths: [1, 1],
             kept: Fields::NONE,
         }
@@ -184,15 +182,22 @@ impl<'a> Compiler<'a> {
         pieces: &mut Vec<Piece>,
     ) -> Result<(), Error> {
         let layout = &self.sizes.layout;
-        for (slots, own) in by_run(steps) {
+        let joined = PointStep::joined(steps).map_err(|(name, error)| Error::Recorded {
+            part: Part {
+                kind: "steps",
+                name,
+            },
+            what: error.what,
+        })?;
+        for step in joined {
             let around = Around {
                 layout,
                 rates: self.sizes.rates,
                 sums,
                 dialect: Dialect::wgsl(self.precision),
             };
-            let kernel = around.kernel(self.device, &own)?;
-            pieces.push(self.own(kernel, Kind::Points, slots));
+            let kernel = around.kernel(self.device, &step)?;
+            pieces.push(self.own(kernel, Kind::Points, step.slots));
         }
         steps.clear();
         Ok(())
@@ -205,7 +210,6 @@ impl<'a> Compiler<'a> {
         let shape = (d, sizes.cluster);
         let of = (sizes.blocks, reacts);
         let kernel = sweep_of_run(device, sweep.name, pair, shape, precision, of)?;
-        self.support = pair.support;
         let widths = [pair.reads.width(d), pair.writes.width(d)];
         self.widths = [0, 1].map(|k| self.widths[k].max(widths[k]));
         let kind = Kind::Sweep {

@@ -7,7 +7,7 @@ use crate::kernel::pack_indices;
 use crate::reduce::{Find, Reduction};
 use crate::{Error, PairLists, Precision};
 use meshfree::particles::Fields;
-use meshfree::simulation::device::Program;
+use meshfree::simulation::device::{Array, Program};
 
 /// The memory of a run on the device.
 #[derive(Debug)]
@@ -34,7 +34,7 @@ pub struct Memory {
     list: wgpu::Buffer,
     /// Of which slot each image is and by which transform, and all transforms.
     images: wgpu::Buffer,
-    pub transforms: wgpu::Buffer,
+    transforms: wgpu::Buffer,
     /// How many images the records have room for.
     imaged: usize,
 }
@@ -56,11 +56,26 @@ pub struct Compiled {
     pub of_vote: Vec<Bound>,
     pub of_moved: Vec<Bound>,
     pub of_approach: Vec<Bound>,
-    pub support: f64,
     widths: [usize; 2],
     /// What records that are kept have.
     pub kept: Fields,
     precision: Precision,
+}
+
+impl Memory {
+    /// An array by what the host calls it.
+    pub fn of(&self, array: Array) -> &wgpu::Buffer {
+        match array {
+            Array::State => &self.state,
+            Array::Rates => &self.rates,
+            Array::Columns => &self.columns,
+            Array::Walls => &self.walls,
+            Array::Kept => &self.kept,
+            Array::Transforms => &self.transforms,
+            Array::Settings => &self.settings,
+            Array::Approach => &self.approach,
+        }
+    }
 }
 
 impl Compiled {
@@ -109,7 +124,6 @@ impl Compiled {
             bound: Vec::new(),
             kernels: own.kernels,
             lists,
-            support: own.support,
             widths: own.widths,
             kept: own.kept,
             precision,

@@ -39,13 +39,8 @@ fn follow(step: &FollowStep, own: &Around<'_>, other: &Around<'_>) -> String {
         };
         (text, false)
     });
-    let mut body = own.dialect.index("source", "map[n]") + &text.before;
-    for (made, value) in step.made.iter().zip(&text.results) {
-        if let Some(to) = own.write(*made) {
-            body += &format!("{to} = {value};\n");
-        }
-    }
-    body
+    let source = own.dialect.index("source", "map[n]");
+    source + &text.before + &own.write(&step.made, &text.results, &[])
 }
 
 fn push(own: &Around<'_>, other: &Around<'_>) -> String {

@@ -4,7 +4,6 @@
 use crate::compile::Sizes;
 use crate::compiled::{Compiled, Memory};
 use crate::follow::Link;
-use crate::fuse::Layout;
 use crate::kernel::{pack, unpack};
 use crate::stepping::Stepping;
 use crate::{Device, Error, Part, PointKernel, Precision};
@@ -32,7 +31,6 @@ pub struct Run<T: Real, const D: usize> {
     /// that are not booked yet.
     pub(crate) forces: Option<Vec<Forces<D>>>,
     pub(crate) kicked: f64,
-    pub(crate) is_predicted: bool,
     /// Why the next step is not taken.
     pub(crate) refused: Option<Error>,
 }
@@ -44,10 +42,6 @@ pub(crate) struct Group {
     pub sizes: Sizes,
     pub compiled: Compiled,
     pub memory: Memory,
-    /// Counts that the host has had, of the columns on the device.
-    pub counted: Vec<u64>,
-    /// The acceleration that pairs were told of; none if not yet.
-    pub body_force: Vec<f64>,
 }
 
 impl Group {
@@ -57,17 +51,10 @@ impl Group {
         number: usize,
         precision: Precision,
     ) -> Result<Self, Error> {
-        let (program, columns) = (host.program(number), host.columns(number));
+        let program = host.program(number);
         let blocks = host.blocks(number).len();
         let sizes = Sizes {
-            layout: Layout {
-                fields: columns.fields(),
-                dimensions: D,
-                slots: columns.slots(),
-                mobile: host.mobile(number),
-                saved: program.saved.clone(),
-                counts: program.counts.len(),
-            },
+            layout: host.layout(number).clone(),
             rates: host.rates(number).0,
             blocks,
             cluster: host.cluster(),
@@ -77,8 +64,6 @@ impl Group {
         let compiled = Compiled::new(device, &program, &sizes, precision)?;
         Ok(Self {
             memory: compiled.room(device, &sizes, &program)?,
-            counted: vec![0; program.counts.len()],
-            body_force: Vec::new(),
             program,
             sizes,
             compiled,
@@ -182,7 +167,6 @@ impl<T: Real, const D: usize> Run<T, D> {
             is_voted: false,
             forces: None,
             kicked: 0.0,
-            is_predicted: false,
             refused: None,
         };
         own.send_all()?;

@@ -80,15 +80,8 @@ impl<T: Real, const D: usize> Run<T, D> {
 
     /// Walls go to their places, and lists are built anew if particles have used up their skin; whether they were.
     fn bring_lists(&mut self, group: usize, moment: &Moment) -> Result<bool, Error> {
-        let (walls, images) = self.host.place_walls(group, moment);
-        for slots in walls {
-            self.send_wall(group, &slots);
-            self.send_walls(group, moment.time);
-        }
-        if images {
-            self.send_transforms(group);
-        }
-        self.send_settings(group);
+        let walls = self.host.place_walls(group, moment);
+        self.write(group, &walls);
         let own = &self.groups[group];
         if own.compiled.lists.moved.is_empty() {
             return Ok(false);
@@ -188,15 +181,13 @@ impl<T: Real, const D: usize> System for Stepping<'_, T, D> {
     }
 
     fn predict(&mut self, dt: f64) {
-        let moment = self.run.host.begin_kick(dt);
+        let moment = self.run.host.begin_prediction(Some(dt));
         self.act(|own| &own.lists.predict, &moment);
-        self.run.is_predicted = true;
     }
 
     fn restore(&mut self) {
-        let moment = self.run.host.begin_kick(0.0);
+        let moment = self.run.host.begin_prediction(None);
         self.act(|own| &own.lists.restore, &moment);
-        self.run.is_predicted = false;
     }
 
     // Integrators that keep states are refused when a simulation is loaded.

@@ -132,8 +132,7 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
 
 impl<T: Real, const D: usize> Offloaded<T, D> {
     /// What is known of clamped particles, column by column from [`Program::held`](super::Program::held) on.
-    #[must_use]
-    pub fn held(&self, group: usize) -> Vec<f64> {
+    pub(super) fn held(&self, group: usize) -> Vec<f64> {
         let group = &self.simulation.state.groups[group];
         let slots = group.particles.columns.slots();
         let mut all = vec![0.0; width::<D>() * slots];
@@ -154,14 +153,13 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
     }
 
     /// The columns of [`held`](Self::held) that change, of which all but as many as there are dimensions are sums.
-    #[must_use]
-    pub fn held_changes(&self) -> Range<usize> {
+    pub(super) fn held_changes(&self) -> Range<usize> {
         first_given::<D>()..width::<D>()
     }
 
     /// Takes back what clamps have given since it was sent, in the columns of [`held_changes`](Self::held_changes), whose sums the device
     /// begins anew.
-    pub fn take_held(&mut self, group: usize, numbers: &[f64]) {
+    pub(super) fn take_held(&mut self, group: usize, numbers: &[f64]) {
         let group = &mut self.simulation.state.groups[group];
         let slots = group.particles.columns.slots();
         let at = |column: usize, slot: usize| numbers[column * slots + slot];

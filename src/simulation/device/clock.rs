@@ -100,10 +100,16 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         Ok(Moment::over(time, elapsed))
     }
 
-    /// A kick, or a prediction, over `dt` \[s\].
+    /// A kick over `dt` \[s\].
     #[must_use]
     pub fn begin_kick(&self, dt: f64) -> Moment {
         Moment::over(self.simulation.state.time, dt)
+    }
+
+    /// A prediction over `dt` \[s\], or the end of one.
+    pub fn begin_prediction(&mut self, dt: Option<f64>) -> Moment {
+        self.is_predicted = dt.is_some();
+        self.begin_kick(dt.unwrap_or(0.0))
     }
 
     /// Begins a drift over `dt` \[s\], `offset` \[s\] after the start of the step.
@@ -117,8 +123,9 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         let groups = &self.simulation.state.groups;
         if !groups.iter().all(Group::drifts_at_once) {
             let gravity = self.simulation.uniform_loads(middle)?;
-            let groups = &mut self.simulation.state.groups;
-            groups.iter_mut().for_each(|group| group.gravity = gravity);
+            for group in &mut self.simulation.state.groups {
+                group.gravity = gravity;
+            }
         }
         Ok(Moment {
             chord: Some([begin, begin + dt]),

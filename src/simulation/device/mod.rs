@@ -16,6 +16,7 @@ mod program;
 mod record;
 mod state;
 mod structures;
+mod transfer;
 mod vote;
 
 pub use clock::{Advance, Moment};
@@ -23,6 +24,7 @@ pub use program::{
     Action, Counted, FollowStep, Given, KeepStep, Made, PointStep, Program, RepeatStep, SweepStep,
 };
 pub use state::{Forces, Moved};
+pub use transfer::{Array, Layout, Numbers};
 pub use vote::{Approaching, Found};
 
 use super::Simulation;
@@ -31,6 +33,7 @@ use super::run_state::State;
 use super::vote::Vote;
 use crate::error::{BuildError, Error, Result};
 use crate::integrator::Integrator;
+use crate::particles::Fields;
 use crate::scalar::Real;
 use laws::Timed;
 use record::Recorder;
@@ -55,6 +58,8 @@ pub struct Offloaded<T: Real, const D: usize> {
     recorded: Vec<Recorded>,
     /// What the last vote asks for.
     last_vote: Option<Vote>,
+    /// Whether a prediction is under way.
+    is_predicted: bool,
     /// The step under way, and the one that it is cut from.
     under_way: Option<[Vote; 2]>,
     /// The state after the last step while a copy steps for a reading, and its vote.
@@ -70,6 +75,13 @@ struct Recorded {
     range: Vec<f64>,
     /// The time \[s\] since smoothing lengths were found, its inverse, both zero where they never were, and one if there is any.
     since_lengths: [f64; 3],
+    layout: Layout,
+    /// What records that are kept have.
+    kept: Fields,
+    /// Counts that the host has had, of the columns on the device.
+    counted: Vec<u64>,
+    /// The acceleration that pairs on the device were told of; none if not yet.
+    body_force: Vec<f64>,
 }
 
 impl<T: Real, const D: usize> core::fmt::Debug for Offloaded<T, D> {
@@ -92,6 +104,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             simulation: self,
             recorded: Vec::new(),
             last_vote: None,
+            is_predicted: false,
             under_way: None,
             last_step: None,
         };
@@ -109,12 +122,28 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                     problems: found,
                     ..
                 } = recorder;
-                own.recorded.push(Recorded {
-                    program: Arc::new(program),
+                let columns = &groups[number].particles.columns;
+                let kept = program.actions().find_map(|action| match action {
+                    Action::Keep(keep) => Some(keep.reads),
+                    _ => None,
+                });
+                let recorded = Recorded {
                     timed,
                     range: vec![0.0; 2 * D + 1],
-                    since_lengths: [0.0; 3],
-                });
+                    layout: Layout {
+                        fields: columns.fields(),
+                        dimensions: D,
+                        slots: columns.slots(),
+                        mobile: groups[number].particles.mobile,
+                        saved: program.saved.clone(),
+                        counts: program.counts.len(),
+                    },
+                    kept: kept.unwrap_or(Fields::NONE),
+                    counted: vec![0; program.counts.len()],
+                    program: Arc::new(program),
+                    ..Recorded::default()
+                };
+                own.recorded.push(recorded);
                 problems.extend(found);
             }
         }

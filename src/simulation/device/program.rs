@@ -2,7 +2,7 @@
 //! It holds no particle; a device makes kernels of it once.
 
 use crate::particles::{Field, Fields, Output};
-use crate::scalar::{Record, Traced, Unrecordable};
+use crate::scalar::{Lane, Record, Traced, Unrecordable};
 use crate::sweep::PairRecord;
 use std::ops::Range;
 
@@ -21,10 +21,12 @@ pub enum Given {
     Rate(Output, usize),
     /// A component of a sum of the last other sweep.
     Sum(Output, usize),
-    /// What a wall law sees at a particle of a wall, by its place in [`Offloaded::walls`](super::Offloaded::walls).
+    /// What a wall law sees at a particle of a wall, by its place in [`Array::Walls`](super::Array::Walls).
     Wall(usize),
     /// A number that all particles share, by its place in [`Offloaded::shared`](super::Offloaded::shared).
     Shared(usize),
+    /// What has been [counted](Made::Count).
+    Count(usize),
     /// A constant.
     Constant(f64),
 }
@@ -36,7 +38,7 @@ pub enum Made {
     Field(Field, usize),
     /// What a prediction takes back.
     Saved(Field, usize),
-    /// It is added to a [count](Program::counts).
+    /// A [count](Program::counts), which the step has added to.
     Count(usize),
     /// A column of its own.
     Column(usize),
@@ -71,12 +73,110 @@ impl PointStep {
         (given, made): (Vec<Given>, Vec<Made>),
         text: impl FnOnce(&[Traced]) -> Vec<Traced>,
     ) -> Result<Self, Unrecordable> {
+        let (inputs, mut all) = (given.len(), given);
+        let counts = made.iter().enumerate().filter_map(|(at, made)| match made {
+            Made::Count(k) => Some((at, Given::Count(*k))),
+            _ => None,
+        });
+        let counts: Vec<_> = counts.collect();
+        all.extend(counts.iter().map(|count| count.1));
+        let record = Record::of(all.len(), |x| {
+            let mut results = text(&x[..inputs]);
+            for ((at, _), before) in counts.iter().zip(&x[inputs..]) {
+                results[*at] += *before;
+            }
+            results
+        })?;
         Ok(Self {
             name: name.into(),
             slots: slots.clone(),
-            record: Record::of(given.len(), text)?,
+            record,
+            given: all,
+            made,
+        })
+    }
+
+    /// Steps by the run of slots that they act on, in their order: each run has one that does what all of its steps do.
+    ///
+    /// # Errors
+    /// [`Unrecordable`] as [`Record::of`], with the names of the steps.
+    pub fn joined(steps: &[&Self]) -> Result<Vec<Self>, (String, Unrecordable)> {
+        let mut runs: Vec<Vec<&Self>> = Vec::new();
+        for step in steps {
+            match runs.iter_mut().find(|own| own[0].slots == step.slots) {
+                Some(own) => own.push(step),
+                None => runs.push(vec![step]),
+            }
+        }
+        let join = |steps: Vec<&Self>| {
+            let names: Vec<_> = steps.iter().map(|step| step.name.as_str()).collect();
+            let name = names.join(", ");
+            let joined = Self::one_of(&steps, name.clone());
+            joined.map_err(|error| (name, error))
+        };
+        runs.into_iter().map(join).collect()
+    }
+
+    fn one_of(steps: &[&Self], name: String) -> Result<Self, Unrecordable> {
+        let mut given = Vec::new();
+        for own in steps.iter().flat_map(|step| &step.given) {
+            if !matches!(own, Given::Constant(_)) && !given.contains(own) {
+                given.push(*own);
+            }
+        }
+        let mut made = Vec::new();
+        let text = |x: &[Traced]| {
+            let mut now: Vec<_> = given.iter().copied().zip(x.iter().copied()).collect();
+            for step in steps {
+                let read = |own: &Given| match own {
+                    Given::Constant(value) => Traced::of(*value),
+                    own => now
+                        .iter()
+                        .find(|known| known.0 == *own)
+                        .map_or(Traced::of(0.0), |known| known.1),
+                };
+                let results = step
+                    .record
+                    .follow(&step.given.iter().map(read).collect::<Vec<_>>());
+                for (to, value) in step.made.iter().zip(results) {
+                    let Some(place) = to.place() else {
+                        continue;
+                    };
+                    match now.iter_mut().find(|known| known.0 == place) {
+                        Some(known) => known.1 = value,
+                        None => now.push((place, value)),
+                    }
+                    if !made.contains(to) {
+                        made.push(*to);
+                    }
+                }
+            }
+            let value = |made: &Made| now.iter().find(|own| Some(own.0) == made.place());
+            made.iter().filter_map(value).map(|own| own.1).collect()
+        };
+        let record = Record::of(given.len(), text)?;
+        Ok(Self {
+            name,
+            slots: steps[0].slots.clone(),
+            record,
             given,
             made,
+        })
+    }
+}
+
+impl Made {
+    /// What reads there.
+    #[must_use]
+    pub fn place(self) -> Option<Given> {
+        Some(match self {
+            Self::Field(field, k) => Given::Field(field, k),
+            Self::Saved(field, k) => Given::Saved(field, k),
+            Self::Count(k) => Given::Count(k),
+            Self::Column(k) => Given::Column(k),
+            Self::Wall(k) => Given::Wall(k),
+            Self::Rate(sum, k) => Given::Rate(sum, k),
+            Self::Nothing => return None,
         })
     }
 }
@@ -200,6 +300,7 @@ pub(super) enum Kind {
 /// | [`restore`](Self::restore) | it is taken back | any |
 /// | [`vote`](Self::vote), [`approach`](Self::approach) | before a step | of `vote` |
 /// | [`moved`](Self::moved) | where lists may be outdated | of the evaluation or drift |
+/// | [`follows`](Self::follows), [`reacts`](Self::reacts), [`hold`](Self::hold) | before and after evaluations of all groups | of `evaluation` |
 #[derive(Clone, Debug, Default)]
 pub struct Program {
     /// An evaluation.

@@ -1,15 +1,14 @@
 //! The state as a device needs it: columns, rates, walls, neighbour lists; and how it is taken back.
 //! Lists are built here, from places that the device has sent, so they are those of the host.
 
+use super::Offloaded;
 use super::program::Kind;
-use super::{Moment, Offloaded};
 use crate::neighbors::{Block, ChunkList};
 use crate::particles::{Columns, Field, Output, Outputs};
 use crate::scalar::{Real, width};
 use crate::scheme::EnergyForm;
 use crate::sweep::{Interaction, Reaction, Records, Results};
 use crate::term::Stage;
-use std::ops::Range;
 
 /// Forces \[N\] between blocks: the one that feels, the one that exerts.
 pub type Forces<const D: usize> = Vec<([usize; 2], [f64; D])>;
@@ -65,7 +64,7 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
     }
 
     /// Forces \[N\] between blocks that came with the rates at hand: the block that feels, the one that exerts. Bodies feel, and walls
-    /// that are [bodies of other groups](FollowStep).
+    /// that are [bodies of other groups](super::FollowStep).
     #[must_use]
     pub fn forces(&self, group: usize) -> Forces<D> {
         let mut all: Forces<D> = Vec::new();
@@ -82,15 +81,13 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
 
     /// The records of particles and images that are kept for the work of kicks, as [`KeepStep::reads`](super::KeepStep) says but for
     /// whether particles are active in contacts; empty where no sweep sums that work.
-    #[must_use]
-    pub fn kept_records(&self, group: usize) -> &[T] {
+    pub(super) fn kept_records(&self, group: usize) -> &[T] {
         self.simulation.state.groups[group].work.work_records.data()
     }
 
     /// The forces \[N\] that pairs of a group give with the rates at hand, slot by slot for all that moves by forces; empty where they
     /// are in the [rates](Self::rates), to which nothing else adds.
-    #[must_use]
-    pub fn own_forces(&self, group: usize) -> Vec<[T; D]> {
+    pub(super) fn own_forces(&self, group: usize) -> Vec<[T; D]> {
         let (own, group) = (&self.recorded[group], &self.simulation.state.groups[group]);
         let there = 0..own.program.own_forces.map_or(0, |_| group.particles.mobile);
         let worked = &group.work.worked;
@@ -101,7 +98,7 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
 
     /// Takes the rates of a group back, as [`rates`](Self::rates) gives them, with its [own forces](Self::own_forces), the forces between
     /// blocks, and the records that are kept, `stride` numbers each.
-    pub fn take_rates(
+    pub(super) fn take_rates(
         &mut self,
         number: usize,
         (numbers, own): (&[T], &[[T; D]]),
@@ -149,26 +146,25 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
     }
 
     /// What a prediction has saved.
-    #[must_use]
-    pub fn saved(&self, group: usize, field: Field) -> &[T] {
+    pub(super) fn saved(&self, group: usize, field: Field) -> &[T] {
         let saved = &self.simulation.state.groups[group].work.predicted;
         let own = saved.iter().find(|own| own.0 == field);
         own.map_or(&[], |own| &own.1)
     }
 
     /// Takes what a prediction has saved back while one is under way, so that it follows what list builds do.
-    pub fn take_saved(&mut self, group: usize, saved: Vec<(Field, Vec<T>)>) {
+    pub(super) fn take_saved(&mut self, group: usize, saved: Vec<(Field, Vec<T>)>) {
         let work = &mut self.simulation.state.groups[group].work;
         work.is_predicted = !saved.is_empty();
         work.predicted = saved;
     }
 
     /// Counts that the device has made, in the order of [`Program::counts`](super::Program::counts).
-    pub fn count(&mut self, group: usize, counts: &[f64]) {
+    pub(super) fn count(&mut self, group: usize, counts: &[u64]) {
         let program = self.program(group);
         let group = &mut self.simulation.state.groups[group];
         for (own, count) in program.counts.iter().zip(counts) {
-            let count = count.round() as u64;
+            let count = *count;
             match own.kind {
                 Kind::Limit(name) => group.count(name, count),
                 Kind::Guard(0) => group.guards.compression += count,
@@ -178,20 +174,9 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         }
     }
 
-    /// Moves walls and boundaries to where they are at a moment; the slots of walls that move, whose columns the device needs anew, and
-    /// whether it needs [transforms](Self::transforms) anew.
-    pub fn place_walls(&mut self, number: usize, moment: &Moment) -> (Vec<Range<usize>>, bool) {
-        let group = &mut self.simulation.state.groups[number];
-        group.place_walls(moment.time, moment.chord);
-        let moving = group.walls.iter().filter(|wall| wall.motion.is_some());
-        let slots = moving.map(|wall| wall.slots.start..wall.end).collect();
-        (slots, self.place_boundaries(number, moment.time))
-    }
-
     /// What wall laws see at the particles of walls at a time \[s\]: accelerations \[m/s²\], normals, and velocity gradients \[1/s\] row
     /// by row, each component for all slots behind those of bodies.
-    #[must_use]
-    pub fn walls(&self, group: usize, time: f64) -> Vec<f64> {
+    pub(super) fn walls(&self, group: usize, time: f64) -> Vec<f64> {
         let group = &self.simulation.state.groups[group];
         let (mobile, slots) = (group.particles.mobile, group.particles.columns.slots());
         let count = slots - mobile;
@@ -220,16 +205,14 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
     }
 
     /// The acceleration of all particles in the frame of their container \[m/s²\].
-    #[must_use]
-    pub fn body_force(&self, group: usize) -> [f64; D] {
+    pub(super) fn body_force(&self, group: usize) -> [f64; D] {
         self.simulation.state.groups[group]
             .body_force
             .map(Real::to_f64)
     }
 
     /// The smoothing length \[m\] that serves all, and the lattice consistency factor.
-    #[must_use]
-    pub fn scales(&self, group: usize) -> [f64; 2] {
+    pub(super) fn scales(&self, group: usize) -> [f64; 2] {
         let group = &self.simulation.state.groups[group];
         let h = group.neighborhood.smoothing_length;
         [h, group.scheme.lattice_consistency_factor]
@@ -251,8 +234,7 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
     }
 
     /// The share of a closing speed that counts where a particle meets one of each block: half where that mirrors its velocity.
-    #[must_use]
-    pub fn seen(&self, group: usize) -> Vec<f64> {
+    pub(super) fn seen(&self, group: usize) -> Vec<f64> {
         let group = &self.simulation.state.groups[group];
         let sticks = group.particles.columns.fields();
         let sticks = sticks.contains(Field::DYNAMIC_VISCOSITY);
@@ -261,8 +243,7 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
     }
 
     /// Whether a contact that may open is between blocks `a` and `b`, at `a * blocks + b`.
-    #[must_use]
-    pub fn contacts(&self, group: usize) -> Vec<bool> {
+    pub(super) fn contacts(&self, group: usize) -> Vec<bool> {
         let interactions = &self.simulation.state.groups[group]
             .neighborhood
             .interactions;
@@ -273,15 +254,13 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
     }
 
     /// The places for which lists were built \[m\], from the origin of the columns.
-    #[must_use]
-    pub fn listed(&self, group: usize) -> &[[T; D]] {
+    pub(super) fn listed(&self, group: usize) -> &[[T; D]] {
         let slots = self.columns(group).slots();
         &self.simulation.state.groups[group].neighborhood.listed[..slots]
     }
 
     /// The smoothing lengths for which lists were built \[m\]; empty where one serves all.
-    #[must_use]
-    pub fn listed_lengths(&self, group: usize) -> &[T] {
+    pub(super) fn listed_lengths(&self, group: usize) -> &[T] {
         let all = &self.simulation.state.groups[group].neighborhood.listed_h;
         &all[..all.len().min(self.columns(group).slots())]
     }

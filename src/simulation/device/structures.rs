@@ -58,9 +58,13 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
                 Given::Field(Field::MASS, 0),
                 Given::Field(Field::DENSITY, 0),
             ];
-            from.extend((0..D).map(|d| match rates.contains(Output::FORCE) {
-                true => Given::Rate(Output::FORCE, d),
-                false => Given::Constant(0.0),
+            let summed = rates.contains(Output::FORCE);
+            from.extend((0..D).map(|d| {
+                if summed {
+                    Given::Rate(Output::FORCE, d)
+                } else {
+                    Given::Constant(0.0)
+                }
             }));
             from.extend((0..D).map(evaluated::<D>));
             from.extend(places.iter().map(|&(field, d)| Given::Field(field, d)));
@@ -126,7 +130,7 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
     }
 
     /// Takes back what has accelerated walls that follow bodies \[m/s²\], as [`walls`](Self::walls) has it.
-    pub fn take_walls(&mut self, group: usize, numbers: &[f64]) {
+    pub(super) fn take_walls(&mut self, group: usize, numbers: &[f64]) {
         let group = &mut self.simulation.state.groups[group];
         let mobile = group.particles.mobile;
         let count = group.particles.columns.slots() - mobile;
