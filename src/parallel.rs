@@ -173,6 +173,17 @@ impl Pool {
     }
 }
 
+/// Does `work` by threads of its own while this one waits and does nothing else, as one that keeps others waiting must.
+pub(crate) fn apart(work: impl FnOnce() + Send) {
+    #[cfg(feature = "parallel")]
+    if let Ok(pool) = Pool::new(threads()) {
+        let done = std::thread::scope(|scope| scope.spawn(|| pool.install(work)).join());
+        return done.unwrap_or_else(|panicked| std::panic::resume_unwind(panicked));
+    }
+    #[cfg(not(feature = "parallel"))]
+    work();
+}
+
 /// Halves of a range of numbers by two threads, until each has one.
 fn share(numbers: Range<usize>, work: &(dyn Fn(usize) + Sync)) {
     match numbers.len() {

@@ -103,10 +103,12 @@ impl ChunkList {
     }
 }
 
-/// The neighbour lists of all clusters of a group.
+/// The neighbour lists of all clusters of a group; on ranks those of some chunks, and the others are empty.
 #[derive(Clone, Debug, Default)]
 pub struct ClusterLists {
     pub(super) chunks: Vec<ChunkList>,
+    /// Entries of each cluster of all chunks.
+    pub(super) counts: Vec<u32>,
 }
 
 /// What the search needs to know.
@@ -168,27 +170,15 @@ impl ClusterLists {
     /// Number of list entries.
     #[must_use]
     pub fn entries(&self) -> usize {
-        self.chunks.iter().map(|chunk| chunk.neighbors.len()).sum()
+        self.counts.iter().map(|&own| own as usize).sum()
     }
 
     /// Number of list entries of the clusters that hold these slots, `width` slots a cluster.
     #[must_use]
     pub fn entries_of(&self, slots: Range<usize>, width: usize) -> usize {
-        let wanted = slots.start / width..slots.end.div_ceil(width);
-        let of = |(c, chunk): (usize, &ChunkList)| {
-            let inside = chunk.starts.len().saturating_sub(1);
-            let from = wanted.start.saturating_sub(c * CHUNK).min(inside);
-            let to = wanted.end.saturating_sub(c * CHUNK).min(inside);
-            if from == 0 && to == inside {
-                return chunk.neighbors.len();
-            }
-            let own = chunk.starts[from] as usize..chunk.starts[to.max(from)] as usize;
-            let lengths = chunk.segments[own]
-                .iter()
-                .map(|s| (s.end - s.start) as usize);
-            lengths.sum()
-        };
-        self.chunks.iter().enumerate().map(of).sum()
+        let end = slots.end.div_ceil(width).min(self.counts.len());
+        let own = &self.counts[(slots.start / width).min(end)..end];
+        own.iter().map(|&own| own as usize).sum()
     }
 
     /// Bytes held by the lists.
@@ -203,14 +193,15 @@ impl ClusterLists {
 
     /// Finds the neighbours of every cluster.
     pub fn rebuild<T: Real, const D: usize>(&mut self, input: &SearchInput<'_, T, D>) {
-        self.rebuild_some(input, |chunks| 0..chunks);
+        let chunks = (input.slots / input.width).div_ceil(CHUNK);
+        self.rebuild_some(input, core::slice::from_ref(&(0..chunks)));
     }
 
-    /// Finds the neighbours of the clusters of some chunks, chosen by how many there are, and leaves the lists of all others.
+    /// Finds the neighbours of the clusters of some runs of chunks, and leaves the lists of all others.
     pub(crate) fn rebuild_some<T: Real, const D: usize>(
         &mut self,
         input: &SearchInput<'_, T, D>,
-        choose: impl FnOnce(usize) -> Range<usize>,
+        runs: &[Range<usize>],
     ) {
         let instructions = input.instructions.or_detected();
         // Blocks at once: liquid by one thread and walls by another.
@@ -218,45 +209,51 @@ impl ClusterLists {
         let clusters = input.slots / input.width;
         self.chunks
             .resize_with(clusters.div_ceil(CHUNK), ChunkList::default);
+        self.counts.resize(clusters, 0);
         // So few that threads share them evenly, and so many that scratch memory is not asked for with each.
         const AT_ONCE: usize = 4;
-        let own = choose(self.chunks.len());
-        for_each(
-            cut(&mut self.chunks[own.clone()], AT_ONCE),
-            |piece, chunks| {
-                let mut scratch = Scratch::default();
-                for (n, chunk) in chunks.iter_mut().enumerate() {
-                    let c = own.start + piece * AT_ONCE + n;
-                    chunk.neighbors.clear();
-                    chunk.segments.clear();
-                    chunk.starts.clear();
-                    for cluster in c * CHUNK..clusters.min((c + 1) * CHUNK) {
-                        chunk.starts.push(chunk.segments.len() as u32);
-                        let members = cluster * input.width..(cluster + 1) * input.width;
-                        let block = input
-                            .blocks
-                            .partition_point(|b| b.slots.end <= members.start);
-                        // Slots that no particle owns any more have no neighbours.
-                        let owned = input
-                            .blocks
-                            .get(block)
-                            .is_some_and(|b| b.slots.contains(&members.start));
-                        if owned {
-                            search(
-                                input,
-                                &sources,
-                                block,
-                                members,
-                                instructions,
-                                &mut scratch,
-                                chunk,
-                            );
+        for own in runs {
+            for_each(
+                cut(&mut self.chunks[own.clone()], AT_ONCE),
+                |piece, chunks| {
+                    let mut scratch = Scratch::default();
+                    for (n, chunk) in chunks.iter_mut().enumerate() {
+                        let c = own.start + piece * AT_ONCE + n;
+                        chunk.neighbors.clear();
+                        chunk.segments.clear();
+                        chunk.starts.clear();
+                        for cluster in c * CHUNK..clusters.min((c + 1) * CHUNK) {
+                            chunk.starts.push(chunk.segments.len() as u32);
+                            let members = cluster * input.width..(cluster + 1) * input.width;
+                            let block = input
+                                .blocks
+                                .partition_point(|b| b.slots.end <= members.start);
+                            // Slots that no particle owns any more have no neighbours.
+                            let owned = input
+                                .blocks
+                                .get(block)
+                                .is_some_and(|b| b.slots.contains(&members.start));
+                            if owned {
+                                search(
+                                    input,
+                                    &sources,
+                                    block,
+                                    members,
+                                    instructions,
+                                    &mut scratch,
+                                    chunk,
+                                );
+                            }
                         }
+                        chunk.starts.push(chunk.segments.len() as u32);
+                        // Vectors double where they grow.
+                        let length = chunk.neighbors.len();
+                        chunk.neighbors.shrink_to(length + length / 16);
                     }
-                    chunk.starts.push(chunk.segments.len() as u32);
-                }
-            },
-        );
+                },
+            );
+            self.count(own.clone());
+        }
     }
 }
 

@@ -25,7 +25,7 @@
 mod cells;
 mod clusters;
 mod hilbert;
-mod message;
+mod own_lists;
 mod sieve;
 
 pub use cells::{Cells, Grid};

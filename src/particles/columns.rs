@@ -131,22 +131,22 @@ impl<T: Real, const D: usize> Columns<T, D> {
         }
     }
 
-    /// The same fields of some runs of slots, one run after another.
-    pub(crate) fn of_runs(&self, runs: &[Range<usize>]) -> Self {
-        let slots = runs.iter().map(Range::len).sum();
+    /// Takes the numbers of some runs of slots out, one run after another, and frees all others: the fields are left without numbers.
+    pub(crate) fn take_runs(&mut self, runs: &[Range<usize>]) -> Self {
         let mut some = Self {
-            data: vec![Vec::new(); Fields::PLACES + 1],
+            data: core::mem::replace(&mut self.data, vec![Vec::new(); Fields::PLACES + 1]),
             fields: self.fields,
-            slots,
+            slots: runs.iter().map(Range::len).sum(),
         };
         for field in self.fields.iter() {
             let width = field.components(D);
-            let column = self.raw(field);
-            let own = some.column_mut(field);
-            own.reserve_exact(width * slots);
+            let (column, mut end) = (some.column_mut(field), 0);
             for run in runs {
-                own.extend_from_slice(&column[width * run.start..width * run.end]);
+                column.copy_within(width * run.start..width * run.end, end);
+                end += width * run.len();
             }
+            column.truncate(end);
+            column.shrink_to_fit();
         }
         some
     }
@@ -154,17 +154,16 @@ impl<T: Real, const D: usize> Columns<T, D> {
     /// Rearranges the slots: slot k becomes what slot `order[k]` was.
     pub fn permute(&mut self, order: &[u32]) {
         self.slots = order.len();
-        let mut sorted = Vec::new();
         for field in self.fields.iter() {
             let column = self.column_mut(field);
             let width = field.components(D);
-            sorted.clear();
-            sorted.reserve(width * order.len());
+            // Of its own length: what served a vector would keep the memory of one.
+            let mut sorted = Vec::with_capacity(width * order.len());
             for &from in order {
                 let from = from as usize * width;
                 sorted.extend_from_slice(&column[from..from + width]);
             }
-            core::mem::swap(column, &mut sorted);
+            *column = sorted;
         }
     }
 }

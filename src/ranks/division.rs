@@ -25,6 +25,20 @@ impl Division {
         self.bounds[0].windows(2).all(|own| own[0] < own[1])
     }
 
+    /// Whether it cuts so many chunks, of which the first `mobile` ones move by forces.
+    pub fn is_of(&self, chunks: usize, mobile: usize) -> bool {
+        let [middle, end] = self.bounds.each_ref().map(|own| own.last().copied());
+        (middle, end) == (Some(mobile), Some(chunks))
+    }
+
+    /// The cost of the slowest rank over the mean.
+    pub fn imbalance(&self, costs: &[usize]) -> f64 {
+        let ranks = self.bounds[0].len().saturating_sub(1);
+        let cost = |rank| -> usize { self.of(rank).into_iter().flatten().map(|k| costs[k]).sum() };
+        let most = (0..ranks).map(cost).max().unwrap_or(0);
+        (most * ranks) as f64 / costs.iter().sum::<usize>().max(1) as f64
+    }
+
     /// The chunks of a rank.
     pub fn of(&self, rank: usize) -> [Range<usize>; 2] {
         self.bounds.each_ref().map(|bounds| {

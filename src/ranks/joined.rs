@@ -1,7 +1,12 @@
 //! Numbers that ranks join: the largest of each, and whether something is so on any of them.
 //! What is joined depends on neither the order of ranks nor how particles are cut among them.
 
-use super::{Taken, Team, What, put_number};
+use super::{Taken, Team, What, put_number, put_numbers};
+use crate::scalar::Real;
+use std::ops::Range;
+
+/// Numbers of all ranks in one message.
+const PIECE: usize = 1 << 20;
 
 impl Team {
     /// Shows the numbers of each rank, of which all have as many; those of this one alone where a rank has failed.
@@ -19,6 +24,49 @@ impl Team {
         });
         if !any {
             each(own);
+        }
+    }
+
+    /// Gets the numbers of each rank where its runs are among those of all. In pieces, so that no message is large; with the first
+    /// goes what each rank adds to it.
+    pub fn gather_numbers<T: Real>(
+        &self,
+        what: What,
+        all: &mut [T],
+        runs_of: impl Fn(usize) -> [Range<usize>; 2],
+        mut added: Vec<u8>,
+        mut take_added: impl FnMut(usize, &mut Taken<'_>) -> Option<()>,
+    ) {
+        let lengths = (0..self.count()).map(|rank| runs_of(rank).iter().map(Range::len).sum());
+        let longest: usize = lengths.max().unwrap_or(0);
+        let piece = (PIECE / self.count()).max(1);
+        // What of the runs of a rank is in the piece that begins there.
+        let parts = |rank: usize, begin: usize| {
+            let mut before = 0;
+            runs_of(rank).map(|run| {
+                let at = |n: usize| run.start + n.clamp(before, before + run.len()) - before;
+                let part = at(begin)..at(begin + piece);
+                before += run.len();
+                part
+            })
+        };
+        for begin in (0..longest.max(1)).step_by(piece) {
+            let mut own = Vec::new();
+            for part in parts(self.rank(), begin) {
+                put_numbers(all.get(part).unwrap_or_default(), &mut own);
+            }
+            own.append(&mut added);
+            let put = |to: &mut Vec<u8>| to.append(&mut own);
+            self.gather(what, put, |rank, from| {
+                let mut from = Taken(from);
+                for part in parts(rank, begin) {
+                    from.numbers(all.get_mut(part)?)?;
+                }
+                if begin == 0 {
+                    take_added(rank, &mut from)?;
+                }
+                from.0.is_empty().then_some(())
+            });
         }
     }
 
@@ -51,6 +99,16 @@ impl Team {
         first
     }
 
+    /// How many ranks share the memory of this one, itself among them.
+    pub fn beside(&self) -> u64 {
+        let boot = std::fs::read("/proc/sys/kernel/random/boot_id").unwrap_or_default();
+        let add = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x100_0000_01b3);
+        let machine = boot.iter().fold(0xcbf2_9ce4_8422_2325, add);
+        let mut count = 0;
+        self.numbers([machine], |[other]| count += u64::from(other == machine));
+        count
+    }
+
     /// Whether it is so on any rank.
     pub fn any(&self, own: bool) -> bool {
         let mut any = false;
@@ -71,9 +129,37 @@ mod tests {
             let team = Team::new(ranks);
             let rank = team.rank();
             let most = team.largest([rank as f64, 1.0 / (1.0 + rank as f64)]);
-            (most, team.any(rank == 1), team.any(false))
+            let any = [team.any(rank == 1), team.any(false)];
+            (most, any, team.beside())
         });
-        assert_eq!(all.expect("threads"), [([2.0, 1.0], true, false); 3]);
+        assert_eq!(all.expect("threads"), [([2.0, 1.0], [true, false], 3); 3]);
+    }
+
+    #[test]
+    fn numbers_come_to_their_places_in_pieces() {
+        const EACH: usize = PIECE / 2 + 1000;
+        let all = in_threads(2, 1, |ranks| {
+            let team = Team::new(ranks);
+            // One has the first and the third part, and the other what is between and behind.
+            let runs_of = |rank: usize| match rank {
+                0 => [0..EACH - 7, 2 * EACH..2 * EACH + 5],
+                _ => [EACH - 7..2 * EACH, 2 * EACH + 5..2 * EACH + 5],
+            };
+            let mut all = vec![0.0; 2 * EACH + 5];
+            for k in runs_of(team.rank()).into_iter().flatten() {
+                all[k] = k as f64;
+            }
+            let mut heard = Vec::new();
+            let added = vec![team.rank() as u8; 8];
+            team.gather_numbers(What::State, &mut all, runs_of, added, |rank, from| {
+                heard.push((rank, from.number()?.to_ne_bytes()[0]));
+                Some(())
+            });
+            assert_eq!(heard, [(0, 0), (1, 1)]);
+            let come = all.iter().enumerate().all(|(k, own)| *own == k as f64);
+            (come, team.traffic().gathered > 2)
+        });
+        assert_eq!(all.expect("threads"), [(true, true); 2]);
     }
 
     #[test]

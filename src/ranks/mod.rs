@@ -3,14 +3,14 @@
 //!
 //! Every rank builds the same scene with [`Scene::on_ranks`](crate::scene::Scene::on_ranks) and calls the same methods of its
 //! [`Simulation`](crate::simulation::Simulation) in the same order. Each rank has a run of chunks of 64 clusters that are consecutive on
-//! the space-filling curve, cut by the entries of their lists. In
+//! the space-filling curve, cut by the entries of their lists, and cut anew where the slowest would be a tenth above the mean. In
 //! [`run_until`](crate::simulation::Simulation::run_until) and [`Run`](crate::run::Run) it steps the particles of these:
 //!
 //! | part of a step | on ranks |
 //! |---|---|
 //! | sums over pairs, laws, equations of state, kicks, drifts | each rank has its own particles, and before each sweep gets the packed records of others that its lists name |
 //! | votes on the step, validity of lists, impulses | each rank finds them for its own particles; then all ranks join them |
-//! | search for neighbours | each rank lists the neighbours of its chunks; then all ranks get all lists and all particles |
+//! | search for neighbours | all ranks get all particles; then each lists the neighbours of its chunks |
 //!
 //! Scenes of which a step looks at more than neighbours (couplings, contact, joints, rigid bodies, clamps, loads by particle, events,
 //! inlets and outlets), and calls that show every step, have another form of it: each rank sums over the pairs of its chunks, then all get
@@ -20,7 +20,8 @@
 //! nor the threads of each, nor on how chunks are cut, nor on the form of a step. Every rank holds the whole state when a call returns:
 //! any method that reads a simulation gives the same values on all of them and needs no message.
 //!
-//! Memory is not divided: every rank holds the whole scene.
+//! Lists are divided, and between list builds so is all else. Where lists are built every rank holds the columns of all particles,
+//! and when a call returns the whole scene but the lists of others, which a reading that needs them makes.
 //!
 //! ```
 //! use meshfree::prelude::*;

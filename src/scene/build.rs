@@ -43,7 +43,7 @@ impl<T: Real, const D: usize> Building<T, D> {
 
     fn build(&mut self) -> Result<()> {
         once!(self => &mut Building, |own| -> Result<()> {
-            let scene = own.scene();
+            let mut scene = own.scene();
             let team = scene.team();
             let built = scene.built(team.clone());
             own.simulation = Some(agreed(team, built)?);
@@ -54,7 +54,7 @@ impl<T: Real, const D: usize> Building<T, D> {
     #[cfg(feature = "checkpoint")]
     fn resume(&mut self, path: &Path, changes: &[Change]) -> Result<()> {
         once!(self => &mut Building, |own, path: &Path, changes: &[Change]| -> Result<()> {
-            let scene = own.scene();
+            let mut scene = own.scene();
             let team = scene.team();
             let resumed = scene.resumed(path, Changes::new(changes), team.clone());
             own.simulation = Some(agreed(team, resumed)?);

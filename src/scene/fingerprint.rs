@@ -40,6 +40,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             root: _,
             // What a machine has to give is not of the scene.
             memory: _,
+            ranks_here: _,
             // No bit depends on them.
             ranks: _,
         } = self;

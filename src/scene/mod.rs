@@ -160,6 +160,8 @@ pub struct Scene<T: Real, const D: usize> {
     instructions: InstructionSet,
     root: Root,
     memory: Option<u64>,
+    /// Ranks that share the memory of this machine.
+    ranks_here: u64,
     ranks: Option<Arc<dyn Ranks>>,
 }
 
@@ -215,6 +217,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
             instructions: InstructionSet::detect(),
             root: Root::detect(),
             memory: None,
+            ranks_here: 1,
             ranks: None,
         }
     }

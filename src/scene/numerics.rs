@@ -126,7 +126,9 @@ impl<T: Real, const D: usize> Scene<T, D> {
     }
 
     /// The ranks that it is built on, all of which get an error of one.
-    pub(super) fn team(&self) -> Option<Arc<Team>> {
-        self.ranks.clone().map(|ranks| Arc::new(Team::new(ranks)))
+    pub(super) fn team(&mut self) -> Option<Arc<Team>> {
+        let team = Arc::new(Team::new(self.ranks.clone()?));
+        self.ranks_here = team.beside();
+        Some(team)
     }
 }

@@ -100,6 +100,7 @@ impl<T: Real, const D: usize> System for Stepping<'_, T, D> {
             if !(all || self.has(k)) {
                 continue;
             }
+            self.simulation.tell_times(k);
             self.simulation.state.groups[k].fill_buffers(time)?;
             self.simulation.state.groups[k].evaluate(time, elapsed);
             self.simulation.follow_moves(k);
@@ -290,6 +291,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub(super) fn end_drift(&mut self, group: usize, begin: f64, dt: f64) {
         let middle = begin + 0.5 * dt;
         if self.state.groups[group].scheme.acts_in_drift() {
+            self.tell_times(group);
             self.state.groups[group].refresh(middle, Some([begin, begin + dt]));
             self.follow_moves(group);
             let moment = Moment {

@@ -41,6 +41,30 @@ pub(super) struct Approach {
     pub meeting: Option<Meeting>,
 }
 
+impl Approach {
+    /// What the pairs of all ranks ask for, where each has looked at those of its own chunks and knows all particles.
+    pub fn of_all(self, team: &Team) -> Self {
+        let mut all = NOTHING;
+        let Vote { step, particle, .. } = self.vote;
+        let [mach, speed, slot] = self.meeting.map_or([0; 3], |own| {
+            [own.mach.to_bits(), own.speed.to_bits(), own.slot as u64]
+        });
+        let own = [step.to_bits(), particle as u64, mach, speed, slot];
+        team.numbers(own, |[step, particle, mach, speed, slot]| {
+            let vote = Vote {
+                step: f64::from_bits(step),
+                criterion: Criterion::Approach,
+                particle: particle as usize,
+            };
+            let [mach, speed] = [mach, speed].map(f64::from_bits);
+            let slot = slot as usize;
+            let meeting = (mach > 0.0).then_some(Meeting { mach, speed, slot });
+            all = all.and(Self { vote, meeting });
+        });
+        all
+    }
+}
+
 const NOTHING: Approach = Approach {
     vote: NO_VOTE,
     meeting: None,
@@ -135,7 +159,7 @@ pub(super) fn approach<T: Real, const D: usize>(
             particles,
             neighborhood,
             scheme,
-            rows: chunk * CHUNK..chunk * CHUNK + chunks[chunk].starts.len() - 1,
+            rows: chunk * CHUNK..chunk * CHUNK + chunks[chunk].rows(),
             share,
             limit,
             least_h,

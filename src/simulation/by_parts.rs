@@ -55,7 +55,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
         once!(self => &mut Simulation, |own| -> () {
             for group in &mut own.state.groups {
-                group.bring_together();
+                group.bring_together(false);
             }
         });
     }
@@ -116,8 +116,19 @@ impl<T: Real, const D: usize> Group<T, D> {
             // What settles together is cut from the first slot of a body on.
             && (!settles || bodies.iter().all(|body| body.slots.start % PIECE == 0))
             && (self.share.as_ref()).is_some_and(|share| {
-                share.division().is_full() && share.is_divided(&self.neighborhood.lists)
+                !share.team.is_broken()
+                    && share.division().is_full() && share.is_divided(&self.neighborhood.lists)
             })
+    }
+
+    /// Goes on with own particles after a list build in a step, which kept states follow before.
+    pub(super) fn part_again(&mut self) {
+        let time_of = |slot: usize| self.kept_times.get(slot).copied().unwrap_or(0.0);
+        let given = self.work.follow(&mut self.particles.moved, time_of);
+        self.given.extend(given);
+        if self.may_part() {
+            self.keep_own();
+        }
     }
 
     /// The ranks, if this one has its own particles alone.

@@ -266,9 +266,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let vote = group.shortest(own.vote);
             return Ok(if vote.step >= limit.step { limit } else { vote });
         }
-        let Some(approach) = approach else {
+        let Some(mut approach) = approach else {
             return Ok(limit);
         };
+        if let Some(share) = &group.share {
+            approach = approach.of_all(&share.team);
+        }
         if let Some(meeting) = approach.meeting {
             let body = &group.particles.bodies[group.particles.body_of(meeting.slot)];
             return Err(Error::SoundSpeedTooLow {

@@ -7,16 +7,16 @@ use super::neighborhood::Neighborhood;
 use super::part::Part;
 use crate::collective::over;
 use crate::error::{Error, Result};
-use crate::neighbors::{CHUNK, ChunkList, ClusterLists, SearchInput};
+use crate::neighbors::{CHUNK, ClusterLists, SearchInput};
 use crate::particles::Field;
-use crate::ranks::{Division, Stamp, Taken, Team, Traffic, What, even};
+use crate::ranks::{Division, Stamp, Taken, Team, Traffic, What};
 use crate::scalar::{Real, width};
 use crate::sweep::{InstructionSet, PairSweep, Pass, Records, Results, Root, SweepInput};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// The cost of a cluster without the entries of its list, in entries.
-const CLUSTER: usize = 8;
+/// Cost of the slowest rank over the mean at which chunks are cut anew.
+const SLOWEST: f64 = 1.1;
 
 /// The sum of the last digits of all velocities: of other motions it is another.
 fn motion_of<T: Real, const D: usize>(group: &Group<T, D>) -> u64 {
@@ -52,9 +52,7 @@ impl Share {
     /// Cuts the chunks of new lists, of which particles that move by forces fill the first `mobile` slots.
     pub fn divide<T: Real>(&mut self, lists: &ClusterLists, mobile: usize) {
         let mobile = mobile.div_ceil(CHUNK * width::<T>());
-        let cost = |list: &ChunkList| list.neighbors.len() + CLUSTER * list.starts.len();
-        let costs: Vec<usize> = lists.chunks().iter().map(cost).collect();
-        self.division = Division::new(&costs, mobile, self.team.count());
+        self.division = Division::new(&lists.costs(), mobile, self.team.count());
         self.part = None;
     }
 
@@ -77,23 +75,32 @@ impl Share {
             .clone()
     }
 
-    /// Makes the lists of own chunks, and gets those of the others.
+    /// Makes the lists of own chunks as they were cut before, which are cut anew where the slowest rank would be more than a tenth
+    /// above the mean. Of others' lists a rank knows how long they are.
     pub fn list<T: Real, const D: usize>(
-        &self,
+        &mut self,
         lists: &mut ClusterLists,
         input: &SearchInput<'_, T, D>,
+        mobile: usize,
     ) {
-        let (rank, ranks) = (self.team.rank(), self.team.count());
-        lists.rebuild_some(input, |chunks| even(chunks, rank, ranks));
-        let chunks = lists.chunks().len();
+        let rank = self.team.rank();
+        let chunks = (input.slots / input.width).div_ceil(CHUNK);
+        let of_mobile = mobile.div_ceil(CHUNK * input.width).min(chunks);
+        if !self.division.is_of(chunks, of_mobile) {
+            self.division = Division::new(&vec![1; chunks], of_mobile, self.team.count());
+        }
+        self.part = None;
+        let made = self.division.of(rank);
+        lists.keep(&made);
+        lists.rebuild_some(input, &made);
         let mut own = Vec::new();
-        lists.put(even(chunks, rank, ranks), &mut own);
+        made.iter()
+            .for_each(|run| lists.put_counts(run.clone(), &mut own));
         let take = |other: usize, from: &[u8]| {
-            if other == rank {
-                return Some(());
-            }
             let mut from = Taken(from);
-            lists.take(even(chunks, other, ranks), input, &mut from)?;
+            for run in self.division.of(other) {
+                lists.take_counts(run, &mut from)?;
+            }
             from.0.is_empty().then_some(())
         };
         self.team
@@ -101,6 +108,19 @@ impl Share {
         if self.team.is_broken() {
             // What is under way goes on to where the error is told.
             lists.rebuild(input);
+        }
+        if self.division.imbalance(&lists.costs()) <= SLOWEST {
+            return;
+        }
+        self.divide::<T>(lists, mobile);
+        let wanted = self.division.of(rank);
+        lists.keep(&wanted);
+        let missing: Vec<_> = wanted
+            .iter()
+            .flat_map(|run| lists.missing(run.clone()))
+            .collect();
+        if !missing.is_empty() {
+            lists.rebuild_some(input, &missing);
         }
     }
 
@@ -141,21 +161,13 @@ impl Share {
             ..*input
         };
         sweep.run(pass, &narrowed, records, rows);
-        let mut own = Vec::new();
-        for chunks in self.chunks_of::<T>(self.team.rank(), &targets) {
-            rows.put(chunks, end, &mut own);
-        }
-        let take = |other: usize, from: &[u8]| {
-            if other == self.team.rank() {
-                return Some(());
-            }
-            let mut from = Taken(from);
-            for chunks in self.chunks_of::<T>(other, &targets) {
-                rows.take(chunks, end, &mut from)?;
-            }
-            from.0.is_empty().then_some(())
-        };
-        self.team.gather(What::Sums, |to| to.append(&mut own), take);
+        let chunks: Vec<_> = (0..self.team.count())
+            .map(|rank| self.chunks_of::<T>(rank, &targets))
+            .collect();
+        let numbers_of =
+            |own: &[Range<usize>; 2]| own.each_ref().map(|run| rows.numbers_of(run, end));
+        let numbers: Vec<_> = chunks.iter().map(numbers_of).collect();
+        rows.gather((&self.team, What::Sums), &numbers, &chunks);
     }
 }
 
@@ -321,12 +333,8 @@ mod tests {
             let group = &now.state.groups[0];
             let division = group.share.as_ref().expect("ranks").division();
             let chunks = group.neighborhood.lists.chunks();
-            let cost = |chunks_of_rank: Vec<usize>| {
-                let entries = chunks_of_rank
-                    .iter()
-                    .map(|&own| chunks[own].neighbors.len());
-                entries.sum::<usize>() as f64
-            };
+            let costs = group.neighborhood.lists.costs();
+            let cost = |own: Vec<usize>| own.iter().map(|&k| costs[k]).sum::<usize>() as f64;
             let by_cost = |rank| cost(division.of(rank).into_iter().flatten().collect());
             let by_number = |rank| cost(even(chunks.len(), rank, 2).collect());
             [[0, 1].map(by_cost), [0, 1].map(by_number)]

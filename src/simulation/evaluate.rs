@@ -329,7 +329,16 @@ impl<T: Real, const D: usize> Group<T, D> {
                 self.particles.mobile..self.particles.columns.slots(),
                 &mut rows,
                 // A reading is made by every rank for itself.
-                |sweep, input, records, rows| sweep.run(Pass::Rates, input, records, rows),
+                |sweep, input, records, rows| {
+                    let lists = self.neighborhood.all_lists();
+                    let targets = input.targets.clone();
+                    let input = SweepInput {
+                        lists,
+                        targets,
+                        ..*input
+                    };
+                    sweep.run(Pass::Rates, &input, records, rows);
+                },
             );
         }
         let force = |slot: usize| {

@@ -10,7 +10,7 @@ use super::population::Particles;
 use super::sources::{DrainState, SourceState};
 use super::sub_cycle::SubCycle;
 use super::walls::WallState;
-use super::workspace::Workspace;
+use super::workspace::{Given, Workspace};
 use crate::boundary::{Boundary, Emitter, Outlet, Pose};
 use crate::clock::Instant;
 use crate::error::Result;
@@ -57,6 +57,9 @@ pub(crate) struct Group<T: Real, const D: usize> {
     pub guards: GuardCounts,
     /// Limits that laws and updates have applied, in particle steps, by name.
     pub limited: Vec<(&'static str, u64)>,
+    /// The times \[s\] of kept states, and what came through boundaries before the ledger took it, where ranks part again.
+    pub kept_times: Vec<f64>,
+    pub given: Vec<Given<D>>,
 }
 
 /// What of a force by an image of another body is between the two, (f + R f)/2, and what the boundary gives, (f − R f)/2.
@@ -104,6 +107,8 @@ impl<T: Real, const D: usize> Group<T, D> {
             root: Root::detect(),
             guards: GuardCounts::default(),
             limited: Vec::new(),
+            kept_times: Vec::new(),
+            given: Vec::new(),
         }
     }
 
@@ -217,9 +222,13 @@ impl<T: Real, const D: usize> Group<T, D> {
                 (shift, time),
             )
         {
-            self.bring_together();
+            let is_apart = self.all.is_some();
+            self.bring_together(true);
             self.neighborhood.choose_skin();
             self.rebuild(time);
+            if is_apart {
+                self.part_again();
+            }
         } else if self.boundaries.iter().any(|b| b.moves()) {
             self.neighborhood.place_transforms(&self.boundaries, time);
         }
@@ -315,6 +324,8 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.neighborhood.served = 0;
         self.neighborhood.listed_time = time;
         self.work.first_kick = None;
+        // Particles and images have other places in them.
+        self.work.records_of_rates = false;
         self.held
             .note_periods(&self.particles, &self.boundaries, time);
         self.particles
@@ -344,12 +355,9 @@ impl<T: Real, const D: usize> Group<T, D> {
     pub fn list(&mut self, time: f64, reach: f64) {
         let at = (time, reach);
         let (walls, boundaries) = (&self.walls, &self.boundaries);
-        let on = (self.instructions, self.share.as_ref());
+        let on = (self.instructions, self.share.as_mut());
         self.neighborhood
             .list(&self.particles, walls, boundaries, at, on);
-        if let Some(share) = &mut self.share {
-            share.divide::<T>(&self.neighborhood.lists, self.particles.mobile);
-        }
     }
 
     /// What a sweep over all that moves by forces works on.

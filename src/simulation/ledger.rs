@@ -191,7 +191,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let kept = &self.state.kept_impulses;
         let time_of = |slot: usize| kept.get(slot).map_or(0.0, |kept| kept.time);
         let group = &mut self.state.groups[number];
-        let given = group.work.follow(&mut group.particles.moved, time_of);
+        let mut given = core::mem::take(&mut group.given);
+        given.extend(group.work.follow(&mut group.particles.moved, time_of));
         let first_boundary = group.particles.bodies.len() + group.walls.len();
         let blocks = self.blocks();
         for of_state in given.chunk_by(|a, b| a.0 == b.0) {
@@ -205,6 +206,16 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 Some(slot) => &mut self.state.kept_impulses[slot],
             };
             impulses.add_sums(&mut self.pair_forces, 1.0);
+        }
+    }
+
+    /// Tells a group of which a rank has its own particles the times of kept states, for a list build.
+    pub(super) fn tell_times(&mut self, number: usize) {
+        let group = &mut self.state.groups[number];
+        if group.all.is_some() {
+            let times = self.state.kept_impulses.iter().map(|kept| kept.time);
+            group.kept_times.clear();
+            group.kept_times.extend(times);
         }
     }
 

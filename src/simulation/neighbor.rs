@@ -62,8 +62,12 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
                 image: Some(&self.chains.transforms[self.images[image].transform as usize]),
             },
         };
-        let list = self.lists.chunks().get(row / CHUNK);
-        let list = list.filter(|list| row % CHUNK + 1 < list.starts.len());
+        let own = self.lists.chunks().get(row / CHUNK);
+        let list = match own {
+            Some(own) if !own.is_here() => self.all_lists().chunks().get(row / CHUNK),
+            own => own,
+        };
+        let list = list.filter(|list| row % CHUNK < list.rows());
         list.into_iter().flat_map(move |list| {
             let segments = list.segments_of(row % CHUNK).iter();
             segments.map(move |own| (own.block as usize, list.listed(own).0.iter().map(entry)))

@@ -9,13 +9,14 @@ use super::walls::WallState;
 use crate::boundary::Boundary;
 use crate::collective::{Corners, largest, over};
 use crate::neighbors::{Block, ClusterLists, Radii, SearchInput};
+use crate::parallel::apart;
 use crate::particles::Field;
 use crate::ranks::Team;
 use crate::scalar::{Real, width};
 use crate::sweep::{Image, InstructionSet, Interaction};
 use crate::tensor::{Vector, length};
 use std::ops::Range;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Neighbour lists of a group and the images in them.
 #[derive(Clone, Debug)]
@@ -28,8 +29,10 @@ pub(crate) struct Neighborhood<T: Real, const D: usize> {
     pub images: Vec<Image>,
     /// What makes the images.
     pub chains: Chains<T, D>,
-    /// Shared with copies of the state until one of them lists anew.
+    /// Shared with copies of the state until one of them lists anew. On ranks those of own chunks.
     pub lists: Arc<ClusterLists>,
+    /// On ranks those of all chunks, from the first reading that needs them on.
+    pub whole: OnceLock<Arc<ClusterLists>>,
     /// Positions of slots at the last list build, then of images.
     pub listed: Vec<[T; D]>,
     pub listed_h: Vec<T>,
@@ -73,6 +76,7 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
             images: Vec::new(),
             chains: Chains::default(),
             lists: Arc::default(),
+            whole: OnceLock::new(),
             listed: Vec::new(),
             listed_h: Vec::new(),
             listed_time: 0.0,
@@ -199,7 +203,7 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         walls: &[WallState<T, D>],
         boundaries: &[Arc<dyn Boundary<D>>],
         (time, reach): (f64, f64),
-        (instructions, share): (InstructionSet, Option<&Share>),
+        (instructions, share): (InstructionSet, Option<&mut Share>),
     ) {
         self.listed_reach = reach;
         self.listed.clear();
@@ -219,39 +223,62 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         let walls_of = walls.iter().map(|wall| wall.slots.clone());
         self.blocks.extend(walls_of.map(block(true)));
         self.place_images(particles, walls, boundaries, time);
-        let slots = self.listed.len() - self.images.len();
-        let h = &mut self.listed_h;
-        let radii = if h.is_empty() {
+        if !self.listed_h.is_empty() {
+            for image in &self.images {
+                self.listed_h.push(self.listed_h[image.source as usize]);
+            }
+        }
+        self.whole = OnceLock::new();
+        let mut lists = core::mem::take(&mut self.lists);
+        if Arc::get_mut(&mut lists).is_none() {
+            lists = Arc::default();
+        }
+        let new = Arc::make_mut(&mut lists);
+        self.search(instructions, |input| match share {
+            None => new.rebuild(input),
+            Some(share) => share.list(new, input, particles.mobile),
+        });
+        self.lists = lists;
+    }
+
+    /// Searches for neighbours at the places of the last list build.
+    fn search<V>(
+        &self,
+        instructions: InstructionSet,
+        act: impl FnOnce(&SearchInput<'_, T, D>) -> V,
+    ) -> V {
+        let radii = if self.listed_h.is_empty() {
             Radii::Uniform(self.support * self.smoothing_length)
         } else {
-            for image in &self.images {
-                h.push(h[image.source as usize]);
-            }
-            Radii::Varying(h.as_slice(), self.support)
+            Radii::Varying(self.listed_h.as_slice(), self.support)
         };
-        let listed: Vec<bool> = self
-            .interactions
-            .iter()
-            .map(|&interaction| interaction != Interaction::None)
-            .collect();
-        if Arc::get_mut(&mut self.lists).is_none() {
-            self.lists = Arc::default();
-        }
-        let input = SearchInput {
+        let interactions = self.interactions.iter();
+        let listed: Vec<bool> = interactions.map(|own| *own != Interaction::None).collect();
+        act(&SearchInput {
             positions: &self.listed,
             listed: &listed,
             radii,
             blocks: &self.blocks,
             width: width::<T>(),
-            slots,
+            slots: self.listed.len() - self.images.len(),
             skin: self.skin,
             instructions,
-        };
-        let lists = Arc::make_mut(&mut self.lists);
-        match share {
-            None => lists.rebuild(&input),
-            Some(share) => share.list(lists, &input),
+        })
+    }
+
+    /// The lists of all chunks, of which a rank makes those of others when something that reads needs them.
+    pub fn all_lists(&self) -> &Arc<ClusterLists> {
+        if self.lists.is_whole() {
+            return &self.lists;
         }
+        self.whole.get_or_init(|| {
+            let mut lists = ClusterLists::default();
+            self.search(InstructionSet::detect(), |input| {
+                // Not by threads that may be asked for something that waits for these lists.
+                apart(|| lists.rebuild(input));
+            });
+            Arc::new(lists)
+        })
     }
 
     /// Finds which images are needed. The images of each body and of each wall are blocks of their own, one a boundary.

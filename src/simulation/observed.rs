@@ -109,6 +109,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 }
                 let input = SweepInput {
                     interactions: &interactions,
+                    lists: group.neighborhood.all_lists(),
                     ..group.input()
                 };
                 let mut packed = Records::default();

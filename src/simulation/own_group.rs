@@ -10,23 +10,24 @@ use super::walls::WallState;
 use super::workspace::{Saved, Workspace};
 use crate::material::eos::GuardCounts;
 use crate::particles::Field;
-use crate::ranks::{Taken, What, put_number, put_numbers};
+use crate::ranks::{Taken, What, put_number};
 use crate::scalar::Real;
-use crate::sweep::{Pass, Records};
+use crate::sweep::{Pass, Records, Results};
 use crate::term::Stage;
 use std::ops::Range;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
-/// The group of all particles, whose numbers are old, while a rank steps its own.
+/// What a group has of all particles while a rank steps its own: all but columns, sums, records and lists.
 #[derive(Clone, Debug)]
 pub(crate) struct All<T: Real, const D: usize> {
     pub part: Arc<Part>,
     particles: Particles<T, D>,
     neighborhood: Neighborhood<T, D>,
-    work: Workspace<T, D>,
     walls: Vec<WallState<T, D>>,
     guards: GuardCounts,
     limited: Vec<(&'static str, u64)>,
+    /// Pairs summed before.
+    pairs: u64,
 }
 
 impl<T: Real, const D: usize> Group<T, D> {
@@ -39,34 +40,34 @@ impl<T: Real, const D: usize> Group<T, D> {
             return;
         }
         let part = share.part(&self.neighborhood);
-        let own = part.particles(&self.particles, &self.walls);
         let slots = self.particles.columns.slots();
+        let mobile = self.particles.mobile;
+        let own = part.particles(&mut self.particles, &self.walls);
         let walls = self.walls.iter().map(|wall| WallState {
             slots: part.within(&wall.slots),
             end: part.at(wall.end),
             ..wall.clone()
         });
         let walls = walls.collect();
-        let neighborhood = part.neighborhood(&self.neighborhood, slots);
+        let neighborhood = part.neighborhood(&mut self.neighborhood, slots);
         let chunks = self.neighborhood.lists.chunks().len();
-        let work = part.work(
-            &self.work,
-            (slots, chunks),
-            [own.mobile, self.particles.mobile],
-        );
+        let work = part.work(&self.work, (slots, chunks), [own.mobile, mobile]);
+        let pairs = work.spent.pairs;
+        self.work = work;
         self.all = Some(Box::new(All {
             part,
             particles: core::mem::replace(&mut self.particles, own),
             neighborhood: core::mem::replace(&mut self.neighborhood, neighborhood),
-            work: core::mem::replace(&mut self.work, work),
             walls: core::mem::replace(&mut self.walls, walls),
             guards: core::mem::take(&mut self.guards),
             limited: core::mem::take(&mut self.limited),
+            pairs,
         }));
     }
 
-    /// Goes on with all particles, which all ranks give each other at once.
-    pub(super) fn bring_together(&mut self) {
+    /// Goes on with all particles, which all ranks give each other at once, column by column; without their records where lists are
+    /// built next.
+    pub(super) fn bring_together(&mut self, for_lists: bool) {
         let (Some(all), Some(share)) = (self.all.take(), self.share.clone()) else {
             return;
         };
@@ -74,124 +75,124 @@ impl<T: Real, const D: usize> Group<T, D> {
             part,
             particles,
             neighborhood,
-            work,
             walls,
             guards,
             limited,
+            pairs,
         } = *all;
-        let names = self.names_of_limits();
-        let mut message = Vec::new();
-        self.put_own((&part, work.spent.pairs), &names, &mut message);
-        let is_broken = share.team.is_broken();
-        let own_particles = core::mem::replace(&mut self.particles, particles);
-        let own_neighborhood = core::mem::replace(&mut self.neighborhood, neighborhood);
-        let own_work = core::mem::replace(&mut self.work, work);
-        self.walls = walls;
-        self.guards = guards;
-        self.limited = limited;
-        drop(own_particles);
-        if is_broken {
-            // The others cannot be asked, and an error is told where the call ends.
-            return;
-        }
-        self.neighborhood.served = own_neighborhood.served;
-        self.neighborhood.placed_time = own_neighborhood.placed_time;
-        self.neighborhood.chains = own_neighborhood.chains;
+        let counts = self.counts(pairs);
+        let mut own = core::mem::replace(&mut self.particles, particles);
+        let near = core::mem::replace(&mut self.neighborhood, neighborhood);
+        let mut work = core::mem::take(&mut self.work);
+        (self.walls, self.guards, self.limited) = (walls, guards, limited);
         let slots = self.particles.columns.slots();
-        self.work.go_on(
-            &own_work,
-            self.particles.mobile,
-            self.neighborhood.lists.chunks().len(),
-        );
-        let images = self.neighborhood.images.len();
-        self.work.expect_records(&own_work, slots + images);
-        self.work.expect_saved(&own_work, &self.particles, slots);
-        let mut counts = vec![0; names.len()];
-        let take = |rank: usize, from: &[u8]| {
-            let runs = runs_of::<T>(share.division(), rank, slots);
-            let chunks = share.division().of(rank);
-            let mut from = Taken(from);
-            self.take_own(&runs, &chunks, &mut counts, &mut from)?;
-            from.0.is_empty().then_some(())
-        };
-        share
-            .team
-            .gather(What::State, |to| to.append(&mut message), take);
-        for (name, count) in names.into_iter().zip(counts) {
-            self.count(name, count);
+        self.neighborhood.take_back(&part, near, slots);
+        if for_lists {
+            (work.records, work.work_records) = <(Records<T>, Records<T>)>::default();
+            work.records_of_rates = false;
         }
-        self.show_images_again();
+        let (team, division) = (&share.team, share.division());
+        let runs: Vec<_> = (0..team.count())
+            .map(|rank| runs_of::<T>(division, rank, slots))
+            .collect();
+        self.work.go_on(&work, pairs);
+        let gather = |own: &[T], all: &mut [T], width: usize| {
+            let numbers = |run: &Range<usize>| width * run.start..width * run.end;
+            let mut rest = own;
+            for run in &part.runs {
+                let (own, behind) = rest.split_at(width * run.len());
+                all[numbers(run)].copy_from_slice(own);
+                rest = behind;
+            }
+            let runs_of = |rank: usize| runs[rank].each_ref().map(numbers);
+            team.gather_numbers(What::State, all, runs_of, Vec::new(), |_, _| Some(()));
+        };
+        for field in self.particles.columns.fields().iter() {
+            let width = field.components(D);
+            let own = core::mem::take(own.columns.column_mut(field));
+            let column = self.particles.columns.column_mut(field);
+            // Where a rank has failed its particles are where they were listed, and the error is told where the call ends.
+            *column = if field == Field::POSITION {
+                self.neighborhood.listed[..slots].as_flattened().to_vec()
+            } else {
+                vec![T::zero(); width * slots]
+            };
+            gather(&own, column, width);
+        }
+        self.work.expect_saved(&work, &self.particles, slots);
+        for ((_, own), (field, all)) in work.saved().zip(self.work.saved_mut()) {
+            if !all.is_empty() {
+                gather(own, all, field.components(D));
+            }
+        }
+        let chunks: Vec<_> = (0..team.count()).map(|rank| division.of(rank)).collect();
+        let mobile = self.particles.mobile;
+        let count = self.neighborhood.lists.chunks().len();
+        for (own, all) in work.sums_mut().into_iter().zip(self.work.sums_mut()) {
+            let moving =
+                |runs: &[Range<usize>; 2]| runs[0].start.min(mobile)..runs[0].end.min(mobile);
+            let (own, here) = (core::mem::take(own), (&moving(&part.runs), mobile));
+            *all = Results::among(own, here, (&part.chunks, count));
+            let rows = |runs: &[Range<usize>; 2]| [all.rows_of(&moving(runs)), 0..0];
+            let rows: Vec<_> = runs.iter().map(rows).collect();
+            all.gather((team, What::State), &rows, &chunks);
+        }
+        if !for_lists {
+            self.work
+                .expect_records(&work, slots + self.neighborhood.images.len());
+            for (own, all) in work.records().into_iter().zip(self.work.records_mut()) {
+                if !all.data().is_empty() {
+                    let stride = all.stride();
+                    gather(own.data(), all.data_mut(), stride);
+                }
+            }
+            self.show_images_again();
+        }
+        let mut all = vec![0; counts.len()];
+        let put = |to: &mut Vec<u8>| counts.iter().for_each(|own| put_number(*own, to));
+        team.gather(What::State, put, |_, from| {
+            let mut from = Taken(from);
+            for count in &mut all {
+                *count += from.number()?;
+            }
+            from.0.is_empty().then_some(())
+        });
+        self.add_counts(&all);
     }
 
-    /// What a rank gives of its particles; before these were its own, so many pairs had been summed.
-    fn put_own(&mut self, (part, pairs): (&Part, u64), names: &[&'static str], to: &mut Vec<u8>) {
-        let pairs = self.work.spent.pairs - pairs;
+    /// What guards and limits have counted, and how many pairs were summed beside some.
+    fn counts(&self, pairs: u64) -> Vec<u64> {
         let GuardCounts {
             compression,
             expansion,
             cut_off,
         } = self.guards;
-        for number in [compression, expansion, cut_off, pairs] {
-            put_number(number, to);
-        }
-        for name in names {
-            let own = self.limited.iter().find(|own| own.0 == *name);
-            put_number(own.map_or(0, |own| own.1), to);
-        }
-        for (_, column) in self.particles.columns.iter_mut() {
-            put_numbers(column, to);
-        }
-        for (_, column) in self.work.saved() {
-            put_numbers(column, to);
-        }
-        let chunks = part.chunks.iter().map(Range::len).sum();
-        for sums in [&self.work.rates, &self.work.worked] {
-            sums.put_all(self.particles.mobile, chunks, to);
-        }
-        for records in self.work.records_at_hand() {
-            let own = records.stride() * part.count();
-            put_numbers(&records.data()[..own], to);
-        }
+        let mut counts = vec![
+            compression,
+            expansion,
+            cut_off,
+            self.work.spent.pairs - pairs,
+        ];
+        counts.extend(self.names_of_limits().into_iter().map(|name| {
+            let own = self.limited.iter().find(|own| own.0 == name);
+            own.map_or(0, |own| own.1)
+        }));
+        counts
     }
 
-    /// Takes what a rank has given of its slots and chunks.
-    fn take_own(
-        &mut self,
-        runs: &[Range<usize>; 2],
-        chunks: &[Range<usize>; 2],
-        counts: &mut [u64],
-        from: &mut Taken<'_>,
-    ) -> Option<()> {
-        let guards = GuardCounts {
-            compression: from.number()?,
-            expansion: from.number()?,
-            cut_off: from.number()?,
+    fn add_counts(&mut self, counts: &[u64]) {
+        let [compression, expansion, cut_off, pairs, limited @ ..] = counts else {
+            return;
         };
-        self.guards += guards;
-        self.work.spent.pairs += from.number()?;
-        for count in counts {
-            *count += from.number()?;
+        self.guards += GuardCounts {
+            compression: *compression,
+            expansion: *expansion,
+            cut_off: *cut_off,
+        };
+        self.work.spent.pairs += pairs;
+        for (name, count) in self.names_of_limits().into_iter().zip(limited) {
+            self.count(name, *count);
         }
-        let slots = self.particles.columns.slots();
-        for (_, column) in self.particles.columns.iter_mut() {
-            take_column(column, slots, runs, from)?;
-        }
-        for (_, column) in self.work.saved_mut() {
-            take_column(column, slots, runs, from)?;
-        }
-        let mobile = self.particles.mobile;
-        let own = runs[0].start..runs[0].end.min(mobile).max(runs[0].start);
-        let Workspace { rates, worked, .. } = &mut self.work;
-        rates.take_run(&own, chunks, from)?;
-        worked.take_run(&own, chunks, from)?;
-        for records in self.work.records_at_hand_mut() {
-            let stride = records.stride();
-            for run in runs {
-                let own = stride * run.start..stride * run.end;
-                from.numbers(records.data_mut().get_mut(own)?)?;
-            }
-        }
-        Some(())
     }
 
     /// Makes the records of images, of which no rank has all.
@@ -227,25 +228,11 @@ impl<T: Real, const D: usize> Group<T, D> {
     }
 }
 
-/// Takes a rank's numbers of a column of all slots.
-fn take_column<T: Real>(
-    column: &mut [T],
-    slots: usize,
-    runs: &[Range<usize>; 2],
-    from: &mut Taken<'_>,
-) -> Option<()> {
-    let width = column.len().checked_div(slots).unwrap_or(0);
-    for run in runs {
-        from.numbers(column.get_mut(width * run.start..width * run.end)?)?;
-    }
-    Some(())
-}
-
 impl Part {
     /// The particles of this rank.
     fn particles<T: Real, const D: usize>(
         &self,
-        all: &Particles<T, D>,
+        all: &mut Particles<T, D>,
         walls: &[WallState<T, D>],
     ) -> Particles<T, D> {
         let bodies = all.bodies.iter().map(|body| BodyState {
@@ -265,7 +252,7 @@ impl Part {
             }
         }
         Particles {
-            columns: all.columns.of_runs(&self.runs),
+            columns: all.columns.take_runs(&self.runs),
             bodies: bodies.collect(),
             mobile: self.at(all.mobile),
             ids,
@@ -280,9 +267,15 @@ impl Part {
 
     fn neighborhood<T: Real, const D: usize>(
         &self,
-        all: &Neighborhood<T, D>,
+        all: &mut Neighborhood<T, D>,
         slots: usize,
     ) -> Neighborhood<T, D> {
+        let mut numbers = vec![u32::MAX; all.listed.len()];
+        for (number, own) in self.named(slots).enumerate() {
+            numbers[own] = number as u32;
+        }
+        let lists = Arc::make_mut(&mut all.lists);
+        let lists = lists.take_runs(&self.chunks, |j| numbers[j as usize]);
         let listed_h = if all.listed_h.is_empty() {
             Vec::new()
         } else {
@@ -298,7 +291,8 @@ impl Part {
             interactions: all.interactions.clone(),
             images: self.shown.clone(),
             chains: all.chains.clone(),
-            lists: self.lists.clone(),
+            lists: Arc::new(lists),
+            whole: OnceLock::new(),
             listed: self.named(slots).map(|other| all.listed[other]).collect(),
             listed_h,
             ..*all
@@ -353,6 +347,18 @@ impl Part {
     }
 }
 
+impl<T: Real, const D: usize> Neighborhood<T, D> {
+    /// Goes on from the lists and images of a rank, of a group with so many slots.
+    fn take_back(&mut self, part: &Part, own: Self, slots: usize) {
+        let named: Vec<u32> = part.named(slots).map(|own| own as u32).collect();
+        let lists = Arc::unwrap_or_clone(own.lists);
+        let number = |j: u32| named[j as usize];
+        Arc::make_mut(&mut self.lists).put_runs(lists, &part.chunks, number);
+        (self.served, self.placed_time) = (own.served, own.placed_time);
+        self.chains = own.chains;
+    }
+}
+
 impl<T: Real, const D: usize> Workspace<T, D> {
     /// Columns of saved states that count.
     fn saved(&self) -> impl Iterator<Item = &(Field, Vec<T>)> {
@@ -366,19 +372,21 @@ impl<T: Real, const D: usize> Workspace<T, D> {
         self.kept.iter_mut().flatten().chain(predicted)
     }
 
-    fn records_at_hand(&self) -> impl Iterator<Item = &Records<T>> {
-        let of_rates = self.records_of_rates.then_some(&self.records);
-        of_rates.into_iter().chain([&self.work_records])
+    /// Sums that the next step reads.
+    fn sums_mut(&mut self) -> [&mut Results<T, D>; 2] {
+        [&mut self.rates, &mut self.worked]
     }
 
-    fn records_at_hand_mut(&mut self) -> impl Iterator<Item = &mut Records<T>> {
-        let of_rates = self.records_of_rates.then_some(&mut self.records);
-        of_rates.into_iter().chain([&mut self.work_records])
+    fn records(&self) -> [&Records<T>; 2] {
+        [&self.records, &self.work_records]
     }
 
-    /// Goes on from the work of a rank, with room for the sums of so many slots and chunks.
-    fn go_on(&mut self, own: &Self, mobile: usize, chunks: usize) {
-        let pairs = self.spent.pairs;
+    fn records_mut(&mut self) -> [&mut Records<T>; 2] {
+        [&mut self.records, &mut self.work_records]
+    }
+
+    /// Goes on from the work of a rank, after so many pairs.
+    fn go_on(&mut self, own: &Self, pairs: u64) {
         (self.phases, self.spent) = (own.phases, own.spent);
         self.spent.pairs = pairs;
         self.records_of_rates = own.records_of_rates;
@@ -387,8 +395,6 @@ impl<T: Real, const D: usize> Workspace<T, D> {
         self.first_kick = own.first_kick;
         self.lengths_time = own.lengths_time;
         self.is_predicted = own.is_predicted;
-        self.rates.expect(&own.rates, mobile, chunks);
-        self.worked.expect(&own.worked, mobile, chunks);
     }
 
     /// Makes room for so many records of the kinds that a rank has.

@@ -2,7 +2,7 @@
 //! It follows from the lists alone. Ghosts are records that their ranks send before each sweep.
 
 use super::neighborhood::Neighborhood;
-use crate::neighbors::{Block, CHUNK, ClusterLists};
+use crate::neighbors::{Block, CHUNK};
 use crate::ranks::{Division, Letters, Taken, Team, put_numbers, put_words};
 use crate::scalar::{Real, width};
 use crate::sweep::{Ghosts, Image};
@@ -39,8 +39,19 @@ pub(crate) struct Part {
     pub shown: Vec<Image>,
     /// All images of its own particles in the group.
     pub of_own: Vec<Image>,
-    pub lists: Arc<ClusterLists>,
     pub halo: Arc<Halo>,
+}
+
+/// Own slots, those of ghosts, and images behind so many slots.
+fn named(
+    runs: &[Range<usize>; 2],
+    ghosts: &[u32],
+    images: &[u32],
+    slots: usize,
+) -> impl Iterator<Item = usize> {
+    let ghosts = ghosts.iter().map(|&slot| slot as usize);
+    let images = images.iter().map(move |&k| slots + k as usize);
+    runs.iter().cloned().flatten().chain(ghosts).chain(images)
 }
 
 impl Part {
@@ -64,42 +75,31 @@ impl Part {
         for &k in &images {
             is_named[group.images[k as usize].source as usize] = true;
         }
-        let mut numbers = vec![u32::MAX; group.listed.len()];
-        for (number, slot) in runs.iter().cloned().flatten().enumerate() {
-            (numbers[slot], is_named[slot]) = (number as u32, false);
+        for run in &runs {
+            is_named[run.clone()].fill(false);
         }
-        let is_own = |own: &&Image| numbers[own.source as usize] != u32::MAX;
-        let of_own = group.images.iter().filter(is_own).map(|own| Image {
-            source: numbers[own.source as usize],
-            ..*own
-        });
-        let of_own = of_own.collect();
-        let mut number = runs.iter().map(Range::len).sum::<usize>() as u32;
         let (mut ghosts, mut from) = (Vec::new(), vec![0; ranks]);
         for (other, count) in from.iter_mut().enumerate() {
-            for slot in runs_of::<T>(division, other, slots).into_iter().flatten() {
-                if is_named[slot] {
-                    ghosts.push(slot as u32);
-                    numbers[slot] = number;
-                    number += 1;
-                    *count += 1;
-                }
-            }
+            let named = runs_of::<T>(division, other, slots).into_iter().flatten();
+            ghosts.extend(named.filter(|&slot| is_named[slot]).map(|slot| slot as u32));
+            *count = ghosts.len();
         }
-        let shown = images.iter().map(|&k| {
-            let own = group.images[k as usize];
-            Image {
-                source: numbers[own.source as usize],
-                ..own
-            }
-        });
-        let shown = shown.collect();
-        for &k in &images {
-            numbers[slots + k as usize] = number;
-            number += 1;
+        for other in (1..ranks).rev() {
+            from[other] -= from[other - 1];
         }
-        let all = chunks.iter().cloned().flatten();
-        let lists = group.lists.of_chunks(all, |j| numbers[j as usize]);
+        let mut numbers = vec![u32::MAX; group.listed.len()];
+        for (number, own) in named(&runs, &ghosts, &images, slots).enumerate() {
+            numbers[own] = number as u32;
+        }
+        let here = |own: &Image| Image {
+            source: numbers[own.source as usize],
+            ..*own
+        };
+        let shown = images.iter().map(|&k| here(&group.images[k as usize]));
+        let count = runs.iter().map(Range::len).sum();
+        let of_own = group.images.iter().map(here);
+        let of_own = of_own.filter(|own| (own.source as usize) < count);
+        let (shown, of_own) = (shown.collect(), of_own.collect());
         let halo = Halo::new(team, (&ghosts, from), |slot| numbers[slot as usize]);
         Self {
             runs,
@@ -108,7 +108,6 @@ impl Part {
             images,
             shown,
             of_own,
-            lists: Arc::new(lists),
             halo: Arc::new(halo),
         }
     }
@@ -158,14 +157,7 @@ impl Part {
 
     /// What its lists name, by their numbers in a group with so many slots, in the order of its own numbers.
     pub fn named(&self, slots: usize) -> impl Iterator<Item = usize> {
-        let ghosts = self.ghosts.iter().map(|&slot| slot as usize);
-        let images = self.images.iter().map(move |&k| slots + k as usize);
-        self.runs
-            .iter()
-            .cloned()
-            .flatten()
-            .chain(ghosts)
-            .chain(images)
+        named(&self.runs, &self.ghosts, &self.images, slots)
     }
 
     /// Its own numbers of a column of the group; none of a column that is not there.

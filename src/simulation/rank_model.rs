@@ -111,6 +111,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let before = core::mem::replace(&mut own.steps_parts, own.events.is_empty());
             let events = core::mem::take(&mut own.events);
             for group in &mut own.state.groups {
+                let near = &mut group.neighborhood;
+                near.lists = near.all_lists().clone();
                 let mut share = Share::new(team.clone());
                 share.divide::<T>(&group.neighborhood.lists, group.particles.mobile);
                 group.share = Some(share);
@@ -274,8 +276,8 @@ impl<T: Real, const D: usize> Group<T, D> {
         };
         let [by_mobile, by_others] = [0..of_mobile, of_mobile..chunks.len()].map(named);
         let kinds = [
-            (0..mobile, by_mobile[0], by_mobile[1]),
-            (mobile..slots, by_others[1], by_others[0]),
+            (0..mobile, by_mobile[0], by_others[0]),
+            (mobile..slots, by_others[1], by_mobile[1]),
         ];
         let reach = self.neighborhood.reach(&self.particles);
         let kinds = kinds.into_iter().filter(|(run, ..)| !run.is_empty());

@@ -101,6 +101,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     fn find_step(&mut self) -> Result<Vote> {
         let changed = !self.state.rates_at_hand;
         if changed {
+            self.keep_own();
             self.evaluate_together()?;
         }
         self.begin_stores(changed);

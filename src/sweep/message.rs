@@ -4,7 +4,7 @@
 use super::results::{Reaction, Results};
 use crate::neighbors::CHUNK;
 use crate::particles::Output;
-use crate::ranks::{Taken, put_number, put_numbers};
+use crate::ranks::{Taken, Team, What, put_number, put_numbers};
 use crate::scalar::Real;
 use std::ops::Range;
 
@@ -33,8 +33,8 @@ fn take_reactions<const D: usize>(own: &mut Vec<Reaction<D>>, from: &mut Taken<'
 }
 
 impl<T: Real, const D: usize> Results<T, D> {
-    /// The numbers of some chunks, of sums over slots that end at `end`.
-    fn numbers_of(&self, chunks: &Range<usize>, end: usize) -> Range<usize> {
+    /// Where the numbers of some chunks stand, of sums over slots that end at `end`.
+    pub(crate) fn numbers_of(&self, chunks: &Range<usize>, end: usize) -> Range<usize> {
         let cluster = self.outputs.width(D) * Self::WIDTH;
         let skipped = self.first / (CHUNK * Self::WIDTH);
         let length = cluster * end.saturating_sub(self.first).div_ceil(Self::WIDTH);
@@ -42,41 +42,41 @@ impl<T: Real, const D: usize> Results<T, D> {
         at(chunks.start)..at(chunks.end)
     }
 
-    /// Adds the sums of some chunks, made over slots that end at `end`, to a message.
-    pub(crate) fn put(&self, chunks: Range<usize>, end: usize, to: &mut Vec<u8>) {
-        put_numbers(&self.data[self.numbers_of(&chunks, end)], to);
-        if !self.outputs.contains(Output::FORCE) {
-            return;
-        }
-        for own in self.reactions.get(chunks).unwrap_or_default() {
-            put_reactions(own, to);
-        }
-    }
-
-    /// Takes the sums of some chunks from a message, if they are these.
-    pub(crate) fn take(
+    /// Gets the sums of all ranks where their numbers stand, and the forces on their chunks between blocks.
+    pub(crate) fn gather(
         &mut self,
-        chunks: Range<usize>,
-        end: usize,
-        from: &mut Taken<'_>,
-    ) -> Option<()> {
-        let own = self.numbers_of(&chunks, end);
-        from.numbers(self.data.get_mut(own)?)?;
+        (team, what): (&Team, What),
+        numbers: &[[Range<usize>; 2]],
+        chunks: &[[Range<usize>; 2]],
+    ) {
+        let mut forces = self.reactions.as_mut_slice();
         if !self.outputs.contains(Output::FORCE) {
-            return Some(());
+            forces = &mut [];
         }
-        for own in self.reactions.get_mut(chunks).unwrap_or_default() {
-            own.clear();
-            take_reactions(own, from)?;
+        let of_rank = |rank: usize| chunks[rank].clone().into_iter().flatten();
+        let mut added = Vec::new();
+        for chunk in of_rank(team.rank()) {
+            if let Some(own) = forces.get(chunk) {
+                put_reactions(own, &mut added);
+            }
         }
-        Some(())
+        let runs_of = |rank: usize| numbers[rank].clone();
+        team.gather_numbers(what, &mut self.data, runs_of, added, |rank, from| {
+            for chunk in of_rank(rank) {
+                if let Some(own) = forces.get_mut(chunk) {
+                    own.clear();
+                    take_reactions(own, from)?;
+                }
+            }
+            Some(())
+        });
     }
 }
 
 /// Sums over all particles that move by forces, of which a rank has those of a run of whole chunks.
 impl<T: Real, const D: usize> Results<T, D> {
     /// Where the numbers of a run of slots stand.
-    fn rows_of(&self, slots: &Range<usize>) -> Range<usize> {
+    pub(crate) fn rows_of(&self, slots: &Range<usize>) -> Range<usize> {
         let cluster = self.outputs.width(D) * Self::WIDTH;
         slots.start / Self::WIDTH * cluster..slots.end.div_ceil(Self::WIDTH) * cluster
     }
@@ -103,41 +103,22 @@ impl<T: Real, const D: usize> Results<T, D> {
         own
     }
 
-    /// Gets ready for the sums of so many slots and chunks that ranks have.
-    pub(crate) fn expect(&mut self, own: &Self, slots: usize, chunks: usize) {
-        self.lay_out(own.outputs);
-        self.first = 0;
-        self.data.clear();
-        self.data.resize(self.rows_of(&(0..slots)).end, T::zero());
-        self.reactions.resize_with(chunks, Vec::new);
-        self.reactions.iter_mut().for_each(Vec::clear);
-    }
-
-    /// Adds all sums of so many slots and chunks to a message.
-    pub(crate) fn put_all(&self, slots: usize, chunks: usize, to: &mut Vec<u8>) {
-        put_numbers(
-            self.data.get(self.rows_of(&(0..slots))).unwrap_or_default(),
-            to,
-        );
-        for chunk in 0..chunks {
-            let own = self.reactions.get(chunk).map_or(&[][..], Vec::as_slice);
-            put_reactions(own, to);
+    /// The sums of a run of slots and the forces on some chunks, with room for those of so many slots and chunks.
+    pub(crate) fn among(
+        own: Self,
+        (slots, mobile): (&Range<usize>, usize),
+        (chunks, count): (&[Range<usize>], usize),
+    ) -> Self {
+        let mut all = Self::default();
+        all.lay_out(own.outputs);
+        all.data.resize(all.rows_of(&(0..mobile)).end, T::zero());
+        all.reactions.resize_with(count, Vec::new);
+        let rows = all.rows_of(slots);
+        all.data[rows.start..rows.start + own.data.len()].copy_from_slice(&own.data);
+        let places = chunks.iter().cloned().flatten();
+        for (chunk, own) in places.zip(own.reactions) {
+            all.reactions[chunk] = own;
         }
-    }
-
-    /// Takes the sums of a run of slots and the forces on some chunks, which a rank had as all of its own.
-    pub(crate) fn take_run(
-        &mut self,
-        slots: &Range<usize>,
-        chunks: &[Range<usize>],
-        from: &mut Taken<'_>,
-    ) -> Option<()> {
-        let rows = self.rows_of(slots);
-        from.numbers(self.data.get_mut(rows)?)?;
-        for own in chunks.iter().cloned().flatten() {
-            let own = self.reactions.get_mut(own)?;
-            take_reactions(own, from)?;
-        }
-        Some(())
+        all
     }
 }

@@ -4,13 +4,14 @@
 /// Particles that are cut among ranks: those that move by forces, or all others, of bodies that share a scheme.
 ///
 /// A rank has a box of them. The box of all has sides L; the longest are cut until there are P boxes, so that cut sides l = L/f are
-/// equal. Ghosts are the particles within reach r of such a box, and those of the other kind that the lists name:
+/// equal. Ghosts are the b particles within reach r of such a box, and those that lists of the other kind name, which may be the same:
 ///
 /// ```text
-/// g = n/ΠL (Π min(L, l + m r) − Π l) + a/P,   m = 2 (1 − 1/f),  and 2 min(1, f − 1) along a period
+/// b = n/ΠL (Π min(L, l + m r) − Π l),   m = 2 (1 − 1/f),  and 2 min(1, f − 1) along a period
+/// g = b + a/P − b a/(n (P − 1))
 /// ```
 ///
-/// with n particles, the mean number m of neighbouring boxes along an axis, and a particles of the other kind in all lists, none of
+/// with n particles, the mean number m of neighbouring boxes along an axis, and a particles in all lists of the other kind, none of
 /// which are taken to be of the same rank, for each kind is cut by itself. One rank has no ghosts.
 ///
 /// ```
@@ -36,7 +37,7 @@ pub struct RankParts {
     pub periodic: Vec<bool>,
     /// How far lists reach beyond a particle \[m\]: support and skin; zero if lists name none of their own kind.
     pub reach: f64,
-    /// Particles a of the other kind that the lists name.
+    /// Particles a of these that the lists of the other kind name.
     pub across: f64,
 }
 
@@ -63,8 +64,9 @@ impl RankParts {
         } else {
             0.0
         };
-        if ranks > 1 {
-            beside + self.across / count
+        let (others, named) = (self.particles * (1.0 - 1.0 / count), self.across / count);
+        if others > 0.0 {
+            beside + named - beside * named / others
         } else {
             0.0
         }

@@ -61,7 +61,9 @@ fn periods_have_two_neighbours_and_one_rank_has_no_ghosts() {
     channel.periodic[0] = false;
     assert_relative_eq!(channel.ghosts(2), 600.0, max_relative = 1e-12);
     channel.across = 80.0;
-    assert_relative_eq!(channel.ghosts(2), 640.0, max_relative = 1e-12);
+    // 40 of the 13 500 others, of which 600 are counted.
+    let both = 640.0 - 40.0 * 600.0 / 13_500.0;
+    assert_relative_eq!(channel.ghosts(2), both, max_relative = 1e-12);
     assert_relative_eq!(channel.ghosts(1), 0.0);
     // No more than all others.
     assert_relative_eq!(cube(10, 99.0).ghosts(8), 875.0, max_relative = 1e-12);
@@ -87,7 +89,7 @@ fn water(particles: f64, cores: f64) -> RankModel {
             gathered: 26.0,
             exchanged: 4.0,
             each: 800.0,
-            parts: 490e6,
+            parts: 360e6,
             to_each: 8.0,
             of_ghost: 164.0,
             divided: 0.76 * 0.671 / cores,
@@ -117,7 +119,7 @@ fn a_step_takes_what_its_parts_take() {
     assert_relative_eq!(cost.ghosts, ghosts, max_relative = 1e-12);
     let each = 0.96 * 700.0 + 0.04 * 800.0;
     let votes = 7.0 * each + 8.0 * 0.04 * 8.0;
-    let bytes = ghosts * (0.96 * 160.0 + 0.04 * 164.0) + votes + 0.04 * 490.0 * 8e6 * 7.0 / 8.0;
+    let bytes = ghosts * (0.96 * 160.0 + 0.04 * 164.0) + votes + 0.04 * 360.0 * 8e6 * 7.0 / 8.0;
     assert_relative_eq!(cost.received, bytes, max_relative = 1e-12);
     let share = (8e6_f64 / 512.0 / 8.0).ceil() / 15_625.0;
     let work = 8.0 * 0.671 * (share * (0.96 + 0.04 * 0.76) + 0.04 * 0.24);
@@ -150,8 +152,8 @@ fn memory_and_list_builds_limit_first() {
                 1e-9 * cost.memory,
                 largest.what
             );
-            // All of the scene, on any number of ranks.
-            assert!(cost.memory > 325.0 * particles);
+            // All of the scene but lists, on any number of ranks.
+            assert!(cost.memory >= 300.0 * particles);
         }
     }
     // Eight ranks gain most of what more of them do, and a thousand gain what list builds leave.

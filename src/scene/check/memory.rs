@@ -38,7 +38,9 @@ impl<T: Real, const D: usize> Scene<T, D> {
         if particles == 0 || needed.is_nan() {
             return;
         }
-        let known = self.memory.or_else(available);
+        // Every rank has the whole scene, if only between calls.
+        let shared = || Some(available()? / self.ranks_here);
+        let known = self.memory.or_else(shared);
         let available = known.unwrap_or(u64::MAX);
         // Where nothing says what there is, the allocator is asked: what it refuses at once need not be tried by pieces.
         let granted = needed < isize::MAX as f64

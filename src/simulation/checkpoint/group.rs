@@ -45,6 +45,9 @@ impl<T: Real, const D: usize> Group<T, D> {
             root: _,
             guards,
             limited,
+            // Of a step under way.
+            kept_times: _,
+            given: _,
         } = self;
         let slots = particles.columns.slots();
         put_particles(particles, scheme, name, file);

@@ -117,6 +117,7 @@ pub(super) fn put_neighborhood<T: Real, const D: usize>(
         sorted_entries,
         support: _,
         smoothing_length: _,
+        whole: _,
     } = neighborhood;
     // Images stand behind the slots.
     let listed = listed[..slots].as_flattened();

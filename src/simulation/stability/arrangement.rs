@@ -49,12 +49,11 @@ pub struct Arrangement {
 type Sums = (Least, [u64; BINS + 1], [u64; 4], [f64; 4]);
 
 /// Those of the particles of one chunk of lists.
-fn sums_of<T: Real, const D: usize>(group: &Group<T, D>, chunk: usize) -> Sums {
+fn sums_of<T: Real, const D: usize>(group: &Group<T, D>, chunk: usize, rows: usize) -> Sums {
     let (particles, neighborhood) = (&group.particles, &group.neighborhood);
     let (mut least, mut bins) = (Least::NONE, [0; BINS + 1]);
     let [mut count, mut alone, mut sparse, mut inside] = [0; 4];
     let [mut distance, mut anisotropy, mut noise, mut speed] = [0.0; 4];
-    let rows = neighborhood.lists.chunks()[chunk].starts.len() - 1;
     let width = <T::Wide<false> as Lane>::WIDTH;
     let columns = &particles.columns;
     let positions = columns.vectors(Field::POSITION);
@@ -134,8 +133,9 @@ pub(super) fn arrangement<T: Real, const D: usize>(groups: &[Group<T, D>]) -> Op
     let mut all = Collective::<Sums>::new();
     let (mut nearest, mut at) = (f64::INFINITY, (usize::MAX, 0));
     for (index, group) in groups.iter().enumerate() {
-        let chunks = group.neighborhood.lists.chunks().len();
-        let own = over_pieces(runs(0..chunks, 1), |chunk, _| sums_of(group, chunk));
+        let chunks = group.neighborhood.all_lists().chunks();
+        let of_chunk = |chunk, _| sums_of(group, chunk, chunks[chunk].rows());
+        let own = over_pieces(runs(0..chunks.len(), 1), of_chunk);
         let Least(least, slot) = own.0;
         if least < nearest {
             (nearest, at) = (least, (slot, index));
