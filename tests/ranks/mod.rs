@@ -5,6 +5,7 @@ mod bad_inputs;
 mod errors;
 #[cfg(feature = "checkpoint")]
 mod killed;
+mod long;
 mod parts;
 mod pieces;
 mod predicted;
@@ -26,13 +27,18 @@ const PLACES: [[usize; 2]; 5] = [[1, 2], [2, 1], [2, 2], [3, 1], [4, 2]];
 
 /// Ends the test if ranks wait for each other for ever.
 fn watched<V: Send + 'static>(program: impl FnOnce() -> V + Send + 'static) -> V {
+    watched_for(300, program)
+}
+
+/// The same after so many seconds.
+fn watched_for<V: Send + 'static>(seconds: u64, program: impl FnOnce() -> V + Send + 'static) -> V {
     let (done, end) = channel();
     let running = std::thread::spawn(move || {
         let value = program();
         let _ = done.send(());
         value
     });
-    let ended = end.recv_timeout(Duration::from_secs(300)).is_ok();
+    let ended = end.recv_timeout(Duration::from_secs(seconds)).is_ok();
     assert!(ended || running.is_finished(), "ranks hang");
     running.join().expect("a program on ranks")
 }
@@ -57,14 +63,24 @@ fn run<T: Real, const D: usize>(scene: Scene<T, D>, steps: usize) -> (Vec<u64>, 
 /// Holds a scene on ranks against the plain run, over at least so many list builds.
 fn one_set_of_bits<T: Real, const D: usize>(
     name: &'static str,
+    least: (usize, u64),
+    scene: impl Fn() -> Scene<T, D> + Send + Sync + 'static,
+) {
+    one_set_of_bits_on(&PLACES, name, least, scene);
+}
+
+/// The same on some numbers of ranks and threads.
+fn one_set_of_bits_on<T: Real, const D: usize>(
+    places: &'static [[usize; 2]],
+    name: &'static str,
     (steps, builds): (usize, u64),
     scene: impl Fn() -> Scene<T, D> + Send + Sync + 'static,
 ) {
-    watched(move || {
+    watched_for(60 * places.len() as u64, move || {
         let plain = run(scene(), steps);
         println!("{name}: {} list builds", plain.2);
         assert!(plain.2 >= builds, "{name}: {} list builds", plain.2);
-        for [count, threads] in PLACES {
+        for &[count, threads] in places {
             let program = |ranks: Arc<dyn Ranks>| run(scene().on_ranks(ranks), steps);
             let all = ranks::in_threads(count, threads, program).expect("threads");
             for (rank, own) in all.into_iter().enumerate() {

@@ -147,17 +147,20 @@ fn a_plate_swings_by_its_reference_neighbours() {
     one_set_of_bits_in_parts("total-Lagrangian plate", (80, 1), true, bent_plate);
 }
 
+/// A steel plate that turns.
+pub(super) fn turning_plate() -> Scene<f64, 2> {
+    let steel = catalogue::steel().with_shear_modulus(77e9);
+    let plate = Body::block("plate", steel, [0.0; 2], [0.08, 0.04], 1e-3);
+    let plate = plate.start(|[x, y], start| Start {
+        velocity: [-4000.0 * (y - 0.02), 4000.0 * (x - 0.04)],
+        ..start
+    });
+    Scene::<f64, 2>::new(schemes::impact_by_continuity().with(Hypoelastic)).body(plate)
+}
+
 #[test]
 fn a_plate_that_turns_by_continuity() {
-    one_set_of_bits_in_parts("elastic plate that turns", (150, 5), true, || {
-        let steel = catalogue::steel().with_shear_modulus(77e9);
-        let plate = Body::block("plate", steel, [0.0; 2], [0.08, 0.04], 1e-3);
-        let plate = plate.start(|[x, y], start| Start {
-            velocity: [-4000.0 * (y - 0.02), 4000.0 * (x - 0.04)],
-            ..start
-        });
-        Scene::<f64, 2>::new(schemes::impact_by_continuity().with(Hypoelastic)).body(plate)
-    });
+    one_set_of_bits_in_parts("elastic plate that turns", (150, 5), true, turning_plate);
 }
 
 #[test]

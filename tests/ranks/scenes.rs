@@ -125,97 +125,103 @@ fn a_plate_that_yields_strikes_a_wall_by_continuity() {
     one_set_of_bits("elastic plate that turns", (100, 2), plate_at_wall);
 }
 
+/// A striker of copper on a target of PMMA.
+pub(super) fn impact() -> Scene<f32, 2> {
+    let [copper, pmma] = [catalogue::copper::<f32>(), catalogue::pmma::<f32>()];
+    Scene::<f32, 2>::new(schemes::impact())
+        .body(Body::block("striker", copper, [0.0; 2], [0.05, 0.05], 1e-3).velocity([900.0, 100.0]))
+        .body(Body::block("target", pmma, [0.05, 0.0], [0.1, 0.06], 1e-3))
+}
+
 #[test]
 fn bodies_in_contact_that_heat() {
-    one_set_of_bits("impact", (150, 3), || {
-        let [copper, pmma] = [catalogue::copper::<f32>(), catalogue::pmma::<f32>()];
-        Scene::<f32, 2>::new(schemes::impact())
-            .body(
-                Body::block("striker", copper, [0.0; 2], [0.05, 0.05], 1e-3)
-                    .velocity([900.0, 100.0]),
-            )
-            .body(Body::block("target", pmma, [0.05, 0.0], [0.1, 0.06], 1e-3))
-    });
+    one_set_of_bits("impact", (150, 3), impact);
+}
+
+/// Water that enters a channel at one end and leaves it at the other.
+pub(super) fn channel() -> Scene<f64, 2> {
+    let opening = (0..40).map(|k| [0.0, DX * (f64::from(k) + 0.5)]).collect();
+    let water = catalogue::weakly_compressible_water(2.0);
+    let closed = [[false; 2], [true; 2]];
+    let (low, high) = ([-0.06, 0.0], [0.8, 0.4]);
+    Scene::<f64, 2>::new(schemes::weakly_compressible())
+        .body(Body::block("water", water, [0.0; 2], [0.6, 0.4], DX).velocity([1.0, 0.0]))
+        .inlet(Inlet::new("water", opening, [1.0, 0.0], DX, 400))
+        .outlet(Outlet::plane([0.62, 0.0], [1.0, 0.0]))
+        .wall(Wall::around("floors", low, high, DX, 4, closed))
 }
 
 #[test]
 fn what_enters_and_leaves() {
-    one_set_of_bits("channel", (300, 6), || {
-        let opening = (0..40).map(|k| [0.0, DX * (f64::from(k) + 0.5)]).collect();
-        let water = catalogue::weakly_compressible_water(2.0);
-        let closed = [[false; 2], [true; 2]];
-        let (low, high) = ([-0.06, 0.0], [0.8, 0.4]);
-        Scene::<f64, 2>::new(schemes::weakly_compressible())
-            .body(Body::block("water", water, [0.0; 2], [0.6, 0.4], DX).velocity([1.0, 0.0]))
-            .inlet(Inlet::new("water", opening, [1.0, 0.0], DX, 400))
-            .outlet(Outlet::plane([0.62, 0.0], [1.0, 0.0]))
-            .wall(Wall::around("floors", low, high, DX, 4, closed))
-    });
+    one_set_of_bits("channel", (300, 6), channel);
+}
+
+/// Water on an elastic plate, which sub-cycles, on a plastic block.
+pub(super) fn mixed() -> Scene<f64, 2> {
+    let water = catalogue::water_at(SoundSpeed::artificial(2.0));
+    let soft = |name: &str| {
+        Material::new(name, Linear::new(1100.0, 40.0))
+            .with_shear_modulus(5e5)
+            .with_yield_stress(2e3)
+    };
+    let plate = Body::block("plate", soft("plate"), [-0.03, -0.05], [0.53, 0.0], DX);
+    let block = Body::block("block", soft("block"), [0.02, -0.305], [0.48, -0.055], DX);
+    Scene::<f64, 2>::new(schemes::weakly_compressible())
+        .body(Body::block("water", water, [0.0; 2], [0.5, 0.4], DX).velocity([0.0, -1.0]))
+        .group(schemes::total_lagrangian().with(NeoHookean), [plate])
+        .group(
+            schemes::total_lagrangian().with(FiniteStrainPlasticity),
+            [block.velocity([0.0, 2.0])],
+        )
+        .wall(Wall::around(
+            "tank",
+            [0.0; 2],
+            [0.5; 2],
+            DX,
+            4,
+            [[true; 2], [false; 2]],
+        ))
+        .fix("plate", |[x, _]| !(0.0..0.5).contains(x))
+        .couple("plate", "block", ContactDensity::new())
+        .between("water", "block", Interaction::None)
+        .between("plate", "tank", Interaction::None)
+        .between("block", "tank", Interaction::None)
+        .sub_cycle("plate", 8)
+        .acceleration(down)
 }
 
 #[test]
 fn liquid_wall_elastic_and_plastic_bodies() {
-    one_set_of_bits("mixed", (60, 2), || {
-        let water = catalogue::water_at(SoundSpeed::artificial(2.0));
-        let soft = |name: &str| {
-            Material::new(name, Linear::new(1100.0, 40.0))
-                .with_shear_modulus(5e5)
-                .with_yield_stress(2e3)
-        };
-        let plate = Body::block("plate", soft("plate"), [-0.03, -0.05], [0.53, 0.0], DX);
-        let block = Body::block("block", soft("block"), [0.02, -0.305], [0.48, -0.055], DX);
-        Scene::<f64, 2>::new(schemes::weakly_compressible())
-            .body(Body::block("water", water, [0.0; 2], [0.5, 0.4], DX).velocity([0.0, -1.0]))
-            .group(schemes::total_lagrangian().with(NeoHookean), [plate])
-            .group(
-                schemes::total_lagrangian().with(FiniteStrainPlasticity),
-                [block.velocity([0.0, 2.0])],
-            )
-            .wall(Wall::around(
-                "tank",
-                [0.0; 2],
-                [0.5; 2],
-                DX,
-                4,
-                [[true; 2], [false; 2]],
-            ))
-            .fix("plate", |[x, _]| !(0.0..0.5).contains(x))
-            .couple("plate", "block", ContactDensity::new())
-            .between("water", "block", Interaction::None)
-            .between("plate", "tank", Interaction::None)
-            .between("block", "tank", Interaction::None)
-            .sub_cycle("plate", 8)
-            .acceleration(down)
-    });
+    one_set_of_bits("mixed", (60, 2), mixed);
+}
+
+/// A block of wood that falls into water.
+pub(super) fn floating() -> Scene<f64, 2> {
+    let water = catalogue::weakly_compressible_water(3.0);
+    let wood = Material::new("wood", Linear::new(500.0, 40.0));
+    let tank = Wall::around(
+        "tank",
+        [0.0; 2],
+        [0.9, 0.6],
+        DX,
+        4,
+        [[true; 2], [true, false]],
+    );
+    Scene::<f64, 2>::new(schemes::weakly_compressible())
+        .body(Body::block("water", water, [0.0; 2], [0.9, 0.3], DX))
+        .group(
+            schemes::impact_by_continuity(),
+            [Body::block("block", wood, [0.3, 0.305], [0.5, 0.405], DX).velocity([0.5, -1.5])],
+        )
+        .rigid("block")
+        .couple("block", "tank", ContactDensity::new())
+        .wall(tank)
+        .acceleration(down)
 }
 
 #[test]
 fn a_rigid_block_floats_in_a_tank() {
-    one_set_of_bits("floating", (200, 4), || {
-        let water = catalogue::weakly_compressible_water(3.0);
-        let wood = Material::new("wood", Linear::new(500.0, 40.0));
-        let tank = Wall::around(
-            "tank",
-            [0.0; 2],
-            [0.9, 0.6],
-            DX,
-            4,
-            [[true; 2], [true, false]],
-        );
-        Scene::<f64, 2>::new(schemes::weakly_compressible())
-            .body(Body::block("water", water, [0.0; 2], [0.9, 0.3], DX))
-            .group(
-                schemes::impact_by_continuity(),
-                [
-                    Body::block("block", wood, [0.3, 0.305], [0.5, 0.405], DX)
-                        .velocity([0.5, -1.5]),
-                ],
-            )
-            .rigid("block")
-            .couple("block", "tank", ContactDensity::new())
-            .wall(tank)
-            .acceleration(down)
-    });
+    one_set_of_bits("floating", (200, 4), floating);
 }
 
 /// Water in a tank that is crushed.
@@ -249,18 +255,21 @@ fn water_falls_into_a_corner_of_mirrors() {
     one_set_of_bits("corner", (250, 6), corner);
 }
 
+/// The same between periods, by drift-kick-drift.
+pub(super) fn channel_of_period() -> Scene<f64, 2> {
+    let opening = (0..40).map(|k| [0.0, DX * (f64::from(k) + 0.5)]).collect();
+    let water = catalogue::weakly_compressible_water(2.0);
+    Scene::<f64, 2>::new(schemes::weakly_compressible())
+        .body(Body::block("water", water, [0.0; 2], [0.6, 0.4], DX).velocity([1.0, 0.0]))
+        .inlet(Inlet::new("water", opening, [1.0, 0.0], DX, 400))
+        .outlet(Outlet::plane([0.62, 0.0], [1.0, 0.0]))
+        .boundary(Periodic::along(1, 0.0, 0.4))
+        .integrator(DriftKickDrift)
+}
+
 #[test]
 fn water_enters_between_periods_by_another_integrator() {
-    one_set_of_bits("period, drift-kick-drift", (250, 6), || {
-        let opening = (0..40).map(|k| [0.0, DX * (f64::from(k) + 0.5)]).collect();
-        let water = catalogue::weakly_compressible_water(2.0);
-        Scene::<f64, 2>::new(schemes::weakly_compressible())
-            .body(Body::block("water", water, [0.0; 2], [0.6, 0.4], DX).velocity([1.0, 0.0]))
-            .inlet(Inlet::new("water", opening, [1.0, 0.0], DX, 400))
-            .outlet(Outlet::plane([0.62, 0.0], [1.0, 0.0]))
-            .boundary(Periodic::along(1, 0.0, 0.4))
-            .integrator(DriftKickDrift)
-    });
+    one_set_of_bits("period, drift-kick-drift", (250, 6), channel_of_period);
 }
 
 /// A rod that streams through a period, by an integrator that keeps states.
@@ -280,28 +289,31 @@ fn a_rod_flows_by_runge_kutta() {
     one_set_of_bits("Runge-Kutta", (60, 4), rod_by_runge_kutta);
 }
 
+/// A stone that falls into a tank that is shaken.
+pub(super) fn shaken_block() -> Scene<f64, 2> {
+    let water = catalogue::weakly_compressible_water(4.0);
+    let stone = Material::new("stone", Linear::new(2000.0, 40.0));
+    let block = Body::block("block", stone, [0.3, 0.405], [0.5, 0.505], DX);
+    let shaken = Translation::new(
+        |t| [0.02 * (30.0 * t).sin() - 0.6 * t, 0.0],
+        |t| [0.6 * (30.0 * t).cos() - 0.6, 0.0],
+        |t| [-18.0 * (30.0 * t).sin(), 0.0],
+    );
+    let open = [[true; 2], [true, false]];
+    let tank = Wall::around("tank", [0.0; 2], [0.8, 0.6], DX, 4, open);
+    Scene::<f64, 2>::new(schemes::weakly_compressible())
+        .body(Body::block("water", water, [0.0; 2], [0.8, 0.4], DX))
+        .group(
+            schemes::impact_by_continuity(),
+            [block.velocity([0.0, -2.0])],
+        )
+        .rigid("block")
+        .couple("block", "tank", ContactDensity::new().friction(0.3))
+        .wall(tank.motion(shaken))
+        .acceleration(down)
+}
+
 #[test]
 fn a_rigid_block_falls_into_a_tank_that_is_shaken() {
-    one_set_of_bits("shaken block", (150, 4), || {
-        let water = catalogue::weakly_compressible_water(4.0);
-        let stone = Material::new("stone", Linear::new(2000.0, 40.0));
-        let block = Body::block("block", stone, [0.3, 0.405], [0.5, 0.505], DX);
-        let shaken = Translation::new(
-            |t| [0.02 * (30.0 * t).sin() - 0.6 * t, 0.0],
-            |t| [0.6 * (30.0 * t).cos() - 0.6, 0.0],
-            |t| [-18.0 * (30.0 * t).sin(), 0.0],
-        );
-        let open = [[true; 2], [true, false]];
-        let tank = Wall::around("tank", [0.0; 2], [0.8, 0.6], DX, 4, open);
-        Scene::<f64, 2>::new(schemes::weakly_compressible())
-            .body(Body::block("water", water, [0.0; 2], [0.8, 0.4], DX))
-            .group(
-                schemes::impact_by_continuity(),
-                [block.velocity([0.0, -2.0])],
-            )
-            .rigid("block")
-            .couple("block", "tank", ContactDensity::new().friction(0.3))
-            .wall(tank.motion(shaken))
-            .acceleration(down)
-    });
+    one_set_of_bits("shaken block", (150, 4), shaken_block);
 }
