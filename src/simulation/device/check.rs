@@ -35,9 +35,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 let body = &group.particles.bodies[rigid.body].name;
                 part(true, &|| format!("the rigid body `{body}`"));
             }
-            part(group.sub_cycles(), &|| {
-                "a group that sub-cycles".into()
-            });
+            part(group.sub_cycles(), &|| "a group that sub-cycles".into());
             for what in structures::refused(group) {
                 part(true, &|| what.clone());
             }
