@@ -26,6 +26,7 @@ mod open_boundaries;
 mod recorded_motion;
 mod riemann_walls;
 mod sampling;
+mod sinking_disc;
 mod sloshing;
 mod slow;
 mod sound_and_volume;
