@@ -22,7 +22,7 @@ impl ClusterLists {
         own
     }
 
-    /// Puts back what was taken.
+    /// Restores what was taken.
     pub(crate) fn put_runs(
         &mut self,
         mut own: Self,
