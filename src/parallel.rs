@@ -176,9 +176,13 @@ impl Pool {
 /// Does `work` by threads of its own while this one waits and does nothing else, as one that keeps others waiting must.
 pub(crate) fn apart(work: impl FnOnce() + Send) {
     #[cfg(feature = "parallel")]
-    if let Ok(pool) = Pool::new(threads()) {
-        let done = std::thread::scope(|scope| scope.spawn(|| pool.install(work)).join());
-        return done.unwrap_or_else(|panicked| std::panic::resume_unwind(panicked));
+    match Pool::new(threads()) {
+        Ok(pool) => {
+            let done = std::thread::scope(|scope| scope.spawn(|| pool.install(work)).join());
+            done.unwrap_or_else(|panicked| std::panic::resume_unwind(panicked));
+        }
+        // A system without threads has none that could wait.
+        Err(_) => work(),
     }
     #[cfg(not(feature = "parallel"))]
     work();

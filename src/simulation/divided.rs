@@ -94,8 +94,9 @@ impl Share {
         lists.keep(&made);
         lists.rebuild_some(input, &made);
         let mut own = Vec::new();
-        made.iter()
-            .for_each(|run| lists.put_counts(run.clone(), &mut own));
+        for run in &made {
+            lists.put_counts(run.clone(), &mut own);
+        }
         let take = |other: usize, from: &[u8]| {
             let mut from = Taken(from);
             for run in self.division.of(other) {

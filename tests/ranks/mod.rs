@@ -76,7 +76,7 @@ fn one_set_of_bits_on<T: Real, const D: usize>(
     (steps, builds): (usize, u64),
     scene: impl Fn() -> Scene<T, D> + Send + Sync + 'static,
 ) {
-    watched_for(60 * places.len() as u64, move || {
+    watched_for(120 * places.len() as u64, move || {
         let plain = run(scene(), steps);
         println!("{name}: {} list builds", plain.2);
         assert!(plain.2 >= builds, "{name}: {} list builds", plain.2);
