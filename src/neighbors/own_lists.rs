@@ -192,7 +192,7 @@ mod tests {
         for (own, other) in rest.chunks.iter().zip(&whole.chunks) {
             assert_eq!(own.neighbors, other.neighbors);
         }
-        whole.keep(&[1..3]);
+        whole.keep(core::slice::from_ref(&(1..3)));
         let here: Vec<bool> = whole.chunks.iter().map(ChunkList::is_here).collect();
         assert_eq!(here, [false, true, true, false, false]);
     }

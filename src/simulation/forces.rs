@@ -12,7 +12,7 @@ pub(crate) enum Forces<'a, T: Real, const D: usize> {
     Apart(&'a mut [[T; D]]),
 }
 
-impl<'a, T: Real, const D: usize> Forces<'a, T, D> {
+impl<T: Real, const D: usize> Forces<'_, T, D> {
     /// Whether they are those of couplings alone.
     pub fn are_apart(&self) -> bool {
         matches!(self, Self::Apart(_))
