@@ -1,5 +1,5 @@
 //! Water at rest for 40 √(H/g), against the pressure of a column that its own weight compresses.
-//! dp = ρ g dz with p = c²(ρ − ρ₀) gives p = ρ₀c² (exp(g d/c²) − 1) at the depth d (Batchelor 1967, §1.4).
+//! dp = ρ g dz with p = c²(ρ − ρ₀) gives p = ρ₀c² (exp(g d/c²) − 1) at the depth d (Batchelor 1967, §1.4); Tait's law 1e-4 of ρgH less.
 
 use crate::tank::GRAVITY;
 use meshfree::boundary::Wall;

@@ -158,7 +158,7 @@ fn memory_and_list_builds_limit_first() {
     }
     // Eight ranks gain most of what more of them do, and a thousand gain what list builds leave.
     let steps = [1, 8, 1000].map(|ranks| water(1e8, 32.0).on(ranks, &network).expect("a cost"));
-    assert!(steps[0].step / steps[2].step < 10.0);
+    assert!(steps[0].step / steps[2].step < 14.0);
     let largest = steps[2].largest().expect("a line").what;
     assert!(largest.starts_with("list builds"), "{largest}");
     // Without list builds it would be another table.
