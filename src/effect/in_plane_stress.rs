@@ -34,7 +34,7 @@ use crate::term::{Stage, TermDoc};
 /// | all that the law adds | as in plane strain |
 ///
 /// ```
-/// use meshfree::effect::{NeoHookean, parts::InPlaneStress};
+/// use meshfree::effect::{NeoHookean, InPlaneStress};
 /// use meshfree::prelude::*;
 ///
 /// // A rubber sheet that is pulled gets thinner.

@@ -8,10 +8,8 @@ pub use super::consistent_shifting::{Crowding, ShiftedContinuity};
 pub use super::five_equations::{FluidFluxes, FluidGradients};
 pub use super::heat_conduction::HeatFlow;
 pub use super::hourglass_free::VelocityMismatch;
-pub use super::in_plane_stress::InPlaneStress;
 pub use super::mass_exchange::Exchange;
 pub use super::pairing_control::NearPairs;
-pub use super::point::CONSTANTS;
 pub use super::pressure_difference::PressureSlope;
 #[cfg(any(test, feature = "devices"))]
 pub use super::recorded::{PointRecord, point_records};

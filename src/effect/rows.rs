@@ -372,10 +372,10 @@ fn store<T: Real, L: Lane>(numbers: &[L], column: &mut [T]) {
 pub(super) const fn assert_few<const D: usize>(fields: Fields, sums: Outputs) {
     assert!(
         fields.width(D) <= MOST_READS && fields.width(1) <= MOST,
-        "a law, rate or limit of points declares more numbers than `meshfree::term::parts::MOST_READS`, or more than 32 fields"
+        "a law, rate or limit of points declares more numbers than `meshfree::term::MOST_READS`, or more than 32 fields"
     );
     assert!(
         sums.width(D) <= MOST_SUMS && sums.width(1) <= MOST,
-        "a law, rate or limit of points declares more sums than `meshfree::term::parts::MOST_SUMS` numbers, or more than 32"
+        "a law, rate or limit of points declares more sums than `meshfree::term::MOST_SUMS` numbers, or more than 32"
     );
 }

@@ -41,11 +41,9 @@ pub mod rheology;
 mod solid;
 pub mod strength;
 
-#[doc(hidden)]
 pub use erased::EosObject;
 use erased::Erased;
 pub use liquid::{Liquid, SoundSpeed};
-#[doc(hidden)]
 pub use objects::{FailureObject, RheologyObject, StrengthObject};
 
 use crate::scalar::Real;

@@ -27,7 +27,6 @@ pub(crate) use real::width;
 #[cfg(target_arch = "x86_64")]
 pub(crate) use registers::{OnAvx2, OnAvx512};
 pub use root::Root;
-#[doc(hidden)]
 pub use traced::{Binary, Operation, Record, Traced, TracedMask, Unary, Unrecordable};
 
 /// [`Lane::iterate`] as a loop in the text around it: a closure that is compiled by itself has the registers of the baseline.

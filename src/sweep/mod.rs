@@ -35,8 +35,8 @@
 //!
 //! Each particle sums over its own neighbours in the order of its list, which is the same whoever made
 //! it; no thread adds to what belongs to
-//! another, so there are no locks and no atomics. Threads take chunks of 64 clusters
-//! ([`CHUNK`](crate::neighbors::CHUNK)), a number that depends on nothing, and reductions have a fixed
+//! another, so there are no locks and no atomics. Threads take chunks of 64 clusters,
+//! a number that depends on nothing, and reductions have a fixed
 //! shape. Another instruction set, another [`Root`], or another skin of the lists, changes rounding.
 //!
 //! # Positions in `f32`

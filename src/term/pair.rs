@@ -88,11 +88,11 @@ pub(crate) const fn assert_room<P: Layout, const D: usize>() {
     );
     assert!(
         P::READS.width(D) <= MOST_READS,
-        "the terms of this sweep read more numbers of a particle than `meshfree::term::parts::MOST_READS`"
+        "the terms of this sweep read more numbers of a particle than `meshfree::term::MOST_READS`"
     );
     assert!(
         P::WRITES.width(D) <= MOST_SUMS,
-        "the terms of this sweep make more sums than `meshfree::term::parts::MOST_SUMS` numbers"
+        "the terms of this sweep make more sums than `meshfree::term::MOST_SUMS` numbers"
     );
 }
 

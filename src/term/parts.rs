@@ -3,10 +3,8 @@
 
 pub use super::concentration::ConcentrationGradient;
 pub use super::density_sums::{Compression, KernelMoment, SlopeInH, Unity};
-pub use super::force::FreeForce;
 pub use super::gradient::{DensityGradient, MomentMatrix, PressureGradient};
 pub use super::list::TermList;
-pub use super::pair::{MOST_READS, MOST_SUMS};
 pub use super::renormalised::RenormalisedCompression;
 pub use super::staged::{StageMarker, StagedTerms};
 pub use super::wall::{LiquidNearWall, VelocityAtWall, ViscosityAtWall};

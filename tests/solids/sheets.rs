@@ -2,7 +2,7 @@
 //! The loops over pairs are those of plane strain.
 
 use approx::assert_relative_eq;
-use meshfree::effect::{NeoHookean, StVenantKirchhoff, TotalLagrangian, parts::InPlaneStress};
+use meshfree::effect::{InPlaneStress, NeoHookean, StVenantKirchhoff, TotalLagrangian};
 use meshfree::material::eos::Linear;
 use meshfree::prelude::*;
 use meshfree::scheme::Start;

@@ -59,7 +59,7 @@ impl Grid {
             self.kick(force, step);
             self.press((0.25 * dx / step).powi(2) * step);
             looked += step;
-            // Pressure runs at 0.25 dx/Δt, which has to be faster than the liquid.
+            // Pressure runs at 0.25 dx/Δt, which must be faster than the liquid.
             if FASTER * self.fastest() * step > 0.25 * dx {
                 step *= 0.5;
             }
