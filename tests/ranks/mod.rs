@@ -76,7 +76,9 @@ fn one_set_of_bits_on<T: Real, const D: usize>(
     (steps, builds): (usize, u64),
     scene: impl Fn() -> Scene<T, D> + Send + Sync + 'static,
 ) {
-    watched_for(120 * places.len() as u64, move || {
+    // The long form is of five times as many steps.
+    let each = if steps < 300 { 60 } else { 120 };
+    watched_for(each * places.len() as u64, move || {
         let plain = run(scene(), steps);
         println!("{name}: {} list builds", plain.2);
         assert!(plain.2 >= builds, "{name}: {} list builds", plain.2);

@@ -257,6 +257,45 @@ fn observers_see_all_particles() {
     });
 }
 
+/// All that walks over the neighbours of any particle, in words.
+fn walked(now: &Simulation<f64, 2>) -> String {
+    let mut nearest = 0.0;
+    for particle in now.all() {
+        particle.for_each_neighbor(|other| nearest += other.distance());
+    }
+    let force = now.wall_force("tank").expect("the tank");
+    let [indicators, stability] = [
+        format!("{:?}", now.indicators()),
+        format!("{:?}", now.stability()),
+    ];
+    format!("{nearest:e} {force:?} {indicators} {stability}")
+}
+
+/// Readings need no message: one rank may read alone, more than once, and the others go on without it.
+#[test]
+fn one_rank_reads_alone() {
+    fn read_by(scene: Scene<f64, 2>, reads: impl Fn(usize) -> bool) -> (Option<String>, Vec<u64>) {
+        let mut now = scene.build().expect("the scene");
+        let reads = now.rank().is_none_or(|(rank, _)| reads(rank));
+        now.run_until(0.0111).expect("a run");
+        let first = reads.then(|| walked(&now));
+        now.run_until(0.03).expect("a run");
+        let second = reads.then(|| walked(&now) + &walked(&now));
+        now.run_until(0.04).expect("a run");
+        (first.zip(second).map(|(a, b)| a + &b), said(&now))
+    }
+    watched(|| {
+        let (words, bits) = read_by(dam_break(), |_| true);
+        let all = ranks::in_threads(3, 2, |ranks| {
+            read_by(dam_break().on_ranks(ranks), |rank| rank == 1)
+        });
+        let all = all.expect("threads");
+        assert_eq!(all[1].0, words);
+        assert!(all.iter().all(|own| own.1 == bits));
+        assert_eq!([&all[0].0, &all[2].0], [&None, &None]);
+    });
+}
+
 #[cfg(feature = "checkpoint")]
 #[test]
 fn a_run_in_parts_is_saved_and_goes_on_anywhere() {

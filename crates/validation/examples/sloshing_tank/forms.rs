@@ -31,8 +31,8 @@ const POINT: f64 = 0.05;
 const SENSOR: f64 = 0.02;
 /// Time until which impulses of forms that stop are compared \[s\].
 const EARLY: f64 = 0.03;
-/// Stretches beyond which a total-Lagrangian scheme counts its particles as beyond its validity: up to 4 its impulse is within 0.5 %
-/// and its surface within 3 mm of those of SPH, up to 8 it loses a fifth of the impulse.
+/// Stretches beyond which a total-Lagrangian scheme counts its particles as beyond its validity. At a largest stretch of 4 the impulse
+/// is within 0.5 % and the surface within 3 mm of those of SPH; at 8 a fifth of the impulse is lost.
 const STRETCHES: [f64; 2] = [0.1, 4.0];
 
 /// A form of the water.
