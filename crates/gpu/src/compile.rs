@@ -194,7 +194,7 @@ impl<'a> Compiler<'a> {
                 layout,
                 rates: self.sizes.rates,
                 sums,
-                dialect: Dialect::wgsl(self.precision),
+                dialect: self.device.dialect(self.precision),
             };
             let kernel = around.kernel(self.device, &step)?;
             pieces.push(self.own(kernel, Kind::Points, step.slots));
@@ -232,7 +232,8 @@ impl<'a> Compiler<'a> {
         kept: bool,
     ) -> Result<Vec<Piece>, Error> {
         let layout = &self.sizes.layout;
-        let (own, images) = pack(of, layout, Dialect::wgsl(self.precision), self.device)?;
+        let dialect = self.device.dialect(self.precision);
+        let (own, images) = pack(of, layout, dialect, self.device)?;
         let mut pieces = vec![self.own(own, Kind::Pack { kept }, 0..layout.slots)];
         pieces.extend(images.map(|own| self.own(own, Kind::PackImages { kept }, 0..0)));
         if kept {
@@ -261,7 +262,7 @@ impl<'a> Compiler<'a> {
 
     /// A one in the column behind that of changes while any particle of a piece has changed by the tolerance or more.
     fn settle(&self, repeat: &RepeatStep, run: &Range<usize>) -> Result<Kernel, Error> {
-        let dialect = Dialect::wgsl(self.precision);
+        let dialect = self.device.dialect(self.precision);
         let (piece, slots) = (repeat.piece, self.sizes.layout.slots);
         let changes = repeat.changes * slots;
         let mut body = dialect.index("first", &format!("i - (i - {}u) % {piece}u", run.start));

@@ -2,7 +2,7 @@
 //! Kernels are made once; they are bound anew when lists have another size.
 
 use crate::compile::{Compiler, Kind, Lists, Own, Piece, Repeat, Sizes};
-use crate::device::{Bound, Device, Extent};
+use crate::device::{Bound, Buffer, Device, Extent};
 use crate::kernel::pack_indices;
 use crate::reduce::{Find, Reduction};
 use crate::{Error, PairLists, Precision};
@@ -12,29 +12,29 @@ use meshfree::simulation::device::{Array, Program};
 /// The memory of a run on the device.
 #[derive(Debug)]
 pub struct Memory {
-    pub state: wgpu::Buffer,
-    pub rates: wgpu::Buffer,
-    pub sums: wgpu::Buffer,
-    pub shared: wgpu::Buffer,
-    pub walls: wgpu::Buffer,
-    pub columns: wgpu::Buffer,
-    pub records: wgpu::Buffer,
+    pub state: Buffer,
+    pub rates: Buffer,
+    pub sums: Buffer,
+    pub shared: Buffer,
+    pub walls: Buffer,
+    pub columns: Buffer,
+    pub records: Buffer,
     /// Records that are kept for the work of kicks.
-    pub kept: wgpu::Buffer,
-    pub settings: wgpu::Buffer,
-    pub approach: wgpu::Buffer,
-    pub reactions: wgpu::Buffer,
-    pub between: [wgpu::Buffer; 2],
+    pub kept: Buffer,
+    pub settings: Buffer,
+    pub approach: Buffer,
+    pub reactions: Buffer,
+    pub between: [Buffer; 2],
     /// What votes, with forces between blocks, displacements and approaching pairs have come to.
-    pub votes: wgpu::Buffer,
-    pub moves: wgpu::Buffer,
-    pub meetings: wgpu::Buffer,
-    clusters: wgpu::Buffer,
-    segments: wgpu::Buffer,
-    list: wgpu::Buffer,
+    pub votes: Buffer,
+    pub moves: Buffer,
+    pub meetings: Buffer,
+    clusters: Buffer,
+    segments: Buffer,
+    list: Buffer,
     /// Of which slot each image is and by which transform, and all transforms.
-    images: wgpu::Buffer,
-    transforms: wgpu::Buffer,
+    images: Buffer,
+    transforms: Buffer,
     /// How many images the records have room for.
     imaged: usize,
 }
@@ -64,7 +64,7 @@ pub struct Compiled {
 
 impl Memory {
     /// An array by what the host calls it.
-    pub fn of(&self, array: Array) -> &wgpu::Buffer {
+    pub fn of(&self, array: Array) -> &Buffer {
         match array {
             Array::State => &self.state,
             Array::Rates => &self.rates,

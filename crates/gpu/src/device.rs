@@ -1,13 +1,13 @@
-//! The device itself, by Vulkan: adapters, memory and kernels.
+//! The device itself: adapters, memory and kernels, by the driver that it is opened with.
 //! What a driver refuses is an error here, before anything runs.
 
+mod vulkan;
+
 use crate::kernel::{Array, Frame, THREADS};
-use crate::{Dialect, Error, Part, Precision};
-use pollster::block_on;
-use std::sync::Arc;
+use crate::{Dialect, Error, Language, Part, Precision};
 use std::sync::atomic::{AtomicU64, Ordering};
-use wgpu::util::{BufferInitDescriptor, DeviceExt};
-use wgpu::{Backends, BufferUsages, Features};
+use std::sync::{Arc, Mutex, PoisonError};
+use vulkan::Vulkan;
 
 /// What [`Device::list`] says about an adapter.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,24 +24,6 @@ pub struct Adapter {
     pub most_bound: u64,
 }
 
-/// What `f64` needs: numbers, and the integers that their bits are moved as.
-const DOUBLE: Features = Features::SHADER_F64.union(Features::SHADER_INT64);
-
-impl Adapter {
-    fn of(adapter: &wgpu::Adapter) -> Self {
-        let (info, limits) = (adapter.get_info(), adapter.limits());
-        Self {
-            name: info.name,
-            kind: format!("{:?}", info.device_type),
-            driver: format!("{} {}", info.driver, info.driver_info),
-            double: adapter.features().contains(DOUBLE),
-            most_bound: limits
-                .max_storage_buffer_binding_size
-                .min(limits.max_buffer_size),
-        }
-    }
-}
-
 /// A device that kernels run on.
 ///
 /// ```
@@ -55,11 +37,9 @@ impl Adapter {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Device {
-    inner: wgpu::Device,
-    queue: wgpu::Queue,
+    driver: Driver,
     adapter: Adapter,
     threads: u32,
-    most_groups: u32,
     traffic: Arc<[AtomicU64; 4]>,
 }
 
@@ -86,17 +66,65 @@ pub(crate) struct Extent {
     pub target: usize,
 }
 
-fn adapters() -> Vec<wgpu::Adapter> {
-    let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
-    descriptor.backends = Backends::VULKAN;
-    block_on(wgpu::Instance::new(descriptor).enumerate_adapters(Backends::VULKAN))
+impl Extent {
+    /// The words that a kernel is told, with the threads of a row of groups.
+    fn words(self, row: u32) -> [u32; 8] {
+        let Self {
+            count,
+            first,
+            length,
+            stride,
+            target,
+        } = self;
+        let [count, first, length, stride, target] =
+            [count, first, length, stride, target].map(|own| own as u32);
+        [count, row, 0, first, length, stride, target, 0]
+    }
+}
+
+/// What a device is driven by.
+#[derive(Clone, Debug)]
+enum Driver {
+    Vulkan(Vulkan),
+    /// Nothing: kernels are kept as text, each with its name.
+    Text(Language, Arc<Mutex<Vec<(String, String)>>>),
+}
+
+// What a driver has made, which is never handed to another one.
+macro_rules! made {
+    ($(#[$doc:meta] $name:ident: $vulkan:ty;)*) => { $(
+        #[$doc]
+        #[derive(Debug)]
+        pub(crate) enum $name {
+            Vulkan($vulkan),
+            Text,
+        }
+
+        impl $name {
+            fn vulkan(&self) -> &$vulkan {
+                match self {
+                    Self::Vulkan(own) => own,
+                    Self::Text => unreachable!("made by another driver"),
+                }
+            }
+        }
+    )* };
+}
+
+made! {
+    /// Memory of a device.
+    Buffer: wgpu::Buffer;
+    /// A compiled kernel.
+    Kernel: vulkan::Kernel;
+    /// A kernel with what it works on.
+    Bound: vulkan::Bound;
 }
 
 impl Device {
     /// The adapters of this machine; empty without a driver.
     #[must_use]
     pub fn list() -> Vec<Adapter> {
-        adapters().iter().map(Adapter::of).collect()
+        vulkan::adapters().iter().map(vulkan::describe).collect()
     }
 
     /// Opens the fastest kind of adapter that there is: a card, then what is built into the processor, then a driver in software.
@@ -105,15 +133,7 @@ impl Device {
     ///
     /// [`Error::NoAdapter`] without any, [`Error::Refused`] if it cannot be opened.
     pub fn open() -> Result<Self, Error> {
-        use wgpu::DeviceType as D;
-        let rank = |adapter: &wgpu::Adapter| match adapter.get_info().device_type {
-            D::DiscreteGpu => 0,
-            D::VirtualGpu => 1,
-            D::IntegratedGpu => 2,
-            D::Other => 3,
-            D::Cpu => 4,
-        };
-        let best = adapters().into_iter().min_by_key(rank);
+        let best = vulkan::adapters().into_iter().min_by_key(vulkan::rank);
         Self::of(&best.ok_or(Error::NoAdapter)?)
     }
 
@@ -123,7 +143,7 @@ impl Device {
     ///
     /// [`Error::NoAdapter`] without any, [`Error::UnknownAdapter`] if none is called so, [`Error::Refused`] if it cannot be opened.
     pub fn named(name: &str) -> Result<Self, Error> {
-        let all = adapters();
+        let all = vulkan::adapters();
         if all.is_empty() {
             return Err(Error::NoAdapter);
         }
@@ -135,26 +155,54 @@ impl Device {
     }
 
     fn of(adapter: &wgpu::Adapter) -> Result<Self, Error> {
-        let limits = adapter.limits();
-        let most_groups = limits.max_compute_workgroups_per_dimension;
-        let opened = block_on(adapter.request_device(&wgpu::DeviceDescriptor {
-            required_features: adapter.features() & DOUBLE,
-            required_limits: limits,
-            ..Default::default()
-        }));
-        let adapter = Adapter::of(adapter);
-        let (device, queue) = opened.map_err(|error| Error::Refused {
+        let opened = Vulkan::open(adapter);
+        let adapter = vulkan::describe(adapter);
+        let driver = opened.map_err(|message| Error::Refused {
             adapter: adapter.name.clone(),
-            message: error.to_string(),
+            message,
         })?;
-        Ok(Self {
-            inner: device,
-            queue,
+        Ok(Self::driven(Driver::Vulkan(driver), adapter))
+    }
+
+    fn driven(driver: Driver, adapter: Adapter) -> Self {
+        Self {
+            driver,
             adapter,
             threads: THREADS,
-            most_groups,
             traffic: Arc::default(),
-        })
+        }
+    }
+
+    /// None, for which kernels are written in a language: what it is given is kept, and not run.
+    pub(crate) fn of_text(language: Language) -> Self {
+        let adapter = Adapter {
+            name: format!("{language:?}"),
+            kind: "Other".into(),
+            driver: String::new(),
+            double: true,
+            most_bound: u64::MAX,
+        };
+        Self::driven(Driver::Text(language, Arc::default()), adapter)
+    }
+
+    /// The kernels that were made where there is no device.
+    pub(crate) fn texts(&self) -> Vec<(String, String)> {
+        match &self.driver {
+            Driver::Text(_, all) => all.lock().unwrap_or_else(PoisonError::into_inner).clone(),
+            Driver::Vulkan(_) => Vec::new(),
+        }
+    }
+
+    /// What its kernels are written in.
+    pub(crate) fn dialect(&self, precision: Precision) -> Dialect {
+        let language = match &self.driver {
+            Driver::Vulkan(_) => Language::Wgsl,
+            Driver::Text(language, _) => *language,
+        };
+        Dialect {
+            language,
+            precision,
+        }
     }
 
     /// The adapter that it was opened on.
@@ -169,7 +217,10 @@ impl Device {
     ///
     /// [`Error::Size`] if that is zero, or more than the device takes.
     pub fn with_threads(mut self, threads: u32) -> Result<Self, Error> {
-        let most = self.inner.limits().max_compute_invocations_per_workgroup;
+        let most = match &self.driver {
+            Driver::Vulkan(own) => own.most_threads(),
+            Driver::Text(..) => u32::MAX,
+        };
         let fits = (1..=most).contains(&threads);
         let sizes = [threads as usize, most as usize];
         Error::unless(fits, "threads of a work group, at most", sizes)?;
@@ -204,20 +255,6 @@ impl Device {
         Ok(())
     }
 
-    /// What `make` makes, unless the driver refuses it.
-    fn checked<V>(
-        &self,
-        make: impl FnOnce() -> V,
-        refused: impl FnOnce(String) -> Error,
-    ) -> Result<V, Error> {
-        let scope = self.inner.push_error_scope(wgpu::ErrorFilter::Validation);
-        let made = make();
-        match block_on(scope.pop()) {
-            None => Ok(made),
-            Some(error) => Err(refused(error.to_string())),
-        }
-    }
-
     /// Compiles a kernel of a part, by its kind and name, from its body.
     pub(crate) fn kernel(
         &self,
@@ -228,70 +265,25 @@ impl Device {
         self.can(dialect.precision)?;
         let frame = Frame {
             dialect,
-            name: "main",
+            name: "kernel",
             buffers,
         };
         let source = frame.source(body, self.threads);
-        let make = || {
-            let module = self
-                .inner
-                .create_shader_module(wgpu::ShaderModuleDescriptor {
-                    label: None,
-                    source: wgpu::ShaderSource::Wgsl(source.as_str().into()),
-                });
-            let entries: Vec<_> = (0..=buffers.len())
-                .map(|n| wgpu::BindGroupLayoutEntry {
-                    binding: n as u32,
-                    visibility: wgpu::ShaderStages::COMPUTE,
-                    ty: wgpu::BindingType::Buffer {
-                        ty: match n.checked_sub(1) {
-                            None => wgpu::BufferBindingType::Uniform,
-                            Some(n) => wgpu::BufferBindingType::Storage {
-                                read_only: !buffers[n].writable,
-                            },
-                        },
-                        has_dynamic_offset: false,
-                        min_binding_size: None,
-                    },
-                    count: None,
-                })
-                .collect();
-            let layout = self
-                .inner
-                .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-                    label: None,
-                    entries: &entries,
-                });
-            let whole = self
-                .inner
-                .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                    label: None,
-                    bind_group_layouts: &[Some(&layout)],
-                    immediate_size: 0,
-                });
-            let pipeline = self
-                .inner
-                .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                    label: None,
-                    layout: Some(&whole),
-                    module: &module,
-                    entry_point: Some("main"),
-                    compilation_options: wgpu::PipelineCompilationOptions::default(),
-                    cache: None,
-                });
-            Kernel {
-                pipeline,
-                layout,
-                threads: self.threads,
+        let part = Part {
+            kind,
+            name: name.into(),
+        };
+        let made = match &self.driver {
+            Driver::Vulkan(own) => own
+                .kernel(&source, buffers, self.threads)
+                .map(Kernel::Vulkan),
+            Driver::Text(_, all) => {
+                let mut all = all.lock().unwrap_or_else(PoisonError::into_inner);
+                all.push((part.to_string(), source));
+                Ok(Kernel::Text)
             }
         };
-        self.checked(make, |message| Error::Kernel {
-            part: Part {
-                kind,
-                name: name.into(),
-            },
-            message,
-        })
+        made.map_err(|message| Error::Kernel { part, message })
     }
 
     fn fits(&self, what: &'static str, bytes: u64) -> Result<(), Error> {
@@ -303,42 +295,38 @@ impl Device {
     }
 
     /// Room for some bytes, all zero.
-    pub(crate) fn room(&self, what: &'static str, bytes: usize) -> Result<wgpu::Buffer, Error> {
+    pub(crate) fn room(&self, what: &'static str, bytes: usize) -> Result<Buffer, Error> {
         let size = (bytes as u64).max(16).next_multiple_of(16);
         self.fits(what, size)?;
-        let scope = self.inner.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
-        let buffer = self.inner.create_buffer(&wgpu::BufferDescriptor {
-            label: Some(what),
-            size,
-            usage: BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
-        match block_on(scope.pop()) {
-            None => Ok(buffer),
-            Some(_) => Err(Error::OutOfMemory { what }),
-        }
+        let made = match &self.driver {
+            Driver::Vulkan(own) => own.room(what, size).map(Buffer::Vulkan),
+            Driver::Text(..) => Some(Buffer::Text),
+        };
+        made.ok_or(Error::OutOfMemory { what })
     }
 
     /// Room that holds some bytes.
-    pub(crate) fn upload(&self, what: &'static str, bytes: &[u8]) -> Result<wgpu::Buffer, Error> {
+    pub(crate) fn upload(&self, what: &'static str, bytes: &[u8]) -> Result<Buffer, Error> {
         let buffer = self.room(what, bytes.len())?;
         self.write(&buffer, bytes);
         Ok(buffer)
     }
 
     /// Writes bytes to the start of what has room for them.
-    pub(crate) fn write(&self, buffer: &wgpu::Buffer, bytes: &[u8]) {
+    pub(crate) fn write(&self, buffer: &Buffer, bytes: &[u8]) {
         self.write_at(buffer, 0, bytes);
     }
 
     /// Writes bytes to a place of what has room for them.
-    pub(crate) fn write_at(&self, buffer: &wgpu::Buffer, at: usize, bytes: &[u8]) {
+    pub(crate) fn write_at(&self, buffer: &Buffer, at: usize, bytes: &[u8]) {
         self.count(1, bytes.len() as u64);
-        self.queue.write_buffer(buffer, at as u64, bytes);
+        if let Driver::Vulkan(own) = &self.driver {
+            own.write(buffer.vulkan(), at, bytes);
+        }
     }
 
     /// Binds buffers to a kernel that runs for some particles.
-    pub(crate) fn bind(&self, kernel: &Kernel, buffers: &[&wgpu::Buffer], count: usize) -> Bound {
+    pub(crate) fn bind(&self, kernel: &Kernel, buffers: &[&Buffer], count: usize) -> Bound {
         let extent = Extent {
             count,
             ..Extent::default()
@@ -347,109 +335,43 @@ impl Device {
     }
 
     /// The same, for particles from one on.
-    pub(crate) fn bind_over(
-        &self,
-        kernel: &Kernel,
-        buffers: &[&wgpu::Buffer],
-        extent: Extent,
-    ) -> Bound {
-        let groups = (extent.count as u32).div_ceil(kernel.threads).max(1);
-        let across = groups.min(self.most_groups);
-        let Extent {
-            count,
-            first,
-            length,
-            stride,
-            target,
-        } = extent;
-        let row = (across * kernel.threads) as usize;
-        let scene = [count, row, 0, first, length, stride, target, 0].map(|own| own as u32);
-        let scene = self.inner.create_buffer_init(&BufferInitDescriptor {
-            label: None,
-            contents: &scene.map(u32::to_ne_bytes).concat(),
-            usage: BufferUsages::UNIFORM,
-        });
-        let all = core::iter::once(&scene).chain(buffers.iter().copied());
-        let entries: Vec<_> = all
-            .enumerate()
-            .map(|(n, buffer)| wgpu::BindGroupEntry {
-                binding: n as u32,
-                resource: buffer.as_entire_binding(),
-            })
-            .collect();
-        let group = self.inner.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: None,
-            layout: &kernel.layout,
-            entries: &entries,
-        });
-        Bound {
-            pipeline: kernel.pipeline.clone(),
-            group,
-            groups: [across, groups.div_ceil(across)],
+    pub(crate) fn bind_over(&self, kernel: &Kernel, buffers: &[&Buffer], extent: Extent) -> Bound {
+        match &self.driver {
+            Driver::Vulkan(own) => {
+                let buffers: Vec<_> = buffers.iter().map(|own| own.vulkan()).collect();
+                Bound::Vulkan(own.bind(kernel.vulkan(), &buffers, extent))
+            }
+            Driver::Text(..) => Bound::Text,
         }
     }
 
     /// Runs kernels one after another: each sees what those before it have written.
     pub(crate) fn launch(&self, kernels: &[&Bound]) {
         self.count(0, kernels.len() as u64);
-        let mut encoder = self
-            .inner
-            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        for own in kernels {
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-            pass.set_pipeline(&own.pipeline);
-            pass.set_bind_group(0, &own.group, &[]);
-            pass.dispatch_workgroups(own.groups[0], own.groups[1], 1);
+        if let Driver::Vulkan(own) = &self.driver {
+            own.launch(kernels.iter().map(|own| own.vulkan()));
         }
-        self.queue.submit([encoder.finish()]);
     }
 
     /// Bytes of a buffer from a place on, after all that was launched.
     pub(crate) fn download(
         &self,
-        buffer: &wgpu::Buffer,
+        buffer: &Buffer,
         at: usize,
         bytes: usize,
     ) -> Result<Vec<u8>, Error> {
-        let lost = |message: String| Error::Lost { message };
         if bytes == 0 {
             return Ok(Vec::new());
         }
         let size = (bytes as u64).next_multiple_of(8);
         self.count(2, size);
         self.count(3, 1);
-        let back = self.inner.create_buffer(&wgpu::BufferDescriptor {
-            label: None,
-            size,
-            usage: BufferUsages::MAP_READ | BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
-        let mut encoder = self
-            .inner
-            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        encoder.copy_buffer_to_buffer(buffer, at as u64, &back, 0, size);
-        self.queue.submit([encoder.finish()]);
-        back.slice(..).map_async(wgpu::MapMode::Read, |_| {});
-        let waited = self.inner.poll(wgpu::PollType::wait_indefinitely());
-        waited.map_err(|error| lost(error.to_string()))?;
-        let mapped = back.slice(..).get_mapped_range();
-        let mapped = mapped.map_err(|error| lost(format!("{error:?}")))?;
-        Ok(mapped[..bytes].to_vec())
+        let read = match &self.driver {
+            Driver::Vulkan(own) => own.read(buffer.vulkan(), at, size),
+            Driver::Text(..) => Err("there is none".into()),
+        };
+        let mut read = read.map_err(|message| Error::Lost { message })?;
+        read.truncate(bytes);
+        Ok(read)
     }
-}
-
-/// A compiled kernel.
-#[derive(Debug)]
-pub(crate) struct Kernel {
-    pipeline: wgpu::ComputePipeline,
-    layout: wgpu::BindGroupLayout,
-    threads: u32,
-}
-
-/// A kernel with what it works on.
-#[derive(Debug)]
-pub(crate) struct Bound {
-    pipeline: wgpu::ComputePipeline,
-    group: wgpu::BindGroup,
-    groups: [u32; 2],
 }

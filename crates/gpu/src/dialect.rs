@@ -40,14 +40,6 @@ pub struct Dialect {
 }
 
 impl Dialect {
-    /// What [`Device`](crate::Device) runs.
-    pub(crate) const fn wgsl(precision: Precision) -> Self {
-        Self {
-            language: Language::Wgsl,
-            precision,
-        }
-    }
-
     /// The name of the scalar type.
     #[must_use]
     pub fn scalar(self) -> &'static str {
@@ -119,7 +111,7 @@ impl Dialect {
             (Language::Wgsl, Precision::Double) => {
                 format!("bitcast<f64>(bitcast<u64>({value}) ^ u64(scene.zero))")
             }
-            // CUDA C computes sums as they are written.
+            // CUDA C keeps the order of sums; a product that is fused into one is not rounded, and nothing else is lost.
             (Language::Cuda, _) => value.into(),
         }
     }

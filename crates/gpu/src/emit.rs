@@ -352,7 +352,10 @@ mod tests {
     use super::*;
 
     fn text(record: &Record) -> Text {
-        let dialect = Dialect::wgsl(Precision::Double);
+        let dialect = Dialect {
+            language: crate::Language::Wgsl,
+            precision: Precision::Double,
+        };
         emit(record, dialect, &|k| (format!("a{k}"), k > 0))
     }
 

@@ -1,7 +1,7 @@
 //! Walls that are bodies of other groups: kernels that bring them to these, and that add what they feel to the forces there.
 //! The host says which particle is which, anew when either group has its particles sorted.
 
-use crate::device::{Bound, Extent};
+use crate::device::{Bound, Buffer, Extent};
 use crate::fuse::Around;
 use crate::kernel::{Array, pack_indices};
 use crate::run::Group;
@@ -15,19 +15,19 @@ pub(crate) struct Link {
     /// Its group, and its number among such walls there.
     pub wall: [usize; 2],
     /// The slot of the body for each of the wall, and the reverse.
-    maps: [wgpu::Buffer; 2],
+    maps: [Buffer; 2],
     /// What brings the wall to the body, and what adds forces.
     pub bound: [Bound; 2],
 }
 
 /// What surrounds steps of a group.
-fn around(group: &Group, precision: Precision) -> Around<'_> {
+fn around(group: &Group, dialect: Dialect) -> Around<'_> {
     Around {
         layout: &group.sizes.layout,
         rates: group.sizes.rates,
         // The forces on walls are those of the rates.
         sums: group.sizes.rates,
-        dialect: Dialect::wgsl(precision),
+        dialect,
     }
 }
 
@@ -65,9 +65,10 @@ impl Link {
         });
         let link = |(wall, step): ([usize; 2], &FollowStep)| {
             let (own, other) = (&groups[wall[0]], &groups[step.group]);
-            let [a, b] = [own, other].map(|group| around(group, precision));
+            let dialect = device.dialect(precision);
+            let [a, b] = [own, other].map(|group| around(group, dialect));
             let kernel = |name: &str, buffers: &[Array], body: &str| {
-                device.kernel(("coupling", name), (a.dialect, buffers), body)
+                device.kernel(("coupling", name), (dialect, buffers), body)
             };
             let runs = [&step.slots, &step.body];
             let map = |k: usize| device.room("which particle is which", 4 * runs[k].len());

@@ -121,7 +121,7 @@ let i = n + scene.first;
                 };
                 format!(
                     "struct Scene {{ unsigned count, row, zero, first, length, stride, target_at, spare; }};
-extern \"C\" __global__ void {name}(const Scene scene{}) {{
+extern \"C\" __global__ void __launch_bounds__({threads}) {name}(const Scene scene{}) {{
 const unsigned n = blockIdx.x * blockDim.x + threadIdx.x;
 if (n >= scene.count) return;
 const unsigned i = n + scene.first;

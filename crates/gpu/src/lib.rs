@@ -43,6 +43,8 @@ mod error;
 mod follow;
 mod fuse;
 mod kernel;
+#[cfg(feature = "cuda")]
+pub mod nvrtc;
 mod pairs;
 mod points;
 mod reduce;
@@ -56,4 +58,4 @@ pub use emit::{Text, emit};
 pub use error::{Error, Part};
 pub use pairs::{PairKernel, PairLists, Shared};
 pub use points::PointKernel;
-pub use run::Run;
+pub use run::{Run, sources};

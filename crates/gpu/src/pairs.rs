@@ -92,7 +92,7 @@ pub(crate) fn sweep_of_run(
     precision: Precision,
     (blocks, reacts): (usize, bool),
 ) -> Result<Kernel, Error> {
-    let dialect = Dialect::wgsl(precision);
+    let dialect = device.dialect(precision);
     let mut buffers = BUFFERS.to_vec();
     buffers.extend(reacts.then_some(Array::numbers("reactions").written()));
     let body = body(pair, shape, dialect, (blocks, reacts));

@@ -47,7 +47,7 @@ impl PointKernel {
         record: &Record,
         precision: Precision,
     ) -> Result<Self, Error> {
-        let dialect = Dialect::wgsl(precision);
+        let dialect = device.dialect(precision);
         let body = body(record, dialect);
         Ok(Self {
             kernel: device.kernel(("record", name), (dialect, &BUFFERS), &body)?,

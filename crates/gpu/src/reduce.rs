@@ -1,7 +1,7 @@
 //! Sums and extremes over particles: trees whose shape depends on their number alone, so bits do not depend on work groups.
 //! A thread takes 64 numbers, and the next level those of 64 threads, until one is left.
 
-use crate::device::{Bound, Extent, Kernel};
+use crate::device::{Bound, Buffer, Extent, Kernel};
 use crate::kernel::Array;
 use crate::{Device, Dialect, Error, Precision};
 
@@ -98,7 +98,7 @@ fn body(finds: &[Find], is_first: bool, dialect: Dialect) -> String {
 
 impl Reduction {
     pub fn new(device: &Device, finds: &[Find], precision: Precision) -> Result<Self, Error> {
-        let dialect = Dialect::wgsl(precision);
+        let dialect = device.dialect(precision);
         let name = format!("{finds:?}");
         let kernel = |is_first| {
             let body = body(finds, is_first, dialect);
@@ -120,10 +120,10 @@ impl Reduction {
     pub fn bind(
         &self,
         device: &Device,
-        (columns, stride): (&wgpu::Buffer, usize),
+        (columns, stride): (&Buffer, usize),
         (first, count): (usize, usize),
-        between: [&wgpu::Buffer; 2],
-        (answers, target): (&wgpu::Buffer, usize),
+        between: [&Buffer; 2],
+        (answers, target): (&Buffer, usize),
     ) -> Vec<Bound> {
         let mut all = Vec::new();
         let mut own = Extent {

@@ -3,10 +3,11 @@
 
 use crate::compile::Sizes;
 use crate::compiled::{Compiled, Memory};
+use crate::device::Buffer;
 use crate::follow::Link;
 use crate::kernel::{pack, unpack};
 use crate::stepping::Stepping;
-use crate::{Device, Error, Part, PointKernel, Precision};
+use crate::{Device, Error, Language, Part, PointKernel, Precision};
 use meshfree::error::Error as HostError;
 use meshfree::scalar::{Real, Record};
 use meshfree::simulation::Simulation;
@@ -108,6 +109,36 @@ impl Device {
     }
 }
 
+/// What a device has of a simulation: groups, and what links them.
+fn made<T: Real, const D: usize>(
+    device: &Device,
+    host: &Offloaded<T, D>,
+) -> Result<(Precision, Vec<Group>, Vec<Link>), Error> {
+    let precision = match size_of::<T>() {
+        4 => Precision::Single,
+        _ => Precision::Double,
+    };
+    let group = |number| Group::new(device, host, number, precision);
+    let groups = (0..host.groups()).map(group);
+    let groups = groups.collect::<Result<Vec<_>, _>>()?;
+    let links = Link::all(device, &groups, precision)?;
+    Ok((precision, groups, links))
+}
+
+/// The kernels of the steps of a simulation, each with its name, in a language: what [`Device::load`] compiles, written without a device.
+///
+/// # Errors
+///
+/// [`Error::Simulation`] with every part of the scene that does not run on a device.
+pub fn sources<T: Real, const D: usize>(
+    simulation: Simulation<T, D>,
+    language: Language,
+) -> Result<Vec<(String, String)>, Error> {
+    let paper = Device::of_text(language);
+    made(&paper, &simulation.offload()?)?;
+    Ok(paper.texts())
+}
+
 /// Refuses a driver that does not keep what the rounding of a sum loses (Knuth's two-sum), as places in `f32` need it.
 fn keeps_rounding(device: &Device) -> Result<(), Error> {
     let record = Record::of(2, |given| {
@@ -145,18 +176,10 @@ fn keeps_rounding(device: &Device) -> Result<(), Error> {
 impl<T: Real, const D: usize> Run<T, D> {
     fn new(device: Device, simulation: Simulation<T, D>) -> Result<Self, Error> {
         let host = simulation.offload()?;
-        let precision = match size_of::<T>() {
-            4 => Precision::Single,
-            _ => Precision::Double,
-        };
         if T::COMPENSATED {
             keeps_rounding(&device)?;
         }
-        let group = |number| Group::new(&device, &host, number, precision);
-        let groups = (0..host.groups())
-            .map(group)
-            .collect::<Result<Vec<_>, _>>()?;
-        let links = Link::all(&device, &groups, precision)?;
+        let (precision, groups, links) = made(&device, &host)?;
         let mut own = Self {
             host,
             device,
@@ -350,13 +373,13 @@ impl<T: Real, const D: usize> Run<T, D> {
         pack(all, self.precision)
     }
 
-    pub(crate) fn read(&self, from: &wgpu::Buffer, count: usize) -> Result<Vec<f64>, Error> {
+    pub(crate) fn read(&self, from: &Buffer, count: usize) -> Result<Vec<f64>, Error> {
         self.read_at(from, 0, count)
     }
 
     pub(crate) fn read_at(
         &self,
-        from: &wgpu::Buffer,
+        from: &Buffer,
         first: usize,
         count: usize,
     ) -> Result<Vec<f64>, Error> {

@@ -1,0 +1,223 @@
+//! A device by Vulkan, through `wgpu`.
+//! Kernels are in WGSL.
+
+use super::{Adapter, Extent};
+use crate::kernel::Array;
+use pollster::block_on;
+use wgpu::util::{BufferInitDescriptor, DeviceExt};
+use wgpu::{Backends, BufferUsages, Features};
+
+/// What `f64` needs: numbers, and the integers that their bits are moved as.
+const DOUBLE: Features = Features::SHADER_F64.union(Features::SHADER_INT64);
+
+pub fn adapters() -> Vec<wgpu::Adapter> {
+    let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
+    descriptor.backends = Backends::VULKAN;
+    block_on(wgpu::Instance::new(descriptor).enumerate_adapters(Backends::VULKAN))
+}
+
+pub fn describe(adapter: &wgpu::Adapter) -> Adapter {
+    let (info, limits) = (adapter.get_info(), adapter.limits());
+    Adapter {
+        name: info.name,
+        kind: format!("{:?}", info.device_type),
+        driver: format!("{} {}", info.driver, info.driver_info),
+        double: adapter.features().contains(DOUBLE),
+        most_bound: limits
+            .max_storage_buffer_binding_size
+            .min(limits.max_buffer_size),
+    }
+}
+
+/// The place of an adapter among all: the fastest kind is the first.
+pub fn rank(adapter: &wgpu::Adapter) -> u8 {
+    use wgpu::DeviceType as D;
+    match adapter.get_info().device_type {
+        D::DiscreteGpu => 0,
+        D::VirtualGpu => 1,
+        D::IntegratedGpu => 2,
+        D::Other => 3,
+        D::Cpu => 4,
+    }
+}
+
+#[derive(Clone, Debug)]
+pub struct Vulkan {
+    inner: wgpu::Device,
+    queue: wgpu::Queue,
+    most_groups: u32,
+}
+
+/// A compiled kernel.
+#[derive(Debug)]
+pub struct Kernel {
+    pipeline: wgpu::ComputePipeline,
+    layout: wgpu::BindGroupLayout,
+    threads: u32,
+}
+
+/// A kernel with what it works on.
+#[derive(Debug)]
+pub struct Bound {
+    pipeline: wgpu::ComputePipeline,
+    group: wgpu::BindGroup,
+    groups: [u32; 2],
+}
+
+impl Vulkan {
+    pub fn open(adapter: &wgpu::Adapter) -> Result<Self, String> {
+        let limits = adapter.limits();
+        let most_groups = limits.max_compute_workgroups_per_dimension;
+        let opened = block_on(adapter.request_device(&wgpu::DeviceDescriptor {
+            required_features: adapter.features() & DOUBLE,
+            required_limits: limits,
+            ..Default::default()
+        }));
+        let (inner, queue) = opened.map_err(|error| error.to_string())?;
+        Ok(Self {
+            inner,
+            queue,
+            most_groups,
+        })
+    }
+
+    pub fn most_threads(&self) -> u32 {
+        self.inner.limits().max_compute_invocations_per_workgroup
+    }
+
+    /// Compiles a kernel, unless the driver refuses it.
+    pub fn kernel(&self, source: &str, buffers: &[Array], threads: u32) -> Result<Kernel, String> {
+        let scope = self.inner.push_error_scope(wgpu::ErrorFilter::Validation);
+        let module = self
+            .inner
+            .create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: None,
+                source: wgpu::ShaderSource::Wgsl(source.into()),
+            });
+        let entries: Vec<_> = (0..=buffers.len())
+            .map(|n| wgpu::BindGroupLayoutEntry {
+                binding: n as u32,
+                visibility: wgpu::ShaderStages::COMPUTE,
+                ty: wgpu::BindingType::Buffer {
+                    ty: match n.checked_sub(1) {
+                        None => wgpu::BufferBindingType::Uniform,
+                        Some(n) => wgpu::BufferBindingType::Storage {
+                            read_only: !buffers[n].writable,
+                        },
+                    },
+                    has_dynamic_offset: false,
+                    min_binding_size: None,
+                },
+                count: None,
+            })
+            .collect();
+        let layout = self
+            .inner
+            .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: None,
+                entries: &entries,
+            });
+        let whole = self
+            .inner
+            .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: None,
+                bind_group_layouts: &[Some(&layout)],
+                immediate_size: 0,
+            });
+        let pipeline = self
+            .inner
+            .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: None,
+                layout: Some(&whole),
+                module: &module,
+                entry_point: Some("main"),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                cache: None,
+            });
+        match block_on(scope.pop()) {
+            None => Ok(Kernel {
+                pipeline,
+                layout,
+                threads,
+            }),
+            Some(error) => Err(error.to_string()),
+        }
+    }
+
+    /// Room for some bytes, all zero, unless there is none.
+    pub fn room(&self, what: &'static str, size: u64) -> Option<wgpu::Buffer> {
+        let scope = self.inner.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+        let buffer = self.inner.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(what),
+            size,
+            usage: BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        block_on(scope.pop()).is_none().then_some(buffer)
+    }
+
+    pub fn write(&self, buffer: &wgpu::Buffer, at: usize, bytes: &[u8]) {
+        self.queue.write_buffer(buffer, at as u64, bytes);
+    }
+
+    pub fn bind(&self, kernel: &Kernel, buffers: &[&wgpu::Buffer], extent: Extent) -> Bound {
+        let groups = (extent.count as u32).div_ceil(kernel.threads).max(1);
+        let across = groups.min(self.most_groups);
+        let scene = extent.words(across * kernel.threads);
+        let scene = self.inner.create_buffer_init(&BufferInitDescriptor {
+            label: None,
+            contents: &scene.map(u32::to_ne_bytes).concat(),
+            usage: BufferUsages::UNIFORM,
+        });
+        let all = core::iter::once(&scene).chain(buffers.iter().copied());
+        let entries: Vec<_> = all
+            .enumerate()
+            .map(|(n, buffer)| wgpu::BindGroupEntry {
+                binding: n as u32,
+                resource: buffer.as_entire_binding(),
+            })
+            .collect();
+        let group = self.inner.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout: &kernel.layout,
+            entries: &entries,
+        });
+        Bound {
+            pipeline: kernel.pipeline.clone(),
+            group,
+            groups: [across, groups.div_ceil(across)],
+        }
+    }
+
+    pub fn launch<'a>(&self, kernels: impl Iterator<Item = &'a Bound>) {
+        let mut encoder = self
+            .inner
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        for own in kernels {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+            pass.set_pipeline(&own.pipeline);
+            pass.set_bind_group(0, &own.group, &[]);
+            pass.dispatch_workgroups(own.groups[0], own.groups[1], 1);
+        }
+        self.queue.submit([encoder.finish()]);
+    }
+
+    pub fn read(&self, buffer: &wgpu::Buffer, at: usize, size: u64) -> Result<Vec<u8>, String> {
+        let back = self.inner.create_buffer(&wgpu::BufferDescriptor {
+            label: None,
+            size,
+            usage: BufferUsages::MAP_READ | BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let mut encoder = self
+            .inner
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        encoder.copy_buffer_to_buffer(buffer, at as u64, &back, 0, size);
+        self.queue.submit([encoder.finish()]);
+        back.slice(..).map_async(wgpu::MapMode::Read, |_| {});
+        let waited = self.inner.poll(wgpu::PollType::wait_indefinitely());
+        waited.map_err(|error| error.to_string())?;
+        let mapped = back.slice(..).get_mapped_range();
+        Ok(mapped.map_err(|error| format!("{error:?}"))?.to_vec())
+    }
+}
