@@ -119,9 +119,10 @@ let i = n + scene.first;
                         String::new()
                     }
                 };
+                // One group a multiprocessor at least: without the second bound small sweeps are held to 48 registers, and spill.
                 format!(
                     "struct Scene {{ unsigned count, row, zero, first, length, stride, target_at, spare; }};
-extern \"C\" __global__ void __launch_bounds__({threads}) {name}(const Scene scene{}) {{
+extern \"C\" __global__ void __launch_bounds__({threads}, 1) {name}(const Scene scene{}) {{
 const unsigned n = blockIdx.x * blockDim.x + threadIdx.x;
 if (n >= scene.count) return;
 const unsigned i = n + scene.first;

@@ -120,6 +120,19 @@ pub struct PairKernel {
     precision: Precision,
 }
 
+/// A text with numbers of j that are not `there` loaded where they are first used: loads before the text would all hold registers.
+fn late_loads(text: &str, there: &[usize], load: &dyn Fn(usize) -> String) -> String {
+    let mut loaded: BTreeSet<usize> = there.iter().copied().collect();
+    let mut all = String::new();
+    for line in text.split_inclusive('\n') {
+        let words = line.split(|c: char| !c.is_ascii_alphanumeric());
+        let numbers = words.filter_map(|word| word.strip_prefix('j')?.parse().ok());
+        all.extend(numbers.filter(|k| loaded.insert(*k)).map(load));
+        all.push_str(line);
+    }
+    all
+}
+
 /// The text of a sweep over particles of some blocks. If it `reacts` it also writes the force of each block that is not the particle's
 /// own, a column for each component.
 fn body(
@@ -137,7 +150,7 @@ fn body(
     let used = RefCell::new(BTreeSet::new());
     let emit = |letter, record| {
         emit_as(letter, record, dialect, &|k| {
-            if k < 2 * stride {
+            if k < stride {
                 used.borrow_mut().insert(k);
             }
             match k.checked_sub(2 * stride) {
@@ -152,13 +165,11 @@ fn body(
     let text = emit('t', &pair.record);
     let across = pair.across.as_ref().map(|record| emit('u', record));
     let mut used = used.into_inner();
-    if pair.uniform {
-        used.extend((0..dimensions).flat_map(|d| [x + d, stride + x + d]));
-    }
     let far: Vec<_> = (0..dimensions)
         .filter(|_| pair.uniform)
         .map(|d| x + d)
         .collect();
+    used.extend(&far);
     // Behind the reach stand the numbers that all share, then the blocks.
     let blocks = dimensions + 3;
     let load = |side: &str, k: usize| {
@@ -167,7 +178,7 @@ fn body(
     };
     let mut body = String::new();
     let mut add = |text: &str| body.push_str(text);
-    for &k in used.range(..stride) {
+    for &k in &used {
         add(&load("i", k));
     }
     add(&dialect.index("cluster", &format!("i / {width}u * 2u")));
@@ -210,11 +221,6 @@ fn body(
         let square = squares.collect::<Vec<_>>().join(" + ");
         add(&format!("if ({square} >= settings[0]) {{ continue; }}\n"));
     }
-    for &k in used.range(stride..) {
-        if !far.contains(&(k - stride)) {
-            add(&load("j", k - stride));
-        }
-    }
     let sum_up = |text: &Text| {
         let mut own = text.within.clone();
         for (k, value) in text.results.iter().enumerate() {
@@ -226,7 +232,7 @@ fn body(
             };
             own += &format!("{to} = {sum};\n");
         }
-        own
+        late_loads(&own, &far, &|k| load("j", k))
     };
     match &across {
         Some(across) => add(&format!(

@@ -267,13 +267,12 @@ fn what_does_not_fit_is_an_error() {
         );
     }
     let most = device.adapter().most_bound as usize / 8;
-    let many = kernel.run(
-        &device,
-        (&vec![0.0; most + 1], slots),
-        &scene.lists(),
-        &shared(),
-    );
-    assert!(matches!(many, Err(Error::TooLarge { .. })), "{many:?}");
+    // A card by CUDA binds all of its memory, which a host may not have.
+    if most < 1 << 28 {
+        let many = vec![0.0; most + 1];
+        let many = kernel.run(&device, (&many, slots), &scene.lists(), &shared());
+        assert!(matches!(many, Err(Error::TooLarge { .. })), "{many:?}");
+    }
     let unknown = Device::named("no such adapter");
     assert!(
         matches!(unknown, Err(Error::UnknownAdapter { .. })),
@@ -282,7 +281,7 @@ fn what_does_not_fit_is_an_error() {
     assert!(device.with_threads(0).is_err());
 }
 
-/// The second language is written by the same walk; a compiler for it is not part of the tests.
+/// The second language is written by the same walk. `--test cuda` compiles it.
 #[test]
 fn the_same_record_is_written_in_cuda() {
     let pair = pair::<f64>();
@@ -304,6 +303,6 @@ fn the_same_record_is_written_in_cuda() {
         made,
         operations(&cuda, "const double t") + operations(&cuda, "const bool t")
     );
-    assert!(cuda.contains("extern \"C\" __global__ void sweep(const Scene scene, const double*"));
+    assert!(cuda.contains("sweep(const Scene scene, const double* __restrict__ records"));
     assert!(!cuda.contains("let ") && !cuda.contains("f64"), "{cuda}");
 }
