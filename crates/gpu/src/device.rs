@@ -1,6 +1,8 @@
 //! The device itself: adapters, memory and kernels, by the driver that it is opened with.
 //! What a driver refuses is an error here, before anything runs.
 
+#[cfg(feature = "cuda")]
+mod cuda;
 mod vulkan;
 
 use crate::kernel::{Array, Frame, THREADS};
@@ -86,26 +88,37 @@ impl Extent {
 #[derive(Clone, Debug)]
 enum Driver {
     Vulkan(Vulkan),
+    #[cfg(feature = "cuda")]
+    Cuda(cuda::Cuda),
     /// Nothing: kernels are kept as text, each with its name.
     Text(Language, Arc<Mutex<Vec<(String, String)>>>),
 }
 
 // What a driver has made, which is never handed to another one.
 macro_rules! made {
-    ($(#[$doc:meta] $name:ident: $vulkan:ty;)*) => { $(
+    ($(#[$doc:meta] $name:ident: $vulkan:ty, $cuda:ty;)*) => { $(
         #[$doc]
         #[derive(Debug)]
         pub(crate) enum $name {
             Vulkan($vulkan),
+            #[cfg(feature = "cuda")]
+            Cuda($cuda),
             Text,
         }
 
         impl $name {
             fn vulkan(&self) -> &$vulkan {
-                match self {
-                    Self::Vulkan(own) => own,
-                    Self::Text => unreachable!("made by another driver"),
-                }
+                let Self::Vulkan(own) = self else {
+                    unreachable!("made by another driver")
+                };
+                own
+            }
+            #[cfg(feature = "cuda")]
+            fn cuda(&self) -> &$cuda {
+                let Self::Cuda(own) = self else {
+                    unreachable!("made by another driver")
+                };
+                own
             }
         }
     )* };
@@ -113,28 +126,80 @@ macro_rules! made {
 
 made! {
     /// Memory of a device.
-    Buffer: wgpu::Buffer;
+    Buffer: wgpu::Buffer, Arc<cuda::Memory>;
     /// A compiled kernel.
-    Kernel: vulkan::Kernel;
+    Kernel: vulkan::Kernel, cuda::Kernel;
     /// A kernel with what it works on.
-    Bound: vulkan::Bound;
+    Bound: vulkan::Bound, cuda::Bound;
+}
+
+/// An adapter that can be opened.
+enum Found {
+    Vulkan(wgpu::Adapter),
+    #[cfg(feature = "cuda")]
+    Cuda(cuda::Card),
+}
+
+impl Found {
+    /// All, of which by Vulkan a card that CUDA has too stands behind.
+    fn all() -> Vec<Self> {
+        let mut all = Vec::new();
+        #[cfg(feature = "cuda")]
+        all.extend(cuda::cards().into_iter().map(Self::Cuda));
+        all.extend(vulkan::adapters().into_iter().map(Self::Vulkan));
+        all
+    }
+
+    fn describe(&self) -> Adapter {
+        match self {
+            Self::Vulkan(own) => vulkan::describe(own),
+            #[cfg(feature = "cuda")]
+            Self::Cuda(own) => own.describe(),
+        }
+    }
+
+    /// Its place among all: the fastest kind is the first.
+    fn rank(&self) -> u8 {
+        match self {
+            Self::Vulkan(own) => vulkan::rank(own),
+            #[cfg(feature = "cuda")]
+            Self::Cuda(_) => 0,
+        }
+    }
+
+    fn open(&self) -> Result<Device, Error> {
+        let opened = match self {
+            Self::Vulkan(own) => Vulkan::open(own).map(Driver::Vulkan),
+            #[cfg(feature = "cuda")]
+            Self::Cuda(own) => cuda::Cuda::open(*own).map(Driver::Cuda),
+        };
+        let adapter = self.describe();
+        match opened {
+            Ok(driver) => Ok(Device::driven(driver, adapter)),
+            Err(message) => Err(Error::Refused {
+                adapter: adapter.name,
+                message,
+            }),
+        }
+    }
 }
 
 impl Device {
-    /// The adapters of this machine; empty without a driver.
+    /// The adapters of this machine; empty without a driver. With the feature `cuda` cards of NVIDIA stand there twice, once as `… (CUDA 0)`.
     #[must_use]
     pub fn list() -> Vec<Adapter> {
-        vulkan::adapters().iter().map(vulkan::describe).collect()
+        Found::all().iter().map(Found::describe).collect()
     }
 
-    /// Opens the fastest kind of adapter that there is: a card, then what is built into the processor, then a driver in software.
+    /// Opens the fastest kind of adapter that there is: a card, then what is built into the processor, then a driver in software. With the
+    /// feature `cuda` that is a card by CUDA where there is its driver, and NVRTC or a folder of cubins ([`nvrtc`](crate::nvrtc)).
     ///
     /// # Errors
     ///
     /// [`Error::NoAdapter`] without any, [`Error::Refused`] if it cannot be opened.
     pub fn open() -> Result<Self, Error> {
-        let best = vulkan::adapters().into_iter().min_by_key(vulkan::rank);
-        Self::of(&best.ok_or(Error::NoAdapter)?)
+        let best = Found::all().into_iter().min_by_key(Found::rank);
+        best.ok_or(Error::NoAdapter)?.open()
     }
 
     /// Opens the adapter of a name, as [`Device::list`] gives it.
@@ -143,25 +208,17 @@ impl Device {
     ///
     /// [`Error::NoAdapter`] without any, [`Error::UnknownAdapter`] if none is called so, [`Error::Refused`] if it cannot be opened.
     pub fn named(name: &str) -> Result<Self, Error> {
-        let all = vulkan::adapters();
+        let all = Found::all();
         if all.is_empty() {
             return Err(Error::NoAdapter);
         }
-        let own = all.iter().find(|own| own.get_info().name == name);
-        Self::of(own.ok_or_else(|| Error::UnknownAdapter {
+        let names = || all.iter().map(|own| own.describe().name);
+        let own = names().position(|own| own == name);
+        let own = own.ok_or_else(|| Error::UnknownAdapter {
             wanted: name.into(),
-            found: all.iter().map(|own| own.get_info().name).collect(),
-        })?)
-    }
-
-    fn of(adapter: &wgpu::Adapter) -> Result<Self, Error> {
-        let opened = Vulkan::open(adapter);
-        let adapter = vulkan::describe(adapter);
-        let driver = opened.map_err(|message| Error::Refused {
-            adapter: adapter.name.clone(),
-            message,
+            found: names().collect(),
         })?;
-        Ok(Self::driven(Driver::Vulkan(driver), adapter))
+        all[own].open()
     }
 
     fn driven(driver: Driver, adapter: Adapter) -> Self {
@@ -187,16 +244,18 @@ impl Device {
 
     /// The kernels that were made where there is no device.
     pub(crate) fn texts(&self) -> Vec<(String, String)> {
-        match &self.driver {
-            Driver::Text(_, all) => all.lock().unwrap_or_else(PoisonError::into_inner).clone(),
-            Driver::Vulkan(_) => Vec::new(),
-        }
+        let Driver::Text(_, all) = &self.driver else {
+            return Vec::new();
+        };
+        all.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     /// What its kernels are written in.
     pub(crate) fn dialect(&self, precision: Precision) -> Dialect {
         let language = match &self.driver {
             Driver::Vulkan(_) => Language::Wgsl,
+            #[cfg(feature = "cuda")]
+            Driver::Cuda(_) => Language::Cuda,
             Driver::Text(language, _) => *language,
         };
         Dialect {
@@ -219,6 +278,8 @@ impl Device {
     pub fn with_threads(mut self, threads: u32) -> Result<Self, Error> {
         let most = match &self.driver {
             Driver::Vulkan(own) => own.most_threads(),
+            #[cfg(feature = "cuda")]
+            Driver::Cuda(_) => cuda::MOST_THREADS,
             Driver::Text(..) => u32::MAX,
         };
         let fits = (1..=most).contains(&threads);
@@ -243,6 +304,16 @@ impl Device {
 
     fn count(&self, what: usize, by: u64) {
         self.traffic[what].fetch_add(by, Ordering::Relaxed);
+    }
+
+    /// Refuses a kernel that another driver has made.
+    pub(crate) fn made(&self, kernel: &Kernel) -> Result<(), Error> {
+        match (&self.driver, kernel) {
+            (Driver::Vulkan(_), Kernel::Vulkan(_)) | (Driver::Text(..), Kernel::Text) => Ok(()),
+            #[cfg(feature = "cuda")]
+            (Driver::Cuda(_), Kernel::Cuda(_)) => Ok(()),
+            _ => Err(Error::OtherDevice),
+        }
     }
 
     /// Refuses a precision that the adapter does not have.
@@ -277,6 +348,8 @@ impl Device {
             Driver::Vulkan(own) => own
                 .kernel(&source, buffers, self.threads)
                 .map(Kernel::Vulkan),
+            #[cfg(feature = "cuda")]
+            Driver::Cuda(own) => own.kernel(&source, self.threads).map(Kernel::Cuda),
             Driver::Text(_, all) => {
                 let mut all = all.lock().unwrap_or_else(PoisonError::into_inner);
                 all.push((part.to_string(), source));
@@ -298,11 +371,12 @@ impl Device {
     pub(crate) fn room(&self, what: &'static str, bytes: usize) -> Result<Buffer, Error> {
         let size = (bytes as u64).max(16).next_multiple_of(16);
         self.fits(what, size)?;
-        let made = match &self.driver {
+        match &self.driver {
             Driver::Vulkan(own) => own.room(what, size).map(Buffer::Vulkan),
-            Driver::Text(..) => Some(Buffer::Text),
-        };
-        made.ok_or(Error::OutOfMemory { what })
+            #[cfg(feature = "cuda")]
+            Driver::Cuda(own) => own.room(what, size).map(Buffer::Cuda),
+            Driver::Text(..) => Ok(Buffer::Text),
+        }
     }
 
     /// Room that holds some bytes.
@@ -320,8 +394,11 @@ impl Device {
     /// Writes bytes to a place of what has room for them.
     pub(crate) fn write_at(&self, buffer: &Buffer, at: usize, bytes: &[u8]) {
         self.count(1, bytes.len() as u64);
-        if let Driver::Vulkan(own) = &self.driver {
-            own.write(buffer.vulkan(), at, bytes);
+        match &self.driver {
+            Driver::Vulkan(own) => own.write(buffer.vulkan(), at, bytes),
+            #[cfg(feature = "cuda")]
+            Driver::Cuda(own) => own.write(buffer.cuda(), at, bytes),
+            Driver::Text(..) => {}
         }
     }
 
@@ -341,6 +418,11 @@ impl Device {
                 let buffers: Vec<_> = buffers.iter().map(|own| own.vulkan()).collect();
                 Bound::Vulkan(own.bind(kernel.vulkan(), &buffers, extent))
             }
+            #[cfg(feature = "cuda")]
+            Driver::Cuda(own) => {
+                let buffers = buffers.iter().map(|own| own.cuda().clone()).collect();
+                Bound::Cuda(own.bind(kernel.cuda(), buffers, extent))
+            }
             Driver::Text(..) => Bound::Text,
         }
     }
@@ -348,8 +430,11 @@ impl Device {
     /// Runs kernels one after another: each sees what those before it have written.
     pub(crate) fn launch(&self, kernels: &[&Bound]) {
         self.count(0, kernels.len() as u64);
-        if let Driver::Vulkan(own) = &self.driver {
-            own.launch(kernels.iter().map(|own| own.vulkan()));
+        match &self.driver {
+            Driver::Vulkan(own) => own.launch(kernels.iter().map(|own| own.vulkan())),
+            #[cfg(feature = "cuda")]
+            Driver::Cuda(own) => own.launch(kernels.iter().map(|own| own.cuda())),
+            Driver::Text(..) => {}
         }
     }
 
@@ -368,6 +453,8 @@ impl Device {
         self.count(3, 1);
         let read = match &self.driver {
             Driver::Vulkan(own) => own.read(buffer.vulkan(), at, size),
+            #[cfg(feature = "cuda")]
+            Driver::Cuda(own) => own.read(buffer.cuda(), at, bytes),
             Driver::Text(..) => Err("there is none".into()),
         };
         let mut read = read.map_err(|message| Error::Lost { message })?;

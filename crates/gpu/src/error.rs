@@ -107,6 +107,9 @@ pub enum Error {
         /// How many are needed.
         wanted: usize,
     },
+    /// A kernel is run on another device than it was made for.
+    #[error("a kernel was made for another device; make it anew for this one")]
+    OtherDevice,
     /// An integrator that [says](meshfree::integrator::Integrator::slots) that it keeps no states asks for one.
     #[error(
         "the integrator {name} asks for a state that it does not say it keeps; give Integrator::slots their number, and run it on the host"

@@ -20,7 +20,7 @@
 //!
 //! A part in the arithmetic of lanes is [recorded](meshfree::scalar::Record), and [`emit`](emit()) writes the record in the language of a
 //! device. [`Device`] runs such text by Vulkan: [`PointKernel`] for what happens to single particles, [`PairKernel`] for sums over
-//! neighbours.
+//! neighbours. The feature `cuda` adds cards of NVIDIA by their own driver, on which it has not run yet.
 //!
 //! ```
 //! use meshfree::scalar::Record;

@@ -3,6 +3,11 @@
 
 use cudarc::nvrtc::{result, sys};
 use std::ffi::CString;
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::PathBuf;
+
+/// The variable of the environment that names a folder in which code is kept, so that it can be compiled on another machine.
+pub const FOLDER: &str = "MESHFREE_CUBINS";
 
 /// A kernel in machine code.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -66,4 +71,30 @@ pub fn compile(source: &str, architecture: &str, options: &[&str]) -> Result<Cub
         code
     };
     Ok(Cubin { code, log })
+}
+
+/// Whether code is to be had: there is a folder of it, or the library.
+pub(crate) fn has_code() -> bool {
+    std::env::var_os(FOLDER).is_some() || is_there()
+}
+
+/// The code of a text, with products that may be fused into sums: from the [`FOLDER`], or compiled, and then kept there.
+///
+/// # Errors
+///
+/// As [`compile`], or that it cannot be kept.
+pub fn code(source: &str, architecture: &str) -> Result<Vec<u8>, String> {
+    let mut hasher = DefaultHasher::new();
+    (source, architecture).hash(&mut hasher);
+    let name = format!("{:016x}.cubin", hasher.finish());
+    let file = std::env::var_os(FOLDER).map(|own| PathBuf::from(own).join(name));
+    if let Some(Ok(code)) = file.as_ref().map(std::fs::read) {
+        return Ok(code);
+    }
+    let made = compile(source, architecture, &[])?.code;
+    if let Some(file) = file {
+        let kept = std::fs::write(&file, &made);
+        kept.map_err(|error| format!("{}: {error}", file.display()))?;
+    }
+    Ok(made)
 }

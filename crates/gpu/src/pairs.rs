@@ -308,7 +308,7 @@ impl PairKernel {
     /// # Errors
     ///
     /// [`Error::Size`] if records, lists or the body force are of another size; [`Error::TooLarge`] and [`Error::OutOfMemory`] if they
-    /// do not fit; [`Error::Lost`] if the device fails.
+    /// do not fit; [`Error::Lost`] if the device fails, [`Error::OtherDevice`] for one of another device.
     pub fn run(
         &self,
         device: &Device,
@@ -316,6 +316,7 @@ impl PairKernel {
         lists: &PairLists,
         shared: &Shared,
     ) -> Result<Vec<f64>, Error> {
+        device.made(&self.kernel)?;
         let size = |what, found, wanted| Error::unless(found == wanted, what, [found, wanted]);
         let force = shared.body_force.len();
         size("numbers of the body force", force, self.dimensions)?;

@@ -2,6 +2,7 @@
 //! Kernels are in WGSL.
 
 use super::{Adapter, Extent};
+use crate::Error;
 use crate::kernel::Array;
 use pollster::block_on;
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
@@ -144,8 +145,8 @@ impl Vulkan {
         }
     }
 
-    /// Room for some bytes, all zero, unless there is none.
-    pub fn room(&self, what: &'static str, size: u64) -> Option<wgpu::Buffer> {
+    /// Room for some bytes, all zero.
+    pub fn room(&self, what: &'static str, size: u64) -> Result<wgpu::Buffer, Error> {
         let scope = self.inner.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let buffer = self.inner.create_buffer(&wgpu::BufferDescriptor {
             label: Some(what),
@@ -153,7 +154,10 @@ impl Vulkan {
             usage: BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        block_on(scope.pop()).is_none().then_some(buffer)
+        match block_on(scope.pop()) {
+            None => Ok(buffer),
+            Some(_) => Err(Error::OutOfMemory { what }),
+        }
     }
 
     pub fn write(&self, buffer: &wgpu::Buffer, at: usize, bytes: &[u8]) {

@@ -3,9 +3,10 @@
 
 use meshfree_gpu::{Device, Error};
 
-/// The device of a test, or nothing where there is none.
+/// The device of a test, or nothing where there is none: the fastest, or the adapter that `MESHFREE_ADAPTER` names.
 pub fn device(test: &str) -> Option<Device> {
-    match Device::open() {
+    let named = std::env::var("MESHFREE_ADAPTER");
+    match named.map_or_else(|_| Device::open(), |name| Device::named(&name)) {
         Ok(device) => {
             println!("{test} on {:?}", device.adapter());
             Some(device)
