@@ -141,7 +141,8 @@ impl<T: Real, const D: usize> Columns<T, D> {
         for field in self.fields.iter() {
             let width = field.components(D);
             let (column, mut end) = (some.column_mut(field), 0);
-            for run in runs {
+            let is_here = !column.is_empty();
+            for run in runs.iter().filter(|_| is_here) {
                 column.copy_within(width * run.start..width * run.end, end);
                 end += width * run.len();
             }
@@ -156,6 +157,9 @@ impl<T: Real, const D: usize> Columns<T, D> {
         self.slots = order.len();
         for field in self.fields.iter() {
             let column = self.column_mut(field);
+            if column.is_empty() {
+                continue;
+            }
             let width = field.components(D);
             // Of its own length: what served a vector would keep the memory of one.
             let mut sorted = Vec::with_capacity(width * order.len());

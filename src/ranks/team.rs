@@ -283,6 +283,7 @@ impl Team {
             match letters {
                 Letters::Each(bytes) => buffers.given.to_each += bytes as u64,
                 Letters::Ghosts(bytes) => buffers.given.of_ghost += bytes as u64,
+                Letters::Moved => {}
             }
             buffers.traffic.exchanged += 1;
             buffers.traffic.sent += own.len() as u64;

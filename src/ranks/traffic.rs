@@ -26,6 +26,8 @@ pub(crate) enum Letters {
     Each(usize),
     /// So many bytes for each ghost of a rank.
     Ghosts(usize),
+    /// Particles that go to another rank.
+    Moved,
 }
 
 /// What a rank gave, by how it depends on the number of ranks.

@@ -3,6 +3,7 @@
 
 use super::Simulation;
 use super::group::Group;
+use super::migration::Leaving;
 use super::part::Part;
 use super::settle::PIECE;
 use super::vote::{Criterion, NO_VOTE, Vote};
@@ -122,12 +123,22 @@ impl<T: Real, const D: usize> Group<T, D> {
     }
 
     /// Goes on with own particles after a list build in a step, which kept states follow before.
-    pub(super) fn part_again(&mut self) {
+    pub(super) fn part_again(&mut self, leaving: Option<Leaving<T, D>>) {
+        let order = match &leaving {
+            None => Vec::new(),
+            Some(_) => core::mem::take(&mut self.particles.moved.order),
+        };
         let time_of = |slot: usize| self.kept_times.get(slot).copied().unwrap_or(0.0);
         let given = self.work.follow(&mut self.particles.moved, time_of);
         self.given.extend(given);
-        if self.may_part() {
+        let parts = self.may_part();
+        if parts {
             self.keep_own();
+        }
+        match leaving {
+            None => {}
+            Some(own) if parts => own.arrive(self, &order),
+            Some(own) => own.fail(self),
         }
     }
 

@@ -113,7 +113,13 @@ impl Share {
         if self.division.imbalance(&lists.costs()) <= SLOWEST {
             return;
         }
+        let before = self.division.clone();
         self.divide::<T>(lists, mobile);
+        if before.is_full() && !self.division.is_full() {
+            // What ranks step by parts stays so.
+            self.division = before;
+            return;
+        }
         let wanted = self.division.of(rank);
         lists.keep(&wanted);
         let missing: Vec<_> = wanted

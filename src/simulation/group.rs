@@ -223,11 +223,11 @@ impl<T: Real, const D: usize> Group<T, D> {
             )
         {
             let is_apart = self.all.is_some();
-            self.bring_together(true);
+            let leaving = self.bring_together(true);
             self.neighborhood.choose_skin();
             self.rebuild(time);
             if is_apart {
-                self.part_again();
+                self.part_again(leaving);
             }
         } else if self.boundaries.iter().any(|b| b.moves()) {
             self.neighborhood.place_transforms(&self.boundaries, time);

@@ -174,6 +174,7 @@ mod ledger;
 mod limits;
 mod load;
 mod loads;
+mod migration;
 mod neighbor;
 mod neighborhood;
 mod observed;

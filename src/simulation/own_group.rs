@@ -2,6 +2,7 @@
 //! Copies of columns, sums and records: no number changes.
 
 use super::group::Group;
+use super::migration::Leaving;
 use super::neighborhood::Neighborhood;
 use super::part::{Part, runs_of};
 use super::population::{BodyState, Moves, Particles};
@@ -28,6 +29,13 @@ pub(crate) struct All<T: Real, const D: usize> {
     limited: Vec<(&'static str, u64)>,
     /// Pairs summed before.
     pairs: u64,
+}
+
+impl<T: Real, const D: usize> All<T, D> {
+    /// Slots of all particles.
+    pub fn slots(&self) -> usize {
+        self.particles.columns.slots()
+    }
 }
 
 impl<T: Real, const D: usize> Group<T, D> {
@@ -65,12 +73,11 @@ impl<T: Real, const D: usize> Group<T, D> {
         }));
     }
 
-    /// Goes on with all particles, which all ranks give each other at once, column by column; without their records where lists are
-    /// built next.
-    pub(super) fn bring_together(&mut self, for_lists: bool) {
-        let (Some(all), Some(share)) = (self.all.take(), self.share.clone()) else {
-            return;
-        };
+    /// Goes on with all particles, which all ranks give each other at once, column by column. Where lists are built next it is without
+    /// their records, and where nothing re-enters with their places and smoothing lengths alone: the rest is returned, for ranks to send
+    /// to where it belongs after that.
+    pub(super) fn bring_together(&mut self, for_lists: bool) -> Option<Leaving<T, D>> {
+        let (all, share) = (self.all.take()?, self.share.clone()?);
         let All {
             part,
             particles,
@@ -107,7 +114,13 @@ impl<T: Real, const D: usize> Group<T, D> {
             let runs_of = |rank: usize| runs[rank].each_ref().map(numbers);
             team.gather_numbers(What::State, all, runs_of, Vec::new(), |_, _| Some(()));
         };
-        for field in self.particles.columns.fields().iter() {
+        let places_alone = for_lists && self.boundaries.is_empty();
+        let places = [Field::POSITION, Field::SMOOTHING_LENGTH];
+        let fields = self.particles.columns.fields();
+        for field in fields.iter() {
+            if places_alone && !places.contains(&field) {
+                continue;
+            }
             let width = field.components(D);
             let own = core::mem::take(own.columns.column_mut(field));
             let column = self.particles.columns.column_mut(field);
@@ -118,6 +131,25 @@ impl<T: Real, const D: usize> Group<T, D> {
                 vec![T::zero(); width * slots]
             };
             gather(&own, column, width);
+        }
+        let mut all = vec![0; counts.len()];
+        let put = |to: &mut Vec<u8>| counts.iter().for_each(|own| put_number(*own, to));
+        team.gather(What::State, put, |_, from| {
+            let mut from = Taken(from);
+            for count in &mut all {
+                *count += from.number()?;
+            }
+            from.0.is_empty().then_some(())
+        });
+        self.add_counts(&all);
+        if places_alone {
+            let division = division.clone();
+            return Some(Leaving {
+                part,
+                division,
+                columns: own.columns,
+                work,
+            });
         }
         self.work.expect_saved(&work, &self.particles, slots);
         for ((_, own), (field, all)) in work.saved().zip(self.work.saved_mut()) {
@@ -148,16 +180,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             }
             self.show_images_again();
         }
-        let mut all = vec![0; counts.len()];
-        let put = |to: &mut Vec<u8>| counts.iter().for_each(|own| put_number(*own, to));
-        team.gather(What::State, put, |_, from| {
-            let mut from = Taken(from);
-            for count in &mut all {
-                *count += from.number()?;
-            }
-            from.0.is_empty().then_some(())
-        });
-        self.add_counts(&all);
+        None
     }
 
     /// What guards and limits have counted, and how many pairs were summed beside some.
@@ -410,7 +433,7 @@ impl<T: Real, const D: usize> Workspace<T, D> {
     }
 
     /// Makes room for the states that a rank keeps.
-    fn expect_saved(&mut self, own: &Self, all: &Particles<T, D>, slots: usize) {
+    pub(super) fn expect_saved(&mut self, own: &Self, all: &Particles<T, D>, slots: usize) {
         let room = |own: &Saved<T>| -> Saved<T> {
             let whole = |(field, _): &(Field, Vec<T>)| {
                 let is_there = !all.columns.raw(*field).is_empty();

@@ -171,7 +171,7 @@ impl<T: Real, const D: usize> Results<T, D> {
 
     /// Where component `offset` of the n-th particle stands.
     #[inline(always)]
-    fn at(&self, n: usize, offset: usize) -> usize {
+    pub(super) fn at(&self, n: usize, offset: usize) -> usize {
         (n / Self::WIDTH * self.stride + offset) * Self::WIDTH + n % Self::WIDTH
     }
 

@@ -1,0 +1,161 @@
+//! The way of particles to other ranks at a list build: each number goes from the rank that had it to the one that gets it.
+//! All ranks know the new order, so each finds by itself what it sends and what it gets.
+
+use super::group::Group;
+use super::part::{Part, runs_of};
+use super::workspace::{Saved, Workspace};
+use crate::particles::{Columns, Field};
+use crate::ranks::{Division, Letters, Taken, Team, put_numbers};
+use crate::scalar::Real;
+use crate::sweep::Results;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// What a rank had of a group before a list build, but for what lists are built from.
+pub(super) struct Leaving<T: Real, const D: usize> {
+    pub part: Arc<Part>,
+    pub division: Division,
+    pub columns: Columns<T, D>,
+    pub work: Workspace<T, D>,
+}
+
+/// Who sends which of its particles to whom.
+struct Route<'a> {
+    team: &'a Team,
+    /// Particles that this rank sends, rank by rank, and how many each gets and gives.
+    sends: Vec<u32>,
+    to: Vec<usize>,
+    from: Vec<usize>,
+    /// Where each particle of this rank stands now: among those that it had, or behind these among those that come.
+    sources: Vec<u32>,
+}
+
+impl<'a> Route<'a> {
+    /// From the runs of each rank before to those after. Slot k of the group becomes what slot `order[k]` was; an empty order keeps
+    /// all slots.
+    fn new(team: &'a Team, part: &Part, runs: &[[[Range<usize>; 2]; 2]], order: &[u32]) -> Self {
+        let before = |slot: usize| order.get(slot).map_or(slot, |&old| old as usize);
+        let (rank, had) = (team.rank(), part.count());
+        let is_in = |runs: &[Range<usize>; 2], slot| runs.iter().any(|run| run.contains(&slot));
+        let after = |other: usize| runs[other][1].clone().into_iter().flatten().map(before);
+        let (mut sends, mut to, mut from) = (Vec::new(), Vec::new(), vec![0; runs.len()]);
+        for other in 0..runs.len() {
+            let begun = sends.len();
+            if other != rank {
+                let own = after(other).filter(|old| is_in(&part.runs, *old));
+                sends.extend(own.map(|old| part.at(old) as u32));
+            }
+            to.push(sends.len() - begun);
+        }
+        let owner = |old| runs.iter().position(|own| is_in(&own[0], old));
+        let owners = after(rank).map(|old| owner(old).filter(|own| *own != rank));
+        for other in owners.clone().flatten() {
+            from[other] += 1;
+        }
+        let mut next = had;
+        let mut places: Vec<usize> = Vec::with_capacity(from.len());
+        for count in &from {
+            places.push(next);
+            next += count;
+        }
+        let sources = after(rank).zip(owners).map(|(old, owner)| match owner {
+            None => part.at(old) as u32,
+            Some(other) => {
+                places[other] += 1;
+                places[other] as u32 - 1
+            }
+        });
+        let sources = sources.collect();
+        Self {
+            team,
+            sends,
+            to,
+            from,
+            sources,
+        }
+    }
+
+    /// A column of the particles that this rank gets, from that of those that it had.
+    fn carry<T: Real>(&self, own: &[T], width: usize) -> Vec<T> {
+        let at = |slot: u32| slot as usize * width..(slot as usize + 1) * width;
+        let size = width * size_of::<T>();
+        let mut letters = Vec::with_capacity(size * self.sends.len());
+        for &slot in &self.sends {
+            put_numbers(&own[at(slot)], &mut letters);
+        }
+        let count: usize = self.from.iter().sum();
+        let mut come = vec![0; size * count];
+        let bytes = |counts: &[usize]| -> Vec<usize> { counts.iter().map(|n| size * n).collect() };
+        let (to, from) = (bytes(&self.to), bytes(&self.from));
+        let told = self
+            .team
+            .exchange(Letters::Moved, (&letters, &to), (&mut come, &from));
+        let mut arrived = vec![T::zero(); width * count];
+        if told {
+            let _ = Taken(&come).numbers(&mut arrived);
+        }
+        let had = own.len() / width;
+        let mut all = Vec::with_capacity(width * self.sources.len());
+        for &source in &self.sources {
+            all.extend_from_slice(match (source as usize).checked_sub(had) {
+                None => &own[at(source)],
+                Some(k) => &arrived[at(k as u32)],
+            });
+        }
+        all
+    }
+}
+
+impl<T: Real, const D: usize> Leaving<T, D> {
+    /// Gives a group, which has this rank's places after a list build, all else of its particles.
+    pub fn arrive(mut self, group: &mut Group<T, D>, order: &[u32]) {
+        let (Some(all), Some(share)) = (&group.all, &group.share) else {
+            return;
+        };
+        let divisions = [&self.division, share.division()];
+        let runs: Vec<_> = (0..share.team.count())
+            .map(|rank| divisions.map(|own| runs_of::<T>(own, rank, all.slots())))
+            .collect();
+        let route = Route::new(&share.team, &self.part, &runs, order);
+        for field in self.columns.fields().iter() {
+            let own = core::mem::take(self.columns.column_mut(field));
+            if !own.is_empty() {
+                let column = group.particles.columns.column_mut(field);
+                *column = route.carry(&own, field.components(D));
+            }
+        }
+        let chunks = all.part.chunks.iter().map(Range::len).sum();
+        let carry_sums = |own: &mut Results<T, D>| {
+            let own = core::mem::take(own);
+            let numbers = match own.outputs().width(D) {
+                0 => Vec::new(),
+                width => route.carry(&own.numbers(self.part.count()), width),
+            };
+            own.with_numbers(&numbers, (group.particles.mobile, chunks))
+        };
+        let work = &mut self.work;
+        group.work.rates = carry_sums(&mut work.rates);
+        group.work.worked = carry_sums(&mut work.worked);
+        let carry_saved = |own: &Saved<T>| -> Saved<T> {
+            let carried = |(field, column): &(Field, Vec<T>)| match column.len() {
+                0 => (*field, Vec::new()),
+                _ => (*field, route.carry(column, field.components(D))),
+            };
+            own.iter().map(carried).collect()
+        };
+        group.work.kept = work.kept.iter().map(carry_saved).collect();
+        if work.is_predicted {
+            group.work.predicted = carry_saved(&work.predicted);
+        }
+    }
+
+    /// The same where a rank has failed, which is told where the call ends: room for all particles.
+    pub fn fail(self, group: &mut Group<T, D>) {
+        let slots = group.particles.columns.slots();
+        for field in self.columns.fields().iter() {
+            let column = group.particles.columns.column_mut(field);
+            column.resize(field.components(D) * slots, T::zero());
+        }
+        (group.work).expect_saved(&self.work, &group.particles, slots);
+    }
+}
