@@ -8,9 +8,9 @@
 //!
 //! | part of a step | on ranks |
 //! |---|---|
-//! | sums over pairs, laws, equations of state, kicks, drifts | each rank has its own particles, and before each sweep gets the packed records of others that its lists name |
+//! | sums over pairs, laws, equations of state, kicks, drifts | each rank has its own particles, and before each sweep gets the packed records of others that its lists name; it sums over those with neighbours of its own alone meanwhile |
 //! | votes on the step, validity of lists, impulses | each rank finds them for its own particles; then all ranks join them |
-//! | search for neighbours | all ranks get all particles; then each lists the neighbours of its chunks |
+//! | search for neighbours | all ranks get all places, and each lists the neighbours of its chunks; then particles go to their new ranks |
 //!
 //! Scenes of which a step looks at more than neighbours (couplings, contact, joints, rigid bodies, clamps, loads by particle, events,
 //! inlets and outlets), and calls that show every step, have another form of it: each rank sums over the pairs of its chunks, then all get
@@ -20,8 +20,9 @@
 //! nor the threads of each, nor on how chunks are cut, nor on the form of a step. Every rank holds the whole state when a call returns:
 //! any method that reads a simulation gives the same values on all of them and needs no message.
 //!
-//! Lists are divided, and between list builds so is all else. Where lists are built every rank holds the columns of all particles,
-//! and when a call returns the whole scene but the lists of others, which a reading that needs them makes.
+//! Lists are divided, and between list builds so is all else. Where lists are built every rank holds the places of all particles, with
+//! boundaries that turn what crosses them, as mirror planes, all of their columns, and when a call returns the whole scene but the lists
+//! of others, which a reading that needs them makes.
 //!
 //! ```
 //! use meshfree::prelude::*;
@@ -116,4 +117,19 @@ pub trait Ranks: core::fmt::Debug + Send + Sync {
         all: &mut [u8],
         from: &[usize],
     ) -> Result<(), Failure>;
+
+    /// The same, while `meanwhile` is done once, which needs nothing of what comes and calls no rank. By itself an exchange comes first.
+    ///
+    /// # Errors
+    /// As [`exchange`](Self::exchange).
+    fn exchange_beside(
+        &self,
+        own: (&[u8], &[usize]),
+        all: (&mut [u8], &[usize]),
+        meanwhile: &mut dyn FnMut(),
+    ) -> Result<(), Failure> {
+        self.exchange(own.0, own.1, all.0, all.1)?;
+        meanwhile();
+        Ok(())
+    }
 }

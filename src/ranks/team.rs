@@ -6,6 +6,7 @@ use super::traffic::{Given, Letters, Traffic};
 use crate::clock::Instant;
 use crate::error::{Error, Failure};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
 /// What a gathering is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -265,14 +266,25 @@ impl Team {
     pub fn exchange(
         &self,
         letters: Letters,
+        own: (&[u8], &[usize]),
+        all: (&mut [u8], &[usize]),
+    ) -> bool {
+        self.exchange_beside(letters, own, all, &mut || {})
+    }
+
+    /// The same beside what needs nothing of it, which is done once unless a rank has failed.
+    pub fn exchange_beside(
+        &self,
+        letters: Letters,
         (own, to): (&[u8], &[usize]),
         (all, from): (&mut [u8], &[usize]),
+        meanwhile: &mut dyn FnMut(),
     ) -> bool {
         if self.broken().is_some() {
             return false;
         }
         let mut buffers = self.buffers();
-        let start = Instant::now();
+        let (start, mut worked) = (Instant::now(), Duration::ZERO);
         buffers.own.clear();
         // A rank that has failed says so here, or the others would wait for its letter.
         let headed = self.gather_headers(What::Ghosts as u64, &mut buffers);
@@ -288,10 +300,15 @@ impl Team {
             buffers.traffic.exchanged += 1;
             buffers.traffic.sent += own.len() as u64;
             buffers.traffic.received += all.len() as u64;
-            let come = self.ranks.exchange(own, to, all, from);
+            let mut beside = || {
+                let begun = Instant::now();
+                meanwhile();
+                worked = begun.elapsed();
+            };
+            let come = (self.ranks).exchange_beside((own, to), (all, from), &mut beside);
             come.map_err(|why| self.unreachable(&why))
         });
-        buffers.traffic.waited += start.elapsed();
+        buffers.traffic.waited += start.elapsed() - worked;
         let Err(own) = come else {
             return true;
         };

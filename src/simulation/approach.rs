@@ -149,7 +149,7 @@ pub(super) fn approach<T: Real, const D: usize>(
             &neighborhood.images[..],
             &neighborhood.chains.transforms[..],
         );
-        records.pack(reads, &particles.columns, Some(ghosts), images);
+        records.pack(reads, &particles.columns, Some(ghosts), images, &mut |_| {});
     }
     let places = [Field::POSITION, Field::VELOCITY, Field::SOUND_SPEED];
     let offsets = places.map(|field| reads.offset(field, D));

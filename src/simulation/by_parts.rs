@@ -3,7 +3,6 @@
 
 use super::Simulation;
 use super::group::Group;
-use super::migration::Leaving;
 use super::part::Part;
 use super::settle::PIECE;
 use super::vote::{Criterion, NO_VOTE, Vote};
@@ -122,24 +121,43 @@ impl<T: Real, const D: usize> Group<T, D> {
             })
     }
 
-    /// Goes on with own particles after a list build in a step, which kept states follow before.
-    pub(super) fn part_again(&mut self, leaving: Option<Leaving<T, D>>) {
-        let order = match &leaving {
-            None => Vec::new(),
-            Some(_) => core::mem::take(&mut self.particles.moved.order),
+    /// Builds lists in a step of own particles, of which each goes to its next rank, and goes on with those that this one has then.
+    /// Kept states follow before. Where a boundary turns what crosses it, which it gives an impulse, all particles come together.
+    pub(super) fn rebuild_apart(&mut self, time: f64) {
+        let boundaries = self.boundaries.iter();
+        let mut transforms = boundaries
+            .flat_map(|own| (0..own.images()).map(|k| own.transform(k, time).to_scalar::<T>()));
+        if transforms.any(|own| own.turns()) {
+            self.bring_together(true);
+            self.neighborhood.choose_skin();
+            self.rebuild(time);
+            self.follow_wraps();
+            if self.may_part() {
+                self.keep_own();
+            }
+            return;
+        }
+        self.re_enter(time);
+        self.follow_wraps();
+        let leaving = self.leave();
+        self.neighborhood.choose_skin();
+        self.sort_and_list(time);
+        let order = core::mem::take(&mut self.particles.moved.order);
+        let Some(leaving) = leaving else {
+            return;
         };
+        if self.may_part() {
+            self.keep_own();
+            leaving.arrive(self, &order);
+        } else {
+            leaving.fail(self);
+        }
+    }
+
+    fn follow_wraps(&mut self) {
         let time_of = |slot: usize| self.kept_times.get(slot).copied().unwrap_or(0.0);
         let given = self.work.follow(&mut self.particles.moved, time_of);
         self.given.extend(given);
-        let parts = self.may_part();
-        if parts {
-            self.keep_own();
-        }
-        match leaving {
-            None => {}
-            Some(own) if parts => own.arrive(self, &order),
-            Some(own) => own.fail(self),
-        }
     }
 
     /// The ranks, if this one has its own particles alone.

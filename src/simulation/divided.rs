@@ -5,6 +5,7 @@ use super::Simulation;
 use super::group::Group;
 use super::neighborhood::Neighborhood;
 use super::part::Part;
+use crate::clock::Instant;
 use crate::collective::over;
 use crate::error::{Error, Result};
 use crate::neighbors::{CHUNK, ClusterLists, SearchInput};
@@ -14,9 +15,13 @@ use crate::scalar::{Real, width};
 use crate::sweep::{InstructionSet, PairSweep, Pass, Records, Results, Root, SweepInput};
 use std::ops::Range;
 use std::sync::Arc;
+use std::time::Duration;
 
 /// Cost of the slowest rank over the mean at which chunks are cut anew.
 const SLOWEST: f64 = 1.1;
+
+/// Part of that cost at which another cut that costs more is worth the way of particles to it.
+const WORTH: f64 = 0.95;
 
 /// The sum of the last digits of all velocities: of other motions it is another.
 fn motion_of<T: Real, const D: usize>(group: &Group<T, D>) -> u64 {
@@ -110,16 +115,16 @@ impl Share {
             // What is under way goes on to where the error is told.
             lists.rebuild(input);
         }
-        if self.division.imbalance(&lists.costs()) <= SLOWEST {
+        let costs = lists.costs();
+        let new = Division::new(&costs, of_mobile, self.team.count());
+        let [now, then] = [&new, &self.division].map(|own| own.imbalance(&costs));
+        // Few chunks cannot be cut better, and would go to and fro; and what ranks step by parts stays so.
+        let is_better = now <= SLOWEST || now < WORTH * then;
+        let stays = self.division.is_full() && !new.is_full();
+        if then <= SLOWEST || !is_better || stays {
             return;
         }
-        let before = self.division.clone();
-        self.divide::<T>(lists, mobile);
-        if before.is_full() && !self.division.is_full() {
-            // What ranks step by parts stays so.
-            self.division = before;
-            return;
-        }
+        self.division = new;
         let wanted = self.division.of(rank);
         lists.keep(&wanted);
         let missing: Vec<_> = wanted
@@ -287,6 +292,41 @@ impl<T: Real, const D: usize> Group<T, D> {
             None => sweep.run(pass, input, records, rows),
             Some(share) => share.sum((sweep, pass), input, records, rows),
         }
+    }
+
+    /// Packs records and runs a sweep over all of its particles: where a rank has its own alone, over those whose neighbours are all
+    /// here while those of others come, and then over the rest. What both took.
+    pub(super) fn pack_and_run(
+        &self,
+        sweep: &dyn PairSweep<T, D>,
+        input: &SweepInput<'_, T, D>,
+        records: &mut Records<T>,
+        rows: &mut Results<T, D>,
+    ) -> [Duration; 2] {
+        let (start, pass) = (Instant::now(), Pass::Rates);
+        let apart = self.apart().filter(|_| input.among.is_none());
+        let Some((_, part)) = apart else {
+            sweep.pack(pass, input, records);
+            let packed = start.elapsed();
+            self.run_sweep((sweep, pass), input, records, rows);
+            return [packed, start.elapsed() - packed];
+        };
+        let [inner, outer] = part.inner_and_outer(&input.targets);
+        let over = |among, goes_on| SweepInput {
+            among: Some(among),
+            goes_on,
+            targets: input.targets.clone(),
+            ..*input
+        };
+        let mut summed = Duration::ZERO;
+        sweep.pack_beside(pass, input, records, &mut |own| {
+            let begun = Instant::now();
+            sweep.run(pass, &over(&inner, false), own, rows);
+            summed = begun.elapsed();
+        });
+        let packed = start.elapsed() - summed;
+        sweep.run(pass, &over(&outer, true), records, rows);
+        [packed, start.elapsed() - packed]
     }
 
     /// Makes it a group of these ranks.

@@ -282,12 +282,10 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.work.first_kick = None;
         let input = self.input();
         let start = Instant::now();
-        sweep.pack(Pass::Rates, &input, &mut records);
-        let packed = Instant::now();
-        self.run_sweep((sweep, Pass::Rates), &input, &records, &mut rates);
+        let [packed, summed] = self.pack_and_run(sweep, &input, &mut records, &mut rates);
         let pairs = self.neighborhood.pairs_of(input.targets);
-        self.work.phases.packing += packed - start;
-        self.work.phases.pairs += packed.elapsed();
+        self.work.phases.packing += packed;
+        self.work.phases.pairs += summed;
         self.work.spent.sweeps[Stage::Rates.number()] += start.elapsed();
         self.work.spent.pairs += pairs;
         self.work.records = records;

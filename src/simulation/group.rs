@@ -222,12 +222,11 @@ impl<T: Real, const D: usize> Group<T, D> {
                 (shift, time),
             )
         {
-            let is_apart = self.all.is_some();
-            let leaving = self.bring_together(true);
-            self.neighborhood.choose_skin();
-            self.rebuild(time);
-            if is_apart {
-                self.part_again(leaving);
+            if self.all.is_some() {
+                self.rebuild_apart(time);
+            } else {
+                self.neighborhood.choose_skin();
+                self.rebuild(time);
             }
         } else if self.boundaries.iter().any(|b| b.moves()) {
             self.neighborhood.place_transforms(&self.boundaries, time);
@@ -318,18 +317,28 @@ impl<T: Real, const D: usize> Group<T, D> {
         Ok(any)
     }
 
+    /// Lets particles that have crossed a boundary re-enter.
+    pub(super) fn re_enter(&mut self, time: f64) {
+        self.held
+            .note_periods(&self.particles, &self.boundaries, time);
+        self.particles
+            .wrap(&self.boundaries, &self.scheme.program, time);
+    }
+
     /// Lets particles re-enter and leave, sorts them if that pays, and lists their neighbours.
     pub fn rebuild(&mut self, time: f64) {
+        self.re_enter(time);
+        self.sort_and_list(time);
+    }
+
+    /// The same of particles that have re-entered.
+    pub(super) fn sort_and_list(&mut self, time: f64) {
         self.neighborhood.rebuilds += 1;
         self.neighborhood.served = 0;
         self.neighborhood.listed_time = time;
         self.work.first_kick = None;
         // Particles and images have other places in them.
         self.work.records_of_rates = false;
-        self.held
-            .note_periods(&self.particles, &self.boundaries, time);
-        self.particles
-            .wrap(&self.boundaries, &self.scheme.program, time);
         let held = &self.held;
         let outlets: Vec<_> = self.outlets.iter().map(|own| own.at(time)).collect();
         let removed = self.particles.remove(&outlets, |body| held.is_rigid(body));
@@ -365,6 +374,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         SweepInput {
             targets: 0..self.particles.mobile,
             among: None,
+            goes_on: false,
             body_force: self.body_force,
             columns: &self.particles.columns,
             ghosts: self.apart().map(|(_, part)| &*part.halo as &dyn Ghosts<T>),

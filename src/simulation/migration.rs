@@ -2,18 +2,16 @@
 //! All ranks know the new order, so each finds by itself what it sends and what it gets.
 
 use super::group::Group;
-use super::part::{Part, runs_of};
+use super::part::{place_in, runs_of};
 use super::workspace::{Saved, Workspace};
 use crate::particles::{Columns, Field};
 use crate::ranks::{Division, Letters, Taken, Team, put_numbers};
 use crate::scalar::Real;
 use crate::sweep::Results;
 use std::ops::Range;
-use std::sync::Arc;
 
 /// What a rank had of a group before a list build, but for what lists are built from.
 pub(super) struct Leaving<T: Real, const D: usize> {
-    pub part: Arc<Part>,
     pub division: Division,
     pub columns: Columns<T, D>,
     pub work: Workspace<T, D>,
@@ -26,6 +24,8 @@ struct Route<'a> {
     sends: Vec<u32>,
     to: Vec<usize>,
     from: Vec<usize>,
+    /// How many it had.
+    had: usize,
     /// Where each particle of this rank stands now: among those that it had, or behind these among those that come.
     sources: Vec<u32>,
 }
@@ -33,17 +33,19 @@ struct Route<'a> {
 impl<'a> Route<'a> {
     /// From the runs of each rank before to those after. Slot k of the group becomes what slot `order[k]` was; an empty order keeps
     /// all slots.
-    fn new(team: &'a Team, part: &Part, runs: &[[[Range<usize>; 2]; 2]], order: &[u32]) -> Self {
+    fn new(team: &'a Team, runs: &[[[Range<usize>; 2]; 2]], order: &[u32]) -> Self {
         let before = |slot: usize| order.get(slot).map_or(slot, |&old| old as usize);
-        let (rank, had) = (team.rank(), part.count());
+        let rank = team.rank();
+        let own = &runs[rank][0];
+        let had = own.iter().map(Range::len).sum();
         let is_in = |runs: &[Range<usize>; 2], slot| runs.iter().any(|run| run.contains(&slot));
         let after = |other: usize| runs[other][1].clone().into_iter().flatten().map(before);
         let (mut sends, mut to, mut from) = (Vec::new(), Vec::new(), vec![0; runs.len()]);
         for other in 0..runs.len() {
             let begun = sends.len();
             if other != rank {
-                let own = after(other).filter(|old| is_in(&part.runs, *old));
-                sends.extend(own.map(|old| part.at(old) as u32));
+                let leave = after(other).filter(|old| is_in(own, *old));
+                sends.extend(leave.map(|old| place_in(own, old) as u32));
             }
             to.push(sends.len() - begun);
         }
@@ -59,7 +61,7 @@ impl<'a> Route<'a> {
             next += count;
         }
         let sources = after(rank).zip(owners).map(|(old, owner)| match owner {
-            None => part.at(old) as u32,
+            None => place_in(own, old) as u32,
             Some(other) => {
                 places[other] += 1;
                 places[other] as u32 - 1
@@ -71,6 +73,7 @@ impl<'a> Route<'a> {
             sends,
             to,
             from,
+            had,
             sources,
         }
     }
@@ -94,10 +97,9 @@ impl<'a> Route<'a> {
         if told {
             let _ = Taken(&come).numbers(&mut arrived);
         }
-        let had = own.len() / width;
         let mut all = Vec::with_capacity(width * self.sources.len());
         for &source in &self.sources {
-            all.extend_from_slice(match (source as usize).checked_sub(had) {
+            all.extend_from_slice(match (source as usize).checked_sub(self.had) {
                 None => &own[at(source)],
                 Some(k) => &arrived[at(k as u32)],
             });
@@ -116,7 +118,7 @@ impl<T: Real, const D: usize> Leaving<T, D> {
         let runs: Vec<_> = (0..share.team.count())
             .map(|rank| divisions.map(|own| runs_of::<T>(own, rank, all.slots())))
             .collect();
-        let route = Route::new(&share.team, &self.part, &runs, order);
+        let route = Route::new(&share.team, &runs, order);
         for field in self.columns.fields().iter() {
             let own = core::mem::take(self.columns.column_mut(field));
             if !own.is_empty() {
@@ -129,7 +131,7 @@ impl<T: Real, const D: usize> Leaving<T, D> {
             let own = core::mem::take(own);
             let numbers = match own.outputs().width(D) {
                 0 => Vec::new(),
-                width => route.carry(&own.numbers(self.part.count()), width),
+                width => route.carry(&own.numbers(route.had), width),
             };
             own.with_numbers(&numbers, (group.particles.mobile, chunks))
         };
@@ -157,5 +159,60 @@ impl<T: Real, const D: usize> Leaving<T, D> {
             column.resize(field.components(D) * slots, T::zero());
         }
         (group.work).expect_saved(&self.work, &group.particles, slots);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ranks::in_threads;
+
+    /// Slots of a rank: of particles that move by forces, of which there are 60, and of the 40 others.
+    fn cut_at(rank: usize, bounds: [[usize; 4]; 2]) -> [Range<usize>; 2] {
+        bounds.map(|own| own[rank]..own[rank + 1])
+    }
+
+    #[test]
+    fn every_number_comes_to_where_the_order_says() {
+        let cuts = [
+            [[0, 20, 30, 60], [60, 70, 70, 100]],
+            [[0, 7, 50, 60], [60, 61, 90, 100]],
+        ];
+        // Particles keep to their kind, and some are repeated.
+        let mixed: Vec<u32> = (0..60)
+            .map(|k| k * 37 % 60)
+            .chain((0..40).map(|k| 60 + k * 13 % 39))
+            .collect();
+        let all = in_threads(3, 1, |ranks| {
+            let rank = ranks.rank();
+            let team = Team::new(ranks);
+            let runs: Vec<_> = (0..3)
+                .map(|rank| cuts.map(|own| cut_at(rank, own)))
+                .collect();
+            let [before, after] = runs[rank].clone();
+            let column = |runs: &[Range<usize>; 2], order: &[u32]| -> Vec<f64> {
+                let slots = runs.iter().cloned().flatten();
+                let at = |slot| order.get(slot).map_or(slot, |&old| old as usize);
+                slots
+                    .flat_map(|slot| [at(slot) as f64, -0.5 * at(slot) as f64])
+                    .collect()
+            };
+            for order in [&mixed[..], &[]] {
+                let route = Route::new(&team, &runs, order);
+                let carried = route.carry(&column(&before, &[]), 2);
+                assert_eq!(carried, column(&after, order));
+            }
+            let stay = runs
+                .iter()
+                .map(|own| [own[0].clone(), own[0].clone()])
+                .collect::<Vec<_>>();
+            let route = Route::new(&team, &stay, &[]);
+            assert!(
+                route.sends.is_empty(),
+                "nothing travels where nothing moves"
+            );
+            assert_eq!(route.carry(&column(&before, &[]), 2), column(&before, &[]));
+        });
+        assert_eq!(all.expect("threads").len(), 3);
     }
 }

@@ -1,6 +1,7 @@
 //! A group that has the particles of its rank alone, and the way back to that of all particles.
 //! Copies of columns, sums and records: no number changes.
 
+use super::divided::Share;
 use super::group::Group;
 use super::migration::Leaving;
 use super::neighborhood::Neighborhood;
@@ -10,7 +11,7 @@ use super::soundness::NEGATIVE_ENERGY;
 use super::walls::WallState;
 use super::workspace::{Saved, Workspace};
 use crate::material::eos::GuardCounts;
-use crate::particles::Field;
+use crate::particles::{Columns, Field};
 use crate::ranks::{Taken, What, put_number};
 use crate::scalar::Real;
 use crate::sweep::{Pass, Records, Results};
@@ -29,6 +30,38 @@ pub(crate) struct All<T: Real, const D: usize> {
     limited: Vec<(&'static str, u64)>,
     /// Pairs summed before.
     pairs: u64,
+}
+
+/// What a group has of this rank alone, on the way to all.
+struct Own<T: Real, const D: usize> {
+    part: Arc<Part>,
+    share: Share,
+    /// Slots of each rank.
+    runs: Vec<[Range<usize>; 2]>,
+    columns: Columns<T, D>,
+    work: Workspace<T, D>,
+}
+
+impl<T: Real, const D: usize> Own<T, D> {
+    /// Gets numbers of all particles, `width` a slot, from those that ranks have.
+    fn gather(&self, own: &[T], all: &mut [T], width: usize) {
+        let numbers = |run: &Range<usize>| width * run.start..width * run.end;
+        let mut rest = own;
+        for run in &self.part.runs {
+            let (own, behind) = rest.split_at(width * run.len());
+            all[numbers(run)].copy_from_slice(own);
+            rest = behind;
+        }
+        let runs_of = |rank: usize| self.runs[rank].each_ref().map(numbers);
+        let team = &self.share.team;
+        team.gather_numbers(What::State, all, runs_of, Vec::new(), |_, _| Some(()));
+    }
+
+    fn forget_records(&mut self) {
+        let work = &mut self.work;
+        (work.records, work.work_records) = <(Records<T>, Records<T>)>::default();
+        work.records_of_rates = false;
+    }
 }
 
 impl<T: Real, const D: usize> All<T, D> {
@@ -73,10 +106,8 @@ impl<T: Real, const D: usize> Group<T, D> {
         }));
     }
 
-    /// Goes on with all particles, which all ranks give each other at once, column by column. Where lists are built next it is without
-    /// their records, and where nothing re-enters with their places and smoothing lengths alone: the rest is returned, for ranks to send
-    /// to where it belongs after that.
-    pub(super) fn bring_together(&mut self, for_lists: bool) -> Option<Leaving<T, D>> {
+    /// Goes on with room for all particles. What was of this rank alone.
+    fn open(&mut self) -> Option<Own<T, D>> {
         let (all, share) = (self.all.take()?, self.share.clone()?);
         let All {
             part,
@@ -88,53 +119,19 @@ impl<T: Real, const D: usize> Group<T, D> {
             pairs,
         } = *all;
         let counts = self.counts(pairs);
-        let mut own = core::mem::replace(&mut self.particles, particles);
+        let own = core::mem::replace(&mut self.particles, particles);
         let near = core::mem::replace(&mut self.neighborhood, neighborhood);
-        let mut work = core::mem::take(&mut self.work);
+        let work = core::mem::take(&mut self.work);
         (self.walls, self.guards, self.limited) = (walls, guards, limited);
         let slots = self.particles.columns.slots();
         self.neighborhood.take_back(&part, near, slots);
-        if for_lists {
-            (work.records, work.work_records) = <(Records<T>, Records<T>)>::default();
-            work.records_of_rates = false;
-        }
-        let (team, division) = (&share.team, share.division());
-        let runs: Vec<_> = (0..team.count())
-            .map(|rank| runs_of::<T>(division, rank, slots))
+        let runs = (0..share.team.count())
+            .map(|rank| runs_of::<T>(share.division(), rank, slots))
             .collect();
         self.work.go_on(&work, pairs);
-        let gather = |own: &[T], all: &mut [T], width: usize| {
-            let numbers = |run: &Range<usize>| width * run.start..width * run.end;
-            let mut rest = own;
-            for run in &part.runs {
-                let (own, behind) = rest.split_at(width * run.len());
-                all[numbers(run)].copy_from_slice(own);
-                rest = behind;
-            }
-            let runs_of = |rank: usize| runs[rank].each_ref().map(numbers);
-            team.gather_numbers(What::State, all, runs_of, Vec::new(), |_, _| Some(()));
-        };
-        let places_alone = for_lists && self.boundaries.is_empty();
-        let places = [Field::POSITION, Field::SMOOTHING_LENGTH];
-        let fields = self.particles.columns.fields();
-        for field in fields.iter() {
-            if places_alone && !places.contains(&field) {
-                continue;
-            }
-            let width = field.components(D);
-            let own = core::mem::take(own.columns.column_mut(field));
-            let column = self.particles.columns.column_mut(field);
-            // Where a rank has failed its particles are where they were listed, and the error is told where the call ends.
-            *column = if field == Field::POSITION {
-                self.neighborhood.listed[..slots].as_flattened().to_vec()
-            } else {
-                vec![T::zero(); width * slots]
-            };
-            gather(&own, column, width);
-        }
         let mut all = vec![0; counts.len()];
         let put = |to: &mut Vec<u8>| counts.iter().for_each(|own| put_number(*own, to));
-        team.gather(What::State, put, |_, from| {
+        share.team.gather(What::State, put, |_, from| {
             let mut from = Taken(from);
             for count in &mut all {
                 *count += from.number()?;
@@ -142,45 +139,89 @@ impl<T: Real, const D: usize> Group<T, D> {
             from.0.is_empty().then_some(())
         });
         self.add_counts(&all);
-        if places_alone {
-            let division = division.clone();
-            return Some(Leaving {
-                part,
-                division,
-                columns: own.columns,
-                work,
-            });
+        Some(Own {
+            part,
+            share,
+            runs,
+            columns: own.columns,
+            work,
+        })
+    }
+
+    /// Gets columns of all particles.
+    fn gather_columns(&mut self, own: &mut Own<T, D>, fields: impl Iterator<Item = Field>) {
+        let slots = self.particles.columns.slots();
+        for field in fields {
+            let width = field.components(D);
+            let here = core::mem::take(own.columns.column_mut(field));
+            let column = self.particles.columns.column_mut(field);
+            // Where a rank has failed its particles are where they were listed, and the error is told where the call ends.
+            *column = if field == Field::POSITION {
+                self.neighborhood.listed[..slots].as_flattened().to_vec()
+            } else {
+                vec![T::zero(); width * slots]
+            };
+            own.gather(&here, column, width);
         }
-        self.work.expect_saved(&work, &self.particles, slots);
-        for ((_, own), (field, all)) in work.saved().zip(self.work.saved_mut()) {
+    }
+
+    /// Goes on with places and smoothing lengths of all particles, from which lists are built. All else, of which ranks send to others
+    /// what is theirs after that.
+    pub(super) fn leave(&mut self) -> Option<Leaving<T, D>> {
+        let mut own = self.open()?;
+        let fields = self.particles.columns.fields();
+        let places = [Field::POSITION, Field::SMOOTHING_LENGTH].into_iter();
+        self.gather_columns(&mut own, places.filter(|field| fields.contains(*field)));
+        own.forget_records();
+        Some(Leaving {
+            division: own.share.division().clone(),
+            columns: own.columns,
+            work: own.work,
+        })
+    }
+
+    /// Goes on with all particles, which all ranks give each other at once, column by column; without their records where lists are
+    /// built next.
+    pub(super) fn bring_together(&mut self, for_lists: bool) {
+        let Some(mut own) = self.open() else {
+            return;
+        };
+        if for_lists {
+            own.forget_records();
+        }
+        let fields = self.particles.columns.fields();
+        self.gather_columns(&mut own, fields.iter());
+        let slots = self.particles.columns.slots();
+        self.work.expect_saved(&own.work, &self.particles, slots);
+        for ((_, here), (field, all)) in own.work.saved().zip(self.work.saved_mut()) {
             if !all.is_empty() {
-                gather(own, all, field.components(D));
+                own.gather(here, all, field.components(D));
             }
         }
+        let (team, division) = (own.share.team.clone(), own.share.division());
         let chunks: Vec<_> = (0..team.count()).map(|rank| division.of(rank)).collect();
         let mobile = self.particles.mobile;
         let count = self.neighborhood.lists.chunks().len();
-        for (own, all) in work.sums_mut().into_iter().zip(self.work.sums_mut()) {
+        for (sums, all) in own.work.sums_mut().into_iter().zip(self.work.sums_mut()) {
             let moving =
                 |runs: &[Range<usize>; 2]| runs[0].start.min(mobile)..runs[0].end.min(mobile);
-            let (own, here) = (core::mem::take(own), (&moving(&part.runs), mobile));
-            *all = Results::among(own, here, (&part.chunks, count));
+            let (sums, here) = (core::mem::take(sums), (&moving(&own.part.runs), mobile));
+            *all = Results::among(sums, here, (&own.part.chunks, count));
             let rows = |runs: &[Range<usize>; 2]| [all.rows_of(&moving(runs)), 0..0];
-            let rows: Vec<_> = runs.iter().map(rows).collect();
-            all.gather((team, What::State), &rows, &chunks);
+            let rows: Vec<_> = own.runs.iter().map(rows).collect();
+            all.gather((&team, What::State), &rows, &chunks);
         }
         if !for_lists {
             self.work
-                .expect_records(&work, slots + self.neighborhood.images.len());
-            for (own, all) in work.records().into_iter().zip(self.work.records_mut()) {
+                .expect_records(&own.work, slots + self.neighborhood.images.len());
+            for (here, all) in own.work.records().into_iter().zip(self.work.records_mut()) {
                 if !all.data().is_empty() {
                     let stride = all.stride();
-                    gather(own.data(), all.data_mut(), stride);
+                    own.gather(here.data(), all.data_mut(), stride);
                 }
             }
             self.show_images_again();
         }
-        None
     }
 
     /// What guards and limits have counted, and how many pairs were summed beside some.

@@ -25,6 +25,12 @@ pub(super) fn runs_of<T: Real>(
     own.map(|chunks| (chunks.start * size).min(slots)..(chunks.end * size).min(slots))
 }
 
+/// How many slots of these runs stand before a slot.
+pub(super) fn place_in(runs: &[Range<usize>; 2], slot: usize) -> usize {
+    let before = |run: &Range<usize>| slot.clamp(run.start, run.end) - run.start;
+    runs.iter().map(before).sum()
+}
+
 /// The part of a rank in a group. Its own particles stand in the first slots, in their order; ghosts have the next numbers of its
 /// lists, and images those behind.
 #[derive(Clone, Debug)]
@@ -39,6 +45,8 @@ pub(crate) struct Part {
     pub shown: Vec<Image>,
     /// All images of its own particles in the group.
     pub of_own: Vec<Image>,
+    /// Slots here of chunks whose lists name its own particles alone, and of all others.
+    inner_and_outer: [Vec<Range<usize>>; 2],
     pub halo: Arc<Halo>,
 }
 
@@ -54,6 +62,14 @@ fn named(
     runs.iter().cloned().flatten().chain(ghosts).chain(images)
 }
 
+/// Adds a run of slots that begins where the last one ends, or behind it.
+fn add_run(runs: &mut Vec<Range<usize>>, run: Range<usize>) {
+    match runs.last_mut() {
+        Some(last) if last.end == run.start => last.end = run.end,
+        _ => runs.push(run),
+    }
+}
+
 impl Part {
     /// The part of this rank by the lists of the group, which all ranks ask for at once.
     pub fn of<T: Real, const D: usize>(
@@ -65,10 +81,20 @@ impl Part {
         let (rank, ranks) = (team.rank(), team.count());
         let (runs, chunks) = (runs_of::<T>(division, rank, slots), division.of(rank));
         let mut is_named = vec![false; group.listed.len()];
+        let mut inner_and_outer = [Vec::new(), Vec::new()];
+        let mut next = 0;
         for chunk in chunks.iter().cloned().flatten() {
+            let mut is_outer = false;
             for &j in &group.lists.chunks()[chunk].neighbors {
                 is_named[j as usize] = true;
+                is_outer |= !runs.iter().any(|run| run.contains(&(j as usize)));
             }
+            let size = chunk_slots::<T>();
+            add_run(
+                &mut inner_and_outer[usize::from(is_outer)],
+                next..next + size,
+            );
+            next += size;
         }
         let images = (0..group.images.len() as u32).filter(|k| is_named[slots + *k as usize]);
         let images: Vec<u32> = images.collect();
@@ -108,19 +134,31 @@ impl Part {
             images,
             shown,
             of_own,
+            inner_and_outer,
             halo: Arc::new(halo),
         }
     }
 
     /// How many of its own stand before a slot of the group: the slot here of one of its own.
     pub fn at(&self, slot: usize) -> usize {
-        let before = |run: &Range<usize>| slot.clamp(run.start, run.end) - run.start;
-        self.runs.iter().map(before).sum()
+        place_in(&self.runs, slot)
     }
 
     /// Its own of a run of slots.
     pub fn within(&self, slots: &Range<usize>) -> Range<usize> {
         self.at(slots.start)..self.at(slots.end)
+    }
+
+    /// Slots here of a sweep over these: of chunks whose lists name its own particles alone, and of all others.
+    pub fn inner_and_outer(&self, targets: &Range<usize>) -> [Vec<Range<usize>>; 2] {
+        self.inner_and_outer.each_ref().map(|runs| {
+            let within =
+                |run: &Range<usize>| run.start.max(targets.start)..run.end.min(targets.end);
+            runs.iter()
+                .map(within)
+                .filter(|run| !run.is_empty())
+                .collect()
+        })
     }
 
     /// How many are its own.
@@ -239,7 +277,7 @@ impl<T: Real> Ghosts<T> for Halo {
         self.from.iter().sum()
     }
 
-    fn fill(&self, own: &[T], stride: usize, ghosts: &mut [T]) {
+    fn fill(&self, own: &[T], stride: usize, ghosts: &mut [T], meanwhile: &mut dyn FnMut()) {
         let size = stride * size_of::<T>();
         let mut letters = Vec::with_capacity(size * self.sends.len());
         for &slot in &self.sends {
@@ -250,10 +288,8 @@ impl<T: Real> Ghosts<T> for Halo {
         let mut come = vec![0; size_of_val(ghosts)];
         let (to, from) = (bytes(&self.to), bytes(&self.from));
         let records = Letters::Ghosts(size);
-        if self
-            .team
-            .exchange(records, (&letters, &to), (&mut come, &from))
-        {
+        let (own, all) = ((&letters[..], &to[..]), (&mut come[..], &from[..]));
+        if self.team.exchange_beside(records, own, all, meanwhile) {
             let _ = Taken(&come).numbers(ghosts);
         }
     }

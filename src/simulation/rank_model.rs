@@ -13,7 +13,7 @@ use crate::collective::over;
 use crate::error::{Failure, Result};
 use crate::once::once;
 use crate::particles::Field;
-use crate::ranks::{RankModel, RankParts, RankPrice, Ranks, Team};
+use crate::ranks::{RankModel, RankParts, RankPrice, Ranks, Team, even};
 use crate::scalar::Real;
 use core::ops::Range;
 use std::sync::Arc;
@@ -283,15 +283,53 @@ impl<T: Real, const D: usize> Group<T, D> {
         let kinds = kinds.into_iter().filter(|(run, ..)| !run.is_empty());
         let part = |(run, alike, across): (Range<usize>, usize, usize)| {
             let (sides, periodic) = self.box_around(run.clone());
-            RankParts {
+            let boxes = RankParts {
                 particles: run.len() as f64,
                 sides,
                 periodic,
                 reach: if alike > 0 { reach } else { 0.0 },
                 across: across as f64,
-            }
+                surface: 1.0,
+            };
+            let surface = self.surface_of_parts(run, &boxes);
+            RankParts { surface, ..boxes }
         };
         kinds.map(part).collect()
+    }
+
+    /// How many more particles lists of parts of the curve name than are near boxes: the mean over two, four and eight ranks, as far as
+    /// there are chunks for them.
+    fn surface_of_parts(&self, kind: Range<usize>, boxes: &RankParts) -> f64 {
+        let lists = self.neighborhood.lists.chunks();
+        let (size, slots) = (chunk_slots::<T>(), self.particles.columns.slots());
+        let chunks = kind.start.div_ceil(size)..kind.end.div_ceil(size).min(lists.len());
+        let near = RankParts {
+            across: 0.0,
+            ..boxes.clone()
+        };
+        let source = |j: u32| match (j as usize).checked_sub(slots) {
+            None => j as usize,
+            Some(k) => self.neighborhood.images[k].source as usize,
+        };
+        let counted = |ranks: usize| {
+            let mut ghosts = 0;
+            for rank in 0..ranks {
+                let own = even(chunks.len(), rank, ranks);
+                let own = chunks.start + own.start..chunks.start + own.end;
+                let named = lists[own.clone()].iter().flat_map(|list| &list.neighbors);
+                let mut is_named = vec![false; slots];
+                named.for_each(|&j| is_named[source(j)] = true);
+                is_named[own.start * size..(own.end * size).min(slots)].fill(false);
+                ghosts += is_named[kind.clone()].iter().filter(|own| **own).count();
+            }
+            ghosts as f64 / ranks as f64 / near.ghosts(ranks)
+        };
+        let counts = [2, 4, 8].into_iter().filter(|ranks| *ranks <= chunks.len());
+        let ratios: Vec<f64> = counts.map(counted).filter(|own| own.is_finite()).collect();
+        if ratios.is_empty() {
+            return 1.0;
+        }
+        ratios.iter().sum::<f64>() / ratios.len() as f64
     }
 
     /// Sides of the box around some particles, with half a spacing at each face, and whether there are periods along them.

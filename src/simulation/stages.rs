@@ -9,7 +9,7 @@ use crate::parallel::GRAIN;
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::scheme::Scheme;
-use crate::sweep::{PairSweep, Pass, SweepInput};
+use crate::sweep::{PairSweep, SweepInput};
 use crate::term::Stage;
 use std::ops::Range;
 
@@ -60,10 +60,7 @@ impl<T: Real, const D: usize> Group<T, D> {
                 among,
                 ..self.input()
             };
-            let start = Instant::now();
-            sweep.pack(Pass::Rates, &input, &mut records);
-            let packed = Instant::now();
-            self.run_sweep((sweep, Pass::Rates), &input, &records, &mut sums);
+            let [packed, summed] = self.pack_and_run(sweep, &input, &mut records, &mut sums);
             let pairs = match among {
                 Some(runs) => runs
                     .iter()
@@ -71,8 +68,8 @@ impl<T: Real, const D: usize> Group<T, D> {
                     .sum(),
                 None => self.neighborhood.pairs_of(input.targets),
             };
-            self.work.phases.packing += packed - start;
-            self.work.phases.pairs += packed.elapsed();
+            self.work.phases.packing += packed;
+            self.work.phases.pairs += summed;
             self.work.spent.pairs += pairs;
         }
         self.work.records = records;

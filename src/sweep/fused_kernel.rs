@@ -47,6 +47,8 @@ pub struct SweepInput<'a, T, const D: usize> {
     pub targets: Range<usize>,
     /// Runs of these to which they are narrowed, ascending, each of whole clusters; all of them if not given.
     pub among: Option<&'a [Range<usize>]>,
+    /// Whether forces between blocks that are at hand stay, of a sweep that was over others of these runs.
+    pub goes_on: bool,
     /// The acceleration that acts on all particles \[m/s²\], in the frame of their container.
     pub body_force: [T; D],
     /// First moment of the kernel gradient on the lattice, by which sums of gradients are divided.
@@ -79,7 +81,17 @@ pub trait PairSweep<T: Real, const D: usize>: Debug + Send + Sync {
         contacts: bool,
     ) -> Result<super::PairRecord, crate::scalar::Unrecordable>;
     /// Packs what a pass reads. `records` keeps its memory between calls.
-    fn pack(&self, pass: Pass, input: &SweepInput<'_, T, D>, records: &mut Records<T>);
+    fn pack(&self, pass: Pass, input: &SweepInput<'_, T, D>, records: &mut Records<T>) {
+        self.pack_beside(pass, input, records, &mut |_| {});
+    }
+    /// The same, and while ghosts are under way, if there are any, `meanwhile` with the records of own particles.
+    fn pack_beside(
+        &self,
+        pass: Pass,
+        input: &SweepInput<'_, T, D>,
+        records: &mut Records<T>,
+        meanwhile: &mut dyn FnMut(&Records<T>),
+    );
     /// Renews the mean velocities in records packed for [`Pass::Work`].
     fn renew_mean_velocity(&self, input: &SweepInput<'_, T, D>, records: &mut Records<T>);
     /// Makes the records of images of a pass anew, from those of the particles.
@@ -144,10 +156,16 @@ impl<T: Real, const D: usize, K: Kernel<D>, P: Terms<D>, const MODE: u8> PairSwe
         record::<T, K, P, D, MODE>(kernel, terms, contacts)
     }
 
-    fn pack(&self, pass: Pass, input: &SweepInput<'_, T, D>, records: &mut Records<T>) {
+    fn pack_beside(
+        &self,
+        pass: Pass,
+        input: &SweepInput<'_, T, D>,
+        records: &mut Records<T>,
+        meanwhile: &mut dyn FnMut(&Records<T>),
+    ) {
         let layout = Self::layout::<T, D>(pass);
         let images = (input.images, input.transforms);
-        records.pack(layout, input.columns, input.ghosts, images);
+        records.pack(layout, input.columns, input.ghosts, images, meanwhile);
     }
 
     fn renew_mean_velocity(&self, input: &SweepInput<'_, T, D>, records: &mut Records<T>) {
@@ -275,7 +293,9 @@ fn over_chunks<T: Real, const D: usize>(
     }
     let lists = input.lists.chunks();
     rows.reactions.resize_with(lists.len(), Vec::new);
-    rows.reactions.iter_mut().for_each(Vec::clear);
+    if !input.goes_on {
+        rows.reactions.iter_mut().for_each(Vec::clear);
+    }
     let whole = core::slice::from_ref(&input.targets);
     let runs = input.among.unwrap_or(whole);
     let pieces = (

@@ -152,8 +152,9 @@ pub struct Image {
 pub trait Ghosts<T>: core::fmt::Debug + Send + Sync {
     /// How many there are.
     fn count(&self) -> usize;
-    /// Gives others `stride` numbers a slot of what they have as ghosts, and gets as many of each ghost.
-    fn fill(&self, own: &[T], stride: usize, ghosts: &mut [T]);
+    /// Gives others `stride` numbers a slot of what they have as ghosts, and gets as many of each ghost; meanwhile it does what needs none
+    /// of them, once.
+    fn fill(&self, own: &[T], stride: usize, ghosts: &mut [T], meanwhile: &mut dyn FnMut());
 }
 
 /// The packed records of a sweep.
@@ -191,13 +192,15 @@ impl<T: Real> Records<T> {
         self.data.capacity() * size_of::<T>()
     }
 
-    /// Packs `reads` of all slots, of ghosts behind them, and of images. Reuses memory; grows only when particles were added.
+    /// Packs `reads` of all slots, of ghosts behind them, and of images; while ghosts come, it shows the others to `meanwhile`. Reuses
+    /// memory; grows only when particles were added.
     pub fn pack<const D: usize>(
         &mut self,
         reads: Fields,
         columns: &Columns<T, D>,
         ghosts: Option<&dyn Ghosts<T>>,
         (images, transforms): (&[Image], &[Transform<T, D>]),
+        meanwhile: &mut dyn FnMut(&Self),
     ) {
         let (stride, slots) = (reads.width(D), columns.slots());
         let count = ghosts.map_or(0, |ghosts| ghosts.count());
@@ -208,7 +211,7 @@ impl<T: Real> Records<T> {
             self.data = Vec::with_capacity(length + length / 32);
         }
         self.data.resize(length, T::zero());
-        let (own, others) = self.data.split_at_mut(stride * slots);
+        let own = &mut self.data[..stride * slots];
         for_each(cut(own, GRAIN * stride), |chunk, records| {
             let first = chunk * GRAIN;
             let count = records.len() / stride.max(1);
@@ -236,7 +239,10 @@ impl<T: Real> Records<T> {
             }
         });
         if let Some(ghosts) = ghosts {
-            ghosts.fill(own, stride, &mut others[..stride * count]);
+            let mut come = vec![T::zero(); stride * count];
+            let own = &self.data[..stride * slots];
+            ghosts.fill(own, stride, &mut come, &mut || meanwhile(self));
+            self.data[stride * slots..][..come.len()].copy_from_slice(&come);
         }
         self.show(reads, slots + count, images, transforms);
     }
@@ -288,7 +294,7 @@ impl<T: Real> Records<T> {
         let (own, others) = own.split_at_mut(stride * slots);
         let mut near = vec![T::zero(); D * count];
         if let Some(ghosts) = ghosts {
-            ghosts.fill(values.as_flattened(), D, &mut near);
+            ghosts.fill(values.as_flattened(), D, &mut near, &mut || {});
         }
         let near = near.as_chunks::<D>().0;
         for (record, value) in others.chunks_exact_mut(stride.max(1)).zip(near) {

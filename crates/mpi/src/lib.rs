@@ -156,6 +156,23 @@ impl Ranks for Processes {
             .alltoallv(own, &sent, &sent_from, all, &got, &got_from)?;
         Ok(())
     }
+
+    fn exchange_beside(
+        &self,
+        (own, to): (&[u8], &[usize]),
+        (all, from): (&mut [u8], &[usize]),
+        meanwhile: &mut dyn FnMut(),
+    ) -> Result<(), Failure> {
+        let (sent, sent_from) = lengths_and_begins(to)?;
+        let (got, got_from) = lengths_and_begins(from)?;
+        ferrompi::scope(|scope| {
+            let world = &self.world;
+            let come = world.ialltoallv(scope, own, &sent, &sent_from, all, &got, &got_from)?;
+            meanwhile();
+            come.wait().map(|_| ())
+        })?;
+        Ok(())
+    }
 }
 
 /// Counts of bytes as MPI takes them, and where those of each process begin.

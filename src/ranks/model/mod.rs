@@ -130,10 +130,11 @@ impl RankPrice {
 ///         periodic: vec![false; 3],
 ///         reach: 0.03,
 ///         across: 0.0,
+///         surface: 1.0,
 ///     }],
 ///     own_alone: true,
 ///     step: RankPrice { gathered: 25.0, exchanged: 2.0, each: 500.0, of_ghost: 160.0, divided: 0.67, ..RankPrice::default() },
-///     list_build: RankPrice { gathered: 30.0, exchanged: 4.0, each: 600.0, parts: 5e8, of_ghost: 160.0, divided: 0.8, undivided: 0.2, ..RankPrice::default() },
+///     list_build: RankPrice { gathered: 30.0, exchanged: 4.0, each: 600.0, parts: 3e7, of_ghost: 160.0, divided: 0.8, undivided: 0.2, ..RankPrice::default() },
 ///     gather_all: RankPrice { gathered: 2.0, each: 16.0, parts: 3e8, ..RankPrice::default() },
 ///     list_builds: 0.04,
 ///     gathers_of_all: 0.0,
@@ -316,7 +317,7 @@ impl RankModel {
             ),
             line("sums of all particles", sums, travel(sums)),
             line(
-                "list builds: all particles and sums",
+                "list builds: what all ranks get",
                 listing,
                 travel(listing),
             ),
@@ -376,6 +377,7 @@ impl RankModel {
                 ("particles of a part", parts.particles),
                 ("reach of a part [m]", parts.reach),
                 ("particles across of a part", parts.across),
+                ("surface of a part over that of a box", parts.surface),
             ];
             let sides = parts.sides.iter().map(|side| ("side of a part [m]", *side));
             own.into_iter().chain(sides)

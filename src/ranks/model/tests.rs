@@ -10,6 +10,7 @@ fn cube(side: u32, reach: f64) -> RankParts {
         periodic: vec![false; 3],
         reach,
         across: 0.0,
+        surface: 1.0,
     }
 }
 
@@ -35,6 +36,7 @@ fn ghosts_are_those_that_counting_gives() {
         periodic: vec![false; 2],
         reach: f64::from(reach),
         across: 0.0,
+        surface: 1.0,
     };
     for (sides, boxes, reach) in [
         ([64, 64], [2, 2], 3),
@@ -89,7 +91,7 @@ fn water(particles: f64, cores: f64) -> RankModel {
             gathered: 26.0,
             exchanged: 4.0,
             each: 800.0,
-            parts: 360e6,
+            parts: 26e6,
             to_each: 8.0,
             of_ghost: 164.0,
             divided: 0.76 * 0.671 / cores,
@@ -119,7 +121,7 @@ fn a_step_takes_what_its_parts_take() {
     assert_relative_eq!(cost.ghosts, ghosts, max_relative = 1e-12);
     let each = 0.96 * 700.0 + 0.04 * 800.0;
     let votes = 7.0 * each + 8.0 * 0.04 * 8.0;
-    let bytes = ghosts * (0.96 * 160.0 + 0.04 * 164.0) + votes + 0.04 * 360.0 * 8e6 * 7.0 / 8.0;
+    let bytes = ghosts * (0.96 * 160.0 + 0.04 * 164.0) + votes + 0.04 * 26.0 * 8e6 * 7.0 / 8.0;
     assert_relative_eq!(cost.received, bytes, max_relative = 1e-12);
     let share = (8e6_f64 / 512.0 / 8.0).ceil() / 15_625.0;
     let work = 8.0 * 0.671 * (share * (0.96 + 0.04 * 0.76) + 0.04 * 0.24);
@@ -156,11 +158,12 @@ fn memory_and_list_builds_limit_first() {
             assert!(cost.memory >= 300.0 * particles);
         }
     }
-    // Eight ranks gain most of what more of them do, and a thousand gain what list builds leave.
-    let steps = [1, 8, 1000].map(|ranks| water(1e8, 32.0).on(ranks, &network).expect("a cost"));
-    assert!(steps[0].step / steps[2].step < 14.0);
+    // A hundred ranks gain half of what any number does: sorting all places, which every rank does at list builds, is left.
+    let steps = [1, 100, 1000].map(|ranks| water(1e8, 32.0).on(ranks, &network).expect("a cost"));
+    let [some, many] = [1, 2].map(|k| steps[0].step / steps[k].step);
+    assert!(some > 30.0 && many < 70.0, "{some}, {many}");
     let largest = steps[2].largest().expect("a line").what;
-    assert!(largest.starts_with("list builds"), "{largest}");
+    assert!(largest.starts_with("work that every rank"), "{largest}");
     // Without list builds it would be another table.
     let mut without = water(1e8, 32.0);
     without.list_builds = 0.0;
