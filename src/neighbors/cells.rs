@@ -64,6 +64,18 @@ impl<const D: usize> Grid<D> {
         self.size
     }
 
+    /// The lowest corner.
+    #[must_use]
+    pub fn origin(&self) -> [f64; D] {
+        self.origin
+    }
+
+    /// How many cells there are along each axis.
+    #[must_use]
+    pub fn counts(&self) -> [u32; D] {
+        self.counts
+    }
+
     /// The cell that holds a point; points outside belong to the nearest cell.
     #[must_use]
     pub fn cell<T: Real>(&self, point: &[T; D]) -> [u32; D] {
@@ -92,7 +104,9 @@ impl<const D: usize> Grid<D> {
         (apart - 1e-6 * self.size).max(0.0)
     }
 
-    fn bits(&self) -> u32 {
+    /// Bits that coordinates of cells take.
+    #[must_use]
+    pub fn bits(&self) -> u32 {
         let most = self.counts.iter().copied().max().unwrap_or(1);
         (32 - (most - 1).leading_zeros()).max(1)
     }

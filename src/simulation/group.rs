@@ -325,6 +325,16 @@ impl<T: Real, const D: usize> Group<T, D> {
             .wrap(&self.boundaries, &self.scheme.program, time);
     }
 
+    /// Notes that lists are built anew.
+    pub(super) fn begin_rebuild(&mut self, time: f64) {
+        self.neighborhood.rebuilds += 1;
+        self.neighborhood.served = 0;
+        self.neighborhood.listed_time = time;
+        self.work.first_kick = None;
+        // Particles and images have other places in them.
+        self.work.records_of_rates = false;
+    }
+
     /// Lets particles re-enter and leave, sorts them if that pays, and lists their neighbours.
     pub fn rebuild(&mut self, time: f64) {
         self.re_enter(time);
@@ -333,12 +343,7 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// The same of particles that have re-entered.
     pub(super) fn sort_and_list(&mut self, time: f64) {
-        self.neighborhood.rebuilds += 1;
-        self.neighborhood.served = 0;
-        self.neighborhood.listed_time = time;
-        self.work.first_kick = None;
-        // Particles and images have other places in them.
-        self.work.records_of_rates = false;
+        self.begin_rebuild(time);
         let held = &self.held;
         let outlets: Vec<_> = self.outlets.iter().map(|own| own.at(time)).collect();
         let removed = self.particles.remove(&outlets, |body| held.is_rigid(body));

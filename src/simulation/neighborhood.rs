@@ -128,7 +128,12 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
 
     /// Whether particles need new places in memory: only when their rows have lost their shape.
     pub fn wants_sort(&self) -> bool {
-        D > 1 && self.lists.entries() as f64 >= UNSORTED * self.sorted_entries as f64
+        self.wants_sort_of(self.lists.entries())
+    }
+
+    /// The same where lists have so many entries.
+    pub fn wants_sort_of(&self, entries: usize) -> bool {
+        D > 1 && entries as f64 >= UNSORTED * self.sorted_entries as f64
     }
 
     /// Whether a particle has moved, or its support has grown, by more than the skin allows. `shift` \[m\] is how far
@@ -228,6 +233,25 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
                 self.listed_h.push(self.listed_h[image.source as usize]);
             }
         }
+        self.search_anew((instructions, share), particles.mobile);
+    }
+
+    /// Lists neighbours at places, with smoothing lengths where they vary, for which a device has listed them.
+    #[cfg(feature = "devices")]
+    pub fn list_again(
+        &mut self,
+        (listed, listed_h): (Vec<[T; D]>, Vec<T>),
+        instructions: InstructionSet,
+    ) {
+        (self.listed, self.listed_h) = (listed, listed_h);
+        self.search_anew((instructions, None), 0);
+    }
+
+    fn search_anew(
+        &mut self,
+        (instructions, share): (InstructionSet, Option<&mut Share>),
+        mobile: usize,
+    ) {
         self.whole = OnceLock::new();
         let mut lists = core::mem::take(&mut self.lists);
         if Arc::get_mut(&mut lists).is_none() {
@@ -236,7 +260,7 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         let new = Arc::make_mut(&mut lists);
         self.search(instructions, |input| match share {
             None => new.rebuild(input),
-            Some(share) => share.list(new, input, particles.mobile),
+            Some(share) => share.list(new, input, mobile),
         });
         self.lists = lists;
     }

@@ -418,17 +418,25 @@ impl<T: Real, const D: usize> Particles<T, D> {
             return Vec::new();
         }
         self.columns.permute(&order);
-        let of = |before: &[u32]| order.iter().map(|&from| before[from as usize]).collect();
-        self.ids = of(&self.ids);
         self.moved.order = if self.moved.order.is_empty() {
             order.clone()
         } else {
-            of(&self.moved.order)
+            in_order(&self.moved.order, &order)
         };
+        self.renumber(&order, walls);
+        order
+    }
+
+    /// Notes that slot k of bodies and some walls has the particle that slot `order[k]` had.
+    pub fn renumber(&mut self, order: &[u32], walls: impl Iterator<Item = Range<usize>>) {
+        self.ids = in_order(&self.ids, order);
         let bodies = self.bodies.iter().map(|body| body.slots.clone());
         for slot in bodies.chain(walls).flatten() {
             self.slot_of[self.ids[slot] as usize] = slot as u32;
         }
-        order
     }
+}
+
+fn in_order(before: &[u32], order: &[u32]) -> Vec<u32> {
+    order.iter().map(|&from| before[from as usize]).collect()
 }

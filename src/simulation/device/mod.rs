@@ -1,5 +1,5 @@
 //! A simulation whose steps run on a device: its step program recorded, and its state handed out and taken back.
-//! A device evaluates, kicks and drifts; time, votes, ledger, walls that move and neighbour lists stay here.
+//! A device evaluates, kicks and drifts, and lists neighbours; time, votes, ledger, walls that move and images stay here.
 //!
 //! [`Simulation::offload`] makes an [`Offloaded`] of a simulation, or says which of its parts do not run on a device. The package
 //! [`meshfree-gpu`](crate#pages) drives it; a program that only runs scenes needs nothing of this module.
@@ -11,6 +11,7 @@ mod evolved;
 mod images;
 mod laws;
 mod lengths;
+mod lists;
 mod motion;
 mod program;
 mod record;
@@ -20,6 +21,7 @@ mod transfer;
 mod vote;
 
 pub use clock::{Advance, Moment};
+pub use lists::{Bounds, CellGrid, Search};
 pub use program::{
     Action, Counted, FollowStep, Given, KeepStep, Made, PointStep, Program, RepeatStep, SweepStep,
 };
@@ -80,6 +82,9 @@ struct Recorded {
     kept: Fields,
     /// Counts that the host has had, of the columns on the device.
     counted: Vec<u64>,
+    /// Entries of the lists that the device has built, and whether the host has others.
+    entries: usize,
+    is_listed_there: bool,
     /// The acceleration that pairs on the device were told of; none if not yet.
     body_force: Vec<f64>,
 }

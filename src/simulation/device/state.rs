@@ -1,5 +1,5 @@
 //! The state as a device needs it: columns, rates, walls, neighbour lists; and how it is taken back.
-//! Lists are built here, from places that the device has sent, so they are those of the host.
+//! Lists that a device does not build are built here, from places that it has sent.
 
 use super::Offloaded;
 use super::program::Kind;

@@ -85,7 +85,9 @@ impl Layout {
     pub fn listed(&self, d: usize) -> usize {
         self.count(self.counts + d)
     }
-    fn varies(&self) -> bool {
+    /// Whether smoothing lengths vary.
+    #[must_use]
+    pub fn varies(&self) -> bool {
         self.fields.contains(Field::SMOOTHING_LENGTH)
     }
     /// Numbers of all columns.
@@ -282,10 +284,12 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         let own = &self.recorded[group];
         let (layout, program, slots) = (&own.layout, &own.program, own.layout.slots);
         let rates = self.rates(group).0.width(D) * layout.mobile;
-        let mut all = vec![
-            (Array::State, 0, layout.listed(0)),
-            (Array::Rates, 0, rates),
-        ];
+        let state = if own.is_listed_there {
+            layout.numbers()
+        } else {
+            layout.listed(0)
+        };
+        let mut all = vec![(Array::State, 0, state), (Array::Rates, 0, rates)];
         let forces = program.own_forces;
         all.extend(forces.map(|first| (Array::Columns, first * slots, D * slots)));
         let given = program.held.map(|first| {
@@ -313,6 +317,7 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         let mut next = || found.next().map_or(&[][..], |own| &own.0[..]);
         let (state, rates) = (next(), next());
         self.take_state(group, state);
+        self.take_lists(group, state);
         let narrow = |all: &[f64]| -> Vec<T> { all.iter().map(|x| T::from_f64(*x)).collect() };
         let own = &self.recorded[group];
         let (layout, program) = (own.layout.clone(), own.program.clone());

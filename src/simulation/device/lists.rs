@@ -1,0 +1,179 @@
+//! Neighbour lists that a device builds itself: in which cells, how far, and in which order of particles.
+//! The host decides when, and knows which particle is in which slot.
+
+use super::Offloaded;
+use crate::neighbors::Grid;
+use crate::scalar::Real;
+use crate::sweep::Interaction;
+
+/// Most blocks of a group whose lists a device builds: it looks for neighbours in each by itself.
+const MOST_BLOCKS: usize = 8;
+
+/// By how much smoothing lengths may differ: cells are as wide as the widest support asks for.
+const WIDEST: f64 = 2.0;
+
+/// What bounds all particles of a group.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bounds<const D: usize> {
+    /// The least and the largest coordinate of places along each axis \[m\].
+    pub range: [[f64; D]; 2],
+    /// The least and the largest smoothing length \[m\], where that varies.
+    pub lengths: Option<[f64; 2]>,
+}
+
+/// Cubic cells over all particles of a group.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CellGrid<const D: usize> {
+    /// The lowest corner \[m\].
+    pub origin: [f64; D],
+    /// The inverse of an edge \[1/m\].
+    pub inverse: f64,
+    /// How many there are along each axis; what is beyond belongs to the last.
+    pub counts: [u32; D],
+    /// Bits that a coordinate of a cell takes.
+    pub bits: u32,
+}
+
+impl<const D: usize> CellGrid<D> {
+    fn of(grid: &Grid<D>) -> Self {
+        Self {
+            origin: grid.origin(),
+            inverse: 1.0 / grid.size(),
+            counts: grid.counts(),
+            bits: grid.bits(),
+        }
+    }
+}
+
+/// How neighbours are to be found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Search<const D: usize> {
+    /// Cells to look in.
+    pub cells: CellGrid<D>,
+    /// Cells in whose [order](crate::neighbors::hilbert_index) particles are sorted.
+    pub order: CellGrid<D>,
+    /// The widest support \[m\], and that of a smoothing length of one.
+    pub supports: [f64; 2],
+    /// What is added to a support \[m\].
+    pub skin: f64,
+}
+
+impl<T: Real, const D: usize> Offloaded<T, D> {
+    /// Whether a device may build the lists of a group: of present neighbours, without images, without walls that are bodies of other
+    /// groups, and in few blocks.
+    #[must_use]
+    pub fn builds_lists(&self, group: usize) -> bool {
+        let (own, program) = (
+            &self.simulation.state.groups[group],
+            &self.recorded[group].program,
+        );
+        own.is_open()
+            && !program.moved.is_empty()
+            && program.follows.is_empty()
+            && own.neighborhood.blocks.len() <= MOST_BLOCKS
+    }
+
+    /// Of each slot its block; where it repeats the last particle of one, the number of blocks and the slot of that. Behind them a one
+    /// for each two blocks `a` and `b` if particles of `a` list those of `b`, at `a * blocks + b`.
+    #[must_use]
+    pub fn members(&self, group: usize) -> Vec<u32> {
+        let near = &self.simulation.state.groups[group].neighborhood;
+        let count = near.blocks.len();
+        let mut all = Vec::new();
+        for (number, block) in near.blocks.iter().enumerate() {
+            let repeated = all.len().saturating_sub(1);
+            all.resize(block.slots.start, (count + repeated) as u32);
+            all.resize(block.slots.end, number as u32);
+        }
+        let repeated = all.len().saturating_sub(1);
+        let slots = self.recorded[group].layout.slots;
+        all.resize(slots, (count + repeated) as u32);
+        let interactions = near.interactions.iter();
+        all.extend(interactions.map(|own| u32::from(*own != Interaction::None)));
+        all.resize(slots + count * count, 1);
+        all
+    }
+
+    /// The identity of the particle in each slot.
+    #[must_use]
+    pub fn ids(&self, group: usize) -> &[u32] {
+        &self.simulation.state.groups[group].particles.ids
+    }
+
+    /// Whether a device can build lists within some bounds: they are numbers, and smoothing lengths are not too different.
+    #[must_use]
+    pub fn can_list(&self, bounds: &Bounds<D>) -> bool {
+        let [low, high] = &bounds.range;
+        let most = f64::from(f32::MAX).sqrt();
+        let fits = |(low, high): (&f64, &f64)| low.abs() < most && high.abs() < most && low <= high;
+        low.iter().zip(high).all(fits)
+            && bounds
+                .lengths
+                .is_none_or(|[least, most]| least > 0.0 && most <= WIDEST * least)
+    }
+
+    /// How neighbours are found within some bounds.
+    #[must_use]
+    pub fn search(&self, group: usize, bounds: &Bounds<D>) -> Search<D> {
+        let group = &self.simulation.state.groups[group];
+        let near = &group.neighborhood;
+        let largest = bounds
+            .lengths
+            .map_or(near.smoothing_length, |[_, most]| most);
+        let reach = near.support * largest + near.skin;
+        let spacings = group.particles.bodies.iter().map(|own| own.spacing);
+        let spacing = spacings.fold(f64::INFINITY, f64::min);
+        let edge = if D == 1 { reach } else { 0.5 * reach };
+        Search {
+            cells: CellGrid::of(&Grid::over(&bounds.range, edge)),
+            order: CellGrid::of(&Grid::centred(&bounds.range, spacing)),
+            supports: [near.support * largest, near.support],
+            skin: near.skin,
+        }
+    }
+
+    /// Begins a list build on the device at a time \[s\]; whether particles are to be sorted before.
+    pub fn begin_lists(&mut self, number: usize, time: f64) -> bool {
+        let own = &mut self.recorded[number];
+        own.is_listed_there = true;
+        let group = &mut self.simulation.state.groups[number];
+        group.neighborhood.choose_skin();
+        group.begin_rebuild(time);
+        group.neighborhood.served = 1;
+        group.neighborhood.wants_sort_of(own.entries)
+    }
+
+    /// Notes that slot k of a group has the particle that slot `order[k]` had.
+    pub fn sorted(&mut self, group: usize, order: &[u32]) {
+        let particles = &mut self.simulation.state.groups[group].particles;
+        particles.renumber(order, core::iter::empty());
+    }
+
+    /// Notes how many entries lists have that a device has built, after a sort or without.
+    pub fn listed_there(&mut self, group: usize, entries: usize, after_sort: bool) {
+        self.recorded[group].entries = entries;
+        if after_sort {
+            let near = &mut self.simulation.state.groups[group].neighborhood;
+            near.sorted_entries = entries;
+        }
+    }
+
+    /// Lists neighbours for the places for which the device has listed them, if the host has not.
+    pub(super) fn take_lists(&mut self, number: usize, state: &[f64]) {
+        let own = &mut self.recorded[number];
+        if !core::mem::take(&mut own.is_listed_there) {
+            return;
+        }
+        let layout = &own.layout;
+        let at = |k: usize, slot: usize| T::from_f64(state[layout.listed(k) + slot]);
+        let place = |slot| core::array::from_fn(|d| at(d, slot));
+        let listed = (0..layout.slots).map(place).collect();
+        let lengths = 0..if layout.varies() { layout.slots } else { 0 };
+        let lengths = lengths.map(|slot| at(D, slot)).collect();
+        let group = &mut self.simulation.state.groups[number];
+        let instructions = group.instructions;
+        group
+            .neighborhood
+            .list_again((listed, lengths), instructions);
+    }
+}
