@@ -81,13 +81,12 @@ fn measure<T: Real>(
     }
     let (loaded, before) = (start.elapsed().as_secs_f64(), device.traffic());
     let start = Instant::now();
-    // Steps in which the host builds lists are those that send most.
     let (mut steps, mut builds, mut building) = (0_u32, 0_u32, 0.0);
     while steps < STEPS && start.elapsed() < most {
-        let (now, sent) = (Instant::now(), device.traffic().sent);
+        let (now, built) = (Instant::now(), run.list_builds());
         run.step()?;
         steps += 1;
-        if device.traffic().sent - sent > 8 * liquid as u64 {
+        if run.list_builds() > built {
             builds += 1;
             building += now.elapsed().as_secs_f64();
         }

@@ -29,9 +29,9 @@ pub struct Memory {
     pub votes: Buffer,
     pub moves: Buffer,
     pub meetings: Buffer,
-    clusters: Buffer,
-    segments: Buffer,
-    list: Buffer,
+    pub clusters: Buffer,
+    pub segments: Buffer,
+    pub list: Buffer,
     /// Of which slot each image is and by which transform, and all transforms.
     images: Buffer,
     transforms: Buffer,
@@ -56,7 +56,8 @@ pub struct Compiled {
     pub of_vote: Vec<Bound>,
     pub of_moved: Vec<Bound>,
     pub of_approach: Vec<Bound>,
-    widths: [usize; 2],
+    /// Numbers of a record, and of a sum.
+    pub widths: [usize; 2],
     /// What records that are kept have.
     pub kept: Fields,
     precision: Precision,
@@ -124,7 +125,8 @@ impl Compiled {
             bound: Vec::new(),
             kernels: own.kernels,
             lists,
-            widths: own.widths,
+            // Rates go there, too, when particles are sorted.
+            widths: [own.widths[0].max(sizes.rates.width(d)), own.widths[1]],
             kept: own.kept,
             precision,
         })
@@ -173,18 +175,20 @@ impl Compiled {
         })
     }
 
-    /// Takes lists to the device with the images that they have, and binds all kernels.
+    /// Takes lists of the host, if any, to the device with the images that they have, and binds all kernels.
     pub fn bind(
         &mut self,
         device: &Device,
         memory: &mut Memory,
         (sizes, program): (&Sizes, &Program),
-        (lists, images, transforms): (&PairLists, &[u32], &[u8]),
+        (lists, images, transforms): (Option<&PairLists>, &[u32], &[u8]),
     ) -> Result<(), Error> {
         let indices = |all: &[u32]| device.upload("the lists of neighbours", &pack_indices(all));
-        memory.clusters = indices(&lists.clusters)?;
-        memory.segments = indices(&lists.segments)?;
-        memory.list = indices(&lists.list)?;
+        if let Some(lists) = lists {
+            memory.clusters = indices(&lists.clusters)?;
+            memory.segments = indices(&lists.segments)?;
+            memory.list = indices(&lists.list)?;
+        }
         memory.images = indices(images)?;
         memory.transforms = device.upload("the images of particles", transforms)?;
         let (count, slots) = (images.len() / 2, sizes.layout.slots);

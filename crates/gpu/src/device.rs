@@ -96,8 +96,8 @@ enum Driver {
 
 // What a driver has made, which is never handed to another one.
 macro_rules! made {
-    ($(#[$doc:meta] $name:ident: $vulkan:ty, $cuda:ty;)*) => { $(
-        #[$doc]
+    ($($(#[$meta:meta])* $name:ident: $vulkan:ty, $cuda:ty;)*) => { $(
+        $(#[$meta])*
         #[derive(Debug)]
         pub(crate) enum $name {
             Vulkan($vulkan),
@@ -125,12 +125,25 @@ macro_rules! made {
 }
 
 made! {
-    /// Memory of a device.
+    /// Memory of a device, which copies share.
+    #[derive(Clone)]
     Buffer: wgpu::Buffer, Arc<cuda::Memory>;
     /// A compiled kernel.
     Kernel: vulkan::Kernel, cuda::Kernel;
     /// A kernel with what it works on.
     Bound: vulkan::Bound, cuda::Bound;
+}
+
+impl Buffer {
+    /// Whether it is the same memory.
+    pub fn is(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Vulkan(own), Self::Vulkan(other)) => own == other,
+            #[cfg(feature = "cuda")]
+            (Self::Cuda(own), Self::Cuda(other)) => Arc::ptr_eq(own, other),
+            _ => false,
+        }
+    }
 }
 
 /// An adapter that can be opened.

@@ -154,6 +154,20 @@ impl Dialect {
             Language::Cuda => format!("{t} {name} = {value};\n"),
         }
     }
+    /// An index that changes.
+    pub(crate) fn counter(self, name: &str, value: &str) -> String {
+        match self.language {
+            Language::Wgsl => format!("var {name}: u32 = {value};\n"),
+            Language::Cuda => format!("unsigned {name} = {value};\n"),
+        }
+    }
+    /// The whole part of a number that is not negative.
+    pub(crate) fn whole(self, value: &str) -> String {
+        match self.language {
+            Language::Wgsl => format!("u32({value})"),
+            Language::Cuda => format!("unsigned({value})"),
+        }
+    }
     /// The head of a loop over indices.
     pub(crate) fn each(self, name: &str, from: &str, to: &str) -> String {
         let declared = match self.language {

@@ -33,6 +33,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod cells;
 mod compile;
 mod compiled;
 mod device;
@@ -43,12 +44,14 @@ mod error;
 mod follow;
 mod fuse;
 mod kernel;
+mod lists;
 #[cfg(feature = "cuda")]
 pub mod nvrtc;
 mod pairs;
 mod points;
 mod reduce;
 mod run;
+mod sort;
 mod stepping;
 mod transfer;
 

@@ -1,5 +1,5 @@
 //! Sums over neighbours, from the record of one pair: one thread a particle, along the list of its cluster.
-//! Lists are those of the host, cluster by cluster; what depends on i alone stands before the loop.
+//! Lists are those of the host, or of `lists.rs`; what depends on i alone stands before the loop.
 
 use crate::device::Kernel;
 use crate::emit::{Text, emit_as};
@@ -74,6 +74,25 @@ impl PairLists {
         }
         own.clusters.extend([(own.segments.len() / 3) as u32, 0]);
         own
+    }
+
+    /// Those that a device has built.
+    pub(crate) fn of_parts([clusters, segments, list]: [Vec<u32>; 3], width: usize) -> Self {
+        Self {
+            clusters,
+            segments,
+            list,
+            width,
+            ..Self::default()
+        }
+    }
+
+    /// The neighbours of the cluster of a slot, segment by segment: their block, and their slots.
+    pub fn of(&self, slot: usize) -> impl Iterator<Item = (u32, &[u32])> {
+        let cluster = slot / self.width * 2;
+        let segments = 3 * self.clusters[cluster] as usize..3 * self.clusters[cluster + 2] as usize;
+        let segments = self.segments[segments].chunks_exact(3);
+        segments.map(|own| (own[2], &self.list[own[0] as usize..own[1] as usize]))
     }
 
     /// How many neighbours are listed.

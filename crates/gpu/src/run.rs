@@ -1,11 +1,12 @@
 //! A simulation whose steps run on a device: the operations of its integrator as launches, and what the host reads between them.
-//! Lists, walls that move, votes and the ledger are the host's; everything that is done once a particle or pair is the device's.
+//! Images, walls that move, votes and the ledger are the host's; everything that is done once a particle or pair is the device's.
 
 use crate::compile::Sizes;
 use crate::compiled::{Compiled, Memory};
 use crate::device::Buffer;
 use crate::follow::Link;
 use crate::kernel::{pack, unpack};
+use crate::lists::Builder;
 use crate::stepping::Stepping;
 use crate::{Device, Error, Language, Part, PointKernel, Precision};
 use meshfree::error::Error as HostError;
@@ -43,6 +44,8 @@ pub(crate) struct Group {
     pub sizes: Sizes,
     pub compiled: Compiled,
     pub memory: Memory,
+    /// What builds its lists, unless the host does.
+    pub builder: Option<Builder>,
 }
 
 impl Group {
@@ -63,8 +66,14 @@ impl Group {
             settings: 3 + D + blocks * (1 + blocks),
         };
         let compiled = Compiled::new(device, &program, &sizes, precision)?;
+        let memory = compiled.room(device, &sizes, &program)?;
+        let members = host.builds_lists(number).then(|| host.members(number));
+        let builder = |members: Vec<u32>| {
+            Builder::new(device, (&sizes, &members), (&memory.state, precision))
+        };
         Ok(Self {
-            memory: compiled.room(device, &sizes, &program)?,
+            builder: members.map(builder).transpose()?,
+            memory,
             program,
             sizes,
             compiled,
@@ -212,6 +221,12 @@ impl<T: Real, const D: usize> Run<T, D> {
     #[must_use]
     pub fn steps(&self) -> u64 {
         self.host.simulation().steps()
+    }
+
+    /// Neighbour lists built, of all groups.
+    #[must_use]
+    pub fn list_builds(&self) -> u64 {
+        self.host.simulation().list_builds()
     }
 
     /// Takes the next step of the run, and returns its size \[s\].

@@ -97,9 +97,11 @@ impl<T: Real, const D: usize> Run<T, D> {
         };
         let is_outdated = self.host.is_outdated(group, &moved, moment.time);
         if is_outdated {
-            self.take_group(group)?;
-            self.host.rebuild(group, moment.time);
-            self.send(group, moment.time)?;
+            if !self.rebuild(group, moment.time)? {
+                self.take_group(group)?;
+                self.host.rebuild(group, moment.time);
+                self.send(group, moment.time)?;
+            }
             self.is_taken = false;
             self.share(group, moment);
         }

@@ -1,10 +1,10 @@
 //! What goes over the bus as a whole: the state of a simulation, its lists and walls, to the device and back.
-//! Between list builds nothing of it does.
+//! Where the device builds lists nothing of it does during a run.
 
 use crate::run::Run;
 use crate::{Error, PairLists};
 use meshfree::scalar::Real;
-use meshfree::simulation::device::Numbers;
+use meshfree::simulation::device::{Array, Numbers};
 
 impl<T: Real, const D: usize> Run<T, D> {
     pub(crate) fn write(&self, group: usize, all: &[Numbers]) {
@@ -18,25 +18,36 @@ impl<T: Real, const D: usize> Run<T, D> {
 
     /// Takes the whole state of a group to the device, with walls as they are at a time \[s\].
     pub(crate) fn send(&mut self, group: usize, time: f64) -> Result<(), Error> {
-        let (lists, blocks) = (self.host.lists(group), self.host.blocks(group));
-        let lists = PairLists::new(lists, blocks, self.host.cluster());
-        let images = self.host.images(group);
-        let transforms = self.numbers(self.host.transforms(group).into_iter());
-        let own = &mut self.groups[group];
-        own.compiled.bind(
-            &self.device,
-            &mut own.memory,
-            (&own.sizes, &own.program),
-            (&lists, &images, &transforms),
-        )?;
         let all = self.host.sent(group, time);
+        // Those of what is kept have as many as there are images.
+        let (kept, all): (Vec<_>, Vec<_>) =
+            all.into_iter().partition(|own| own.array == Array::Kept);
         self.write(group, &all);
+        if !self.list_as_sent(group)? {
+            let (lists, blocks) = (self.host.lists(group), self.host.blocks(group));
+            let lists = PairLists::new(lists, blocks, self.host.cluster());
+            let images = self.host.images(group);
+            let transforms = self.numbers(self.host.transforms(group).into_iter());
+            let own = &mut self.groups[group];
+            own.compiled.bind(
+                &self.device,
+                &mut own.memory,
+                (&own.sizes, &own.program),
+                (Some(&lists), &images, &transforms),
+            )?;
+        }
+        self.write(group, &kept);
+        self.follow();
+        self.is_voted = false;
+        Ok(())
+    }
+
+    /// Tells the device which particles of walls that are bodies of other groups are which.
+    pub(crate) fn follow(&self) {
         for link in &self.links {
             let maps = self.host.followed(link.wall[0], link.wall[1]);
             link.send(&self.device, &maps);
         }
-        self.is_voted = false;
-        Ok(())
     }
 
     /// Takes the whole state back, unless the host has it.

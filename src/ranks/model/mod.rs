@@ -316,11 +316,7 @@ impl RankModel {
                 gathered * waits * count.log2() + travel(votes),
             ),
             line("sums of all particles", sums, travel(sums)),
-            line(
-                "list builds: what all ranks get",
-                listing,
-                travel(listing),
-            ),
+            line("list builds: what all ranks get", listing, travel(listing)),
             line(
                 "all particles, for what is looked at",
                 looking,

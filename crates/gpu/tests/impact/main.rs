@@ -7,9 +7,12 @@ mod common;
 #[path = "../common/compare.rs"]
 #[allow(dead_code)]
 mod compare;
+#[path = "../common/neighbours.rs"]
+#[allow(dead_code)]
+mod neighbours;
 
 use common::{device, in_any_groups};
-use compare::{in_both, in_double, on, on_device};
+use compare::{in_both, in_double, load, on, on_device};
 use meshfree::effect::{Damage, Effect, Point, PointRate, Reach, Setting, StepProgram};
 use meshfree::material::eos::IdealGas;
 use meshfree::material::failure::SpallStrength;
@@ -185,4 +188,61 @@ fn bits_are_the_same_twice_and_in_any_work_groups() {
         let rods = on_device(device, rods::<f64>(false), 60).bits_hash();
         vec![rods, on_device(device, blast::<f64>(false), 20).bits_hash()]
     });
+}
+
+/// Two rods that meet without a wall.
+fn free_rods<T: Real>(fused: bool) -> Scene<T, 1> {
+    let rod = |name: &str, low: f64, high: f64| {
+        Body::block(name, catalogue::copper::<T>(), [low], [high], 2e-4)
+    };
+    let scene = Scene::new(schemes::impact())
+        .body(rod("left", 0.0, 0.01).velocity([-50.0]))
+        .body(rod("right", 0.0102, 0.02).velocity([-150.0]));
+    on(scene, fused)
+}
+
+/// Two clouds of gas that run into each other in a vacuum, the second of particles of another spacing.
+fn clouds<T: Real>(fused: bool, spacing: f64) -> Scene<T, 2> {
+    let air = Material::<T>::new("air", IdealGas::new(1.4, 1.0));
+    let cloud = |name: &str, low: f64, spacing: f64, speed: f64| {
+        let own = Body::block(name, air.clone(), [low, 0.0], [low + 0.25, 0.5], spacing);
+        own.energy(1.0).velocity([speed, 0.5 * speed])
+    };
+    let scene = Scene::new(schemes::gas())
+        .body(cloud("left", 0.0, 0.025, 2.0))
+        .body(cloud("right", 0.25, spacing, -2.0));
+    on(scene, fused)
+}
+
+/// In one dimension, across contacts, and with smoothing lengths that vary.
+#[test]
+fn lists_that_the_device_builds_serve_as_those_of_the_host() {
+    let Some(device) = device("lists of solids and gases") else {
+        return;
+    };
+    let single = || free_rods::<f32>(false);
+    in_both(&device, "Free rods", free_rods::<f64>, single, 200);
+    let mut rods = load(&device, free_rods::<f64>(false));
+    neighbours::are_those_of_the_host(&mut rods);
+    for _ in 0..200 {
+        rods.step().unwrap();
+    }
+    println!("{:?}", neighbours::are_those_of_the_host(&mut rods));
+    in_double(&device, "Clouds", |fused| clouds(fused, 0.025), 40);
+    // Where lengths differ by more than two the host builds lists, for which all columns cross the bus.
+    for (spacing, columns) in [(0.025, 0..1), (0.0625, 1..2)] {
+        let mut run = load(&device, clouds::<f64>(false, spacing));
+        let slots = neighbours::on_host(&mut run).columns(0).slots() as u64;
+        let (first, mut most) = (neighbours::are_those_of_the_host(&mut run), 0);
+        for _ in 0..40 {
+            let before = device.traffic().received;
+            run.step().unwrap();
+            most = most.max(device.traffic().received - before);
+        }
+        let last = neighbours::are_those_of_the_host(&mut run);
+        let builds = run.simulation().unwrap().list_builds();
+        println!("{first:?}, {last:?}, {builds} list builds, {most} bytes for {slots} slots");
+        assert!(builds > 2);
+        assert!(columns.contains(&(most / (40 * slots))), "{most}");
+    }
 }

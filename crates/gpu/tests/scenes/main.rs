@@ -7,6 +7,9 @@ mod agreement;
 mod common;
 #[path = "../common/compare.rs"]
 mod compare;
+mod lists;
+#[path = "../common/neighbours.rs"]
+mod neighbours;
 mod refused;
 mod steps;
 
