@@ -9,8 +9,9 @@ use crate::sweep::Interaction;
 /// Most blocks of a group whose lists a device builds: it looks for neighbours in each by itself.
 const MOST_BLOCKS: usize = 8;
 
-/// By how much smoothing lengths may differ: cells are as wide as the widest support asks for.
-const WIDEST: f64 = 2.0;
+/// By how much smoothing lengths may differ: cells are as wide as the widest support asks for. At the corner of a gas in a vacuum they are
+/// twice those of its middle.
+const WIDEST: f64 = 3.0;
 
 /// What bounds all particles of a group.
 #[derive(Clone, Debug, PartialEq)]
