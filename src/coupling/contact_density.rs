@@ -1,10 +1,14 @@
 //! Contact by density: what kernel sums over the other body find beyond a face that only touches makes a pressure.
 //! After Wu, Zhang, Kong & Hu 2026 and the contact forces of SPHinXsys, in a form that derives from an energy.
 
+#[cfg(feature = "devices")]
+use super::CouplingRecord;
 use super::friction::{Coulomb, Touch};
-use super::{CoupledPair, CoupledParticle, Coupling, PairForce, link};
+use super::{CoupledPair, CoupledParticle, Coupling, PairForce, length, link, spacing};
 use crate::kernel::{Kernel, WendlandC2};
-use crate::scalar::Real;
+#[cfg(feature = "devices")]
+use crate::scalar::Traced;
+use crate::scalar::{Lane, Real};
 use crate::term::TermDoc;
 
 /// Smoothing length over mean spacing: lattices that slide over each other feel bumps of 0.0007 spacings in 2D and
@@ -92,7 +96,7 @@ impl ContactDensity {
 }
 
 /// W h^D and its slope over q h^(D+2) at q.
-fn kernel<T: Real, const D: usize>(q: T) -> (T, T) {
+fn kernel<L: Lane, const D: usize>(q: L) -> (L, L) {
     let (shape, slope, norm) = match D {
         1 => (
             Kernel::<1>::shape(&WendlandC2, q),
@@ -110,7 +114,7 @@ fn kernel<T: Real, const D: usize>(q: T) -> (T, T) {
             Kernel::<3>::normalisation(&WendlandC2),
         ),
     };
-    let norm = T::from_f64(norm);
+    let norm = L::of(norm);
     (norm * shape, norm * slope)
 }
 
@@ -132,10 +136,56 @@ fn face<const D: usize>() -> [f64; 2] {
 }
 
 /// h \[m\] of a pair, its distance over that, and the product of h^−D.
-fn scaled<T: Real, const D: usize>(apart: &[T; D], spacing: T) -> (T, T, T) {
-    let h = T::from_f64(H_OVER_DX) * spacing;
-    let r = apart.iter().fold(T::zero(), |sum, x| sum + *x * *x).sqrt();
-    (h, r / h, T::one() / h.powi(D as u32))
+fn scaled<L: Lane, const D: usize>(apart: &[L; D], spacing: L) -> (L, L, L) {
+    let h = L::of(H_OVER_DX) * spacing;
+    (h, length(apart) / h, L::one() / h.powi(D as u32))
+}
+
+/// What a particle adds to the sum of one of the other side, and to its gradient.
+fn seen<L: Lane, const D: usize>(
+    on: &CoupledParticle<L, D>,
+    from: &CoupledParticle<L, D>,
+) -> (L, [L; D]) {
+    let apart: [L; D] = core::array::from_fn(|d| on.position[d] - from.position[d]);
+    let (h, q, per_volume) = scaled(&apart, spacing(on, from));
+    let (w, slope) = kernel::<L, D>(q);
+    let volume = from.spacing.powi(D as u32) * per_volume;
+    (volume * w, apart.map(|x| volume * slope * x / (h * h)))
+}
+
+/// The force that presses a pair apart.
+fn pressed<L: Lane, const D: usize>(pair: &CoupledPair<L, D>) -> [L; D] {
+    let (on, from) = (&pair.on, &pair.from);
+    let (apart, pressure) = (pair.apart(), on.pressure + from.pressure);
+    let (h, q, per_volume) = scaled(&apart, pair.spacing());
+    let (_, slope) = kernel::<L, D>(q);
+    let volumes = (on.spacing * from.spacing).powi(D as u32) * per_volume;
+    let scale = -pressure * volumes * slope / (h * h);
+    apart.map(|x| scale * x)
+}
+
+impl ContactDensity {
+    /// The pressure of a particle by its sum, and the energy that it stores.
+    fn beyond<L: Lane, const D: usize>(&self, on: &CoupledParticle<L, D>, spacing: L) -> (L, L) {
+        let [theta, slope] = self.faces[D - 1].map(L::of);
+        // A side of smaller particles reaches closer to the face, half of its spacing.
+        let nearer = (spacing - on.spacing) / (spacing + spacing);
+        let beyond = (on.sum - theta - slope * nearer).positive_part();
+        let stiffness = L::of(0.5 * self.factor) * on.stiffness / (slope * slope);
+        let volume = on.spacing.powi(D as u32);
+        let stored = L::of(0.5) * stiffness * beyond * beyond * volume;
+        (stiffness * beyond, stored)
+    }
+
+    /// The largest stable step of a pair.
+    fn stable<L: Lane, const D: usize>(
+        &self,
+        on: &CoupledParticle<L, D>,
+        from: &CoupledParticle<L, D>,
+    ) -> L {
+        let k = L::of(self.factor) * link::<L, D>(on.stiffness, spacing(on, from));
+        L::of(0.5) * (on.mass.min(from.mass) / k).sqrt()
+    }
 }
 
 impl<T: Real, const D: usize> Coupling<T, D> for ContactDensity {
@@ -159,22 +209,11 @@ impl<T: Real, const D: usize> Coupling<T, D> for ContactDensity {
         true
     }
     fn gather(&self, on: &CoupledParticle<T, D>, from: &CoupledParticle<T, D>) -> (T, [T; D]) {
-        let apart: [T; D] = core::array::from_fn(|d| on.position[d] - from.position[d]);
-        let spacing = T::from_f64(0.5) * (on.spacing + from.spacing);
-        let (h, q, per_volume) = scaled(&apart, spacing);
-        let (w, slope) = kernel::<T, D>(q);
-        let volume = from.spacing.powi(D as u32) * per_volume;
-        (volume * w, apart.map(|x| volume * slope * x / (h * h)))
+        seen(on, from)
     }
     fn pressure(&self, on: &CoupledParticle<T, D>, spacing: T) -> (T, f64) {
-        let [theta, slope] = self.faces[D - 1].map(T::from_f64);
-        // A side of smaller particles reaches closer to the face, half of its spacing.
-        let nearer = (spacing - on.spacing) / (spacing + spacing);
-        let beyond = (on.sum - theta - slope * nearer).positive_part();
-        let stiffness = T::from_f64(0.5 * self.factor) * on.stiffness / (slope * slope);
-        let volume = on.spacing.powi(D as u32);
-        let stored = T::from_f64(0.5) * stiffness * beyond * beyond * volume;
-        (stiffness * beyond, stored.to_f64())
+        let (pressure, stored) = self.beyond(on, spacing);
+        (pressure, stored.to_f64())
     }
     fn act(&self, pair: &CoupledPair<T, D>) -> PairForce<T, D> {
         let (on, from) = (&pair.on, &pair.from);
@@ -182,18 +221,13 @@ impl<T: Real, const D: usize> Coupling<T, D> for ContactDensity {
         if pressure == T::zero() {
             return PairForce::of([T::zero(); D]);
         }
-        let (apart, spacing) = (pair.apart(), pair.spacing());
-        let (h, q, per_volume) = scaled(&apart, spacing);
-        let (_, slope) = kernel::<T, D>(q);
-        let volumes = (on.spacing * from.spacing).powi(D as u32) * per_volume;
-        let scale = -pressure * volumes * slope / (h * h);
-        let force = apart.map(|x| scale * x);
+        let force = pressed(pair);
         let Some(law) = self.friction else {
             return PairForce::of(force);
         };
         // The other body is where the sum grows.
         let normal: [T; D] = core::array::from_fn(|d| from.gradient[d] - on.gradient[d]);
-        let size = normal.iter().fold(T::zero(), |sum, n| sum + *n * *n).sqrt();
+        let size = length(&normal);
         if size == T::zero() {
             return PairForce::of(force);
         }
@@ -204,9 +238,9 @@ impl<T: Real, const D: usize> Coupling<T, D> for ContactDensity {
         }
         // In proportion to what the pair bears of the pressure, so that all of a contact slide together.
         let [_, face] = self.faces[D - 1].map(T::from_f64);
-        let share = T::from_f64(0.25) * on.stiffness / (face * spacing);
+        let share = T::from_f64(0.25) * on.stiffness / (face * pair.spacing());
         let slide = law.act(&Touch {
-            apart,
+            apart: pair.apart(),
             normal,
             pressing,
             stiffness: share * pressing / pressure,
@@ -218,9 +252,14 @@ impl<T: Real, const D: usize> Coupling<T, D> for ContactDensity {
         }
     }
     fn step(&self, on: &CoupledParticle<T, D>, from: &CoupledParticle<T, D>) -> f64 {
-        let spacing = T::from_f64(0.5) * (on.spacing + from.spacing);
-        let k = T::from_f64(self.factor) * link::<T, D>(on.stiffness, spacing);
-        0.5 * (on.mass.min(from.mass) / k).sqrt().to_f64()
+        self.stable(on, from).to_f64()
+    }
+    #[cfg(feature = "devices")]
+    fn record(&self) -> Option<CouplingRecord> {
+        let act = |pair: &_| (pressed(pair), Traced::of(0.0));
+        let record = CouplingRecord::of::<D>(act, |on, from| self.stable(on, from));
+        let record = record.and_then(|own| own.gathering::<D>(seen, |on, s| self.beyond(on, s)));
+        record.ok().filter(|_| self.friction.is_none())
     }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         let mut problems = Coulomb::problems(self.friction);

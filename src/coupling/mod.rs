@@ -59,6 +59,8 @@ mod friction;
 mod joint;
 mod liquid_structure;
 mod penalty;
+#[cfg(feature = "devices")]
+mod record;
 mod spring;
 mod tied;
 
@@ -68,12 +70,14 @@ pub use joint::Joint;
 pub(crate) use joint::{Kind, Motor};
 pub use liquid_structure::LiquidStructure;
 pub use penalty::Penalty;
+#[cfg(feature = "devices")]
+pub use record::CouplingRecord;
 pub use tied::Tied;
 
 use crate::particles::{Columns, Field, Fields};
-use crate::scalar::Real;
 #[cfg(feature = "devices")]
 use crate::scalar::Record;
+use crate::scalar::{Lane, Real};
 use crate::term::TermDoc;
 use core::fmt::Debug;
 
@@ -138,23 +142,31 @@ pub struct CoupledPair<T, const D: usize> {
     pub anchor: Option<Anchor<T, D>>,
 }
 
-impl<T: Real, const D: usize> CoupledPair<T, D> {
+impl<L: Lane, const D: usize> CoupledPair<L, D> {
     /// From the second to the first \[m\].
-    pub fn apart(&self) -> [T; D] {
+    pub fn apart(&self) -> [L; D] {
         core::array::from_fn(|d| self.on.position[d] - self.from.position[d])
     }
     /// The reduced mass m₁m₂/(m₁ + m₂) \[kg\]; before a wall that of the first.
-    pub fn reduced_mass(&self) -> T {
-        if self.from.mass.to_f64().is_infinite() {
-            self.on.mass
-        } else {
-            self.on.mass * self.from.mass / (self.on.mass + self.from.mass)
-        }
+    pub fn reduced_mass(&self) -> L {
+        let (on, from) = (self.on.mass, self.from.mass);
+        let moves = from.lt(L::of(f64::INFINITY));
+        L::select(moves, on * from / (on + from), on)
     }
     /// Half the sum of both spacings \[m\].
-    pub fn spacing(&self) -> T {
-        T::from_f64(0.5) * (self.on.spacing + self.from.spacing)
+    pub fn spacing(&self) -> L {
+        spacing(&self.on, &self.from)
     }
+}
+
+/// Half the sum of both spacings \[m\].
+fn spacing<L: Lane, const D: usize>(on: &CoupledParticle<L, D>, from: &CoupledParticle<L, D>) -> L {
+    L::of(0.5) * (on.spacing + from.spacing)
+}
+
+/// The length of a vector.
+fn length<L: Lane, const D: usize>(vector: &[L; D]) -> L {
+    vector.iter().fold(L::zero(), |sum, x| sum + *x * *x).sqrt()
 }
 
 /// What a pair does.
@@ -183,7 +195,7 @@ impl<T: Real, const D: usize> PairForce<T, D> {
 }
 
 /// Stiffness M s^(D−2) \[N/m\] of what a particle stands for along an axis.
-fn link<T: Real, const D: usize>(stiffness: T, spacing: T) -> T {
+fn link<L: Lane, const D: usize>(stiffness: L, spacing: L) -> L {
     stiffness * spacing.powi(D as u32) / (spacing * spacing)
 }
 
@@ -289,6 +301,12 @@ pub trait Coupling<T: Real, const D: usize>: Debug + Send + Sync {
     /// against its work ([`StoredEnergy`](crate::simulation::StoredEnergy)); not so by default.
     fn books_energy(&self) -> bool {
         false
+    }
+    /// The same as records for a device, as [`CouplingRecord::of`] makes them of a text that is generic over lanes. A scene with a
+    /// coupling by forces that has none is refused there.
+    #[cfg(feature = "devices")]
+    fn record(&self) -> Option<CouplingRecord> {
+        None
     }
     /// Whether it acts on the pairs that are within reach as built, however far they move, and on no others.
     fn as_built(&self) -> bool {

@@ -1,10 +1,12 @@
 //! Penalty contact: springs between particles that are nearer than a mean spacing, with damping and friction.
 //! The node form of what LS-DYNA does between surfaces (Hallquist, Goudreau & Benson 1985).
 
+#[cfg(feature = "devices")]
+use super::CouplingRecord;
 use super::friction::{Coulomb, Touch};
 use super::spring::Spring;
-use super::{CoupledPair, CoupledParticle, Coupling, PairForce};
-use crate::scalar::Real;
+use super::{CoupledPair, CoupledParticle, Coupling, PairForce, length, spacing};
+use crate::scalar::{Lane, Real};
 use crate::term::TermDoc;
 
 /// Pushes apart pairs that are nearer than the mean spacing s \[m\] of their bodies.
@@ -91,6 +93,56 @@ impl Penalty {
     }
 }
 
+/// A pair that presses: the unit normal, its stiffness, the normal force, and the energy stored; no force where both are in one
+/// place.
+struct Pressed<L, const D: usize> {
+    normal: [L; D],
+    stiffness: L,
+    pressing: L,
+    stored: L,
+}
+
+impl<L: Lane, const D: usize> Pressed<L, D> {
+    fn force(&self) -> [L; D] {
+        self.normal.map(|n| self.pressing * n)
+    }
+}
+
+impl Penalty {
+    fn press<L: Lane, const D: usize>(&self, pair: &CoupledPair<L, D>) -> Pressed<L, D> {
+        let (apart, spacing) = (pair.apart(), pair.spacing());
+        let distance = length(&apart);
+        let (there, none) = (distance.gt(L::zero()), L::zero());
+        let normal = apart.map(|x| L::select(there, x / distance, none));
+        let own = self.stiffness;
+        let k = own.of::<L, D>(self.scale, pair.on.stiffness, spacing);
+        let depth = spacing - distance;
+        let mut pressing = k * depth;
+        if self.damping > 0.0 {
+            let c = L::of(2.0 * self.damping) * (k * pair.reduced_mass()).sqrt();
+            let part = |d: usize| (pair.on.velocity[d] - pair.from.velocity[d]) * normal[d];
+            pressing -= c * (0..D).map(part).fold(none, |sum, x| sum + x);
+        }
+        Pressed {
+            normal,
+            stiffness: k,
+            pressing: L::select(there, pressing.max(none), none),
+            stored: L::select(there, L::of(0.5) * (k * depth * depth), none),
+        }
+    }
+
+    /// The largest stable step of a pair.
+    fn stable<L: Lane, const D: usize>(
+        &self,
+        on: &CoupledParticle<L, D>,
+        from: &CoupledParticle<L, D>,
+    ) -> L {
+        let spacing = spacing(on, from);
+        let k = self.stiffness.of::<L, D>(self.scale, on.stiffness, spacing);
+        L::of(0.5) * (on.mass.min(from.mass) / k).sqrt()
+    }
+}
+
 impl<T: Real, const D: usize> Coupling<T, D> for Penalty {
     fn name(&self) -> &'static str {
         "penalty"
@@ -109,46 +161,36 @@ impl<T: Real, const D: usize> Coupling<T, D> for Penalty {
         0.5 * (spacings[0] + spacings[1])
     }
     fn act(&self, pair: &CoupledPair<T, D>) -> PairForce<T, D> {
-        let (apart, spacing) = (pair.apart(), pair.spacing());
-        let distance = apart.iter().fold(T::zero(), |sum, x| sum + *x * *x).sqrt();
-        if distance == T::zero() {
-            return PairForce::of([T::zero(); D]);
-        }
-        let normal = apart.map(|x| x / distance);
-        let (k, depth) = (
-            self.stiffness
-                .of::<T, D>(self.scale, pair.on.stiffness, spacing),
-            spacing - distance,
-        );
-        let mut pressing = k * depth;
-        if self.damping > 0.0 {
-            let c = T::from_f64(2.0 * self.damping) * (k * pair.reduced_mass()).sqrt();
-            let part = |d: usize| (pair.on.velocity[d] - pair.from.velocity[d]) * normal[d];
-            pressing -= c * (0..D).map(part).sum::<T>();
-        }
-        let pressing = pressing.max(T::zero());
-        let slide = self.friction.filter(|_| pressing > T::zero()).map(|law| {
+        let own = self.press(pair);
+        let slide = self.friction.filter(|_| own.pressing > T::zero());
+        let slide = slide.map(|law| {
             law.act(&Touch {
-                apart,
-                normal,
-                pressing,
-                stiffness: T::from_f64(0.5) * k,
+                apart: pair.apart(),
+                normal: own.normal,
+                pressing: own.pressing,
+                stiffness: T::from_f64(0.5) * own.stiffness,
                 anchor: pair.anchor,
             })
         });
         let slide = slide.unwrap_or(PairForce::of([T::zero(); D]));
+        let force = own.force();
         PairForce {
-            force: core::array::from_fn(|d| pressing * normal[d] + slide.force[d]),
-            stored: slide.stored + 0.5 * (k * depth * depth).to_f64(),
+            force: core::array::from_fn(|d| force[d] + slide.force[d]),
+            stored: slide.stored + own.stored.to_f64(),
             ..slide
         }
     }
     fn step(&self, on: &CoupledParticle<T, D>, from: &CoupledParticle<T, D>) -> f64 {
-        let spacing = T::from_f64(0.5) * (on.spacing + from.spacing);
-        let mass = on.mass.min(from.mass);
-        0.5 * (mass / self.stiffness.of::<T, D>(self.scale, on.stiffness, spacing))
-            .sqrt()
-            .to_f64()
+        self.stable(on, from).to_f64()
+    }
+    #[cfg(feature = "devices")]
+    fn record(&self) -> Option<CouplingRecord> {
+        let act = |pair: &_| {
+            let own = self.press(pair);
+            (own.force(), own.stored)
+        };
+        let record = CouplingRecord::of::<D>(act, |on, from| self.stable(on, from));
+        record.ok().filter(|_| self.friction.is_none())
     }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         let mut problems = Coulomb::problems(self.friction);

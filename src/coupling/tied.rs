@@ -1,9 +1,11 @@
 //! Tied bodies: springs between the particles of two bodies that are near each other as built, without a limit.
 //! The simplest of tied contacts (LS-DYNA, tied interfaces, in the form of springs).
 
+#[cfg(feature = "devices")]
+use super::CouplingRecord;
 use super::spring::Spring;
-use super::{CoupledPair, CoupledParticle, Coupling, PairForce};
-use crate::scalar::Real;
+use super::{CoupledPair, CoupledParticle, Coupling, PairForce, length, spacing};
+use crate::scalar::{Lane, Real};
 use crate::term::TermDoc;
 
 /// Ties pairs that are nearer than 1.6 mean spacings as built to their distance L \[m\] then.
@@ -45,9 +47,32 @@ impl Tied {
         Self { stiffness }
     }
 
-    fn spring<T: Real, const D: usize>(self, stiffness: T, spacing: T) -> T {
+    fn spring<L: Lane, const D: usize>(self, stiffness: L, spacing: L) -> L {
         self.stiffness
-            .of::<T, D>(1.0 / D as f64, stiffness, spacing)
+            .of::<L, D>(1.0 / D as f64, stiffness, spacing)
+    }
+
+    /// The force of a pair, and the energy that it stores; none where both are in one place.
+    fn pull<L: Lane, const D: usize>(self, pair: &CoupledPair<L, D>) -> ([L; D], L) {
+        let apart = pair.apart();
+        let distance = length(&apart);
+        let (there, none) = (distance.gt(L::zero()), L::zero());
+        let k = self.spring::<L, D>(pair.on.stiffness, pair.spacing());
+        let longer = distance - pair.rest;
+        let force = apart.map(|x| L::select(there, -k * longer * x / distance, none));
+        let stored = L::of(0.5) * (k * longer * longer);
+        (force, L::select(there, stored, none))
+    }
+
+    /// The largest stable step of a pair.
+    fn stable<L: Lane, const D: usize>(
+        self,
+        on: &CoupledParticle<L, D>,
+        from: &CoupledParticle<L, D>,
+    ) -> L {
+        // All springs of a particle together, as many as bear along an axis.
+        let k = self.spring::<L, D>(on.stiffness, spacing(on, from)) * L::of(D as f64);
+        L::of(0.5) * (on.mass.min(from.mass) / k).sqrt()
     }
 }
 
@@ -72,23 +97,18 @@ impl<T: Real, const D: usize> Coupling<T, D> for Tied {
         true
     }
     fn act(&self, pair: &CoupledPair<T, D>) -> PairForce<T, D> {
-        let apart = pair.apart();
-        let distance = apart.iter().fold(T::zero(), |sum, x| sum + *x * *x).sqrt();
-        if distance == T::zero() {
-            return PairForce::of([T::zero(); D]);
-        }
-        let k = self.spring::<T, D>(pair.on.stiffness, pair.spacing());
-        let longer = distance - pair.rest;
+        let (force, stored) = self.pull(pair);
         PairForce {
-            stored: 0.5 * (k * longer * longer).to_f64(),
-            ..PairForce::of(apart.map(|x| -k * longer * x / distance))
+            stored: stored.to_f64(),
+            ..PairForce::of(force)
         }
     }
     fn step(&self, on: &CoupledParticle<T, D>, from: &CoupledParticle<T, D>) -> f64 {
-        let spacing = T::from_f64(0.5) * (on.spacing + from.spacing);
-        // All springs of a particle together, as many as bear along an axis.
-        let k = self.spring::<T, D>(on.stiffness, spacing) * T::from_f64(D as f64);
-        0.5 * (on.mass.min(from.mass) / k).sqrt().to_f64()
+        self.stable(on, from).to_f64()
+    }
+    #[cfg(feature = "devices")]
+    fn record(&self) -> Option<CouplingRecord> {
+        CouplingRecord::of::<D>(|pair| self.pull(pair), |on, from| self.stable(on, from)).ok()
     }
     fn problems(&self) -> Vec<(&'static str, f64, &'static str)> {
         self.stiffness.problems()

@@ -17,7 +17,7 @@ use std::sync::Arc;
 /// Skin of the lists of pairs in mean spacings.
 const SKIN: f64 = 0.4;
 /// Distance in spacings that a pair has at least, as far as its approach is concerned.
-const NEAREST: f64 = 0.5;
+pub(crate) const NEAREST: f64 = 0.5;
 
 /// Two bodies, a body and itself, or a body and a wall of particles, that act on each other by forces between their
 /// particles.
@@ -96,7 +96,8 @@ impl<T: Real, const D: usize> Couple<T, D> {
         first == second
     }
 
-    fn spacing(&self, groups: &[Group<T, D>]) -> f64 {
+    /// The mean spacing \[m\].
+    pub fn spacing(&self, groups: &[Group<T, D>]) -> f64 {
         let [first, second] = self.sides.each_ref().map(|side| side.spacing(groups));
         0.5 * (first + second)
     }
@@ -141,12 +142,17 @@ impl<T: Real, const D: usize> Couple<T, D> {
         -taken + turning.map_or(0.0, |l| l.dot(&self.acting.moments))
     }
 
-    /// Forces between all pairs within reach, on the groups of both sides.
-    pub fn act(&mut self, groups: &mut [Group<T, D>], approach: f64, time: f64) {
+    /// The stiffness, at the first evaluation.
+    fn stiffen(&mut self, groups: &[Group<T, D>]) {
         if self.stiffness.is_nan() {
             let [a, b] = self.sides.each_ref().map(|side| side.stiffness(groups));
             self.stiffness = 2.0 / (1.0 / a + 1.0 / b);
         }
+    }
+
+    /// Forces between all pairs within reach, on the groups of both sides.
+    pub fn act(&mut self, groups: &mut [Group<T, D>], approach: f64, time: f64) {
+        self.stiffen(groups);
         if !self.list_serves(groups, time) {
             self.list(groups, time);
         }
@@ -386,7 +392,7 @@ impl<T: Real, const D: usize> Couple<T, D> {
     }
 
     /// Lists pairs that may be within reach before particles have moved by half the skin.
-    fn list(&mut self, groups: &[Group<T, D>], time: f64) {
+    pub fn list(&mut self, groups: &[Group<T, D>], time: f64) {
         let mut list = core::mem::take(&mut self.list);
         let skin = SKIN * self.spacing(groups);
         list.skin = skin;

@@ -182,17 +182,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 };
             }
         }
-        for couple in &self.state.couples {
-            if couple.acting.step < all.step {
-                let (group, body) = couple.sides[0].body().unwrap_or_default();
-                let group = &self.state.groups[group];
-                all = Vote {
-                    step: couple.acting.step,
-                    criterion: Criterion::Effect(couple.coupling.name()),
-                    particle: group.particles.first_id + group.particles.bodies[body].ids.start,
-                };
-            }
-        }
+        let mut all = self.of_couples(all);
         if let Some((step, [group, rigid])) =
             self.state.step_of_joints().filter(|own| own.0 < all.step)
         {
@@ -205,6 +195,22 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             };
         }
         Ok(all)
+    }
+
+    /// A vote, or a shorter step that couplings by forces ask for.
+    pub(super) fn of_couples(&self, mut all: Vote) -> Vote {
+        for couple in &self.state.couples {
+            if couple.acting.step < all.step {
+                let (group, body) = couple.sides[0].body().unwrap_or_default();
+                let group = &self.state.groups[group];
+                all = Vote {
+                    step: couple.acting.step,
+                    criterion: Criterion::Effect(couple.coupling.name()),
+                    particle: group.particles.first_id + group.particles.bodies[body].ids.start,
+                };
+            }
+        }
+        all
     }
 
     /// The vote of a group, but for pairs that approach each other.

@@ -163,7 +163,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         for own in &self.state.couples {
             let forces = own.acting.forces.iter().flatten();
             let numbers = forces.flat_map(|(_, force)| force.iter().map(|f| f.to_f64()));
-            let more = [own.acting.stored, own.acting.heat];
+            let more = [own.acting.stored, own.acting.heat].into_iter();
+            let more = more.chain(own.acting.force);
             if let Some(value) = numbers.chain(more).find(|x| !x.is_finite()) {
                 let [first, second] = own
                     .sides

@@ -21,7 +21,7 @@ pub(crate) struct Link {
 }
 
 /// What surrounds steps of a group.
-fn around(group: &Group, dialect: Dialect) -> Around<'_> {
+pub(crate) fn around(group: &Group, dialect: Dialect) -> Around<'_> {
     Around {
         layout: &group.sizes.layout,
         rates: group.sizes.rates,

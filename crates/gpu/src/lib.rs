@@ -36,6 +36,7 @@
 mod cells;
 mod compile;
 mod compiled;
+mod contact;
 mod device;
 mod dialect;
 mod elementary;

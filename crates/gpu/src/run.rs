@@ -3,6 +3,7 @@
 
 use crate::compile::Sizes;
 use crate::compiled::{Compiled, Memory};
+use crate::contact::Contact;
 use crate::device::Buffer;
 use crate::follow::Link;
 use crate::kernel::{pack, unpack};
@@ -25,6 +26,7 @@ pub struct Run<T: Real, const D: usize> {
     pub(crate) precision: Precision,
     pub(crate) groups: Vec<Group>,
     pub(crate) links: Vec<Link>,
+    pub(crate) contacts: Vec<Contact>,
     /// Whether the host has the state of the device.
     pub(crate) is_taken: bool,
     /// Whether a vote of the present state is at hand.
@@ -118,11 +120,10 @@ impl Device {
     }
 }
 
-/// What a device has of a simulation: groups, and what links them.
-fn made<T: Real, const D: usize>(
-    device: &Device,
-    host: &Offloaded<T, D>,
-) -> Result<(Precision, Vec<Group>, Vec<Link>), Error> {
+/// What a device has of a simulation: groups, what links them, and couplings by forces.
+type Made = (Precision, Vec<Group>, Vec<Link>, Vec<Contact>);
+
+fn made<T: Real, const D: usize>(device: &Device, host: &Offloaded<T, D>) -> Result<Made, Error> {
     let precision = match size_of::<T>() {
         4 => Precision::Single,
         _ => Precision::Double,
@@ -131,7 +132,10 @@ fn made<T: Real, const D: usize>(
     let groups = (0..host.groups()).map(group);
     let groups = groups.collect::<Result<Vec<_>, _>>()?;
     let links = Link::all(device, &groups, precision)?;
-    Ok((precision, groups, links))
+    let contacts = host.couplings().iter();
+    let contacts = contacts.map(|own| Contact::new(device, &groups, own, precision));
+    let contacts = contacts.collect::<Result<Vec<_>, _>>()?;
+    Ok((precision, groups, links, contacts))
 }
 
 /// The kernels of the steps of a simulation, each with its name, in a language: what [`Device::load`] compiles, written without a device.
@@ -188,13 +192,14 @@ impl<T: Real, const D: usize> Run<T, D> {
         if T::COMPENSATED {
             keeps_rounding(&device)?;
         }
-        let (precision, groups, links) = made(&device, &host)?;
+        let (precision, groups, links, contacts) = made(&device, &host)?;
         let mut own = Self {
             host,
             device,
             precision,
             groups,
             links,
+            contacts,
             is_taken: true,
             is_voted: false,
             forces: None,

@@ -97,7 +97,9 @@ impl<T: Real, const D: usize> Run<T, D> {
         };
         let is_outdated = self.host.is_outdated(group, &moved, moment.time);
         if is_outdated {
-            if !self.rebuild(group, moment.time)? {
+            if self.rebuild(group, moment.time)? {
+                self.meet_as_listed(group)?;
+            } else {
                 self.take_group(group)?;
                 self.host.rebuild(group, moment.time);
                 self.send(group, moment.time)?;
@@ -154,6 +156,12 @@ impl<T: Real, const D: usize> System for Stepping<'_, T, D> {
         self.act(|own| &own.lists.evaluation, &moment);
         self.act(|own| &own.lists.reacts, &moment);
         self.run.link(1, &moment);
+        if self.lost.is_none() {
+            match self.run.meet(moment.time) {
+                Err(Error::Simulation(error)) => return Err(error),
+                met => self.lost = met.err(),
+            }
+        }
         self.act(|own| &own.lists.hold, &moment);
         self.run.forces = None;
         self.outcome()

@@ -38,6 +38,7 @@ impl<T: Real, const D: usize> Run<T, D> {
         }
         self.write(group, &kept);
         self.follow();
+        self.meet_as_listed(group)?;
         self.is_voted = false;
         Ok(())
     }
@@ -48,6 +49,51 @@ impl<T: Real, const D: usize> Run<T, D> {
             let maps = self.host.followed(link.wall[0], link.wall[1]);
             link.send(&self.device, &maps);
         }
+    }
+
+    /// Tells the device the pairs of couplings by forces of a group.
+    pub(crate) fn meet_as_listed(&mut self, group: usize) -> Result<(), Error> {
+        for contact in 0..self.contacts.len() {
+            if self.contacts[contact].has(group) {
+                self.send_partners(contact)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes the pairs of a coupling to the device.
+    fn send_partners(&mut self, contact: usize) -> Result<(), Error> {
+        let sides = 0..self.host.couplings()[contact].sides.len();
+        let all: Vec<_> = sides
+            .map(|side| self.host.partners(contact, side))
+            .collect();
+        self.contacts[contact].send(&self.device, &self.groups, &all)
+    }
+
+    /// Particles of all couplings by forces feel these. The host reads a few numbers of each.
+    pub(crate) fn meet(&mut self, time: f64) -> Result<(), Error> {
+        for number in 0..self.contacts.len() {
+            loop {
+                let contact = &self.contacts[number];
+                self.device
+                    .launch(&contact.bound.iter().collect::<Vec<_>>());
+                let width = contact.width();
+                let sides = self.host.couplings()[number].sides.len();
+                let found = self.read(&contact.found, width * sides)?;
+                let found: Vec<_> = found.chunks(width).collect();
+                if self.host.take_contact(number, &found)? {
+                    break;
+                }
+                for group in contact.groups() {
+                    self.take_group(group)?;
+                }
+                for (group, numbers) in self.host.list_contact(number, time) {
+                    self.write(group, &[numbers]);
+                }
+                self.send_partners(number)?;
+            }
+        }
+        Ok(())
     }
 
     /// Takes the whole state back, unless the host has it.

@@ -1,7 +1,7 @@
 //! What of a simulation does not run on a device, by its name and with a remedy.
 //! Nothing is left out in silence.
 
-use super::{clamps, structures};
+use super::{clamps, contacts, structures};
 use crate::effect::DensityForm;
 use crate::error::Problem;
 use crate::scalar::Real;
@@ -21,10 +21,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             }
         };
         let state = &self.state;
-        for couple in &state.couples {
-            part(true, &|| {
-                format!("the coupling `{}`", couple.coupling.name())
-            });
+        for what in contacts::refused(self) {
+            part(true, &|| what.clone());
         }
         part(!state.joints.is_empty(), &|| "joints".into());
         for group in &state.groups {

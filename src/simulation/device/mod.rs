@@ -7,12 +7,14 @@
 mod check;
 mod clamps;
 mod clock;
+mod contacts;
 mod evolved;
 mod images;
 mod laws;
 mod lengths;
 mod lists;
 mod motion;
+mod partners;
 mod program;
 mod record;
 mod state;
@@ -21,7 +23,9 @@ mod transfer;
 mod vote;
 
 pub use clock::{Advance, Moment};
+pub use contacts::{ContactSide, ContactStep, PairStep, Summed};
 pub use lists::{Bounds, CellGrid, Search};
+pub use partners::Partners;
 pub use program::{
     Action, Counted, FollowStep, Given, KeepStep, Made, PointStep, Program, RepeatStep, SweepStep,
 };
@@ -58,6 +62,7 @@ pub struct Offloaded<T: Real, const D: usize> {
     simulation: Simulation<T, D>,
     /// What is known of each group.
     recorded: Vec<Recorded>,
+    contacts: Vec<ContactStep>,
     /// What the last vote asks for.
     last_vote: Option<Vote>,
     /// Whether a prediction is under way.
@@ -108,17 +113,27 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let mut own = Offloaded {
             simulation: self,
             recorded: Vec::new(),
+            contacts: Vec::new(),
             last_vote: None,
             is_predicted: false,
             under_way: None,
             last_step: None,
         };
         if problems.is_empty() {
+            // Of a state that was changed from outside.
+            let changed = !own.simulation.state.rates_at_hand;
+            if changed {
+                own.simulation.evaluate_together()?;
+            }
+            own.simulation.begin_stores(changed);
+            let mut sides = Vec::new();
             for number in 0..own.groups() {
                 let control: StepControl = own.control_of_vote(number);
                 let groups = &own.simulation.state.groups;
-                let mut recorder = Recorder::new(&groups[number]);
+                let is_pushed = contacts::push(&own.simulation, number);
+                let mut recorder = Recorder::new(&groups[number], is_pushed);
                 recorder.all(&control);
+                sides.extend(contacts::sides_of(&own.simulation, &mut recorder, number));
                 recorder.clamps();
                 recorder.structures(groups);
                 let Recorder {
@@ -151,14 +166,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 own.recorded.push(recorded);
                 problems.extend(found);
             }
+            match contacts::all(&own.simulation, sides) {
+                Ok(all) => own.contacts = all,
+                Err(problem) => problems.push(problem),
+            }
         }
         if problems.is_empty() {
-            // Of a state that was changed from outside.
-            let changed = !own.simulation.state.rates_at_hand;
-            if changed {
-                own.simulation.evaluate_together()?;
-            }
-            own.simulation.begin_stores(changed);
             return Ok(own);
         }
         Err(Error::Build(BuildError { problems }))

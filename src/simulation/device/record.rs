@@ -87,7 +87,8 @@ pub(super) fn add(y: Traced, lost: Option<Traced>, change: Traced) -> (Traced, O
     }
 }
 impl<'a, T: Real, const D: usize> Recorder<'a, T, D> {
-    pub fn new(group: &'a Group<T, D>) -> Self {
+    /// Of a group, on whose particles couplings by forces may act.
+    pub fn new(group: &'a Group<T, D>, is_pushed: bool) -> Self {
         let mut own = Self {
             group,
             program: Program::default(),
@@ -97,7 +98,7 @@ impl<'a, T: Real, const D: usize> Recorder<'a, T, D> {
             of_work: 0,
         };
         let further = own.further_columns();
-        let others = group.is_met || !group.held.clamps.is_empty();
+        let others = is_pushed || group.is_met || !group.held.clamps.is_empty();
         let own_forces = (others && group.keeps_rates_of_pairs()).then_some(further);
         own.program.columns = further + own_forces.map_or(0, |_| D);
         own.program.own_forces = own_forces;

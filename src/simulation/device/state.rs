@@ -139,7 +139,15 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
             let clamps = core::mem::take(&mut group.held.clamps);
             kept.push((rates, coupling, clamps));
         }
+        // What forces of couplings work is, too.
+        let couples = self.simulation.state.couples.iter_mut();
+        let forces: Vec<_> = couples
+            .map(|own| core::mem::take(&mut own.acting.forces))
+            .collect();
         self.simulation.record_kick(None, dt);
+        for (own, forces) in self.simulation.state.couples.iter_mut().zip(forces) {
+            own.acting.forces = forces;
+        }
         for (group, kept) in self.simulation.state.groups.iter_mut().zip(kept) {
             (group.work.rates, group.work.coupling, group.held.clamps) = kept;
         }

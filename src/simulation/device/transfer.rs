@@ -139,6 +139,7 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         all.push((Array::Kept, 0, self.kept(group)));
         let of = |(array, at, numbers)| Numbers { array, at, numbers };
         let mut all: Vec<_> = all.into_iter().map(of).collect();
+        all.extend(self.contacts_sent(group));
         all.extend(self.settings(group));
         all
     }
@@ -298,6 +299,7 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
             (Array::Columns, first, changes.len() * slots)
         });
         all.extend(given);
+        all.extend(self.contacts_wanted(group));
         if !program.follows.is_empty() {
             all.push((Array::Walls, 0, D * (slots - layout.mobile)));
         }
@@ -339,6 +341,7 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
                 numbers: given,
             });
         }
+        rest.extend(self.contacts_taken(group, &mut next));
         if !program.follows.is_empty() {
             self.take_walls(group, next());
         }

@@ -354,7 +354,7 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
                 vote = self.vote_at(k, own.step.0, Criterion::Approach, own.step.1);
             }
         }
-        self.last_vote = Some(vote);
+        self.last_vote = Some(self.simulation.of_couples(vote));
         Ok(())
     }
 

@@ -92,8 +92,8 @@ fn solids_are_refused_by_what_they_have() {
         let scene = Scene::<f64, 1>::new(schemes::impact());
         scene.body(rod("left", 0.0)).body(rod("right", 0.01))
     };
-    let penalty = rods().couple("left", "right", Penalty::new());
-    refused(penalty, &["the coupling `penalty"]);
+    let slides = rods().couple("left", "right", Penalty::new().friction(0.1));
+    refused(slides, &["the coupling `penalty", "friction"]);
     let stiff = rods()
         .rigid("right")
         .couple("left", "right", Penalty::new());
