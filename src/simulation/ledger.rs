@@ -108,7 +108,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     /// Where what laws have given a body stands: component `k` of the momentum, and the work behind them.
-    fn law_index(&self, on: usize, k: usize) -> usize {
+    pub(super) fn law_index(&self, on: usize, k: usize) -> usize {
         self.body_count() * self.blocks() * D + on * (D + 1) + k
     }
 

@@ -6,7 +6,6 @@ use crate::effect::DensityForm;
 use crate::error::Problem;
 use crate::scalar::Real;
 use crate::simulation::Simulation;
-use crate::term::Stage;
 
 /// What is to be done about most.
 const ON_HOST: &str = "run the scene on the host (Simulation::run_until), or leave that part out";
@@ -37,7 +36,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             for what in structures::refused(group) {
                 part(true, &|| what.clone());
             }
-            let (scheme, program) = (&group.scheme, &group.scheme.program);
+            let scheme = &group.scheme;
             part(!group.exchanges.is_empty(), &|| {
                 "schemes that follow each other by events".into()
             });
@@ -62,11 +61,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             part(group.share.is_some(), &|| "a scene on ranks".into());
             part(scheme.density == DensityForm::Lam, &|| {
                 "density by Lam et al. (DensityForm::Lam)".into()
-            });
-            part(!program.laws[Stage::Rates.number()].is_empty(), &|| {
-                let laws = program.laws[Stage::Rates.number()].iter();
-                let names: Vec<_> = laws.map(|law| format!("`{}`", law.name())).collect();
-                format!("laws of the rates ({})", names.join(", "))
             });
         }
         for load in &self.loads {

@@ -9,6 +9,7 @@ mod clamps;
 mod clock;
 mod contacts;
 mod evolved;
+mod given;
 mod images;
 mod laws;
 mod lengths;
@@ -133,6 +134,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 let is_pushed = contacts::push(&own.simulation, number);
                 let mut recorder = Recorder::new(&groups[number], is_pushed);
                 recorder.all(&control);
+                recorder.book_laws();
                 sides.extend(contacts::sides_of(&own.simulation, &mut recorder, number));
                 recorder.clamps();
                 recorder.structures(groups);

@@ -107,6 +107,7 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
         all.extend(self.keep_records(&work, Fields::of(&means)));
         all.push(Action::Sweep(work));
         all.extend(self.heat(Given::Sum(Output::POWER, 0)));
+        all.extend(self.heat_of_laws());
         all
     }
 

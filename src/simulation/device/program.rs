@@ -344,6 +344,8 @@ pub struct Program {
     pub saved: Vec<Field>,
     /// How many columns of their own actions make.
     pub columns: usize,
+    /// The first column of what laws of the rates have given in kicks: momentum, then work.
+    pub given: Option<usize>,
     /// The first column of the forces of pairs alone, where others add to the rates and work is done by those.
     pub own_forces: Option<usize>,
 }

@@ -98,7 +98,10 @@ impl<'a, T: Real, const D: usize> Recorder<'a, T, D> {
             of_work: 0,
         };
         let further = own.further_columns();
-        let others = is_pushed || group.is_met || !group.held.clamps.is_empty();
+        let others = is_pushed
+            || group.has_forces_of_laws()
+            || group.is_met
+            || !group.held.clamps.is_empty();
         let own_forces = (others && group.keeps_rates_of_pairs()).then_some(further);
         own.program.columns = further + own_forces.map_or(0, |_| D);
         own.program.own_forces = own_forces;
@@ -251,8 +254,7 @@ impl<'a, T: Real, const D: usize> Recorder<'a, T, D> {
             Entry::Evolve(when) => self.evolve(when),
             Entry::PredictLengths => self.predict_lengths(),
             Entry::LengthRates => self.length_rates(),
-            // Refused by name before.
-            Entry::ForcesOfLaws => Vec::new(),
+            Entry::ForcesOfLaws => self.laws_of_rates(of(Stage::Rates)),
         }
     }
 

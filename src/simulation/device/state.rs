@@ -7,6 +7,7 @@ use crate::neighbors::{Block, ChunkList};
 use crate::particles::{Columns, Field, Output, Outputs};
 use crate::scalar::{Real, width};
 use crate::scheme::EnergyForm;
+use crate::simulation::Group;
 use crate::sweep::{Interaction, Reaction, Records, Results};
 use crate::term::Stage;
 
@@ -139,12 +140,20 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
             let clamps = core::mem::take(&mut group.held.clamps);
             kept.push((rates, coupling, clamps));
         }
-        // What forces of couplings work is, too.
+        // What laws give and forces of couplings work is, too.
+        let columns = |group: &mut Group<T, D>| {
+            core::mem::take(group.particles.columns.column_mut(Field::FORCE))
+        };
+        let groups = self.simulation.state.groups.iter_mut();
+        let of_laws: Vec<_> = groups.map(columns).collect();
         let couples = self.simulation.state.couples.iter_mut();
         let forces: Vec<_> = couples
             .map(|own| core::mem::take(&mut own.acting.forces))
             .collect();
         self.simulation.record_kick(None, dt);
+        for (group, forces) in self.simulation.state.groups.iter_mut().zip(of_laws) {
+            *group.particles.columns.column_mut(Field::FORCE) = forces;
+        }
         for (own, forces) in self.simulation.state.couples.iter_mut().zip(forces) {
             own.acting.forces = forces;
         }

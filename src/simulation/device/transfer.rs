@@ -299,6 +299,8 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
             (Array::Columns, first, changes.len() * slots)
         });
         all.extend(given);
+        let given = program.given;
+        all.extend(given.map(|first| (Array::Columns, first * slots, (D + 1) * slots)));
         all.extend(self.contacts_wanted(group));
         if !program.follows.is_empty() {
             all.push((Array::Walls, 0, D * (slots - layout.mobile)));
@@ -339,6 +341,14 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
                 array: Array::Columns,
                 at: (first + self.held_changes().start) * slots,
                 numbers: given,
+            });
+        }
+        if let Some(first) = program.given {
+            self.take_given(group, next());
+            rest.push(Numbers {
+                array: Array::Columns,
+                at: first * slots,
+                numbers: vec![0.0; (D + 1) * slots],
             });
         }
         rest.extend(self.contacts_taken(group, &mut next));
