@@ -16,7 +16,7 @@ use meshfree::particles::{Fields, Shape};
 use meshfree_gpu::Device;
 
 /// One whose strength and failure take every branch where stresses, or the shear modulus times strains, are near `stress`.
-fn material(stress: f64) -> Material<f64> {
+pub(crate) fn material(stress: f64) -> Material<f64> {
     let strength = JohnsonCook::new(0.2 * stress, 0.5 * stress, 0.31).with_rate_sensitivity(0.025);
     let failure = JohnsonCookFailure::new(0.05, 3.44, -2.12).with_rate_sensitivity(0.002);
     Material::new("test", Linear::new(1000.0, 100.0))
@@ -52,7 +52,8 @@ fn columns<const D: usize>(own: &PointRecord, random: &mut Random) -> Vec<Vec<f6
     columns
 }
 
-fn effect<const D: usize>(
+/// What an effect registers.
+pub(crate) fn effect<const D: usize>(
     (outcome, device): (&mut Outcome, &Device),
     effect: &impl Effect<D>,
     density: DensityForm,

@@ -4,8 +4,10 @@
 #[path = "../common/mod.rs"]
 #[allow(dead_code)]
 mod common;
+mod downstream;
 mod laws;
 mod materials;
+mod table;
 mod terms;
 
 use common::Random;

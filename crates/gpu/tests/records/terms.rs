@@ -11,11 +11,8 @@ use meshfree::term::{Term, probe};
 /// A pair of a term, recorded, with the fields of each side.
 fn record<const D: usize, A: Term<D>>(
     term: &A,
-    kernel: KernelKind,
-) -> (Fields, Result<Record, Unrecordable>)
-where
-    KernelKind: Kernel<D>,
-{
+    kernel: &impl Kernel<D>,
+) -> (Fields, Result<Record, Unrecordable>) {
     let fields = A::READS.union(Fields::of(&[
         Field::POSITION,
         Field::VELOCITY,
@@ -33,7 +30,7 @@ where
                 }
             }
         };
-        let found = probe::<Traced, D, _, _>(term, &kernel, side(0), side(width));
+        let found = probe::<Traced, D, _, _>(term, kernel, side(0), side(width));
         let mut results = vec![found.radial, found.shear];
         results.extend(found.force);
         for output in A::WRITES.without(Output::FORCE).iter() {
@@ -66,6 +63,22 @@ fn side<const D: usize>(fields: Fields, random: &mut Random) -> Vec<Vec<f64>> {
     columns
 }
 
+/// One pair of a term under a kernel.
+pub(crate) fn check<const D: usize>(
+    (outcome, device): (&mut Outcome, &meshfree_gpu::Device),
+    (name, term): (&str, &impl Term<D>),
+    kernel: &impl Kernel<D>,
+    turn: u64,
+) {
+    let (fields, record) = record(term, kernel);
+    let name = format!("{name} in {D}D");
+    let record = record.unwrap_or_else(|error| panic!("{name}: {error}"));
+    let mut random = Random(turn);
+    let mut columns = side::<D>(fields, &mut random);
+    columns.extend(side::<D>(fields, &mut random));
+    outcome.check(device, &name, &record, &columns, true);
+}
+
 fn all<const D: usize>(outcome: &mut Outcome, device: &meshfree_gpu::Device)
 where
     KernelKind: Kernel<D>,
@@ -73,15 +86,10 @@ where
     let mut turn = 0;
     macro_rules! each {
         ($($term:expr),*) => { $({
-            let term = &$term;
             turn += 1;
-            let (fields, record) = record::<D, _>(term, KernelKind::ALL[turn % KernelKind::ALL.len()]);
-            let name = format!("{} in {D}D", stringify!($term).replace("$crate :: ", "").replace("$crate::", ""));
-            let record = record.unwrap_or_else(|error| panic!("{name}: {error}"));
-            let mut random = Random(turn as u64);
-            let mut columns = side::<D>(fields, &mut random);
-            columns.extend(side::<D>(fields, &mut random));
-            outcome.check(device, &name, &record, &columns, true);
+            let kernel = KernelKind::ALL[turn % KernelKind::ALL.len()];
+            let name = stringify!($term).replace("$crate :: ", "").replace("$crate::", "");
+            check::<D>((outcome, device), (&name, &$term), &kernel, turn as u64);
         })* };
     }
     meshfree::for_each_term!(each);
