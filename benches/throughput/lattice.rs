@@ -90,6 +90,7 @@ impl<T: Real> Lattice<T> {
             smoothing_length: H,
             targets: self.blocks[0].slots.clone(),
             among: None,
+            goes_on: false,
             body_force: [T::zero(); 3],
             lattice_consistency_factor: 1.0,
             instructions: InstructionSet::detect(),

@@ -308,7 +308,7 @@ impl Team {
             let come = (self.ranks).exchange_beside((own, to), (all, from), &mut beside);
             come.map_err(|why| self.unreachable(&why))
         });
-        buffers.traffic.waited += start.elapsed() - worked;
+        buffers.traffic.waited += start.elapsed().saturating_sub(worked);
         let Err(own) = come else {
             return true;
         };

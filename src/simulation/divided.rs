@@ -309,7 +309,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             sweep.pack(pass, input, records);
             let packed = start.elapsed();
             self.run_sweep((sweep, pass), input, records, rows);
-            return [packed, start.elapsed() - packed];
+            return [packed, start.elapsed().saturating_sub(packed)];
         };
         let [inner, outer] = part.inner_and_outer(&input.targets);
         let over = |among, goes_on| SweepInput {
@@ -324,9 +324,9 @@ impl<T: Real, const D: usize> Group<T, D> {
             sweep.run(pass, &over(&inner, false), own, rows);
             summed = begun.elapsed();
         });
-        let packed = start.elapsed() - summed;
+        let packed = start.elapsed().saturating_sub(summed);
         sweep.run(pass, &over(&outer, true), records, rows);
-        [packed, start.elapsed() - packed]
+        [packed, start.elapsed().saturating_sub(packed)]
     }
 
     /// Makes it a group of these ranks.

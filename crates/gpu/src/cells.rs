@@ -108,9 +108,9 @@ impl Around<'_> {
             (self.layout.field(field, 0), self.layout.listed(self.d()))
         });
         let copies = places.chain(length);
-        copies
-            .map(|(at, to)| format!("state[{to}u + i] = state[{at}u + i];\n"))
-            .collect()
+        copies.fold(String::new(), |body, (at, to)| {
+            body + &format!("state[{to}u + i] = state[{at}u + i];\n")
+        })
     }
 
     /// The cell of each particle, behind all for what repeats one.

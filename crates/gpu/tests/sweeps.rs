@@ -129,6 +129,7 @@ impl<T: Real> Scene<T> {
             smoothing_length: H,
             targets: 0..slots,
             among: None,
+            goes_on: false,
             body_force: GRAVITY.map(T::from_f64),
             lattice_consistency_factor: FACTOR,
             instructions: InstructionSet::detect(),

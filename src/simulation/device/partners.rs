@@ -52,9 +52,10 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
                 });
                 let body = &groups[own.0].particles;
                 let body = &body.bodies[body.body_of(own.1)];
-                let entry = match is_self {
-                    true => 2 * partner.1 + place,
-                    false => partner.1,
+                let entry = if is_self {
+                    2 * partner.1 + place
+                } else {
+                    partner.1
                 };
                 let slots = body.with_repeats(own.1);
                 entries.extend(slots.map(|slot| (slot - run.start, entry as u32, rest)));
