@@ -302,6 +302,14 @@ impl Device {
         Ok(self)
     }
 
+    /// The same as an adapter would be that has less: no `f64`, or less to bind as one array \[bytes\]. So one sees what that refuses.
+    #[must_use]
+    pub fn as_lesser(mut self, double: bool, most_bound: u64) -> Self {
+        self.adapter.double &= double;
+        self.adapter.most_bound = self.adapter.most_bound.min(most_bound);
+        self
+    }
+
     /// What has gone over the bus since it was opened, by all that was loaded on it.
     #[must_use]
     pub fn traffic(&self) -> Traffic {

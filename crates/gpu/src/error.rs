@@ -110,6 +110,16 @@ pub enum Error {
     /// A kernel is run on another device than it was made for.
     #[error("a kernel was made for another device; make it anew for this one")]
     OtherDevice,
+    /// A number that what a kernel is given cannot have.
+    #[error("{what} is {value}; {must_be}")]
+    Value {
+        /// What it is.
+        what: &'static str,
+        /// The number.
+        value: f64,
+        /// What it must be.
+        must_be: &'static str,
+    },
     /// An integrator that [says](meshfree::integrator::Integrator::slots) that it keeps no states asks for one.
     #[error(
         "the integrator {name} asks for a state that it does not say it keeps; give Integrator::slots their number, and run it on the host"

@@ -4,6 +4,7 @@
 use crate::device::Kernel;
 use crate::emit::{Text, emit_as};
 use crate::kernel::{Array, Frame, THREADS, pack, pack_indices, unpack};
+use crate::points::inputs;
 use crate::{Device, Dialect, Error, Precision};
 use core::cell::RefCell;
 use meshfree::neighbors::{Block, ChunkList};
@@ -136,6 +137,7 @@ pub struct PairKernel {
     sums: usize,
     support: f64,
     dimensions: usize,
+    width: usize,
     precision: Precision,
 }
 
@@ -150,6 +152,35 @@ fn late_loads(text: &str, there: &[usize], load: &dyn Fn(usize) -> String) -> St
         all.push_str(line);
     }
     all
+}
+
+impl Shared {
+    /// Refuses what no sweep can be of.
+    fn check(&self) -> Result<(), Error> {
+        let factor = self.lattice_consistency_factor;
+        let positive = [
+            ("the smoothing length", self.smoothing_length),
+            ("the lattice consistency factor", factor),
+        ];
+        let wrong = positive
+            .into_iter()
+            .find(|own| !(own.1.is_finite() && own.1 > 0.0));
+        let forces = self.body_force.iter().map(|own| ("the body force", *own));
+        let endless = || forces.clone().find(|own| !own.1.is_finite());
+        let must_be = if wrong.is_some() {
+            "it must be finite and positive"
+        } else {
+            "it must be finite"
+        };
+        match wrong.or_else(endless) {
+            None => Ok(()),
+            Some((what, value)) => Err(Error::Value {
+                what,
+                value,
+                must_be,
+            }),
+        }
+    }
 }
 
 /// The text of a sweep over particles of some blocks. If it `reacts` it also writes the force of each block that is not the particle's
@@ -286,7 +317,8 @@ impl PairKernel {
     ///
     /// # Errors
     ///
-    /// [`Error::NoDouble`] if the adapter has no `f64`, [`Error::Kernel`] if its driver does not take the text.
+    /// [`Error::Size`] if the pair is not of so many dimensions, or a cluster has no particle; [`Error::NoDouble`] if the adapter has no
+    /// `f64`, [`Error::Kernel`] if its driver does not take the text.
     pub fn new(
         device: &Device,
         name: &str,
@@ -294,13 +326,22 @@ impl PairKernel {
         (dimensions, width): (usize, usize),
         precision: Precision,
     ) -> Result<Self, Error> {
+        let fits = (1..=3).contains(&dimensions);
+        Error::unless(fits, "dimensions, from one to three", [dimensions, 3])?;
+        Error::unless(width > 0, "particles of a cluster", [width, 1])?;
+        let (stride, sums) = (pair.reads.width(dimensions), pair.writes.width(dimensions));
+        let (read, made) = (inputs(&pair.record), pair.record.results().len());
+        let there = 2 * stride + PairRecord::shared(dimensions);
+        Error::unless(read <= there, "numbers of a pair", [there, read])?;
+        Error::unless(made == sums, "sums of a pair", [made, sums])?;
         let shape = (dimensions, width);
         Ok(Self {
             kernel: sweep_of_run(device, name, pair, shape, precision, (0, false))?,
-            stride: pair.reads.width(dimensions),
-            sums: pair.writes.width(dimensions),
+            stride,
+            sums,
             support: pair.support,
             dimensions,
+            width,
             precision,
         })
     }
@@ -326,8 +367,9 @@ impl PairKernel {
     ///
     /// # Errors
     ///
-    /// [`Error::Size`] if records, lists or the body force are of another size; [`Error::TooLarge`] and [`Error::OutOfMemory`] if they
-    /// do not fit; [`Error::Lost`] if the device fails, [`Error::OtherDevice`] for one of another device.
+    /// [`Error::Size`] if records, lists or the body force are of another size; [`Error::Value`] for a smoothing length or factor that is
+    /// not positive, or a body force that is no number; [`Error::TooLarge`] and [`Error::OutOfMemory`] if they do not fit;
+    /// [`Error::Lost`] if the device fails, [`Error::OtherDevice`] for one of another device.
     pub fn run(
         &self,
         device: &Device,
@@ -339,6 +381,16 @@ impl PairKernel {
         let size = |what, found, wanted| Error::unless(found == wanted, what, [found, wanted]);
         let force = shared.body_force.len();
         size("numbers of the body force", force, self.dimensions)?;
+        shared.check()?;
+        size(
+            "particles of a cluster of the lists",
+            lists.width,
+            self.width,
+        )?;
+        let named = lists.segments.iter().skip(2).step_by(3).max();
+        let named = named.map_or(0, |block| *block as usize + 1);
+        let blocks = lists.mobile.len();
+        Error::unless(named <= blocks, "blocks of the lists", [blocks, named])?;
         let (listed, clusters) = (lists.clusters.len() / 2 - 1, count.div_ceil(lists.width));
         size("clusters that have lists", listed, clusters)?;
         let last = lists.list.iter().max().map_or(0, |last| *last as usize + 1);

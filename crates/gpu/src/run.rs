@@ -282,6 +282,7 @@ impl<T: Real, const D: usize> Run<T, D> {
     ///
     /// As [`run_until`](Self::run_until).
     pub fn step_until(&mut self, end: f64) -> Result<bool, Error> {
+        self.host.check_end(end)?;
         if self.time() >= end {
             return Ok(false);
         }

@@ -52,6 +52,14 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         self.simulation.state.rates_at_hand
     }
 
+    /// Refuses an end of a run \[s\] that is no finite time.
+    ///
+    /// # Errors
+    /// [`Error::Argument`].
+    pub fn check_end(&self, end: f64) -> Result<()> {
+        check_end(end)
+    }
+
     /// Remembers an error after which the state is not to be trusted.
     pub fn fail(&mut self, error: Error) -> Error {
         self.simulation.failed = Some(error.to_string());
