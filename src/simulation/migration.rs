@@ -49,8 +49,13 @@ impl<'a> Route<'a> {
             }
             to.push(sends.len() - begun);
         }
-        let owner = |old| runs.iter().position(|own| is_in(&own[0], old));
-        let owners = after(rank).map(|old| owner(old).filter(|own| *own != rank));
+        // Of either kind ranks have ascending runs.
+        let moving = runs[runs.len() - 1][0][0].end;
+        let owner = |old: usize| {
+            let kind = usize::from(old >= moving);
+            runs.partition_point(|own| own[0][kind].end <= old)
+        };
+        let owners = after(rank).map(|old| Some(owner(old)).filter(|own| *own != rank));
         for other in owners.clone().flatten() {
             from[other] += 1;
         }
