@@ -1,18 +1,9 @@
 //! Planes that mirror, impact with contacts that open, solids that flow and fail, and gases: on the device as on the host.
 //! Energy is that of the work of kicks, which keeps its sum.
 
-#[path = "../common/mod.rs"]
-#[allow(dead_code)]
-mod common;
-#[path = "../common/compare.rs"]
-#[allow(dead_code)]
-mod compare;
-#[path = "../common/neighbours.rs"]
-#[allow(dead_code)]
-mod neighbours;
-
-use common::{device, in_any_groups};
-use compare::{in_both, in_double, load, on, on_device};
+use crate::common::{device, in_any_groups};
+use crate::compare::{in_both, in_double, load, on, on_device};
+use crate::neighbours;
 use meshfree::effect::{Damage, Effect, Point, PointRate, Reach, Setting, StepProgram};
 use meshfree::material::eos::IdealGas;
 use meshfree::material::failure::SpallStrength;

@@ -1,15 +1,8 @@
 //! Couplings by forces on the device as on the host: contact of bodies under several schemes, ties, and a body that meets itself.
 //! Momentum, what the ledger has of couplings, the same bits in any work groups, checkpoints, and what is refused.
 
-#[path = "../common/mod.rs"]
-#[allow(dead_code)]
-mod common;
-#[path = "../common/compare.rs"]
-#[allow(dead_code)]
-mod compare;
-
-use common::{device, in_any_groups};
-use compare::{build, differences, in_both, in_double, load, on, on_device, on_host};
+use crate::common::{device, in_any_groups};
+use crate::compare::{build, differences, in_both, in_double, load, on, on_device, on_host};
 use meshfree::coupling::{ContactDensity, Coupling, Penalty, Tied};
 use meshfree::effect::{NeoHookean, StVenantKirchhoff};
 use meshfree::material::eos::Linear;

@@ -3,11 +3,11 @@
 
 mod scenes;
 
+use self::scenes::{bars, bent, blast, layers, plate, tank};
 use meshfree::effect::{Damage, FiniteStrainPlasticity, Shifting, TwoPhase};
 use meshfree::prelude::*;
 use meshfree::term::LaminarViscosity;
 use meshfree_gpu::{Language, nvrtc, sources};
-use scenes::{bars, bent, blast, layers, plate, tank};
 
 /// Hopper.
 const CARD: &str = "sm_90";

@@ -1,8 +1,8 @@
 //! Parts of scenes that do not run on a device, each refused by its name with a remedy.
 //! Nothing of it needs a device.
 
-use super::compare::build;
 use super::{Fill, stirred, water};
+use crate::compare::build;
 use meshfree::boundary::{Inlet, Outlet};
 use meshfree::coupling::Penalty;
 use meshfree::effect::{

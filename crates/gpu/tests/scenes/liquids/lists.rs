@@ -1,10 +1,10 @@
 //! Neighbour lists that the device builds: the neighbours and the order of particles that the host finds, from the same places.
 //! A dam break that is thrown at a wall, and a drop far away.
 
-use super::common::{device, in_any_groups};
-use super::compare::{build, load, on, on_host};
-use super::neighbours::{are_those_of_the_host, on_host as offloaded};
 use super::{Fill, water};
+use crate::common::{device, in_any_groups};
+use crate::compare::{build, load, on, on_host};
+use crate::neighbours::{are_those_of_the_host, on_host as offloaded};
 use meshfree::kernel::{Kernel, WendlandC2};
 use meshfree::prelude::*;
 use meshfree_gpu::Device;

@@ -1,18 +1,12 @@
 //! Further kinds of scenes on the device as on the host, of some 2000 particles over 200 steps each.
 //! A user's heat conduction, a dam break with a wall that moves, two phases, gas through periods, and solids that flow.
 
-#[path = "../common/mod.rs"]
-#[allow(dead_code)]
-mod common;
-#[path = "../common/compare.rs"]
-#[allow(dead_code)]
-mod compare;
 /// The file of a user's package, which sees what the crate publishes.
 #[path = "../../../../tests/downstream/src/heat.rs"]
 mod heat;
 
-use common::device;
-use compare::{in_both, in_double, on, on_device, on_host};
+use crate::common::device;
+use crate::compare::{in_both, in_double, on, on_device, on_host};
 use heat::{CONDUCTIVITY, HeatConduction, TEMPERATURE};
 use meshfree::effect::{
     ExpansionMemory, FiniteStrainPlasticity, SurfaceTension, TwoPhase, WithinPhase,

@@ -1,9 +1,7 @@
 //! A whole sweep of a liquid in space, on the device against the loop of the host, over the host's lists.
 //! Disordered particles; a body and a wall; the same bits twice and for any size of work groups.
 
-mod common;
-
-use common::{Random, device, in_any_groups};
+use crate::common::{Random, device, in_any_groups};
 use meshfree::kernel::WendlandC2;
 use meshfree::neighbors::{Block, ClusterLists, Radii, SearchInput};
 use meshfree::particles::{Columns, Field};

@@ -1,9 +1,10 @@
 //! Steps of a run on the device: the same bits in any work groups, readings, checkpoints, errors of a run, and what crosses the bus.
 //! A dam break in the plane.
 
-use super::common::{device, in_any_groups};
-use super::compare::{build, differences, load, on_device, on_host};
-use super::{Fill, neighbours, tank, water};
+use super::{Fill, tank, water};
+use crate::common::{device, in_any_groups};
+use crate::compare::{build, differences, load, on_device, on_host};
+use crate::neighbours;
 use meshfree::prelude::*;
 use meshfree_gpu::Error as GpuError;
 

@@ -1,9 +1,9 @@
 //! Liquids and total-Lagrangian solids on the device against the host.
 //! The scenes are those of the head of this program.
 
-use super::common::device;
-use super::compare::{in_both, in_double, on_device, on_host};
 use super::{Fill, plate, stirred, vortices, water};
+use crate::common::device;
+use crate::compare::{in_both, in_double, on_device, on_host};
 use approx::assert_relative_eq;
 use meshfree::kernel::{Kernel, WendlandC2};
 use meshfree_gpu::Device;

@@ -1,14 +1,8 @@
 //! A hundred bad inputs: each gives an `Error` that says what is wrong, and none panics.
 //! What a device lacks is told apart: an adapter, `f64`, and memory.
 
-#[allow(dead_code)]
-mod common;
-#[path = "common/compare.rs"]
-#[allow(dead_code)]
-mod compare;
-
-use common::device;
-use compare::build;
+use crate::common::device;
+use crate::compare::build;
 use meshfree::boundary::Outlet;
 use meshfree::coupling::{ContactDensity, Penalty};
 use meshfree::effect::{FiniteStrainPlasticity, Plasticity, Shifting};
@@ -450,7 +444,10 @@ fn a_missing_adapter_is_an_error_of_its_own() {
     }
     let own = std::env::current_exe().expect("this program");
     let ended = Command::new(own)
-        .args(["a_missing_adapter_is_an_error_of_its_own", "--exact"])
+        .args([
+            "bad_inputs::a_missing_adapter_is_an_error_of_its_own",
+            "--exact",
+        ])
         .env(ALONE, "1")
         .env("VK_DRIVER_FILES", "/nowhere")
         .env("VK_ICD_FILENAMES", "/nowhere")

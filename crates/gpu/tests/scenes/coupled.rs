@@ -1,16 +1,9 @@
 //! Several schemes in one scene, liquids that meet structures, and clamps, on the device as on the host.
 //! Blocks and plates in a tank of water, by their neighbours as built and by the present ones.
 
-#[path = "../common/mod.rs"]
-#[allow(dead_code)]
-mod common;
-#[path = "../common/compare.rs"]
-#[allow(dead_code)]
-mod compare;
-
+use crate::common::{device, in_any_groups};
+use crate::compare::{build, differences, in_both, in_double, load, on, on_device, on_host};
 use approx::assert_relative_eq;
-use common::{device, in_any_groups};
-use compare::{build, differences, in_both, in_double, load, on, on_device, on_host};
 use meshfree::boundary::Rotation;
 use meshfree::coupling::Coupling;
 use meshfree::effect::NeoHookean;
