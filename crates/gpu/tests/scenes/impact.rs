@@ -200,8 +200,8 @@ fn clouds<T: Real>(fused: bool, spacing: f64) -> Scene<T, 2> {
         own.energy(1.0).velocity([speed, 0.5 * speed])
     };
     let scene = Scene::new(schemes::gas())
-        .body(cloud("left", 0.0, 0.025, 0.5))
-        .body(cloud("right", 0.25, spacing, -0.5));
+        .body(cloud("left", 0.0, 0.025, 1.0))
+        .body(cloud("right", 0.25, spacing, -1.0));
     on(scene, fused)
 }
 
@@ -219,6 +219,7 @@ fn lists_that_the_device_builds_serve_as_those_of_the_host() {
         rods.step().unwrap();
     }
     println!("{:?}", neighbours::are_those_of_the_host(&mut rods));
+    // In these steps no smoothing length is found a repetition sooner there than here, which differs by its tolerance.
     in_double(&device, "Clouds", |fused| clouds(fused, 0.025), 40);
     // Where lengths differ by more than three the host builds lists, for which all columns cross the bus.
     for (spacing, is_on_host) in [(0.025, false), (0.125, true)] {
