@@ -8,7 +8,7 @@ use super::scenes::{
     periodic_gas, plate_at_wall, rod, rod_by_runge_kutta, shaken_block, tank_in_space,
 };
 use meshfree::boundary::Wall;
-use meshfree::effect::{ArbitraryLagrangian, ExpansionMemory, FiveEquations, Hypoelastic};
+use meshfree::effect::{ArbitraryLagrangian, FiveEquations, Hypoelastic};
 use meshfree::kernel::WendlandC2;
 use meshfree::material::Material;
 use meshfree::material::eos::{IdealGas, StiffenedGas};
@@ -93,7 +93,7 @@ fn bar_in_space() -> Scene<f64, 3> {
 /// A dam that breaks, of particles that exchange mass.
 fn exchanging() -> Scene<f64, 2> {
     let water = catalogue::weakly_compressible_water(4.0);
-    let scheme = schemes::weakly_compressible().with(ExpansionMemory);
+    let scheme = schemes::weakly_compressible();
     let open = [[true; 2], [true, false]];
     Scene::new(scheme.with(ArbitraryLagrangian::<false>::default()))
         .body(Body::block("water", water, [0.0; 2], [0.4, 0.4], DX))

@@ -65,7 +65,7 @@ pub struct ContactStep {
     pub gather: Option<PairStep>,
     /// Forces.
     pub act: PairStep,
-    /// Whether its pairs are those as built, whose [distances](Partners::rest) then it reads.
+    /// Whether its pairs are those as built, whose [distances](super::Partners::rest) then it reads.
     pub as_built: bool,
     /// What the host reads of all particles of a side: columns behind its first, and what is made of them.
     pub found: Vec<(usize, Summed)>,
