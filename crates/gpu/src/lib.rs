@@ -51,6 +51,7 @@ pub mod nvrtc;
 mod pairs;
 mod points;
 mod reduce;
+mod rounding;
 mod run;
 mod sort;
 mod stepping;
