@@ -289,47 +289,54 @@ impl<T: Real, const D: usize> Group<T, D> {
                 periodic,
                 reach: if alike > 0 { reach } else { 0.0 },
                 across: across as f64,
-                surface: 1.0,
+                surface: [1.0; 3],
             };
-            let surface = self.surface_of_parts(run, &boxes);
+            let surface = self.ghosts_over_boxes(run, &boxes);
             RankParts { surface, ..boxes }
         };
         kinds.map(part).collect()
     }
 
-    /// How many more particles lists of parts of the curve name than are near boxes: the mean over two, four and eight ranks, as far as
-    /// there are chunks for them.
-    fn surface_of_parts(&self, kind: Range<usize>, boxes: &RankParts) -> f64 {
+    /// How many more ghosts lists of parts of the curve name than boxes have, on two, four and eight ranks; on more than there are
+    /// chunks, as on fewer.
+    fn ghosts_over_boxes(&self, kind: Range<usize>, boxes: &RankParts) -> [f64; 3] {
         let lists = self.neighborhood.lists.chunks();
         let (size, slots) = (chunk_slots::<T>(), self.particles.columns.slots());
-        let chunks = kind.start.div_ceil(size)..kind.end.div_ceil(size).min(lists.len());
-        let near = RankParts {
-            across: 0.0,
-            ..boxes.clone()
-        };
+        let of_mobile = self.particles.mobile.div_ceil(size).min(lists.len());
         let source = |j: u32| match (j as usize).checked_sub(slots) {
             None => j as usize,
             Some(k) => self.neighborhood.images[k].source as usize,
         };
-        let counted = |ranks: usize| {
+        let ghosts = |ranks: usize| {
             let mut ghosts = 0;
             for rank in 0..ranks {
-                let own = even(chunks.len(), rank, ranks);
-                let own = chunks.start + own.start..chunks.start + own.end;
-                let named = lists[own.clone()].iter().flat_map(|list| &list.neighbors);
                 let mut is_named = vec![false; slots];
-                named.for_each(|&j| is_named[source(j)] = true);
-                is_named[own.start * size..(own.end * size).min(slots)].fill(false);
+                let cut = |first: usize, end: usize| {
+                    let own = even(end - first, rank, ranks);
+                    first + own.start..first + own.end
+                };
+                let own = [cut(0, of_mobile), cut(of_mobile, lists.len())];
+                for list in own.iter().cloned().flat_map(|own| &lists[own]) {
+                    list.neighbors
+                        .iter()
+                        .for_each(|&j| is_named[source(j)] = true);
+                }
+                for own in own {
+                    is_named[(own.start * size).min(slots)..(own.end * size).min(slots)]
+                        .fill(false);
+                }
                 ghosts += is_named[kind.clone()].iter().filter(|own| **own).count();
             }
-            ghosts as f64 / ranks as f64 / near.ghosts(ranks)
+            ghosts as f64 / ranks as f64
         };
-        let counts = [2, 4, 8].into_iter().filter(|ranks| *ranks <= chunks.len());
-        let ratios: Vec<f64> = counts.map(counted).filter(|own| own.is_finite()).collect();
-        if ratios.is_empty() {
-            return 1.0;
-        }
-        ratios.iter().sum::<f64>() / ratios.len() as f64
+        let mut last = 1.0;
+        [2, 4, 8].map(|ranks| {
+            if ranks * size <= kind.len() {
+                let own = ghosts(ranks) / boxes.ghosts(ranks);
+                last = if own.is_finite() { own } else { last };
+            }
+            last
+        })
     }
 
     /// Sides of the box around some particles, with half a spacing at each face, and whether there are periods along them.

@@ -130,7 +130,7 @@ impl RankPrice {
 ///         periodic: vec![false; 3],
 ///         reach: 0.03,
 ///         across: 0.0,
-///         surface: 1.0,
+///         surface: [1.0; 3],
 ///     }],
 ///     own_alone: true,
 ///     step: RankPrice { gathered: 25.0, exchanged: 2.0, each: 500.0, of_ghost: 160.0, divided: 0.67, ..RankPrice::default() },
@@ -373,10 +373,12 @@ impl RankModel {
                 ("particles of a part", parts.particles),
                 ("reach of a part [m]", parts.reach),
                 ("particles across of a part", parts.across),
-                ("surface of a part over that of a box", parts.surface),
             ];
             let sides = parts.sides.iter().map(|side| ("side of a part [m]", *side));
-            own.into_iter().chain(sides)
+            let surfaces = parts
+                .surface
+                .map(|own| ("ghosts of a part over those of a box", own));
+            own.into_iter().chain(sides).chain(surfaces)
         });
         let prices = prices.into_iter().flat_map(RankPrice::numbers);
         for (what, value) in own.into_iter().chain(of_parts).chain(prices) {

@@ -1,5 +1,5 @@
 //! Ghosts of a rank by the surface of its part: a box of the scene, cut along its longest sides.
-//! The crate cuts a space-filling curve, whose parts have a larger surface than boxes, by a factor that is counted.
+//! The crate cuts a space-filling curve, whose parts have other ghosts than boxes, by a factor that is counted.
 
 /// Particles that are cut among ranks: those that move by forces, or all others, of bodies that share a scheme.
 ///
@@ -7,12 +7,13 @@
 /// equal. Ghosts are the b particles within reach r of such a box, and those that lists of the other kind name, which may be the same:
 ///
 /// ```text
-/// b = s n/ΠL (Π min(L, l + m r) − Π l),   m = 2 (1 − 1/f),  and 2 min(1, f − 1) along a period
-/// g = b + a/P − b a/(n (P − 1))
+/// b = n/ΠL (Π min(L, l + m r) − Π l),   m = 2 (1 − 1/f),  and 2 min(1, f − 1) along a period
+/// g = s (b + a/P − b a/(n (P − 1)))
 /// ```
 ///
-/// with n particles, how much larger s the surface of a part is than that of a box, the mean number m of neighbouring boxes along an axis, and a particles in all lists of the other kind, none of
-/// which are taken to be of the same rank, for each kind is cut by itself. One rank has no ghosts.
+/// with n particles, the mean number m of neighbouring boxes along an axis, a particles in all lists of the other kind, none of which are
+/// taken to be of the same rank, for each kind is cut by itself, and how many more ghosts s parts of the curve have than that on about P
+/// ranks. One rank has no ghosts.
 ///
 /// ```
 /// use meshfree::ranks::RankParts;
@@ -23,7 +24,7 @@
 ///     periodic: vec![false; 2],
 ///     reach: 0.04,
 ///     across: 0.0,
-///     surface: 1.0,
+///     surface: [1.0; 3],
 /// };
 /// assert!((channel.ghosts(2) - 80.0).abs() < 1e-9);
 /// assert!(channel.ghosts(1).abs() < 1e-9);
@@ -40,8 +41,8 @@ pub struct RankParts {
     pub reach: f64,
     /// Particles a of these that the lists of the other kind name.
     pub across: f64,
-    /// How much larger s the surface of a part is than that of a box.
-    pub surface: f64,
+    /// How many more ghosts s parts of the curve have than boxes, on two, four, and eight ranks or more.
+    pub surface: [f64; 3],
 }
 
 impl RankParts {
@@ -63,15 +64,16 @@ impl RankParts {
             outer *= (side / cuts + near * self.reach).min(*side);
         }
         let beside = if whole > 0.0 {
-            self.surface * self.particles / whole * (outer - own)
+            self.particles / whole * (outer - own)
         } else {
             0.0
         };
         let (others, named) = (self.particles * (1.0 - 1.0 / count), self.across / count);
-        // There are no more than others have.
-        let beside = beside.min(others);
         if others > 0.0 {
-            beside + named - beside * named / others
+            let doublings = (count.log2().round() as usize).clamp(1, 3);
+            let ghosts = beside + named - beside * named / others;
+            // There are no more than others have.
+            (self.surface[doublings - 1] * ghosts).min(others)
         } else {
             0.0
         }

@@ -10,7 +10,7 @@ fn cube(side: u32, reach: f64) -> RankParts {
         periodic: vec![false; 3],
         reach,
         across: 0.0,
-        surface: 1.0,
+        surface: [1.0; 3],
     }
 }
 
@@ -36,7 +36,7 @@ fn ghosts_are_those_that_counting_gives() {
         periodic: vec![false; 2],
         reach: f64::from(reach),
         across: 0.0,
-        surface: 1.0,
+        surface: [1.0; 3],
     };
     for (sides, boxes, reach) in [
         ([64, 64], [2, 2], 3),
