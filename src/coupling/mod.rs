@@ -302,8 +302,8 @@ pub trait Coupling<T: Real, const D: usize>: Debug + Send + Sync {
     fn books_energy(&self) -> bool {
         false
     }
-    /// The same as records for a device, as [`CouplingRecord::of`] makes them of a text that is generic over lanes. A scene with a
-    /// coupling by forces that has none is refused there.
+    /// [`gather`](Self::gather), [`pressure`](Self::pressure), [`act`](Self::act) and [`step`](Self::step) as records for a device, which
+    /// [`CouplingRecord::of`] makes of texts that are generic over lanes. A scene with a coupling by forces that has none is refused there.
     #[cfg(feature = "devices")]
     fn record(&self) -> Option<CouplingRecord> {
         None

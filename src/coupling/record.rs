@@ -5,6 +5,23 @@ use super::{CoupledPair, CoupledParticle};
 use crate::scalar::{Lane, Record, Traced, Unrecordable};
 
 /// A coupling by forces, recorded. Its records are given the numbers of particles as [`CoupledParticle`] has them, field by field.
+///
+/// ```
+/// use meshfree::coupling::{CoupledPair, CouplingRecord};
+/// use meshfree::scalar::{Lane, Traced};
+/// /// k (s − |r|) r/|r| for one pair or for a lane of them, which `Coupling::act` calls with scalars.
+/// fn force<L: Lane, const D: usize>(pair: &CoupledPair<L, D>, stiffness: f64) -> [L; D] {
+///     let r = pair.apart();
+///     let distance = r.iter().fold(L::zero(), |sum, x| sum + *x * *x).sqrt();
+///     r.map(|x| L::of(stiffness) * (pair.spacing() - distance) * x / distance)
+/// }
+/// let record = CouplingRecord::of::<2>(
+///     |pair| (force(pair, 1e9), Traced::of(0.0)),
+///     |on, from| Traced::of(0.5) * (on.mass.min(from.mass) / Traced::of(1e9)).sqrt(),
+/// )?;
+/// assert_eq!(record.act.results().len(), 3);
+/// # Ok::<(), meshfree::scalar::Unrecordable>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct CouplingRecord {
     /// [`Coupling::gather`](super::Coupling::gather) of two particles: the sum, and its gradient.

@@ -88,8 +88,8 @@ use crate::error::Failure;
 
 /// How a rank reaches the others.
 ///
-/// All ranks call [`gather`](Self::gather) and [`exchange`](Self::exchange) in the same order, one call at a time, from any
-/// thread.
+/// All ranks call [`gather`](Self::gather), [`exchange`](Self::exchange) and [`exchange_beside`](Self::exchange_beside) in the same order, one
+/// call at a time, from any thread.
 pub trait Ranks: core::fmt::Debug + Send + Sync {
     /// The number of this rank, below [`count`](Self::count).
     fn rank(&self) -> usize;
@@ -118,7 +118,8 @@ pub trait Ranks: core::fmt::Debug + Send + Sync {
         from: &[usize],
     ) -> Result<(), Failure>;
 
-    /// The same, while `meanwhile` is done once, which needs nothing of what comes and calls no rank. By itself an exchange comes first.
+    /// The same, while `meanwhile` is done once, which needs nothing of what comes and calls no rank. If it is not written, the exchange
+    /// comes first.
     ///
     /// # Errors
     /// As [`exchange`](Self::exchange).

@@ -131,14 +131,17 @@ impl<T: Real, const D: usize> Leaving<T, D> {
                 *column = route.carry(&own, field.components(D));
             }
         }
-        let chunks = all.part.chunks.iter().map(Range::len).sum();
         let carry_sums = |own: &mut Results<T, D>| {
             let own = core::mem::take(own);
-            let numbers = match own.outputs().width(D) {
-                0 => Vec::new(),
-                width => route.carry(&own.numbers(route.had), width),
-            };
-            own.with_numbers(&numbers, (group.particles.mobile, chunks))
+            let width = own.outputs().width(D);
+            if width == 0 {
+                return own;
+            }
+            let numbers = route.carry(&own.numbers(route.had), width);
+            // Nothing tells the chunks of forces between blocks.
+            let forces = own.reactions().copied().collect();
+            let moving = &numbers[..width * group.particles.mobile];
+            Results::of_rows(own.outputs(), moving, forces)
         };
         let work = &mut self.work;
         group.work.rates = carry_sums(&mut work.rates);

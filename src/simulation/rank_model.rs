@@ -289,10 +289,13 @@ impl<T: Real, const D: usize> Group<T, D> {
                 periodic,
                 reach: if alike > 0 { reach } else { 0.0 },
                 across: across as f64,
-                surface: [1.0; 3],
+                over_boxes: [1.0; 3],
             };
-            let surface = self.ghosts_over_boxes(run, &boxes);
-            RankParts { surface, ..boxes }
+            let over_boxes = self.ghosts_over_boxes(run, &boxes);
+            RankParts {
+                over_boxes,
+                ..boxes
+            }
         };
         kinds.map(part).collect()
     }

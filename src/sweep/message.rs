@@ -110,26 +110,6 @@ impl<T: Real, const D: usize> Results<T, D> {
         own.map(|(k, slot)| self.number(k, slot)).collect()
     }
 
-    /// The same of other particles that move by forces, whose numbers stand slot by slot, in so many chunks. Forces between blocks stay:
-    /// no reading tells their chunks.
-    pub(crate) fn with_numbers(self, numbers: &[T], (mobile, chunks): (usize, usize)) -> Self {
-        let width = self.outputs.width(D);
-        let mut own = Self::default();
-        own.lay_out(self.outputs);
-        own.data.resize(own.rows_of(&(0..mobile)).end, T::zero());
-        for slot in 0..mobile {
-            for k in 0..width {
-                let at = own.at(slot, k);
-                own.data[at] = numbers[slot * width + k];
-            }
-        }
-        own.reactions.resize_with(chunks, Vec::new);
-        if let Some(first) = own.reactions.first_mut() {
-            first.extend(self.reactions.into_iter().flatten());
-        }
-        own
-    }
-
     /// The sums of a run of slots and the forces on some chunks, with room for those of so many slots and chunks.
     pub(crate) fn among(
         own: Self,

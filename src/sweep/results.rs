@@ -171,7 +171,7 @@ impl<T: Real, const D: usize> Results<T, D> {
 
     /// Where component `offset` of the n-th particle stands.
     #[inline(always)]
-    pub(super) fn at(&self, n: usize, offset: usize) -> usize {
+    fn at(&self, n: usize, offset: usize) -> usize {
         (n / Self::WIDTH * self.stride + offset) * Self::WIDTH + n % Self::WIDTH
     }
 
@@ -208,7 +208,6 @@ impl<T: Real, const D: usize> Results<T, D> {
     }
 
     /// The sums that were [`stored`](Self::stored), with the forces between blocks.
-    #[cfg(any(test, feature = "checkpoint", feature = "devices"))]
     pub(crate) fn of_stored(
         outputs: Outputs,
         (data, first): (Vec<T>, usize),
@@ -225,7 +224,6 @@ impl<T: Real, const D: usize> Results<T, D> {
     }
 
     /// The sums of some slots from the first on, whose numbers stand slot by slot, with the forces between blocks.
-    #[cfg(feature = "devices")]
     pub(crate) fn of_rows(outputs: Outputs, numbers: &[T], reactions: Vec<Reaction<D>>) -> Self {
         let width = outputs.width(D);
         let slots = numbers.len() / width.max(1);

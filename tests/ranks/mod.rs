@@ -43,7 +43,7 @@ fn watched_for<V: Send + 'static>(seconds: u64, program: impl FnOnce() -> V + Se
     running.join().expect("a program on ranks")
 }
 
-/// The end of a run of so many steps, and the ledgers and votes of all of them, to the bit.
+/// The end of a run of so many steps and a sixth more of each form in turns, and the ledgers and votes of all steps, to the bit.
 fn run<T: Real, const D: usize>(scene: Scene<T, D>, steps: usize) -> (Vec<u64>, Vec<u64>, u64) {
     let mut simulation = scene.build().expect("the scene");
     let mut history = Vec::new();
@@ -56,6 +56,12 @@ fn run<T: Real, const D: usize>(scene: Scene<T, D>, steps: usize) -> (Vec<u64>, 
             .into_iter()
             .chain([ledger.whole.kinetic]);
         history.extend(numbers.chain(ledger.boundary_impulse).map(f64::to_bits));
+    }
+    for _ in 0..3 {
+        let step = simulation.step().expect("a step");
+        let end = simulation.time() + steps as f64 / 18.0 * step;
+        simulation.run_until(end).expect("a run");
+        history.extend(said(&simulation));
     }
     (said(&simulation), history, simulation.list_builds())
 }

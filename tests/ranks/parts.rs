@@ -9,6 +9,7 @@ use super::scenes::{
 use super::watched;
 use meshfree::boundary::Wall;
 use meshfree::effect::{FiveEquations, Hypoelastic, NeoHookean};
+use meshfree::integrator::StrongStabilityPreserving3;
 use meshfree::kernel::WendlandC2;
 use meshfree::material::eos::{IdealGas, Linear, StiffenedGas};
 use meshfree::material::{Material, SoundSpeed};
@@ -140,6 +141,13 @@ fn a_rod_flows_through_a_period() {
 #[test]
 fn a_rod_flows_by_runge_kutta() {
     one_set_of_bits_in_parts("Runge-Kutta", (60, 4), true, rod_by_runge_kutta);
+}
+
+/// In a plane, where list builds sort: states that the integrator keeps go to other ranks with their particles.
+#[test]
+fn a_dam_breaks_by_runge_kutta() {
+    let dam = || dam_break().integrator(StrongStabilityPreserving3);
+    one_set_of_bits_in_parts("dam by Runge-Kutta", (150, 5), true, dam);
 }
 
 #[test]

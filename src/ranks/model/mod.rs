@@ -130,7 +130,7 @@ impl RankPrice {
 ///         periodic: vec![false; 3],
 ///         reach: 0.03,
 ///         across: 0.0,
-///         surface: [1.0; 3],
+///         over_boxes: [1.0; 3],
 ///     }],
 ///     own_alone: true,
 ///     step: RankPrice { gathered: 25.0, exchanged: 2.0, each: 500.0, of_ghost: 160.0, divided: 0.67, ..RankPrice::default() },
@@ -375,10 +375,10 @@ impl RankModel {
                 ("particles across of a part", parts.across),
             ];
             let sides = parts.sides.iter().map(|side| ("side of a part [m]", *side));
-            let surfaces = parts
-                .surface
+            let over_boxes = parts
+                .over_boxes
                 .map(|own| ("ghosts of a part over those of a box", own));
-            own.into_iter().chain(sides).chain(surfaces)
+            own.into_iter().chain(sides).chain(over_boxes)
         });
         let prices = prices.into_iter().flat_map(RankPrice::numbers);
         for (what, value) in own.into_iter().chain(of_parts).chain(prices) {

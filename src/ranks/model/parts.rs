@@ -24,7 +24,7 @@
 ///     periodic: vec![false; 2],
 ///     reach: 0.04,
 ///     across: 0.0,
-///     surface: [1.0; 3],
+///     over_boxes: [1.0; 3],
 /// };
 /// assert!((channel.ghosts(2) - 80.0).abs() < 1e-9);
 /// assert!(channel.ghosts(1).abs() < 1e-9);
@@ -42,7 +42,7 @@ pub struct RankParts {
     /// Particles a of these that the lists of the other kind name.
     pub across: f64,
     /// How many more ghosts s parts of the curve have than boxes, on two, four, and eight ranks or more.
-    pub surface: [f64; 3],
+    pub over_boxes: [f64; 3],
 }
 
 impl RankParts {
@@ -73,7 +73,7 @@ impl RankParts {
             let doublings = (count.log2().round() as usize).clamp(1, 3);
             let ghosts = beside + named - beside * named / others;
             // There are no more than others have.
-            (self.surface[doublings - 1] * ghosts).min(others)
+            (self.over_boxes[doublings - 1] * ghosts).min(others)
         } else {
             0.0
         }

@@ -10,7 +10,7 @@ fn cube(side: u32, reach: f64) -> RankParts {
         periodic: vec![false; 3],
         reach,
         across: 0.0,
-        surface: [1.0; 3],
+        over_boxes: [1.0; 3],
     }
 }
 
@@ -36,7 +36,7 @@ fn ghosts_are_those_that_counting_gives() {
         periodic: vec![false; 2],
         reach: f64::from(reach),
         across: 0.0,
-        surface: [1.0; 3],
+        over_boxes: [1.0; 3],
     };
     for (sides, boxes, reach) in [
         ([64, 64], [2, 2], 3),
@@ -67,6 +67,17 @@ fn periods_have_two_neighbours_and_one_rank_has_no_ghosts() {
     let both = 640.0 - 40.0 * 600.0 / 13_500.0;
     assert_relative_eq!(channel.ghosts(2), both, max_relative = 1e-12);
     assert_relative_eq!(channel.ghosts(1), 0.0);
+    channel.over_boxes = [1.5, 0.5, 0.25];
+    assert_relative_eq!(channel.ghosts(2), 1.5 * both, max_relative = 1e-12);
+    let boxes = RankParts {
+        over_boxes: [1.0; 3],
+        ..channel.clone()
+    };
+    // Of the number of ranks that is nearest.
+    for (ranks, over) in [(3, 0.5), (4, 0.5), (5, 0.5), (6, 0.25), (100, 0.25)] {
+        let expected = over * boxes.ghosts(ranks);
+        assert_relative_eq!(channel.ghosts(ranks), expected, max_relative = 1e-12);
+    }
     // No more than all others.
     assert_relative_eq!(cube(10, 99.0).ghosts(8), 875.0, max_relative = 1e-12);
 }
