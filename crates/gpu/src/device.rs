@@ -327,14 +327,16 @@ impl Device {
         self.traffic[what].fetch_add(by, Ordering::Relaxed);
     }
 
-    /// Refuses a kernel that another driver has made.
-    pub(crate) fn made(&self, kernel: &Kernel) -> Result<(), Error> {
-        match (&self.driver, kernel) {
-            (Driver::Vulkan(_), Kernel::Vulkan(_)) | (Driver::Text(..), Kernel::Text) => Ok(()),
+    /// Refuses a kernel that was made for another device, or for the same one opened another time.
+    pub(crate) fn owns(&self, kernel: &Kernel) -> Result<(), Error> {
+        let owns = match (&self.driver, kernel) {
+            (Driver::Vulkan(own), Kernel::Vulkan(kernel)) => own.owns(kernel),
             #[cfg(feature = "cuda")]
-            (Driver::Cuda(_), Kernel::Cuda(_)) => Ok(()),
-            _ => Err(Error::OtherDevice),
-        }
+            (Driver::Cuda(own), Kernel::Cuda(kernel)) => own.owns(kernel),
+            (Driver::Text(..), Kernel::Text) => true,
+            _ => false,
+        };
+        owns.then_some(()).ok_or(Error::OtherDevice)
     }
 
     /// Refuses a precision that the adapter does not have.

@@ -335,12 +335,15 @@ impl<T: Real, const D: usize> Run<T, D> {
         Ok(order.chain(mobile as u32..slots as u32).collect())
     }
 
-    /// The neighbour lists of a group as the device has them.
+    /// The neighbour lists of a group as the device has them. Groups are numbered as in
+    /// [`Offloaded`](meshfree::simulation::device::Offloaded::groups), zero where all bodies obey one scheme.
     ///
     /// # Errors
     ///
-    /// [`Error::Lost`] if the device fails.
+    /// [`Error::Size`] if there is no such group, [`Error::Lost`] if the device fails.
     pub fn lists(&self, group: usize) -> Result<PairLists, Error> {
+        let there = self.groups.len();
+        Error::unless(group < there, "groups of the scene", [there, group + 1])?;
         let own = &self.groups[group];
         let (m, width) = (&own.memory, own.sizes.cluster);
         let words = |from: &Buffer, count: usize| -> Result<Vec<u32>, Error> {

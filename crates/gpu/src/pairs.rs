@@ -88,11 +88,12 @@ impl PairLists {
         }
     }
 
-    /// The neighbours of the cluster of a slot, segment by segment: their block, and their slots.
+    /// The neighbours of the cluster of a slot, segment by segment: their block, and their slots. None of a slot that no cluster has.
     pub fn of(&self, slot: usize) -> impl Iterator<Item = (u32, &[u32])> {
-        let cluster = slot / self.width * 2;
-        let segments = 3 * self.clusters[cluster] as usize..3 * self.clusters[cluster + 2] as usize;
-        let segments = self.segments[segments].chunks_exact(3);
+        let bound = |cluster: usize| self.clusters.get(2 * cluster).map(|own| 3 * *own as usize);
+        let bounds = slot.checked_div(self.width);
+        let bounds = bounds.and_then(|own| Some(bound(own)?..bound(own + 1)?));
+        let segments = self.segments[bounds.unwrap_or(0..0)].chunks_exact(3);
         segments.map(|own| (own[2], &self.list[own[0] as usize..own[1] as usize]))
     }
 
@@ -377,7 +378,7 @@ impl PairKernel {
         lists: &PairLists,
         shared: &Shared,
     ) -> Result<Vec<f64>, Error> {
-        device.made(&self.kernel)?;
+        device.owns(&self.kernel)?;
         let size = |what, found, wanted| Error::unless(found == wanted, what, [found, wanted]);
         let force = shared.body_force.len();
         size("numbers of the body force", force, self.dimensions)?;

@@ -75,7 +75,7 @@ impl PointKernel {
     /// [`Error::Size`] if there are fewer columns than the record reads, or columns of different lengths; [`Error::TooLarge`] and
     /// [`Error::OutOfMemory`] if they do not fit; [`Error::Lost`] if the device fails, [`Error::OtherDevice`] for one of another device.
     pub fn run(&self, device: &Device, given: &[&[f64]]) -> Result<Vec<Vec<f64>>, Error> {
-        device.made(&self.kernel)?;
+        device.owns(&self.kernel)?;
         let (there, wanted) = (given.len(), self.inputs);
         Error::unless(there >= wanted, "columns of numbers", [there, wanted])?;
         let count = given.first().map_or(0, |column| column.len());

@@ -141,6 +141,17 @@ fn made<T: Real, const D: usize>(device: &Device, host: &Offloaded<T, D>) -> Res
 
 /// The kernels of the steps of a simulation, each with its name, in a language: what [`Device::load`] compiles, written without a device.
 ///
+/// ```
+/// use meshfree::prelude::*;
+/// use meshfree_gpu::{Language, sources};
+/// let rod = Scene::<f64, 1>::new(schemes::impact())
+///     .body(Body::block("rod", catalogue::copper(), [0.0], [0.01], 2e-4))
+///     .build()?;
+/// let kernels = sources(rod, Language::Cuda)?;
+/// assert!(kernels.iter().all(|(_, text)| text.contains("__global__")));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 ///
 /// [`Error::Simulation`] with every part of the scene that does not run on a device.

@@ -78,6 +78,8 @@ pub struct Cuda {
 /// A compiled kernel.
 #[derive(Debug)]
 pub struct Kernel {
+    /// The number of its card.
+    card: usize,
     function: CudaFunction,
     threads: u32,
 }
@@ -129,7 +131,15 @@ impl Cuda {
         let code = Ptx::from_binary(nvrtc::code(source, &self.architecture)?);
         let module = self.context.load_module(code).map_err(said)?;
         let function = module.load_function("kernel").map_err(said)?;
-        Ok(Kernel { function, threads })
+        Ok(Kernel {
+            card: self.context.ordinal(),
+            function,
+            threads,
+        })
+    }
+
+    pub fn owns(&self, kernel: &Kernel) -> bool {
+        self.context.ordinal() == kernel.card
     }
 
     /// Room for some bytes, all zero.

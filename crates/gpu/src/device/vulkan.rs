@@ -52,6 +52,7 @@ pub struct Vulkan {
 /// A compiled kernel.
 #[derive(Debug)]
 pub struct Kernel {
+    device: wgpu::Device,
     pipeline: wgpu::ComputePipeline,
     layout: wgpu::BindGroupLayout,
     threads: u32,
@@ -80,6 +81,10 @@ impl Vulkan {
             queue,
             most_groups,
         })
+    }
+
+    pub fn owns(&self, kernel: &Kernel) -> bool {
+        self.inner == kernel.device
     }
 
     pub fn most_threads(&self) -> u32 {
@@ -137,6 +142,7 @@ impl Vulkan {
             });
         match block_on(scope.pop()) {
             None => Ok(Kernel {
+                device: self.inner.clone(),
                 pipeline,
                 layout,
                 threads,

@@ -129,3 +129,59 @@ pub(crate) fn differences<T: Real, U: Real, const D: usize>(
     }
     all
 }
+
+/// After `steps[0]` steps saved and resumed on the other side, for `steps[1]` more: as the host has gone on, and as the device has, which is
+/// read on the way; and the host without a break. Both are within the bound.
+pub(crate) fn resumed<const D: usize>(
+    device: &Device,
+    name: &str,
+    scene: impl Fn(bool) -> Scene<f64, D>,
+    steps: [usize; 2],
+) -> [Simulation<f64, D>; 3] {
+    let file = format!("meshfree-gpu-{}-{name}", std::process::id());
+    let file = std::env::temp_dir().join(file);
+    let whole = steps[0] + steps[1];
+    let host = on_host(scene(false), whole);
+    let most = differences(&on_host(scene(true), whole), &host);
+    on_device(device, scene(false), steps[0])
+        .save(&file)
+        .unwrap();
+    let mut here = scene(false).resume(&file).unwrap();
+    (0..steps[1]).for_each(|_| here.step().map(drop).unwrap());
+    on_host(scene(false), steps[0]).save(&file).unwrap();
+    let mut there = device.load(scene(false).resume(&file).unwrap()).unwrap();
+    for step in 0..steps[1] {
+        there.step().unwrap();
+        if step % 10 == 0 {
+            there.simulation().unwrap();
+        }
+    }
+    let there = there.into_simulation().unwrap();
+    for own in [&here, &there] {
+        let found = differences(own, &host);
+        println!("{name}, resumed: {found:?}, host {most:?}");
+        assert!((0..3).all(|k| found[k] <= MORE * most[k]), "{name}");
+    }
+    let _ = std::fs::remove_file(file);
+    [here, there, host]
+}
+
+/// What a simulation is refused for.
+#[track_caller]
+pub(crate) fn refusal<T: Real, const D: usize>(simulation: Simulation<T, D>) -> String {
+    match simulation.offload() {
+        Ok(_) => panic!("it is not refused"),
+        Err(error) => error.to_string(),
+    }
+}
+
+/// Whether a scene is refused for all of some parts, each with a remedy.
+#[track_caller]
+pub(crate) fn refused<T: Real, const D: usize>(scene: Scene<T, D>, parts: &[&str]) {
+    let text = refusal(build(scene));
+    for part in parts {
+        assert!(text.contains(part), "`{part}` is not in: {text}");
+    }
+    let remedies = ["host", "write it", "give what"];
+    assert!(remedies.iter().any(|own| text.contains(own)), "{text}");
+}

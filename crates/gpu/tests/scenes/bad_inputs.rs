@@ -119,6 +119,11 @@ fn points(tried: &mut Tried, device: &Device) {
             kernel.run(device, given)
         });
     }
+    let other = Device::named(&device.adapter().name).expect("the same adapter");
+    let elsewhere = |error: &Error| matches!(error, Error::OtherDevice);
+    tried.refused("a kernel of another device", elsewhere, || {
+        kernel.run(&other, &[&one, &one, &one])
+    });
     let lesser = device.clone().as_lesser(true, 1024);
     let many = vec![0.0; 100];
     let large = |error: &Error| {

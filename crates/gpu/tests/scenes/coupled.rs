@@ -2,7 +2,7 @@
 //! Blocks and plates in a tank of water, by their neighbours as built and by the present ones.
 
 use crate::common::{device, in_any_groups};
-use crate::compare::{build, differences, in_both, in_double, load, on, on_device, on_host};
+use crate::compare::{build, in_both, in_double, load, on, on_device, on_host, refused, resumed};
 use approx::assert_relative_eq;
 use meshfree::boundary::Rotation;
 use meshfree::coupling::Coupling;
@@ -151,23 +151,11 @@ fn a_checkpoint_of_a_plate_in_water_resumes_on_the_other_side() {
     let Some(device) = device("checkpoints of a plate in water") else {
         return;
     };
-    let file = std::env::temp_dir().join(format!("meshfree-gpu-plate-{}", std::process::id()));
-    let scene = || plate::<f64>(false);
-    let host = on_host(scene(), 40);
-    let most = differences(&on_host(plate::<f64>(true), 40), &host);
-    on_device(&device, scene(), 20).save(&file).unwrap();
-    let mut resumed = scene().resume(&file).unwrap();
-    (0..20).for_each(|_| resumed.step().map(drop).unwrap());
-    on_host(scene(), 20).save(&file).unwrap();
-    let mut run = device.load(scene().resume(&file).unwrap()).unwrap();
-    (0..20).for_each(|_| run.step().map(drop).unwrap());
-    for own in [resumed, run.into_simulation().unwrap()] {
-        let found = differences(&own, &host);
-        assert!((0..3).all(|k| found[k] <= 20.0 * most[k]), "{found:?}");
+    let [here, there, host] = resumed(&device, "plate", plate::<f64>, [20, 20]);
+    for own in [here, there] {
         let [a, b] = [&own, &host].map(|own| own.clamps()[1].work);
         assert_relative_eq!(a, b, max_relative = 1e-9);
     }
-    let _ = std::fs::remove_file(file);
 }
 
 /// A wall by a text of its own, of which there is no record.
@@ -192,23 +180,18 @@ impl<T: Real, const D: usize> Coupling<T, D> for Light {
 
 #[test]
 fn what_does_not_run_is_refused_by_name() {
-    let refused = |scene: Scene<f64, 2>, part: &str| {
-        let error = build(scene).offload().err().map(|error| error.to_string());
-        let text = error.unwrap_or_default();
-        assert!(
-            text.contains(part) && text.contains("host"),
-            "{part}: {text}"
-        );
-    };
-    let light = block(false).couple("water", "block", Light);
-    refused(light, "a liquid that meets `block` by the coupling `light`");
-    let twice = plate(false).fix("block", |x| x[0] < SPACING);
-    refused(twice, "a particle that two clamps hold");
+    let light = block::<f64>(false).couple("water", "block", Light);
+    refused(
+        light,
+        &["a liquid that meets `block` by the coupling `light`"],
+    );
+    let twice = plate::<f64>(false).fix("block", |x| x[0] < SPACING);
+    refused(twice, &["a particle that two clamps hold"]);
     let plane = MirrorPlane::symmetry([0.0; 2], [-1.0, 0.0]);
     refused(
-        block(false).boundary(plane),
-        "a liquid that meets `block` among images",
+        block::<f64>(false).boundary(plane),
+        &["a liquid that meets `block` among images"],
     );
-    let apart = block(false).sub_cycle("block", 2);
-    refused(apart, "a group that sub-cycles");
+    let apart = block::<f64>(false).sub_cycle("block", 2);
+    refused(apart, &["a group that sub-cycles"]);
 }

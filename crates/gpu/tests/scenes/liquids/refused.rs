@@ -2,7 +2,7 @@
 //! Nothing of it needs a device.
 
 use super::{Fill, stirred, water};
-use crate::compare::build;
+use crate::compare::{build, refusal, refused};
 use meshfree::boundary::{Inlet, Outlet};
 use meshfree::coupling::Penalty;
 use meshfree::effect::{
@@ -17,26 +17,6 @@ use meshfree::term::Stage;
 
 fn plain() -> Scene<f64, 2> {
     water::<f64, 2>(Fill::Dam, true)
-}
-
-/// What a simulation is refused for.
-#[track_caller]
-fn refusal<T: Real, const D: usize>(simulation: Simulation<T, D>) -> String {
-    match simulation.offload() {
-        Ok(_) => panic!("it is not refused"),
-        Err(error) => error.to_string(),
-    }
-}
-
-/// Whether a scene is refused for all of some parts, each with a remedy.
-#[track_caller]
-fn refused<T: Real, const D: usize>(scene: Scene<T, D>, parts: &[&str]) {
-    let text = refusal(build(scene));
-    for part in parts {
-        assert!(text.contains(part), "`{part}` is not in: {text}");
-    }
-    let remedies = ["host", "write it", "give what"];
-    assert!(remedies.iter().any(|own| text.contains(own)), "{text}");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 
 use super::{Fill, tank, water};
 use crate::common::{device, in_any_groups};
-use crate::compare::{build, differences, load, on_device, on_host};
+use crate::compare::{build, differences, load, on_device, resumed};
 use crate::neighbours;
 use meshfree::prelude::*;
 use meshfree_gpu::Error as GpuError;
@@ -68,32 +68,12 @@ fn a_checkpoint_of_one_side_resumes_on_the_other() {
     let Some(device) = device("checkpoints") else {
         return;
     };
-    let scene = || water::<f64, 2>(Fill::Dam, false);
-    let file = std::env::temp_dir().join(format!("meshfree-gpu-{}", std::process::id()));
-    let host = on_host(scene(), 60);
-    let most = differences(&on_host(water::<f64, 2>(Fill::Dam, true), 60), &host);
-    on_device(&device, scene(), 30).save(&file).unwrap();
-    let mut resumed = scene().resume(&file).unwrap();
-    for _ in 0..30 {
-        resumed.step().unwrap();
-    }
-    let own = differences(&resumed, &host);
-    println!("from the device to the host: {own:?}, host {most:?}");
-    assert!((0..3).all(|k| own[k] <= 20.0 * most[k]));
-    on_host(scene(), 30).save(&file).unwrap();
-    let mut run = device.load(scene().resume(&file).unwrap()).unwrap();
-    for _ in 0..30 {
-        run.step().unwrap();
-    }
-    let found = run.into_simulation().unwrap();
-    let own = differences(&found, &host);
-    println!("from the host to the device: {own:?}, host {most:?}");
-    assert!((0..3).all(|k| own[k] <= 20.0 * most[k]));
-    let impulses = [&found, &resumed, &host].map(|own| own.wall_impulse("tank").unwrap()[1]);
+    let scene = |fused| water::<f64, 2>(Fill::Dam, fused);
+    let all = resumed(&device, "water", scene, [30, 30]);
+    let impulses = all.map(|own| own.wall_impulse("tank").unwrap()[1]);
     for own in impulses {
         assert!((own / impulses[2] - 1.0).abs() < 1e-11, "{impulses:?}");
     }
-    let _ = std::fs::remove_file(file);
 }
 
 #[test]
