@@ -5,6 +5,7 @@ use super::{Adapter, Extent};
 use crate::Error;
 use crate::kernel::Array;
 use pollster::block_on;
+use std::sync::Arc;
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{Backends, BufferUsages, Features};
 
@@ -47,12 +48,14 @@ pub struct Vulkan {
     inner: wgpu::Device,
     queue: wgpu::Queue,
     most_groups: u32,
+    /// Its own where it is opened: devices of two instances count alike.
+    opened: Arc<()>,
 }
 
 /// A compiled kernel.
 #[derive(Debug)]
 pub struct Kernel {
-    device: wgpu::Device,
+    opened: Arc<()>,
     pipeline: wgpu::ComputePipeline,
     layout: wgpu::BindGroupLayout,
     threads: u32,
@@ -80,11 +83,12 @@ impl Vulkan {
             inner,
             queue,
             most_groups,
+            opened: Arc::default(),
         })
     }
 
     pub fn owns(&self, kernel: &Kernel) -> bool {
-        self.inner == kernel.device
+        Arc::ptr_eq(&self.opened, &kernel.opened)
     }
 
     pub fn most_threads(&self) -> u32 {
@@ -142,7 +146,7 @@ impl Vulkan {
             });
         match block_on(scope.pop()) {
             None => Ok(Kernel {
-                device: self.inner.clone(),
+                opened: self.opened.clone(),
                 pipeline,
                 layout,
                 threads,

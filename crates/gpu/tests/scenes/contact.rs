@@ -48,7 +48,7 @@ fn turning<T: Real>(coupling: impl Coupling<T, 2> + 'static, fused: bool) -> Sce
     let turns = |low: f64, speed: f64| {
         let [x, y] = [low + 16.0 * SPACING, 16.0 * SPACING];
         move |at: [f64; 2], start| meshfree::scheme::Start {
-            velocity: [speed - 30.0 * (at[1] - y), 30.0 * (at[0] - x)],
+            velocity: [speed - 40.0 * (at[1] - y), 40.0 * (at[0] - x)],
             ..start
         }
     };
@@ -196,17 +196,18 @@ fn what_is_listed_and_sorted_there_meets_as_on_the_host() {
     let mut run = load(&device, density(false));
     let before = neighbours::on_host(&mut run);
     // A look after each step changes no bit.
-    for _ in 0..100 {
+    for _ in 0..200 {
         run.step().unwrap();
         run.simulation().unwrap();
     }
     let after = neighbours::on_host(&mut run);
+    println!("{} list builds", run.list_builds());
     for group in 0..2 {
         assert!(before.builds_lists(group));
         assert_ne!(before.ids(group), after.ids(group), "nothing was sorted");
     }
     assert!(run.list_builds() > 10, "{}", run.list_builds());
-    let unseen = on_device(&device, density(false), 100);
+    let unseen = on_device(&device, density(false), 200);
     assert_eq!(
         run.into_simulation().unwrap().bits_hash(),
         unseen.bits_hash()
