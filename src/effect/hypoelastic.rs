@@ -109,15 +109,6 @@ impl<const D: usize> Effect<D> for Hypoelastic {
                 must_be: "an elastic solid needs a positive one (Material::with_shear_modulus)",
             })
         });
-        program.require(|scene| {
-            (!scene.kicks).then(|| Problem::Incompatible {
-                what: format!(
-                    "the stress of an elastic solid changes in drifts, which the integrator {} does not take",
-                    scene.integrator
-                ),
-                remedy: "take an integrator that kicks (kick-drift-kick)",
-            })
-        });
     }
 }
 

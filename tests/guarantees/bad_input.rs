@@ -2,7 +2,7 @@
 
 use crate::common;
 use meshfree::boundary::{Boundary, Inlet, MirrorPlane, Outlet, Periodic, Translation, Wall};
-use meshfree::effect::ConsistentSmoothing;
+use meshfree::effect::{ConsistentSmoothing, Hypoelastic, PairingControl};
 use meshfree::error::{Error, Problem};
 use meshfree::integrator::{Integrator, LamLeapfrog, RungeKutta4, System};
 use meshfree::kernel::{CubicSpline, Kernel};
@@ -412,6 +412,19 @@ fn parts_that_do_not_fit() {
         "does not integrate density",
         "follows from positions",
     );
+    let by_continuity = || schemes::impact_by_continuity().energy(EnergyForm::Symmetric);
+    let nudged = Scene::<f64, 1>::new(by_continuity().with(PairingControl::default()));
+    incompatible(
+        &problem(nudged.body(rod()).integrator(RungeKutta4)),
+        "the law `pairing control` acts in drifts, which the integrator rk4 does not take",
+        "kick-drift-kick",
+    );
+    let elastic = catalogue::copper().with_shear_modulus(46e9);
+    let elastic = Body::block("rod", elastic, [0.0], [0.02], DX);
+    let elastic = Scene::<f64, 1>::new(by_continuity().with(Hypoelastic)).body(elastic);
+    let found = refused(elastic.integrator(RungeKutta4));
+    let told = |what: &str| found.iter().any(|own| own.to_string().contains(what));
+    assert!(told("sums the rate of deviatoric_stress in drifts"), "{found:?}");
     let hot =
         Scene::<f64, 1>::new(schemes::impact().energy(EnergyForm::None)).body(rod().energy(1.0));
     incompatible(&problem(hot), "starts with internal energy", "energy form");

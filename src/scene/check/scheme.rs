@@ -2,14 +2,14 @@
 //! and what does not go with the integrator, the bodies or the machine.
 
 use crate::boundary::Boundary;
-use crate::effect::SceneFacts;
+use crate::effect::{SceneFacts, When};
 use crate::error::Problem;
-use crate::particles::{Field, Output, Shape};
+use crate::particles::{Field, Outputs, Shape};
 use crate::scalar::Real;
 use crate::scene::Scene;
 use crate::scene::plan::Plan;
 use crate::scheme::EnergyForm;
-use crate::sweep::{Interaction, PairSweep};
+use crate::sweep::Interaction;
 use crate::term::Stage;
 use std::sync::Arc;
 
@@ -116,16 +116,32 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                 "take a density form that follows from positions, or another integrator",
             );
         }
-        let rates = scheme.sweep(Stage::Rates).map(PairSweep::outputs);
-        let with_rates = rates.is_some_and(|sums| sums.contains(Output::COMPRESSION));
-        if scheme.density.is_integrated() && !with_rates && !self.scene.integrator.kicks() {
+        let in_drifts = scheme.program.evolved.iter().filter(|own| {
+            let mut sums = own.rates.iter().map(|rate| rate.sums());
+            let there = scheme.sums(Stage::Rates);
+            own.when == When::Drift && sums.any(|sums| sums.minus(there) != Outputs::NONE)
+        });
+        let in_drifts = in_drifts.map(|own| {
+            let name = scheme.program.name_of(own.field);
+            format!(
+                "the scheme {} sums the rate of {name} in drifts",
+                scheme.name
+            )
+        });
+        let laws = &scheme.program.laws[Stage::Continuity.number()];
+        let laws = laws
+            .iter()
+            .map(|law| format!("the law `{}` acts in drifts", law.name()));
+        for what in in_drifts
+            .chain(laws)
+            .filter(|_| !self.scene.integrator.drifts())
+        {
             incompatible(
                 format!(
-                    "the scheme {} sums the rate of density in drifts, which the integrator {} does not take",
-                    scheme.name,
+                    "{what}, which the integrator {} does not take",
                     self.scene.integrator.name()
                 ),
-                "take an integrator that kicks (kick-drift-kick)",
+                "take an integrator that drifts (kick-drift-kick)",
             );
         }
         let boundaries = &self.scene.boundaries;
